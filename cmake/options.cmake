@@ -1,0 +1,63 @@
+# Language, warnings and the flags that were found necessary (each with its reason).
+option(NAVCAL_TESTS "build the tests" ON)
+option(NAVCAL_BENCH "build the benchmarks" OFF)
+option(NAVCAL_FUZZ "build the libFuzzer targets (needs clang)" OFF)
+set(NAVCAL_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,undefined")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+# The same results on every machine: no fused multiply-add behind our back, no -march=native.
+add_compile_options(-ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 sees a mismatch of new and delete in every coroutine frame at -O1 and under sanitizers.
+  add_compile_options(-Wno-mismatched-new-delete)
+endif()
+
+if(NAVCAL_SANITIZE)
+  add_compile_options(-fsanitize=${NAVCAL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${NAVCAL_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # clang's check of function pointer types does not know Asio's type-erased handlers.
+    add_compile_options(-fno-sanitize=function)
+  endif()
+  if(NAVCAL_SANITIZE MATCHES "thread")
+    add_compile_options(-Wno-tsan)
+  endif()
+endif()
+
+include_directories(${CMAKE_SOURCE_DIR})
+
+# navcal_room(NAME SOURCES... ): the library of one folder, linked as navcal::NAME.
+function(navcal_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES" ${ARGN})
+  add_library(navcal_${name} STATIC ${ROOM_SOURCES})
+  add_library(navcal::${name} ALIAS navcal_${name})
+  target_link_libraries(navcal_${name} PUBLIC ${ROOM_USES})
+endfunction()
+
+# navcal_test(NAME SOURCES... USES...): one GoogleTest program, every case a ctest of its own.
+function(navcal_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    NAVCAL_SOURCE_DIR="${CMAKE_SOURCE_DIR}" NAVCAL_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared"
+    NAVCAL_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()
+
+# navcal_fuzz(NAME SOURCES... USES...): one libFuzzer program.
+function(navcal_fuzz name)
+  cmake_parse_arguments(FUZZ "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${FUZZ_SOURCES})
+  target_link_libraries(${name} PRIVATE ${FUZZ_USES})
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
+endfunction()

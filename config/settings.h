@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocols/frame.h"
+
+namespace navcal::config {
+
+enum class AngleUnit : std::uint8_t { deg, mils, counts16 };  ///< mils: 6400 to the turn; counts16: 65536
+enum class TemperatureUnit : std::uint8_t { C, F };
+
+/// How a compass was told (or is wired) to speak; the unit is not in the word (ICD section 1).
+struct CompassSettings {
+  AngleUnit heading_unit = AngleUnit::deg;
+  AngleUnit tilt_unit = AngleUnit::deg;
+  TemperatureUnit temperature_unit = TemperatureUnit::C;
+};
+
+/// Per-unit zeros and scales of the inertial card, channel by channel (ICD section 3).
+struct ImuCardSettings {
+  std::array<double, 8> zero_mV{2048, 2048, 2048, 2048, 2048, 2048, 2048, 250};
+  /// mV per deg/s (gyros), per g (accelerometers), per m (depth).
+  std::array<double, 8> scale{10, 10, 10, 10, 1000, 1000, 1000, 187.5};
+};
+
+struct GpsSettings {
+  /// Dates before it are moved up by whole 1024-week epochs; fixed, so that old logs replay alike for ever.
+  std::string rollover_pivot = "2019-04-07";
+  double course_gate_m_s = 0.3;  ///< below this speed the course is noise and is left out
+};
+
+struct PortSettings {
+  std::string name;
+  protocols::Protocol protocol = protocols::Protocol::nmea;
+  // Exactly one of the three says where it is; empty when not given.
+  std::string path;        ///< /dev/ttyUSB0, a pseudo-terminal, a link
+  std::string udev_name;   ///< a link that udev keeps, e.g. /dev/navcal/compass or serial/by-id/...
+  std::string usb_serial;  ///< serial number of the USB adapter
+  int baud = 9600;
+  bool start_up = true;      ///< hold the device's start-up dialogue
+  bool low_latency = true;   ///< ask the driver for low latency
+  double latency_s = 0;      ///< from measurement to the first byte on the wire
+  double latency_std_s = 0;  ///< its uncertainty
+  double rate_Hz = 0;        ///< nominal frame rate; 0: not periodic
+  CompassSettings compass;
+  ImuCardSettings imu_card;
+  GpsSettings gps;
+};
+
+struct LogSettings {
+  std::filesystem::path directory = "/var/lib/navcal";
+  bool enabled = true;
+  double sync_interval_s = 1.0;
+  std::uint64_t rotate_bytes = 512ULL << 20;
+  double rotate_age_s = 86400;
+  std::uint64_t free_floor_bytes = 256ULL << 20;
+  std::uint64_t queue_bytes = 32ULL << 20;  ///< what a stalled disk may leave waiting before records are lost
+};
+
+struct StatusSettings {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 2947;
+  std::uint32_t client_queue_bytes = 128U << 10;
+  std::uint32_t max_clients = 256;
+  double health_interval_s = 1.0;
+};
+
+struct ControlSettings {
+  std::filesystem::path socket = "/run/navcal/control";
+  std::uint32_t mode = 0660;
+};
+
+struct EnvironmentSettings {
+  double declination_rad = 0;       ///< positive east
+  double field_uT = 0;              ///< magnitude of the local field; 0: not known
+  double dip_rad = 0;               ///< positive down
+};
+
+struct Settings {
+  LogSettings log;
+  StatusSettings status;
+  ControlSettings control;
+  EnvironmentSettings environment;
+  std::vector<PortSettings> ports;
+};
+
+}  // namespace navcal::config

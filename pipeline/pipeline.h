@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "config/settings.h"
+#include "instruments/clock_model.h"
+#include "instruments/samples.h"
+#include "pipeline/utc_mapping.h"
+#include "protocols/frame.h"
+
+namespace navcal::pipeline {
+
+/// What comes out. Called from within Pipeline::bytes() and Pipeline::advance(); must not call back.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  virtual void on_sample(const instruments::Sample& sample) = 0;
+  /// Every intact frame, before the samples made of it (dialogues, counters).
+  virtual void on_frame(std::uint16_t /*port*/, const protocols::Frame& /*frame*/, std::int64_t /*arrival_ns*/) {}
+  /// The UTC mapping changed (from GPS time, or by set_mapping()).
+  virtual void on_mapping(const UtcMapping& /*mapping*/) {}
+};
+
+/// What is known of one port's stream; everything counted from the beginning.
+struct PortStatistics {
+  protocols::Counters bytes;
+  std::uint64_t held_bytes = 0;       ///< waiting in the parser
+  std::uint64_t samples = 0;
+  std::uint64_t out_of_range = 0;     ///< intact frames whose content cannot be (dates, angles)
+  std::uint64_t silences = 0;         ///< incomplete frames given up
+  std::uint64_t lost = 0;             ///< frames missing by sequence number or by the device's clock
+  std::uint64_t repeated = 0;         ///< frames received twice
+  std::int64_t last_frame_ns = 0;     ///< arrival of the newest intact frame, monotonic; 0: none yet
+  instruments::ClockState clock;      ///< the device's own clock
+};
+
+/// (port, arrival, bytes) -> stamped samples. The same object live and in replay: no I/O, no clock, no allocation
+/// per byte, and the same calls in the same order give bit-identical samples.
+class Pipeline {
+ public:
+  explicit Pipeline(const config::Settings& settings);
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  /// The bytes of one completed read; arrival on the monotonic clock, never decreasing over all calls.
+  void bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes, Sink& sink);
+  /// Time has passed without bytes: incomplete frames whose time is over are given up. bytes() does this itself.
+  void advance(std::int64_t now_ns, Sink& sink);
+  /// When advance() should be called next, monotonic; INT64_MAX when nothing waits.
+  [[nodiscard]] std::int64_t next_deadline_ns() const;
+  /// A better mapping to UTC (from the system clock); recorded, and set again in replay.
+  void set_mapping(const UtcMapping& mapping, Sink& sink);
+  [[nodiscard]] const UtcMapping& mapping() const;
+
+  [[nodiscard]] PortStatistics statistics(std::uint16_t port) const;
+  [[nodiscard]] const config::Settings& settings() const;
+
+ private:
+  struct Port;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace navcal::pipeline

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace navcal::pipeline {
+
+/// utc = monotonic + offset, to within `bound`. It is recorded, so that replay maps as the daemon did.
+struct UtcMapping {
+  enum class Source : std::uint8_t { none, file, system, system_synchronised, gps };
+  static constexpr std::int64_t kUnknownBound = INT64_MAX;
+
+  Source source = Source::none;
+  std::int64_t offset_ns = 0;
+  std::int64_t bound_ns = kUnknownBound;  ///< half width at `at_ns`; grows afterwards with the oscillator's tolerance
+  std::int64_t at_ns = 0;                 ///< monotonic time at which it was found
+
+  [[nodiscard]] std::int64_t to_utc(std::int64_t monotonic_ns) const { return monotonic_ns + offset_ns; }
+};
+
+/// "none", "file", "system", "system-synchronised", "gps".
+[[nodiscard]] std::string_view name_of(UtcMapping::Source source);
+
+}  // namespace navcal::pipeline

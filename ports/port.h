@@ -1,0 +1,58 @@
+#pragma once
+
+#include <boost/asio/any_io_executor.hpp>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "config/settings.h"
+#include "protocols/frame.h"
+
+namespace navcal::ports {
+
+/// What is known of an opened port.
+struct OpenPort {
+  std::string path;                 ///< what was opened, links resolved
+  bool pseudo_terminal = false;
+  std::string low_latency;          ///< what was asked for and what was read back, in words
+  std::string description;          ///< USB ids, driver, where known
+};
+
+/// Told of everything that happens at one port, in order, on the I/O thread.
+class PortListener {
+ public:
+  virtual ~PortListener() = default;
+  virtual void on_opened(std::int64_t now_ns, const OpenPort& port) = 0;
+  /// `arrival_ns`: monotonic, taken when the wait for bytes ended, before anything else was done with them.
+  virtual void on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) = 0;
+  /// The bytes were handed to the driver.
+  virtual void on_sent(std::int64_t now_ns, protocols::Bytes bytes) = 0;
+  /// Gone, or could not be opened; `reason` for people. Told once for each reason, not at every attempt.
+  virtual void on_lost(std::int64_t now_ns, std::string_view reason) = 0;
+};
+
+/// One configured port for as long as the daemon runs: found by path, udev name or USB serial number, opened, read,
+/// lost, found again within a second under whatever name. Reading waits for nothing but bytes.
+class Port {
+ public:
+  Port(boost::asio::any_io_executor executor, config::PortSettings settings, PortListener& listener);
+  ~Port();
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+
+  void start();
+  /// Queues bytes for sending; silently dropped while the port is away (bounded at 4 KiB).
+  void send(protocols::Bytes bytes);
+  /// Closes, restoring the tty's former settings; no callbacks afterwards.
+  void stop();
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+/// CLOCK_MONOTONIC in nanoseconds: the one clock of the program.
+[[nodiscard]] std::int64_t monotonic_ns();
+
+}  // namespace navcal::ports

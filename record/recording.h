@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "config/settings.h"
+#include "pipeline/utc_mapping.h"
+#include "record/log_encoder.h"
+
+namespace navcal::record {
+
+/// A file that is not what it should be; what() names file and place (line of a capture, byte of a log).
+class BadRecording : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct RawRead {
+  std::uint16_t port = 0;
+  Direction direction = Direction::received;
+  std::int64_t time_ns = 0;  ///< monotonic in a log; UTC in a capture (whose mapping is the identity)
+  std::vector<std::uint8_t> bytes;
+};
+
+struct LoggedEvent {
+  std::int64_t time_ns = 0;
+  std::string json;
+};
+
+struct MappingChange {
+  std::int64_t time_ns = 0;
+  pipeline::UtcMapping mapping;
+};
+
+using Entry = std::variant<RawRead, MappingChange, LoggedEvent>;
+
+/// Capture (.cap) or log (.mcap), told apart by content, read in order and in constant memory.
+class Recording {
+ public:
+  /// Throws BadRecording when it is neither.
+  static std::unique_ptr<Recording> open(const std::filesystem::path& file);
+  virtual ~Recording() = default;
+
+  /// The ports of the recording: from the #port lines, or from the configuration stored in the log.
+  [[nodiscard]] virtual const config::Settings& settings() const = 0;
+  /// The next entry; nullopt at the end. Throws BadRecording for what cannot be read over.
+  virtual std::optional<Entry> next() = 0;
+  /// What is to be told to the user: "last line cut short", "unfinished: 12 bytes after the last whole record".
+  [[nodiscard]] virtual const std::vector<std::string>& remarks() const = 0;
+  /// How far the file has been read, 0..1, for progress.
+  [[nodiscard]] virtual double progress() const = 0;
+};
+
+}  // namespace navcal::record
