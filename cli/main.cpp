@@ -1,0 +1,34 @@
+#include <cstdio>
+#include <exception>
+
+#include "cli/commands.h"
+
+int main(int argc, char** argv) {
+  using navcal::cli::Exit;
+  CLI::App app{"navcal: watch, decode, replay, log and emulate the instruments of a small underwater vehicle", "navcal"};
+  app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
+  app.require_subcommand(1);
+  app.footer("Each command explains itself: navcal decode --help");
+
+  navcal::cli::add_decode(app);
+  navcal::cli::add_emulate(app);
+  navcal::cli::add_log(app);
+  navcal::cli::add_play(app);
+  navcal::cli::add_ports(app);
+  navcal::cli::add_replay(app);
+  navcal::cli::add_watch(app);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // CLI11 has statuses of its own; the contract has one for wrong usage.
+    return app.exit(error) == 0 ? static_cast<int>(Exit::success) : static_cast<int>(Exit::usage);
+  } catch (const navcal::cli::Failure& failure) {
+    std::fprintf(stderr, "navcal: %s\n", failure.what());
+    return static_cast<int>(failure.status());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "navcal: %s\n", error.what());
+    return static_cast<int>(Exit::failed);
+  }
+  return static_cast<int>(Exit::success);
+}
