@@ -19,6 +19,8 @@ struct CompassSettings {
   AngleUnit heading_unit = AngleUnit::deg;
   AngleUnit tilt_unit = AngleUnit::deg;
   TemperatureUnit temperature_unit = TemperatureUnit::C;
+
+  bool operator==(const CompassSettings&) const = default;
 };
 
 /// Per-unit zeros and scales of the inertial card, channel by channel (ICD section 3).
@@ -26,12 +28,16 @@ struct ImuCardSettings {
   std::array<double, 8> zero_mV{2048, 2048, 2048, 2048, 2048, 2048, 2048, 250};
   /// mV per deg/s (gyros), per g (accelerometers), per m (depth).
   std::array<double, 8> scale{10, 10, 10, 10, 1000, 1000, 1000, 187.5};
+
+  bool operator==(const ImuCardSettings&) const = default;
 };
 
 struct GpsSettings {
   /// Dates before it are moved up by whole 1024-week epochs; fixed, so that old logs replay alike for ever.
   std::string rollover_pivot = "2019-04-07";
   double course_gate_m_s = 0.3;  ///< below this speed the course is noise and is left out
+
+  bool operator==(const GpsSettings&) const = default;
 };
 
 struct PortSettings {
@@ -50,35 +56,45 @@ struct PortSettings {
   CompassSettings compass;
   ImuCardSettings imu_card;
   GpsSettings gps;
+
+  bool operator==(const PortSettings&) const = default;
 };
 
 struct LogSettings {
   std::filesystem::path directory = "/var/lib/navcal";
   bool enabled = true;
   double sync_interval_s = 1.0;
-  std::uint64_t rotate_bytes = 512ULL << 20;
+  std::uint64_t rotate_bytes = 512'000'000;
   double rotate_age_s = 86400;
-  std::uint64_t free_floor_bytes = 256ULL << 20;
-  std::uint64_t queue_bytes = 32ULL << 20;  ///< what a stalled disk may leave waiting before records are lost
+  std::uint64_t free_floor_bytes = 256'000'000;
+  std::uint64_t queue_bytes = 32'000'000;  ///< what a stalled disk may leave waiting before records are lost
+
+  bool operator==(const LogSettings&) const = default;
 };
 
 struct StatusSettings {
   std::string address = "127.0.0.1";
   std::uint16_t port = 2947;
-  std::uint32_t client_queue_bytes = 128U << 10;
+  std::uint32_t client_queue_bytes = 128'000;
   std::uint32_t max_clients = 256;
   double health_interval_s = 1.0;
+
+  bool operator==(const StatusSettings&) const = default;
 };
 
 struct ControlSettings {
   std::filesystem::path socket = "/run/navcal/control";
   std::uint32_t mode = 0660;
+
+  bool operator==(const ControlSettings&) const = default;
 };
 
 struct EnvironmentSettings {
-  double declination_rad = 0;       ///< positive east
-  double field_uT = 0;              ///< magnitude of the local field; 0: not known
-  double dip_rad = 0;               ///< positive down
+  double declination_rad = 0;  ///< positive east
+  double field_uT = 0;         ///< magnitude of the local field; 0: not known
+  double dip_rad = 0;          ///< positive down
+
+  bool operator==(const EnvironmentSettings&) const = default;
 };
 
 struct Settings {
@@ -87,6 +103,8 @@ struct Settings {
   ControlSettings control;
   EnvironmentSettings environment;
   std::vector<PortSettings> ports;
+
+  bool operator==(const Settings&) const = default;
 };
 
 }  // namespace navcal::config
