@@ -29,6 +29,7 @@ struct Scan {
 
 /// What a protocol must supply. `scan` sees a candidate from its first byte on and must decide on the shortest
 /// prefix that suffices: once it has answered anything but `incomplete`, more bytes never change the answer.
+/// Given kMaxFrameLength bytes it never answers `incomplete`.
 /// From this follows that the frames of a stream do not depend on how its bytes were cut.
 template <class S>
 concept Scanner = requires(const std::uint8_t* p) {
@@ -60,6 +61,7 @@ class StreamParser {
         held_ = 0;
       }
     }
+    if (held_ > 0) return;
     const std::uint8_t* const rest = scan_run(next, last, sink);
     held_ = static_cast<std::size_t>(last - rest);
     if (held_ > 0) std::memcpy(buffer_.data(), rest, held_);
