@@ -1,0 +1,46 @@
+#include "pipeline/gps_time_watch.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "pipeline/system_clock_watch.h"
+
+namespace navcal::pipeline {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kGap_s = 600;              // longer without time: the phase is found anew
+constexpr std::int64_t kRefreshAge_ns = 60 * kSecond_ns;
+constexpr double kBoundSigmas = 3;
+
+}  // namespace
+
+std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::int64_t observed_ns,
+                                               const UtcMapping& in_force) {
+  if (in_force.source == UtcMapping::Source::file) return std::nullopt;
+  if (stated_utc_ns % kSecond_ns != 0) return std::nullopt;  // faster than 1 Hz: the whole seconds suffice
+  const std::int64_t second = stated_utc_ns / kSecond_ns;
+  if (!model_.empty()) {
+    const std::int64_t steps = second - last_second_;
+    if (steps == 0) return std::nullopt;
+    const auto off_s = static_cast<double>(observed_ns - model_.predict_ns(second)) * 1e-9;
+    // A leap second learnt, a rollover undone, a receiver that changed its mind: begin again.
+    if (steps < 0 || steps > kGap_s || std::abs(off_s) > 0.9) model_.reset_phase();
+  }
+  last_second_ = second;
+  const auto time = model_.update(second, observed_ns);
+  if (!model_.state().locked) return std::nullopt;
+
+  UtcMapping candidate;
+  candidate.source = UtcMapping::Source::gps;
+  candidate.offset_ns = stated_utc_ns - time.time_ns;
+  candidate.bound_ns = std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns)));
+  candidate.at_ns = observed_ns;
+  const bool ours = in_force.source == UtcMapping::Source::gps;
+  const bool old = observed_ns - in_force.at_ns > kRefreshAge_ns;
+  const bool disagrees = std::abs(candidate.offset_ns - in_force.offset_ns) > candidate.bound_ns;
+  if (ours ? (old || disagrees) : candidate.bound_ns < bound_at(in_force, observed_ns)) return candidate;
+  return std::nullopt;
+}
+
+}  // namespace navcal::pipeline

@@ -1,0 +1,66 @@
+#include "pipeline/gps_time_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace navcal::pipeline {
+namespace {
+
+constexpr std::int64_t kS = 1'000'000'000;
+constexpr std::int64_t kUtc = 1'700'000'000 * kS;
+
+TEST(GpsTimeWatch, FindsTheMappingThroughTheDelaysOfTheHost) {
+  std::mt19937_64 random(4);
+  std::exponential_distribution<double> delay_s(1 / 5e-3);
+  GpsTimeWatch watch(0.020);
+  UtcMapping mapping{UtcMapping::Source::system, kUtc + 12345678, UtcMapping::kUnknownBound, 0};
+  for (int k = 10; k < 200; ++k) {
+    const auto observed_ns = k * kS + std::llround(delay_s(random) * 1e9);
+    if (const auto better = watch.update(kUtc + k * kS, observed_ns, mapping)) mapping = *better;
+  }
+  EXPECT_EQ(mapping.source, UtcMapping::Source::gps);
+  EXPECT_LT(std::abs(mapping.offset_ns - kUtc), 3'000'000);
+  EXPECT_NEAR(static_cast<double>(mapping.bound_ns), 60e6, 10e6);
+}
+
+TEST(GpsTimeWatch, ALeapSecondLearntMovesTheMapping) {
+  GpsTimeWatch watch(0.020);
+  UtcMapping mapping;
+  for (int k = 10; k < 40; ++k) {
+    if (const auto better = watch.update(kUtc + (k + 18) * kS, k * kS, mapping)) mapping = *better;
+  }
+  EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 18, 0.01);
+  for (int k = 40; k < 80; ++k) {
+    if (const auto better = watch.update(kUtc + k * kS, k * kS, mapping)) mapping = *better;
+  }
+  EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 0, 0.01);
+}
+
+TEST(GpsTimeWatch, NarrowerMappingsStay) {
+  GpsTimeWatch watch(0.020);
+  const UtcMapping ntp{UtcMapping::Source::system_synchronised, kUtc, 1'000'000, 0};
+  const UtcMapping file{UtcMapping::Source::file, 0, 0, 0};
+  for (int k = 10; k < 60; ++k) {
+    EXPECT_FALSE(watch.update(kUtc + k * kS, k * kS, k % 2 == 0 ? ntp : file));
+  }
+}
+
+TEST(GpsTimeWatch, RepeatedAndBackwardTimesDoNoHarm) {
+  GpsTimeWatch watch(0.020);
+  UtcMapping mapping;
+  std::mt19937_64 random(7);
+  std::uniform_int_distribution<std::int64_t> anything(-5, 5000);
+  for (int k = 10; k < 500; ++k) {
+    const auto second = random() % 4 == 0 ? anything(random) : k;
+    (void)watch.update(kUtc + second * kS, k * kS, mapping);
+  }
+  for (int k = 500; k < 540; ++k) {
+    if (const auto better = watch.update(kUtc + k * kS, k * kS, mapping)) mapping = *better;
+  }
+  EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 0, 0.05);
+}
+
+}  // namespace
+}  // namespace navcal::pipeline
