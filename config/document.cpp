@@ -1,0 +1,148 @@
+#include "config/document.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace navcal::config {
+namespace {
+
+// toml++ 3.3 bounds nested values but not dotted keys, and frees tables recursively: some ten thousand levels end
+// the process. These bounds keep a file far below that; no real one comes near them.
+constexpr std::size_t kMaxBytes = 256 * 1024;
+constexpr std::ptrdiff_t kMaxDots = 32;
+// Nothing that is known lies deeper than port.NAME.TABLE.KEY.
+constexpr std::size_t kMaxDepth = 4;
+
+/// The first line that has too many dots; 0 when none has. Comments may have as many as they like.
+unsigned line_with_too_many_dots(std::string_view toml) {
+  unsigned number = 0;
+  while (!toml.empty()) {
+    ++number;
+    const std::size_t end = std::min(toml.find('\n'), toml.size());
+    const std::string_view line = toml.substr(0, end);
+    toml.remove_prefix(std::min(end + 1, toml.size()));
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != std::string_view::npos && line[first] == '#') continue;
+    if (std::count(line.begin(), line.end(), '.') > kMaxDots) return number;
+  }
+  return 0;
+}
+
+Value value_of(const toml::array& array) {
+  std::vector<double> numbers;
+  for (const toml::node& element : array) {
+    const auto number = element.value<double>();
+    if (!element.is_number() || !number) return Unsupported{"an array"};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+template <class Date>
+std::string as_written(const Date& date) {
+  std::ostringstream out;
+  out << date;
+  return out.str();
+}
+
+Value value_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return Table{};
+    case toml::node_type::array:
+      return value_of(*node.as_array());
+    case toml::node_type::string:
+      return node.as_string()->get();
+    case toml::node_type::integer:
+      return node.as_integer()->get();
+    case toml::node_type::floating_point:
+      return node.as_floating_point()->get();
+    case toml::node_type::boolean:
+      return node.as_boolean()->get();
+    case toml::node_type::date:
+      return as_written(node.as_date()->get());
+    default:
+      return Unsupported{"a time"};
+  }
+}
+
+void collect(const toml::table& table, std::vector<std::string>& keys, std::vector<Entry>& entries) {
+  for (const auto& [key, node] : table) {
+    keys.emplace_back(key.str());
+    entries.push_back({keys, value_of(node), static_cast<unsigned>(key.source().begin.line), std::nullopt});
+    if (node.is_table() && keys.size() < kMaxDepth) collect(*node.as_table(), keys, entries);
+    keys.pop_back();
+  }
+}
+
+/// The value of `text` read as TOML, when it is exactly one.
+std::optional<Value> one_value(const std::string& text) {
+  try {
+    const toml::table table = toml::parse("v=" + text);
+    if (table.size() == 1) return value_of(*table.get("v"));
+  } catch (const toml::parse_error&) {
+    // Not TOML: a text without quotes.
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string Entry::name() const { return fmt::format("{}", fmt::join(keys, ".")); }
+
+std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems) {
+  if (toml.size() > kMaxBytes) {
+    problems.push_back({1, "", fmt::format("the file has more than {} bytes", kMaxBytes)});
+    return {};
+  }
+  if (const unsigned line = line_with_too_many_dots(toml); line != 0) {
+    problems.push_back({line, "", fmt::format("the line has more than {} dots", kMaxDots)});
+    return {};
+  }
+  std::vector<Entry> entries;
+  try {
+    std::vector<std::string> keys;
+    collect(toml::parse(toml), keys, entries);
+  } catch (const toml::parse_error& error) {
+    problems.push_back({static_cast<unsigned>(error.source().begin.line), "", std::string(error.description())});
+    return {};
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.line < b.line; });
+  return entries;
+}
+
+std::optional<Entry> read_override(std::string_view text, std::vector<Problem>& problems) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string_view::npos) {
+    problems.push_back({0, std::string(text), "key=value is wanted"});
+    return std::nullopt;
+  }
+  Entry entry;
+  std::string_view rest = text.substr(0, equals);
+  while (entry.keys.size() <= kMaxDepth) {
+    const std::size_t dot = rest.find('.');
+    entry.keys.emplace_back(rest.substr(0, dot));
+    if (dot == std::string_view::npos) break;
+    rest.remove_prefix(dot + 1);
+  }
+  const std::string given(text.substr(equals + 1));
+  if (line_with_too_many_dots(given) != 0 || given.size() > kMaxBytes) {
+    problems.push_back({0, entry.name(), "the value is too long"});
+    return std::nullopt;
+  }
+  // A serial number of digits only is a text, and a path needs no quotes; through TOML, to hold it to the same
+  // rules.
+  const auto as_text = one_value(to_toml_text(Value(given)));
+  if (!as_text) {
+    problems.push_back({0, entry.name(), "the value is not UTF-8"});
+    return std::nullopt;
+  }
+  entry.value = one_value(given).value_or(*as_text);
+  if (!std::holds_alternative<std::string>(entry.value)) entry.plain_text = std::get<std::string>(*as_text);
+  return entry;
+}
+
+}  // namespace navcal::config

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "config/option.h"
+#include "config/settings.h"
+
+namespace navcal::config {
+
+/// The options outside ports, table by table in the order of the file.
+[[nodiscard]] const std::vector<Option<Settings>>& daemon_options();
+
+/// The options of a [port.NAME] table, those of its own first, then sub-table by sub-table.
+[[nodiscard]] const std::vector<Option<PortSettings>>& port_options();
+
+/// What a table is for, in one line: "log", "status", ..., and of a port "", "units", "channels", "fix".
+[[nodiscard]] std::string_view table_description(std::string_view table);
+
+}  // namespace navcal::config

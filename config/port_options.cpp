@@ -1,0 +1,146 @@
+#include "config/options.h"
+#include "config/text_rules.h"
+
+namespace navcal::config {
+namespace {
+
+using P = PortSettings;
+using protocols::Protocol;
+
+const std::vector<std::string_view> kAngles{"deg", "mils", "counts16"};
+const std::vector<Protocol> kCompasses{Protocol::tcm2, Protocol::nmea};
+const std::vector<Protocol> kReceivers{Protocol::oncore, Protocol::nmea};
+
+std::vector<std::string_view> protocol_names() {
+  std::vector<std::string_view> names;
+  for (const auto protocol :
+       {Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card, Protocol::nmea}) {
+    names.push_back(protocols::name_of(protocol));
+  }
+  return names;
+}
+
+std::vector<Option<P>> make() {
+  return {
+      choice<P>(
+          {.key = "protocol", .description = "What the device speaks.", .choices = protocol_names()},
+          [](auto& p) -> auto& { return p.protocol; }),
+      text<P>(
+          {.key = "path",
+           .description = "Where it is: a tty, a pseudo-terminal or a link to one.",
+           .text_rule = "a path without control characters",
+           .text_holds = is_printable},
+          [](auto& p) -> auto& { return p.path; }),
+      text<P>(
+          {.key = "udev_name",
+           .description = "Instead of path: a link that udev keeps, such as /dev/navcal/compass.",
+           .text_rule = "a name without control characters",
+           .text_holds = is_printable},
+          [](auto& p) -> auto& { return p.udev_name; }),
+      text<P>(
+          {.key = "usb_serial",
+           .description = "Instead of path: the serial number of the USB adapter (navcal ports shows it).",
+           .text_rule = "a serial number without control characters",
+           .text_holds = is_printable},
+          [](auto& p) -> auto& { return p.usb_serial; }),
+      integer<P>(
+          {.key = "baud", .description = "Line speed, 8N1.", .unit = kBits, .low = 50, .high = 4000000},
+          [](auto& p) -> auto& { return p.baud; }),
+      boolean<P>(
+          {.key = "start_up", .description = "Bring the device to what is configured here, by its commands."},
+          [](auto& p) -> auto& { return p.start_up; }),
+      boolean<P>(
+          {.key = "low_latency", .description = "Ask the driver to hand over bytes at once."},
+          [](auto& p) -> auto& { return p.low_latency; }),
+      real<P>(
+          {.key = "latency_ms",
+           .description = "From the measurement to the first byte on the wire.",
+           .unit = kMilliseconds,
+           .low = 0,
+           .high = 10000},
+          [](auto& p) -> auto& { return p.latency_s; }),
+      real<P>(
+          {.key = "latency_std_ms",
+           .description = "Uncertainty of that, one standard deviation.",
+           .unit = kMilliseconds,
+           .low = 0,
+           .high = 10000},
+          [](auto& p) -> auto& { return p.latency_std_s; }),
+      real<P>(
+          {.key = "rate_Hz",
+           .description = "Nominal frame rate; 0 when the device keeps none.",
+           .unit = kHertz,
+           .low = 0,
+           .high = 1000},
+          [](auto& p) -> auto& { return p.rate_Hz; }),
+
+      choice<P>(
+          {.table = "units",
+           .key = "heading",
+           .description = "Unit of the heading on the wire; mils: 6400 to the turn, counts16: 65536.",
+           .choices = kAngles,
+           .only_for = kCompasses},
+          [](auto& p) -> auto& { return p.compass.heading_unit; }),
+      choice<P>(
+          {.table = "units",
+           .key = "tilt",
+           .description = "Unit of pitch and roll on the wire.",
+           .choices = kAngles,
+           .only_for = kCompasses},
+          [](auto& p) -> auto& { return p.compass.tilt_unit; }),
+      choice<P>(
+          {.table = "units",
+           .key = "temperature",
+           .description = "Unit of the temperature on the wire; some TCM2 are delivered in F.",
+           .choices = {"C", "F"},
+           .only_for = kCompasses},
+          [](auto& p) -> auto& { return p.compass.temperature_unit; }),
+
+      channels<P>(
+          {.table = "channels",
+           .key = "zero_mV",
+           .description = "Reading at zero: gyro A x, A z, B y, B z, accelerometer x, y, z, depth.",
+           .unit = kMillivolts,
+           .low = -10000,
+           .high = 10000,
+           .only_for = {Protocol::imu_card}},
+          [](auto& p) -> auto& { return p.imu_card.zero_mV; }),
+      channels<P>(
+          {.table = "channels",
+           .key = "scale",
+           .description = "Sensitivity of the same channels; negative when one is mounted the other way round.",
+           .unit = kMillivoltsPer,
+           .low = -100000,
+           .high = 100000,
+           .zero_allowed = false,
+           .only_for = {Protocol::imu_card}},
+          [](auto& p) -> auto& { return p.imu_card.scale; }),
+
+      text<P>(
+          {.table = "fix",
+           .key = "rollover_pivot",
+           .description = "Dates before it are moved up by whole epochs of 1024 weeks; fix it once and leave it.",
+           .text_rule = "a date, YYYY-MM-DD, from 1980-01-06 on",
+           .text_holds = is_gps_date,
+           .only_for = kReceivers},
+          [](auto& p) -> auto& { return p.gps.rollover_pivot; }),
+      real<P>(
+          {.table = "fix",
+           .key = "course_gate_m_s",
+           .description = "Below this speed the course over ground is noise and is left out.",
+           .unit = kMetresPerSecond,
+           .low = 0,
+           .high = 100,
+           .only_for = kReceivers},
+          [](auto& p) -> auto& { return p.gps.course_gate_m_s; }),
+  };
+}
+
+}  // namespace
+
+const std::vector<Option<P>>& port_options() {
+  static const std::vector<Option<P>> options = make();
+  return options;
+}
+
+}  // namespace navcal::config

@@ -1,0 +1,201 @@
+#include "config/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "config/load.h"
+#include "config/options.h"
+#include "config/suggestion.h"
+#include "config/text_rules.h"
+
+namespace navcal::config {
+namespace {
+
+constexpr std::string_view kPort = "port";
+
+template <class Owner>
+const Option<Owner>* find(const std::vector<Option<Owner>>& options, std::string_view table,
+                          std::string_view key) {
+  const auto found = std::find_if(options.begin(), options.end(), [&](const Option<Owner>& option) {
+    return option.table == table && option.key == key;
+  });
+  return found == options.end() ? nullptr : &*found;
+}
+
+template <class Owner>
+std::vector<std::string> keys_of(const std::vector<Option<Owner>>& options, std::string_view table) {
+  std::vector<std::string> keys;
+  for (const auto& option : options) {
+    if (option.table == table) keys.emplace_back(option.key);
+  }
+  return keys;
+}
+
+template <class Owner>
+std::vector<std::string> tables_of(const std::vector<Option<Owner>>& options) {
+  std::vector<std::string> tables;
+  for (const auto& option : options) {
+    if (!option.table.empty() && (tables.empty() || tables.back() != option.table))
+      tables.emplace_back(option.table);
+  }
+  return tables;
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool is_place(std::string_view key) { return key == "path" || key == "udev_name" || key == "usb_serial"; }
+
+/// The value in the option's own kind, or why not.
+template <class Owner>
+std::optional<std::string> set(const Option<Owner>& option, Owner& owner, const Entry& entry) {
+  Value value = entry.plain_text && option.is_textual() ? Value(*entry.plain_text) : entry.value;
+  auto refused = option.adopt(value);
+  if (!refused) option.set(owner, value);
+  return refused;
+}
+
+}  // namespace
+
+void Reader::complain(const Entry& entry, std::string message) {
+  problems_.push_back({entry.line, entry.name(), std::move(message)});
+}
+
+void Reader::take(const std::vector<Entry>& entries) {
+  std::vector<std::pair<std::string, std::vector<const Entry*>>> ports;
+  for (const Entry& entry : entries) {
+    if (entry.keys.front() != kPort) {
+      take_daemon(entry);
+    } else if (entry.keys.size() == 1) {
+      if (!std::holds_alternative<Table>(entry.value)) complain(entry, "tables [port.NAME] are wanted");
+    } else {
+      const std::string& name = entry.keys[1];
+      auto port = std::find_if(ports.begin(), ports.end(), [&](const auto& known) { return known.first == name; });
+      if (port == ports.end()) {
+        if (entry.line == 0) {
+          std::vector<std::string> names;
+          for (const auto& known : ports) names.push_back(known.first);
+          complain(entry, "the file has no port of this name" + suggestion(name, names));
+          continue;
+        }
+        port = ports.insert(ports.end(), {name, {}});
+      }
+      port->second.push_back(&entry);
+    }
+  }
+  for (const auto& [name, own_entries] : ports) take_port(name, own_entries);
+}
+
+void Reader::take_daemon(const Entry& entry) {
+  const auto& options = daemon_options();
+  const std::string& table = entry.keys.front();
+  auto tables = tables_of(options);
+  if (!contains(tables, table)) {
+    if (entry.keys.size() > 1 && entry.line != 0) return;  // its table has been complained of already
+    tables.emplace_back(kPort);
+    complain(entry, "unknown key" + suggestion(table, tables));
+  } else if (entry.keys.size() == 1) {
+    if (!std::holds_alternative<Table>(entry.value)) complain(entry, fmt::format("a table [{}] is wanted", table));
+  } else if (const auto* option = find(options, table, entry.keys[1]); option == nullptr) {
+    if (entry.keys.size() == 2)
+      complain(entry, "unknown key" + suggestion(entry.keys[1], keys_of(options, table)));
+  } else if (entry.keys.size() == 2) {
+    if (auto refused = set(*option, settings_, entry)) complain(entry, std::move(*refused));
+  }
+}
+
+void Reader::take_port(const std::string& name, const std::vector<const Entry*>& entries) {
+  const Entry& table = *entries.front();
+  if (!is_port_name(name)) complain(table, "a port's name is 1 to 31 of a-z, 0-9, _ and -");
+  if (table.keys.size() != 2 || !std::holds_alternative<Table>(table.value)) {
+    complain(table, "a table is wanted");
+    return;
+  }
+  // Everything else of a port starts from what is usual for its protocol, so that comes first.
+  const Option<PortSettings>& protocol = port_options().front();
+  PortSettings given;
+  const Entry* said = nullptr;
+  for (const Entry* entry : entries) {
+    if (entry->keys.size() == 3 && entry->keys[2] == protocol.key) said = entry;
+  }
+  bool protocol_known = false;
+  if (said == nullptr) {
+    problems_.push_back({table.line, table.name() + ".protocol", "missing; known: " + protocol.allowed()});
+  } else if (auto refused = set(protocol, given, *said)) {
+    complain(*said, std::move(*refused));
+  } else {
+    protocol_known = true;
+  }
+  PortSettings port = default_port(name, given.protocol, default_baud(given.protocol));
+  for (const Entry* entry : entries) {
+    if (entry != said && entry->keys.size() > 2) take_port_entry(port, *entry, protocol_known);
+  }
+  settings_.ports.push_back(std::move(port));
+  port_lines_.push_back(table.line);
+}
+
+void Reader::take_port_entry(PortSettings& port, const Entry& entry, bool protocol_known) {
+  const auto& options = port_options();
+  const std::string& key = entry.keys[2];
+  const auto tables = tables_of(options);
+  const bool in_table = contains(tables, key);
+  if (in_table && entry.keys.size() == 3) {
+    if (!std::holds_alternative<Table>(entry.value)) complain(entry, "a table is wanted");
+    return;
+  }
+  const auto* option = in_table ? find(options, key, entry.keys[3]) : find(options, "", key);
+  if (entry.keys.size() > (in_table ? 4U : 3U)) {
+    // Below something that has been complained of already, unless it came alone.
+    if (entry.line == 0) complain(entry, "unknown key");
+    return;
+  }
+  if (option == nullptr) {
+    auto known = keys_of(options, in_table ? key : "");
+    if (!in_table) known.insert(known.end(), tables.begin(), tables.end());
+    complain(entry, "unknown key" + suggestion(entry.keys.back(), known));
+    return;
+  }
+  if (protocol_known && !option->applies_to(port.protocol)) {
+    complain(entry, fmt::format("a port of protocol {} has no such setting", protocols::name_of(port.protocol)));
+    return;
+  }
+  if (entry.line == 0 && is_place(key)) port.path = port.udev_name = port.usb_serial = "";
+  if (auto refused = set(*option, port, entry)) complain(entry, std::move(*refused));
+}
+
+void Reader::check_ports() {
+  if (settings_.ports.empty()) {
+    problems_.push_back(
+        {1, "port", "no port is configured; a port is a table [port.NAME] with a protocol and a path"});
+  }
+  constexpr std::size_t kMostPorts = 256;
+  if (settings_.ports.size() > kMostPorts) {
+    problems_.push_back(
+        {1, "port", fmt::format("{} ports are configured; {} is the most", settings_.ports.size(), kMostPorts)});
+  }
+  for (std::size_t i = 0; i < settings_.ports.size(); ++i) {
+    const PortSettings& port = settings_.ports[i];
+    const std::string key = "port." + port.name;
+    const int places = int{!port.path.empty()} + int{!port.udev_name.empty()} + int{!port.usb_serial.empty()};
+    if (places == 0)
+      problems_.push_back({port_lines_[i], key, "where it is is missing: path, udev_name or usb_serial"});
+    if (places > 1)
+      problems_.push_back({port_lines_[i], key, "only one of path, udev_name and usb_serial can say where it is"});
+    for (std::size_t j = 0; j < i; ++j) {
+      const PortSettings& other = settings_.ports[j];
+      const auto same = [&](std::string_view what, const std::string& mine, const std::string& others) {
+        if (mine.empty() || mine != others) return;
+        problems_.push_back({port_lines_[i], fmt::format("{}.{}", key, what),
+                             fmt::format("{} is already port.{}'s (line {})", mine, other.name, port_lines_[j])});
+      };
+      same("path", port.path, other.path);
+      same("udev_name", port.udev_name, other.udev_name);
+      same("usb_serial", port.usb_serial, other.usb_serial);
+    }
+  }
+}
+
+}  // namespace navcal::config

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/document.h"
+#include "config/settings.h"
+
+namespace navcal::config {
+
+/// Turns entries into settings by the option table, and notes what is wrong with them.
+class Reader {
+ public:
+  /// Of the file first, in its order; then those of the command line.
+  void take(const std::vector<Entry>& entries);
+  /// What concerns several settings at once: no ports, places missing, ambiguous or shared.
+  void check_ports();
+
+  [[nodiscard]] const Settings& settings() const { return settings_; }
+  [[nodiscard]] std::vector<Problem>& problems() { return problems_; }
+
+ private:
+  void take_daemon(const Entry& entry);
+  void take_port(const std::string& name, const std::vector<const Entry*>& entries);
+  void take_port_entry(PortSettings& port, const Entry& entry, bool protocol_known);
+  void complain(const Entry& entry, std::string message);
+
+  Settings settings_;
+  std::vector<unsigned> port_lines_;  ///< where each port's table begins
+  std::vector<Problem> problems_;
+};
+
+}  // namespace navcal::config

@@ -1,0 +1,43 @@
+#include "config/suggestion.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace navcal::config {
+namespace {
+
+/// Insertions, deletions and replacements that make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string suggestion(std::string_view given, const std::vector<std::string>& known) {
+  constexpr std::size_t kLongestWord = 64;
+  if (given.size() > kLongestWord) return {};
+  std::size_t nearest = 1 + std::max<std::size_t>(given.size() / 3, 1);
+  std::string meant;
+  for (const std::string& word : known) {
+    // A forgotten unit (sync_interval for sync_interval_s) is the likeliest slip of all.
+    const std::size_t distance = word.starts_with(std::string(given) + '_') ? 1 : edit_distance(given, word);
+    if (distance < nearest) {
+      nearest = distance;
+      meant = word;
+    }
+  }
+  return meant.empty() ? meant : "; did you mean " + meant + "?";
+}
+
+}  // namespace navcal::config

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace navcal::config {
+
+/// "; did you mean sync_interval_s?" when one of the known words is near enough to be meant, else nothing.
+[[nodiscard]] std::string suggestion(std::string_view given, const std::vector<std::string>& known);
+
+}  // namespace navcal::config

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+namespace navcal::config {
+
+// What the texts of a configuration must be; the words for messages stand in the option table.
+
+/// Something, and no control characters.
+[[nodiscard]] bool is_printable(std::string_view text);
+[[nodiscard]] bool is_absolute_path(std::string_view text);
+/// An absolute path that fits sockaddr_un.
+[[nodiscard]] bool is_socket_path(std::string_view text);
+/// IPv4 or IPv6, in numbers: a name would make the start depend on a name server.
+[[nodiscard]] bool is_ip_address(std::string_view text);
+/// YYYY-MM-DD, a day of the calendar from 1980-01-06 (the first of GPS time) on.
+[[nodiscard]] bool is_gps_date(std::string_view text);
+/// 1 to 31 of a-z 0-9 _ -: it becomes part of log topics and file names.
+[[nodiscard]] bool is_port_name(std::string_view text);
+
+}  // namespace navcal::config

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string_view>
+#include <type_traits>
+
+namespace navcal::config {
+
+/// Of a number in the file; inside the program it is number * numerator / denominator.
+struct Unit {
+  std::string_view name;
+  double numerator = 1;
+  double denominator = 1;
+};
+
+inline constexpr Unit kNoUnit{""};
+inline constexpr Unit kSeconds{"s"};
+inline constexpr Unit kMilliseconds{"ms", 1, 1000};
+inline constexpr Unit kHours{"h", 3600, 1};
+inline constexpr Unit kMegabytes{"MB", 1e6, 1};
+inline constexpr Unit kKilobytes{"kB", 1e3, 1};
+inline constexpr Unit kDegrees{"deg", std::numbers::pi, 180};
+inline constexpr Unit kHertz{"Hz"};
+inline constexpr Unit kMicrotesla{"uT"};
+inline constexpr Unit kMetresPerSecond{"m/s"};
+inline constexpr Unit kMillivolts{"mV"};
+inline constexpr Unit kMillivoltsPer{"mV per deg/s, per g, per m"};
+inline constexpr Unit kBits{"bit/s"};
+
+template <class Field>
+Field to_inside(double number, const Unit& unit) {
+  const double inside = number * unit.numerator / unit.denominator;
+  if constexpr (std::is_integral_v<Field>) {
+    return static_cast<Field>(std::llround(inside));
+  } else {
+    return inside;
+  }
+}
+
+/// The shortest decimal that `holds` (that reads back to the same value inside), near `guess`.
+double shortest_decimal(double guess, const std::function<bool(double)>& holds);
+
+/// The number that a file must state for this value inside: the shortest that reads back to the same bits. A value
+/// that no number in the file leads to (it did not come from a file) gives the nearest one.
+template <class Field>
+double to_file(Field inside, const Unit& unit) {
+  return shortest_decimal(static_cast<double>(inside) * unit.denominator / unit.numerator,
+                          [&](double candidate) { return to_inside<Field>(candidate, unit) == inside; });
+}
+
+}  // namespace navcal::config
