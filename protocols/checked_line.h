@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocols/frame.h"
+#include "protocols/stream_parser.h"
+
+namespace navcal::protocols {
+
+/// XOR of all bytes: the checksum of TCM2 words, motor card lines and NMEA 0183, between `$` and `*`.
+[[nodiscard]] constexpr std::uint8_t xor_of(Bytes bytes) {
+  std::uint8_t sum = 0;
+  for (const std::uint8_t byte : bytes) sum ^= byte;
+  return sum;
+}
+
+namespace detail {
+
+/// Value of a hexadecimal digit of either case, 255 for any other byte.
+inline constexpr auto kHexValue = [] {
+  std::array<std::uint8_t, 256> table{};
+  table.fill(255);
+  for (std::uint8_t i = 0; i < 10; ++i) table[std::size_t{'0'} + i] = i;
+  for (std::uint8_t i = 0; i < 6; ++i) {
+    table[std::size_t{'A'} + i] = static_cast<std::uint8_t>(10 + i);
+    table[std::size_t{'a'} + i] = static_cast<std::uint8_t>(10 + i);
+  }
+  return table;
+}();
+
+/// Bytes that end the body of a line, whole or cut.
+inline constexpr auto kEndsBody = [] {
+  std::array<bool, 256> table{};
+  for (const char c : {'$', '*', '\r', '\n'}) table[static_cast<std::uint8_t>(c)] = true;
+  return table;
+}();
+
+}  // namespace detail
+
+/// Scans a line `$...*hh<CR><LF>` that begins at `first` (a `$`); <LF> alone is taken as well, as a terminal or a
+/// file may have made it so. Any byte is let into the body, for a flipped bit is better counted as a bad checksum
+/// than as something else; but a `$` begins the next line, so a line that was cut is left without waiting.
+/// `max_length` counts everything from `$` to <LF>.
+[[nodiscard]] inline Scan scan_checked_line(const std::uint8_t* first, const std::uint8_t* last,
+                                            std::size_t max_length, FrameId id) {
+  const auto available = std::min(static_cast<std::size_t>(last - first), max_length);
+  const std::uint8_t* const limit = first + available;
+  const auto unfinished = [&](std::size_t missing) {
+    return available == max_length ? Scan::not_a_frame()
+                                   : Scan::incomplete(std::min(missing, max_length - available));
+  };
+  const std::uint8_t* p = first + 1;
+  std::uint8_t sum = 0;
+  for (; p < limit && !detail::kEndsBody[*p]; ++p) sum ^= *p;
+  if (p >= limit) return unfinished(4);
+  if (*p == '$') return Scan::not_a_frame();
+  if (*p != '*') return Scan::bad_checksum();  // the line has ended without one
+  const auto left = static_cast<std::size_t>(limit - p);
+  if (left > 1 && detail::kHexValue[p[1]] != sum >> 4) return Scan::bad_checksum();
+  if (left > 2 && detail::kHexValue[p[2]] != (sum & 0x0F)) return Scan::bad_checksum();
+  if (left < 4) return unfinished(4 - left);
+  if (p[3] == '\n') return Scan::frame(static_cast<std::size_t>(p + 4 - first), id);
+  if (p[3] != '\r') return Scan::bad_checksum();
+  if (left < 5) return unfinished(1);
+  if (p[4] == '\n') return Scan::frame(static_cast<std::size_t>(p + 5 - first), id);
+  return Scan::bad_checksum();
+}
+
+/// What stands between `$` and `*` of an intact line.
+[[nodiscard]] inline std::string_view body_of(Bytes line) {
+  const std::string_view text(reinterpret_cast<const char*>(line.data()), line.size());
+  const std::size_t star = text.rfind('*');
+  return star == std::string_view::npos || star == 0 ? std::string_view{} : text.substr(1, star - 1);
+}
+
+/// `$` + body + `*hh<CR><LF>`, checksum in upper case.
+[[nodiscard]] inline std::vector<std::uint8_t> checked_line(std::string_view body) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  const std::uint8_t sum = xor_of({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()});
+  std::string line;
+  line.reserve(body.size() + 6);
+  line += '$';
+  line += body;
+  line += '*';
+  line += kDigits[sum >> 4];
+  line += kDigits[sum & 0x0F];
+  line += "\r\n";
+  return {line.begin(), line.end()};
+}
+
+}  // namespace navcal::protocols
