@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include "protocols/frame.h"
+
+namespace navcal::protocols {
+
+/// CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final xor; "123456789" gives 0x29B1
+/// (ICD section 3). Own code, as this folder stands on the standard library alone and Boost.CRC takes one byte at
+/// a time.
+[[nodiscard]] std::uint16_t crc16_ccitt_false(Bytes bytes);
+
+}  // namespace navcal::protocols
