@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+
+#include "protocols/nmea.h"
+#include "protocols/oncore.h"
+
+namespace navcal::protocols {
+
+/// A receiver that may speak Motorola binary or NMEA 0183, and change from one to the other: both in one stream,
+/// each byte in exactly one frame or in none.
+struct GpsStreamScanner {
+  static constexpr std::size_t kMaxFrameLength = std::max(oncore::kMaxLength, nmea::kMaxLength);
+
+  static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
+    while (first != last && *first != '@' && *first != '$' && *first != '!') ++first;
+    return first;
+  }
+  static Scan scan(const std::uint8_t* first, const std::uint8_t* last) {
+    return *first == '@' ? oncore::Scanner::scan(first, last) : nmea::Scanner::scan(first, last);
+  }
+};
+
+using GpsStreamParser = StreamParser<GpsStreamScanner>;
+
+/// Which of the two a frame of a GpsStreamParser is.
+[[nodiscard]] inline Protocol protocol_of(const Frame& frame) {
+  return frame.bytes[0] == '@' ? Protocol::oncore : Protocol::nmea;
+}
+
+}  // namespace navcal::protocols
