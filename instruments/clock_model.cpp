@@ -7,20 +7,21 @@ namespace navcal::instruments {
 namespace {
 
 constexpr double kNs = 1e9;
-constexpr double kPeriodPrior = 300e-6;          // one sigma: the card's rate can be off by 200 ppm (ICD section 3)
-constexpr double kFrequencyWalkPrior = 1e-6;     // per sqrt(s); then learnt from how well predictions hold
-constexpr double kFrequencyWalkLeast = 1e-6;     // assumed even of a quiet crystal: an optimistic error bar is worse than a wide one
-constexpr double kFrequencyWalkMost = 20e-6;     // a ceramic resonator warming up
-constexpr double kWalkGain = 0.03;               // per block
-constexpr double kSurpriseLimit = 25;            // in variances: one stall must not open the filter
-constexpr double kSurpriseExpected = 0.9;        // a little under 1, so that doubt widens the error bars
-constexpr double kPhaseWalk_s = 2e-6;            // per sqrt(s)
+constexpr double kPeriodPrior = 300e-6;       // one sigma: the card's rate can be off by 200 ppm (ICD section 3)
+constexpr double kFrequencyWalkPrior = 1e-6;  // per sqrt(s); then learnt from how well predictions hold
+constexpr double kFrequencyWalkLeast =
+    1e-6;  // assumed even of a quiet crystal: an optimistic error bar is worse than a wide one
+constexpr double kFrequencyWalkMost = 20e-6;  // a ceramic resonator warming up
+constexpr double kWalkGain = 0.03;            // per block
+constexpr double kSurpriseLimit = 25;         // in variances: one stall must not open the filter
+constexpr double kSurpriseExpected = 0.9;     // a little under 1, so that doubt widens the error bars
+constexpr double kPhaseWalk_s = 2e-6;         // per sqrt(s)
 constexpr double kJitterPrior_s = 1e-3;
-constexpr double kJitterPriorWeight = 0.5;       // blocks
-constexpr double kJitterMemory = 30;             // blocks
-constexpr double kMeasurementFloor_s = 5e-6;     // what a scheduler's wake-up varies even on an idle machine
-constexpr double kStampFloor_s = 5e-6;           // what no model of the delays can know of their least value
-constexpr double kGate = 5;                      // sigmas by which a whole block may be late before it is left out
+constexpr double kJitterPriorWeight = 0.5;    // blocks
+constexpr double kJitterMemory = 30;          // blocks
+constexpr double kMeasurementFloor_s = 5e-6;  // what a scheduler's wake-up varies even on an idle machine
+constexpr double kStampFloor_s = 5e-6;        // what no model of the delays can know of their least value
+constexpr double kGate = 5;                   // sigmas by which a whole block may be late before it is left out
 constexpr int kRejectedBlocksToReset = 4;
 constexpr std::uint64_t kObservationsToLock = 8;
 
@@ -36,7 +37,10 @@ double square(double x) { return x * x; }
 }  // namespace
 
 ClockModel::ClockModel(double nominal_period_s)
-    : nominal_s_(nominal_period_s), period_s_(nominal_period_s), jitter_s_(kJitterPrior_s), walk_(kFrequencyWalkPrior) {
+    : nominal_s_(nominal_period_s),
+      period_s_(nominal_period_s),
+      jitter_s_(kJitterPrior_s),
+      walk_(kFrequencyWalkPrior) {
   var_period_ = square(kPeriodPrior * nominal_s_);
 }
 
@@ -90,8 +94,8 @@ void ClockModel::close_block() {
   const double residual_s = earliest_s - expected_s;
   const double gate_s = kGate * std::sqrt(var_phase_ + variance);
   if (residual_s > gate_s && rejected_blocks_ + 1 < kRejectedBlocksToReset) {
-    // All of the block was held up somewhere; the device's clock did not stop for that. Unless the period is wrong:
-    // each such block makes it less believed, so that a bad start cannot shut the truth out.
+    // All of the block was held up somewhere; the device's clock did not stop for that. Unless the period is
+    // wrong: each such block makes it less believed, so that a bad start cannot shut the truth out.
     ++rejected_blocks_;
     var_period_ = std::max(var_period_, std::min(4 * var_period_, square(kPeriodPrior * nominal_s_)));
   } else if (residual_s > gate_s) {
@@ -129,7 +133,8 @@ double ClockModel::doubt() const { return 1 + 4 / (1 + jitter_weight_); }
 
 void ClockModel::learn_jitter() {
   if (in_block_ < 4) return;
-  // Residuals are all relative to the model as of this block, advanced frame by frame: their differences are delays.
+  // Residuals are all relative to the model as of this block, advanced frame by frame: their differences are
+  // delays.
   auto sorted = residuals_;
   auto* const middle = sorted.data() + (in_block_ + 1) / 2 - 1;
   std::nth_element(sorted.data(), middle, sorted.data() + in_block_);

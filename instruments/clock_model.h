@@ -7,11 +7,11 @@ namespace navcal::instruments {
 
 /// What the model of a device's own clock says of itself; shown in HEALTH.
 struct ClockState {
-  bool locked = false;     ///< enough was seen to stamp by the model rather than by arrival
-  double period_s = 0;     ///< estimated time between frames
-  double skew_ppm = 0;     ///< of the device's clock against ours: positive when its frames come too slowly
+  bool locked = false;  ///< enough was seen to stamp by the model rather than by arrival
+  double period_s = 0;  ///< estimated time between frames
+  double skew_ppm = 0;  ///< of the device's clock against ours: positive when its frames come too slowly
   double skew_std_ppm = 0;
-  double jitter_s = 0;     ///< mean delay of arrivals behind the envelope
+  double jitter_s = 0;  ///< mean delay of arrivals behind the envelope
   std::uint64_t resets = 0;
 };
 
@@ -22,10 +22,10 @@ struct TimeEstimate {
 };
 
 /// Model: frame k was measured at phase + k * period; it is observed at that time plus a delay d >= 0.
-/// The delay is noise of the host, never negative, so the truth is the lower envelope of the observations. A Kalman
-/// filter with the states phase and period is fed with the earliest observation of each block of frames, less what
-/// the earliest of n exponential delays is expected to be late (mean delay / n). docs/timing.md derives it.
-/// Value machine: no clock inside, bounded memory, O(1) per frame.
+/// The delay is noise of the host, never negative, so the truth is the lower envelope of the observations. A
+/// Kalman filter with the states phase and period is fed with the earliest observation of each block of frames,
+/// less what the earliest of n exponential delays is expected to be late (mean delay / n). docs/timing.md derives
+/// it. Value machine: no clock inside, bounded memory, O(1) per frame.
 class ClockModel {
  public:
   /// `nominal_period_s` > 0.
@@ -58,13 +58,13 @@ class ClockModel {
   [[nodiscard]] double doubt() const;
 
   double nominal_s_;
-  std::int64_t origin_ns_ = 0;     ///< integer part of the phase, so that doubles keep nanoseconds for days
-  std::int64_t index_ = 0;         ///< frame to which phase_s_ belongs
-  double phase_s_ = 0;             ///< time of frame index_, relative to origin_ns_
+  std::int64_t origin_ns_ = 0;  ///< integer part of the phase, so that doubles keep nanoseconds for days
+  std::int64_t index_ = 0;      ///< frame to which phase_s_ belongs
+  double phase_s_ = 0;          ///< time of frame index_, relative to origin_ns_
   double period_s_;
   double var_phase_ = 0, cov_ = 0, var_period_ = 0;  ///< covariance of (phase, period)
   double jitter_s_;
-  double walk_;                    ///< of the frequency, relative, per sqrt(s)
+  double walk_;  ///< of the frequency, relative, per sqrt(s)
   double jitter_weight_ = 0;
   std::array<double, kMaxBlock> residuals_{};  ///< of the open block
   int in_block_ = 0;

@@ -6,11 +6,11 @@
 namespace navcal::instruments {
 namespace {
 
-constexpr double kArrivalStd_s = 1e-3;     // of a stamp by arrival: a loaded kernel's wake-up
-constexpr double kAheadTolerance = 2.0;    // periods a counter may run ahead of time before it is a restart
-constexpr double kPauseLimit_s = 0.5;      // later than that with nothing behind it, a counted frame means a pause
-constexpr int kTrialFrames = 24;           // frames after which the nominal rate is held against the average
-constexpr double kRateTolerance = 0.1;     // of the nominal rate
+constexpr double kArrivalStd_s = 1e-3;   // of a stamp by arrival: a loaded kernel's wake-up
+constexpr double kAheadTolerance = 2.0;  // periods a counter may run ahead of time before it is a restart
+constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a counted frame means a pause
+constexpr int kTrialFrames = 24;         // frames after which the nominal rate is held against the average
+constexpr double kRateTolerance = 0.1;   // of the nominal rate
 
 }  // namespace
 
@@ -53,7 +53,8 @@ std::int64_t FrameClock::by_sequence(const FrameObservation& frame, double late_
   const double behind_s = (elapsed - counted) * model_.period_s();
   const bool paused = behind_s > kPauseLimit_s && !frame.backlog;
   if (ahead || paused) {
-    model_.reset_phase();  // the device began anew, or stood still: its counter says nothing about the time between
+    model_
+        .reset_phase();  // the device began anew, or stood still: its counter says nothing about the time between
     return index_ + 1;
   }
   lost_ += static_cast<std::uint64_t>(counted) - 1;
@@ -69,13 +70,15 @@ std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_peri
   }
   if (late_periods < -0.5) {
     // Too early by the model: the frames thought lost were only late. Take them back and find the phase again.
-    lost_ -= static_cast<std::uint64_t>(std::min(guessed_lost_, static_cast<std::int64_t>(std::llround(-late_periods))));
+    lost_ -= static_cast<std::uint64_t>(
+        std::min(guessed_lost_, static_cast<std::int64_t>(std::llround(-late_periods))));
     guessed_lost_ = 0;
     model_.reset_phase();
     return index_ + 1;
   }
   const double margin = 3 * model_.sigma_s() / model_.period_s();
-  const auto missing = frame.backlog ? 0 : static_cast<std::int64_t>(std::max(0.0, std::floor(late_periods + margin)));
+  const auto missing =
+      frame.backlog ? 0 : static_cast<std::int64_t>(std::max(0.0, std::floor(late_periods + margin)));
   guessed_lost_ = missing;
   lost_ += static_cast<std::uint64_t>(missing);
   return index_ + 1 + missing;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <variant>
 
+#include "protocols/gps_fix.h"
+
 namespace navcal::instruments {
 
 using Vector3 = std::array<double, 3>;
@@ -25,17 +27,17 @@ struct CompassSample {
   std::optional<double> pitch_rad;    ///< positive nose-up
   std::optional<double> roll_rad;     ///< positive starboard-down
   std::optional<Vector3> field_body_uT;
-  std::optional<double> dip_rad;             ///< as the device says it, where it does
-  std::optional<double> turn_rate_rad_s;     ///< as the device says it (ROT), positive to starboard
+  std::optional<double> dip_rad;          ///< as the device says it, where it does
+  std::optional<double> turn_rate_rad_s;  ///< as the device says it (ROT), positive to starboard
   std::optional<double> temperature_C;
   std::optional<std::uint32_t> error;  ///< TCM2's raw error code; absent when none stands
 };
 
 /// Inertial card (ICD section 3), body axes.
 struct ImuSample {
-  Vector3 rate_rad_s{};            ///< gyro A-x (roll), B-y (pitch), A-z (yaw)
-  double yaw_rate_b_rad_s = 0;     ///< gyro B-z, redundant
-  Vector3 specific_force_m_s2{};   ///< -9.81 in z when level and still
+  Vector3 rate_rad_s{};           ///< gyro A-x (roll), B-y (pitch), A-z (yaw)
+  double yaw_rate_b_rad_s = 0;    ///< gyro B-z, redundant
+  Vector3 specific_force_m_s2{};  ///< -9.81 in z when level and still
   double depth_m = 0;
   std::uint8_t sequence = 0;
   bool leak_forward = false;
@@ -44,7 +46,7 @@ struct ImuSample {
   bool low_supply = false;
 };
 
-enum class Fix : std::uint8_t { none, fix_2d, fix_3d, propagated, hold, acquiring, bad_geometry };
+using Fix = protocols::Fix;
 
 /// Position fix, WGS84. Angles in radians inside; degrees where people look.
 struct GpsSample {

@@ -11,8 +11,9 @@
 
 namespace navcal::instruments {
 
-/// The dialogue that brings a device to the state the configuration asks for (ICD sections 1 and 2), and again after
-/// the device has lost its power. A value machine: told what was seen and the time, it says what to send when.
+/// The dialogue that brings a device to the state the configuration asks for (ICD sections 1 and 2), and again
+/// after the device has lost its power. A value machine: told what was seen and the time, it says what to send
+/// when.
 class StartUp {
  public:
   virtual ~StartUp() = default;

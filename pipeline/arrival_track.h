@@ -7,7 +7,8 @@
 namespace navcal::pipeline {
 
 /// When which part of a byte stream arrived: the last reads of one port. A frame may be completed by a later read
-/// than the one that brought its last byte (behind a truncated frame), so the parser's position alone is not enough.
+/// than the one that brought its last byte (behind a truncated frame), so the parser's position alone is not
+/// enough.
 class ArrivalTrack {
  public:
   explicit ArrivalTrack(int baud) : byte_ns_(10'000'000'000LL / baud) {}
@@ -18,9 +19,9 @@ class ArrivalTrack {
   }
 
   struct Frame {
-    std::int64_t arrival_ns = 0;   ///< of the read that brought its last byte
-    std::int64_t start_ns = 0;     ///< latest time at which its first byte can have begun on the wire
-    bool backlog = false;          ///< more followed in that read
+    std::int64_t arrival_ns = 0;  ///< of the read that brought its last byte
+    std::int64_t start_ns = 0;    ///< latest time at which its first byte can have begun on the wire
+    bool backlog = false;         ///< more followed in that read
   };
   /// Each read ends after the bytes it brought have passed the wire, so each gives a bound on the start; the
   /// earliest bound is the best. Ten bit times a byte (8N1).

@@ -9,7 +9,7 @@ namespace navcal::pipeline {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kGap_s = 600;              // longer without time: the phase is found anew
+constexpr std::int64_t kGap_s = 600;  // longer without time: the phase is found anew
 constexpr std::int64_t kRefreshAge_ns = 60 * kSecond_ns;
 constexpr double kBoundSigmas = 3;
 
@@ -34,7 +34,8 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
   UtcMapping candidate;
   candidate.source = UtcMapping::Source::gps;
   candidate.offset_ns = stated_utc_ns - time.time_ns;
-  candidate.bound_ns = std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns)));
+  candidate.bound_ns =
+      std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns)));
   candidate.at_ns = observed_ns;
   const bool ours = in_force.source == UtcMapping::Source::gps;
   const bool old = observed_ns - in_force.at_ns > kRefreshAge_ns;

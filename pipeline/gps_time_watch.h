@@ -8,15 +8,17 @@
 
 namespace navcal::pipeline {
 
-/// UTC from a GPS receiver's messages: each states the second it belongs to and begins on the wire one latency later.
-/// The seconds are the ticks of a clock that is right, so what the clock model learns is our own monotonic clock.
+/// UTC from a GPS receiver's messages: each states the second it belongs to and begins on the wire one latency
+/// later. The seconds are the ticks of a clock that is right, so what the clock model learns is our own monotonic
+/// clock.
 class GpsTimeWatch {
  public:
   explicit GpsTimeWatch(double latency_std_s) : latency_std_s_(latency_std_s), model_(1.0) {}
 
   /// `stated_utc_ns` whole or broken second of the message; `observed_ns` monotonic, less wire time and latency.
   /// Answers a mapping when it should replace the one in force.
-  std::optional<UtcMapping> update(std::int64_t stated_utc_ns, std::int64_t observed_ns, const UtcMapping& in_force);
+  std::optional<UtcMapping> update(std::int64_t stated_utc_ns, std::int64_t observed_ns,
+                                   const UtcMapping& in_force);
 
  private:
   double latency_std_s_;

@@ -5,15 +5,16 @@
 namespace navcal::pipeline {
 namespace {
 
-constexpr std::int64_t kDrift_ppm = 50;               // a crystal without compensation, over temperature
-constexpr std::int64_t kStepLeast_ns = 10'000'000;    // slewing moves at most 0.5 ms in a second
+constexpr std::int64_t kDrift_ppm = 50;             // a crystal without compensation, over temperature
+constexpr std::int64_t kStepLeast_ns = 10'000'000;  // slewing moves at most 0.5 ms in a second
 constexpr std::int64_t kSlewLimit_ppm = 1000;
 constexpr std::int64_t kRefreshAge_ns = 60'000'000'000;
 
 }  // namespace
 
 std::int64_t bound_at(const UtcMapping& mapping, std::int64_t monotonic_ns) {
-  if (mapping.bound_ns == UtcMapping::kUnknownBound || mapping.source == UtcMapping::Source::file) return mapping.bound_ns;
+  if (mapping.bound_ns == UtcMapping::kUnknownBound || mapping.source == UtcMapping::Source::file)
+    return mapping.bound_ns;
   return mapping.bound_ns + (monotonic_ns - mapping.at_ns) / 1'000'000 * kDrift_ppm;
 }
 

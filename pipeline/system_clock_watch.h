@@ -21,8 +21,8 @@ struct SystemClockReading {
 class SystemClockWatch {
  public:
   struct Outcome {
-    std::optional<UtcMapping> mapping;   ///< take this into force
-    std::optional<std::int64_t> step_ns; ///< the clock was set by this much since the reading before
+    std::optional<UtcMapping> mapping;    ///< take this into force
+    std::optional<std::int64_t> step_ns;  ///< the clock was set by this much since the reading before
   };
   Outcome update(const SystemClockReading& reading, const UtcMapping& in_force);
 

@@ -12,8 +12,9 @@ struct UtcMapping {
 
   Source source = Source::none;
   std::int64_t offset_ns = 0;
-  std::int64_t bound_ns = kUnknownBound;  ///< half width at `at_ns`; grows afterwards with the oscillator's tolerance
-  std::int64_t at_ns = 0;                 ///< monotonic time at which it was found
+  std::int64_t bound_ns =
+      kUnknownBound;       ///< half width at `at_ns`; grows afterwards with the oscillator's tolerance
+  std::int64_t at_ns = 0;  ///< monotonic time at which it was found
 
   [[nodiscard]] std::int64_t to_utc(std::int64_t monotonic_ns) const { return monotonic_ns + offset_ns; }
 };

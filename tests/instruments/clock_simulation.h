@@ -7,8 +7,8 @@
 
 namespace navcal::instruments {
 
-/// A device whose clock is off and wanders, seen through a host that is late: delays exponential, and now and then a
-/// stall. Times in seconds.
+/// A device whose clock is off and wanders, seen through a host that is late: delays exponential, and now and then
+/// a stall. Times in seconds.
 class SimulatedDevice {
  public:
   struct Options {
@@ -19,7 +19,8 @@ class SimulatedDevice {
     double stall_s = 30e-3;
     double stall_share = 0.01;
   };
-  SimulatedDevice(const Options& options, unsigned seed) : options_(options), frequency_(options.skew), random_(seed) {}
+  SimulatedDevice(const Options& options, unsigned seed)
+      : options_(options), frequency_(options.skew), random_(seed) {}
 
   struct Frame {
     double true_s;

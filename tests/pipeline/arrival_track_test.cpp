@@ -19,7 +19,7 @@ TEST(ArrivalTrack, WireTimeOfAFrameInOneRead) {
 TEST(ArrivalTrack, TheEarliestBoundOfSeveralReadsHolds) {
   ArrivalTrack track(10'000);
   track.add(10, 50 * kMs);
-  track.add(10, 90 * kMs);   // held up
+  track.add(10, 90 * kMs);  // held up
   track.add(10, 100 * kMs);
   const auto frame = track.locate(0, 30);
   EXPECT_EQ(frame.start_ns, 40 * kMs);

@@ -1,0 +1,130 @@
+#include "instruments/nmea_device.h"
+
+#include "instruments/units.h"
+#include "protocols/nmea_attitude.h"
+
+namespace navcal::instruments {
+namespace {
+
+namespace nmea = protocols::nmea;
+using Verdict = Instrument::Verdict;
+
+Verdict hand_over(const Value& value, bool paces, Receiver& receiver) {
+  Measurement measurement;
+  measurement.value = value;
+  measurement.paces = paces;
+  receiver.on_measurement(measurement);
+  return Verdict::used;
+}
+
+void hand_over(const GpsSample& sample, Receiver& receiver) {
+  Measurement measurement;
+  measurement.value = sample;
+  measurement.stated_utc_ns = sample.time_utc_ns;
+  measurement.utc_is_known = sample.time_utc_ns.has_value() && sample.fix != Fix::none;
+  receiver.on_measurement(measurement);
+}
+
+Verdict read_rot(const nmea::Sentence& sentence, Receiver& receiver) {
+  const auto rot = nmea::decode_rot(sentence);
+  if (!rot) return Verdict::out_of_range;
+  if (!rot->valid || !rot->rate_deg_min) return Verdict::ignored;
+  CompassSample sample;
+  sample.turn_rate_rad_s = rot->rate_deg_min->value() * kRadPerDeg / 60;
+  return hand_over(sample, false, receiver);
+}
+
+// Names in use for tilt: PITCH, PTCH (pypilot, Airmar), ROLL. Other transducers have no unit that can be relied
+// on.
+Verdict read_xdr(const nmea::Sentence& sentence, Receiver& receiver) {
+  const auto xdr = nmea::decode_xdr(sentence);
+  if (!xdr) return Verdict::out_of_range;
+  CompassSample sample;
+  for (std::size_t i = 0; i < xdr->count; ++i) {
+    const auto& transducer = xdr->transducers[i];
+    if (transducer.type != 'A' || transducer.unit != 'D' || !transducer.value) continue;
+    const double angle_rad = transducer.value->value() * kRadPerDeg;
+    if (transducer.name == "PITCH" || transducer.name == "PTCH") sample.pitch_rad = angle_rad;
+    if (transducer.name == "ROLL") sample.roll_rad = angle_rad;
+  }
+  if (!sample.pitch_rad && !sample.roll_rad) return Verdict::ignored;
+  return hand_over(sample, false, receiver);
+}
+
+Verdict read_depth(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) {
+  const auto depth = nmea::decode_depth(sentence, type);
+  if (!depth) return Verdict::out_of_range;
+  if (!depth->depth_m) return Verdict::ignored;
+  return hand_over(AltimeterSample{*depth->depth_m}, true, receiver);
+}
+
+}  // namespace
+
+NmeaDevice::NmeaDevice(const config::PortSettings& settings) : compass_(settings.compass), epoch_(settings.gps) {}
+
+Verdict NmeaDevice::read(const protocols::Frame& frame, Receiver& receiver) {
+  const auto type = nmea::type_of(frame.id);
+  if (type == nmea::Type::other) return Verdict::ignored;
+  const nmea::Sentence sentence(frame.bytes);
+  switch (type) {
+    case nmea::Type::hdt:
+    case nmea::Type::hdm:
+    case nmea::Type::hdg:
+    case nmea::Type::ths:
+      return read_heading(sentence, type, receiver);
+    case nmea::Type::ptnthtm:
+      return read_ptnthtm(sentence, receiver);
+    case nmea::Type::rot:
+      return read_rot(sentence, receiver);
+    case nmea::Type::xdr:
+      return read_xdr(sentence, receiver);
+    case nmea::Type::dbt:
+    case nmea::Type::dpt:
+      return read_depth(sentence, type, receiver);
+    case nmea::Type::gsv: {
+      const auto gsv = nmea::decode_gsv(sentence);
+      if (!gsv) return Verdict::out_of_range;
+      const auto sky = sky_.add(sentence.address(), *gsv);
+      return sky ? hand_over(*sky, false, receiver) : Verdict::used;
+    }
+    default:
+      return read_position(sentence, type, receiver);
+  }
+}
+
+Verdict NmeaDevice::read_position(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) {
+  if (type == nmea::Type::gsa) {
+    if (const auto gsa = nmea::decode_gsa(sentence)) sky_.add_used(*gsa);
+  }
+  const auto outcome = epoch_.add(sentence, type);
+  if (!outcome.in_range) return Verdict::out_of_range;
+  if (outcome.closed) hand_over(*outcome.closed, receiver);
+  if (outcome.sample) hand_over(*outcome.sample, receiver);
+  return Verdict::used;
+}
+
+Verdict NmeaDevice::read_heading(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) const {
+  const auto heading = nmea::decode_heading(sentence, type);
+  if (!heading) return Verdict::out_of_range;
+  if (!heading->heading_deg || heading->mode == 'V') return Verdict::ignored;
+  CompassSample sample;
+  sample.heading_rad = heading->heading_deg->value() * kRadPerDeg;
+  sample.heading_is_true = heading->is_true;
+  return hand_over(sample, true, receiver);
+}
+
+Verdict NmeaDevice::read_ptnthtm(const nmea::Sentence& sentence, Receiver& receiver) const {
+  const auto tnt = nmea::decode_ptnthtm(sentence);
+  if (!tnt) return Verdict::out_of_range;
+  const auto angle = [](const std::optional<protocols::nmea::Decimal>& value, config::AngleUnit unit) {
+    return value ? std::optional(radians_of(value->value(), unit)) : std::nullopt;
+  };
+  CompassSample sample;
+  sample.heading_rad = angle(tnt->heading, compass_.heading_unit);
+  sample.pitch_rad = angle(tnt->pitch, compass_.tilt_unit);
+  sample.roll_rad = angle(tnt->roll, compass_.tilt_unit);
+  sample.dip_rad = angle(tnt->dip, compass_.tilt_unit);
+  return hand_over(sample, true, receiver);
+}
+
+}  // namespace navcal::instruments

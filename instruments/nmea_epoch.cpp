@@ -1,0 +1,132 @@
+#include "instruments/nmea_epoch.h"
+
+#include "instruments/units.h"
+
+namespace navcal::instruments {
+
+namespace nmea = protocols::nmea;
+
+NmeaEpoch::NmeaEpoch(const config::GpsSettings& settings)
+    : course_gate_m_s_(settings.course_gate_m_s),
+      pivot_(protocols::parse_iso_date(settings.rollover_pivot).value_or(protocols::kRolloverPivot)) {}
+
+NmeaEpoch::Outcome NmeaEpoch::add(const nmea::Sentence& sentence, Type type) {
+  Outcome outcome;
+  outcome.in_range = merge(sentence, type, outcome);
+  if (outcome.in_range) finish(type, outcome);
+  return outcome;
+}
+
+bool NmeaEpoch::merge(const nmea::Sentence& sentence, Type type, Outcome& outcome) {
+  switch (type) {
+    case Type::rmc: {
+      const auto rmc = nmea::decode_rmc(sentence);
+      if (!rmc) return false;
+      if (rmc->time) begin(*rmc->time, outcome);
+      if (rmc->date) set_date(*rmc->date);
+      if (open_.fix == Fix::none) open_.fix = rmc->fix();
+      set_place(rmc->valid ? rmc->place : std::nullopt);
+      if (rmc->valid) set_motion(rmc->speed_kn, rmc->course_deg);
+      return true;
+    }
+    case Type::gga: {
+      const auto gga = nmea::decode_gga(sentence);
+      if (!gga) return false;
+      if (gga->time) begin(*gga->time, outcome);
+      if (gga->fix() != Fix::none) {
+        open_.fix = gga->fix();
+        set_place(gga->place);
+        if (gga->altitude_m) open_.height_msl_m = gga->altitude_m->value();
+        if (gga->altitude_m && gga->geoid_separation_m) {
+          open_.height_m = gga->altitude_m->value() + gga->geoid_separation_m->value();
+        }
+      }
+      if (gga->satellites) open_.tracked = gga->satellites;
+      if (gga->hdop) open_.dop = gga->hdop->value();
+      return true;
+    }
+    case Type::gll: {
+      const auto gll = nmea::decode_gll(sentence);
+      if (!gll) return false;
+      if (gll->time) begin(*gll->time, outcome);
+      if (open_.fix == Fix::none) open_.fix = gll->fix();
+      set_place(gll->valid ? gll->place : std::nullopt);
+      return true;
+    }
+    case Type::vtg: {
+      const auto vtg = nmea::decode_vtg(sentence);
+      if (!vtg) return false;
+      if (!open_.speed_m_s) set_motion(vtg->speed_kn, vtg->course_true_deg);
+      return true;
+    }
+    case Type::zda: {
+      const auto zda = nmea::decode_zda(sentence);
+      if (!zda) return false;
+      if (zda->date) set_date(*zda->date);
+      return true;
+    }
+    case Type::gsa: {
+      gsa_ = nmea::decode_gsa(sentence);
+      return gsa_.has_value();
+    }
+    default:
+      return true;
+  }
+}
+
+void NmeaEpoch::begin(const protocols::TimeOfDay& time, Outcome& outcome) {
+  if (time_ == time) return;
+  if (time_) {
+    closer_ = newest_;
+    if (!emitted_ && open_.latitude_rad) outcome.closed = complete();
+  }
+  time_ = time;
+  open_ = {};
+  emitted_ = false;
+  newest_ = Type::other;
+}
+
+void NmeaEpoch::finish(Type type, Outcome& outcome) {
+  if (type == Type::gsa || type == Type::zda || !time_) return;
+  newest_ = type;
+  // Until an epoch has been seen whole, the first sentence that has a place must do.
+  const bool closes = closer_ ? type == *closer_ : open_.latitude_rad.has_value() || type == Type::rmc;
+  if (!closes || emitted_) return;
+  emitted_ = true;
+  outcome.sample = complete();
+}
+
+void NmeaEpoch::set_date(const protocols::Date& date) {
+  const auto corrected = protocols::correct_rollover(date, pivot_);
+  date_ = corrected.date;
+  date_corrected_ = corrected.corrected;
+}
+
+void NmeaEpoch::set_place(const std::optional<nmea::LatLon>& place) {
+  if (!place) return;
+  open_.latitude_rad = place->latitude_deg * kRadPerDeg;
+  open_.longitude_rad = place->longitude_deg * kRadPerDeg;
+}
+
+void NmeaEpoch::set_motion(const std::optional<protocols::nmea::Decimal>& speed_kn,
+                           const std::optional<protocols::nmea::Decimal>& course_deg) {
+  if (!speed_kn) return;
+  open_.speed_m_s = speed_kn->value() * kKnot_m_s;
+  if (course_deg && *open_.speed_m_s >= course_gate_m_s_) open_.course_rad = course_deg->value() * kRadPerDeg;
+}
+
+GpsSample NmeaEpoch::complete() const {
+  GpsSample sample = open_;
+  if (date_ && time_) {
+    sample.time_utc_ns = protocols::unix_ns(*date_, *time_);
+    sample.time_corrected = date_corrected_;
+  }
+  if (gsa_ && sample.fix != Fix::none) {
+    sample.fix = gsa_->fix;
+    const auto& dop = gsa_->fix == Fix::fix_3d ? gsa_->pdop : gsa_->hdop;
+    if (dop) sample.dop = dop->value();
+  }
+  return sample;
+}
+
+}  // namespace navcal::instruments

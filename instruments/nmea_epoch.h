@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+
+#include "config/settings.h"
+#include "instruments/samples.h"
+#include "protocols/nmea.h"
+#include "protocols/nmea_position.h"
+
+namespace navcal::instruments {
+
+/// Receivers spread one position over several sentences (RMC, GGA, GLL, VTG, GSA) of the same second. This makes
+/// one sample of them, as soon as the sentence comes that closed the epoch before; so nothing waits for the next
+/// second.
+class NmeaEpoch {
+ public:
+  explicit NmeaEpoch(const config::GpsSettings& settings);
+
+  struct Outcome {
+    bool in_range = true;
+    std::optional<GpsSample> closed;  ///< an epoch whose closing sentence never came
+    std::optional<GpsSample> sample;  ///< the epoch of this sentence
+  };
+  Outcome add(const protocols::nmea::Sentence& sentence, protocols::nmea::Type type);
+
+ private:
+  using Type = protocols::nmea::Type;
+
+  void begin(const protocols::TimeOfDay& time, Outcome& outcome);
+  bool merge(const protocols::nmea::Sentence& sentence, Type type, Outcome& outcome);
+  void finish(Type type, Outcome& outcome);
+  void set_date(const protocols::Date& date);
+  void set_place(const std::optional<protocols::nmea::LatLon>& place);
+  void set_motion(const std::optional<protocols::nmea::Decimal>& speed_kn,
+                  const std::optional<protocols::nmea::Decimal>& course_deg);
+  [[nodiscard]] GpsSample complete() const;
+
+  double course_gate_m_s_;
+  protocols::Date pivot_;
+  std::optional<protocols::Date> date_;
+  bool date_corrected_ = false;
+  std::optional<protocols::TimeOfDay> time_;  ///< of the epoch that is open
+  GpsSample open_;
+  bool emitted_ = false;
+  Type newest_ = Type::other;   ///< latest sentence of the open epoch
+  std::optional<Type> closer_;  ///< sentence that closed the epoch before
+  std::optional<protocols::nmea::Gsa> gsa_;
+};
+
+}  // namespace navcal::instruments

@@ -1,0 +1,40 @@
+#include "instruments/nmea_sky.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace navcal::instruments {
+
+void NmeaSky::add_used(const protocols::nmea::Gsa& gsa) { used_ = gsa.satellites; }
+
+bool NmeaSky::is_used(std::uint16_t number) const {
+  return number != 0 && std::find(used_.begin(), used_.end(), number) != used_.end();
+}
+
+std::optional<SkySample> NmeaSky::add(std::string_view talker, const protocols::nmea::Gsv& gsv) {
+  const auto who = static_cast<std::uint16_t>(talker.size() < 2 ? 0 : talker[0] << 8 | talker[1]);
+  if (gsv.sentence == 1) {  // this talker begins anew: forget what it said before
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < sky_.count; ++i) {
+      if (talkers_[i] == who) continue;
+      talkers_[kept] = talkers_[i];
+      sky_.satellites[kept++] = sky_.satellites[i];
+    }
+    sky_.count = kept;
+  }
+  for (std::size_t i = 0; i < gsv.count && sky_.count < SkySample::kMaxSatellites; ++i) {
+    const auto& seen = gsv.satellites[i];
+    SkySample::Satellite satellite;
+    satellite.prn = seen.number;
+    if (seen.elevation_deg) satellite.elevation_deg = *seen.elevation_deg;
+    if (seen.azimuth_deg) satellite.azimuth_deg = *seen.azimuth_deg;
+    if (seen.cn0_dBHz) satellite.cn0_dBHz = *seen.cn0_dBHz;
+    satellite.used = is_used(seen.number);
+    talkers_[sky_.count] = who;
+    sky_.satellites[sky_.count++] = satellite;
+  }
+  if (gsv.sentence < gsv.sentences) return std::nullopt;
+  return sky_;
+}
+
+}  // namespace navcal::instruments

@@ -1,0 +1,97 @@
+#include "instruments/oncore_receiver.h"
+
+#include <algorithm>
+
+#include "instruments/units.h"
+#include "protocols/oncore.h"
+
+namespace navcal::instruments {
+namespace {
+
+namespace oncore = protocols::oncore;
+
+constexpr std::uint8_t kUsedForPosition = 8;  // channel mode (ICD section 2)
+
+bool has_position(Fix fix) {
+  return fix == Fix::fix_2d || fix == Fix::fix_3d || fix == Fix::propagated || fix == Fix::hold;
+}
+
+}  // namespace
+
+OncoreReceiver::OncoreReceiver(const config::PortSettings& settings)
+    : settings_(settings.gps),
+      pivot_(protocols::parse_iso_date(settings.gps.rollover_pivot).value_or(protocols::kRolloverPivot)),
+      nmea_(settings) {}
+
+Instrument::Verdict OncoreReceiver::read(const protocols::Frame& frame, Receiver& receiver) {
+  if (!frame.bytes.empty() && frame.bytes[0] != '@') return nmea_.read(frame, receiver);
+  if (frame.id == oncore::kBb) {
+    const auto visible = oncore::decode_bb(frame.bytes);
+    if (!visible || !visible->in_range) return Verdict::out_of_range;
+    read_visible(*visible, receiver);
+    return Verdict::used;
+  }
+  if (frame.id == oncore::kBo) {
+    if (const auto utc = oncore::decode_bo(frame.bytes)) leap_known_ = utc->offset_s.has_value();
+    return Verdict::used;
+  }
+  const auto position = oncore::decode_position(frame.bytes);
+  if (!position) return Verdict::ignored;
+  return position->in_range ? read_position(*position, receiver) : Verdict::out_of_range;
+}
+
+Instrument::Verdict OncoreReceiver::read_position(const oncore::Position& position, Receiver& receiver) {
+  channels_ = position.channels;
+  if (position.utc) leap_known_ = position.utc->enabled && position.utc->decoded;
+  const auto date = protocols::correct_rollover(position.date, pivot_);
+
+  GpsSample sample;
+  sample.time_utc_ns = protocols::unix_ns(date.date, position.time);
+  sample.time_corrected = date.corrected;
+  sample.leap_known = leap_known_;
+  sample.fix = position.fix;
+  sample.visible = position.visible;
+  sample.tracked = position.tracked;
+  if (has_position(position.fix)) {
+    sample.latitude_rad = position.filtered.latitude_deg * kRadPerDeg;
+    sample.longitude_rad = position.filtered.longitude_deg * kRadPerDeg;
+    sample.height_m = position.filtered.height_m;
+    sample.height_msl_m = position.filtered.height_msl_m;
+  }
+  if (position.fix == Fix::fix_2d || position.fix == Fix::fix_3d || position.fix == Fix::propagated) {
+    sample.speed_m_s = position.speed_m_s;
+    if (position.speed_m_s >= settings_.course_gate_m_s) sample.course_rad = position.heading_deg * kRadPerDeg;
+    sample.dop = position.dop;
+  }
+
+  Measurement measurement;
+  measurement.value = sample;
+  measurement.stated_utc_ns = sample.time_utc_ns;
+  measurement.utc_is_known = leap_known_ && (has_position(position.fix));
+  receiver.on_measurement(measurement);
+  return Verdict::used;
+}
+
+void OncoreReceiver::read_visible(const oncore::VisibleSatellites& visible, Receiver& receiver) const {
+  SkySample sky;
+  for (std::size_t i = 0; i < visible.count; ++i) {
+    const auto& seen = visible.satellites[i];
+    auto& satellite = sky.satellites[sky.count++];
+    satellite.prn = seen.number;
+    satellite.elevation_deg = seen.elevation_deg;
+    satellite.azimuth_deg = seen.azimuth_deg;
+    const auto channel = std::find_if(channels_.begin(), channels_.end(), [&](const oncore::Channel& c) {
+      return c.satellite != 0 && c.satellite == seen.number;
+    });
+    if (channel != channels_.end()) {
+      satellite.cn0_dBHz = channel->cn0;
+      satellite.used = channel->mode == kUsedForPosition;
+    }
+  }
+  Measurement measurement;
+  measurement.value = sky;
+  measurement.paces = false;
+  receiver.on_measurement(measurement);
+}
+
+}  // namespace navcal::instruments

@@ -1,0 +1,37 @@
+#include "instruments/tcm2_compass.h"
+
+#include "instruments/units.h"
+#include "protocols/tcm2.h"
+
+namespace navcal::instruments {
+
+namespace tcm2 = protocols::tcm2;
+
+Instrument::Verdict Tcm2Compass::read(const protocols::Frame& frame, Receiver& receiver) {
+  CompassSample sample;
+  if (frame.id == tcm2::kWord) {
+    const auto word = tcm2::decode_word(frame.bytes);
+    if (!word) return Verdict::out_of_range;
+    const bool tilt_void = word->error && (*word->error & tcm2::error::kInclinometerOutOfRange) != 0;
+    if (!tilt_void) {
+      if (word->heading) sample.heading_rad = radians_of(*word->heading, settings_.heading_unit);
+      if (word->pitch) sample.pitch_rad = radians_of(*word->pitch, settings_.tilt_unit);
+      if (word->roll) sample.roll_rad = radians_of(*word->roll, settings_.tilt_unit);
+    }
+    sample.field_body_uT = word->field();
+    if (word->temperature) sample.temperature_C = celsius_of(*word->temperature, settings_.temperature_unit);
+    sample.error = word->error;
+  } else if (frame.id == tcm2::kHchdm) {
+    const auto heading_deg = tcm2::decode_hchdm(frame.bytes);
+    if (!heading_deg) return Verdict::out_of_range;
+    sample.heading_rad = *heading_deg * kRadPerDeg;
+  } else {
+    return Verdict::ignored;
+  }
+  Measurement measurement;
+  measurement.value = sample;
+  receiver.on_measurement(measurement);
+  return Verdict::used;
+}
+
+}  // namespace navcal::instruments

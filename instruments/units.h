@@ -1,0 +1,32 @@
+#pragma once
+
+#include <numbers>
+
+#include "config/settings.h"
+
+namespace navcal::instruments {
+
+inline constexpr double kRadPerDeg = std::numbers::pi / 180;
+/// The g of the accelerometers' scale (VEHICLE.md section 1).
+inline constexpr double kGravity_m_s2 = 9.81;
+inline constexpr double kMetresPerFoot = 0.3048;
+inline constexpr double kMetresPerFathom = 1.8288;
+inline constexpr double kKnot_m_s = 1852.0 / 3600.0;
+
+[[nodiscard]] constexpr double radians_of(double angle, config::AngleUnit unit) {
+  switch (unit) {
+    case config::AngleUnit::deg:
+      return angle * kRadPerDeg;
+    case config::AngleUnit::mils:
+      return angle * (2 * std::numbers::pi / 6400);
+    case config::AngleUnit::counts16:
+      return angle * (2 * std::numbers::pi / 65536);
+  }
+  return angle;
+}
+
+[[nodiscard]] constexpr double celsius_of(double temperature, config::TemperatureUnit unit) {
+  return unit == config::TemperatureUnit::F ? (temperature - 32) / 1.8 : temperature;
+}
+
+}  // namespace navcal::instruments

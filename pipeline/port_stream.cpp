@@ -1,0 +1,112 @@
+#include "pipeline/port_stream.h"
+
+#include <cmath>
+
+namespace navcal::pipeline {
+namespace {
+
+// What may lie between two bytes of one frame without its being torn: a USB adapter's latency timer (16 ms), a
+// scheduler, an instrument that pauses to compute.
+constexpr std::int64_t kSilenceMargin_ns = 60'000'000;
+
+}  // namespace
+
+PortStream::Parser PortStream::make_parser(protocols::Protocol protocol) {
+  using protocols::Protocol;
+  switch (protocol) {
+    case Protocol::tcm2:
+      return protocols::tcm2::Parser{};
+    case Protocol::imu_card:
+      return protocols::imu_card::Parser{};
+    case Protocol::oncore:
+      return protocols::GpsStreamParser{};
+    case Protocol::motor_card:
+      return protocols::motor_card::Parser{};
+    case Protocol::nmea:
+      break;
+  }
+  return protocols::nmea::Parser{};
+}
+
+PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, UtcMapping& mapping)
+    : port_(port),
+      latency_ns_(std::llround(settings.latency_s * 1e9)),
+      parser_(make_parser(settings.protocol)),
+      track_(settings.baud),
+      instrument_(instruments::make_instrument(settings)),
+      clock_(settings.rate_Hz, settings.latency_std_s),
+      gps_time_(settings.latency_std_s),
+      mapping_(mapping) {}
+
+void PortStream::bytes(std::int64_t arrival_ns, protocols::Bytes bytes, Sink& sink) {
+  sink_ = &sink;
+  last_arrival_ns_ = arrival_ns;
+  track_.add(bytes.size(), arrival_ns);
+  std::visit([&](auto& parser) { parser.feed(bytes, [this](const protocols::Frame& frame) { on_frame(frame); }); },
+             parser_);
+  sink_ = nullptr;
+}
+
+void PortStream::silence(Sink& sink) {
+  sink_ = &sink;
+  ++statistics_.silences;
+  std::visit([&](auto& parser) { parser.silence([this](const protocols::Frame& frame) { on_frame(frame); }); },
+             parser_);
+  sink_ = nullptr;
+}
+
+std::int64_t PortStream::deadline_ns() const {
+  const std::size_t missing = std::visit([](const auto& parser) { return parser.missing(); }, parser_);
+  if (missing == 0) return std::numeric_limits<std::int64_t>::max();
+  return last_arrival_ns_ + static_cast<std::int64_t>(missing) * track_.byte_ns() + kSilenceMargin_ns;
+}
+
+void PortStream::on_frame(const protocols::Frame& frame) {
+  place_ = track_.locate(frame.offset, frame.end());
+  statistics_.last_frame_ns = place_.arrival_ns;
+  sink_->on_frame(port_, frame, place_.arrival_ns);
+  if (instrument_->read(frame, *this) == instruments::Instrument::Verdict::out_of_range)
+    ++statistics_.out_of_range;
+}
+
+void PortStream::on_measurement(const instruments::Measurement& measurement) {
+  const std::int64_t observed_ns = place_.start_ns - latency_ns_;
+  instruments::Sample sample;
+  sample.port = port_;
+  sample.stamp.arrival_ns = place_.arrival_ns;
+  sample.stamp.validity_ns = observed_ns;
+  if (measurement.paces) {
+    const auto outcome = clock_.update({observed_ns, measurement.sequence, place_.backlog});
+    if (outcome.repeated) return;
+    sample.stamp.validity_ns = outcome.time.time_ns;
+    sample.stamp.std_ns = outcome.time.std_ns;
+  }
+  if (measurement.stated_utc_ns && measurement.utc_is_known) {
+    if (const auto mapping = gps_time_.update(*measurement.stated_utc_ns, observed_ns, mapping_)) {
+      mapping_ = *mapping;
+      sink_->on_mapping(mapping_);
+    }
+  }
+  sample.stamp.arrival_utc_ns = mapping_.to_utc(sample.stamp.arrival_ns);
+  sample.stamp.validity_utc_ns =
+      measurement.stated_utc_ns ? *measurement.stated_utc_ns : mapping_.to_utc(sample.stamp.validity_ns);
+  sample.value = measurement.value;
+  ++statistics_.samples;
+  sink_->on_sample(sample);
+}
+
+PortStatistics PortStream::statistics() const {
+  PortStatistics statistics = statistics_;
+  std::visit(
+      [&](const auto& parser) {
+        statistics.bytes = parser.counters();
+        statistics.held_bytes = parser.held();
+      },
+      parser_);
+  statistics.lost = clock_.lost();
+  statistics.repeated = clock_.repeated();
+  statistics.clock = clock_.state();
+  return statistics;
+}
+
+}  // namespace navcal::pipeline

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "config/settings.h"
+#include "instruments/frame_clock.h"
+#include "instruments/instrument.h"
+#include "pipeline/arrival_track.h"
+#include "pipeline/gps_time_watch.h"
+#include "pipeline/pipeline.h"
+#include "protocols/gps_stream.h"
+#include "protocols/imu_card.h"
+#include "protocols/motor_card.h"
+#include "protocols/nmea.h"
+#include "protocols/tcm2.h"
+
+namespace navcal::pipeline {
+
+/// One port's way from bytes to stamped samples.
+class PortStream : private instruments::Receiver {
+ public:
+  PortStream(std::uint16_t port, const config::PortSettings& settings, UtcMapping& mapping);
+  PortStream(const PortStream&) = delete;
+  PortStream& operator=(const PortStream&) = delete;
+
+  void bytes(std::int64_t arrival_ns, protocols::Bytes bytes, Sink& sink);
+  /// Gives up the incomplete candidate.
+  void silence(Sink& sink);
+  /// When silence() is due: the wire time of what is missing has passed, with a margin. INT64_MAX: nothing is
+  /// held.
+  [[nodiscard]] std::int64_t deadline_ns() const;
+  [[nodiscard]] PortStatistics statistics() const;
+
+ private:
+  using Parser = std::variant<protocols::tcm2::Parser, protocols::imu_card::Parser, protocols::GpsStreamParser,
+                              protocols::motor_card::Parser, protocols::nmea::Parser>;
+  static Parser make_parser(protocols::Protocol protocol);
+
+  void on_frame(const protocols::Frame& frame);
+  void on_measurement(const instruments::Measurement& measurement) override;
+
+  std::uint16_t port_;
+  std::int64_t latency_ns_;
+  Parser parser_;
+  ArrivalTrack track_;
+  std::unique_ptr<instruments::Instrument> instrument_;
+  instruments::FrameClock clock_;
+  GpsTimeWatch gps_time_;
+  UtcMapping& mapping_;
+  PortStatistics statistics_;
+  std::int64_t last_arrival_ns_ = 0;
+  // Of the frame being read; only while a call is under way.
+  Sink* sink_ = nullptr;
+  ArrivalTrack::Frame place_;
+};
+
+}  // namespace navcal::pipeline
