@@ -1,0 +1,62 @@
+#include "daemon/gpsd_replies.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "daemon/json_text.h"
+
+namespace navcal::daemon {
+namespace {
+
+constexpr int kSeenGps = 1;  ///< gpsd's flag for a device that has delivered positions
+constexpr std::string_view boolean(bool value) { return value ? "true" : "false"; }
+
+}  // namespace
+
+void append_version(std::string& out) {
+  fmt::format_to(std::back_inserter(out),
+                 FMT_STRING(R"({{"class":"VERSION","release":"3.22","rev":"navcal {}","proto_major":{},"proto_minor":{}}})"
+                            "\n"),
+                 NAVCAL_VERSION, kProtocolMajor, kProtocolMinor);
+}
+
+void append_device_object(std::string& out, const DeviceState& device) {
+  out += R"({"class":"DEVICE","path":)";
+  append_quoted(out, device.name);
+  out += ",\"driver\":";
+  append_quoted(out, device.driver);
+  if (device.activated_utc_ns) {
+    out += ",\"activated\":";
+    append_utc(out, *device.activated_utc_ns, 3);
+    out += ",\"tty\":";
+    append_quoted(out, device.tty);
+  }
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"flags\":{},\"native\":0,\"bps\":{},\"parity\":\"N\",\"stopbits\":1"),
+                 device.gps ? kSeenGps : 0, device.baud);
+  if (device.cycle_s > 0) {
+    out += ",\"cycle\":";
+    append_fixed(out, device.cycle_s, 3);
+  }
+  out += '}';
+}
+
+void append_watch(std::string& out, bool enable, bool json, std::optional<std::string_view> device) {
+  fmt::format_to(std::back_inserter(out),
+                 FMT_STRING(R"({{"class":"WATCH","enable":{},"json":{},"nmea":false,"raw":0,"scaled":false,"timing":false,)"
+                            R"("split24":false,"pps":false)"),
+                 boolean(enable), boolean(json));
+  if (device) {
+    out += ",\"device\":";
+    append_quoted(out, *device);
+  }
+  out += "}\n";
+}
+
+void append_error(std::string& out, std::string_view message) {
+  out += R"({"class":"ERROR","message":)";
+  append_quoted(out, message);
+  out += "}\n";
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace navcal::daemon {
+
+// What the status socket says of itself, in gpsd's words. Each appends one line, newline included, unless it says
+// otherwise.
+
+/// The protocol whose words these are: gpsd 3.22's.
+inline constexpr int kProtocolMajor = 3;
+inline constexpr int kProtocolMinor = 14;
+
+/// A configured port as gpsd's clients see it.
+struct DeviceState {
+  std::string_view name;    ///< "path" of the DEVICE object and "device" of every report
+  std::string_view driver;  ///< its protocol
+  std::string_view tty;     ///< what is open; empty while it is away
+  int baud = 0;
+  double cycle_s = 0;                           ///< nominal time between frames; 0: not periodic
+  bool gps = false;
+  std::optional<std::int64_t> activated_utc_ns; ///< absent while it is away
+};
+
+void append_version(std::string& out);
+/// The object alone, without newline.
+void append_device_object(std::string& out, const DeviceState& device);
+/// The policy in force. NMEA and raw pass-through are not offered, which "nmea":false and "raw":0 say.
+void append_watch(std::string& out, bool enable, bool json, std::optional<std::string_view> device);
+void append_error(std::string& out, std::string_view message);
+
+}  // namespace navcal::daemon

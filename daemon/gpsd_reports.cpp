@@ -1,0 +1,185 @@
+#include "daemon/gpsd_reports.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "daemon/json_text.h"
+
+namespace navcal::daemon {
+namespace {
+
+using instruments::Fix;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::string_view kEnd = "}\n";
+
+void begin(std::string& out, std::string_view report, std::string_view device) {
+  out += "{\"class\":\"";
+  out += report;
+  out += "\",\"device\":";
+  append_quoted(out, device);
+}
+
+void key(std::string& out, std::string_view name) {
+  out += ",\"";
+  out += name;
+  out += "\":";
+}
+
+void fixed(std::string& out, std::string_view name, const std::optional<double>& value, int decimals,
+           double unit = 1) {
+  if (!value || !std::isfinite(*value)) return;
+  key(out, name);
+  append_fixed(out, *value * unit, decimals);
+}
+
+void shortest(std::string& out, std::string_view name, double value, int decimals) {
+  if (!std::isfinite(value)) return;
+  key(out, name);
+  append_shortest(out, value, decimals);
+}
+
+void time(std::string& out, std::int64_t utc_ns, int decimals) {
+  key(out, "time");
+  append_utc(out, utc_ns, decimals);
+}
+
+struct GpsdFix {
+  int mode;    ///< 1 no fix, 2 2D, 3 3D
+  int status;  ///< 0: nothing to add; 5 dead reckoning, 7 surveyed position
+};
+
+constexpr GpsdFix gpsd_fix(Fix fix) {
+  switch (fix) {
+    case Fix::fix_2d: return {2, 0};
+    case Fix::fix_3d: return {3, 0};
+    case Fix::propagated: return {2, 5};
+    case Fix::hold: return {3, 7};
+    case Fix::none:
+    case Fix::acquiring:
+    case Fix::bad_geometry: break;
+  }
+  return {1, 0};
+}
+
+double length(const instruments::Vector3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/// Degrees from true north.
+double true_heading_deg(const instruments::CompassSample& compass, double declination_rad) {
+  const double heading_deg = *compass.heading_rad * kDegrees;
+  if (compass.heading_is_true || declination_rad == 0) return heading_deg;
+  const double wrapped = std::fmod(heading_deg + declination_rad * kDegrees, 360.0);
+  return wrapped < 0 ? wrapped + 360.0 : wrapped;
+}
+
+}  // namespace
+
+void append_tpv(std::string& out, const instruments::GpsSample& gps, const instruments::Stamp& stamp,
+                ReportSource source) {
+  const GpsdFix fix = gpsd_fix(gps.fix);
+  begin(out, "TPV", source.device);
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"mode\":{}"), fix.mode);
+  if (fix.status != 0) fmt::format_to(std::back_inserter(out), FMT_STRING(",\"status\":{}"), fix.status);
+  if (gps.time_utc_ns) {
+    time(out, *gps.time_utc_ns, *gps.time_utc_ns % kMillisecond_ns == 0 ? 3 : 9);
+  } else if (source.utc_known) {
+    time(out, stamp.validity_utc_ns, 3);
+  }
+  if (fix.mode >= 2) {
+    fixed(out, "lat", gps.latitude_rad, 9, kDegrees);
+    fixed(out, "lon", gps.longitude_rad, 9, kDegrees);
+    fixed(out, "altHAE", gps.height_m, 4);
+    fixed(out, "altMSL", gps.height_msl_m, 4);
+    fixed(out, "alt", gps.height_msl_m, 4);
+    fixed(out, "track", gps.course_rad, 4, kDegrees);
+    fixed(out, "speed", gps.speed_m_s, 3);
+    fixed(out, "climb", gps.climb_m_s, 3);
+  }
+  if (gps.time_corrected) out += ",\"time_corrected\":true";
+  if (!gps.leap_known) out += ",\"leap_known\":false";
+  out += kEnd;
+}
+
+void append_sky(std::string& out, const instruments::SkySample& sky, const instruments::GpsSample* position,
+                const instruments::Stamp& stamp, ReportSource source) {
+  begin(out, "SKY", source.device);
+  if (source.utc_known) time(out, stamp.validity_utc_ns, 3);
+  if (position != nullptr) fixed(out, position->fix == Fix::fix_2d ? "hdop" : "pdop", position->dop, 2);
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < sky.count; ++i) used += sky.satellites[i].used ? 1 : 0;
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"nSat\":{},\"uSat\":{},\"satellites\":["), sky.count, used);
+  for (std::size_t i = 0; i < sky.count; ++i) {
+    const auto& satellite = sky.satellites[i];
+    if (i > 0) out += ',';
+    fmt::format_to(std::back_inserter(out), FMT_STRING("{{\"PRN\":{}"), satellite.prn);
+    fixed(out, "el", satellite.elevation_deg, 1);
+    fixed(out, "az", satellite.azimuth_deg, 1);
+    fixed(out, "ss", satellite.cn0_dBHz, 1);
+    out += satellite.used ? ",\"used\":true}" : ",\"used\":false}";
+  }
+  out += ']';
+  out += kEnd;
+}
+
+std::optional<double> dip_of(const instruments::CompassSample& compass) {
+  if (compass.dip_rad) return compass.dip_rad;
+  if (!compass.field_body_uT || !compass.pitch_rad || !compass.roll_rad) return std::nullopt;
+  const auto& [x, y, z] = *compass.field_body_uT;
+  const double sin_pitch = std::sin(*compass.pitch_rad), cos_pitch = std::cos(*compass.pitch_rad);
+  const double sin_roll = std::sin(*compass.roll_rad), cos_roll = std::cos(*compass.roll_rad);
+  const double across = y * sin_roll + z * cos_roll;
+  const double forward = x * cos_pitch + across * sin_pitch;
+  const double starboard = y * cos_roll - z * sin_roll;
+  const double down = across * cos_pitch - x * sin_pitch;
+  return std::atan2(down, std::hypot(forward, starboard));
+}
+
+void append_att(std::string& out, const instruments::CompassSample& compass, double declination_rad,
+                const instruments::Stamp& stamp, ReportSource source) {
+  begin(out, "ATT", source.device);
+  if (source.utc_known) time(out, stamp.validity_utc_ns, 6);
+  if (compass.heading_rad && std::isfinite(*compass.heading_rad)) {
+    const double heading_deg = true_heading_deg(compass, declination_rad);
+    fixed(out, "heading", heading_deg, 4);
+    fixed(out, "yaw", heading_deg, 4);
+  }
+  fixed(out, "pitch", compass.pitch_rad, 4, kDegrees);
+  fixed(out, "roll", compass.roll_rad, 4, kDegrees);
+  fixed(out, "dip", dip_of(compass), 3, kDegrees);
+  if (compass.field_body_uT) {
+    const auto& field = *compass.field_body_uT;
+    shortest(out, "mag_len", length(field), 4);
+    // What a device said with two decimals comes back digit by digit.
+    shortest(out, "mag_x", field[0], 6);
+    shortest(out, "mag_y", field[1], 6);
+    shortest(out, "mag_z", field[2], 6);
+  }
+  fixed(out, "gyro_z", compass.turn_rate_rad_s, 4, kDegrees);
+  if (compass.temperature_C) shortest(out, "temp", *compass.temperature_C, 4);
+  if (compass.error) fmt::format_to(std::back_inserter(out), FMT_STRING(",\"error\":\"{:03X}\""), *compass.error);
+  out += kEnd;
+}
+
+void append_att(std::string& out, const instruments::ImuSample& imu, const instruments::Stamp& stamp,
+                ReportSource source) {
+  begin(out, "ATT", source.device);
+  if (source.utc_known) time(out, stamp.validity_utc_ns, 6);
+  const auto& force = imu.specific_force_m_s2;
+  const auto& rate = imu.rate_rad_s;
+  fixed(out, "acc_len", length(force), 4);
+  fixed(out, "acc_x", force[0], 4);
+  fixed(out, "acc_y", force[1], 4);
+  fixed(out, "acc_z", force[2], 4);
+  fixed(out, "gyro_x", rate[0], 4, kDegrees);
+  fixed(out, "gyro_y", rate[1], 4, kDegrees);
+  fixed(out, "gyro_z", rate[2], 4, kDegrees);
+  fixed(out, "gyro_b_z", imu.yaw_rate_b_rad_s, 4, kDegrees);
+  fixed(out, "depth", imu.depth_m, 4);
+  out += kEnd;
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace navcal::daemon {
+
+/// Cuts a stream of text into lines without ever holding more than `max_length` of it. A line longer than that makes
+/// the reader refuse everything from then on.
+class LineReader {
+ public:
+  explicit LineReader(std::size_t max_length) : max_length_(max_length) {}
+
+  /// Calls `on_line(std::string_view)` for each line completed, without its newline. False once a line was too long.
+  template <class OnLine>
+  [[nodiscard]] bool feed(std::string_view text, OnLine&& on_line) {
+    while (!refused_ && !text.empty()) {
+      const auto end = text.find('\n');
+      const auto part = text.substr(0, end);
+      if (held_.size() + part.size() > max_length_) {
+        refused_ = true;
+        held_.clear();
+        break;
+      }
+      if (end == std::string_view::npos) {
+        held_ += part;
+        break;
+      }
+      text.remove_prefix(end + 1);
+      if (held_.empty()) {
+        on_line(part);
+      } else {
+        held_ += part;
+        on_line(std::string_view(held_));
+        held_.clear();
+      }
+    }
+    return !refused_;
+  }
+
+  /// What has come of a line that is not complete yet; forget() when it was taken as it is.
+  [[nodiscard]] std::string_view held() const { return held_; }
+  void forget() { held_.clear(); }
+
+ private:
+  std::size_t max_length_;
+  std::string held_;
+  bool refused_ = false;
+};
+
+}  // namespace navcal::daemon

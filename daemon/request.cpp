@@ -1,0 +1,148 @@
+#include "daemon/request.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace navcal::daemon {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kSpace = " \t\r\n";
+/// As much of a bad request as is repeated to its sender.
+constexpr std::size_t kQuoted = 80;
+
+std::string_view trim(std::string_view text) {
+  const auto begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+/// Follows braces and strings, so that a semicolon inside of JSON ends no command.
+class Nesting {
+ public:
+  void see(char c) {
+    if (in_string_) {
+      if (escaped_) {
+        escaped_ = false;
+      } else if (c == '\\') {
+        escaped_ = true;
+      } else if (c == '"') {
+        in_string_ = false;
+      }
+      return;
+    }
+    if (c == '"') in_string_ = true;
+    if (c == '{') ++depth_;
+    if (c == '}' && depth_ > 0) --depth_;
+  }
+  [[nodiscard]] bool outside() const { return depth_ == 0 && !in_string_; }
+
+ private:
+  int depth_ = 0;
+  bool in_string_ = false;
+  bool escaped_ = false;
+};
+
+/// Takes the next command, without its semicolon, off `line`.
+std::string_view take_command(std::string_view& line) {
+  Nesting nesting;
+  std::size_t end = 0;
+  for (; end < line.size(); ++end) {
+    if (line[end] == ';' && nesting.outside()) break;
+    nesting.see(line[end]);
+  }
+  const std::string_view command = trim(line.substr(0, end));
+  line.remove_prefix(end < line.size() ? end + 1 : end);
+  return command;
+}
+
+Request not_understood(std::string message) {
+  Request request;
+  request.message = std::move(message);
+  return request;
+}
+
+Request unrecognised(std::string_view command) {
+  const bool cut = command.size() > kQuoted;
+  return not_understood(fmt::format("Unrecognized request '{}{}'", command.substr(0, kQuoted), cut ? "..." : ""));
+}
+
+/// The value of `key`, if it is there and of type T; an error message when it is of another type.
+template <class T>
+bool take(const json& object, const char* key, std::optional<T>& value) {
+  const auto found = object.find(key);
+  if (found == object.end()) return true;
+  if constexpr (std::is_same_v<T, bool>) {
+    if (!found->is_boolean()) return false;
+  } else {
+    if (!found->is_string()) return false;
+  }
+  value = found->template get<T>();
+  return true;
+}
+
+Request watch(const json& object) {
+  WatchChange change;
+  std::optional<bool> enable;
+  if (!take(object, "enable", enable)) return not_understood("Invalid WATCH: enable is true or false");
+  if (!take(object, "json", change.json)) return not_understood("Invalid WATCH: json is true or false");
+  if (!take(object, "device", change.device)) return not_understood("Invalid WATCH: device is a string");
+  change.enable = enable.value_or(true);
+  Request request;
+  request.kind = Request::Kind::watch;
+  request.watch = std::move(change);
+  return request;
+}
+
+Request device(const json& object) {
+  Request request;
+  request.kind = Request::Kind::device;
+  if (!take(object, "path", request.device)) return not_understood("Invalid DEVICE: path is a string");
+  for (const char* key : {"bps", "cycle", "native", "parity", "stopbits", "hexdata"}) {
+    if (object.contains(key)) return not_understood(fmt::format("DEVICE: {} is set by the configuration only", key));
+  }
+  return request;
+}
+
+Request parse(std::string_view command) {
+  if (command.empty() || command.front() != '?') return unrecognised(command);
+  const auto equals = command.find('=');
+  const std::string_view name = trim(command.substr(1, equals == std::string_view::npos ? equals : equals - 1));
+  Request request;
+  if (equals == std::string_view::npos) {
+    using Kind = Request::Kind;
+    for (const auto& [kind, text] : {std::pair{Kind::version, "VERSION"}, std::pair{Kind::devices, "DEVICES"},
+                                     std::pair{Kind::device, "DEVICE"}, std::pair{Kind::watch, "WATCH"},
+                                     std::pair{Kind::poll, "POLL"}}) {
+      if (name == text) request.kind = kind;
+    }
+    return request.kind == Kind::not_understood ? unrecognised(command) : request;
+  }
+  if (name != "WATCH" && name != "DEVICE") return unrecognised(command);
+  const json object = json::parse(command.substr(equals + 1), nullptr, false);
+  if (!object.is_object()) return not_understood(fmt::format("Invalid {}: not a JSON object", name));
+  return name == "WATCH" ? watch(object) : device(object);
+}
+
+}  // namespace
+
+std::vector<Request> parse_requests(std::string_view line) {
+  std::vector<Request> requests;
+  while (!line.empty()) {
+    const std::string_view command = take_command(line);
+    if (!command.empty()) requests.push_back(parse(command));
+  }
+  return requests;
+}
+
+bool is_whole_request(std::string_view text) {
+  const std::string_view trimmed = trim(text);
+  if (trimmed.empty() || (trimmed.back() != ';' && trimmed.back() != '}')) return false;
+  Nesting nesting;
+  for (const char c : trimmed) nesting.see(c);
+  return nesting.outside();
+}
+
+}  // namespace navcal::daemon

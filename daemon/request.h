@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace navcal::daemon {
+
+/// Longest request line taken; gpsd's own clients stay below 200 bytes.
+inline constexpr std::size_t kMaxRequestLength = 4096;
+
+/// What ?WATCH={...} asked for; what it did not mention stays as it is.
+struct WatchChange {
+  bool enable = true;
+  std::optional<bool> json;
+  std::optional<std::string> device;
+};
+
+/// One command of gpsd's protocol.
+struct Request {
+  enum class Kind { version, devices, device, watch, poll, not_understood };
+  Kind kind = Kind::not_understood;
+  std::optional<WatchChange> watch;   ///< absent for a bare ?WATCH;, which only asks
+  std::optional<std::string> device;  ///< ?DEVICE={"path":...}
+  std::string message;                ///< for not_understood: why, for people
+};
+
+/// The commands of one line, in order: "?WATCH={...};?POLL;". The last semicolon may be missing.
+[[nodiscard]] std::vector<Request> parse_requests(std::string_view line);
+
+/// Clients may leave the newline out, too: true when `text` cannot be the beginning of a longer command.
+[[nodiscard]] bool is_whole_request(std::string_view text);
+
+}  // namespace navcal::daemon

@@ -1,0 +1,150 @@
+#include "daemon/status_client.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <cerrno>
+#include <exception>
+
+#include "daemon/gpsd_replies.h"
+#include "daemon/line_reader.h"
+
+namespace navcal::daemon {
+namespace asio = boost::asio;
+namespace {
+
+constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
+/// Together with the queue this bounds what one client may hold; the kernel books twice what is asked for.
+constexpr int kSendBuffer_bytes = 32 << 10;
+constexpr auto kFarewell = std::chrono::seconds(2);
+
+}  // namespace
+
+StatusClient::StatusClient(asio::ip::tcp::socket socket, std::size_t queue_bytes, ClientOwner& owner)
+    : socket_(std::move(socket)), give_up_(socket_.get_executor()), queue_(queue_bytes), owner_(owner) {
+  // A client that is gone already fails these; reading will tell.
+  boost::system::error_code ignored;
+  socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
+  socket_.set_option(asio::socket_base::send_buffer_size(kSendBuffer_bytes), ignored);
+  socket_.set_option(asio::socket_base::keep_alive(true), ignored);
+}
+
+void StatusClient::start() {
+  asio::co_spawn(socket_.get_executor(), session(), [self = shared_from_this()](const std::exception_ptr& error) {
+    try {
+      if (error) std::rethrow_exception(error);
+    } catch (const std::exception& e) {
+      spdlog::warn("status client dropped: {}", e.what());
+    }
+    self->close();
+    self->owner_.on_gone(*self);
+  });
+}
+
+asio::awaitable<void> StatusClient::session() {
+  std::string greeting;
+  append_version(greeting);
+  send(greeting);
+  co_await read_requests();
+}
+
+asio::awaitable<void> StatusClient::read_requests() {
+  std::array<char, 1024> chunk{};
+  LineReader lines(kMaxRequestLength);
+  for (;;) {
+    const auto [error, n] = co_await socket_.async_read_some(asio::buffer(chunk), kNoThrow);
+    if (error) co_return;
+    if (!lines.feed({chunk.data(), n}, [this](std::string_view line) { take_line(line); })) {
+      co_await refuse("Request line too long");
+      co_return;
+    }
+    if (is_whole_request(lines.held())) {
+      take_line(lines.held());
+      lines.forget();
+    }
+  }
+}
+
+/// Says why, then reads on for a moment: closing with bytes unread would take the message from the client again.
+asio::awaitable<void> StatusClient::refuse(std::string_view reason) {
+  policy_ = {};
+  std::string message;
+  append_error(message, reason);
+  send(message);
+  boost::system::error_code ignored;
+  socket_.shutdown(asio::socket_base::shutdown_send, ignored);
+  give_up_.expires_after(kFarewell);
+  give_up_.async_wait([self = shared_from_this()](boost::system::error_code error) {
+    if (!error) self->close();
+  });
+  std::array<char, 4096> discarded{};
+  for (;;) {
+    const auto [error, n] = co_await socket_.async_read_some(asio::buffer(discarded), kNoThrow);
+    if (error) break;
+  }
+  give_up_.cancel();
+}
+
+void StatusClient::take_line(std::string_view line) {
+  for (const Request& request : parse_requests(line)) owner_.on_request(*this, request);
+}
+
+void StatusClient::send(std::string_view report) {
+  if (!socket_.is_open()) return;
+  if (!queue_.empty()) {
+    queue_.push(report);
+    return;
+  }
+  const ssize_t sent = ::send(socket_.native_handle(), report.data(), report.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  if (sent == static_cast<ssize_t>(report.size())) return;
+  if (sent < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
+    close();
+    return;
+  }
+  if (sent > 0) {
+    queue_.push_rest(report.substr(static_cast<std::size_t>(sent)));
+  } else {
+    queue_.push(report);
+  }
+  wait_until_writable();
+}
+
+void StatusClient::wait_until_writable() {
+  if (waiting_ || queue_.empty()) return;
+  waiting_ = true;
+  socket_.async_wait(asio::socket_base::wait_write, [self = shared_from_this()](boost::system::error_code error) {
+    self->waiting_ = false;
+    if (!error) self->flush();
+  });
+}
+
+void StatusClient::flush() {
+  while (!queue_.empty()) {
+    const std::string_view next = queue_.front();
+    const ssize_t sent = ::send(socket_.native_handle(), next.data(), next.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (sent < 0) {
+      if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
+        close();
+        return;
+      }
+      wait_until_writable();
+      return;
+    }
+    queue_.pop(static_cast<std::size_t>(sent));
+  }
+  if (queue_.dropped() != told_dropped_) {
+    told_dropped_ = queue_.dropped();
+    owner_.on_caught_up(*this);
+  }
+}
+
+void StatusClient::close() {
+  boost::system::error_code ignored;
+  socket_.close(ignored);
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,191 @@
+#include "daemon/status_server.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/use_awaitable.hpp>
+
+#include "daemon/gpsd_replies.h"
+
+namespace navcal::daemon {
+namespace asio = boost::asio;
+namespace {
+
+constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
+/// Out of descriptors or memory: accepting again at once would only spin.
+constexpr auto kAcceptPause = std::chrono::milliseconds(500);
+
+}  // namespace
+
+StatusServer::StatusServer(asio::ip::tcp::acceptor acceptor, const config::StatusSettings& settings,
+                           StatusSource& source)
+    : acceptor_(std::move(acceptor)), pause_(acceptor_.get_executor()), settings_(settings), source_(source) {}
+
+void StatusServer::start() { asio::co_spawn(acceptor_.get_executor(), accept_clients(), asio::detached); }
+
+void StatusServer::stop() {
+  boost::system::error_code ignored;
+  acceptor_.close(ignored);
+  pause_.cancel();
+  for (const auto& client : clients_) client->close();
+}
+
+asio::awaitable<void> StatusServer::accept_clients() {
+  while (acceptor_.is_open()) {
+    auto [error, socket] = co_await acceptor_.async_accept(kNoThrow);
+    if (!acceptor_.is_open()) co_return;
+    if (!error) {
+      welcome(std::move(socket));
+    } else if (error != asio::error::connection_aborted) {
+      spdlog::warn("status socket: cannot accept: {}", error.message());
+      pause_.expires_after(kAcceptPause);
+      co_await pause_.async_wait(kNoThrow);
+    }
+  }
+}
+
+void StatusServer::welcome(asio::ip::tcp::socket socket) {
+  if (clients_.size() >= settings_.max_clients) {
+    answer_.clear();
+    append_error(answer_, fmt::format("Too many clients: {} are connected", clients_.size()));
+    // As much as goes without waiting: an empty send buffer takes it whole.
+    if (::send(socket.native_handle(), answer_.data(), answer_.size(), MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
+      spdlog::debug("status socket: a refused client was gone already");
+    }
+    return;
+  }
+  clients_.push_back(std::make_shared<StatusClient>(std::move(socket), settings_.client_queue_bytes, *this));
+  clients_.back()->start();
+}
+
+void StatusServer::on_gone(const StatusClient& client) {
+  dropped_by_gone_ += client.dropped();
+  std::erase_if(clients_, [&](const auto& entry) { return entry.get() == &client; });
+}
+
+void StatusServer::on_request(StatusClient& client, const Request& request) {
+  answer_.clear();
+  switch (request.kind) {
+    case Request::Kind::version: append_version(answer_); break;
+    case Request::Kind::devices: append_devices(); break;
+    case Request::Kind::poll: source_.append_poll(answer_); break;
+    case Request::Kind::not_understood: append_error(answer_, request.message); break;
+    case Request::Kind::device:
+      for (std::uint16_t port = 0; port < source_.device_count(); ++port) {
+        if (request.device && *request.device != source_.device_name(port)) continue;
+        source_.append_device(answer_, port);
+        answer_ += '\n';
+      }
+      if (answer_.empty()) append_error(answer_, fmt::format("No such device as {}", request.device.value_or("any")));
+      break;
+    case Request::Kind::watch:
+      if (request.watch) {
+        change_watch(client, *request.watch);
+      } else {
+        append_devices();
+        append_policy(client);
+      }
+      break;
+  }
+  client.send(answer_);
+}
+
+void StatusServer::change_watch(StatusClient& client, const WatchChange& change) {
+  auto& policy = client.policy();
+  if (change.device && change.enable) {
+    const auto port = source_.device_named(*change.device);
+    if (!port) {
+      append_error(answer_, fmt::format("No such device as {}", *change.device));
+      return;
+    }
+    policy.port = port;
+  }
+  policy.enable = change.enable;
+  policy.json = change.json.value_or(policy.json);
+  append_devices();
+  append_policy(client);
+}
+
+void StatusServer::append_devices() {
+  answer_ += R"({"class":"DEVICES","devices":[)";
+  for (std::uint16_t port = 0; port < source_.device_count(); ++port) {
+    if (port > 0) answer_ += ',';
+    source_.append_device(answer_, port);
+  }
+  answer_ += "]}\n";
+}
+
+void StatusServer::append_policy(StatusClient& client) {
+  const auto& policy = client.policy();
+  std::optional<std::string_view> device;
+  if (policy.port) device = source_.device_name(*policy.port);
+  append_watch(answer_, policy.enable, policy.json, device);
+}
+
+bool StatusServer::watched(std::uint16_t port) const {
+  return std::any_of(clients_.begin(), clients_.end(), [&](const auto& client) { return client->watches(port); });
+}
+
+bool StatusServer::watched() const {
+  return std::any_of(clients_.begin(), clients_.end(), [](const auto& client) { return client->watches(); });
+}
+
+void StatusServer::publish(std::uint16_t port, std::string_view report) {
+  for (const auto& client : clients_) {
+    if (client->watches(port)) client->send(report);
+  }
+}
+
+void StatusServer::publish(std::string_view report) {
+  for (const auto& client : clients_) {
+    if (client->watches()) client->send(report);
+  }
+}
+
+void StatusServer::publish_health(std::vector<std::string> beginnings) {
+  health_ = std::move(beginnings);
+  for (const auto& client : clients_) {
+    if (client->watches()) send_health(*client);
+  }
+}
+
+void StatusServer::send_health(StatusClient& client) {
+  for (const std::string& beginning : health_) {
+    answer_ = beginning;
+    fmt::format_to(std::back_inserter(answer_), FMT_STRING(",\"dropped\":{}}}\n"), client.dropped());
+    client.send(answer_);
+  }
+}
+
+void StatusServer::publish_device(std::uint16_t port) {
+  if (!watched(port)) return;
+  answer_.clear();
+  source_.append_device(answer_, port);
+  answer_ += '\n';
+  publish(port, answer_);
+}
+
+void StatusServer::on_caught_up(StatusClient& client) {
+  if (client.watches()) send_health(client);
+}
+
+std::uint64_t StatusServer::dropped() const {
+  std::uint64_t sum = dropped_by_gone_;
+  for (const auto& client : clients_) sum += client->dropped();
+  return sum;
+}
+
+std::size_t StatusServer::queued_bytes() const {
+  std::size_t sum = 0;
+  for (const auto& client : clients_) sum += client->queued_bytes();
+  return sum;
+}
+
+std::uint16_t StatusServer::port() const { return acceptor_.local_endpoint().port(); }
+
+}  // namespace navcal::daemon

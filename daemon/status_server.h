@@ -1,0 +1,78 @@
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/settings.h"
+#include "daemon/status_client.h"
+
+namespace navcal::daemon {
+
+/// What the server asks of the daemon to answer requests.
+class StatusSource {
+ public:
+  virtual ~StatusSource() = default;
+  [[nodiscard]] virtual std::size_t device_count() const = 0;
+  [[nodiscard]] virtual std::optional<std::uint16_t> device_named(std::string_view name) const = 0;
+  [[nodiscard]] virtual std::string_view device_name(std::uint16_t port) const = 0;
+  /// The DEVICE object, without newline.
+  virtual void append_device(std::string& out, std::uint16_t port) const = 0;
+  /// The answer to ?POLL;, one line.
+  virtual void append_poll(std::string& out) const = 0;
+};
+
+/// gpsd's protocol on TCP (docs/status-protocol.md). Everything a client can do here is reading.
+class StatusServer : private ClientOwner {
+ public:
+  StatusServer(boost::asio::ip::tcp::acceptor acceptor, const config::StatusSettings& settings, StatusSource& source);
+
+  void start();
+  void stop();
+
+  /// Whether anybody would see a report of this port: if not, it need not be written.
+  [[nodiscard]] bool watched(std::uint16_t port) const;
+  [[nodiscard]] bool watched() const;
+  /// One whole line about one port, to everybody who watches it.
+  void publish(std::uint16_t port, std::string_view report);
+  /// One whole line to every watcher.
+  void publish(std::string_view report);
+  /// HEALTH lines without their end; each client's own count of dropped reports is added. Kept for clients that
+  /// catch up.
+  void publish_health(std::vector<std::string> beginnings);
+  /// Tells watchers that a device came or went.
+  void publish_device(std::uint16_t port);
+
+  [[nodiscard]] std::size_t clients() const { return clients_.size(); }
+  [[nodiscard]] std::uint64_t dropped() const;
+  [[nodiscard]] std::size_t queued_bytes() const;
+  [[nodiscard]] std::uint16_t port() const;
+
+ private:
+  void on_request(StatusClient& client, const Request& request) override;
+  void on_caught_up(StatusClient& client) override;
+  void on_gone(const StatusClient& client) override;
+  boost::asio::awaitable<void> accept_clients();
+  void welcome(boost::asio::ip::tcp::socket socket);
+  void change_watch(StatusClient& client, const WatchChange& change);
+  void append_devices();
+  void append_policy(StatusClient& client);
+  void send_health(StatusClient& client);
+
+  boost::asio::ip::tcp::acceptor acceptor_;
+  boost::asio::steady_timer pause_;
+  config::StatusSettings settings_;
+  StatusSource& source_;
+  std::vector<std::shared_ptr<StatusClient>> clients_;
+  std::vector<std::string> health_;
+  std::string answer_;
+  std::uint64_t dropped_by_gone_ = 0;
+};
+
+}  // namespace navcal::daemon

@@ -1,0 +1,103 @@
+#include "daemon/request.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace navcal::daemon {
+namespace {
+
+using Kind = Request::Kind;
+
+std::vector<Kind> kinds(std::string_view line) {
+  std::vector<Kind> found;
+  for (const auto& request : parse_requests(line)) found.push_back(request.kind);
+  return found;
+}
+
+TEST(Request, SeveralCommandsInALineComeInOrder) {
+  const std::vector<Kind> expected{Kind::version, Kind::watch, Kind::poll, Kind::devices, Kind::device};
+  EXPECT_EQ(kinds(R"(?VERSION;?WATCH={"enable":true,"json":true};?POLL;?DEVICES;?DEVICE;)"), expected);
+  EXPECT_EQ(kinds("?VERSION; ?WATCH ;\t?POLL; ?DEVICES;;; ?DEVICE\r"), expected);
+}
+
+TEST(Request, ABadCommandDoesNotTakeTheOthersWithIt) {
+  const auto requests = parse_requests("?POLL;?NONSENSE;?VERSION;");
+  ASSERT_EQ(requests.size(), 3U);
+  EXPECT_EQ(requests[1].kind, Kind::not_understood);
+  EXPECT_EQ(requests[1].message, "Unrecognized request '?NONSENSE'");
+  EXPECT_EQ(requests[2].kind, Kind::version);
+}
+
+TEST(Request, NothingAsksForNothing) {
+  EXPECT_TRUE(parse_requests("").empty());
+  EXPECT_TRUE(parse_requests(" ;; \r").empty());
+}
+
+TEST(Request, WatchTakesWhatGpsdsClientsSend) {
+  for (const char* line : {R"(?WATCH={"enable":true,"json":true};)",
+                           R"(?WATCH={"enable":true,"json":true,"scaled":true,"pps":true,"raw":1,"nmea":false};)",
+                           R"(?WATCH={"class":"WATCH","json":true})"}) {
+    const auto requests = parse_requests(line);
+    ASSERT_EQ(requests.size(), 1U) << line;
+    ASSERT_TRUE(requests[0].watch) << line;
+    EXPECT_TRUE(requests[0].watch->enable);
+    EXPECT_EQ(requests[0].watch->json, true);
+    EXPECT_FALSE(requests[0].watch->device);
+  }
+}
+
+TEST(Request, WatchChangesOnlyWhatItMentions) {
+  const auto requests = parse_requests(R"(?WATCH={"enable":false,"device":"gps;1"};?WATCH;)");
+  ASSERT_EQ(requests.size(), 2U);
+  EXPECT_FALSE(requests[0].watch->enable);
+  EXPECT_FALSE(requests[0].watch->json);
+  EXPECT_EQ(requests[0].watch->device, "gps;1");
+  EXPECT_FALSE(requests[1].watch) << "a bare ?WATCH; only asks";
+}
+
+TEST(Request, WrongTypesAndBrokenJsonAreNamed) {
+  EXPECT_EQ(parse_requests(R"(?WATCH={"enable":1};)").at(0).message, "Invalid WATCH: enable is true or false");
+  EXPECT_EQ(parse_requests(R"(?WATCH={"enable":tru};)").at(0).message, "Invalid WATCH: not a JSON object");
+  EXPECT_EQ(parse_requests("?WATCH=[];").at(0).message, "Invalid WATCH: not a JSON object");
+  EXPECT_EQ(parse_requests(R"(?DEVICE={"path":"gps","bps":4800};)").at(0).message,
+            "DEVICE: bps is set by the configuration only");
+  EXPECT_EQ(parse_requests("?POLL={};").at(0).kind, Kind::not_understood);
+}
+
+TEST(Request, LongNonsenseIsNotRepeatedInFull) {
+  const auto requests = parse_requests(std::string(4000, 'x'));
+  ASSERT_EQ(requests.size(), 1U);
+  EXPECT_LT(requests[0].message.size(), 120U);
+}
+
+TEST(Request, DeeplyNestedJsonIsRefusedCalmly) {
+  const std::string deep = "?WATCH=" + std::string(2000, '{');
+  ASSERT_EQ(parse_requests(deep).size(), 1U);
+  EXPECT_EQ(parse_requests(deep)[0].kind, Kind::not_understood);
+}
+
+TEST(Request, WholeIsWhatCannotGoOn) {
+  EXPECT_TRUE(is_whole_request("?POLL;"));
+  EXPECT_TRUE(is_whole_request(R"(?WATCH={"enable":true})"));
+  EXPECT_FALSE(is_whole_request("?POLL"));
+  EXPECT_FALSE(is_whole_request(R"(?WATCH={"device":"a;)"));
+  EXPECT_FALSE(is_whole_request(R"(?WATCH={"device":"a}")"));
+  EXPECT_FALSE(is_whole_request(""));
+}
+
+TEST(Request, GarbageNeverDoesMoreThanBeRefused) {
+  std::mt19937 random(3);
+  const std::string alphabet = "?WATCHPOLVERSINDE={}[]\";:,\\ truefals01\n\xff";
+  std::uniform_int_distribution<std::size_t> letter(0, alphabet.size() - 1);
+  for (int i = 0; i < 20'000; ++i) {
+    std::string line(letter(random), ' ');
+    for (auto& c : line) c = alphabet[letter(random)];
+    for (const auto& request : parse_requests(line)) {
+      EXPECT_EQ(request.kind == Kind::not_understood, !request.message.empty()) << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace navcal::daemon
