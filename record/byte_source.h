@@ -9,13 +9,16 @@
 
 namespace navcal::record {
 
+/// Of a pipe and the like.
+inline constexpr std::uint64_t kUnknownSize = UINT64_MAX;
+
 /// Bytes that are read once, from front to back.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
   /// Up to `n` bytes; 0 only at the end. Throws std::system_error when the medium fails.
   virtual std::size_t read(char* to, std::size_t n) = 0;
-  /// Length when it was opened.
+  /// Length when it was opened, or kUnknownSize.
   [[nodiscard]] virtual std::uint64_t size() const = 0;
 };
 

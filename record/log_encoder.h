@@ -14,9 +14,9 @@ namespace navcal::record {
 
 enum class Direction : std::uint8_t { received = 0, sent = 1 };
 
-/// Turns what happens into MCAP records (docs/log-format.md). Pure: appends bytes to a buffer, opens no file, reads
-/// no clock; the disk thread takes the buffer. One encoder serves one file after another.
-/// log_time = monotonic + one offset, fixed when the file is begun; publish_time = time of validity on that scale.
+/// Turns what happens into MCAP records (docs/log-format.md). Pure: appends bytes to a buffer, opens no file,
+/// reads no clock; the disk thread takes the buffer. One encoder serves one file after another. log_time =
+/// monotonic + one offset, fixed when the file is begun; publish_time = time of validity on that scale.
 class LogEncoder {
  public:
   /// `config_toml`: the configuration in force, stored in /config.
@@ -25,10 +25,12 @@ class LogEncoder {
 
   /// Starts a new file: magic, Header, Schemas, Channels, the configuration and the mapping in force.
   void begin(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
-  void raw(std::string& out, std::uint16_t port, Direction direction, std::int64_t time_ns, protocols::Bytes bytes);
+  void raw(std::string& out, std::uint16_t port, Direction direction, std::int64_t time_ns,
+           protocols::Bytes bytes);
   void sample(std::string& out, const instruments::Sample& sample);
   void mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
-  /// `severity`: "info", "warning", "error", "alarm"; `name`: a short key such as "port.lost"; `port` may be empty.
+  /// `severity`: "info", "warning", "error", "alarm"; `name`: a short key such as "port.lost"; `port` may be
+  /// empty.
   void event(std::string& out, std::int64_t now_ns, std::string_view severity, std::string_view name,
              std::string_view port, std::string_view message);
   /// `json` is one object {...} as it goes to the status socket; "crc" is added.

@@ -7,8 +7,8 @@
 
 namespace navcal::record {
 
-/// Appends one JSON object (no newline) with the keys of CLI.md's `replay`: class, time, time_std, arrival, device,
-/// then SI values; absent optionals are null. Live log and replay share it, so they agree to the byte.
+/// Appends one JSON object (no newline) with the keys of CLI.md's `replay`: class, time, time_std, arrival,
+/// device, then SI values; absent optionals are null. Live log and replay share it, so they agree to the byte.
 void append_json(std::string& out, const instruments::Sample& sample, std::string_view device);
 
 }  // namespace navcal::record

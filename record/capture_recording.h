@@ -1,0 +1,25 @@
+#pragma once
+
+#include "record/capture_reader.h"
+#include "record/recording.h"
+
+namespace navcal::record {
+
+/// A capture as a recording: its times are UTC, so its mapping is the identity.
+class CaptureRecording final : public Recording {
+ public:
+  CaptureRecording(std::unique_ptr<ByteSource> source, std::string name);
+
+  [[nodiscard]] const config::Settings& settings() const override { return settings_; }
+  std::optional<Entry> next() override;
+  [[nodiscard]] const std::vector<std::string>& remarks() const override { return reader_.remarks(); }
+  [[nodiscard]] double progress() const override { return reader_.progress(); }
+
+ private:
+  CaptureReader reader_;
+  config::Settings settings_;
+  std::optional<RawRead> first_;  ///< read ahead for the time of the mapping
+  bool mapping_told_ = false;
+};
+
+}  // namespace navcal::record

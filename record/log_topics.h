@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace navcal::record {
+
+enum class FieldKind : std::uint8_t { number, boolean, text, vector3 };
+
+/// One member of a topic's messages.
+struct Field {
+  std::string_view name;
+  FieldKind kind = FieldKind::number;
+  std::string_view unit{};  ///< where the name does not say it
+};
+
+/// One topic whose messages are JSON. Its number is that of its channel and of its schema.
+struct Topic {
+  std::uint16_t id = 0;
+  std::string_view name;
+  std::string_view schema_name;
+  std::span<const Field> fields;  ///< besides "class" and "crc"; /health and /calib have more than is listed
+};
+
+namespace topic {
+inline constexpr std::uint16_t kConfig = 1, kTime = 2, kEvent = 3, kHealth = 4, kCalib = 5, kCompass = 6, kImu = 7,
+                               kGps = 8, kMotor = 9, kAltimeter = 10;
+/// Channel of the raw bytes of the first port; the others follow.
+inline constexpr std::uint16_t kFirstRaw = 16;
+inline constexpr std::string_view kRawPrefix = "/raw/";
+}  // namespace topic
+
+[[nodiscard]] std::span<const Topic> json_topics();
+/// Null for a raw channel.
+[[nodiscard]] const Topic* json_topic(std::string_view name);
+
+/// JSON schema in the dialect that Foxglove reads (a single type for each member: null stands for "absent").
+[[nodiscard]] std::string json_schema(const Topic& topic);
+
+}  // namespace navcal::record
