@@ -18,6 +18,8 @@ add_compile_options(-ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 sees a mismatch of new and delete in every coroutine frame at -O1 and under sanitizers.
   add_compile_options(-Wno-mismatched-new-delete)
+  # g++ 12 sees overlapping copies in "text" + std::string at -O2 and above (GCC bug 105651).
+  add_compile_options(-Wno-restrict)
 endif()
 
 if(NAVCAL_SANITIZE)

@@ -99,11 +99,13 @@ void Reader::take_daemon(const Entry& entry) {
     complain(entry, "unknown key" + suggestion(table, tables));
   } else if (entry.keys.size() == 1) {
     if (!std::holds_alternative<Table>(entry.value)) complain(entry, fmt::format("a table [{}] is wanted", table));
-  } else if (const auto* option = find(options, table, entry.keys[1]); option == nullptr) {
-    if (entry.keys.size() == 2)
-      complain(entry, "unknown key" + suggestion(entry.keys[1], keys_of(options, table)));
-  } else if (entry.keys.size() == 2) {
-    if (auto refused = set(*option, settings_, entry)) complain(entry, std::move(*refused));
+  } else if (const auto* option = find(options, table, entry.keys[1]);
+             option == nullptr || entry.keys.size() > 2) {
+    // In a file, what lies deeper has been complained of with the key above it.
+    if (entry.keys.size() > 2 && entry.line != 0) return;
+    complain(entry, "unknown key" + suggestion(entry.keys[1], keys_of(options, table)));
+  } else if (auto refused = set(*option, settings_, entry)) {
+    complain(entry, std::move(*refused));
   }
 }
 
@@ -131,7 +133,11 @@ void Reader::take_port(const std::string& name, const std::vector<const Entry*>&
   }
   PortSettings port = default_port(name, given.protocol, default_baud(given.protocol));
   for (const Entry* entry : entries) {
-    if (entry != said && entry->keys.size() > 2) take_port_entry(port, *entry, protocol_known);
+    if (entry->keys.size() > 2) {
+      take_port_entry(port, *entry, protocol_known);
+    } else if (entry != &table) {
+      complain(*entry, "a table is wanted");
+    }
   }
   settings_.ports.push_back(std::move(port));
   port_lines_.push_back(table.line);
@@ -141,6 +147,7 @@ void Reader::take_port_entry(PortSettings& port, const Entry& entry, bool protoc
   const auto& options = port_options();
   const std::string& key = entry.keys[2];
   const auto tables = tables_of(options);
+  if (key == options.front().key && entry.keys.size() == 3) return;  // the protocol was taken first
   const bool in_table = contains(tables, key);
   if (in_table && entry.keys.size() == 3) {
     if (!std::holds_alternative<Table>(entry.value)) complain(entry, "a table is wanted");

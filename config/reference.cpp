@@ -1,0 +1,164 @@
+#include "config/reference.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "config/load.h"
+#include "config/options.h"
+
+namespace navcal::config {
+namespace {
+
+using protocols::Protocol;
+
+constexpr std::array kProtocols{Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card,
+                                Protocol::nmea};
+
+/// One of path, udev_name and usb_serial.
+bool is_place(const OptionInfo& option) { return option.table.empty() && option.kind == Kind::text; }
+
+/// Empty when there is no default.
+std::string default_words(const Option<Settings>& option) { return option.write(option.get(Settings{})); }
+
+/// One value when all protocols that have the option agree on it, else each protocol's.
+std::string default_words(const Option<PortSettings>& option) {
+  if (option.table.empty() && option.kind == Kind::text)
+    return "none: one of path, udev_name, usb_serial must be said";
+  if (option.key == "protocol" || is_place(option)) return {};
+  std::vector<std::string> each;
+  std::string first;
+  bool all_equal = true;
+  for (const Protocol protocol : kProtocols) {
+    if (!option.applies_to(protocol)) continue;
+    const std::string value = option.write(option.get(default_port("", protocol, default_baud(protocol))));
+    if (each.empty()) first = value;
+    all_equal = all_equal && value == first;
+    each.push_back(fmt::format("{} {}", protocols::name_of(protocol), value));
+  }
+  return all_equal ? first : fmt::format("{}", fmt::join(each, ", "));
+}
+
+std::string protocols_words(const OptionInfo& option) {
+  std::vector<std::string_view> names;
+  for (const Protocol protocol : option.only_for) names.push_back(protocols::name_of(protocol));
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+std::string default_clause(const OptionInfo& option, const std::string& words) {
+  if (is_place(option)) return "one of path, udev_name and usb_serial is required";
+  return words.empty() ? "required" : "default: " + words;
+}
+
+std::string daemon_part() {
+  std::string out;
+  std::string_view table;
+  for (const auto& option : daemon_options()) {
+    if (option.table != table) {
+      table = option.table;
+      out += fmt::format("\n# {}\n[{}]\n", table_description(table), table);
+    }
+    const std::string words = default_words(option);
+    out += fmt::format("\n# {}\n# {}; {}\n{} = {}\n", option.description, option.allowed(),
+                       default_clause(option, words), option.key, words);
+  }
+  return out;
+}
+
+/// Every option of a port, explained once, all of it comment.
+std::string port_part() {
+  std::string out = fmt::format("\n# {}\n#\n# [port.NAME]\n", table_description(""));
+  std::string_view table;
+  for (const auto& option : port_options()) {
+    if (option.table != table) {
+      table = option.table;
+      out += fmt::format("#\n# {} (for {})\n# [port.NAME.{}]\n", table_description(table), protocols_words(option),
+                         table);
+    }
+    out += fmt::format("#   {:<16} {}\n#   {:<16} {}; {}\n", option.key, option.description, "", option.allowed(),
+                       default_clause(option, default_words(option)));
+  }
+  return out;
+}
+
+/// A port of the vehicle: what its wiring decides, and what belongs to the single device.
+std::string vehicle_port(const PortSettings& port) {
+  std::string out = fmt::format("\n[port.{}]\n", port.name);
+  std::string_view table;
+  for (const auto& option : port_options()) {
+    const bool stated = !option.table.empty() || option.key == "protocol" || option.key == "udev_name" ||
+                        option.key == "baud" || option.key == "latency_ms" || option.key == "rate_Hz";
+    if (!stated || !option.applies_to(port.protocol)) continue;
+    if (option.table != table) {
+      table = option.table;
+      out += fmt::format("[port.{}.{}]\n", port.name, table);
+    }
+    out += fmt::format("{} = {}\n", option.key, option.write(option.get(port)));
+  }
+  return out;
+}
+
+template <class Owner>
+std::string markdown(const std::vector<Option<Owner>>& options, std::string_view prefix) {
+  std::string out;
+  std::string_view table = "none yet";
+  for (const auto& option : options) {
+    if (option.table != table) {
+      table = option.table;
+      const std::string_view dot = prefix.empty() || table.empty() ? "" : ".";
+      out += fmt::format("\n### `[{}{}{}]`\n\n{}", prefix, dot, table, table_description(table));
+      if (!option.only_for.empty()) out += fmt::format(" For {} only.", protocols_words(option));
+      out += "\n\n| key | what | allowed | default |\n|---|---|---|---|\n";
+    }
+    const std::string words = default_words(option);
+    out += fmt::format("| `{}` | {} | {} | {} |\n", option.key, option.description, option.allowed(),
+                       words.empty() ? default_clause(option, words) : words);
+  }
+  return out;
+}
+
+}  // namespace
+
+Settings shipped_settings() {
+  Settings settings;
+  const auto add = [&settings](std::string name, Protocol protocol, int baud) {
+    PortSettings port = default_port(std::move(name), protocol, baud);
+    port.udev_name = "/dev/navcal/" + port.name;
+    settings.ports.push_back(std::move(port));
+  };
+  add("compass", Protocol::tcm2, 38400);
+  add("imu", Protocol::imu_card, 57600);
+  add("gps", Protocol::oncore, 9600);
+  add("motor", Protocol::motor_card, 19200);
+  return settings;
+}
+
+std::string shipped_file() {
+  std::string out =
+      "# The settings of navcald. What is not said has the default that is stated beside it; a key that navcald "
+      "does\n"
+      "# not know is an error. `navcald --config FILE --check` reads a file and says what is wrong with it.\n"
+      "# This file is written from the program's own table of options: docs/configuration.md.\n";
+  out += daemon_part();
+  out += port_part();
+  out += "\n# The instruments of the reference vehicle.\n";
+  for (const PortSettings& port : shipped_settings().ports) out += vehicle_port(port);
+  return out;
+}
+
+std::string with_option_tables(std::string_view page) {
+  constexpr std::string_view kBegin = "<!-- options: begin -->\n";
+  constexpr std::string_view kEnd = "<!-- options: end -->";
+  const std::size_t begin = page.find(kBegin);
+  const std::size_t end = page.find(kEnd);
+  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin) return std::string(page);
+  std::string out(page.substr(0, begin + kBegin.size()));
+  out += markdown(daemon_options(), "");
+  out += markdown(port_options(), "port.NAME");
+  out += '\n';
+  return out += page.substr(end);
+}
+
+}  // namespace navcal::config

@@ -1,0 +1,154 @@
+// Every kind of mistake in a port's table.
+#include <fmt/format.h>
+
+#include "tests/config/expect_problems.h"
+
+namespace navcal::config {
+namespace {
+
+std::string compass(std::string_view more) {
+  return "[port.compass]\nprotocol = \"tcm2\"\npath = \"/dev/ttyS1\"\n" + std::string(more);
+}
+
+TEST(ConfigPortErrors, NoPorts) {
+  const Problems none{
+      "t.toml:1: port: no port is configured; a port is a table [port.NAME] with a protocol and a path"};
+  EXPECT_EQ(problems_of(""), none);
+  EXPECT_EQ(problems_of("[port]\n"), none);
+}
+
+TEST(ConfigPortErrors, UnknownProtocolListsTheKnown) {
+  EXPECT_EQ(
+      problems_of("[port.compass]\nprotocol = \"tcm\"\npath = \"/dev/ttyS1\"\n"),
+      Problems{
+          "t.toml:2: port.compass.protocol: unknown protocol \"tcm\"; known: tcm2, imu-card, oncore, motor-card "
+          "or nmea"});
+}
+
+TEST(ConfigPortErrors, MissingProtocol) {
+  EXPECT_EQ(
+      problems_of("[port.compass]\npath = \"/dev/ttyS1\"\n"),
+      Problems{"t.toml:1: port.compass.protocol: missing; known: tcm2, imu-card, oncore, motor-card or nmea"});
+}
+
+TEST(ConfigPortErrors, NoPlace) {
+  EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm2\"\n"),
+            Problems{"t.toml:1: port.compass: where it is is missing: path, udev_name or usb_serial"});
+}
+
+TEST(ConfigPortErrors, AnEmptyPlaceIsNone) {
+  EXPECT_EQ(
+      problems_of("[port.compass]\nprotocol = \"tcm2\"\nusb_serial = \"\"\n"),
+      (Problems{"t.toml:1: port.compass: where it is is missing: path, udev_name or usb_serial",
+                "t.toml:3: port.compass.usb_serial: \"\" is not a serial number without control characters"}));
+}
+
+TEST(ConfigPortErrors, SeveralPlaces) {
+  const Problems several{"t.toml:1: port.compass: only one of path, udev_name and usb_serial can say where it is"};
+  EXPECT_EQ(problems_of(compass("udev_name = \"x\"\n")), several);
+  EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\n")), several);
+  EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\nudev_name = \"y\"\n")), several);
+}
+
+TEST(ConfigPortErrors, TwoPortsInOnePlace) {
+  for (const std::string place : {"path", "udev_name", "usb_serial"}) {
+    const auto toml = fmt::format(
+        "[port.b]\nprotocol = \"nmea\"\n{0} = \"X\"\n[port.a]\nprotocol = \"tcm2\"\n{0} = \"X\"\n", place);
+    EXPECT_EQ(problems_of(toml),
+              Problems{fmt::format("t.toml:4: port.a.{}: X is already port.b's (line 1)", place)});
+  }
+}
+
+TEST(ConfigPortErrors, TwoPortsOfOneName) {
+  const auto problems = problems_of(compass("") + compass(""));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_TRUE(problems[0].starts_with("t.toml:4: ")) << problems[0];
+  EXPECT_NE(problems[0].find("port.compass"), std::string::npos) << problems[0];
+}
+
+TEST(ConfigPortErrors, Names) {
+  const auto named = [](const std::string& name) {
+    return problems_of(fmt::format("[port.{}]\nprotocol = \"tcm2\"\npath = \"/dev/x\"\n", name));
+  };
+  EXPECT_EQ(named("a"), Problems{});
+  EXPECT_EQ(named("front_compass-2"), Problems{});
+  EXPECT_EQ(named(std::string(31, 'a')), Problems{});
+  for (const std::string& bad : {std::string(32, 'a'), std::string("Compass"), std::string("\"\""),
+                                 std::string("\"a/b\""), std::string("\"a.b\""), std::string("\"a b\"")}) {
+    const auto problems = named(bad);
+    ASSERT_EQ(problems.size(), 1U) << bad;
+    EXPECT_TRUE(problems[0].ends_with(": a port's name is 1 to 31 of a-z, 0-9, _ and -")) << problems[0];
+  }
+}
+
+TEST(ConfigPortErrors, UnknownKeys) {
+  EXPECT_EQ(problems_of(compass("bauds = 9600\n")),
+            Problems{"t.toml:4: port.compass.bauds: unknown key; did you mean baud?"});
+  EXPECT_EQ(problems_of(compass("[port.compass.unit]\nheading = \"deg\"\n")),
+            Problems{"t.toml:4: port.compass.unit: unknown key; did you mean units?"});
+  EXPECT_EQ(problems_of(compass("[port.compass.units]\nhead = \"deg\"\n")),
+            Problems{"t.toml:5: port.compass.units.head: unknown key"});
+  EXPECT_EQ(
+      problems_of(compass("[port.compass.units]\nheading.x.y.z = 1\n")),
+      Problems{"t.toml:5: port.compass.units.heading: a text is wanted (deg, mils or counts16), not a table"});
+}
+
+TEST(ConfigPortErrors, TablesAndValuesInEachOthersPlace) {
+  EXPECT_EQ(problems_of(compass("units = \"deg\"\n")),
+            Problems{"t.toml:4: port.compass.units: a table is wanted"});
+  EXPECT_EQ(problems_of(compass("baud.x = 9600\n")),
+            Problems{"t.toml:4: port.compass.baud: a whole number is wanted (50 to 4000000 bit/s), not a table"});
+  EXPECT_EQ(problems_of("port = 3\n").at(0), "t.toml:1: port: tables [port.NAME] are wanted");
+  EXPECT_EQ(problems_of("[port]\ncompass = \"/dev/ttyS0\"\n").at(1), "t.toml:2: port.compass: a table is wanted");
+}
+
+TEST(ConfigPortErrors, SettingsOfAnotherProtocol) {
+  EXPECT_EQ(problems_of(compass("[port.compass.channels]\nzero_mV = [1, 2, 3, 4, 5, 6, 7, 8]\n")),
+            Problems{"t.toml:5: port.compass.channels.zero_mV: a port of protocol tcm2 has no such setting"});
+}
+
+TEST(ConfigPortErrors, Channels) {
+  const auto imu = [](std::string_view more) {
+    return problems_of("[port.imu]\nprotocol = \"imu-card\"\npath = \"/dev/x\"\n[port.imu.channels]\n" +
+                       std::string(more));
+  };
+  EXPECT_EQ(imu("zero_mV = [1, 2, 3, 4, 5, 6, 7, 8.5]\n"), Problems{});
+  EXPECT_EQ(imu("zero_mV = [1, 2, 3]\n"), Problems{"t.toml:5: port.imu.channels.zero_mV: eight numbers, each "
+                                                   "-10000 to 10000 mV are wanted, not an array of "
+                                                   "3 numbers"});
+  EXPECT_EQ(
+      imu("zero_mV = [1, 2, 3, 4, 5, 6, 7, \"8\"]\n"),
+      Problems{
+          "t.toml:5: port.imu.channels.zero_mV: eight numbers, each -10000 to 10000 mV are wanted, not an array"});
+  EXPECT_EQ(imu("scale = [1, 1, 1, 1, 1, 1, 1, 0]\n"),
+            Problems{"t.toml:5: port.imu.channels.scale: 0 is out of range: eight numbers, each -100000 to 100000 "
+                     "mV per deg/s, "
+                     "per g, per m and not 0"});
+}
+
+TEST(ConfigPortErrors, RolloverPivotIsADayOfTheCalendar) {
+  const auto pivot = [](std::string_view value) {
+    return problems_beside_a_port(fmt::format("[port.gps.fix]\nrollover_pivot = {}\n", value));
+  };
+  EXPECT_EQ(pivot("\"2019-04-07\""), Problems{});
+  EXPECT_EQ(pivot("2019-04-07"), Problems{});  // TOML has dates
+  EXPECT_EQ(pivot("\"2020-02-29\""), Problems{});
+  EXPECT_EQ(pivot("\"1980-01-06\""), Problems{});
+  for (const std::string bad :
+       {"\"2019-02-29\"", "\"2019-13-01\"", "\"2019-00-10\"", "\"1980-01-05\"", "\"7 April 2019\"", "\"2019-4-7\"",
+        "\"2019-04-07 \"", "\"-019-04-07\"", "\"\"", "20190407"}) {
+    const auto problems = pivot(bad);
+    ASSERT_EQ(problems.size(), 1U) << bad;
+    EXPECT_TRUE(problems[0].starts_with("t.toml:7: port.gps.fix.rollover_pivot: ")) << problems[0];
+    EXPECT_NE(problems[0].find("a date, YYYY-MM-DD, from 1980-01-06 on"), std::string::npos) << problems[0];
+  }
+}
+
+TEST(ConfigPortErrors, MoreThan256Ports) {
+  std::string toml;
+  for (int i = 0; i < 257; ++i) toml += fmt::format("[port.p{0}]\nprotocol = \"nmea\"\npath = \"/dev/p{0}\"\n", i);
+  EXPECT_EQ(problems_of(toml), Problems{"t.toml:1: port: 257 ports are configured; 256 is the most"});
+}
+
+}  // namespace
+}  // namespace navcal::config

@@ -1,0 +1,109 @@
+// parse(to_toml(s)) == s, for settings drawn at random over the whole range of every option.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "config/load.h"
+#include "config/options.h"
+
+namespace navcal::config {
+namespace {
+
+using Random = std::mt19937_64;
+
+double number_within(const OptionInfo& option, Random& random) {
+  if (random() % 8 == 0) return option.low;
+  if (random() % 8 == 0) return option.high;
+  double number = std::uniform_real_distribution<double>(option.low, option.high)(random);
+  // Numbers that people write, and numbers with all their bits.
+  if (random() % 2 == 0) number = std::clamp(std::round(number * 100) / 100, option.low, option.high);
+  return number == 0 && !option.zero_allowed ? option.high : number;
+}
+
+std::string some_text(const OptionInfo& option, Random& random) {
+  if (option.key == "address") return random() % 2 == 0 ? "0.0.0.0" : "::1";
+  if (option.key == "rollover_pivot")
+    return fmt::format("{}-{:02}-{:02}", 1981 + random() % 90, 1 + random() % 12, 1 + random() % 28);
+  constexpr std::string_view kPieces[] = {
+      "a", "Z", "0", "/", " ", "\"", "\\", "'", "#", "=", ".", "\xc3\xa9", "\xf0\x9f\x90\x9f", "[", "}"};
+  std::string text = "/";
+  for (auto n = random() % 20; n > 0; --n) text += kPieces[random() % std::size(kPieces)];
+  return text;
+}
+
+Value some_value(const OptionInfo& option, Random& random) {
+  switch (option.kind) {
+    case Kind::boolean:
+      return random() % 2 == 0;
+    case Kind::integer:
+      return static_cast<std::int64_t>(number_within(option, random));
+    case Kind::real:
+      return number_within(option, random);
+    case Kind::text:
+      return some_text(option, random);
+    case Kind::choice:
+      return std::string(option.choices[random() % option.choices.size()]);
+    case Kind::channels:
+      break;
+  }
+  std::vector<double> numbers(8);
+  for (double& number : numbers) number = number_within(option, random);
+  return numbers;
+}
+
+PortSettings some_port(std::size_t index, Random& random) {
+  const auto& options = port_options();
+  PortSettings port;
+  options.front().set(port, some_value(options.front(), random));
+  port = default_port(fmt::format("p{}", index), port.protocol, default_baud(port.protocol));
+  const auto place = random() % 3;
+  std::size_t places = 0;
+  for (const auto& option : options) {
+    if (option.key == "protocol" || !option.applies_to(port.protocol)) continue;
+    Value value = some_value(option, random);
+    if (option.table.empty() && option.kind == Kind::text) {
+      if (places++ != place) continue;
+      value = std::get<std::string>(value) + port.name;
+    }
+    EXPECT_EQ(option.adopt(value), std::nullopt) << option.name();
+    option.set(port, value);
+  }
+  return port;
+}
+
+Settings some_settings(Random& random) {
+  Settings settings;
+  for (const auto& option : daemon_options()) {
+    Value value = some_value(option, random);
+    EXPECT_EQ(option.adopt(value), std::nullopt) << option.name();
+    option.set(settings, value);
+  }
+  const auto ports = 1 + random() % 6;
+  for (std::size_t i = 0; i < ports; ++i) settings.ports.push_back(some_port(i, random));
+  return settings;
+}
+
+TEST(ConfigRoundTrip, RandomSettingsComeBackToTheLastBit) {
+  Random random(3);  // NOLINT: the same settings in every run
+  for (int i = 0; i < 200; ++i) {
+    const Settings settings = some_settings(random);
+    const std::string toml = to_toml(settings);
+    ASSERT_EQ(parse(toml, "round trip"), settings) << toml;
+    ASSERT_EQ(to_toml(parse(toml, "round trip")), toml);
+  }
+}
+
+TEST(ConfigRoundTrip, PortsKeepTheOrderOfTheFile) {
+  Settings settings;
+  for (const std::string name : {"z", "a", "m", "b"}) {
+    settings.ports.push_back(default_port(name, protocols::Protocol::nmea, 4800));
+    settings.ports.back().path = "/dev/" + name;
+  }
+  EXPECT_EQ(parse(to_toml(settings), "round trip"), settings);
+}
+
+}  // namespace
+}  // namespace navcal::config

@@ -1,0 +1,1 @@
+navcal_fuzz(fuzz_toml SOURCES toml.cpp USES navcal::config)
