@@ -1,0 +1,122 @@
+#include "instruments/nmea_device.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "instruments/units.h"
+#include "tests/instruments/collector.h"
+
+namespace navcal::instruments {
+namespace {
+
+using protocols::nmea::Parser;
+
+std::string epoch(const std::string& time, bool with_gga = true) {
+  std::string text = nmea("GPRMC," + time + ",A,5742.7698,N,01201.3554,E,10.0,54.7,010326,,,A");
+  if (with_gga) text += nmea("GPGGA," + time + ",5742.7698,N,01201.3554,E,1,08,1.01,49.4,M,37.0,M,,");
+  text += nmea("GPGSA,A,3,05,07,09,13,18,21,27,30,,,,,1.94,1.01,1.66");
+  return text;
+}
+
+class NmeaDeviceTest : public testing::Test {
+ protected:
+  config::PortSettings settings_;
+  NmeaDevice device_{settings_};
+  Collector collector_{device_};
+};
+
+TEST_F(NmeaDeviceTest, OneSampleAnEpochWithAllThatItsSentencesSay) {
+  for (int s = 0; s < 5; ++s) collector_.feed<Parser>(epoch("12300" + std::to_string(s) + ".00"));
+  const auto samples = collector_.all<GpsSample>();
+  ASSERT_EQ(samples.size(), 5U);  // the first by its RMC, the others when their GGA has come
+  const GpsSample& gps = samples[3];
+  EXPECT_EQ(gps.fix, Fix::fix_3d);
+  EXPECT_NEAR(*gps.latitude_rad / kRadPerDeg, 57.71283, 1e-9);
+  EXPECT_NEAR(*gps.height_m, 86.4, 1e-9);
+  EXPECT_NEAR(*gps.height_msl_m, 49.4, 1e-9);
+  EXPECT_NEAR(*gps.speed_m_s, 5.14444, 1e-4);
+  EXPECT_NEAR(*gps.course_rad, 54.7 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(*gps.dop, 1.94, 1e-12);
+  EXPECT_EQ(*gps.time_utc_ns - *samples[2].time_utc_ns, 1'000'000'000);
+}
+
+TEST_F(NmeaDeviceTest, AnEpochWhoseClosingSentenceIsMissingIsNotLost) {
+  collector_.feed<Parser>(epoch("120000.00"));
+  collector_.feed<Parser>(epoch("120001.00"));
+  collector_.feed<Parser>(epoch("120002.00", false));
+  collector_.feed<Parser>(epoch("120003.00", false));
+  collector_.feed<Parser>(epoch("120004.00", false));
+  EXPECT_EQ(collector_.all<GpsSample>().size(), 5U);
+}
+
+TEST_F(NmeaDeviceTest, CourseAtRestIsNoise) {
+  collector_.feed<Parser>(nmea("GPRMC,120000,A,5742.7698,N,01201.3554,E,0.31,320.0,010326,,,A"));
+  const auto samples = collector_.all<GpsSample>();
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_TRUE(samples[0].speed_m_s);
+  EXPECT_FALSE(samples[0].course_rad);
+}
+
+TEST_F(NmeaDeviceTest, AVoidPositionIsNoPosition) {
+  collector_.feed<Parser>(nmea("GPRMC,120000,V,,,,,,,010326,,,N"));
+  for (const auto& gps : collector_.all<GpsSample>()) EXPECT_FALSE(gps.latitude_rad);
+}
+
+TEST_F(NmeaDeviceTest, SatellitesOfSeveralTalkers) {
+  collector_.feed<Parser>(nmea("GPGSA,A,3,05,07,,,,,,,,,,,1.94,1.01,1.66"));
+  collector_.feed<Parser>(nmea("GPGSV,2,1,05,05,43,174,44,07,58,213,46,09,20,225,40,13,62,082,47"));
+  collector_.feed<Parser>(nmea("GPGSV,2,2,05,18,08,330,"));
+  collector_.feed<Parser>(nmea("GLGSV,1,1,01,70,33,200,30"));
+  collector_.feed<Parser>(nmea("GPGSV,1,1,01,05,43,174,45"));
+  const auto skies = collector_.all<SkySample>();
+  ASSERT_EQ(skies.size(), 3U);
+  EXPECT_EQ(skies[0].count, 5U);
+  EXPECT_TRUE(skies[0].satellites[0].used);
+  EXPECT_FALSE(skies[0].satellites[2].used);
+  EXPECT_FALSE(skies[0].satellites[4].cn0_dBHz);
+  EXPECT_EQ(skies[1].count, 6U);
+  EXPECT_EQ(skies[2].count, 2U);
+}
+
+TEST_F(NmeaDeviceTest, CompassesAndEchoSounders) {
+  collector_.feed<Parser>(nmea("HCHDM,182.3,M") + nmea("HEHDT,10.0,T") + nmea("APXDR,A,0.135,D,PTCH") +
+                          nmea("TIROT,60.0,A") + nmea("SDDPT,12.5,0.3") + nmea("HEHDT,,T"));
+  const auto compass = collector_.all<CompassSample>();
+  ASSERT_EQ(compass.size(), 4U);
+  EXPECT_FALSE(compass[0].heading_is_true);
+  EXPECT_TRUE(compass[1].heading_is_true);
+  EXPECT_NEAR(*compass[2].pitch_rad, 0.135 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(*compass[3].turn_rate_rad_s, 1 * kRadPerDeg, 1e-12);
+  ASSERT_EQ(collector_.all<AltimeterSample>().size(), 1U);
+  EXPECT_EQ(collector_.all<AltimeterSample>()[0].altitude_m, 12.5);
+}
+
+TEST(NmeaDevice, CountsOfSixteenBitsAreASetUpOfTheDevice) {
+  config::PortSettings settings;
+  settings.compass.heading_unit = settings.compass.tilt_unit = config::AngleUnit::counts16;
+  NmeaDevice device(settings);
+  Collector collector(device);
+  collector.feed<Parser>("$PTNTHTM,14223,N,169,N,-43,N,13641,2454*15\r\n");
+  const auto samples = collector.all<CompassSample>();
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_NEAR(*samples[0].heading_rad / kRadPerDeg, 78.13, 0.01);
+  EXPECT_NEAR(*samples[0].dip_rad / kRadPerDeg, 74.93, 0.01);
+}
+
+TEST(NmeaDevice, ReadsTheRecordedReceivers) {
+  const std::string file = NAVCAL_SHARED_DIR "/captures/oncore.log";
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) GTEST_SKIP() << file << " is not there: recordings of others are not part of the source";
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  NmeaDevice device{config::PortSettings{}};
+  Collector collector(device);
+  collector.feed<Parser>(bytes);
+  EXPECT_GE(collector.all<GpsSample>().size(), 6U);
+  EXPECT_LE(collector.all<GpsSample>().size(), 7U);
+  for (const auto& gps : collector.all<GpsSample>()) EXPECT_TRUE(gps.time_utc_ns);
+}
+
+}  // namespace
+}  // namespace navcal::instruments
