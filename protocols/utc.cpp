@@ -20,7 +20,7 @@ bool read(std::string_view text, Number& number) {
 
 }  // namespace
 
-bool is_valid(const Date& date) { return calendar(date).ok(); }
+bool is_valid(const Date& date) { return date.year >= 1 && date.year <= 9999 && calendar(date).ok(); }
 
 bool is_valid(const TimeOfDay& time) {
   return time.hour <= 23 && time.minute <= 59 && time.second <= 60 && time.nanosecond <= 999'999'999;

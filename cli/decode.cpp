@@ -1,0 +1,122 @@
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/decode_describe.h"
+#include "cli/decode_input.h"
+#include "cli/decode_progress.h"
+#include "cli/decode_stream.h"
+#include "protocols/imu_card.h"
+#include "protocols/motor_card.h"
+#include "protocols/nmea.h"
+#include "protocols/oncore.h"
+#include "protocols/tcm2.h"
+
+namespace navcal::cli {
+namespace {
+
+using protocols::Date;
+using protocols::Protocol;
+
+struct DecodeArguments {
+  std::string protocol;
+  std::string file;
+  std::string pivot;
+  bool json = false;
+};
+
+constexpr std::array kProtocols{Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card,
+                                Protocol::nmea};
+
+// Oncore receivers are of an age that has seen the week counter roll over; a stream of NMEA may come from
+// anything, so its dates are only touched when asked for.
+std::optional<Date> pivot_of(const DecodeArguments& arguments, Protocol protocol) {
+  if (!arguments.pivot.empty()) return protocols::parse_iso_date(arguments.pivot);
+  return protocol == Protocol::oncore ? std::optional<Date>(protocols::kRolloverPivot) : std::nullopt;
+}
+
+template <protocols::Scanner S>
+DecodeSummary decode_with(Describe describe, Protocol protocol, const std::optional<Date>& pivot, Input& input,
+                          FieldWriter& fields) {
+  const std::string_view name = name_of(protocol);
+  Progress progress(input.size());
+  return decode_stream<S>(
+      [&] {
+        const protocols::Bytes bytes = input.next();
+        progress.advance(bytes.size());
+        return bytes;
+      },
+      [&](const protocols::Frame& frame) {
+        fields.begin_frame(name, frame);
+        describe(fields, frame, pivot);
+        fields.end_frame();
+      });
+}
+
+DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, Input& input, FieldWriter& fields) {
+  switch (protocol) {
+    case Protocol::tcm2:
+      return decode_with<protocols::tcm2::Scanner>(describe_tcm2, protocol, pivot, input, fields);
+    case Protocol::imu_card:
+      return decode_with<protocols::imu_card::Scanner>(describe_imu_card, protocol, pivot, input, fields);
+    case Protocol::oncore:
+      return decode_with<protocols::oncore::Scanner>(describe_oncore, protocol, pivot, input, fields);
+    case Protocol::motor_card:
+      return decode_with<protocols::motor_card::Scanner>(describe_motor_card, protocol, pivot, input, fields);
+    case Protocol::nmea:
+      return decode_with<protocols::nmea::Scanner>(describe_nmea, protocol, pivot, input, fields);
+  }
+  throw Failure(Exit::usage, "unknown protocol");
+}
+
+void run(const DecodeArguments& arguments) {
+  // A reader that goes away (head, less) is told as a failure of the write and not by a signal.
+  std::signal(SIGPIPE, SIG_IGN);
+  const Protocol protocol = *protocols::protocol_named(arguments.protocol);
+  Input input(arguments.file);
+  Output output(STDOUT_FILENO, "standard output");
+  FieldWriter fields(output, arguments.json ? FieldWriter::Format::json : FieldWriter::Format::text);
+  const DecodeSummary summary = decode(protocol, pivot_of(arguments, protocol), input, fields);
+  if (arguments.json) {
+    write_json(output, summary);
+  } else {
+    write_text(output, summary);
+  }
+  output.flush();
+}
+
+}  // namespace
+
+void add_decode(CLI::App& app) {
+  auto arguments = std::make_shared<DecodeArguments>();
+  CLI::App* const command =
+      app.add_subcommand("decode", "Show the frames of a raw byte stream, then what it consisted of");
+  std::vector<std::string> names;
+  for (const Protocol protocol : kProtocols) names.emplace_back(name_of(protocol));
+
+  command->add_option("--protocol", arguments->protocol, "Language of the device")
+      ->required()
+      ->check(CLI::IsMember(names));
+  command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
+  command
+      ->add_option("--pivot", arguments->pivot,
+                   "Dates before this one are moved up by whole epochs of 1024 weeks (GPS week rollover); oncore: "
+                   "2019-04-07 unless given, nmea: dates as sent unless given")
+      ->type_name("YYYY-MM-DD")
+      ->check([](const std::string& text) {
+        return protocols::parse_iso_date(text) ? std::string{} : text + " is not a date, such as 2019-04-07";
+      });
+  command->add_option("FILE", arguments->file, "Bytes as the device sent them; - is standard input")->required();
+  command->footer(
+      "Examples:\n"
+      "  navcal decode --protocol oncore gps.bin\n"
+      "  navcal decode --protocol nmea --json - < /dev/ttyUSB0 | jq .heading_deg");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace navcal::cli
