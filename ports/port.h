@@ -13,10 +13,10 @@ namespace navcal::ports {
 
 /// What is known of an opened port.
 struct OpenPort {
-  std::string path;                 ///< what was opened, links resolved
+  std::string path;  ///< what was opened, links resolved
   bool pseudo_terminal = false;
-  std::string low_latency;          ///< what was asked for and what was read back, in words
-  std::string description;          ///< USB ids, driver, where known
+  std::string low_latency;  ///< what was asked for and what was read back, in words
+  std::string description;  ///< USB ids, driver, where known
 };
 
 /// Told of everything that happens at one port, in order, on the I/O thread.
@@ -32,8 +32,8 @@ class PortListener {
   virtual void on_lost(std::int64_t now_ns, std::string_view reason) = 0;
 };
 
-/// One configured port for as long as the daemon runs: found by path, udev name or USB serial number, opened, read,
-/// lost, found again within a second under whatever name. Reading waits for nothing but bytes.
+/// One configured port for as long as the daemon runs: found by path, udev name or USB serial number, opened,
+/// read, lost, found again within a second under whatever name. Reading waits for nothing but bytes.
 class Port {
  public:
   Port(boost::asio::any_io_executor executor, config::PortSettings settings, PortListener& listener);

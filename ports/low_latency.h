@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "ports/sysfs.h"
+
+namespace navcal::ports {
+
+/// What was done for a port's latency, in words, and what has to be undone.
+struct LowLatency {
+  std::string report;
+  std::optional<int> former_flags;  ///< of the driver, to be given back by restore_latency()
+};
+
+/// Asks the driver (ASYNC_LOW_LATENCY) and, for FTDI adapters, the 16 ms timer in sysfs to hand over bytes at
+/// once; believes only what it reads back.
+[[nodiscard]] LowLatency ask_low_latency(int fd, const SysfsTty& sysfs);
+void restore_latency(int fd, const LowLatency& asked);
+
+}  // namespace navcal::ports

@@ -1,0 +1,54 @@
+#include "ports/pseudo_terminal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+
+#include "ports/raw_mode.h"
+
+namespace navcal::ports {
+
+PseudoTerminal make_pseudo_terminal(int baud) {
+  const auto failed = [](const char* what) { throw std::system_error(errno, std::generic_category(), what); };
+  PseudoTerminal made{Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)), {}};
+  if (!made.master) failed("no pseudo-terminal to be had");
+  if (::grantpt(made.master.get()) != 0 || ::unlockpt(made.master.get()) != 0)
+    failed("unlocking a pseudo-terminal");
+  std::array<char, 64> name{};
+  if (const int error = ::ptsname_r(made.master.get(), name.data(), name.size()); error != 0) {
+    errno = error;
+    failed("naming a pseudo-terminal");
+  }
+  made.slave_name = name.data();
+  // Opened and closed once: its settings stay, and from now on the master knows that nobody is there.
+  const Descriptor slave(::open(name.data(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!slave || !set_raw(slave.get(), baud)) failed("setting up a pseudo-terminal");
+  return made;
+}
+
+void point_link(const std::filesystem::path& link, const std::string& target) {
+  namespace fs = std::filesystem;
+  if (link.has_parent_path()) fs::create_directories(link.parent_path());
+  const auto status = fs::symlink_status(link);
+  if (fs::exists(status) && !fs::is_symlink(status)) {
+    throw std::runtime_error(fmt::format("{} is there already and is no link", link.string()));
+  }
+  const fs::path fresh = link.string() + fmt::format(".{}.new", ::getpid());
+  std::error_code none;
+  fs::remove(fresh, none);
+  fs::create_symlink(target, fresh);
+  fs::rename(fresh, link);
+}
+
+void remove_link(const std::filesystem::path& link, const std::string& target) {
+  std::error_code error;
+  if (std::filesystem::read_symlink(link, error) == target && !error) std::filesystem::remove(link, error);
+}
+
+}  // namespace navcal::ports

@@ -1,0 +1,116 @@
+#include "ports/tty.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <libserialport.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "ports/holder.h"
+#include "ports/raw_mode.h"
+
+namespace navcal::ports {
+namespace {
+
+/// Slaves of Unix98 pseudo-terminals have these major numbers (Linux, Documentation/admin-guide/devices.txt).
+bool is_pseudo_terminal(int fd) {
+  constexpr unsigned kFirstMajor = 136;
+  constexpr unsigned kLastMajor = 143;
+  struct stat status {};
+  if (::fstat(fd, &status) != 0 || !S_ISCHR(status.st_mode)) return false;
+  return major(status.st_rdev) >= kFirstMajor && major(status.st_rdev) <= kLastMajor;
+}
+
+std::string refusal(const std::string& path, int error) {
+  if (error == EBUSY) return fmt::format("{}: in use by {}", path, holders_of(path));
+  if (error == EACCES) return fmt::format("{}: permission denied (ports belong to the group dialout)", path);
+  if (error == ENOENT) return fmt::format("{}: no such device", path);
+  return fmt::format("{}: {}", path, std::strerror(error));
+}
+
+std::string set_up(sp_port* port, int baud) {
+  const bool done = sp_set_baudrate(port, baud) == SP_OK && sp_set_bits(port, 8) == SP_OK &&
+                    sp_set_parity(port, SP_PARITY_NONE) == SP_OK && sp_set_stopbits(port, 1) == SP_OK &&
+                    sp_set_flowcontrol(port, SP_FLOWCONTROL_NONE) == SP_OK;
+  if (done) return {};
+  const std::unique_ptr<char, decltype(&sp_free_error_message)> why(sp_last_error_message(),
+                                                                    &sp_free_error_message);
+  return fmt::format("{}: cannot be set to {} baud 8N1: {}", sp_get_port_name(port), baud, why.get());
+}
+
+/// libserialport leaves VMIN at 0, with which an empty queue reads as 0 bytes like a lost device.
+bool read_when_there_is_something(int fd) {
+  termios settings{};
+  if (tcgetattr(fd, &settings) != 0) return false;
+  make_raw(settings);
+  return tcsetattr(fd, TCSANOW, &settings) == 0;
+}
+
+}  // namespace
+
+void Tty::CloseSerial::operator()(sp_port* port) const {
+  sp_close(port);
+  sp_free_port(port);
+}
+
+std::variant<Tty, std::string> Tty::open(const Found& found, int baud, bool low_latency) {
+  Tty tty;
+  tty.info_.path = found.path;
+  tty.info_.description = found.description;
+  tty.device_ = Descriptor(::open(found.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!tty.device_) return refusal(found.path, errno);
+  if (tcgetattr(tty.device_.get(), &tty.former_) != 0) return fmt::format("{}: is no serial port", found.path);
+  if (!lock_device(tty.device_.get())) return refusal(found.path, EBUSY);
+  tty.info_.pseudo_terminal = is_pseudo_terminal(tty.device_.get());
+  std::string why =
+      tty.info_.pseudo_terminal ? tty.open_pseudo_terminal(baud) : tty.open_serial(baud, low_latency);
+  if (!why.empty()) return why;
+  return tty;
+}
+
+std::string Tty::open_pseudo_terminal(int baud) {
+  // No TIOCEXCL here: on a pseudo-terminal it outlives a killed owner and would lock out the next one for good.
+  if (!set_raw(device_.get(), baud)) return refusal(info_.path, errno);
+  fd_ = device_.get();
+  info_.low_latency = "not applicable on a pseudo-terminal";
+  return {};
+}
+
+std::string Tty::open_serial(int baud, bool low_latency) {
+  sp_port* port = nullptr;
+  if (sp_get_port_by_name(info_.path.c_str(), &port) != SP_OK) return info_.path + ": is no serial port";
+  if (sp_open(port, SP_MODE_READ_WRITE) != SP_OK) {
+    const int error = sp_last_error_code();
+    sp_free_port(port);
+    return refusal(info_.path, error);
+  }
+  serial_.reset(port);
+  sp_get_port_handle(port, &fd_);
+  if (std::string why = set_up(port, baud); !why.empty()) return why;
+  if (!read_when_there_is_something(fd_)) return refusal(info_.path, errno);
+  // Keeps out programs that know nothing of our lock.
+  if (::ioctl(fd_, TIOCEXCL) != 0) return refusal(info_.path, errno);
+  latency_.report = "not asked for";
+  if (low_latency) latency_ = ask_low_latency(fd_, SysfsTty(info_.path));
+  info_.low_latency = latency_.report;
+  return {};
+}
+
+bool Tty::alive() const {
+  termios settings{};
+  return tcgetattr(fd_, &settings) == 0;
+}
+
+Tty::~Tty() {
+  if (!device_ || fd_ < 0) return;
+  restore_latency(fd_, latency_);
+  if (serial_) ::ioctl(fd_, TIOCNXCL);
+  // On a device that is gone this fails, and nothing is lost by it.
+  tcsetattr(fd_, TCSANOW, &former_);
+}
+
+}  // namespace navcal::ports
