@@ -25,10 +25,10 @@ inline constexpr std::uint32_t kBadParameter = 0x040;
 /// A data word as the device says it. A field that is switched off is absent. Whether angles are degrees or mils
 /// and the temperature C or F is configuration, not in the word.
 struct Word {
-  std::optional<double> heading, pitch, roll;
-  std::optional<double> x, y, z;  ///< uT; body axes x forward, y starboard, z down
-  std::optional<double> temperature;
-  std::optional<std::uint32_t> error;  ///< the raw code; there only while an error stands
+  std::optional<double> heading{}, pitch{}, roll{};
+  std::optional<double> x{}, y{}, z{};  ///< uT; body axes x forward, y starboard, z down
+  std::optional<double> temperature{};
+  std::optional<std::uint32_t> error{};  ///< the raw code; there only while an error stands
 
   /// The field vector, if all three components are there.
   [[nodiscard]] std::optional<std::array<double, 3>> field() const {

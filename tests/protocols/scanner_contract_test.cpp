@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include "tests/protocols/samples.h"
+#include "tests/protocols/stream.h"
+
+// What StreamParser asks of every scanner (protocols/stream_parser.h).
+namespace navcal::protocols::test {
+namespace {
+
+bool operator==(const Scan& a, const Scan& b) { return a.kind == b.kind && a.length == b.length && a.id == b.id; }
+
+template <class S>
+class ScannerContract : public testing::Test {};
+
+using Scanners = testing::Types<tcm2::Scanner, tcm2::CommandScanner, imu_card::Scanner, motor_card::Scanner>;
+TYPED_TEST_SUITE(ScannerContract, Scanners);
+
+TYPED_TEST(ScannerContract, DecidesOnThePrefixAndStaysWithIt) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(seed);
+    const Buffer stream = mixture(random, random_frame<TypeParam>, 20);
+    const std::uint8_t* const last = stream.data() + stream.size();
+    for (const std::uint8_t* start = TypeParam::find_start(stream.data(), last); start != last;
+         start = TypeParam::find_start(start + 1, last)) {
+      bool decided = false;
+      Scan decision;
+      for (const std::uint8_t* end = start + 1; end <= last; ++end) {
+        const auto available = static_cast<std::size_t>(end - start);
+        const Scan scan = TypeParam::scan(start, end);
+        if (decided) {
+          ASSERT_TRUE(scan == decision) << "changed its mind after " << available << " bytes";
+          if (available > 2 * TypeParam::kMaxFrameLength) break;
+        } else if (scan.kind == Scan::Kind::incomplete) {
+          ASSERT_GE(scan.length, 1U);
+          ASSERT_LE(available + scan.length, TypeParam::kMaxFrameLength);
+        } else {
+          decided = true;
+          decision = scan;
+          if (scan.kind == Scan::Kind::frame) {
+            ASSERT_GE(scan.length, 1U);
+            ASSERT_LE(scan.length, available);
+          }
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(ScannerContract, FindStartSkipsOnlyWhatIsNoFrame) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    const Buffer frame = random_frame<TypeParam>(random);
+    const std::uint8_t* const last = frame.data() + frame.size();
+    EXPECT_EQ(TypeParam::find_start(frame.data(), last), frame.data());
+    EXPECT_EQ(TypeParam::find_start(last, last), last);
+    EXPECT_EQ(TypeParam::scan(frame.data(), last).length, frame.size());
+  }
+}
+
+}  // namespace
+}  // namespace navcal::protocols::test
