@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/decode_output.h"
+#include "config/load.h"
+#include "pipeline/pipeline.h"
+#include "record/recording.h"
+#include "record/sample_json.h"
+
+namespace navcal::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string config;
+  bool json = false;  // the only form there is; accepted because scripts say it
+};
+
+/// Samples as lines, in the order in which the pipeline makes them.
+class Printer : public pipeline::Sink {
+ public:
+  Printer(const config::Settings& settings, Output& output) : settings_(settings), output_(output) {}
+  void on_sample(const instruments::Sample& sample) override {
+    if (std::holds_alternative<instruments::SkySample>(sample.value)) return;  // no line of the contract
+    line_.clear();
+    record::append_json(line_, sample, settings_.ports[sample.port].name);
+    line_ += '\n';
+    output_.append(line_);
+  }
+
+ private:
+  const config::Settings& settings_;
+  Output& output_;
+  std::string line_;
+};
+
+/// Which port of the configuration in use each port of the recording is; -1: none of that name.
+std::vector<int> match_ports(const config::Settings& recorded, const config::Settings& used, const std::string& file) {
+  std::vector<int> index;
+  for (const auto& port : recorded.ports) {
+    const auto found = std::find_if(used.ports.begin(), used.ports.end(),
+                                    [&](const config::PortSettings& other) { return other.name == port.name; });
+    index.push_back(found == used.ports.end() ? -1 : static_cast<int>(found - used.ports.begin()));
+    if (found == used.ports.end()) {
+      std::fprintf(stderr, "navcal: %s: port %s is not in the configuration: left out\n", file.c_str(),
+                   port.name.c_str());
+    }
+  }
+  return index;
+}
+
+void report_progress(double share) {
+  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r%3.0f %%", 100 * share);
+}
+
+/// Plays one file through the pipeline; files of one series may follow each other.
+void play(record::Recording& recording, const std::string& file, pipeline::Pipeline& pipeline, Printer& printer) {
+  const auto port_index = match_ports(recording.settings(), pipeline.settings(), file);
+  std::int64_t newest_ns = 0;
+  std::uint64_t entries = 0;
+  while (const auto entry = recording.next()) {
+    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
+      newest_ns = std::max(newest_ns, raw->time_ns);
+      const int port = port_index.at(raw->port);
+      if (raw->direction == record::Direction::received && port >= 0) {
+        pipeline.bytes(static_cast<std::uint16_t>(port), raw->time_ns, raw->bytes, printer);
+      }
+    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
+      pipeline.set_mapping(change->mapping, printer);
+    } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) {
+      newest_ns = std::max(newest_ns, event->time_ns);
+    }
+    if (++entries % 65536 == 0) report_progress(recording.progress());
+  }
+  pipeline.advance(newest_ns, printer);
+  if (entries >= 65536) report_progress(1);
+  for (const auto& remark : recording.remarks()) std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), remark.c_str());
+}
+
+void replay(const Options& options) {
+  try {
+    auto recording = record::Recording::open(options.files.front());
+    const auto settings = options.config.empty() ? recording->settings() : config::load(options.config);
+    Output output(STDOUT_FILENO, "standard output");
+    Printer printer(settings, output);
+    pipeline::Pipeline pipeline(settings);
+    play(*recording, options.files.front(), pipeline, printer);
+    for (std::size_t i = 1; i < options.files.size(); ++i) {
+      recording = record::Recording::open(options.files[i]);
+      play(*recording, options.files[i], pipeline, printer);
+    }
+    output.flush();
+  } catch (const record::BadRecording& error) {
+    throw Failure(Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw Failure(Exit::bad_input, error.what());
+  }
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("replay", "runs a recording through the pipeline: one JSON line a sample");
+  command->add_option("FILE", options->files, "log (.mcap) or capture (.cap); several of one series in their order")
+      ->required();
+  command->add_option("--config", options->config, "configuration to use instead of the recording's own");
+  command->add_flag("--json", options->json, "JSON lines (this is the default)");
+  command->footer("Example: navcal replay mission.mcap | grep COMPASS");
+  command->callback([options] { replay(*options); });
+}
+
+}  // namespace navcal::cli
