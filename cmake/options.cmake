@@ -34,6 +34,11 @@ if(NAVCAL_SANITIZE)
   endif()
 endif()
 
+if(NAVCAL_FUZZ)
+  # Coverage of the libraries too: without it the fuzzer sees nothing of what it feeds.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 include_directories(${CMAKE_SOURCE_DIR})
 
 # navcal_room(NAME SOURCES... ): the library of one folder, linked as navcal::NAME.

@@ -5,31 +5,15 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
+
+#include "config/document_bounds.h"
 
 namespace navcal::config {
 namespace {
 
-// toml++ 3.3 bounds nested values but not dotted keys, and frees tables recursively: some ten thousand levels end
-// the process. These bounds keep a file far below that; no real one comes near them.
-constexpr std::size_t kMaxBytes = 256 * 1024;
-constexpr std::ptrdiff_t kMaxDots = 32;
 // Nothing that is known lies deeper than port.NAME.TABLE.KEY.
 constexpr std::size_t kMaxDepth = 4;
-
-/// The first line that has too many dots; 0 when none has. Comments may have as many as they like.
-unsigned line_with_too_many_dots(std::string_view toml) {
-  unsigned number = 0;
-  while (!toml.empty()) {
-    ++number;
-    const std::size_t end = std::min(toml.find('\n'), toml.size());
-    const std::string_view line = toml.substr(0, end);
-    toml.remove_prefix(std::min(end + 1, toml.size()));
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first != std::string_view::npos && line[first] == '#') continue;
-    if (std::count(line.begin(), line.end(), '.') > kMaxDots) return number;
-  }
-  return 0;
-}
 
 Value value_of(const toml::array& array) {
   std::vector<double> numbers;
@@ -80,8 +64,10 @@ void collect(const toml::table& table, std::vector<std::string>& keys, std::vect
 
 /// The value of `text` read as TOML, when it is exactly one.
 std::optional<Value> one_value(const std::string& text) {
+  const std::string line = "v=" + text;
+  if (beyond_bounds(line)) return std::nullopt;
   try {
-    const toml::table table = toml::parse("v=" + text);
+    const toml::table table = toml::parse(line);
     if (table.size() == 1) return value_of(*table.get("v"));
   } catch (const toml::parse_error&) {
     // Not TOML: a text without quotes.
@@ -94,12 +80,8 @@ std::optional<Value> one_value(const std::string& text) {
 std::string Entry::name() const { return fmt::format("{}", fmt::join(keys, ".")); }
 
 std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems) {
-  if (toml.size() > kMaxBytes) {
-    problems.push_back({1, "", fmt::format("the file has more than {} bytes", kMaxBytes)});
-    return {};
-  }
-  if (const unsigned line = line_with_too_many_dots(toml); line != 0) {
-    problems.push_back({line, "", fmt::format("the line has more than {} dots", kMaxDots)});
+  if (auto problem = beyond_bounds(toml)) {
+    problems.push_back(std::move(*problem));
     return {};
   }
   std::vector<Entry> entries;
@@ -129,15 +111,11 @@ std::optional<Entry> read_override(std::string_view text, std::vector<Problem>& 
     rest.remove_prefix(dot + 1);
   }
   const std::string given(text.substr(equals + 1));
-  if (line_with_too_many_dots(given) != 0 || given.size() > kMaxBytes) {
-    problems.push_back({0, entry.name(), "the value is too long"});
-    return std::nullopt;
-  }
   // A serial number of digits only is a text, and a path needs no quotes; through TOML, to hold it to the same
   // rules.
   const auto as_text = one_value(to_toml_text(Value(given)));
   if (!as_text) {
-    problems.push_back({0, entry.name(), "the value is not UTF-8"});
+    problems.push_back({0, entry.name(), "the value is not UTF-8, or too long"});
     return std::nullopt;
   }
   entry.value = one_value(given).value_or(*as_text);

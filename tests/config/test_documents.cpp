@@ -58,8 +58,28 @@ TEST(ConfigDocuments, AnEndlessFileIsRefused) {
             Problems{"t.toml:1: the file has more than 262144 bytes"});
 }
 
+TEST(ConfigDocuments, BeyondAsciiOnlyInQuotesAndComments) {
+  EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = \"/d\u00e9p\u00f4t\" # \u00e9\n"), Problems{});
+  EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = '/d\u00e9p\u00f4t' # \"\u00e9\n"), Problems{});
+  EXPECT_EQ(problems_beside_a_port("[log]\n \u0343 = 1\n"),
+            Problems{"t.toml:7: a character beyond ASCII stands outside quotes and comments"});
+  EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = \"/a\\\"\" \u0343\n"),
+            Problems{"t.toml:7: a character beyond ASCII stands outside quotes and comments"});
+}
+
+TEST(ConfigDocuments, AByteOrderMarkIsNoCharacter) {
+  EXPECT_EQ(problems_of(std::string("\xef\xbb\xbf").append(kGoodPort)), Problems{});
+}
+
+TEST(ConfigDocuments, TextsOverSeveralLinesAreRefused) {
+  for (const std::string quotes : {"\"\"\"", "'''"}) {
+    EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = " + quotes + "/a\\\n\u00a7" + quotes + "\n"),
+              Problems{"t.toml:7: a text over several lines is not taken"});
+  }
+}
+
 TEST(ConfigDocuments, CommentsMayHaveDots) {
-  EXPECT_EQ(problems_beside_a_port("  # " + repeated(".", 100) + "\n"), Problems{});
+  EXPECT_EQ(problems_beside_a_port("  # " + repeated(".", 100) + "\n[log] # " + repeated(".", 100)), Problems{});
 }
 
 TEST(ConfigDocuments, LinesMayEndInCrLf) {

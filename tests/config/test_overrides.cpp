@@ -60,7 +60,7 @@ TEST(ConfigOverrides, Problems) {
   EXPECT_EQ(problems_of(kGoodPort, {"port.gps.units=1"}), Problems{"--set: port.gps.units: a table is wanted"});
   EXPECT_EQ(problems_of(kGoodPort, {"port.gps.fix.a.b=1"}), Problems{"--set: port.gps.fix.a.b: unknown key"});
   EXPECT_EQ(problems_of(kGoodPort, {"log.directory=/a\xff"}),
-            Problems{"--set: log.directory: the value is not UTF-8"});
+            Problems{"--set: log.directory: the value is not UTF-8, or too long"});
 }
 
 TEST(ConfigOverrides, MisshapenOnes) {

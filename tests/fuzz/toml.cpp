@@ -1,4 +1,5 @@
 // Any bytes as a configuration file: an Error or settings, and settings come back from to_toml() unchanged.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
