@@ -1,0 +1,113 @@
+#include "instruments/start_up_oncore.h"
+
+#include "protocols/oncore.h"
+#include "protocols/oncore_command.h"
+
+namespace navcal::instruments {
+namespace {
+
+namespace oncore = protocols::oncore;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+/// The receiver reads its input once a second and answers in the next but one; half a second for the wire.
+constexpr std::int64_t kAnswer_ns = 3 * kSecond_ns + kSecond_ns / 2;
+constexpr std::int64_t kStopped_ns = 3 * kSecond_ns;
+constexpr std::int64_t kCycle_ns = 10 * kSecond_ns;
+constexpr std::uint8_t kEverySecond = 1;
+
+/// Sentences have talker and type, at least five letters; the receiver's own messages have two.
+bool is_nmea(protocols::FrameId id) { return id.view().size() >= 5; }
+
+}  // namespace
+
+void StartUpOncore::begin(std::int64_t now_ns) {
+  fruitless_ = 0;
+  ask_for(Phase::asked_ha, now_ns);
+}
+
+void StartUpOncore::ask_for(Phase phase, std::int64_t now_ns) {
+  phase_ = phase;
+  source_ = Source::none;
+  asked_ns_ = now_ns;
+  due_ns_ = now_ns + kAnswer_ns;
+  to_ask_ = {oncore::kBo, oncore::kBb, phase == Phase::asked_ha ? oncore::kHa : oncore::kEa};
+  if (phase == Phase::asked_ha) {
+    cycle_began_ns_ = now_ns;
+    nmea_seen_ = false;
+  }
+}
+
+void StartUpOncore::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
+  if (phase_ == Phase::idle) return;
+  if (frame.id == oncore::kHa) {
+    run_on(Source::ha, now_ns);
+  } else if (frame.id == oncore::kEa) {
+    // While Ha may still come, an Ea is left over from before.
+    if (phase_ != Phase::asked_ha) run_on(Source::ea, now_ns);
+  } else if (is_nmea(frame.id)) {
+    nmea_seen_ = true;
+    if (phase_ == Phase::resting || phase_ == Phase::running) run_on(Source::nmea, now_ns);
+  }
+}
+
+void StartUpOncore::run_on(Source source, std::int64_t now_ns) {
+  if (source < source_) return;
+  phase_ = Phase::running;
+  source_ = source;
+  due_ns_ = now_ns + kStopped_ns;
+  fruitless_ = 0;
+}
+
+void StartUpOncore::act(std::int64_t now_ns) {
+  switch (phase_) {
+    case Phase::idle:
+      break;
+    case Phase::asked_ha:
+      ask_for(Phase::asked_ea, now_ns);
+      break;
+    case Phase::asked_ea:
+      if (nmea_seen_) {
+        run_on(Source::nmea, now_ns);
+      } else {
+        ++fruitless_;
+        phase_ = Phase::resting;
+        due_ns_ = cycle_began_ns_ + kCycle_ns;
+      }
+      break;
+    case Phase::resting:
+    case Phase::running:
+      ask_for(Phase::asked_ha, now_ns);
+      break;
+  }
+}
+
+std::optional<std::vector<std::uint8_t>> StartUpOncore::next(std::int64_t now_ns) {
+  if (now_ns >= due_ns_) act(now_ns);
+  if (to_ask_.empty()) return std::nullopt;
+  const protocols::FrameId id = to_ask_.back();
+  to_ask_.pop_back();
+  return oncore::encode_poll(id, kEverySecond);
+}
+
+std::int64_t StartUpOncore::deadline_ns() const { return to_ask_.empty() ? due_ns_ : asked_ns_; }
+
+std::string StartUpOncore::state() const {
+  const std::string attempt = fruitless_ == 0 ? "" : ", attempt " + std::to_string(fruitless_ + 1);
+  switch (phase_) {
+    case Phase::idle:
+      return "not begun";
+    case Phase::asked_ha:
+      return "asked for Ha" + attempt;
+    case Phase::asked_ea:
+      return "no answer to Ha: trying Ea" + attempt;
+    case Phase::resting:
+      return "no answer to Ha or Ea, and no NMEA: trying again every 10 s, " + std::to_string(fruitless_) +
+             " so far";
+    case Phase::running:
+      break;
+  }
+  if (source_ == Source::nmea) return "running on NMEA: no answer to Ha or Ea";
+  return source_ == Source::ha ? "running on Ha" : "running on Ea";
+}
+
+}  // namespace navcal::instruments

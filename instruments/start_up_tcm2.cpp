@@ -1,0 +1,223 @@
+#include "instruments/start_up_tcm2.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "protocols/decimal.h"
+#include "protocols/tcm2.h"
+
+namespace navcal::instruments {
+namespace {
+
+namespace tcm2 = protocols::tcm2;
+using tcm2::Parameter;
+using tcm2::Verb;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kBetweenHalts_ns = 100 * kMillisecond_ns;  // ICD section 1: "twice 100 ms apart"
+/// After the second `h`: a word under way and the replies to both are over (75 bytes take 78 ms at 9600 baud).
+constexpr std::int64_t kSettle_ns = 200 * kMillisecond_ns;
+/// A reply waits for the end of a word under way; at 5 Hz the device looks at its input five times a second.
+constexpr std::int64_t kReplyTimeout_ns = 400 * kMillisecond_ns;
+constexpr std::int64_t kStopped_ns = 3 * kSecond_ns;
+constexpr std::int64_t kMostPatience_ns = 10 * kSecond_ns;
+constexpr int kAttempts = 3;  // the command and two repetitions
+
+/// `clock=` and `sp=` that come nearest to a rate. Of equals the pair with sp = rate wins, for it means the same
+/// to a TCM2 (clock divided by sp) and to a TCM2.5 (sp in Hz); then the smallest divider.
+std::pair<int, int> clock_and_period(double rate_Hz) {
+  constexpr int kSlowest = 5, kFastest = 40, kMostPeriod = 40;
+  std::pair<int, int> best{kSlowest, 1};
+  double best_miss = std::numeric_limits<double>::infinity();
+  for (int period = 1; period <= kMostPeriod; ++period) {
+    for (int clock = kSlowest; clock <= kFastest; ++clock) {
+      const double miss = std::abs(static_cast<double>(clock) / period - rate_Hz);
+      const bool same_to_both = miss == best_miss && static_cast<double>(period) == rate_Hz;
+      if (miss < best_miss || same_to_both) {
+        best_miss = miss;
+        best = {clock, period};
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<tcm2::Command> settings_for(const config::PortSettings& port) {
+  using config::AngleUnit;
+  std::vector<tcm2::Command> commands;
+  const auto set = [&commands](Parameter parameter, auto value) {
+    commands.push_back(tcm2::set(parameter, value));
+  };
+  const auto set_unit = [&set](Parameter parameter, AngleUnit unit) {
+    if (unit == AngleUnit::counts16) return;  // no unit of this device: leave it as it is
+    set(parameter, unit == AngleUnit::mils ? 'm' : 'd');
+  };
+  set_unit(Parameter::heading_unit, port.compass.heading_unit);
+  set_unit(Parameter::tilt_unit, port.compass.tilt_unit);
+  set(Parameter::temperature_unit, port.compass.temperature_unit == config::TemperatureUnit::F ? 'f' : 'c');
+  for (const auto field : {Parameter::output_heading, Parameter::output_pitch, Parameter::output_roll,
+                           Parameter::output_field, Parameter::output_temperature}) {
+    set(field, 'e');
+  }
+  set(Parameter::output_format, 't');
+  if (port.rate_Hz > 0) {
+    const auto [clock, period] = clock_and_period(port.rate_Hz);
+    set(Parameter::clock, clock);
+    set(Parameter::sample_period, period);
+  }
+  return commands;
+}
+
+std::string text_of(const tcm2::Command& command) {
+  const auto bytes = tcm2::encode_command(command);
+  return {bytes.begin(), bytes.end() - 1};  // without its CR
+}
+
+void add_to_list(std::string& list, const std::string& item) {
+  if (!list.empty()) list += ", ";
+  list += item;
+}
+
+}  // namespace
+
+StartUpTcm2::StartUpTcm2(const config::PortSettings& settings)
+    : settings_(settings_for(settings)), stopped_after_ns_(kStopped_ns) {
+  if (settings.rate_Hz > 0) {
+    stopped_after_ns_ = std::max(kStopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
+  }
+  patience_ns_ = stopped_after_ns_;
+}
+
+void StartUpTcm2::begin(std::int64_t now_ns) {
+  patience_ns_ = stopped_after_ns_;
+  fruitless_ = 0;
+  halt_at(now_ns);
+}
+
+void StartUpTcm2::halt_at(std::int64_t when_ns) {
+  phase_ = Phase::first_halt;
+  due_ns_ = when_ns;
+  current_ = 0;
+  attempts_ = 0;
+  unanswered_.clear();
+  refused_.clear();
+}
+
+void StartUpTcm2::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
+  if (phase_ == Phase::idle) return;
+  if (frame.id == tcm2::kBanner) {
+    halt_at(now_ns + kSettle_ns);
+  } else if (frame.id == tcm2::kReply) {
+    on_reply(frame, now_ns);
+  } else if (phase_ == Phase::awaiting_word || phase_ == Phase::running) {
+    phase_ = Phase::running;
+    due_ns_ = now_ns + stopped_after_ns_;
+    patience_ns_ = stopped_after_ns_;
+    fruitless_ = 0;
+  }
+}
+
+void StartUpTcm2::on_reply(const protocols::Frame& frame, std::int64_t now_ns) {
+  if (phase_ != Phase::setting || attempts_ == 0) return;  // to one of the halts
+  const auto reply = tcm2::decode_reply(frame.bytes);
+  if (!reply) return;
+  const tcm2::Command& command = settings_[current_];
+  switch (reply->kind) {
+    case tcm2::Reply::Kind::calibration:
+      return;
+    case tcm2::Reply::Kind::value:
+      if (reply->parameter != tcm2::name_of(command.parameter)) return;
+      break;
+    case tcm2::Reply::Kind::refused: {
+      std::string item = text_of(command) + " (E";
+      protocols::append_hex(item, reply->error, 3);
+      add_to_list(refused_, item + ')');
+      break;
+    }
+    case tcm2::Reply::Kind::accepted:
+      break;
+  }
+  go_on_to_next(now_ns);
+}
+
+void StartUpTcm2::go_on_to_next(std::int64_t now_ns) {
+  ++current_;
+  attempts_ = 0;
+  due_ns_ = now_ns;
+}
+
+/// Once a setting has been repeated in vain the following ones are not repeated: a device whose replies do not
+/// come through is in service soon all the same.
+int StartUpTcm2::attempts_allowed() const { return unanswered_.empty() ? kAttempts : 1; }
+
+std::optional<std::vector<std::uint8_t>> StartUpTcm2::next(std::int64_t now_ns) {
+  if (now_ns < due_ns_) return std::nullopt;
+  switch (phase_) {
+    case Phase::idle:
+      return std::nullopt;
+    case Phase::awaiting_word:
+      ++fruitless_;
+      patience_ns_ = std::max(stopped_after_ns_, std::min(2 * patience_ns_, kMostPatience_ns));
+      halt_at(now_ns);
+      break;
+    case Phase::running:
+      halt_at(now_ns);
+      break;
+    case Phase::first_halt:
+    case Phase::second_halt:
+      break;
+    case Phase::setting:
+      return next_setting(now_ns);
+  }
+  const bool first = phase_ == Phase::first_halt;
+  phase_ = first ? Phase::second_halt : Phase::setting;
+  due_ns_ = now_ns + (first ? kBetweenHalts_ns : kSettle_ns);
+  return tcm2::encode_command({Verb::halt});
+}
+
+std::optional<std::vector<std::uint8_t>> StartUpTcm2::next_setting(std::int64_t now_ns) {
+  if (current_ < settings_.size() && attempts_ >= attempts_allowed()) {
+    add_to_list(unanswered_, text_of(settings_[current_]));
+    go_on_to_next(now_ns);
+  }
+  if (current_ == settings_.size()) {
+    phase_ = Phase::awaiting_word;
+    due_ns_ = now_ns + patience_ns_;
+    return tcm2::encode_command({Verb::go});
+  }
+  ++attempts_;
+  due_ns_ = now_ns + kReplyTimeout_ns;
+  return tcm2::encode_command(settings_[current_]);
+}
+
+std::string StartUpTcm2::state() const {
+  std::string text;
+  switch (phase_) {
+    case Phase::idle:
+      return "not begun";
+    case Phase::first_halt:
+    case Phase::second_halt:
+      text = "halting the device";
+      break;
+    case Phase::setting:
+      text = current_ == settings_.size()
+                 ? "settings sent"
+                 : "setting " + text_of(settings_[current_]) + " (" + std::to_string(current_ + 1) + " of " +
+                       std::to_string(settings_.size()) + ")";
+      break;
+    case Phase::awaiting_word:
+      text = "settings sent, waiting for words";
+      break;
+    case Phase::running:
+      text = "running";
+      break;
+  }
+  if (fruitless_ > 0) text += "; no words came so far, attempt " + std::to_string(fruitless_ + 1);
+  if (!refused_.empty()) text += "; refused: " + refused_;
+  if (!unanswered_.empty()) text += "; no reply to: " + unanswered_;
+  return text;
+}
+
+}  // namespace navcal::instruments
