@@ -59,7 +59,8 @@ void StatusServer::welcome(asio::ip::tcp::socket socket) {
     }
     return;
   }
-  clients_.push_back(std::make_shared<StatusClient>(std::move(socket), settings_.client_queue_bytes, *this));
+  ClientOwner& owner = *this;
+  clients_.push_back(std::make_shared<StatusClient>(std::move(socket), settings_.client_queue_bytes, owner));
   clients_.back()->start();
 }
 

@@ -1,0 +1,53 @@
+#include "daemon/alarms.h"
+
+#include <algorithm>
+
+namespace navcal::daemon {
+namespace {
+
+bool says(const instruments::ImuSample& imu, Alarm alarm) {
+  switch (alarm) {
+    case Alarm::leak_forward: return imu.leak_forward;
+    case Alarm::leak_aft: return imu.leak_aft;
+    case Alarm::over_range: return imu.over_range;
+    case Alarm::low_supply: break;
+  }
+  return imu.low_supply;
+}
+
+}  // namespace
+
+std::string_view name_of(Alarm alarm) {
+  switch (alarm) {
+    case Alarm::leak_forward: return "leak_forward";
+    case Alarm::leak_aft: return "leak_aft";
+    case Alarm::over_range: return "over_range";
+    case Alarm::low_supply: break;
+  }
+  return "low_supply";
+}
+
+const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const instruments::ImuSample& imu,
+                                                  std::int64_t now_ns) {
+  changes_.clear();
+  for (const Alarm alarm : kAlarms) {
+    const auto found = std::find_if(standing_.begin(), standing_.end(),
+                                    [&](const Standing& s) { return s.port == port && s.alarm == alarm; });
+    if (says(imu, alarm)) {
+      if (found != standing_.end()) {
+        found->last_seen_ns = now_ns;
+      } else {
+        standing_.push_back({port, alarm, now_ns, now_ns});
+        std::stable_sort(standing_.begin(), standing_.end(),
+                         [](const Standing& a, const Standing& b) { return a.alarm < b.alarm; });
+        changes_.push_back({port, alarm, true});
+      }
+    } else if (found != standing_.end() && now_ns - found->last_seen_ns >= kClear_ns) {
+      standing_.erase(found);
+      changes_.push_back({port, alarm, false});
+    }
+  }
+  return changes_;
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "instruments/samples.h"
+
+namespace navcal::daemon {
+
+enum class Alarm : std::uint8_t { leak_forward, leak_aft, over_range, low_supply };
+
+/// "leak_forward", "leak_aft", "over_range", "low_supply".
+[[nodiscard]] std::string_view name_of(Alarm alarm);
+inline constexpr std::array kAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range, Alarm::low_supply};
+
+/// Which alarms of the inertial cards stand. A leak stays until the card says for `kClear_ns` without a break that
+/// there is none: water that sloshes over a sensor is one leak, not twenty a second. The others likewise.
+class Alarms {
+ public:
+  static constexpr std::int64_t kClear_ns = 2'000'000'000;
+
+  struct Standing {
+    std::uint16_t port = 0;
+    Alarm alarm = Alarm::leak_forward;
+    std::int64_t since_ns = 0;      ///< monotonic
+    std::int64_t last_seen_ns = 0;
+  };
+  struct Change {
+    std::uint16_t port = 0;
+    Alarm alarm = Alarm::leak_forward;
+    bool raised = false;
+  };
+
+  /// What changed by one sample; usually nothing.
+  [[nodiscard]] const std::vector<Change>& update(std::uint16_t port, const instruments::ImuSample& imu,
+                                                  std::int64_t now_ns);
+  /// Leaks first.
+  [[nodiscard]] const std::vector<Standing>& standing() const { return standing_; }
+
+ private:
+  std::vector<Standing> standing_;
+  std::vector<Change> changes_;
+};
+
+}  // namespace navcal::daemon

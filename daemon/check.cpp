@@ -1,0 +1,41 @@
+#include "daemon/check.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace navcal::daemon {
+namespace {
+
+std::string place(const config::PortSettings& port) {
+  if (!port.path.empty()) return port.path;
+  if (!port.udev_name.empty()) return fmt::format("udev name {}", port.udev_name);
+  return fmt::format("USB adapter with serial number {}", port.usb_serial);
+}
+
+}  // namespace
+
+std::string describe(const config::Settings& settings) {
+  std::string out;
+  const auto line = [&](auto&&... arguments) {
+    fmt::format_to(std::back_inserter(out), std::forward<decltype(arguments)>(arguments)...);
+    out += '\n';
+  };
+  for (const auto& port : settings.ports) {
+    line(fmt::runtime("port {}: {} at {} Bd, {}{}"), port.name, protocols::name_of(port.protocol), port.baud,
+         place(port), port.start_up ? ", with start-up dialogue" : "");
+  }
+  if (settings.log.enabled) {
+    line(fmt::runtime("log: in {}, synced every {} s, a new file every {} MB or {} h, {} MB kept free"),
+         settings.log.directory.string(), settings.log.sync_interval_s, settings.log.rotate_bytes >> 20,
+         settings.log.rotate_age_s / 3600, settings.log.free_floor_bytes >> 20);
+  } else {
+    line(fmt::runtime("log: off"));
+  }
+  line(fmt::runtime("status: TCP {} port {}, at most {} clients"), settings.status.address, settings.status.port,
+       settings.status.max_clients);
+  line(fmt::runtime("control: {} with permissions {:04o}"), settings.control.socket.string(), settings.control.mode);
+  return out;
+}
+
+}  // namespace navcal::daemon

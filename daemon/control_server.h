@@ -1,0 +1,44 @@
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "daemon/control_request.h"
+
+namespace navcal::daemon {
+
+/// What changes the daemon, one JSON object a line in and one out, over a Unix socket whose permissions decide who
+/// may (docs/status-protocol.md).
+class ControlServer {
+ public:
+  /// Answers a request with one line.
+  using Handler = std::function<std::string(const ControlRequest&)>;
+
+  /// `own_path` is removed at the end; empty when the socket belongs to systemd.
+  ControlServer(boost::asio::local::stream_protocol::acceptor acceptor, std::filesystem::path own_path,
+                Handler handler);
+  ~ControlServer();
+  ControlServer(const ControlServer&) = delete;
+  ControlServer& operator=(const ControlServer&) = delete;
+
+  void start();
+  void stop();
+
+ private:
+  using Socket = boost::asio::local::stream_protocol::socket;
+  boost::asio::awaitable<void> accept_clients();
+  boost::asio::awaitable<void> serve(std::shared_ptr<Socket> socket);
+  [[nodiscard]] std::string answer(std::string_view line) const;
+
+  boost::asio::local::stream_protocol::acceptor acceptor_;
+  std::filesystem::path own_path_;
+  Handler handler_;
+  std::set<std::shared_ptr<Socket>> clients_;
+};
+
+}  // namespace navcal::daemon

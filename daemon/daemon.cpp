@@ -1,0 +1,228 @@
+#include "daemon/daemon.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/health.h"
+#include "daemon/listeners.h"
+#include "daemon/system_clock.h"
+#include "record/mapping_json.h"
+
+namespace navcal::daemon {
+namespace asio = boost::asio;
+namespace {
+
+constexpr std::int64_t kTick_ns = 1'000'000'000;
+
+spdlog::level::level_enum level_of(std::string_view severity) {
+  if (severity == "alarm") return spdlog::level::critical;
+  if (severity == "error") return spdlog::level::err;
+  return severity == "warning" ? spdlog::level::warn : spdlog::level::info;
+}
+
+/// The mapping with which the first log file begins; the pipeline gets the same one as soon as it can be told.
+pipeline::UtcMapping first_mapping() {
+  return pipeline::SystemClockWatch().update(read_system_clock(), {}).mapping.value_or(pipeline::UtcMapping{});
+}
+
+}  // namespace
+
+Daemon::Daemon(asio::any_io_executor executor, const config::Settings& settings, ActivatedSockets sockets)
+    : settings_(settings),
+      started_ns_(ports::monotonic_ns()),
+      pipeline_(settings_),
+      server_(sockets.status ? std::move(*sockets.status) : listen_status(executor, settings_.status), settings_.status,
+              *this),
+      control_(sockets.control ? std::move(*sockets.control) : listen_control(executor, settings_.control),
+               sockets.control ? std::filesystem::path() : settings_.control.socket,
+               [this](const ControlRequest& request) { return answer(request); }),
+      log_(settings_, started_ns_, first_mapping()),
+      publisher_(settings_, server_),
+      notifier_(executor),
+      deadline_timer_(executor, [this] { advance(); }),
+      tick_timer_(executor) {
+  PortOwner& owner = *this;
+  for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
+    sessions_.push_back(std::make_unique<PortSession>(executor, port, settings_.ports[port], owner));
+  }
+}
+
+Daemon::~Daemon() = default;
+
+void Daemon::start() {
+  event(started_ns_, "info", "daemon.start", "", "navcald " NAVCAL_VERSION);
+  watch_system_clock();
+  for (const auto& session : sessions_) session->start();
+  server_.start();
+  control_.start();
+  next_tick_ns_ = next_health_ns_ = ports::monotonic_ns();
+  tick();
+  notifier_.ready();
+}
+
+void Daemon::stop(std::string_view reason) {
+  notifier_.stopping();
+  event(ports::monotonic_ns(), "info", "daemon.stop", "", reason);
+  for (const auto& session : sessions_) session->stop();
+  deadline_timer_.stop();
+  tick_timer_.cancel();
+  server_.stop();
+  control_.stop();
+}
+
+void Daemon::finish() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  for (const std::string& line : health(now_ns)) log_.health(now_ns, line + "}");
+  log_.finish(now_ns);
+  for (const std::string& notice : log_.take_notices()) spdlog::warn("log: {}", notice);
+}
+
+void Daemon::rotate_log() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  event(now_ns, "info", "log.rotate", "", "on request");
+  log_.rotate(now_ns);
+}
+
+void Daemon::on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) {
+  log_.raw(port, record::Direction::received, arrival_ns, bytes);
+  pipeline_.bytes(port, arrival_ns, bytes, *this);
+  deadline_timer_.arm(pipeline_.next_deadline_ns());
+}
+
+void Daemon::on_port_sent(std::uint16_t port, std::int64_t now_ns, protocols::Bytes bytes) {
+  log_.raw(port, record::Direction::sent, now_ns, bytes);
+}
+
+void Daemon::on_frame(std::uint16_t port, const protocols::Frame& frame, std::int64_t arrival_ns) {
+  sessions_[port]->on_frame(frame, arrival_ns);
+}
+
+void Daemon::on_sample(const instruments::Sample& sample) {
+  publisher_.sample(sample);
+  sessions_[sample.port]->published(ports::monotonic_ns() - sample.stamp.arrival_ns);
+  log_.sample(sample);
+  if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) update_alarms(sample, *imu);
+}
+
+void Daemon::on_mapping(const pipeline::UtcMapping& mapping) {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  publisher_.set_utc_known(mapping.source != pipeline::UtcMapping::Source::none);
+  log_.mapping(now_ns, mapping);
+  spdlog::info("UTC from {}, to within {:.6f} s", pipeline::name_of(mapping.source),
+               mapping.bound_ns == pipeline::UtcMapping::kUnknownBound ? NAN : static_cast<double>(mapping.bound_ns) * 1e-9);
+}
+
+void Daemon::update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu) {
+  const auto& changes = alarms_.update(sample.port, imu, sample.stamp.arrival_ns);
+  for (const auto& change : changes) {
+    event(sample.stamp.arrival_ns, change.raised ? "alarm" : "info", change.raised ? "alarm.raised" : "alarm.cleared",
+          settings_.ports[sample.port].name, name_of(change.alarm));
+  }
+  // Whoever watches is to see it now, not at the next report.
+  if (!changes.empty()) report_health(sample.stamp.arrival_ns);
+}
+
+void Daemon::on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity, std::string_view name,
+                           std::string_view message) {
+  event(now_ns, severity, name, settings_.ports[port].name, message);
+}
+
+void Daemon::on_port_changed(std::uint16_t port) {
+  server_.publish_device(port);
+  report_health(ports::monotonic_ns());
+}
+
+void Daemon::event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
+                   std::string_view message) {
+  log_.event(now_ns, severity, name, port, message);
+  spdlog::log(level_of(severity), "{}{}{}: {}", port, port.empty() ? "" : " ", name, message);
+}
+
+/// Frames that stayed incomplete for too long are given up.
+void Daemon::advance() {
+  pipeline_.advance(ports::monotonic_ns(), *this);
+  deadline_timer_.arm(pipeline_.next_deadline_ns());
+}
+
+void Daemon::tick() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  watch_system_clock();
+  for (std::uint16_t port = 0; port < sessions_.size(); ++port) {
+    sessions_[port]->tick(now_ns, pipeline_.statistics(port));
+  }
+  log_.tick(now_ns);
+  for (const std::string& notice : log_.take_notices()) event(now_ns, "warning", "log.notice", "", notice);
+  if (now_ns >= next_health_ns_) {
+    report_health(now_ns);
+    next_health_ns_ = now_ns + static_cast<std::int64_t>(settings_.status.health_interval_s * 1e9) - kTick_ns / 2;
+  }
+  notifier_.status(summary());
+  next_tick_ns_ = std::max(next_tick_ns_ + kTick_ns, now_ns);
+  tick_timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(next_tick_ns_)));
+  tick_timer_.async_wait([this](boost::system::error_code error) {
+    if (!error) tick();
+  });
+}
+
+void Daemon::watch_system_clock() {
+  const auto reading = read_system_clock();
+  const auto outcome = clock_watch_.update(reading, pipeline_.mapping());
+  if (outcome.step_ns) {
+    event(reading.monotonic_ns, "warning", "clock.step", "",
+          fmt::format("the system clock was set by {:+.3f} s; stamps stay as they are",
+                      static_cast<double>(*outcome.step_ns) * 1e-9));
+  }
+  if (outcome.mapping) pipeline_.set_mapping(*outcome.mapping, *this);
+}
+
+void Daemon::report_health(std::int64_t now_ns) {
+  auto lines = health(now_ns);
+  for (const std::string& line : lines) log_.health(now_ns, line + "}");
+  std::string reports;
+  if (server_.watched()) {
+    record::append_json(reports, now_ns, pipeline_.mapping());
+    reports += '\n';
+    append_log_report(reports, log_.enabled(), log_.state());
+    reports += "{\"class\":\"CALIB\",\"calibrators\":[]}\n";
+  }
+  server_.publish_health(std::move(lines));
+  if (!reports.empty()) server_.publish(reports);
+}
+
+std::vector<std::string> Daemon::health(std::int64_t now_ns) const {
+  Health health;
+  health.utc_ns = utc(now_ns);
+  health.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
+  health.alarms = alarms_.standing();
+  health.ports = sessions_;
+  health.pipeline = &pipeline_;
+  health.log_enabled = log_.enabled();
+  health.log = log_.state();
+  health.clients = server_.clients();
+  health.client_queue_bytes = server_.queued_bytes();
+  health.client_dropped = server_.dropped();
+  return health_beginnings(health);
+}
+
+std::string Daemon::summary() const {
+  const auto running = std::count_if(sessions_.begin(), sessions_.end(), [](const auto& session) {
+    return session->state() == PortSession::State::running;
+  });
+  std::string text = fmt::format("{} of {} ports running, {} clients", running, sessions_.size(), server_.clients());
+  for (const auto& alarm : alarms_.standing()) text += fmt::format(", ALARM {}", name_of(alarm.alarm));
+  if (const auto log = log_.state(); log.state != DiskState::State::writing) {
+    text += fmt::format(", log {}", name_of(log.state));
+  }
+  return text;
+}
+
+std::optional<std::int64_t> Daemon::utc(std::int64_t monotonic_ns) const {
+  const auto& mapping = pipeline_.mapping();
+  if (mapping.source == pipeline::UtcMapping::Source::none) return std::nullopt;
+  return mapping.to_utc(monotonic_ns);
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/settings.h"
+#include "daemon/alarms.h"
+#include "daemon/control_server.h"
+#include "daemon/lazy_timer.h"
+#include "daemon/log_writer.h"
+#include "daemon/notifier.h"
+#include "daemon/port_session.h"
+#include "daemon/publisher.h"
+#include "daemon/socket_activation.h"
+#include "daemon/status_server.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/system_clock_watch.h"
+
+namespace navcal::daemon {
+
+/// The service: ports, pipeline, log and sockets put together on one I/O thread. Bytes arrive from a port, go into
+/// the log as they are, through the pipeline, and come back as samples, which are published and logged.
+class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
+ public:
+  /// Opens what cannot be done without: log folder and sockets. Throws StartError.
+  Daemon(boost::asio::any_io_executor executor, const config::Settings& settings, ActivatedSockets sockets);
+  ~Daemon() override;
+
+  void start();
+  /// Closes everything, after which the executor runs out of work; then finish() brings the log to its end.
+  void stop(std::string_view reason);
+  void finish();
+  void rotate_log();
+
+  [[nodiscard]] std::uint16_t status_port() const { return server_.port(); }
+
+ private:
+  // pipeline::Sink
+  void on_sample(const instruments::Sample& sample) override;
+  void on_frame(std::uint16_t port, const protocols::Frame& frame, std::int64_t arrival_ns) override;
+  void on_mapping(const pipeline::UtcMapping& mapping) override;
+  // PortOwner
+  void on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) override;
+  void on_port_sent(std::uint16_t port, std::int64_t now_ns, protocols::Bytes bytes) override;
+  void on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity, std::string_view name,
+                     std::string_view message) override;
+  void on_port_changed(std::uint16_t port) override;
+  // StatusSource
+  [[nodiscard]] std::size_t device_count() const override { return sessions_.size(); }
+  [[nodiscard]] std::optional<std::uint16_t> device_named(std::string_view name) const override;
+  [[nodiscard]] std::string_view device_name(std::uint16_t port) const override;
+  void append_device(std::string& out, std::uint16_t port) const override;
+  void append_poll(std::string& out) const override;
+
+  [[nodiscard]] std::string answer(const ControlRequest& request);
+  void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
+             std::string_view message);
+  void update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu);
+  void advance();
+  void tick();
+  void watch_system_clock();
+  void report_health(std::int64_t now_ns);
+  [[nodiscard]] std::vector<std::string> health(std::int64_t now_ns) const;
+  [[nodiscard]] std::string summary() const;
+  [[nodiscard]] std::optional<std::int64_t> utc(std::int64_t monotonic_ns) const;
+
+  const config::Settings settings_;
+  const std::int64_t started_ns_;
+  pipeline::Pipeline pipeline_;
+  pipeline::SystemClockWatch clock_watch_;
+  StatusServer server_;
+  ControlServer control_;
+  LogWriter log_;  ///< after the sockets: a second daemon must not begin a file before it finds them taken
+  Publisher publisher_;
+  Notifier notifier_;
+  Alarms alarms_;
+  std::vector<std::unique_ptr<PortSession>> sessions_;
+  LazyTimer deadline_timer_;
+  boost::asio::steady_timer tick_timer_;
+  std::int64_t next_tick_ns_ = 0;
+  std::int64_t next_health_ns_ = 0;
+};
+
+}  // namespace navcal::daemon

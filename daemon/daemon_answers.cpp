@@ -1,0 +1,77 @@
+// What the daemon answers on its two sockets.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "daemon/daemon.h"
+#include "daemon/gpsd_replies.h"
+#include "daemon/json_text.h"
+
+namespace navcal::daemon {
+namespace {
+
+constexpr std::string_view kOk = "{\"ok\":true}\n";
+
+/// gpsd's clients ask which devices are receivers.
+bool may_give_positions(protocols::Protocol protocol) {
+  return protocol == protocols::Protocol::oncore || protocol == protocols::Protocol::nmea;
+}
+
+}  // namespace
+
+std::optional<std::uint16_t> Daemon::device_named(std::string_view name) const {
+  for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
+    if (settings_.ports[port].name == name) return port;
+  }
+  return std::nullopt;
+}
+
+std::string_view Daemon::device_name(std::uint16_t port) const { return settings_.ports[port].name; }
+
+void Daemon::append_device(std::string& out, std::uint16_t port) const {
+  const auto& settings = settings_.ports[port];
+  const auto& session = *sessions_[port];
+  DeviceState device;
+  device.name = settings.name;
+  device.driver = protocols::name_of(settings.protocol);
+  device.baud = settings.baud;
+  device.cycle_s = settings.rate_Hz > 0 ? 1 / settings.rate_Hz : 0;
+  device.gps = may_give_positions(settings.protocol);
+  if (session.open_port()) {
+    device.tty = session.open_port()->path;
+    device.activated_utc_ns = utc(session.opened_ns());
+  }
+  append_device_object(out, device);
+}
+
+void Daemon::append_poll(std::string& out) const { publisher_.append_poll(out, utc(ports::monotonic_ns())); }
+
+std::string Daemon::answer(const ControlRequest& request) {
+  switch (request.command) {
+    case ControlCommand::event:
+      event(ports::monotonic_ns(), "info", "mark", "", request.text);
+      return std::string(kOk);
+    case ControlCommand::log_rotate:
+      if (!log_.enabled()) return control_error("the log is switched off (log.enabled)");
+      rotate_log();
+      return std::string(kOk);
+    case ControlCommand::calibration_start:
+    case ControlCommand::calibration_accept:
+    case ControlCommand::calibration_rollback:
+      return control_error("no calibrators in this version");
+    case ControlCommand::status: break;
+  }
+  std::string out = "{\"ok\":true,\"summary\":";
+  append_quoted(out, summary());
+  out += ",\"health\":[";
+  const auto lines = health(ports::monotonic_ns());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (i > 0) out += ',';
+    out += lines[i];
+    out += '}';
+  }
+  out += "]}\n";
+  return out;
+}
+
+}  // namespace navcal::daemon

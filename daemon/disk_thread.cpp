@@ -1,0 +1,196 @@
+#include "daemon/disk_thread.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace navcal::daemon {
+namespace {
+
+/// So much may wait before the thread is woken ahead of its sync interval.
+constexpr std::size_t kWakeAt_bytes = 256 << 10;
+/// Written in one call: bounds how long the end of a stall takes to be seen in the state.
+constexpr std::size_t kWriteStep_bytes = 1 << 20;
+constexpr std::uint64_t kCheckSpaceEvery_bytes = 4ULL << 20;
+/// A buffer that a stall has blown up is given back.
+constexpr std::size_t kKeepBuffer_bytes = 1 << 20;
+constexpr int kAttemptsWhileStopping = 3;
+
+DiskState::State state_after(const std::error_code& error) {
+  const bool space = error == std::errc::no_space_on_device || error == std::error_code(EDQUOT, std::generic_category());
+  return space ? DiskState::State::full : DiskState::State::failing;
+}
+
+}  // namespace
+
+std::string_view name_of(DiskState::State state) {
+  switch (state) {
+    case DiskState::State::writing: return "writing";
+    case DiskState::State::full: return "full";
+    case DiskState::State::failing: break;
+  }
+  return "failing";
+}
+
+DiskThread::DiskThread(record::LogFolder folder, const Options& options)
+    : folder_(std::move(folder)), options_(options), thread_([this] { run(); }) {}
+
+DiskThread::~DiskThread() { stop(); }
+
+void DiskThread::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    wake_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+DiskState DiskThread::state() const {
+  const std::lock_guard lock(mutex_);
+  DiskState state = state_;
+  state.queued_bytes = waiting_.bytes.size() + being_written_;
+  return state;
+}
+
+std::vector<std::string> DiskThread::take_notices() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(notices_, {});
+}
+
+void DiskThread::wake_if_much() {
+  // Once, when the mark is passed; the thread takes all there is.
+  if (waiting_.bytes.size() >= kWakeAt_bytes && being_written_ == 0) wake_.notify_one();
+}
+
+void DiskThread::run() {
+  for (const auto& repair : folder_.finish_unfinished()) note(repair.message());
+  Batch batch;
+  auto next_sync = std::chrono::steady_clock::now() + options_.sync_interval;
+  for (bool last = false; !last;) {
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait_until(lock, next_sync, [&] {
+        return stopping_ || waiting_.bytes.size() >= kWakeAt_bytes || !waiting_.boundaries.empty();
+      });
+      last = stopping_;
+      std::swap(batch, waiting_);
+      being_written_ = batch.bytes.size();
+    }
+    write(batch);
+    if (batch.bytes.capacity() > kKeepBuffer_bytes) batch.bytes = {};
+    batch.bytes.clear();
+    batch.boundaries.clear();
+    const auto now = std::chrono::steady_clock::now();
+    if (now >= next_sync || last) {
+      sync();
+      next_sync = now + options_.sync_interval;
+    }
+    update_state();
+  }
+  finish_file();
+  update_state();
+}
+
+void DiskThread::write(const Batch& batch) {
+  std::size_t done = 0;
+  for (const Boundary& boundary : batch.boundaries) {
+    write_part(std::string_view(batch.bytes).substr(done, boundary.offset - done));
+    done = boundary.offset;
+    change_file(boundary.utc_ns);
+  }
+  write_part(std::string_view(batch.bytes).substr(done));
+}
+
+void DiskThread::write_part(std::string_view bytes) {
+  while (!bytes.empty() && file_) {
+    const std::string_view step = bytes.substr(0, kWriteStep_bytes);
+    if (written_since_check_ >= kCheckSpaceEvery_bytes && !make_room()) return;
+    if (const auto error = file_->append(step)) {
+      if (state_after(error) == DiskState::State::full && !remove_old_logs().removed.empty()) continue;
+      if (!retry(state_after(error), error.message())) return;
+      continue;
+    }
+    recovered();
+    written_since_check_ += step.size();
+    bytes.remove_prefix(step.size());
+    const std::lock_guard lock(mutex_);
+    being_written_ -= std::min(being_written_, step.size());
+  }
+}
+
+record::LogFolder::Space DiskThread::remove_old_logs() {
+  auto space = folder_.keep_free(options_.free_floor_bytes);
+  for (const auto& removed : space.removed) note("removed to make room: " + removed);
+  return space;
+}
+
+bool DiskThread::make_room() {
+  for (;;) {
+    const auto space = remove_old_logs();
+    written_since_check_ = 0;
+    if (space.error || space.free_bytes >= options_.free_floor_bytes) return true;
+    const auto reason = fmt::format("{} MB free, the floor is {} MB (log.free_floor_MB) and no finished log is left",
+                                    space.free_bytes >> 20, options_.free_floor_bytes >> 20);
+    if (!retry(DiskState::State::full, reason)) return false;
+  }
+}
+
+void DiskThread::change_file(std::int64_t utc_ns) {
+  finish_file();
+  if (!make_room()) return;
+  for (;;) {
+    std::error_code error;
+    file_ = folder_.create(utc_ns, error);
+    if (file_) break;
+    if (!retry(state_after(error), "cannot make a file: " + error.message())) return;
+  }
+  recovered();
+  update_state();
+}
+
+void DiskThread::sync() {
+  if (!file_ || file_->synced_bytes() == file_->bytes()) return;
+  if (const auto error = file_->sync()) note("sync failed: " + error.message());
+}
+
+void DiskThread::finish_file() {
+  if (!file_) return;
+  const std::string name = file_->path().filename().string();
+  if (const auto error = file_->finish()) note(fmt::format("{} could not be finished: {}", name, error.message()));
+  file_.reset();
+}
+
+bool DiskThread::retry(DiskState::State state, const std::string& reason) {
+  std::unique_lock lock(mutex_);
+  if (state_.state != state) notices_.push_back(fmt::format("log {}: {}", name_of(state), reason));
+  state_.state = state;
+  state_.reason = reason;
+  if (stopping_ && ++attempts_while_stopping_ >= kAttemptsWhileStopping) return false;
+  wake_.wait_for(lock, options_.retry_interval, [&] { return stopping_ && attempts_while_stopping_ == 0; });
+  return true;
+}
+
+void DiskThread::recovered() {
+  const std::lock_guard lock(mutex_);
+  if (state_.state == DiskState::State::writing) return;
+  notices_.push_back("log is being written again");
+  state_.state = DiskState::State::writing;
+  state_.reason.clear();
+}
+
+void DiskThread::note(std::string notice) {
+  const std::lock_guard lock(mutex_);
+  notices_.push_back(std::move(notice));
+}
+
+void DiskThread::update_state() {
+  const std::lock_guard lock(mutex_);
+  being_written_ = 0;
+  if (!file_) return;
+  state_.file = file_->path().string();
+  state_.file_bytes = file_->bytes();
+  state_.synced_bytes = file_->synced_bytes();
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,127 @@
+#include "daemon/health.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "daemon/json_text.h"
+
+namespace navcal::daemon {
+namespace {
+
+void text(std::string& out, std::string_view key, std::string_view value) {
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"{}\":"), key);
+  append_quoted(out, value);
+}
+
+void number(std::string& out, std::string_view key, double value, int decimals) {
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"{}\":"), key);
+  append_shortest(out, value, decimals);
+}
+
+void append_alarms(std::string& out, const Health& health) {
+  out += ",\"alarms\":[";
+  bool first = true;
+  for (const auto& alarm : health.alarms) {
+    if (!first) out += ',';
+    first = false;
+    fmt::format_to(std::back_inserter(out), FMT_STRING("{{\"alarm\":\"{}\""), name_of(alarm.alarm));
+    text(out, "device", health.ports[alarm.port]->settings().name);
+    out += '}';
+  }
+  out += ']';
+}
+
+void append_clock(std::string& out, const instruments::ClockState& clock) {
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"clock\":{{\"locked\":{}"), clock.locked);
+  number(out, "period_s", clock.period_s, 9);
+  number(out, "skew_ppm", clock.skew_ppm, 3);
+  number(out, "skew_std_ppm", clock.skew_std_ppm, 3);
+  number(out, "jitter_s", clock.jitter_s, 9);
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"resets\":{}}}"), clock.resets);
+}
+
+/// Without the empty buckets at the end.
+void append_latency(std::string& out, const LatencyHistogram& latency) {
+  const auto& buckets = latency.buckets();
+  std::size_t used = buckets.size();
+  while (used > 0 && buckets[used - 1] == 0) --used;
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"latency_log2_us\":[{}]"),
+                 fmt::join(buckets.begin(), buckets.begin() + static_cast<std::ptrdiff_t>(used), ","));
+}
+
+void append_port(std::string& out, const PortSession& port, const pipeline::PortStatistics& statistics) {
+  out += "{\"device\":";
+  append_quoted(out, port.settings().name);
+  text(out, "protocol", protocols::name_of(port.settings().protocol));
+  text(out, "state", name_of(port.state()));
+  text(out, "reason", port.reason());
+  if (const auto& open = port.open_port()) {
+    text(out, "path", open->path);
+    text(out, "low_latency", open->low_latency);
+  }
+  if (const auto start_up = port.start_up_state(); !start_up.empty()) text(out, "start_up", start_up);
+  const auto& bytes = statistics.bytes;
+  fmt::format_to(std::back_inserter(out),
+                 FMT_STRING(",\"opened\":{},\"bytes\":{},\"frames\":{},\"samples\":{},\"bad\":{},\"skipped\":{},\"held\":{},"
+                            "\"out_of_range\":{},\"gaps\":{},\"lost\":{},\"repeated\":{}"),
+                 port.times_opened(), bytes.bytes, bytes.frames, statistics.samples, bytes.bad_checksum,
+                 bytes.skipped_bytes, statistics.held_bytes, statistics.out_of_range, statistics.silences,
+                 statistics.lost, statistics.repeated);
+  append_clock(out, statistics.clock);
+  append_latency(out, port.latency());
+  out += '}';
+}
+
+void append_log(std::string& out, bool enabled, const DiskState& log) {
+  text(out, "state", enabled ? name_of(log.state) : "off");
+  text(out, "reason", log.reason);
+  text(out, "file", log.file);
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"bytes\":{},\"synced\":{},\"queued\":{},\"lost\":{}"),
+                 log.file_bytes, log.synced_bytes, log.queued_bytes, log.dropped);
+}
+
+std::string beginning(const Health& health, std::size_t first, std::size_t last, std::size_t lines) {
+  std::string out = "{\"class\":\"HEALTH\"";
+  append_alarms(out, health);
+  if (health.utc_ns) {
+    out += ",\"time\":";
+    append_utc(out, *health.utc_ns, 3);
+  }
+  number(out, "uptime_s", health.uptime_s, 3);
+  if (lines > 1) {
+    fmt::format_to(std::back_inserter(out), FMT_STRING(",\"part\":{},\"parts\":{}"), first / kPortsPerHealth + 1, lines);
+  }
+  out += ",\"ports\":[";
+  for (std::size_t i = first; i < last; ++i) {
+    if (i > first) out += ',';
+    append_port(out, *health.ports[i], health.pipeline->statistics(static_cast<std::uint16_t>(i)));
+  }
+  out += "],\"log\":{\"enabled\":";
+  out += health.log_enabled ? "true" : "false";
+  append_log(out, health.log_enabled, health.log);
+  fmt::format_to(std::back_inserter(out), FMT_STRING("}},\"clients\":{},\"client_queue_bytes\":{},\"client_dropped\":{}"),
+                 health.clients, health.client_queue_bytes, health.client_dropped);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> health_beginnings(const Health& health) {
+  std::vector<std::string> lines;
+  const std::size_t ports = health.ports.size();
+  const std::size_t count = std::max<std::size_t>(1, (ports + kPortsPerHealth - 1) / kPortsPerHealth);
+  for (std::size_t i = 0; i < count; ++i) {
+    lines.push_back(beginning(health, i * kPortsPerHealth, std::min(ports, (i + 1) * kPortsPerHealth), count));
+  }
+  return lines;
+}
+
+void append_log_report(std::string& out, bool enabled, const DiskState& log) {
+  out += "{\"class\":\"LOG\"";
+  append_log(out, enabled, log);
+  out += "}\n";
+}
+
+}  // namespace navcal::daemon

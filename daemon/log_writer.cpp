@@ -1,0 +1,111 @@
+#include "daemon/log_writer.h"
+
+#include <fmt/format.h>
+
+#include "config/load.h"
+#include "daemon/start_error.h"
+
+namespace navcal::daemon {
+namespace {
+
+constexpr double kNs = 1e9;
+
+std::chrono::nanoseconds nanoseconds(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * kNs));
+}
+
+record::LogFolder take_folder(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw StartError(fmt::format("log folder {}: cannot be made: {}", directory.string(), error.message()));
+  try {
+    return record::LogFolder(record::real_disk(), directory);
+  } catch (const std::system_error& failure) {
+    throw StartError(failure.what());
+  }
+}
+
+}  // namespace
+
+LogWriter::LogWriter(const config::Settings& settings, std::int64_t now_ns, const pipeline::UtcMapping& mapping)
+    : settings_(settings.log), encoder_(settings, config::to_toml(settings)), mapping_(mapping) {
+  if (!settings_.enabled) return;
+  DiskThread::Options options;
+  options.sync_interval = nanoseconds(settings_.sync_interval_s);
+  options.queue_bytes = settings_.queue_bytes;
+  options.free_floor_bytes = settings_.free_floor_bytes;
+  disk_ = std::make_unique<DiskThread>(take_folder(settings_.directory), options);
+  begin_file(now_ns);
+}
+
+void LogWriter::begin_file(std::int64_t now_ns) {
+  file_begun_ns_ = now_ns;
+  disk_->next_file(mapping_.to_utc(now_ns), [&](std::string& out) { encoder_.begin(out, now_ns, mapping_); });
+}
+
+template <class Encode>
+void LogWriter::append(Encode&& encode) {
+  if (disk_) disk_->append(std::forward<Encode>(encode));
+}
+
+void LogWriter::raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns, protocols::Bytes bytes) {
+  append([&](std::string& out) { encoder_.raw(out, port, direction, time_ns, bytes); });
+}
+
+void LogWriter::sample(const instruments::Sample& sample) {
+  append([&](std::string& out) { encoder_.sample(out, sample); });
+}
+
+void LogWriter::mapping(std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
+  mapping_ = mapping;
+  append([&](std::string& out) { encoder_.mapping(out, now_ns, mapping); });
+}
+
+void LogWriter::event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
+                      std::string_view message) {
+  append([&](std::string& out) { encoder_.event(out, now_ns, severity, name, port, message); });
+}
+
+void LogWriter::health(std::int64_t now_ns, std::string_view json) {
+  append([&](std::string& out) { encoder_.health(out, now_ns, json); });
+}
+
+void LogWriter::calib(std::int64_t now_ns, std::string_view json) {
+  append([&](std::string& out) { encoder_.calib(out, now_ns, json); });
+}
+
+void LogWriter::rotate(std::int64_t now_ns) {
+  if (!disk_) return;
+  disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });
+  begin_file(now_ns);
+}
+
+void LogWriter::tick(std::int64_t now_ns) {
+  if (!disk_) return;
+  const bool old = static_cast<double>(now_ns - file_begun_ns_) >= settings_.rotate_age_s * kNs;
+  if (old || encoder_.file_bytes() >= settings_.rotate_bytes) rotate(now_ns);
+
+  const std::uint64_t dropped = disk_->state().dropped;
+  if (dropped == told_dropped_) return;
+  const bool told = disk_->append([&](std::string& out) {
+    encoder_.event(out, now_ns, "error", "log.dropped", "",
+                   fmt::format("{} records lost: the disk did not keep up and the queue of {} MB was full",
+                               dropped - told_dropped_, settings_.queue_bytes >> 20));
+  });
+  // When there is still no room, this record is lost as well and the next one tells of all.
+  if (told) told_dropped_ = dropped;
+}
+
+void LogWriter::finish(std::int64_t now_ns) {
+  if (!disk_) return;
+  disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });
+  disk_->stop();
+}
+
+DiskState LogWriter::state() const { return disk_ ? disk_->state() : DiskState{}; }
+
+std::vector<std::string> LogWriter::take_notices() {
+  return disk_ ? disk_->take_notices() : std::vector<std::string>{};
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,96 @@
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <csignal>
+#include <cstdio>
+
+#include "config/load.h"
+#include "daemon/check.h"
+#include "daemon/daemon.h"
+#include "daemon/start_error.h"
+
+namespace {
+
+namespace asio = boost::asio;
+using navcal::daemon::Daemon;
+
+enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2, kBadConfiguration = 3 };
+
+struct Options {
+  std::string config;
+  std::vector<std::string> overrides;
+  bool check = false;
+};
+
+/// The exit status when the command line has said it all: help, version, or a mistake.
+std::optional<int> parse(int argc, char** argv, Options& options) {
+  CLI::App app{"navcald: reads, stamps, logs and serves the instruments of a small underwater vehicle", "navcald"};
+  app.set_version_flag("--version", "navcald " NAVCAL_VERSION);
+  app.add_option("--config", options.config, "configuration file")->default_val("/etc/navcal/navcald.toml");
+  app.add_option("--set", options.overrides, "a setting that overrides the file, KEY=VALUE; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_flag("--check", options.check, "only read the configuration and say what it would do");
+  app.footer("Example: navcald --config navcald.toml --set port.compass.path=/dev/ttyUSB0 --check");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kStopped : kUsage;
+  }
+  return std::nullopt;
+}
+
+/// journald knows the time and reads the priority from the first characters.
+void start_diagnostics() {
+  spdlog::set_default_logger(spdlog::stderr_logger_st("navcald"));
+  spdlog::set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%v" : "%H:%M:%S.%e %l %v");
+}
+
+/// SIGTERM and SIGINT stop, SIGHUP begins a new log file.
+void wait_for_signal(asio::signal_set& signals, Daemon& daemon) {
+  signals.async_wait([&signals, &daemon](boost::system::error_code error, int signal) {
+    if (error) return;
+    if (signal != SIGHUP) {
+      daemon.stop(signal == SIGTERM ? "SIGTERM" : "SIGINT");
+      return;
+    }
+    daemon.rotate_log();
+    wait_for_signal(signals, daemon);
+  });
+}
+
+void run(const navcal::config::Settings& settings) {
+  asio::io_context context(1);
+  Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()));
+  asio::signal_set signals(context, SIGTERM, SIGINT, SIGHUP);
+  wait_for_signal(signals, daemon);
+  daemon.start();
+  context.run();
+  daemon.finish();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  if (const auto status = parse(argc, argv, options)) return *status;
+  try {
+    start_diagnostics();
+    const auto settings = navcal::config::load(options.config, options.overrides);
+    if (options.check) {
+      std::fputs(navcal::daemon::describe(settings).c_str(), stdout);
+      return kStopped;
+    }
+    run(settings);
+    return kStopped;
+  } catch (const navcal::config::Error& error) {
+    std::fprintf(stderr, "navcald: %s\n", error.what());
+    return kBadConfiguration;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "navcald: cannot start: %s\n", error.what());
+    return kCannotStart;
+  }
+}

@@ -1,0 +1,129 @@
+#include "daemon/port_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace navcal::daemon {
+namespace {
+
+/// A device that sends nothing for three of its periods, and for this long, is silent.
+constexpr double kSilent_s = 3.0;
+
+}  // namespace
+
+std::string_view name_of(PortSession::State state) {
+  switch (state) {
+    case PortSession::State::away: return "away";
+    case PortSession::State::silent: return "silent";
+    case PortSession::State::no_frames: return "no_frames";
+    case PortSession::State::noisy: return "noisy";
+    case PortSession::State::running: break;
+  }
+  return "running";
+}
+
+PortSession::PortSession(const boost::asio::any_io_executor& executor, std::uint16_t port,
+                         const config::PortSettings& settings, PortOwner& owner)
+    : index_(port),
+      settings_(settings),
+      owner_(owner),
+      start_up_(instruments::make_start_up(settings)),
+      start_up_timer_(executor, [this] { talk(ports::monotonic_ns()); }),
+      speed_check_(settings.protocol, settings.baud),
+      port_(executor, settings, *this) {}
+
+void PortSession::stop() {
+  start_up_timer_.stop();
+  port_.stop();
+}
+
+void PortSession::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
+  open_ = port;
+  opened_ns_ = last_bytes_ns_ = now_ns;
+  ++times_opened_;
+  opened_anew_ = true;
+  owner_.on_port_event(index_, now_ns, "info", "port.opened",
+                       fmt::format("{} at {} Bd{}{}; low latency: {}", port.path, settings_.baud,
+                                   port.description.empty() ? "" : ", ", port.description, port.low_latency));
+  set_state(now_ns, State::running, "opened");
+  if (start_up_) {
+    start_up_->begin(now_ns);
+    talk(now_ns);
+  }
+}
+
+void PortSession::on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) {
+  last_bytes_ns_ = arrival_ns;
+  owner_.on_port_bytes(index_, arrival_ns, bytes);
+  speed_check_.bytes(bytes);
+  if (start_up_) talk(arrival_ns);
+}
+
+void PortSession::on_sent(std::int64_t now_ns, protocols::Bytes bytes) { owner_.on_port_sent(index_, now_ns, bytes); }
+
+void PortSession::on_lost(std::int64_t now_ns, std::string_view reason) {
+  open_.reset();
+  start_up_timer_.stop();
+  owner_.on_port_event(index_, now_ns, "warning", "port.lost", reason);
+  set_state(now_ns, State::away, std::string(reason));
+}
+
+void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_ns) {
+  if (start_up_) start_up_->on_frame(frame, arrival_ns);
+}
+
+void PortSession::talk(std::int64_t now_ns) {
+  if (!open_) return;
+  while (const auto bytes = start_up_->next(now_ns)) port_.send(*bytes);
+  start_up_timer_.arm(start_up_->deadline_ns());
+}
+
+void PortSession::tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics) {
+  if (opened_anew_) speed_check_.restart(statistics.bytes);
+  opened_anew_ = false;
+  if (!open_) return;
+  std::string reason;
+  const State state = judge(statistics, now_ns, reason);
+  set_state(now_ns, state, std::move(reason));
+  if (!start_up_) return;
+  if (auto said = start_up_->state(); said != last_start_up_state_) {
+    owner_.on_port_event(index_, now_ns, "info", "port.start_up", said);
+    last_start_up_state_ = std::move(said);
+  }
+}
+
+PortSession::State PortSession::judge(const pipeline::PortStatistics& statistics, std::int64_t now_ns,
+                                      std::string& reason) {
+  const auto verdict = speed_check_.judge(statistics.bytes);
+  const double silent_s = static_cast<double>(now_ns - last_bytes_ns_) * 1e-9;
+  const double patience_s = std::max(kSilent_s, settings_.rate_Hz > 0 ? 3 / settings_.rate_Hz : 0.0);
+  if (silent_s > patience_s) {
+    reason = fmt::format("nothing came for {:.0f} s", silent_s);
+    return State::silent;
+  }
+  reason = speed_check_.message();
+  switch (verdict) {
+    case SpeedCheck::Verdict::wrong_speed:
+    case SpeedCheck::Verdict::no_frames: return State::no_frames;
+    case SpeedCheck::Verdict::noise: return State::noisy;
+    case SpeedCheck::Verdict::good: break;
+  }
+  return State::running;
+}
+
+void PortSession::set_state(std::int64_t now_ns, State state, std::string reason) {
+  const bool changed = state != state_;
+  state_ = state;
+  reason_ = std::move(reason);
+  if (!changed) return;
+  // Loss and return have told of themselves already.
+  if (state != State::away && reason_ != "opened") {
+    const bool good = state == State::running;
+    owner_.on_port_event(index_, now_ns, good ? "info" : "warning", "port.state",
+                         good ? "running again" : std::string_view(reason_));
+  }
+  owner_.on_port_changed(index_);
+}
+
+}  // namespace navcal::daemon

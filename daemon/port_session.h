@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "config/settings.h"
+#include "daemon/latency_histogram.h"
+#include "daemon/lazy_timer.h"
+#include "daemon/speed_check.h"
+#include "instruments/start_up.h"
+#include "pipeline/pipeline.h"
+#include "ports/port.h"
+
+namespace navcal::daemon {
+
+class PortSession;
+
+/// Told by a session what happens at its port.
+class PortOwner {
+ public:
+  virtual ~PortOwner() = default;
+  /// Bytes are to be recorded and put through the pipeline.
+  virtual void on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) = 0;
+  virtual void on_port_sent(std::uint16_t port, std::int64_t now_ns, protocols::Bytes bytes) = 0;
+  /// "info" or "warning"; `name` as in LogEncoder::event.
+  virtual void on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity,
+                             std::string_view name, std::string_view message) = 0;
+  virtual void on_port_changed(std::uint16_t port) = 0;
+};
+
+/// One configured port at work: the port itself, the device's start-up dialogue, and what is known of both.
+class PortSession : private ports::PortListener {
+ public:
+  enum class State {
+    away,      ///< not there, or cannot be opened
+    silent,    ///< open, and nothing comes
+    no_frames, ///< bytes come, but no intact frame
+    noisy,     ///< intact frames between much that is none
+    running,
+  };
+
+  PortSession(const boost::asio::any_io_executor& executor, std::uint16_t port, const config::PortSettings& settings,
+              PortOwner& owner);
+
+  void start() { port_.start(); }
+  void stop();
+
+  /// From the pipeline, within on_port_bytes().
+  void on_frame(const protocols::Frame& frame, std::int64_t arrival_ns);
+  void published(std::int64_t latency_ns) { latency_.add(latency_ns); }
+  /// To be called about once a second: judges the state.
+  void tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics);
+
+  [[nodiscard]] const config::PortSettings& settings() const { return settings_; }
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// What is open; nullopt while the device is away.
+  [[nodiscard]] const std::optional<ports::OpenPort>& open_port() const { return open_; }
+  [[nodiscard]] std::int64_t opened_ns() const { return opened_ns_; }
+  [[nodiscard]] std::uint64_t times_opened() const { return times_opened_; }
+  /// Of the start-up dialogue, for people; empty for a device without one.
+  [[nodiscard]] std::string start_up_state() const { return start_up_ ? start_up_->state() : std::string(); }
+  [[nodiscard]] const LatencyHistogram& latency() const { return latency_; }
+
+ private:
+  void on_opened(std::int64_t now_ns, const ports::OpenPort& port) override;
+  void on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) override;
+  void on_sent(std::int64_t now_ns, protocols::Bytes bytes) override;
+  void on_lost(std::int64_t now_ns, std::string_view reason) override;
+
+  void talk(std::int64_t now_ns);
+  void set_state(std::int64_t now_ns, State state, std::string reason);
+  State judge(const pipeline::PortStatistics& statistics, std::int64_t now_ns, std::string& reason);
+
+  const std::uint16_t index_;
+  const config::PortSettings settings_;
+  PortOwner& owner_;
+  std::unique_ptr<instruments::StartUp> start_up_;
+  LazyTimer start_up_timer_;
+  std::string last_start_up_state_;
+  SpeedCheck speed_check_;
+  LatencyHistogram latency_;
+  std::optional<ports::OpenPort> open_;
+  std::int64_t opened_ns_ = 0;
+  std::int64_t last_bytes_ns_ = 0;
+  std::uint64_t times_opened_ = 0;
+  bool opened_anew_ = false;  ///< since the last tick
+  State state_ = State::away;
+  std::string reason_ = "not opened yet";
+  ports::Port port_;
+};
+
+/// "away", "silent", "no_frames", "noisy", "running".
+[[nodiscard]] std::string_view name_of(PortSession::State state);
+
+}  // namespace navcal::daemon

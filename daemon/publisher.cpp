@@ -1,0 +1,95 @@
+#include "daemon/publisher.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "daemon/json_text.h"
+#include "record/sample_json.h"
+
+namespace navcal::daemon {
+namespace {
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+}  // namespace
+
+Publisher::Publisher(const config::Settings& settings, StatusServer& server)
+    : settings_(settings), server_(server), last_(settings.ports.size()) {}
+
+void Publisher::sample(const instruments::Sample& sample) {
+  auto& last = last_[sample.port];
+  if (const auto* gps = std::get_if<instruments::GpsSample>(&sample.value)) {
+    last.gps = *gps;
+    last.gps_stamp = sample.stamp;
+  } else if (const auto* sky = std::get_if<instruments::SkySample>(&sample.value)) {
+    last.sky = *sky;
+    last.sky_stamp = sample.stamp;
+  }
+  if (!server_.watched(sample.port)) return;
+  report_.clear();
+  append(sample, source(sample.port));
+  server_.publish(sample.port, report_);
+}
+
+void Publisher::append(const instruments::Sample& sample, ReportSource source) {
+  const auto& stamp = sample.stamp;
+  std::visit(Overloaded{
+                 [&](const instruments::CompassSample& compass) {
+                   append_att(report_, compass, settings_.environment.declination_rad, stamp, source);
+                 },
+                 [&](const instruments::ImuSample& imu) { append_att(report_, imu, stamp, source); },
+                 [&](const instruments::GpsSample& gps) { append_tpv(report_, gps, stamp, source); },
+                 [&](const instruments::SkySample& sky) {
+                   const auto& gps = last_[sample.port].gps;
+                   append_sky(report_, sky, gps ? &*gps : nullptr, stamp, source);
+                 },
+                 // gpsd has no words for these: they go out as `navcal replay` writes them.
+                 [&](const auto&) {
+                   record::append_json(report_, sample, source.device);
+                   report_ += '\n';
+                 },
+             },
+             sample.value);
+}
+
+void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns) const {
+  out += "{\"class\":\"POLL\"";
+  if (utc_ns) {
+    out += ",\"time\":";
+    append_utc(out, *utc_ns, 3);
+  }
+  const auto active = std::count_if(last_.begin(), last_.end(), [](const Last& last) { return last.gps.has_value(); });
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"active\":{},\"tpv\":["), active);
+  const auto list = [&](auto&& append_one) {
+    bool first = true;
+    for (std::uint16_t port = 0; port < last_.size(); ++port) {
+      const std::size_t before = out.size();
+      if (!first) out += ',';
+      if (append_one(last_[port], port)) {
+        out.pop_back();  // the newline: here it is no line of its own
+        first = false;
+      } else {
+        out.resize(before);
+      }
+    }
+  };
+  list([&](const Last& last, std::uint16_t port) {
+    if (last.gps) append_tpv(out, *last.gps, last.gps_stamp, source(port));
+    return last.gps.has_value();
+  });
+  out += "],\"gst\":[],\"sky\":[";
+  list([&](const Last& last, std::uint16_t port) {
+    if (last.sky) append_sky(out, *last.sky, last.gps ? &*last.gps : nullptr, last.sky_stamp, source(port));
+    return last.sky.has_value();
+  });
+  out += "]}\n";
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/settings.h"
+#include "daemon/gpsd_reports.h"
+#include "daemon/status_server.h"
+#include "instruments/samples.h"
+
+namespace navcal::daemon {
+
+/// Makes the reports of the status socket out of samples: once for all who watch, and not at all when nobody does.
+class Publisher {
+ public:
+  Publisher(const config::Settings& settings, StatusServer& server);
+
+  void sample(const instruments::Sample& sample);
+  /// Whether times in UTC mean anything yet.
+  void set_utc_known(bool known) { utc_known_ = known; }
+  /// The answer to ?POLL;: the last position and satellites of every receiver.
+  void append_poll(std::string& out, std::optional<std::int64_t> utc_ns) const;
+
+ private:
+  /// What POLL repeats.
+  struct Last {
+    std::optional<instruments::GpsSample> gps;
+    instruments::Stamp gps_stamp;
+    std::optional<instruments::SkySample> sky;
+    instruments::Stamp sky_stamp;
+  };
+  void append(const instruments::Sample& sample, ReportSource source);
+  [[nodiscard]] ReportSource source(std::uint16_t port) const { return {settings_.ports[port].name, utc_known_}; }
+
+  const config::Settings& settings_;
+  StatusServer& server_;
+  std::vector<Last> last_;
+  std::string report_;
+  bool utc_known_ = false;
+};
+
+}  // namespace navcal::daemon

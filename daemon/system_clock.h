@@ -1,0 +1,10 @@
+#pragma once
+
+#include "pipeline/system_clock_watch.h"
+
+namespace navcal::daemon {
+
+/// Reads the system's clock beside the monotonic one, and what the kernel thinks of it (adjtimex(2)).
+[[nodiscard]] pipeline::SystemClockReading read_system_clock();
+
+}  // namespace navcal::daemon
