@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/protocols/gps_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
 
@@ -12,7 +13,8 @@ bool operator==(const Scan& a, const Scan& b) { return a.kind == b.kind && a.len
 template <class S>
 class ScannerContract : public testing::Test {};
 
-using Scanners = testing::Types<tcm2::Scanner, tcm2::CommandScanner, imu_card::Scanner, motor_card::Scanner>;
+using Scanners = testing::Types<tcm2::Scanner, tcm2::CommandScanner, imu_card::Scanner, motor_card::Scanner,
+                                oncore::Scanner, oncore::CommandScanner, nmea::Scanner, GpsStreamScanner>;
 TYPED_TEST_SUITE(ScannerContract, Scanners);
 
 TYPED_TEST(ScannerContract, DecidesOnThePrefixAndStaysWithIt) {

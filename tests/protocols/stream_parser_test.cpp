@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/protocols/gps_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
 
@@ -19,7 +20,8 @@ class StreamParserOf : public testing::Test {
   }
 };
 
-using Scanners = testing::Types<tcm2::Scanner, tcm2::CommandScanner, imu_card::Scanner, motor_card::Scanner>;
+using Scanners = testing::Types<tcm2::Scanner, tcm2::CommandScanner, imu_card::Scanner, motor_card::Scanner,
+                                oncore::Scanner, oncore::CommandScanner, nmea::Scanner, GpsStreamScanner>;
 TYPED_TEST_SUITE(StreamParserOf, Scanners);
 
 TYPED_TEST(StreamParserOf, ResultDoesNotDependOnTheCuts) {
