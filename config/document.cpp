@@ -114,7 +114,7 @@ std::optional<Entry> read_override(std::string_view text, std::vector<Problem>& 
   // A serial number of digits only is a text, and a path needs no quotes; through TOML, to hold it to the same
   // rules.
   const auto as_text = one_value(to_toml_text(Value(given)));
-  if (!as_text) {
+  if (as_text != Value(given)) {
     problems.push_back({0, entry.name(), "the value is not UTF-8, or too long"});
     return std::nullopt;
   }

@@ -10,32 +10,24 @@ namespace {
 constexpr std::size_t kMaxBytes = 256 * 1024;
 constexpr int kMaxDots = 32;
 
-/// Past the text that begins with the quote at `at`, or to the end of the line when it has no end.
-std::size_t after_text(std::string_view line, std::size_t at) {
-  const char quote = line[at];
-  for (++at; at < line.size(); ++at) {
-    if (line[at] == '\\' && quote == '"') {
-      ++at;
-    } else if (line[at] == quote) {
-      return at + 1;
-    }
-  }
-  return line.size();
-}
-
 std::string complaint_about(std::string_view line) {
   int dots = 0;
-  for (std::size_t at = 0; at < line.size() && line[at] != '#';) {
+  char quote = 0;  // within a text: the quote that ends it
+  for (std::size_t at = 0; at < line.size(); ++at) {
     const char c = line[at];
-    if (c == '"' || c == '\'') {
-      if (line.substr(at, 3) == std::string(3, c)) return "a text over several lines is not taken";
-      at = after_text(line, at);
-      continue;
-    }
     if (static_cast<unsigned char>(c) >= 0x80)
-      return "a character beyond ASCII stands outside quotes and comments";
-    if (c == '.' && ++dots > kMaxDots) return fmt::format("the line has more than {} dots", kMaxDots);
-    ++at;
+      return "a character beyond ASCII; in quotes it can be written as \\u00E9";
+    if (quote != 0) {
+      if (c == '\\' && quote == '"') ++at;
+      if (c == quote) quote = 0;
+    } else if (c == '#') {
+      break;
+    } else if (c == '"' || c == '\'') {
+      if (line.substr(at, 3) == std::string(3, c)) return "a text over several lines is not taken";
+      quote = c;
+    } else if (c == '.' && ++dots > kMaxDots) {
+      return fmt::format("the line has more than {} dots", kMaxDots);
+    }
   }
   return {};
 }

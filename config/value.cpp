@@ -8,16 +8,37 @@
 namespace navcal::config {
 namespace {
 
+constexpr char32_t kNoCharacter = 0xfffd;
+
+/// Takes one character off the front of UTF-8 text; kNoCharacter for a byte that begins none.
+char32_t take_character(std::string_view& text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  const std::size_t length = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : first >= 0xc0 ? 2 : 0;
+  char32_t character = length == 1 ? first : first & (0x7fU >> length);
+  bool whole = length > 0 && length <= text.size();
+  for (std::size_t i = 1; whole && i < length; ++i) {
+    whole = (byte(i) & 0xc0U) == 0x80;
+    character = character << 6U | (byte(i) & 0x3fU);
+  }
+  text.remove_prefix(whole ? length : 1);
+  return whole ? character : kNoCharacter;
+}
+
+/// Beyond ASCII everything is escaped: see document_bounds.h.
 std::string quoted(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
+  while (!text.empty()) {
+    const char32_t c = take_character(text);
+    if (c == U'"' || c == U'\\') {
       out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += static_cast<char>(c);
+    } else if (c >= 0x20 && c < 0x7f) {
+      out += static_cast<char>(c);
+    } else if (c <= 0xffff) {
       out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
     } else {
-      out += c;
+      out += fmt::format("\\U{:08X}", static_cast<unsigned>(c));
     }
   }
   return out + '"';

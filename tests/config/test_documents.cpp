@@ -58,13 +58,18 @@ TEST(ConfigDocuments, AnEndlessFileIsRefused) {
             Problems{"t.toml:1: the file has more than 262144 bytes"});
 }
 
-TEST(ConfigDocuments, BeyondAsciiOnlyInQuotesAndComments) {
-  EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = \"/d\u00e9p\u00f4t\" # \u00e9\n"), Problems{});
-  EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = '/d\u00e9p\u00f4t' # \"\u00e9\n"), Problems{});
-  EXPECT_EQ(problems_beside_a_port("[log]\n \u0343 = 1\n"),
-            Problems{"t.toml:7: a character beyond ASCII stands outside quotes and comments"});
-  EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = \"/a\\\"\" \u0343\n"),
-            Problems{"t.toml:7: a character beyond ASCII stands outside quotes and comments"});
+TEST(ConfigDocuments, BeyondAsciiOnlyInCommentsAndAsEscapes) {
+  const auto directory = [](std::string_view text) {
+    return problems_beside_a_port(fmt::format("[log]\ndirectory = {} # \u00e9\n", text));
+  };
+  EXPECT_EQ(directory("\"/d\\u00e9p\\u00f4t\""), Problems{});
+  EXPECT_EQ(parse(std::string(kGoodPort) + "[log]\ndirectory = \"/d\\u00e9p\\u00f4t\"\n", "t.toml").log.directory,
+            "/d\u00e9p\u00f4t");
+  const Problems refused{"t.toml:7: a character beyond ASCII; in quotes it can be written as \\u00E9"};
+  for (const std::string text :
+       {"\"/\u00e9\"", "\"\u01c7\"", "'/\u00e9'", "\u0343", "\"/a\\\"\" \u0343", "\"/a\\\\\"\u0343"}) {
+    EXPECT_EQ(directory(text), refused) << text;
+  }
 }
 
 TEST(ConfigDocuments, AByteOrderMarkIsNoCharacter) {

@@ -22,6 +22,7 @@ TEST(ConfigOverrides, TextNeedsNoQuotesButMayHaveThem) {
   EXPECT_EQ(with({"log.directory=/a b/c"}).log.directory, "/a b/c");
   EXPECT_EQ(with({"log.directory=\"/a b/c\""}).log.directory, "/a b/c");
   EXPECT_EQ(with({"log.directory=/a=b"}).log.directory, "/a=b");
+  EXPECT_EQ(with({"log.directory=/d\u00e9p\u00f4t"}).log.directory, "/d\u00e9p\u00f4t");
 }
 
 TEST(ConfigOverrides, ATextThatLooksLikeANumberStaysAsItWasWritten) {
