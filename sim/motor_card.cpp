@@ -1,0 +1,83 @@
+#include "sim/motor_card.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace navcal::sim {
+namespace {
+
+namespace wire = protocols::motor_card;
+constexpr double kPeriod_s = 0.1;
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+}  // namespace
+
+MotorCard::MotorCard(const Options& options, const Motion& motion)
+    : options_(options), motion_(motion), noise_(options.seed) {}
+
+void MotorCard::power_on(std::int64_t t_ns) {
+  ticks_ = Ticks(t_ns, kPeriod_s, options_.clock_ppm);
+  parser_ = {};
+  command_.reset();
+  sequence_ = 0;
+}
+
+void MotorCard::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
+  parser_.feed(bytes, [&](const protocols::Frame& frame) {
+    if (frame.id != wire::kMcc) return;
+    const auto wanted = wire::decode_command(frame.bytes);
+    if (!wanted) return;
+    const auto beyond = [](double fin) { return std::abs(fin) > wire::kFinLimit_deg; };
+    if (std::any_of(wanted->fins_deg.begin(), wanted->fins_deg.end(), beyond)) {
+      ++refused_;
+      return;
+    }
+    at_command_ = actuators_at(t_ns);
+    commanded_ns_ = t_ns;
+    command_ = wanted;
+  });
+}
+
+void MotorCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
+  for (; ticks_.next_ns() <= t_ns; ticks_.pass()) {
+    const std::int64_t sent_ns = ticks_.next_ns();
+    const auto status = measure(sent_ns - std::llround(options_.latency_s * 1e9));
+    line_.put(sent_ns, options_.baud, wire::encode_status(status), out);
+  }
+}
+
+MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
+  if (!command_) {
+    const State state = motion_.at(t_ns);
+    return {state.rpm, {state.fins_rad[0] * kDegrees, state.fins_rad[1] * kDegrees, state.fins_rad[2] * kDegrees}};
+  }
+  const double since_s = std::max(0.0, static_cast<double>(t_ns - commanded_ns_) * 1e-9);
+  const auto follow = [&](double from, double to, double lag_s) {
+    return to + (from - to) * std::exp(-since_s / lag_s);
+  };
+  Actuators now;
+  now.rpm = follow(at_command_.rpm, command_->rpm, options_.shaft_lag_s);
+  for (std::size_t i = 0; i < 3; ++i) {
+    now.fins_deg[i] = follow(at_command_.fins_deg[i], command_->fins_deg[i], options_.fin_lag_s);
+  }
+  return now;
+}
+
+wire::Status MotorCard::measure(std::int64_t t_ns) {
+  const Actuators now = actuators_at(t_ns);
+  wire::Status status;
+  status.sequence = sequence_++;
+  status.rpm_commanded =
+      command_ ? command_->rpm : static_cast<std::int32_t>(std::lround(motion_.at(t_ns).rpm_commanded));
+  status.rpm = static_cast<std::int32_t>(std::lround(now.rpm));
+  for (std::size_t i = 0; i < 3; ++i) {
+    status.fins_deg[i] = rounded(now.fins_deg[i] + noise_.normal(options_.fin_noise_deg), 0.1);
+  }
+  const double turns_s = now.rpm / 60;
+  const double current = 0.15 + 5.5e-4 * std::pow(std::max(turns_s, 0.0), 3);  // VEHICLE.md section 1
+  status.current_A = rounded(std::max(0.0, current + noise_.normal(options_.current_noise_A)), 0.01);
+  return status;
+}
+
+}  // namespace navcal::sim

@@ -1,0 +1,157 @@
+#include "sim/path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+#include "sim/rotation.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::string_view kColumns = "t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3";
+constexpr std::size_t kColumnCount = 17;
+
+bool parse_row(std::string_view line, std::array<double, kColumnCount>& values) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto [stop, error] = std::from_chars(at, end, values[i]);
+    if (error != std::errc{} || !std::isfinite(values[i])) return false;
+    const bool last = i + 1 == values.size();
+    if (last ? stop != end : stop == end || *stop != ',') return false;
+    at = stop + 1;
+  }
+  return true;
+}
+
+PathRow row_of(const std::array<double, kColumnCount>& v) {
+  return {v[0],  {v[1], v[2], v[3]},   {v[4], v[5], v[6]}, {v[7], v[8], v[9]}, {v[10], v[11], v[12]},
+          v[13], {v[14], v[15], v[16]}};
+}
+
+Vector3 mixed(const Vector3& a, const Vector3& b, double part) {
+  Vector3 result{};
+  for (std::size_t i = 0; i < 3; ++i) result[i] = a[i] + part * (b[i] - a[i]);
+  return result;
+}
+
+bool near(const Vector3& a, const Vector3& b, double tolerance) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [&](double x, double y) { return std::abs(x - y) < tolerance; });
+}
+
+bool ends_as_it_began(const PathRow& first, const PathRow& last) {
+  const double turned = std::remainder(last.euler_rad[2] - first.euler_rad[2], 2 * std::numbers::pi);
+  const auto tilt = [](const PathRow& row) { return Vector3{row.euler_rad[0], row.euler_rad[1], 0}; };
+  return near(first.position_m, last.position_m, 0.01) && std::abs(turned) < 1e-3 &&
+         near(tilt(first), tilt(last), 1e-3) && near(first.velocity_body_m_s, last.velocity_body_m_s, 1e-3) &&
+         near(first.rate_rad_s, last.rate_rad_s, 1e-3);
+}
+
+State state_of(const PathRow& row, const Vector3& velocity_change_m_s2) {
+  State state;
+  state.position_m = row.position_m;
+  state.euler_rad = row.euler_rad;
+  state.velocity_body_m_s = row.velocity_body_m_s;
+  state.rate_rad_s = row.rate_rad_s;
+  state.specific_force_m_s2 =
+      specific_force(row.euler_rad, row.velocity_body_m_s, row.rate_rad_s, velocity_change_m_s2);
+  state.rpm_commanded = state.rpm = row.rpm;
+  state.fins_rad = row.fins_rad;
+  state.water_temperature_C = 15 - 0.25 * row.position_m[2];  // VEHICLE.md section 2
+  return state;
+}
+
+}  // namespace
+
+std::vector<PathRow> load_path(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw BadPath(fmt::format("{}: cannot be read", file.string()));
+  std::string line;
+  std::size_t number = 1;
+  const auto fail = [&](std::string_view what) {
+    throw BadPath(fmt::format("{}:{}: {}", file.string(), number, what));
+  };
+  const auto next = [&] {
+    if (!std::getline(in, line)) return false;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return true;
+  };
+  if (!next() || line != kColumns) fail(fmt::format("the first line must be {}", kColumns));
+  std::vector<PathRow> rows;
+  std::array<double, kColumnCount> values{};
+  while (next()) {
+    ++number;
+    if (!parse_row(line, values)) fail("not 17 numbers");
+    PathRow row = row_of(values);
+    if (!rows.empty()) {
+      if (row.t_s <= rows.back().t_s) fail("the time does not increase");
+      const double before = rows.back().euler_rad[2];
+      row.euler_rad[2] = before + std::remainder(row.euler_rad[2] - before, 2 * std::numbers::pi);
+    }
+    rows.push_back(row);
+  }
+  if (rows.size() < 2) fail("a path has two rows or more");
+  return rows;
+}
+
+PathMotion::PathMotion(std::vector<PathRow> rows, std::int64_t start_ns)
+    : rows_(std::move(rows)), start_ns_(start_ns), closed_(ends_as_it_began(rows_.front(), rows_.back())) {}
+
+State PathMotion::at(std::int64_t t_ns) const {
+  const double elapsed = std::max(0.0, static_cast<double>(t_ns - start_ns_) * 1e-9);
+  if (elapsed <= duration_s()) return within(rows_.front().t_s + elapsed);
+  return closed_ ? within(rows_.front().t_s + std::fmod(elapsed, duration_s())) : beyond(elapsed - duration_s());
+}
+
+State PathMotion::within(double t_s) const {
+  const auto after = std::upper_bound(rows_.begin() + 1, rows_.end() - 1, t_s,
+                                      [](double t, const PathRow& row) { return t < row.t_s; });
+  const PathRow& b = *after;
+  const PathRow& a = *(after - 1);
+  const auto index = static_cast<std::size_t>(after - rows_.begin());
+  const double part = std::clamp((t_s - a.t_s) / (b.t_s - a.t_s), 0.0, 1.0);
+  PathRow row;
+  row.position_m = mixed(a.position_m, b.position_m, part);
+  row.euler_rad = mixed(a.euler_rad, b.euler_rad, part);
+  row.velocity_body_m_s = mixed(a.velocity_body_m_s, b.velocity_body_m_s, part);
+  row.rate_rad_s = mixed(a.rate_rad_s, b.rate_rad_s, part);
+  row.rpm = a.rpm + part * (b.rpm - a.rpm);
+  row.fins_rad = mixed(a.fins_rad, b.fins_rad, part);
+  return state_of(row, mixed(velocity_change(index - 1), velocity_change(index), part));
+}
+
+/// Central difference; one-sided at the ends.
+Vector3 PathMotion::velocity_change(std::size_t row) const {
+  const PathRow& before = rows_[row == 0 ? 0 : row - 1];
+  const PathRow& after = rows_[std::min(row + 1, rows_.size() - 1)];
+  Vector3 change{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    change[i] = (after.velocity_body_m_s[i] - before.velocity_body_m_s[i]) / (after.t_s - before.t_s);
+  }
+  return change;
+}
+
+State PathMotion::beyond(double after_s) const {
+  const PathRow& last = rows_.back();
+  const auto [phi, theta, psi] = last.euler_rad;
+  const double turn = (last.rate_rad_s[1] * std::sin(phi) + last.rate_rad_s[2] * std::cos(phi)) / std::cos(theta);
+  PathRow row = last;
+  row.euler_rad[2] = psi + turn * after_s;
+  row.rate_rad_s = body_rates(row.euler_rad, {0, 0, turn});
+  // Along the arc: mean velocity over the heading passed through is that of its middle, times the chord's share.
+  const double half = 0.5 * turn * after_s;
+  const double share = std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half;
+  const Vector3 mean = R_world_from_body({phi, theta, psi + half}) * last.velocity_body_m_s;
+  for (std::size_t i = 0; i < 2; ++i) row.position_m[i] += share * mean[i] * after_s;
+  return state_of(row, {});
+}
+
+}  // namespace navcal::sim

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "sim/state.h"
+
+namespace navcal::sim {
+
+/// One row of a path: the columns of paths/*.csv, SI and radians.
+struct PathRow {
+  double t_s = 0;
+  Vector3 position_m{};
+  Vector3 euler_rad{};
+  Vector3 velocity_body_m_s{};
+  Vector3 rate_rad_s{};
+  double rpm = 0;
+  Vector3 fins_rad{};
+};
+
+/// A file that is no path; what() names file and line.
+class BadPath : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3 with increasing times; yaw may be wrapped or not.
+[[nodiscard]] std::vector<PathRow> load_path(const std::filesystem::path& file);
+
+/// Runs along a path. One that ends as it began (place, heading, motion) is run again and again; any other goes on
+/// for ever with the turn and the speed of its last row at the depth reached, so that nothing ever jumps.
+class PathMotion final : public Motion {
+ public:
+  /// The first row is at start_ns; before it the first row holds. Needs two rows or more.
+  PathMotion(std::vector<PathRow> rows, std::int64_t start_ns);
+
+  [[nodiscard]] State at(std::int64_t t_ns) const override;
+  [[nodiscard]] bool closed() const { return closed_; }
+  [[nodiscard]] double duration_s() const { return rows_.back().t_s - rows_.front().t_s; }
+
+ private:
+  [[nodiscard]] State within(double t_s) const;
+  [[nodiscard]] State beyond(double after_s) const;
+  [[nodiscard]] Vector3 velocity_change(std::size_t row) const;
+
+  std::vector<PathRow> rows_;
+  std::int64_t start_ns_;
+  bool closed_;
+};
+
+}  // namespace navcal::sim

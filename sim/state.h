@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace navcal::sim {
+
+using Vector3 = std::array<double, 3>;
+
+inline constexpr double kGravity_m_s2 = 9.81;
+
+/// What the instruments could measure at one instant (VEHICLE.md sections 1 and 2). Body axes x forward,
+/// y starboard, z down; world axes north, east, down.
+struct State {
+  Vector3 position_m{};  ///< north, east, down
+  Vector3 euler_rad{};   ///< roll, pitch, yaw; yaw is not wrapped
+  Vector3 velocity_body_m_s{};
+  Vector3 rate_rad_s{};           ///< body rates p, q, r
+  Vector3 specific_force_m_s2{};  ///< body axes, at the origin; (0, 0, -9.81) at rest
+  double rpm_commanded = 0;
+  double rpm = 0;
+  Vector3 fins_rad{};
+  Vector3 field_world_uT{19.0, 0.6, 44.0};
+  double water_temperature_C = 15;
+};
+
+/// Where the vehicle is, at any time and in any order; the devices know nothing else of it.
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  /// `t_ns`: UTC since the epoch.
+  [[nodiscard]] virtual State at(std::int64_t t_ns) const = 0;
+};
+
+}  // namespace navcal::sim

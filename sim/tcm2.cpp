@@ -1,0 +1,236 @@
+#include "sim/tcm2.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "protocols/tcm2_word.h"
+
+namespace navcal::sim {
+namespace {
+
+namespace wire = protocols::tcm2;
+using wire::Parameter;
+using wire::Verb;
+
+constexpr std::int64_t kThinks_ns = 2'000'000;      // from a command to the first byte of its answer
+constexpr std::int64_t kStartsUp_ns = 200'000'000;  // from power to the banner
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kMils = 3200 / std::numbers::pi;
+constexpr std::string_view kBanner = "TCM2 emulated, navcal\r\n";
+
+/// An angle in 0 to one turn that stays below the turn when it is rounded.
+double wrapped(double angle, double turn, double resolution) {
+  return std::fmod(rounded(angle, resolution), turn);
+}
+
+}  // namespace
+
+Tcm2::Tcm2(const Options& options, const Motion& motion)
+    : options_(options),
+      sensor_(options.sensor, motion, options.seed),
+      baud_(options.baud),
+      next_baud_(options.baud) {}
+
+void Tcm2::power_on(std::int64_t t_ns) {
+  sensor_.power_on(t_ns);
+  measured_ns_ = t_ns;
+  settings_ = {};
+  restart(t_ns);
+  if (options_.go_at_power_on) start(t_ns + kStartsUp_ns);
+}
+
+void Tcm2::restart(std::int64_t t_ns) {
+  parser_ = {};
+  answers_.clear();
+  running_ = calibrating_ = false;
+  score_.clear();
+  baud_ = next_baud_;
+  answer(t_ns + kStartsUp_ns, {kBanner.begin(), kBanner.end()});
+}
+
+void Tcm2::start(std::int64_t t_ns) {
+  running_ = true;
+  words_ = Ticks(t_ns, period_s(), options_.clock_ppm);
+}
+
+std::int64_t Tcm2::latency_ns() const { return std::llround(options_.latency_s * 1e9); }
+
+double Tcm2::period_s() const { return static_cast<double>(settings_.divider) / settings_.clock_Hz; }
+
+std::int64_t Tcm2::next_event_ns() const {
+  const std::int64_t answer_ns = answers_.empty() ? kNever_ns : answers_.front().due_ns;
+  return running_ ? std::min(answer_ns, words_.next_ns()) : answer_ns;
+}
+
+void Tcm2::advance(std::int64_t t_ns, std::vector<Emission>& out) {
+  while (next_event_ns() <= t_ns) {
+    if (!answers_.empty() && (!running_ || answers_.front().due_ns <= words_.next_ns())) {
+      Answer answer = std::move(answers_.front());
+      answers_.pop_front();
+      if (const auto* fields = std::get_if<Settings>(&answer.what)) answer.what = word(answer.due_ns, *fields);
+      line_.put(answer.due_ns, baud_, std::get<std::vector<std::uint8_t>>(std::move(answer.what)), out);
+      continue;
+    }
+    const std::int64_t sent_ns = words_.next_ns();
+    words_.pass();
+    // A device that samples faster than its line can carry leaves words out.
+    if (line_.free_ns() > sent_ns) continue;
+    line_.put(sent_ns, baud_, word(sent_ns, settings_), out);
+  }
+}
+
+void Tcm2::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
+  parser_.feed(bytes, [&](const protocols::Frame& frame) {
+    obey(t_ns, {reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size()});
+  });
+}
+
+void Tcm2::obey(std::int64_t t_ns, std::string_view line) {
+  const auto parsed = wire::parse_command(line);
+  if (const auto* refusal = std::get_if<wire::Refusal>(&parsed)) {
+    wire::Reply reply;
+    reply.kind = wire::Reply::Kind::refused;
+    reply.error = refusal->error;
+    return answer(t_ns, reply);
+  }
+  obey(t_ns, std::get<wire::Command>(parsed));
+}
+
+void Tcm2::obey(std::int64_t t_ns, const wire::Command& command) {
+  Settings only{
+      false, false, false, false, false, settings_.heading_in_mils, settings_.tilt_in_mils, settings_.fahrenheit};
+  wire::Reply reply;
+  switch (command.verb) {
+    case Verb::go:
+      start(t_ns);
+      break;
+    case Verb::halt:
+      running_ = false;
+      break;
+    case Verb::sample:
+      return answer_word(t_ns, settings_);
+    case Verb::heading:
+      only.heading = true;
+      return answer_word(t_ns, only);
+    case Verb::inclination:
+      only.pitch = only.roll = true;
+      return answer_word(t_ns, only);
+    case Verb::magnetometer:
+      only.field = true;
+      return answer_word(t_ns, only);
+    case Verb::temperature:
+      only.temperature = true;
+      return answer_word(t_ns, only);
+    case Verb::clear_calibration:
+      score_.clear();
+      [[fallthrough]];
+    case Verb::calibration_score:
+      reply.kind = wire::Reply::Kind::calibration;
+      reply.score = score_.score();
+      break;
+    case Verb::warm_restart:
+      return restart(t_ns);
+    case Verb::set:
+      if (const bool ends = command.parameter == Parameter::multipoint_calibration && command.letter == 'd';
+          ends && calibrating_) {
+        reply.kind = wire::Reply::Kind::calibration;
+        reply.score = score_.score();
+      }
+      if (const std::uint32_t error = set(command); error != 0) {
+        reply.kind = wire::Reply::Kind::refused;
+        reply.error = error;
+      }
+      break;
+  }
+  answer(t_ns, reply);
+}
+
+std::uint32_t Tcm2::set(const wire::Command& command) {
+  const bool on = command.letter == 'e';
+  switch (command.parameter) {
+    case Parameter::output_heading:
+      settings_.heading = on;
+      break;
+    case Parameter::output_pitch:
+      settings_.pitch = on;
+      break;
+    case Parameter::output_roll:
+      settings_.roll = on;
+      break;
+    case Parameter::output_field:
+      settings_.field = on;
+      break;
+    case Parameter::output_temperature:
+      settings_.temperature = on;
+      break;
+    case Parameter::heading_unit:
+      settings_.heading_in_mils = command.letter == 'm';
+      break;
+    case Parameter::tilt_unit:
+      settings_.tilt_in_mils = command.letter == 'm';
+      break;
+    case Parameter::temperature_unit:
+      settings_.fahrenheit = command.letter == 'f';
+      break;
+    case Parameter::output_format:
+      if (command.letter == 'r') return wire::error::kBadParameter;  // no source at hand describes raw words
+      settings_.nmea = command.letter == 'n';
+      break;
+    case Parameter::baud:
+      next_baud_ = wire::kBauds[command.number];
+      break;
+    case Parameter::clock:
+      settings_.clock_Hz = command.number;
+      break;
+    case Parameter::sample_period:
+      settings_.divider = command.number;
+      break;
+    case Parameter::fast:
+    case Parameter::damping:
+      break;  // filters that this model does not have
+    case Parameter::multipoint_calibration:
+      calibrating_ = on;
+      break;
+  }
+  return 0;
+}
+
+void Tcm2::answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes) {
+  answers_.push_back({t_ns + kThinks_ns, std::move(bytes)});
+}
+
+void Tcm2::answer(std::int64_t t_ns, const wire::Reply& reply) { answer(t_ns, wire::encode_reply(reply)); }
+
+void Tcm2::answer_word(std::int64_t t_ns, const Settings& fields) {
+  answers_.push_back({t_ns + kThinks_ns + latency_ns(), fields});
+}
+
+std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) {
+  // Words asked for one by one may overlap with those that come of themselves.
+  measured_ns_ = std::max(measured_ns_, t_ns - latency_ns());
+  const Tcm2Reading reading = sensor_.measure(measured_ns_);
+  if (calibrating_) score_.add(reading);
+  if (fields.nmea) return wire::encode_hchdm(wrapped(reading.heading_rad * kDegrees, 360, 0.1));
+  wire::Word out;
+  if (fields.heading) {
+    out.heading = fields.heading_in_mils ? wrapped(reading.heading_rad * kMils, 6400, 1)
+                                         : wrapped(reading.heading_rad * kDegrees, 360, 0.1);
+  }
+  const double tilt_scale = fields.tilt_in_mils ? kMils : kDegrees;
+  const double tilt_resolution = fields.tilt_in_mils ? 1 : 0.1;
+  if (fields.pitch) out.pitch = rounded(reading.pitch_rad * tilt_scale, tilt_resolution);
+  if (fields.roll) out.roll = rounded(reading.roll_rad * tilt_scale, tilt_resolution);
+  if (fields.field) {
+    out.x = reading.field_uT[0];
+    out.y = reading.field_uT[1];
+    out.z = reading.field_uT[2];
+  }
+  if (fields.temperature) {
+    out.temperature = fields.fahrenheit ? reading.temperature_C * 1.8 + 32 : reading.temperature_C;
+  }
+  if (reading.tilt_out_of_range) out.error = wire::error::kInclinometerOutOfRange;
+  return wire::encode_word(out);
+}
+
+}  // namespace navcal::sim
