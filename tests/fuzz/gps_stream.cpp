@@ -1,0 +1,13 @@
+#include "protocols/gps_stream.h"
+
+#include "tests/fuzz/stream_invariants.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace navcal::protocols;
+  navcal::fuzz::check_stream<GpsStreamScanner>({data, size}, [](const Frame& frame) {
+    const bool binary = frame.bytes[0] == '@';
+    navcal::fuzz::require((protocol_of(frame) == Protocol::oncore) == binary);
+    navcal::fuzz::require(frame.id.view().size() >= 2);
+  });
+  return 0;
+}

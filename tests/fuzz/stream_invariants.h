@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "protocols/stream_parser.h"
+
+// What must hold of every stream parser whatever the bytes and the cuts are. The first byte of an input seeds the
+// cuts, so that the fuzzer can vary them too.
+namespace navcal::fuzz {
+
+inline void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+struct Found {
+  protocols::FrameId id;
+  std::uint64_t offset = 0;
+  std::vector<std::uint8_t> bytes;
+  bool operator==(const Found&) const = default;
+};
+
+template <protocols::Scanner S>
+void require_accounts(const protocols::StreamParser<S>& parser, std::uint64_t fed) {
+  const auto& c = parser.counters();
+  require(c.bytes == fed);
+  require(c.bytes == c.framed_bytes + c.skipped_bytes + parser.held());
+  require(parser.position() == c.framed_bytes + c.skipped_bytes);
+  require((parser.missing() == 0) == (parser.held() == 0));
+  require(parser.held() + parser.missing() <= S::kMaxFrameLength);
+}
+
+/// `use(frame)` is called for every frame and must not crash.
+template <protocols::Scanner S, class Use>
+void check_stream(protocols::Bytes input, Use&& use) {
+  if (input.empty()) return;
+  std::uint32_t state = input[0] + 1U;
+  const protocols::Bytes stream = input.subspan(1);
+  const auto next_length = [&state](std::size_t limit) {
+    state = state * 1664525U + 1013904223U;
+    return limit == 0 ? 0 : (state >> 16) % (limit + 1);
+  };
+
+  std::vector<Found> whole;
+  protocols::StreamParser<S> at_once;
+  at_once.feed(stream, [&](const protocols::Frame& frame) {
+    require(frame.end() <= stream.size());
+    whole.push_back({frame.id, frame.offset, {frame.bytes.begin(), frame.bytes.end()}});
+    use(frame);
+  });
+  require_accounts(at_once, stream.size());
+
+  std::vector<Found> cut;
+  protocols::StreamParser<S> in_pieces;
+  std::size_t fed = 0;
+  while (fed < stream.size()) {
+    const std::size_t length = next_length(std::min<std::size_t>(stream.size() - fed, 1U + input[0]));
+    in_pieces.feed(stream.subspan(fed, length), [&](const protocols::Frame& frame) {
+      cut.push_back({frame.id, frame.offset, {frame.bytes.begin(), frame.bytes.end()}});
+    });
+    fed += length;
+    require_accounts(in_pieces, fed);
+    if (length == 0) ++state;
+  }
+  require(cut == whole);
+  require(in_pieces.counters().bad_checksum == at_once.counters().bad_checksum);
+  require(in_pieces.held() == at_once.held() && in_pieces.missing() == at_once.missing());
+
+  // With silences in between: other frames may come, but each byte still lies in one place, and all that is held
+  // can be given up.
+  protocols::StreamParser<S> with_silences;
+  std::uint64_t end = 0;
+  const auto in_order = [&](const protocols::Frame& frame) {
+    require(frame.offset >= end);
+    end = frame.end();
+    use(frame);
+  };
+  for (fed = 0; fed < stream.size();) {
+    const std::size_t length = std::min<std::size_t>(stream.size() - fed, 1 + next_length(40));
+    with_silences.feed(stream.subspan(fed, length), in_order);
+    fed += length;
+    if (next_length(3) == 0) with_silences.silence(in_order);
+    require_accounts(with_silences, fed);
+  }
+  while (with_silences.held() > 0) with_silences.silence(in_order);
+  require_accounts(with_silences, stream.size());
+}
+
+}  // namespace navcal::fuzz
