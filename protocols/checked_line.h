@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,19 +36,54 @@ inline constexpr auto kHexValue = [] {
   return table;
 }();
 
-/// Bytes that end the body of a line, whole or cut.
-inline constexpr auto kEndsBody = [] {
-  std::array<bool, 256> table{};
-  for (const char c : {'$', '*', '\r', '\n'}) table[static_cast<std::uint8_t>(c)] = true;
-  return table;
-}();
+/// Whether a byte ends the body of a line, whole or cut: `$`, `*` and all control characters, CR and LF among
+/// them.
+[[nodiscard]] constexpr bool ends_body(std::uint8_t byte) { return byte == '$' || byte == '*' || byte < ' '; }
+
+/// The same for eight bytes at once. The lowest 0x80 that is set marks the first byte that ends the body; those
+/// above it may be set for no reason (a borrow goes upwards only).
+[[nodiscard]] constexpr std::uint64_t body_ends(std::uint64_t bytes) {
+  constexpr std::uint64_t kOnes = 0x0101010101010101;
+  const auto below = [](std::uint64_t x, std::uint64_t limit) { return (x - limit * kOnes) & ~x; };
+  return (below(bytes ^ '$' * kOnes, 1) | below(bytes ^ '*' * kOnes, 1) | below(bytes, ' ')) & 0x80 * kOnes;
+}
+
+/// XOR of the eight bytes of a word.
+[[nodiscard]] constexpr std::uint8_t folded(std::uint64_t bytes) {
+  bytes ^= bytes >> 32;
+  bytes ^= bytes >> 16;
+  bytes ^= bytes >> 8;
+  return static_cast<std::uint8_t>(bytes);
+}
+
+/// Goes over the body that begins at `p`, XORs it into `sum`; returns its end, or `limit`.
+[[nodiscard]] inline const std::uint8_t* pass_body(const std::uint8_t* p, const std::uint8_t* limit,
+                                                   std::uint8_t& sum) {
+  if constexpr (std::endian::native == std::endian::little) {
+    std::uint64_t sums = 0;
+    for (; limit - p >= 8; p += 8) {
+      std::uint64_t bytes = 0;
+      std::memcpy(&bytes, p, sizeof bytes);
+      if (const std::uint64_t ends = body_ends(bytes); ends != 0) {
+        const int before = std::countr_zero(ends) / 8;
+        sums ^= bytes & ((std::uint64_t{1} << 8 * before) - 1);
+        sum = static_cast<std::uint8_t>(sum ^ folded(sums));
+        return p + before;
+      }
+      sums ^= bytes;
+    }
+    sum = static_cast<std::uint8_t>(sum ^ folded(sums));
+  }
+  for (; p < limit && !ends_body(*p); ++p) sum ^= *p;
+  return p;
+}
 
 }  // namespace detail
 
 /// Scans a line `$...*hh<CR><LF>` that begins at `first` (a `$`); <LF> alone is taken as well, as a terminal or a
-/// file may have made it so. Any byte is let into the body, for a flipped bit is better counted as a bad checksum
-/// than as something else; but a `$` begins the next line, so a line that was cut is left without waiting.
-/// `max_length` counts everything from `$` to <LF>.
+/// file may have made it so. Whatever is no control character is let into the body, for a flipped bit is better
+/// counted as a bad checksum than as something else; but a `$` begins the next line, so a line that was cut is
+/// left without waiting. `max_length` counts everything from `$` to <LF>.
 [[nodiscard]] inline Scan scan_checked_line(const std::uint8_t* first, const std::uint8_t* last,
                                             std::size_t max_length, FrameId id) {
   const auto available = std::min(static_cast<std::size_t>(last - first), max_length);
@@ -55,10 +92,9 @@ inline constexpr auto kEndsBody = [] {
     return available == max_length ? Scan::not_a_frame()
                                    : Scan::incomplete(std::min(missing, max_length - available));
   };
-  const std::uint8_t* p = first + 1;
   std::uint8_t sum = 0;
-  for (; p < limit && !detail::kEndsBody[*p]; ++p) sum ^= *p;
-  if (p >= limit) return unfinished(4);
+  const std::uint8_t* const p = detail::pass_body(first + 1, limit, sum);
+  if (p == limit) return unfinished(4);
   if (*p == '$') return Scan::not_a_frame();
   if (*p != '*') return Scan::bad_checksum();  // the line has ended without one
   const auto left = static_cast<std::size_t>(limit - p);
