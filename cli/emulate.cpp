@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/emulate_console.h"
+#include "cli/emulate_input.h"
+#include "cli/emulate_session.h"
+#include "sim/path.h"
+
+namespace navcal::cli {
+namespace {
+
+namespace asio = boost::asio;
+
+void run(const EmulateArguments& arguments) {
+  asio::io_context io{1};
+  EmulateSession session(io, arguments);
+  asio::signal_set signals(io, SIGINT, SIGTERM);
+  signals.async_wait([&](const boost::system::error_code& error, int) {
+    if (!error) io.stop();
+  });
+  asio::co_spawn(io,
+                 read_lines(STDIN_FILENO,
+                            [&](std::string_view line) {
+                              const std::string why = obey_line(session, line);
+                              if (!why.empty()) fmt::print(stderr, "navcal emulate: {}\n", why);
+                            }),
+                 asio::detached);
+  fmt::print("ready\n");
+  std::fflush(stdout);
+  io.run();
+  session.report();
+}
+
+template <class Plan>
+void add_plans(CLI::App* command, const std::string& name, std::vector<Plan>& plans,
+               std::optional<Plan> (*parse)(std::string_view), const std::string& help) {
+  command->add_option_function<std::vector<std::string>>(
+      name,
+      [&plans, parse, name](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+          const auto plan = parse(text);
+          if (!plan) throw CLI::ValidationError(name, "cannot be read: " + text);
+          plans.push_back(*plan);
+        }
+      },
+      help);
+}
+
+}  // namespace
+
+void add_emulate(CLI::App& app) {
+  auto* command = app.add_subcommand("emulate", "live emulated instruments on DIR/compass, imu, gps, motor");
+  const auto arguments = std::make_shared<EmulateArguments>();
+  const std::map<std::string, sim::Oncore::Kind> receivers{{"ha", sim::Oncore::Kind::twelve_channels},
+                                                           {"ea", sim::Oncore::Kind::eight_channels},
+                                                           {"nmea", sim::Oncore::Kind::nmea}};
+  command->add_option("--dir", arguments->dir, "where the ports are made; made when missing")->required();
+  command->add_option(
+      "--path", arguments->path,
+      "CSV (t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3) along which the vehicle moves; one\n"
+      "that ends as it began is repeated, after any other the last turn and speed go on. Without it:\n"
+      "two and a half minutes of legs, circles and a dive, repeated");
+  command->add_option("--seconds", arguments->seconds, "stop after so long; 0: not")->check(CLI::Range(0.0, 1e9));
+  command->add_option("--seed", arguments->seed, "of every noise and bias")->capture_default_str();
+  command
+      ->add_option("--gps", arguments->gps, "what the receiver knows: ha (and Ea), ea (only), or nmea sentences")
+      ->transform(CLI::CheckedTransformer(receivers));
+  command->add_option("--compass-baud", arguments->compass_baud, "speed of the compass")->capture_default_str();
+  command->add_option("--imu-ppm", arguments->imu_ppm, "by how much the card's seconds are too long (by the seed)")
+      ->check(CLI::Range(-1e4, 1e4));
+  command->add_option("--sent-log", arguments->sent_log, "capture of exactly what went over the lines, both ways");
+  const auto* const misbehaviour = "Misbehaviour";
+  command->add_option("--noise", arguments->noise, "probability of a flipped bit in a frame or garbage before it")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(misbehaviour);
+  command->add_option("--drop", arguments->drop, "probability that a frame is lost")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(misbehaviour);
+  add_plans(command, "--stall", arguments->stalls, &parse_stall,
+            "SECONDS@EVERY: all bytes are held back so long, then come at once, every so many seconds");
+  add_plans(command, "--unplug", arguments->unplugs, &parse_unplug,
+            "PORT@T+DURATION: the port is gone from T seconds on, for so long; repeatable");
+  command->get_option("--stall")->group(misbehaviour);
+  command->get_option("--unplug")->group(misbehaviour);
+  command->footer(
+      fmt::format("The instruments answer commands and keep the pace of their lines; what nobody reads is lost. "
+                  "`ready` is printed\n"
+                  "when they can be opened. While it runs it obeys lines on standard input:\n  {}\n\n"
+                  "Example: navcal emulate --dir /tmp/ports --noise 0.01 --unplug compass@20+3",
+                  kConsoleHelp));
+  command->callback([arguments] {
+    try {
+      run(*arguments);
+    } catch (const sim::BadPath& error) {
+      throw Failure(Exit::bad_input, error.what());
+    }
+  });
+}
+
+}  // namespace navcal::cli

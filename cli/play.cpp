@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/play_session.h"
+
+namespace navcal::cli {
+namespace {
+
+namespace asio = boost::asio;
+
+void run(const PlayArguments& arguments) {
+  asio::io_context io{1};
+  PlaySession session(io.get_executor(), arguments);
+  bool interrupted = false;
+  asio::signal_set signals(io, SIGINT, SIGTERM);
+  signals.async_wait([&](const boost::system::error_code& error, int) {
+    if (error) return;
+    interrupted = true;
+    io.stop();
+  });
+  std::exception_ptr failure;
+  asio::co_spawn(io, session.run(), [&](std::exception_ptr error) {
+    failure = error;
+    io.stop();
+  });
+  io.run();
+  if (failure) {
+    try {
+      std::rethrow_exception(failure);
+    } catch (const record::BadRecording& error) {
+      throw Failure(Exit::bad_input, error.what());
+    }
+  }
+  if (interrupted) fmt::print(stderr, "navcal play: interrupted\n");
+  session.report();
+}
+
+}  // namespace
+
+void add_play(CLI::App& app) {
+  auto* command = app.add_subcommand("play", "play a recording into pseudo-terminals at its own pace");
+  const auto arguments = std::make_shared<PlayArguments>();
+  command->add_option("FILE", arguments->file, "capture (.cap) or log (.mcap)")->required();
+  command->add_option("--dir", arguments->dir, "where the ports are made, DIR/<port>; made when missing")
+      ->required();
+  command->add_option("--speed", arguments->speed, "so many times faster than recorded")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--wait", arguments->wait_s,
+                   "seconds to wait, after `ready`, until every port has been opened, so that nothing of the\n"
+                   "beginning is missed; then it starts anyway. 0 starts at once")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
+  command->footer(
+      "Like a real line it waits for no reader: what nobody takes is lost, and counted at the end. What was sent "
+      "to\n"
+      "the devices is not played. Each read comes in one piece, as it was recorded.\n\n"
+      "Example: navcal play dive.cap --dir /tmp/ports & navcald --config navcald.toml");
+  command->callback([arguments] {
+    try {
+      run(*arguments);
+    } catch (const record::BadRecording& error) {
+      throw Failure(Exit::bad_input, error.what());
+    }
+  });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "ports/port_list.h"
+
+namespace navcal::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const ports::PortInfo& port) {
+  const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
+  const auto number = [](const std::optional<int>& value) { return value ? Json(*value) : Json(nullptr); };
+  const auto id = [](const std::optional<int>& value) {
+    return value ? Json(fmt::format("{:04x}", *value)) : Json(nullptr);
+  };
+  return {{"class", "PORT"},
+          {"path", port.path},
+          {"description", text(port.description)},
+          {"transport", port.transport},
+          {"usb_vid", id(port.usb_vid)},
+          {"usb_pid", id(port.usb_pid)},
+          {"usb_manufacturer", text(port.usb_manufacturer)},
+          {"usb_product", text(port.usb_product)},
+          {"usb_serial", text(port.usb_serial)},
+          {"driver", text(port.driver)},
+          {"latency_timer_ms", number(port.latency_timer_ms)}};
+}
+
+void run(bool json) {
+  const auto list = ports::list_ports();
+  for (const ports::PortInfo& port : list) {
+    if (json) {
+      fmt::print("{}\n", json_of(port).dump(-1, ' ', false, Json::error_handler_t::replace));
+    } else {
+      fmt::print("{}  {}\n", port.path, ports::describe(port));
+    }
+  }
+  if (list.empty()) {
+    fmt::print(stderr,
+               "This machine has no serial ports. A USB adapter shows up here once it is plugged in; without any, "
+               "`navcal emulate --dir DIR` makes instruments to try things with.\n");
+  }
+}
+
+}  // namespace
+
+void add_ports(CLI::App& app) {
+  auto* command = app.add_subcommand("ports", "serial ports of this machine and what is known of them");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "one JSON object a line; what is not known is null");
+  command->footer(
+      "A port can be configured by its path or, better, by the serial number of its USB adapter (usb_serial), "
+      "which\n"
+      "stays the same whichever socket it is plugged into.\n\nExample: navcal ports");
+  command->callback([json] { run(*json); });
+}
+
+}  // namespace navcal::cli
