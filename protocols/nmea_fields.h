@@ -34,11 +34,12 @@ class FieldReader {
     in_range_ = in_range_ && number;
     return number;
   }
-  /// Within [low, high].
+  /// Within [low, high]; nullopt beyond, too.
   std::optional<Decimal> decimal(double low, double high) {
     const auto number = decimal();
-    if (number && !(number->value() >= low && number->value() <= high)) refuse();
-    return number;
+    if (!number || (number->value() >= low && number->value() <= high)) return number;
+    refuse();
+    return std::nullopt;
   }
   /// A magnitude and the letter of its sign: `positive` or `negative`.
   std::optional<Decimal> signed_by_letter(char positive, char negative, double limit);

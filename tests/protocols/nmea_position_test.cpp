@@ -158,6 +158,7 @@ TEST(NmeaZda, TimeDateAndZone) {
   EXPECT_EQ(zda->zone_min, -330);
   EXPECT_FALSE(read(nmea::decode_zda, "GPZDA,094737,31,02,2018,00,00"));
   EXPECT_FALSE(read(nmea::decode_zda, "GPZDA,,,,,,")->date);
+  EXPECT_FALSE(read(nmea::decode_zda, "GPZDA,,,,,1109.4,00")) << "no such zone";
 }
 
 }  // namespace
