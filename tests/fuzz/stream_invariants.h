@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -17,7 +18,7 @@ inline void require(bool condition) {
 struct Found {
   protocols::FrameId id;
   std::uint64_t offset = 0;
-  std::vector<std::uint8_t> bytes;
+  std::size_t length = 0;
   bool operator==(const Found&) const = default;
 };
 
@@ -31,6 +32,16 @@ void require_accounts(const protocols::StreamParser<S>& parser, std::uint64_t fe
   require(parser.held() + parser.missing() <= S::kMaxFrameLength);
 }
 
+/// A frame fed by itself is the same frame.
+template <protocols::Scanner S>
+void require_same_alone(const protocols::Frame& frame) {
+  protocols::StreamParser<S> parser;
+  parser.feed(frame.bytes, [&](const protocols::Frame& again) {
+    require(again.id == frame.id && again.offset == 0 && again.bytes.size() == frame.bytes.size());
+  });
+  require(parser.counters().frames == 1 && parser.held() == 0);
+}
+
 /// `use(frame)` is called for every frame and must not crash.
 template <protocols::Scanner S, class Use>
 void check_stream(protocols::Bytes input, Use&& use) {
@@ -42,11 +53,18 @@ void check_stream(protocols::Bytes input, Use&& use) {
     return limit == 0 ? 0 : (state >> 16) % (limit + 1);
   };
 
+  // A frame is the bytes of the stream at its offset, however it came together.
+  const auto found = [stream](const protocols::Frame& frame) {
+    require(frame.end() <= stream.size());
+    require(std::equal(frame.bytes.begin(), frame.bytes.end(),
+                       stream.begin() + static_cast<std::ptrdiff_t>(frame.offset)));
+    return Found{frame.id, frame.offset, frame.bytes.size()};
+  };
+
   std::vector<Found> whole;
   protocols::StreamParser<S> at_once;
   at_once.feed(stream, [&](const protocols::Frame& frame) {
-    require(frame.end() <= stream.size());
-    whole.push_back({frame.id, frame.offset, {frame.bytes.begin(), frame.bytes.end()}});
+    whole.push_back(found(frame));
     use(frame);
   });
   require_accounts(at_once, stream.size());
@@ -56,9 +74,8 @@ void check_stream(protocols::Bytes input, Use&& use) {
   std::size_t fed = 0;
   while (fed < stream.size()) {
     const std::size_t length = next_length(std::min<std::size_t>(stream.size() - fed, 1U + input[0]));
-    in_pieces.feed(stream.subspan(fed, length), [&](const protocols::Frame& frame) {
-      cut.push_back({frame.id, frame.offset, {frame.bytes.begin(), frame.bytes.end()}});
-    });
+    in_pieces.feed(stream.subspan(fed, length),
+                   [&](const protocols::Frame& frame) { cut.push_back(found(frame)); });
     fed += length;
     require_accounts(in_pieces, fed);
     if (length == 0) ++state;
