@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -89,8 +90,8 @@ bool CaptureReader::read_line(std::string_view& line) {
   }
   if (window_.view().empty()) return false;
   ++line_;
+  if (std::min(end, window_.view().size()) >= kMaxLine) fail("line is longer than 65535 bytes");
   if (end == std::string_view::npos) {
-    if (window_.view().size() >= kMaxLine) fail("line is longer than 65535 bytes");
     remarks_.push_back(fmt::format("{}:{}: last line cut short: left out", name_, line_));
     window_.advance(window_.view().size());
     return false;

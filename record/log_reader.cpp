@@ -20,12 +20,6 @@ constexpr std::uint64_t kMaxDefinitions = 16ULL << 20;
 /// Only a message up to this size is looked for behind damage, which bounds the time spent on false beginnings.
 constexpr std::uint64_t kMaxFound = 64ULL << 10;
 
-bool known(std::uint8_t opcode) {
-  return (opcode >= static_cast<std::uint8_t>(Opcode::header) &&
-          opcode <= static_cast<std::uint8_t>(Opcode::last_defined)) ||
-         opcode >= static_cast<std::uint8_t>(Opcode::masked);
-}
-
 std::int64_t integer_or_zero(std::string_view text) {
   std::int64_t value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -63,7 +57,7 @@ std::optional<LogMessage> LogReader::next() {
     }
     const auto record = record_here(kMaxRecord);
     const Verdict verdict = record ? judge(*record) : Verdict::damaged;
-    if (verdict == Verdict::bad_crc && plausible_at(record->length)) {
+    if (verdict == Verdict::bad_crc && good_at(record->length)) {
       ++findings_.bad_crc;
       remark(fmt::format("byte {}: checksum of a message does not hold: passed over", window_.offset()));
       window_.advance(record->length);
@@ -122,10 +116,15 @@ LogReader::Verdict LogReader::judge(const Record& record) {
   return Verdict::good;
 }
 
-bool LogReader::plausible_at(std::size_t distance) {
+/// Whether a record that holds begins there, so that the length which led there can be trusted.
+bool LogReader::good_at(std::size_t distance) {
   if (!window_.ensure(distance + kRecordHead)) return false;
-  const std::string_view there = window_.view().substr(distance);
-  return known(static_cast<std::uint8_t>(there.front())) && read_le<std::uint64_t>(there, 1) <= kMaxRecord;
+  const auto length = read_le<std::uint64_t>(window_.view(), distance + 1);
+  if (length > kMaxRecord || !window_.ensure(distance + kRecordHead + length)) return false;
+  const auto opcode = static_cast<Opcode>(window_.view()[distance]);
+  if (opcode == Opcode::masked) return true;
+  if (opcode != Opcode::message && opcode != Opcode::data_end) return false;
+  return judge({opcode, window_.view().substr(distance + kRecordHead, length), 0}) == Verdict::good;
 }
 
 bool LogReader::define(const Record& record) {

@@ -72,7 +72,7 @@ class LogReader {
 
   [[nodiscard]] std::optional<Record> record_here(std::uint64_t limit);
   [[nodiscard]] Verdict judge(const Record& record);
-  [[nodiscard]] bool plausible_at(std::size_t distance);
+  [[nodiscard]] bool good_at(std::size_t distance);
   [[nodiscard]] bool define(const Record& record);
   LogMessage hand_out(const Record& record);
   void resynchronise();

@@ -13,6 +13,7 @@ namespace navcal::record {
 struct Repair {
   std::string file;            ///< its name
   std::error_code error;       ///< why nothing was done, or why it could not be completed
+  std::string reason;          ///< where it is no log: what() of BadRecording
   std::uint64_t messages = 0;  ///< kept
   std::uint64_t bad_crc = 0;   ///< messages whose checksum does not hold: left as they are, readers pass over them
   std::uint64_t cut_bytes = 0;     ///< removed behind the last whole record

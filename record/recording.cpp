@@ -38,16 +38,22 @@ std::string peek(ByteSource& source, std::size_t n) {
   return begin;
 }
 
+std::unique_ptr<ByteSource> open_recording(const std::filesystem::path& file) {
+  try {
+    return open_file(file);
+  } catch (const std::system_error& error) {
+    throw BadRecording(error.what());
+  }
+}
+
 }  // namespace
 
+bool is_log(const std::filesystem::path& file) {
+  return peek(*open_recording(file), kMcapMagic.size()) == kMcapMagic;
+}
+
 std::unique_ptr<Recording> Recording::open(const std::filesystem::path& file) {
-  auto source = [&] {
-    try {
-      return open_file(file);
-    } catch (const std::system_error& error) {
-      throw BadRecording(error.what());
-    }
-  }();
+  auto source = open_recording(file);
   constexpr std::string_view kCapture = "#capture";
   const std::string begin = peek(*source, kCapture.size());
   auto whole = std::make_unique<PeekedSource>(begin, std::move(source));

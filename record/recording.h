@@ -40,6 +40,9 @@ struct MappingChange {
 
 using Entry = std::variant<RawRead, MappingChange, LoggedEvent>;
 
+/// Whether a file begins as a log does. Throws BadRecording when it cannot be read.
+[[nodiscard]] bool is_log(const std::filesystem::path& file);
+
 /// Capture (.cap) or log (.mcap), told apart by content, read in order and in constant memory.
 class Recording {
  public:

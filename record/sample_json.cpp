@@ -13,27 +13,6 @@ using instruments::Stamp;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
-std::string_view name_of(instruments::Fix fix) {
-  using instruments::Fix;
-  switch (fix) {
-    case Fix::none:
-      return "none";
-    case Fix::fix_2d:
-      return "2d";
-    case Fix::fix_3d:
-      return "3d";
-    case Fix::propagated:
-      return "propagated";
-    case Fix::hold:
-      return "hold";
-    case Fix::acquiring:
-      return "acquiring";
-    case Fix::bad_geometry:
-      return "bad_geometry";
-  }
-  return "none";
-}
-
 std::optional<double> degrees(const std::optional<double>& rad) {
   if (!rad) return std::nullopt;
   return *rad * kDegreesPerRadian;

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include "record/capture_writer.h"
+#include "record/export.h"
+#include "record/recording.h"
+#include "record/whole_file.h"
+
+namespace navcal::record {
+namespace {
+
+constexpr std::uint64_t kProgressEvery = 1024;
+
+}  // namespace
+
+Exported export_capture(const std::filesystem::path& recording_file, const std::filesystem::path& capture,
+                        const Progress& progress) {
+  const auto recording = Recording::open(recording_file);
+  WholeFile file(capture);
+  CaptureWriter writer(recording->settings().ports);
+  std::string text;
+  writer.begin(text);
+  pipeline::UtcMapping mapping;
+  std::uint64_t unmapped = 0;
+  std::uint64_t entries = 0;
+  while (const auto entry = recording->next()) {
+    if (const auto* change = std::get_if<MappingChange>(&*entry)) mapping = change->mapping;
+    if (const auto* read = std::get_if<RawRead>(&*entry)) {
+      if (mapping.source == pipeline::UtcMapping::Source::none) ++unmapped;
+      writer.bytes(text, read->port, read->direction, mapping.to_utc(read->time_ns), read->bytes);
+    }
+    if (++entries % kProgressEvery == 0) {
+      progress(recording->progress());
+      file.write(text);
+      text.clear();
+    }
+  }
+  file.write(text);
+  file.commit();
+
+  Exported exported{{capture}, recording->remarks()};
+  if (writer.raised() > 0) {
+    exported.remarks.push_back(fmt::format(
+        "UTC was corrected backwards: {} times were raised to that of the line before", writer.raised()));
+  }
+  if (unmapped > 0) {
+    exported.remarks.push_back(fmt::format("{} times are monotonic: UTC was not known", unmapped));
+  }
+  return exported;
+}
+
+}  // namespace navcal::record

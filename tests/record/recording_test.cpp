@@ -1,0 +1,95 @@
+#include "record/recording.h"
+
+#include <gtest/gtest.h>
+
+#include "config/load.h"
+#include "record/capture_recording.h"
+#include "record/log_recording.h"
+#include "sample_log.h"
+#include "temporary_folder.h"
+
+namespace navcal::record {
+namespace {
+
+using RecordingFiles = testing::TemporaryFolder;
+
+std::vector<Entry> entries_of(Recording& recording) {
+  std::vector<Entry> entries;
+  while (auto entry = recording.next()) entries.push_back(std::move(*entry));
+  return entries;
+}
+
+TEST_F(RecordingFiles, ALogGivesBackBytesMappingsAndEvents) {
+  const auto log = testing::sample_log(2, true);
+  const auto recording = Recording::open(write("a.mcap", log.bytes));
+  EXPECT_EQ(recording->settings(), testing::sample_settings());
+  const auto entries = entries_of(*recording);
+  std::uint64_t raw = 0;
+  std::uint64_t events = 0;
+  for (const auto& entry : entries) {
+    if (const auto* read = std::get_if<RawRead>(&entry)) {
+      EXPECT_EQ(read->bytes.size(), read->port == 1 ? 22U : 51U);
+      EXPECT_GE(read->time_ns, testing::kSampleStart_ns);
+      ++raw;
+    }
+    events += std::holds_alternative<LoggedEvent>(entry) ? 1U : 0U;
+  }
+  EXPECT_EQ(raw, log.raw_messages);
+  EXPECT_EQ(events, 2U);
+  const auto* const first = std::get_if<MappingChange>(&entries.front());
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->mapping.offset_ns, testing::kSampleOffset_ns);
+  EXPECT_EQ(first->mapping.bound_ns, 20'000'000);
+  EXPECT_TRUE(recording->remarks().empty());
+  EXPECT_DOUBLE_EQ(recording->progress(), 1.0);
+}
+
+TEST_F(RecordingFiles, ALogWhoseConfigurationIsDamagedKeepsItsPorts) {
+  auto log = testing::sample_log(1, true);
+  log.bytes[log.bytes.find("\"toml\"", log.bytes.find("CONFIG")) + 1] = 'T';
+  const auto recording = Recording::open(write("a.mcap", log.bytes));
+  ASSERT_EQ(recording->settings().ports.size(), 2U);
+  EXPECT_EQ(recording->settings().ports[1].name, "imu");
+  EXPECT_EQ(recording->settings().ports[1].baud, 57600);
+  std::uint64_t raw = 0;
+  for (const auto& entry : entries_of(*recording)) raw += std::holds_alternative<RawRead>(entry) ? 1U : 0U;
+  EXPECT_EQ(raw, log.raw_messages);
+  EXPECT_FALSE(recording->remarks().empty());
+}
+
+TEST_F(RecordingFiles, ACaptureIsInUtcFromItsFirstEntryOn) {
+  const auto recording =
+      Recording::open(write("a.cap", "#capture 1\n#port imu imu-card 57600\n1700000000.125003881 imu < a55a\n"));
+  const auto entries = entries_of(*recording);
+  ASSERT_EQ(entries.size(), 2U);
+  const auto& mapping = std::get<MappingChange>(entries[0]).mapping;
+  EXPECT_EQ(mapping.source, pipeline::UtcMapping::Source::file);
+  EXPECT_EQ(mapping.offset_ns, 0);
+  EXPECT_EQ(mapping.bound_ns, 0);
+  EXPECT_EQ(std::get<RawRead>(entries[1]).time_ns, 1'700'000'000'125'003'881);
+}
+
+TEST_F(RecordingFiles, WhatIsNeitherIsRefusedByName) {
+  const auto file = write("a.txt", "hello");
+  try {
+    Recording::open(file);
+    FAIL();
+  } catch (const BadRecording& error) {
+    EXPECT_EQ(error.what(), file.string() + ": neither a capture (\"#capture 1\") nor a log (MCAP)");
+  }
+  EXPECT_THROW(Recording::open(path_ / "absent"), BadRecording);
+  EXPECT_THROW(Recording::open(path_), BadRecording);
+}
+
+TEST_F(RecordingFiles, RecordingsOfRealInstrumentsAreRead) {
+  const std::filesystem::path data = std::filesystem::path(NAVCAL_SHARED_DIR) / "data";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
+  for (const auto* name : {"broad34.cap", "hmc_sphere.cap", "sg171.cap"}) {
+    const auto recording = Recording::open(data / name);
+    EXPECT_GT(entries_of(*recording).size(), 1000U) << name;
+    EXPECT_TRUE(recording->remarks().empty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace navcal::record
