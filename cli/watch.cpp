@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/watch_stream.h"
+#include "cli/watch_view.h"
+
+namespace navcal::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kRefresh = std::chrono::milliseconds(200);
+constexpr auto kLineInterval = std::chrono::seconds(1);
+
+struct Options {
+  std::string host = "127.0.0.1";
+  std::string port = "2947";
+  bool json = false;
+  double seconds = 0;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_signal(int) { interrupted = 1; }
+
+/// The terminal's other screen with the cursor hidden; what was there before comes back at the end.
+class Screen {
+ public:
+  Screen() { put("\x1b[?1049h\x1b[?25l"); }
+  ~Screen() { put("\x1b[?25h\x1b[?1049l"); }
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  /// Drawn over the old picture line by line, so that nothing flickers.
+  static void draw(const std::string& page) {
+    std::string out = "\x1b[H";
+    for (const char c : page) out += c == '\n' ? std::string("\x1b[K\n") : std::string(1, c);
+    put(out + "\x1b[J");
+  }
+
+ private:
+  static void put(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+  }
+};
+
+Clock::time_point end_of(const Options& options) {
+  if (options.seconds <= 0) return Clock::time_point::max();
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+}
+
+std::string title(const Options& options, const WatchStream& stream) {
+  std::string text = fmt::format("navcald at {} port {}", options.host, options.port);
+  if (!stream.connected()) text += fmt::format(": not connected ({}), trying again", stream.problem());
+  return text + "\n\n";
+}
+
+void pass_on(WatchStream& stream, Clock::time_point end) {
+  while (interrupted == 0 && Clock::now() < end) {
+    const auto line = stream.next(std::min(end, Clock::now() + kLineInterval));
+    if (!line) continue;
+    std::printf("%s\n", line->c_str());
+    // Whoever reads a pipe wants to see it now.
+    if (std::fflush(stdout) != 0) return;
+  }
+}
+
+void show(const Options& options, WatchStream& stream, Clock::time_point end, bool terminal) {
+  const auto screen = terminal ? std::make_unique<Screen>() : nullptr;
+  const auto interval = terminal ? Clock::duration(kRefresh) : Clock::duration(kLineInterval);
+  WatchView view;
+  auto next_picture = Clock::now() + interval;
+  bool was_connected = false;
+  while (interrupted == 0 && Clock::now() < end) {
+    const auto line = stream.next(std::min(end, next_picture));
+    if (was_connected && !stream.connected()) view.clear();
+    was_connected = stream.connected();
+    if (line) view.take(*line);
+    if (Clock::now() < next_picture) continue;
+    next_picture += interval;
+    if (terminal) {
+      Screen::draw(title(options, stream) + view.page(WatchView::Colour::ansi));
+    } else {
+      std::printf("%s\n", stream.connected() ? view.line().c_str() : ("not connected: " + stream.problem()).c_str());
+      if (std::fflush(stdout) != 0) return;
+    }
+  }
+}
+
+void watch(const Options& options) {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  // A reader that has gone is seen by fflush.
+  std::signal(SIGPIPE, SIG_IGN);
+  WatchStream stream(options.host, options.port);
+  const auto end = end_of(options);
+  if (options.json) {
+    pass_on(stream, end);
+  } else {
+    show(options, stream, end, ::isatty(STDOUT_FILENO) != 0);
+  }
+}
+
+}  // namespace
+
+void add_watch(CLI::App& app) {
+  auto* command = app.add_subcommand("watch", "live view of a running navcald");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--host", options->host, "where it runs")->capture_default_str();
+  command->add_option("--port", options->port, "its status port")->capture_default_str();
+  command->add_flag("--json", options->json, "pass the stream on as it comes");
+  command->add_option("--seconds", options->seconds, "end after so long (0: at Ctrl-C)")->check(CLI::NonNegativeNumber);
+  command->footer("Example: navcal watch --host vehicle.local\n"
+                  "Without a terminal it writes one line a second; it connects again when the daemon returns.");
+  command->callback([options] { watch(*options); });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,106 @@
+#include "cli/watch_stream.h"
+
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+namespace navcal::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::string_view kRequest = "?WATCH={\"enable\":true,\"json\":true};\n";
+constexpr auto kRetry = std::chrono::milliseconds(500);
+/// Nobody who speaks this protocol sends a longer line.
+constexpr std::size_t kMaxLine = 1 << 20;
+
+int milliseconds_until(Clock::time_point until) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+  return static_cast<int>(std::max<std::int64_t>(0, left.count()));
+}
+
+}  // namespace
+
+WatchStream::WatchStream(std::string host, std::string port) : host_(std::move(host)), port_(std::move(port)) {}
+
+WatchStream::~WatchStream() {
+  if (socket_ >= 0) ::close(socket_);
+}
+
+void WatchStream::disconnect(std::string problem) {
+  if (socket_ >= 0) ::close(socket_);
+  socket_ = -1;
+  bytes_.clear();
+  problem_ = std::move(problem);
+  next_attempt_ = Clock::now() + kRetry;
+}
+
+bool WatchStream::connect() {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (const int error = getaddrinfo(host_.c_str(), port_.c_str(), &hints, &found); error != 0) {
+    disconnect(gai_strerror(error));
+    return false;
+  }
+  std::string problem = "no address";
+  for (const addrinfo* address = found; address != nullptr && socket_ < 0; address = address->ai_next) {
+    const int candidate = ::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (candidate < 0) continue;
+    const bool ready = ::connect(candidate, address->ai_addr, address->ai_addrlen) == 0 &&
+                       ::send(candidate, kRequest.data(), kRequest.size(), MSG_NOSIGNAL) ==
+                           static_cast<ssize_t>(kRequest.size());
+    if (ready) {
+      socket_ = candidate;
+    } else {
+      problem = std::strerror(errno);
+      ::close(candidate);
+    }
+  }
+  freeaddrinfo(found);
+  if (socket_ < 0) disconnect(problem);
+  return socket_ >= 0;
+}
+
+std::optional<std::string> WatchStream::take_line() {
+  const auto end = bytes_.find('\n');
+  if (end == std::string::npos) return std::nullopt;
+  std::string line = bytes_.substr(0, end);
+  bytes_.erase(0, end + 1);
+  return line;
+}
+
+std::optional<std::string> WatchStream::next(Clock::time_point until) {
+  for (;;) {
+    if (auto line = take_line()) return line;
+    if (socket_ < 0) {
+      if (Clock::now() < next_attempt_) {
+        if (::poll(nullptr, 0, milliseconds_until(std::min(until, next_attempt_))) < 0) return std::nullopt;
+        if (Clock::now() >= until) return std::nullopt;
+        continue;
+      }
+      if (!connect()) continue;
+    }
+    pollfd readable{socket_, POLLIN, 0};
+    if (::poll(&readable, 1, milliseconds_until(until)) <= 0) return std::nullopt;
+    std::array<char, 16384> chunk{};
+    const ssize_t n = ::recv(socket_, chunk.data(), chunk.size(), 0);
+    if (n < 0 && errno == EINTR) return std::nullopt;
+    if (n <= 0) {
+      disconnect(n == 0 ? "the daemon closed the connection" : std::strerror(errno));
+    } else if (bytes_.size() > kMaxLine) {
+      disconnect("that is no navcald: it sends no lines");
+    } else {
+      bytes_.append(chunk.data(), static_cast<std::size_t>(n));
+    }
+  }
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace navcal::cli {
+
+/// The status stream of a daemon, line by line; connects again by itself when the daemon has gone away.
+class WatchStream {
+ public:
+  WatchStream(std::string host, std::string port);
+  ~WatchStream();
+  WatchStream(const WatchStream&) = delete;
+  WatchStream& operator=(const WatchStream&) = delete;
+
+  /// The next line, without its newline; nullopt when `until` has come or a signal came in. Waits for both bytes and
+  /// the daemon's return.
+  std::optional<std::string> next(std::chrono::steady_clock::time_point until);
+  [[nodiscard]] bool connected() const { return socket_ >= 0; }
+  /// Why it is not connected.
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+
+ private:
+  std::optional<std::string> take_line();
+  bool connect();
+  void disconnect(std::string problem);
+
+  std::string host_, port_;
+  int socket_ = -1;
+  std::string bytes_;
+  std::string problem_;
+  std::chrono::steady_clock::time_point next_attempt_{};
+};
+
+}  // namespace navcal::cli

@@ -1,0 +1,212 @@
+#include "cli/watch_view.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace navcal::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view kRed = "\x1b[1;37;41m", kPlain = "\x1b[0m";
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+/// Nothing from the network may move the cursor.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
+std::string text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? printable(found->get<std::string>()) : std::string();
+}
+
+double number(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : NAN;
+}
+
+/// "-" for what is not there.
+std::string shown(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+template <class... Arguments>
+void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
+}
+
+std::string log_state(const Json& log) {
+  if (!log.is_object()) return "log: -";
+  std::string out = fmt::format("log: {}", text(log, "state"));
+  if (const auto reason = text(log, "reason"); !reason.empty()) out += " (" + reason + ")";
+  const auto file = text(log, "file");
+  if (!file.empty()) out += " " + file.substr(file.rfind('/') + 1);
+  add(out, ", {} MB, {} kB queued", shown(number(log, "bytes") * 1e-6, 1), shown(number(log, "queued") * 1e-3, 0));
+  if (number(log, "lost") > 0) add(out, ", {} records LOST", shown(number(log, "lost"), 0));
+  return out;
+}
+
+}  // namespace
+
+void WatchView::clear() { *this = WatchView(); }
+
+void WatchView::take(std::string_view line) {
+  const Json report = Json::parse(line, nullptr, false);
+  if (!report.is_object()) return;
+  const std::string kind = text(report, "class");
+  if (kind == "HEALTH") {
+    take_health(report);
+  } else if (kind == "TIME") {
+    time_ = report;
+  } else if (!kind.empty()) {
+    last_[kind][text(report, "device")] = report;
+  }
+}
+
+void WatchView::take_health(const Json& health) {
+  alarms_ = health.value("alarms", Json::array());
+  log_ = health.value("log", Json());
+  uptime_s_ = number(health, "uptime_s");
+  if (const double dropped = number(health, "dropped"); dropped >= 0) dropped_ = static_cast<std::uint64_t>(dropped);
+  const Json ports = health.value("ports", Json::array());
+  if (!ports.is_array()) return;
+  for (const Json& port : ports) {
+    if (!port.is_object()) continue;
+    const std::string device = text(port, "device");
+    const double frames = number(port, "frames");
+    const auto before = ports_.find(device);
+    // Reports on a change come soon after the regular one: too soon to tell a rate.
+    const double elapsed_s = uptime_s_ - counted_at_s_[device];
+    if (before != ports_.end() && elapsed_s < 0.5) {
+      Json kept = port;
+      kept["frames"] = before->second.value("frames", Json());
+      before->second = std::move(kept);
+      continue;
+    }
+    if (before != ports_.end()) frames_per_s_[device] = (frames - number(before->second, "frames")) / elapsed_s;
+    counted_at_s_[device] = uptime_s_;
+    ports_[device] = port;
+  }
+}
+
+void WatchView::append_alarms(std::string& out, Colour colour) const {
+  if (!alarms_.is_array()) return;
+  for (const Json& alarm : alarms_) {
+    if (!alarm.is_object()) continue;
+    const auto words = fmt::format(" ALARM {} ({}) ", text(alarm, "alarm"), text(alarm, "device"));
+    if (colour == Colour::ansi) {
+      add(out, "{}{}{}\n", kRed, words, kPlain);
+    } else {
+      add(out, "{}\n", words);
+    }
+  }
+}
+
+void WatchView::append_ports(std::string& out) const {
+  add(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s", "frames", "bad", "skipped",
+      "lost", "reason");
+  for (const auto& [device, port] : ports_) {
+    const auto rate = frames_per_s_.find(device);
+    add(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
+        shown(rate == frames_per_s_.end() ? NAN : rate->second, 1), shown(number(port, "frames"), 0),
+        shown(number(port, "bad"), 0), shown(number(port, "skipped"), 0), shown(number(port, "lost"), 0),
+        text(port, "reason"));
+  }
+}
+
+void WatchView::append_attitude(std::string& out) const {
+  const auto found = last_.find("ATT");
+  if (found == last_.end()) return;
+  for (const auto& [device, att] : found->second) {
+    if (att.contains("heading")) {
+      add(out, "{:<12}heading {} deg true, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
+          shown(number(att, "heading"), 1), shown(number(att, "pitch"), 1), shown(number(att, "roll"), 1),
+          shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
+    }
+    if (att.contains("depth")) {
+      add(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device, shown(number(att, "depth"), 2),
+          shown(number(att, "gyro_x"), 2), shown(number(att, "gyro_y"), 2), shown(number(att, "gyro_z"), 2));
+    }
+  }
+}
+
+void WatchView::append_position(std::string& out) const {
+  const auto found = last_.find("TPV");
+  if (found == last_.end()) return;
+  for (const auto& [device, tpv] : found->second) {
+    const double mode = number(tpv, "mode");
+    add(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device, mode >= 3 ? "3D" : mode >= 2 ? "2D" : "no fix",
+        shown(number(tpv, "lat"), 7), shown(number(tpv, "lon"), 7), shown(number(tpv, "speed"), 2),
+        shown(number(tpv, "track"), 1), text(tpv, "time"));
+  }
+}
+
+void WatchView::append_motor(std::string& out) const {
+  if (const auto found = last_.find("MOTOR"); found != last_.end()) {
+    for (const auto& [device, motor] : found->second) {
+      add(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0), shown(number(motor, "current_A"), 2));
+      const Json fins = motor.value("fins_rad", Json::array());
+      for (const Json& fin : fins) {
+        add(out, " {}", shown(fin.is_number() ? fin.get<double>() * kDegrees : NAN, 1));
+      }
+      out += " deg\n";
+    }
+  }
+}
+
+void WatchView::append_log(std::string& out) const { add(out, "{}\n", log_state(log_)); }
+
+void WatchView::append_time(std::string& out) const {
+  if (!time_.is_object()) return;
+  const double bound = number(time_, "bound");
+  add(out, "UTC from {}, {}\n", text(time_, "source"),
+      std::isfinite(bound) ? fmt::format("to within {:.6f} s", bound) : "to within an unknown bound");
+}
+
+std::string WatchView::page(Colour colour) const {
+  std::string out;
+  append_alarms(out, colour);
+  append_ports(out);
+  append_attitude(out);
+  append_position(out);
+  append_motor(out);
+  append_log(out);
+  append_time(out);
+  if (dropped_ > 0) add(out, "this view missed {} reports\n", dropped_);
+  return out;
+}
+
+std::string WatchView::line() const {
+  std::string out;
+  if (alarms_.is_array()) {
+    for (const Json& alarm : alarms_) {
+      if (alarm.is_object()) add(out, "ALARM {} ({}); ", text(alarm, "alarm"), text(alarm, "device"));
+    }
+  }
+  for (const auto& [device, port] : ports_) {
+    const auto rate = frames_per_s_.find(device);
+    add(out, "{} {} {}/s; ", device, text(port, "state"),
+        shown(rate == frames_per_s_.end() ? NAN : rate->second, 1));
+  }
+  for (const char* kind : {"ATT", "TPV"}) {
+    const auto found = last_.find(kind);
+    if (found == last_.end()) continue;
+    for (const auto& [device, report] : found->second) {
+      if (report.contains("heading")) add(out, "heading {}; ", shown(number(report, "heading"), 1));
+      if (report.contains("depth")) add(out, "depth {}; ", shown(number(report, "depth"), 2));
+      if (report.contains("lat")) {
+        add(out, "{} {}; ", shown(number(report, "lat"), 7), shown(number(report, "lon"), 7));
+      }
+    }
+  }
+  return out + log_state(log_);
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace navcal::cli {
+
+/// What a running daemon says, put together for people: lines of the status socket in, text out. No I/O.
+class WatchView {
+ public:
+  enum class Colour { none, ansi };
+
+  /// One line of the stream. What is not understood is passed over.
+  void take(std::string_view line);
+  /// Forgets everything: the connection was lost.
+  void clear();
+
+  /// The whole picture, alarms first, several lines.
+  [[nodiscard]] std::string page(Colour colour) const;
+  /// The same in one line, for a log or a pipe.
+  [[nodiscard]] std::string line() const;
+
+ private:
+  using Json = nlohmann::json;
+  void take_health(const Json& health);
+  void append_alarms(std::string& out, Colour colour) const;
+  void append_ports(std::string& out) const;
+  void append_attitude(std::string& out) const;
+  void append_position(std::string& out) const;
+  void append_motor(std::string& out) const;
+  void append_log(std::string& out) const;
+  void append_time(std::string& out) const;
+
+  Json alarms_ = Json::array();
+  Json log_;
+  Json time_;
+  std::map<std::string, Json> ports_;                  ///< of HEALTH, by device
+  std::map<std::string, double> frames_per_s_;         ///< by device
+  std::map<std::string, std::map<std::string, Json>> last_;  ///< newest report, by class and device
+  double uptime_s_ = 0;
+  std::map<std::string, double> counted_at_s_;  ///< uptime of the HEALTH before, by device
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace navcal::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "record/disk.h"
+
+namespace navcal::daemon {
+
+/// The real disk with its bad habits under the control of a test.
+class DifficultDisk : public record::Disk {
+ public:
+  std::atomic<int> stall_ms{0};        ///< every write takes so long
+  std::atomic<bool> full{false};       ///< every write fails for want of space
+  std::atomic<std::uint64_t> free{1ULL << 40};
+
+  std::unique_ptr<record::DiskFile> create(const std::filesystem::path& file, std::error_code& error) override {
+    auto real = record::real_disk().create(file, error);
+    if (!real) return nullptr;
+    return std::make_unique<File>(*this, std::move(real));
+  }
+  std::unique_ptr<record::DiskFile> open(const std::filesystem::path& file, std::error_code& error) override {
+    return record::real_disk().open(file, error);
+  }
+  std::unique_ptr<record::ByteSource> read(const std::filesystem::path& file, std::error_code& error) override {
+    return record::real_disk().read(file, error);
+  }
+  std::error_code remove(const std::filesystem::path& file) override {
+    free += 1 << 20;
+    full = false;
+    return record::real_disk().remove(file);
+  }
+  std::error_code sync_folder(const std::filesystem::path& folder) override {
+    return record::real_disk().sync_folder(folder);
+  }
+  std::vector<record::DiskEntry> list(const std::filesystem::path& folder, std::error_code& error) override {
+    return record::real_disk().list(folder, error);
+  }
+  std::uint64_t free_bytes(const std::filesystem::path&, std::error_code&) override { return free; }
+  std::unique_ptr<record::DiskLock> lock(const std::filesystem::path& file, std::error_code& error) override {
+    return record::real_disk().lock(file, error);
+  }
+
+ private:
+  class File : public record::DiskFile {
+   public:
+    File(DifficultDisk& disk, std::unique_ptr<record::DiskFile> real) : disk_(disk), real_(std::move(real)) {}
+    std::error_code write_at(std::uint64_t offset, std::string_view bytes) override {
+      std::this_thread::sleep_for(std::chrono::milliseconds(disk_.stall_ms));
+      if (disk_.full) return std::make_error_code(std::errc::no_space_on_device);
+      return real_->write_at(offset, bytes);
+    }
+    std::error_code reserve(std::uint64_t length) override { return real_->reserve(length); }
+    std::error_code truncate(std::uint64_t length) override { return real_->truncate(length); }
+    std::error_code sync() override { return real_->sync(); }
+    std::error_code make_read_only() override { return real_->make_read_only(); }
+
+   private:
+    DifficultDisk& disk_;
+    std::unique_ptr<record::DiskFile> real_;
+  };
+};
+
+}  // namespace navcal::daemon

@@ -1,0 +1,160 @@
+#include "daemon/disk_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "tests/daemon/difficult_disk.h"
+#include "tests/daemon/temporary_folder.h"
+
+namespace navcal::daemon {
+namespace {
+
+using namespace std::chrono_literals;
+
+class DiskThreadTest : public ::testing::Test {
+ protected:
+  void begin(std::uint64_t queue_bytes, std::uint64_t floor_bytes = 0) {
+    DiskThread::Options options;
+    options.sync_interval = 5ms;
+    options.retry_interval = 5ms;
+    options.queue_bytes = queue_bytes;
+    options.free_floor_bytes = floor_bytes;
+    thread_ = std::make_unique<DiskThread>(record::LogFolder(disk_, folder_.path()), options);
+    thread_->next_file(0, [](std::string& out) { out += "begin\n"; });
+  }
+
+  bool append(const std::string& record) {
+    return thread_->append([&](std::string& out) { out += record; });
+  }
+
+  /// The contents of all logs, in the order of their names.
+  std::vector<std::string> logs() const {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+      if (entry.path().extension() == ".mcap") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    std::vector<std::string> contents;
+    for (const auto& file : files) {
+      std::ifstream in(file, std::ios::binary);
+      contents.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    }
+    return contents;
+  }
+
+  template <class Condition>
+  bool eventually(Condition&& condition) {
+    for (int i = 0; i < 2000; ++i) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(5ms);
+    }
+    return false;
+  }
+
+  DifficultDisk disk_;
+  TemporaryFolder folder_;
+  std::unique_ptr<DiskThread> thread_;
+};
+
+TEST_F(DiskThreadTest, StallsOfTheDiskLoseNothingWhileTheQueueHolds) {
+  disk_.stall_ms = 100;
+  begin(32 << 20);
+  std::string expected = "begin\n";
+  for (int i = 0; i < 3000; ++i) {
+    const std::string record = std::to_string(i) + "\n";
+    const auto before = std::chrono::steady_clock::now();
+    ASSERT_TRUE(append(record));
+    EXPECT_LT(std::chrono::steady_clock::now() - before, 90ms) << "the I/O thread must not wait for the disk";
+    expected += record;
+    if (i % 100 == 0) std::this_thread::sleep_for(5ms);
+  }
+  thread_->stop();
+  EXPECT_EQ(thread_->state().dropped, 0U);
+  EXPECT_EQ(logs(), std::vector<std::string>{expected});
+}
+
+TEST_F(DiskThreadTest, BeyondTheQueueWholeRecordsAreLostAndCounted) {
+  disk_.stall_ms = 200;
+  begin(4000);
+  std::string expected = "begin\n";
+  std::uint64_t lost = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::string record = "record " + std::to_string(i) + "\n";
+    append(record) ? void(expected += record) : void(++lost);
+  }
+  EXPECT_GT(lost, 0U);
+  EXPECT_EQ(thread_->state().dropped, lost);
+  EXPECT_LE(thread_->state().queued_bytes, 4000U + 20U);
+  disk_.stall_ms = 0;
+  ASSERT_TRUE(eventually([&] { return thread_->state().queued_bytes == 0; }));
+  ASSERT_TRUE(append("afterwards\n"));
+  thread_->stop();
+  EXPECT_EQ(logs(), std::vector<std::string>{expected + "afterwards\n"});
+}
+
+TEST_F(DiskThreadTest, ARecordIsNeverTornAcrossFiles) {
+  begin(1 << 20);
+  std::vector<std::string> expected{"begin\n"};
+  for (int i = 0; i < 1000; ++i) {
+    const std::string record = std::to_string(i) + "\n";
+    ASSERT_TRUE(append(record));
+    expected.back() += record;
+    if (i % 97 == 96) {
+      thread_->end_file([](std::string& out) { out += "end\n"; });
+      expected.back() += "end\n";
+      thread_->next_file(0, [](std::string& out) { out += "begin\n"; });
+      expected.emplace_back("begin\n");
+    }
+  }
+  thread_->stop();
+  EXPECT_EQ(logs(), expected);
+}
+
+TEST_F(DiskThreadTest, AFullDiskIsSaidWaitedForAndNothingQueuedIsLost) {
+  begin(1 << 20);
+  ASSERT_TRUE(append("before\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().queued_bytes == 0; }));
+  disk_.full = true;
+  ASSERT_TRUE(append("while full\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().state == DiskState::State::full; }));
+  EXPECT_FALSE(thread_->state().reason.empty());
+  EXPECT_FALSE(thread_->take_notices().empty());
+  disk_.full = false;
+  ASSERT_TRUE(eventually([&] { return thread_->state().state == DiskState::State::writing; }));
+  thread_->stop();
+  EXPECT_EQ(logs(), std::vector<std::string>{"begin\nbefore\nwhile full\n"});
+}
+
+TEST_F(DiskThreadTest, AFullDiskIsRelievedOfItsOldestFinishedLog) {
+  begin(1 << 20, 1);
+  ASSERT_TRUE(append("old\n"));
+  thread_->next_file(0, [](std::string& out) { out += "begin\n"; });
+  ASSERT_TRUE(eventually([&] { return logs().size() == 2 && thread_->state().queued_bytes == 0; }));
+  disk_.free = 0;
+  disk_.full = true;
+  ASSERT_TRUE(append("new\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().queued_bytes == 0; }));
+  thread_->stop();
+  EXPECT_EQ(logs(), std::vector<std::string>{"begin\nnew\n"});
+}
+
+TEST_F(DiskThreadTest, StoppingWithAFullDiskEnds) {
+  begin(1 << 20);
+  disk_.full = true;
+  ASSERT_TRUE(append("never written\n"));
+  thread_->stop();
+  EXPECT_EQ(thread_->state().state, DiskState::State::full);
+}
+
+TEST_F(DiskThreadTest, WhatWasAppendedIsSyncedWithinItsInterval) {
+  begin(1 << 20);
+  ASSERT_TRUE(append("soon on the disk\n"));
+  EXPECT_TRUE(eventually([&] { return thread_->state().synced_bytes == 23; }));
+  thread_->stop();
+}
+
+}  // namespace
+}  // namespace navcal::daemon

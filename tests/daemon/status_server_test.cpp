@@ -1,0 +1,210 @@
+#include "daemon/status_server.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "daemon/gpsd_replies.h"
+#include "daemon/listeners.h"
+#include "daemon/start_error.h"
+#include "tests/daemon/tcp_client.h"
+
+namespace navcal::daemon {
+namespace {
+
+using nlohmann::json;
+
+class TwoDevices : public StatusSource {
+ public:
+  std::size_t device_count() const override { return 2; }
+  std::optional<std::uint16_t> device_named(std::string_view name) const override {
+    if (name == "compass") return 0;
+    return name == "gps" ? std::optional<std::uint16_t>(1) : std::nullopt;
+  }
+  std::string_view device_name(std::uint16_t port) const override { return port == 0 ? "compass" : "gps"; }
+  void append_device(std::string& out, std::uint16_t port) const override {
+    append_device_object(out, {device_name(port), "nmea", "", 9600, 0, port == 1, std::nullopt});
+  }
+  void append_poll(std::string& out) const override { out += "{\"class\":\"POLL\",\"tpv\":[],\"sky\":[]}\n"; }
+};
+
+/// The server on its own thread, as the daemon runs it.
+class StatusServerTest : public ::testing::Test {
+ protected:
+  static config::StatusSettings settings() {
+    config::StatusSettings settings;
+    settings.port = 0;
+    settings.max_clients = 3;
+    settings.client_queue_bytes = 64 << 10;
+    return settings;
+  }
+
+  void SetUp() override {
+    server_.start();
+    thread_ = std::thread([this] { context_.run(); });
+  }
+  void TearDown() override {
+    on_loop([this] { server_.stop(); });
+    thread_.join();
+  }
+
+  template <class Action>
+  auto on_loop(Action action) {
+    std::packaged_task<decltype(action())()> task(std::move(action));
+    auto result = task.get_future();
+    boost::asio::post(context_, [&task] { task(); });
+    return result.get();
+  }
+
+  void publish(std::uint16_t port, const std::string& report) {
+    on_loop([&] { server_.publish(port, report); });
+  }
+
+  std::unique_ptr<Client> watcher(const std::string& more = "") {
+    auto client = std::make_unique<Client>(server_.port());
+    client->send("?WATCH={\"enable\":true,\"json\":true" + more + "};\n");
+    client->line_with("\"class\":\"WATCH\"");
+    return client;
+  }
+
+  TwoDevices source_;
+  boost::asio::io_context context_{1};
+  StatusServer server_{listen_status(context_.get_executor(), settings()), settings(), source_};
+  std::thread thread_;
+};
+
+TEST_F(StatusServerTest, GreetsWithItsVersionAndAnswersEveryRequestOfALine) {
+  Client client(server_.port());
+  const json version = json::parse(client.line().value());
+  EXPECT_EQ(version["class"], "VERSION");
+  EXPECT_EQ(version["proto_major"], 3);
+  EXPECT_EQ(version["proto_minor"], 14);
+  client.send("?DEVICES;?POLL;?NONSENSE;?DEVICE={\"path\":\"gps\"};?WATCH;?VERSION;\n");
+  for (const char* expected : {"DEVICES", "POLL", "ERROR", "DEVICE", "DEVICES", "WATCH", "VERSION"}) {
+    EXPECT_EQ(json::parse(client.line().value())["class"], expected);
+  }
+}
+
+TEST_F(StatusServerTest, TakesARequestWithoutItsNewline) {
+  Client client(server_.port());
+  client.send("?WATCH={\"enable\":true,\"json\":true}");
+  EXPECT_EQ(json::parse(client.line_with("\"WATCH\""))["json"], true);
+}
+
+TEST_F(StatusServerTest, ReportsGoToThoseWhoWatchThatDeviceOnly) {
+  const auto all = watcher();
+  const auto gps_only = watcher(",\"device\":\"gps\"");
+  Client silent(server_.port());
+  publish(0, "{\"from\":\"compass\"}\n");
+  publish(1, "{\"from\":\"gps\"}\n");
+  EXPECT_EQ(all->line(), "{\"from\":\"compass\"}");
+  EXPECT_EQ(all->line(), "{\"from\":\"gps\"}");
+  EXPECT_EQ(gps_only->line(), "{\"from\":\"gps\"}");
+  silent.line();
+  silent.send("?VERSION;\n");
+  EXPECT_NE(silent.line().value().find("VERSION"), std::string::npos) << "nothing but the answer";
+  EXPECT_TRUE(on_loop([this] { return server_.watched(0); }));
+}
+
+TEST_F(StatusServerTest, AnUnknownDeviceIsAnError) {
+  Client client(server_.port());
+  client.send("?WATCH={\"enable\":true,\"device\":\"sonar\"};\n");
+  EXPECT_EQ(json::parse(client.line_with("ERROR"))["message"], "No such device as sonar");
+  EXPECT_FALSE(on_loop([this] { return server_.watched(); }));
+}
+
+TEST_F(StatusServerTest, ARequestOfAMegabyteIsRefusedAndHeldByNobody) {
+  Client client(server_.port());
+  const std::string megabyte(1 << 20, 'x');
+  client.send(megabyte);
+  client.send("?VERSION;\n");
+  EXPECT_EQ(json::parse(client.line_with("ERROR"))["message"], "Request line too long");
+  EXPECT_EQ(client.line(), std::nullopt);
+  Client next(server_.port());
+  EXPECT_TRUE(next.line());
+}
+
+TEST_F(StatusServerTest, OneClientTooManyIsTold) {
+  Client first(server_.port()), second(server_.port()), third(server_.port());
+  for (Client* client : {&first, &second, &third}) ASSERT_TRUE(client->line());
+  Client fourth(server_.port());
+  EXPECT_NE(fourth.line().value().find("Too many clients"), std::string::npos);
+  EXPECT_EQ(fourth.line(), std::nullopt);
+}
+
+TEST_F(StatusServerTest, ASlowClientMissesWholeReportsIsToldHowManyAndHurtsNobody) {
+  const auto good = watcher();
+  Client slow(server_.port(), 4096);
+  slow.send("?WATCH={\"enable\":true,\"json\":true};\n");
+  slow.line_with("\"class\":\"WATCH\"");
+  on_loop([this] { server_.publish_health({"{\"class\":\"HEALTH\""}); });
+  constexpr int kReports = 5000;
+  const std::string padding(200, '.');
+  for (int i = 0; i < kReports; ++i) {
+    publish(0, "{\"n\":" + std::to_string(i) + ",\"padding\":\"" + padding + "\"}\n");
+    const auto line = good->line_with("padding");
+    ASSERT_EQ(json::parse(line)["n"], i);
+  }
+  EXPECT_LE(on_loop([this] { return server_.queued_bytes(); }), settings().client_queue_bytes + 300);
+  std::uint64_t received = 0, dropped = 0;
+  int last = -1;
+  while (received + dropped < kReports) {
+    const json report = json::parse(slow.line().value());  // throws on a torn line
+    if (report.contains("padding")) {
+      EXPECT_GT(report["n"].get<int>(), last);
+      last = report["n"];
+      ++received;
+    } else if (report["class"] == "HEALTH") {
+      dropped = report["dropped"];
+    }
+  }
+  EXPECT_EQ(received + dropped, kReports);
+  EXPECT_GT(dropped, 0U);
+}
+
+TEST_F(StatusServerTest, GarbageOnlyEverGetsErrors) {
+  for (const char* garbage : {"\xff\xfe\0\n", "GET / HTTP/1.1\r\n\r\n", "{}{}{};\n", "?WATCH={{{{;\n?WATCH=\"}\";\n", ";;;;\n"}) {
+    Client client(server_.port());
+    client.line();
+    client.send(garbage);
+    client.send("\n?VERSION;\n");
+    EXPECT_NE(client.line_with("VERSION").find("proto_major"), std::string::npos);
+  }
+}
+
+TEST(Listeners, ATakenPortIsExplained) {
+  boost::asio::io_context context(1);
+  config::StatusSettings settings;
+  settings.port = 0;
+  const auto first = listen_status(context.get_executor(), settings);
+  settings.port = first.local_endpoint().port();
+  try {
+    const auto second = listen_status(context.get_executor(), settings);
+    FAIL() << "both listen";
+  } catch (const StartError& error) {
+    EXPECT_NE(std::string(error.what()).find("is taken"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("status.port"), std::string::npos);
+  }
+}
+
+TEST(Listeners, TheControlSocketHasItsPermissionsAndReplacesOnlyTheDead) {
+  boost::asio::io_context context(1);
+  config::ControlSettings settings;
+  settings.socket = std::filesystem::temp_directory_path() / ("navcal-control-" + std::to_string(::getpid()));
+  settings.mode = 0640;
+  {
+    const auto first = listen_control(context.get_executor(), settings);
+    const auto permissions = std::filesystem::status(settings.socket).permissions();
+    EXPECT_EQ(permissions, std::filesystem::perms(0640));
+    EXPECT_THROW((void)listen_control(context.get_executor(), settings), StartError) << "a living one answers";
+  }
+  EXPECT_NO_THROW((void)listen_control(context.get_executor(), settings)) << "left behind by a dead one";
+  std::filesystem::remove(settings.socket);
+}
+
+}  // namespace
+}  // namespace navcal::daemon
