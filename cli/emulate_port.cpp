@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ports/port.h"
+#include "sim/wrong_speed.h"
 
 namespace navcal::cli {
 
@@ -55,7 +56,7 @@ void EmulatedPort::advance() {
 
 void EmulatedPort::on_host_bytes(std::int64_t now_ns, protocols::Bytes bytes) {
   if (log_ != nullptr) log_->add(place_.index, record::Direction::sent, utc_ns(now_ns), bytes);
-  device_->on_bytes(utc_ns(now_ns), bytes);
+  device_->on_bytes(utc_ns(now_ns), sim::heard_at(bytes, client_baud(), device_->baud()));
   wait();
 }
 
@@ -68,10 +69,16 @@ void EmulatedPort::put(std::int64_t now_ns, protocols::Bytes piece) {
 }
 
 void EmulatedPort::deliver(std::int64_t now_ns, protocols::Bytes bytes) {
-  const std::size_t taken = host_.write(bytes);
+  const auto heard = sim::heard_at(bytes, device_->baud(), client_baud());
+  const std::size_t taken = host_.write(heard);
   if (log_ != nullptr && taken > 0) {
-    log_->add(place_.index, record::Direction::received, utc_ns(now_ns), bytes.first(taken));
+    log_->add(place_.index, record::Direction::received, utc_ns(now_ns), protocols::Bytes(heard).first(taken));
   }
+}
+
+int EmulatedPort::client_baud() const {
+  const int baud = host_.client_baud();
+  return baud > 0 ? baud : device_->baud();
 }
 
 void EmulatedPort::stall(double seconds) {

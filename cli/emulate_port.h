@@ -51,6 +51,8 @@ class EmulatedPort {
   void wait();
   void put(std::int64_t now_ns, protocols::Bytes piece);
   void deliver(std::int64_t now_ns, protocols::Bytes bytes);
+  /// A client set to another speed hears, and is heard as, garbage.
+  [[nodiscard]] int client_baud() const;
 
   Place place_;
   std::unique_ptr<sim::Device> device_;

@@ -70,26 +70,21 @@ void Oncore::advance(std::int64_t t_ns, std::vector<Emission>& out) {
     }
     read_input();
     // The position first: it is what is waited for.
-    const auto send_due = [&](bool position) {
-      for (auto entry = requests_.begin(); entry != requests_.end();) {
-        auto& [id, request] = *entry;
-        const bool is_position = id == wire::kHa || id == wire::kEa;
-        if (is_position != position || request.wait_s > 0) {
-          if (is_position == position) --request.wait_s;
-          ++entry;
-          continue;
-        }
-        line_.put(sent_ns, options_.baud, message(id, reading), out);
-        if (request.every_s == 0) {
-          entry = requests_.erase(entry);
-        } else {
-          request.wait_s = static_cast<std::uint8_t>(request.every_s - 1);
-          ++entry;
-        }
-      }
+    const auto is_position = [](const auto& entry) {
+      return entry.first == wire::kHa || entry.first == wire::kEa;
     };
-    send_due(true);
-    send_due(false);
+    for (const bool positions : {true, false}) {
+      for (auto& entry : requests_) {
+        if (is_position(entry) != positions) continue;
+        auto& [id, request] = entry;
+        if (request.wait_s == 0) {
+          line_.put(sent_ns, options_.baud, message(id, reading), out);
+          request.wait_s = request.every_s;
+        }
+        --request.wait_s;
+      }
+    }
+    std::erase_if(requests_, [](const auto& entry) { return entry.second.every_s == 0; });
   }
 }
 

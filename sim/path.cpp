@@ -146,10 +146,15 @@ State PathMotion::beyond(double after_s) const {
   PathRow row = last;
   row.euler_rad[2] = psi + turn * after_s;
   row.rate_rad_s = body_rates(row.euler_rad, {0, 0, turn});
+  // Neither rising nor sinking.
+  const Matrix3 R_last = R_world_from_body(last.euler_rad);
+  Vector3 level = R_last * last.velocity_body_m_s;
+  level[2] = 0;
+  row.velocity_body_m_s = transpose(R_last) * level;
   // Along the arc: mean velocity over the heading passed through is that of its middle, times the chord's share.
   const double half = 0.5 * turn * after_s;
   const double share = std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half;
-  const Vector3 mean = R_world_from_body({phi, theta, psi + half}) * last.velocity_body_m_s;
+  const Vector3 mean = R_world_from_body({phi, theta, psi + half}) * row.velocity_body_m_s;
   for (std::size_t i = 0; i < 2; ++i) row.position_m[i] += share * mean[i] * after_s;
   return state_of(row, {});
 }

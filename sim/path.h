@@ -29,7 +29,8 @@ class BadPath : public std::runtime_error {
 [[nodiscard]] std::vector<PathRow> load_path(const std::filesystem::path& file);
 
 /// Runs along a path. One that ends as it began (place, heading, motion) is run again and again; any other goes on
-/// for ever with the turn and the speed of its last row at the depth reached, so that nothing ever jumps.
+/// for ever with the turn and the speed of its last row at the depth reached, so that it never jumps to another
+/// place or heading.
 class PathMotion final : public Motion {
  public:
   /// The first row is at start_ns; before it the first row holds. Needs two rows or more.
