@@ -22,7 +22,7 @@ TEST(WrongSpeed, TheRightOneAndSmallErrorsChangeNothing) {
 }
 
 TEST(WrongSpeed, AnyOtherIsGarbageOfAboutTheRightLength) {
-  for (const auto [sent, set] :
+  for (const auto& [sent, set] :
        {std::pair{38400, 9600}, std::pair{9600, 38400}, std::pair{9600, 4800}, std::pair{19200, 57600}}) {
     const std::string garbage = heard(sent, set);
     ASSERT_FALSE(garbage.empty());
