@@ -1,0 +1,28 @@
+// Any bytes from or to a motor card.
+#include "protocols/motor_card.h"
+
+#include "protocols/checked_line.h"
+#include "tests/fuzz/stream_invariants.h"
+
+namespace {
+
+void decode(const navcal::protocols::Frame& frame) {
+  using namespace navcal::protocols;
+  const auto status = motor_card::decode_status(frame.bytes);
+  const auto command = motor_card::decode_command(frame.bytes);
+  navcal::fuzz::require(!status || frame.id == motor_card::kMcs);
+  navcal::fuzz::require(!command || frame.id == motor_card::kMcc);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace navcal::protocols;
+  navcal::fuzz::check_stream<motor_card::Scanner>({data, size}, decode);
+  // With a good checksum, whatever the fields.
+  const std::string_view body(reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 80));
+  const auto line = checked_line(body);
+  static_cast<void>(motor_card::decode_status(line));
+  static_cast<void>(motor_card::decode_command(line));
+  return 0;
+}
