@@ -69,7 +69,8 @@ TEST(LineReader, RefusesALineBeyondItsBoundWhereverItIsCut) {
     std::vector<std::string> lines;
     bool accepted = true;
     for (std::size_t at = 0; at < text.size(); at += cut) {
-      accepted = reader.feed(std::string_view(text).substr(at, cut), [&](std::string_view line) { lines.emplace_back(line); });
+      accepted = reader.feed(std::string_view(text).substr(at, cut),
+                             [&](std::string_view line) { lines.emplace_back(line); });
     }
     EXPECT_FALSE(accepted);
     EXPECT_EQ(lines, std::vector<std::string>{"ok"});

@@ -12,8 +12,8 @@ namespace navcal::daemon {
 /// The real disk with its bad habits under the control of a test.
 class DifficultDisk : public record::Disk {
  public:
-  std::atomic<int> stall_ms{0};        ///< every write takes so long
-  std::atomic<bool> full{false};       ///< every write fails for want of space
+  std::atomic<int> stall_ms{0};   ///< every write takes so long
+  std::atomic<bool> full{false};  ///< every write fails for want of space
   std::atomic<std::uint64_t> free{1ULL << 40};
 
   std::unique_ptr<record::DiskFile> create(const std::filesystem::path& file, std::error_code& error) override {

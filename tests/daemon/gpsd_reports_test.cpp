@@ -145,8 +145,8 @@ TEST(GpsdReports, DipFollowsFromFieldAndTiltHoweverTheBodyIsTurned) {
         const double x = n * std::cos(pitch) - d * std::sin(pitch);
         const double z1 = n * std::sin(pitch) + d * std::cos(pitch);
         CompassSample compass;
-        compass.field_body_uT = Vector3{x, e * std::cos(roll) + z1 * std::sin(roll),
-                                        -e * std::sin(roll) + z1 * std::cos(roll)};
+        compass.field_body_uT =
+            Vector3{x, e * std::cos(roll) + z1 * std::sin(roll), -e * std::sin(roll) + z1 * std::cos(roll)};
         compass.pitch_rad = pitch;
         compass.roll_rad = roll;
         EXPECT_NEAR(dip_of(compass).value(), true_dip, 1e-9);

@@ -22,7 +22,9 @@ std::vector<std::uint8_t> at_wrong_speed(const std::string& text, double factor)
     line.push_back(true);
   }
   line.insert(line.end(), 20, true);
-  const auto level = [&](double at) { return at >= static_cast<double>(line.size()) || line[static_cast<std::size_t>(at)]; };
+  const auto level = [&](double at) {
+    return at >= static_cast<double>(line.size()) || line[static_cast<std::size_t>(at)];
+  };
   std::vector<std::uint8_t> bytes;
   double at = 0;
   while (at < static_cast<double>(line.size())) {

@@ -43,6 +43,14 @@ class StatusServerTest : public ::testing::Test {
     return settings;
   }
 
+  template <class Action>
+  auto on_loop(Action action) {
+    std::packaged_task<decltype(action())()> task(std::move(action));
+    auto result = task.get_future();
+    boost::asio::post(context_, [&task] { task(); });
+    return result.get();
+  }
+
   void SetUp() override {
     server_.start();
     thread_ = std::thread([this] { context_.run(); });
@@ -50,14 +58,6 @@ class StatusServerTest : public ::testing::Test {
   void TearDown() override {
     on_loop([this] { server_.stop(); });
     thread_.join();
-  }
-
-  template <class Action>
-  auto on_loop(Action action) {
-    std::packaged_task<decltype(action())()> task(std::move(action));
-    auto result = task.get_future();
-    boost::asio::post(context_, [&task] { task(); });
-    return result.get();
   }
 
   void publish(std::uint16_t port, const std::string& report) {
@@ -167,7 +167,8 @@ TEST_F(StatusServerTest, ASlowClientMissesWholeReportsIsToldHowManyAndHurtsNobod
 }
 
 TEST_F(StatusServerTest, GarbageOnlyEverGetsErrors) {
-  for (const char* garbage : {"\xff\xfe\0\n", "GET / HTTP/1.1\r\n\r\n", "{}{}{};\n", "?WATCH={{{{;\n?WATCH=\"}\";\n", ";;;;\n"}) {
+  for (const char* garbage :
+       {"\xff\xfe\0\n", "GET / HTTP/1.1\r\n\r\n", "{}{}{};\n", "?WATCH={{{{;\n?WATCH=\"}\";\n", ";;;;\n"}) {
     Client client(server_.port());
     client.line();
     client.send(garbage);

@@ -53,7 +53,8 @@ class Client {
         return line;
       }
       pollfd readable{socket_, POLLIN, 0};
-      if (::poll(&readable, 1, static_cast<int>(std::chrono::milliseconds(kPatience).count())) <= 0) fail("no line");
+      if (::poll(&readable, 1, static_cast<int>(std::chrono::milliseconds(kPatience).count())) <= 0)
+        fail("no line");
       std::array<char, 65536> chunk{};
       const ssize_t n = ::recv(socket_, chunk.data(), chunk.size(), 0);
       if (n <= 0) return std::nullopt;

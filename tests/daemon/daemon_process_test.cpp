@@ -1,0 +1,124 @@
+// The service as it is installed: a process, a pseudo-terminal, sockets, a log on disk.
+#include "tests/daemon/daemon_process.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "record/recording.h"
+
+namespace navcal::daemon {
+namespace {
+
+using nlohmann::json;
+
+std::unique_ptr<Client> watcher(const DaemonProcess& daemon) {
+  daemon.wait_until_ready();
+  auto client = std::make_unique<Client>(daemon.port());
+  client->send("?WATCH={\"enable\":true,\"json\":true};\n");
+  client->line_with("\"class\":\"WATCH\"");
+  return client;
+}
+
+/// Waits until the port is open: what is written to a pseudo-terminal before that is lost.
+void wait_until_open(Client& client) { client.line_with("\"state\":\"running\""); }
+
+TEST(DaemonProcess, WhatTheDeviceSaysIsServedAndLoggedByteForByte) {
+  DaemonProcess daemon;
+  const auto client = watcher(daemon);
+  wait_until_open(*client);
+  for (int heading = 100; heading < 150; ++heading) {
+    daemon.line.sentence("HCHDM," + std::to_string(heading) + ".5,M");
+    const json att = json::parse(client->line_with("\"class\":\"ATT\""));
+    EXPECT_EQ(att["device"], "compass");
+    EXPECT_EQ(att["heading"], heading + 0.5);
+  }
+  ASSERT_EQ(daemon.stop(SIGTERM), 0) << daemon.diagnostics();
+  ASSERT_EQ(daemon.logs().size(), 1U);
+  const auto recording = record::Recording::open(daemon.logs()[0]);
+  std::string received;
+  while (auto entry = recording->next()) {
+    const auto* raw = std::get_if<record::RawRead>(&*entry);
+    if (raw != nullptr && raw->direction == record::Direction::received) {
+      received.append(raw->bytes.begin(), raw->bytes.end());
+    }
+  }
+  EXPECT_EQ(std::count(received.begin(), received.end(), '\n'), 50);
+  EXPECT_NE(received.find("$HCHDM,149.5,M*"), std::string::npos);
+  EXPECT_TRUE(recording->remarks().empty()) << "the log was finished";
+}
+
+TEST(DaemonProcess, ASecondDaemonIsToldWhatIsTaken) {
+  DaemonProcess daemon;
+  const auto client = watcher(daemon);
+  const std::string other = daemon.folder().string();
+  {
+    const auto [status, said] = daemon.run_another({});
+    EXPECT_EQ(status, 1);
+    EXPECT_NE(said.find("is taken"), std::string::npos) << said;
+  }
+  {
+    const auto [status, said] = daemon.run_another({"--set", "status.port=0"});
+    EXPECT_EQ(status, 1);
+    EXPECT_NE(said.find("another navcald answers there"), std::string::npos) << said;
+  }
+  {
+    const auto [status, said] =
+        daemon.run_another({"--set", "status.port=0", "--set", "control.socket=" + other + "/control2"});
+    EXPECT_EQ(status, 1);
+    EXPECT_NE(said.find("another navcald is writing logs there"), std::string::npos) << said;
+  }
+  EXPECT_EQ(daemon.logs().size(), 1U) << "a daemon that cannot start leaves no log";
+  EXPECT_FALSE(std::filesystem::exists(other + "/control2")) << "nor its socket";
+}
+
+TEST(DaemonProcess, BadConfigurationAndUsageHaveTheirStatuses) {
+  DaemonProcess daemon;
+  EXPECT_EQ(daemon.run_another({"--set", "status.prot=1"}).first, 3);
+  EXPECT_EQ(daemon.run_another({"--nonsense"}).first, 2);
+  EXPECT_EQ(daemon.run_another({"--check"}).first, 0);
+}
+
+TEST(DaemonProcess, TheControlSocketMarksRotatesAndRefuses) {
+  DaemonProcess daemon;
+  daemon.wait_until_ready();
+  Client control(daemon.folder() / "control");
+  const auto ask = [&](const std::string& line) {
+    control.send(line + "\n");
+    return json::parse(control.line().value());
+  };
+  EXPECT_EQ(ask(R"({"command":"event","text":"dive 3"})")["ok"], true);
+  EXPECT_EQ(ask(R"({"command":"log.rotate"})")["ok"], true);
+  EXPECT_EQ(ask(R"({"command":"calibration.accept","calibrator":"compass"})")["error"],
+            "no calibrators in this version");
+  EXPECT_EQ(ask("nonsense")["ok"], false);
+  const json status = ask(R"({"command":"status"})");
+  EXPECT_EQ(status["health"][0]["ports"][0]["device"], "compass");
+  EXPECT_EQ(daemon.stop(SIGINT), 0);
+  EXPECT_EQ(daemon.logs().size(), 2U);
+  EXPECT_FALSE(std::filesystem::exists(daemon.folder() / "control"));
+}
+
+TEST(DaemonProcess, APortThatIsNotThereIsSaidAndNothingElseSuffers) {
+  DaemonProcess daemon({"--set", "port.compass.path=/dev/navcal-is-not-here"});
+  const auto client = watcher(daemon);
+  const json health = json::parse(client->line_with("HEALTH"));
+  EXPECT_EQ(health["ports"][0]["state"], "away");
+  EXPECT_FALSE(health["ports"][0]["reason"].get<std::string>().empty());
+  EXPECT_EQ(health["log"]["state"], "writing");
+  EXPECT_EQ(daemon.stop(SIGTERM), 0);
+}
+
+TEST(DaemonProcess, HangupBeginsANewLog) {
+  DaemonProcess daemon;
+  daemon.wait_until_ready();
+  ::kill(daemon.pid(), SIGHUP);
+  Client control(daemon.folder() / "control");
+  for (int i = 0; i < 2000 && daemon.logs().size() < 2; ++i) ::usleep(5000);
+  EXPECT_EQ(daemon.logs().size(), 2U);
+  EXPECT_EQ(daemon.stop(SIGTERM), 0);
+}
+
+}  // namespace
+}  // namespace navcal::daemon

@@ -1,0 +1,137 @@
+// gpsd's own clients against navcald: what they read is what the instruments said.
+#include <gps.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <thread>
+
+#include "tests/daemon/daemon_process.h"
+
+namespace navcal::daemon {
+namespace {
+
+/// A compass and a receiver that speak on one line, ten times a second, until the test is over.
+class Talking {
+ public:
+  explicit Talking(const FakeLine& line)
+      : thread_([this, &line] {
+          for (int i = 0; !over_; i = (i + 1) % 60) {
+            char second[3];
+            std::snprintf(second, sizeof second, "%02d", i);
+            line.sentence("GPRMC,1200" + std::string(second) +
+                          ".00,A,5742.7698,N,01201.3554,E,1.31,10.0,211126,,,A");
+            line.sentence("GPGGA,1200" + std::string(second) +
+                          ".00,5742.7698,N,01201.3554,E,1,08,1.01,49.4,M,37.0,M,,");
+            line.sentence("GPGSA,A,3,05,07,09,13,18,21,27,30,,,,,1.94,1.01,1.66");
+            line.sentence("GPGSV,1,1,02,05,43,174,44,07,58,213,46");
+            line.sentence("PTNTHTM,123.4,N,1.5,N,-2.5,N,60.0,2454");
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+          }
+        }) {}
+  ~Talking() {
+    over_ = true;
+    thread_.join();
+  }
+  Talking(const Talking&) = delete;
+  Talking& operator=(const Talking&) = delete;
+
+ private:
+  std::atomic<bool> over_{false};
+  std::thread thread_;
+};
+
+/// What a command prints.
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
+  std::string out;
+  std::array<char, 4096> chunk{};
+  while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), pipe.get())) out.append(chunk.data(), n);
+  return out;
+}
+
+bool installed(const char* program) {
+  return std::system(("command -v " + std::string(program) + " >/dev/null").c_str()) == 0;
+}
+
+TEST(GpsdClients, LibgpsReadsEveryReport) {
+  DaemonProcess daemon;
+  daemon.wait_until_ready();
+  const Talking talking(daemon.line);
+  auto data = std::make_unique<gps_data_t>();
+  ASSERT_EQ(gps_open("127.0.0.1", std::to_string(daemon.port()).c_str(), data.get()), 0);
+  gps_stream(data.get(), WATCH_ENABLE | WATCH_JSON, nullptr);
+  bool attitude = false, position = false, sky = false;
+  for (int i = 0; i < 400 && !(attitude && position && sky); ++i) {
+    ASSERT_TRUE(gps_waiting(data.get(), 20'000'000));
+    data->set = 0;
+    ASSERT_GE(gps_read(data.get(), nullptr, 0), 0) << "libgps refuses a line";
+    if ((data->set & ATTITUDE_SET) != 0) {
+      attitude = true;
+      EXPECT_NEAR(data->attitude.heading, 123.4, 1e-4);
+      EXPECT_NEAR(data->attitude.pitch, 1.5, 1e-4);
+      EXPECT_NEAR(data->attitude.roll, -2.5, 1e-4);
+    }
+    if ((data->set & LATLON_SET) != 0) {
+      position = true;
+      EXPECT_NEAR(data->fix.latitude, 57.71283, 1e-8);
+      EXPECT_NEAR(data->fix.longitude, 12.02259, 1e-8);
+    }
+    if ((data->set & SATELLITE_SET) != 0) {
+      sky = true;
+      EXPECT_EQ(data->satellites_visible, 2);
+    }
+  }
+  EXPECT_TRUE(attitude && position && sky);
+  gps_close(data.get());
+}
+
+/// Lines with every key and class that navcald has and gpsd has not.
+TEST(GpsdClients, LibgpsPassesOverWhatItDoesNotKnow) {
+  for (
+      const char* line :
+      {R"({"class":"ATT","device":"imu","gyro_x":1.5,"gyro_z":3.25,"gyro_b_z":3.0,"acc_z":-9.8,"depth":4.5})",
+       R"({"class":"ATT","device":"compass","heading":1.0,"error":"001","depth":4.5})",
+       R"({"class":"HEALTH","alarms":[{"alarm":"leak_aft","device":"imu"}],"ports":[{"device":"imu"}]})",
+       R"({"class":"TIME","source":"gps","bound":null})", R"({"class":"LOG","state":"writing"})",
+       R"({"class":"CALIB","calibrators":[]})",
+       R"({"class":"MOTOR","device":"motor","rpm":100,"fins_rad":[0,null,1]})",
+       R"({"class":"TPV","device":"gps","mode":3,"lat":1.0,"lon":2.0,"time_corrected":true,"leap_known":false})"}) {
+    auto data = std::make_unique<gps_data_t>();
+    std::string buffer = line;
+    EXPECT_EQ(gps_unpack(buffer.data(), data.get()), 0) << line;
+    if (std::strstr(line, "\"depth\"") != nullptr) {
+      EXPECT_EQ(data->attitude.depth, 4.5) << line;
+    }
+  }
+}
+
+TEST(GpsdClients, GpspipeShowsPositionAndAttitude) {
+  if (!installed("gpspipe")) GTEST_SKIP() << "gpspipe is not installed";
+  DaemonProcess daemon;
+  daemon.wait_until_ready();
+  const Talking talking(daemon.line);
+  const std::string out = output_of("timeout 60 gpspipe -w -n 60 127.0.0.1:" + std::to_string(daemon.port()));
+  EXPECT_NE(out.find("\"class\":\"TPV\""), std::string::npos) << out;
+  EXPECT_NE(out.find("\"class\":\"SKY\""), std::string::npos);
+  EXPECT_NE(out.find("\"heading\":123.4000"), std::string::npos);
+}
+
+TEST(GpsdClients, CgpsShowsTheFix) {
+  if (!installed("cgps") || !installed("script")) GTEST_SKIP() << "cgps or script is not installed";
+  DaemonProcess daemon;
+  daemon.wait_until_ready();
+  const Talking talking(daemon.line);
+  const std::string screen =
+      output_of("TERM=xterm timeout 8 script -qc 'stty rows 40 cols 100; cgps -s 127.0.0.1:" +
+                std::to_string(daemon.port()) + "' /dev/null </dev/null");
+  EXPECT_NE(screen.find("57.71283"), std::string::npos) << screen;
+  EXPECT_NE(screen.find("3D FIX"), std::string::npos) << screen;
+}
+
+}  // namespace
+}  // namespace navcal::daemon
