@@ -55,7 +55,8 @@ class Screen {
 
 Clock::time_point end_of(const Options& options) {
   if (options.seconds <= 0) return Clock::time_point::max();
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
 }
 
 std::string title(const Options& options, const WatchStream& stream) {
@@ -90,7 +91,8 @@ void show(const Options& options, WatchStream& stream, Clock::time_point end, bo
     if (terminal) {
       Screen::draw(title(options, stream) + view.page(WatchView::Colour::ansi));
     } else {
-      std::printf("%s\n", stream.connected() ? view.line().c_str() : ("not connected: " + stream.problem()).c_str());
+      std::printf("%s\n",
+                  stream.connected() ? view.line().c_str() : ("not connected: " + stream.problem()).c_str());
       if (std::fflush(stdout) != 0) return;
     }
   }
@@ -119,9 +121,11 @@ void add_watch(CLI::App& app) {
   command->add_option("--host", options->host, "where it runs")->capture_default_str();
   command->add_option("--port", options->port, "its status port")->capture_default_str();
   command->add_flag("--json", options->json, "pass the stream on as it comes");
-  command->add_option("--seconds", options->seconds, "end after so long (0: at Ctrl-C)")->check(CLI::NonNegativeNumber);
-  command->footer("Example: navcal watch --host vehicle.local\n"
-                  "Without a terminal it writes one line a second; it connects again when the daemon returns.");
+  command->add_option("--seconds", options->seconds, "end after so long (0: at Ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
+  command->footer(
+      "Example: navcal watch --host vehicle.local\n"
+      "Without a terminal it writes one line a second; it connects again when the daemon returns.");
   command->callback([options] { watch(*options); });
 }
 

@@ -54,9 +54,9 @@ bool WatchStream::connect() {
   for (const addrinfo* address = found; address != nullptr && socket_ < 0; address = address->ai_next) {
     const int candidate = ::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
     if (candidate < 0) continue;
-    const bool ready = ::connect(candidate, address->ai_addr, address->ai_addrlen) == 0 &&
-                       ::send(candidate, kRequest.data(), kRequest.size(), MSG_NOSIGNAL) ==
-                           static_cast<ssize_t>(kRequest.size());
+    const bool ready =
+        ::connect(candidate, address->ai_addr, address->ai_addrlen) == 0 &&
+        ::send(candidate, kRequest.data(), kRequest.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(kRequest.size());
     if (ready) {
       socket_ = candidate;
     } else {

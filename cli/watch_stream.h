@@ -15,8 +15,8 @@ class WatchStream {
   WatchStream(const WatchStream&) = delete;
   WatchStream& operator=(const WatchStream&) = delete;
 
-  /// The next line, without its newline; nullopt when `until` has come or a signal came in. Waits for both bytes and
-  /// the daemon's return.
+  /// The next line, without its newline; nullopt when `until` has come or a signal came in. Waits for both bytes
+  /// and the daemon's return.
   std::optional<std::string> next(std::chrono::steady_clock::time_point until);
   [[nodiscard]] bool connected() const { return socket_ >= 0; }
   /// Why it is not connected.

@@ -74,7 +74,8 @@ void WatchView::take_health(const Json& health) {
   alarms_ = health.value("alarms", Json::array());
   log_ = health.value("log", Json());
   uptime_s_ = number(health, "uptime_s");
-  if (const double dropped = number(health, "dropped"); dropped >= 0) dropped_ = static_cast<std::uint64_t>(dropped);
+  if (const double dropped = number(health, "dropped"); dropped >= 0)
+    dropped_ = static_cast<std::uint64_t>(dropped);
   const Json ports = health.value("ports", Json::array());
   if (!ports.is_array()) return;
   for (const Json& port : ports) {
@@ -142,7 +143,10 @@ void WatchView::append_position(std::string& out) const {
   if (found == last_.end()) return;
   for (const auto& [device, tpv] : found->second) {
     const double mode = number(tpv, "mode");
-    add(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device, mode >= 3 ? "3D" : mode >= 2 ? "2D" : "no fix",
+    add(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device,
+        mode >= 3   ? "3D"
+        : mode >= 2 ? "2D"
+                    : "no fix",
         shown(number(tpv, "lat"), 7), shown(number(tpv, "lon"), 7), shown(number(tpv, "speed"), 2),
         shown(number(tpv, "track"), 1), text(tpv, "time"));
   }
@@ -151,7 +155,8 @@ void WatchView::append_position(std::string& out) const {
 void WatchView::append_motor(std::string& out) const {
   if (const auto found = last_.find("MOTOR"); found != last_.end()) {
     for (const auto& [device, motor] : found->second) {
-      add(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0), shown(number(motor, "current_A"), 2));
+      add(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0),
+          shown(number(motor, "current_A"), 2));
       const Json fins = motor.value("fins_rad", Json::array());
       for (const Json& fin : fins) {
         add(out, " {}", shown(fin.is_number() ? fin.get<double>() * kDegrees : NAN, 1));

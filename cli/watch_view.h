@@ -36,8 +36,8 @@ class WatchView {
   Json alarms_ = Json::array();
   Json log_;
   Json time_;
-  std::map<std::string, Json> ports_;                  ///< of HEALTH, by device
-  std::map<std::string, double> frames_per_s_;         ///< by device
+  std::map<std::string, Json> ports_;                        ///< of HEALTH, by device
+  std::map<std::string, double> frames_per_s_;               ///< by device
   std::map<std::string, std::map<std::string, Json>> last_;  ///< newest report, by class and device
   double uptime_s_ = 0;
   std::map<std::string, double> counted_at_s_;  ///< uptime of the HEALTH before, by device

@@ -7,10 +7,14 @@ namespace {
 
 bool says(const instruments::ImuSample& imu, Alarm alarm) {
   switch (alarm) {
-    case Alarm::leak_forward: return imu.leak_forward;
-    case Alarm::leak_aft: return imu.leak_aft;
-    case Alarm::over_range: return imu.over_range;
-    case Alarm::low_supply: break;
+    case Alarm::leak_forward:
+      return imu.leak_forward;
+    case Alarm::leak_aft:
+      return imu.leak_aft;
+    case Alarm::over_range:
+      return imu.over_range;
+    case Alarm::low_supply:
+      break;
   }
   return imu.low_supply;
 }
@@ -19,10 +23,14 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
 
 std::string_view name_of(Alarm alarm) {
   switch (alarm) {
-    case Alarm::leak_forward: return "leak_forward";
-    case Alarm::leak_aft: return "leak_aft";
-    case Alarm::over_range: return "over_range";
-    case Alarm::low_supply: break;
+    case Alarm::leak_forward:
+      return "leak_forward";
+    case Alarm::leak_aft:
+      return "leak_aft";
+    case Alarm::over_range:
+      return "over_range";
+    case Alarm::low_supply:
+      break;
   }
   return "low_supply";
 }

@@ -24,7 +24,7 @@ class Alarms {
   struct Standing {
     std::uint16_t port = 0;
     Alarm alarm = Alarm::leak_forward;
-    std::int64_t since_ns = 0;      ///< monotonic
+    std::int64_t since_ns = 0;  ///< monotonic
     std::int64_t last_seen_ns = 0;
   };
   struct Change {

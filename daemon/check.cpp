@@ -4,8 +4,12 @@
 
 #include <iterator>
 
+#include "instruments/start_up.h"
+
 namespace navcal::daemon {
 namespace {
+
+constexpr std::uint64_t kMegabyte = 1'000'000;
 
 std::string place(const config::PortSettings& port) {
   if (!port.path.empty()) return port.path;
@@ -23,18 +27,19 @@ std::string describe(const config::Settings& settings) {
   };
   for (const auto& port : settings.ports) {
     line(fmt::runtime("port {}: {} at {} Bd, {}{}"), port.name, protocols::name_of(port.protocol), port.baud,
-         place(port), port.start_up ? ", with start-up dialogue" : "");
+         place(port), instruments::make_start_up(port) ? ", with start-up dialogue" : "");
   }
   if (settings.log.enabled) {
     line(fmt::runtime("log: in {}, synced every {} s, a new file every {} MB or {} h, {} MB kept free"),
-         settings.log.directory.string(), settings.log.sync_interval_s, settings.log.rotate_bytes >> 20,
-         settings.log.rotate_age_s / 3600, settings.log.free_floor_bytes >> 20);
+         settings.log.directory.string(), settings.log.sync_interval_s, settings.log.rotate_bytes / kMegabyte,
+         settings.log.rotate_age_s / 3600, settings.log.free_floor_bytes / kMegabyte);
   } else {
     line(fmt::runtime("log: off"));
   }
   line(fmt::runtime("status: TCP {} port {}, at most {} clients"), settings.status.address, settings.status.port,
        settings.status.max_clients);
-  line(fmt::runtime("control: {} with permissions {:04o}"), settings.control.socket.string(), settings.control.mode);
+  line(fmt::runtime("control: {} with permissions {:04o}"), settings.control.socket.string(),
+       settings.control.mode);
   return out;
 }
 

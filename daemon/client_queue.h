@@ -8,7 +8,8 @@
 
 namespace navcal::daemon {
 
-/// Reports waiting for a slow client: bounded, whole reports only. When it is full the newest is dropped and counted.
+/// Reports waiting for a slow client: bounded, whole reports only. When it is full the newest is dropped and
+/// counted.
 class ClientQueue {
  public:
   explicit ClientQueue(std::size_t capacity_bytes) : capacity_(capacity_bytes) {}
@@ -49,7 +50,8 @@ class ClientQueue {
       // Room already written is used again before more is taken, and no more is taken than the bound allows.
       bytes_.erase(0, begin_);
       begin_ = 0;
-      if (needed > bytes_.capacity()) bytes_.reserve(needed > capacity_ ? needed : std::min(2 * needed, capacity_));
+      if (needed > bytes_.capacity())
+        bytes_.reserve(needed > capacity_ ? needed : std::min(2 * needed, capacity_));
     }
     bytes_ += report;
   }

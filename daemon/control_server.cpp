@@ -67,8 +67,7 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket) {
     const auto [error, n] = co_await socket->async_read_some(asio::buffer(chunk), kNoThrow);
     if (error) co_return;
     std::string answers;
-    const bool accepted =
-        lines.feed({chunk.data(), n}, [&](std::string_view line) { answers += answer(line); });
+    const bool accepted = lines.feed({chunk.data(), n}, [&](std::string_view line) { answers += answer(line); });
     if (!accepted) answers += control_error("line too long");
     const auto [write_error, written] = co_await asio::async_write(*socket, asio::buffer(answers), kNoThrow);
     if (write_error || !accepted) co_return;

@@ -4,7 +4,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "daemon/health.h"
 #include "daemon/listeners.h"
@@ -34,8 +33,8 @@ Daemon::Daemon(asio::any_io_executor executor, const config::Settings& settings,
     : settings_(settings),
       started_ns_(ports::monotonic_ns()),
       pipeline_(settings_),
-      server_(sockets.status ? std::move(*sockets.status) : listen_status(executor, settings_.status), settings_.status,
-              *this),
+      server_(sockets.status ? std::move(*sockets.status) : listen_status(executor, settings_.status),
+              settings_.status, *this),
       control_(sockets.control ? std::move(*sockets.control) : listen_control(executor, settings_.control),
                sockets.control ? std::filesystem::path() : settings_.control.socket,
                [this](const ControlRequest& request) { return answer(request); }),
@@ -111,22 +110,25 @@ void Daemon::on_mapping(const pipeline::UtcMapping& mapping) {
   const std::int64_t now_ns = ports::monotonic_ns();
   publisher_.set_utc_known(mapping.source != pipeline::UtcMapping::Source::none);
   log_.mapping(now_ns, mapping);
-  spdlog::info("UTC from {}, to within {:.6f} s", pipeline::name_of(mapping.source),
-               mapping.bound_ns == pipeline::UtcMapping::kUnknownBound ? NAN : static_cast<double>(mapping.bound_ns) * 1e-9);
+  const bool bounded = mapping.bound_ns != pipeline::UtcMapping::kUnknownBound;
+  spdlog::info("UTC from {}, {}", pipeline::name_of(mapping.source),
+               bounded ? fmt::format("to within {:.6f} s", static_cast<double>(mapping.bound_ns) * 1e-9)
+                       : std::string("its error is not known"));
 }
 
 void Daemon::update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu) {
   const auto& changes = alarms_.update(sample.port, imu, sample.stamp.arrival_ns);
   for (const auto& change : changes) {
-    event(sample.stamp.arrival_ns, change.raised ? "alarm" : "info", change.raised ? "alarm.raised" : "alarm.cleared",
-          settings_.ports[sample.port].name, name_of(change.alarm));
+    event(sample.stamp.arrival_ns, change.raised ? "alarm" : "info",
+          change.raised ? "alarm.raised" : "alarm.cleared", settings_.ports[sample.port].name,
+          name_of(change.alarm));
   }
   // Whoever watches is to see it now, not at the next report.
   if (!changes.empty()) report_health(sample.stamp.arrival_ns);
 }
 
-void Daemon::on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity, std::string_view name,
-                           std::string_view message) {
+void Daemon::on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity,
+                           std::string_view name, std::string_view message) {
   event(now_ns, severity, name, settings_.ports[port].name, message);
 }
 
@@ -211,7 +213,8 @@ std::string Daemon::summary() const {
   const auto running = std::count_if(sessions_.begin(), sessions_.end(), [](const auto& session) {
     return session->state() == PortSession::State::running;
   });
-  std::string text = fmt::format("{} of {} ports running, {} clients", running, sessions_.size(), server_.clients());
+  std::string text =
+      fmt::format("{} of {} ports running, {} clients", running, sessions_.size(), server_.clients());
   for (const auto& alarm : alarms_.standing()) text += fmt::format(", ALARM {}", name_of(alarm.alarm));
   if (const auto log = log_.state(); log.state != DiskState::State::writing) {
     text += fmt::format(", log {}", name_of(log.state));

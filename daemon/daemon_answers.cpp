@@ -59,7 +59,8 @@ std::string Daemon::answer(const ControlRequest& request) {
     case ControlCommand::calibration_accept:
     case ControlCommand::calibration_rollback:
       return control_error("no calibrators in this version");
-    case ControlCommand::status: break;
+    case ControlCommand::status:
+      break;
   }
   std::string out = "{\"ok\":true,\"summary\":";
   append_quoted(out, summary());

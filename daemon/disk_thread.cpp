@@ -14,10 +14,12 @@ constexpr std::size_t kWriteStep_bytes = 1 << 20;
 constexpr std::uint64_t kCheckSpaceEvery_bytes = 4ULL << 20;
 /// A buffer that a stall has blown up is given back.
 constexpr std::size_t kKeepBuffer_bytes = 1 << 20;
+constexpr std::uint64_t kMegabyte = 1'000'000;
 constexpr int kAttemptsWhileStopping = 3;
 
 DiskState::State state_after(const std::error_code& error) {
-  const bool space = error == std::errc::no_space_on_device || error == std::error_code(EDQUOT, std::generic_category());
+  const bool space =
+      error == std::errc::no_space_on_device || error == std::error_code(EDQUOT, std::generic_category());
   return space ? DiskState::State::full : DiskState::State::failing;
 }
 
@@ -25,9 +27,12 @@ DiskState::State state_after(const std::error_code& error) {
 
 std::string_view name_of(DiskState::State state) {
   switch (state) {
-    case DiskState::State::writing: return "writing";
-    case DiskState::State::full: return "full";
-    case DiskState::State::failing: break;
+    case DiskState::State::writing:
+      return "writing";
+    case DiskState::State::full:
+      return "full";
+    case DiskState::State::failing:
+      break;
   }
   return "failing";
 }
@@ -130,8 +135,9 @@ bool DiskThread::make_room() {
     const auto space = remove_old_logs();
     written_since_check_ = 0;
     if (space.error || space.free_bytes >= options_.free_floor_bytes) return true;
-    const auto reason = fmt::format("{} MB free, the floor is {} MB (log.free_floor_MB) and no finished log is left",
-                                    space.free_bytes >> 20, options_.free_floor_bytes >> 20);
+    const auto reason =
+        fmt::format("{} MB free, the floor is {} MB (log.free_floor_MB) and no finished log is left",
+                    space.free_bytes / kMegabyte, options_.free_floor_bytes / kMegabyte);
     if (!retry(DiskState::State::full, reason)) return false;
   }
 }

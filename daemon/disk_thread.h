@@ -34,8 +34,8 @@ struct DiskState {
 /// "writing", "full", "failing".
 [[nodiscard]] std::string_view name_of(DiskState::State state);
 
-/// The one thread that waits for the disk. Records are appended to a bounded buffer by the I/O thread; this thread is
-/// woken by its sync interval, or when much is waiting, not by each record.
+/// The one thread that waits for the disk. Records are appended to a bounded buffer by the I/O thread; this thread
+/// is woken by its sync interval, or when much is waiting, not by each record.
 class DiskThread {
  public:
   struct Options {
@@ -103,7 +103,8 @@ class DiskThread {
   void write(const Batch& batch);
   void write_part(std::string_view bytes);
   void change_file(std::int64_t utc_ns);
-  /// Removes old logs until the floor is kept; waits while that is not enough. False when the thread is to give up.
+  /// Removes old logs until the floor is kept; waits while that is not enough. False when the thread is to give
+  /// up.
   bool make_room();
   record::LogFolder::Space remove_old_logs();
   void sync();

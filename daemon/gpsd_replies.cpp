@@ -15,10 +15,11 @@ constexpr std::string_view boolean(bool value) { return value ? "true" : "false"
 }  // namespace
 
 void append_version(std::string& out) {
-  fmt::format_to(std::back_inserter(out),
-                 FMT_STRING(R"({{"class":"VERSION","release":"3.22","rev":"navcal {}","proto_major":{},"proto_minor":{}}})"
-                            "\n"),
-                 NAVCAL_VERSION, kProtocolMajor, kProtocolMinor);
+  fmt::format_to(
+      std::back_inserter(out),
+      FMT_STRING(R"({{"class":"VERSION","release":"3.22","rev":"navcal {}","proto_major":{},"proto_minor":{}}})"
+                 "\n"),
+      NAVCAL_VERSION, kProtocolMajor, kProtocolMinor);
 }
 
 void append_device_object(std::string& out, const DeviceState& device) {
@@ -32,7 +33,8 @@ void append_device_object(std::string& out, const DeviceState& device) {
     out += ",\"tty\":";
     append_quoted(out, device.tty);
   }
-  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"flags\":{},\"native\":0,\"bps\":{},\"parity\":\"N\",\"stopbits\":1"),
+  fmt::format_to(std::back_inserter(out),
+                 FMT_STRING(",\"flags\":{},\"native\":0,\"bps\":{},\"parity\":\"N\",\"stopbits\":1"),
                  device.gps ? kSeenGps : 0, device.baud);
   if (device.cycle_s > 0) {
     out += ",\"cycle\":";
@@ -42,10 +44,11 @@ void append_device_object(std::string& out, const DeviceState& device) {
 }
 
 void append_watch(std::string& out, bool enable, bool json, std::optional<std::string_view> device) {
-  fmt::format_to(std::back_inserter(out),
-                 FMT_STRING(R"({{"class":"WATCH","enable":{},"json":{},"nmea":false,"raw":0,"scaled":false,"timing":false,)"
-                            R"("split24":false,"pps":false)"),
-                 boolean(enable), boolean(json));
+  fmt::format_to(
+      std::back_inserter(out),
+      FMT_STRING(R"({{"class":"WATCH","enable":{},"json":{},"nmea":false,"raw":0,"scaled":false,"timing":false,)"
+                 R"("split24":false,"pps":false)"),
+      boolean(enable), boolean(json));
   if (device) {
     out += ",\"device\":";
     append_quoted(out, *device);

@@ -20,9 +20,9 @@ struct DeviceState {
   std::string_view driver;  ///< its protocol
   std::string_view tty;     ///< what is open; empty while it is away
   int baud = 0;
-  double cycle_s = 0;                           ///< nominal time between frames; 0: not periodic
+  double cycle_s = 0;  ///< nominal time between frames; 0: not periodic
   bool gps = false;
-  std::optional<std::int64_t> activated_utc_ns; ///< absent while it is away
+  std::optional<std::int64_t> activated_utc_ns;  ///< absent while it is away
 };
 
 void append_version(std::string& out);

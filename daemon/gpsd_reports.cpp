@@ -55,13 +55,18 @@ struct GpsdFix {
 
 constexpr GpsdFix gpsd_fix(Fix fix) {
   switch (fix) {
-    case Fix::fix_2d: return {2, 0};
-    case Fix::fix_3d: return {3, 0};
-    case Fix::propagated: return {2, 5};
-    case Fix::hold: return {3, 7};
+    case Fix::fix_2d:
+      return {2, 0};
+    case Fix::fix_3d:
+      return {3, 0};
+    case Fix::propagated:
+      return {2, 5};
+    case Fix::hold:
+      return {3, 7};
     case Fix::none:
     case Fix::acquiring:
-    case Fix::bad_geometry: break;
+    case Fix::bad_geometry:
+      break;
   }
   return {1, 0};
 }
@@ -111,7 +116,8 @@ void append_sky(std::string& out, const instruments::SkySample& sky, const instr
   if (position != nullptr) fixed(out, position->fix == Fix::fix_2d ? "hdop" : "pdop", position->dop, 2);
   std::size_t used = 0;
   for (std::size_t i = 0; i < sky.count; ++i) used += sky.satellites[i].used ? 1 : 0;
-  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"nSat\":{},\"uSat\":{},\"satellites\":["), sky.count, used);
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"nSat\":{},\"uSat\":{},\"satellites\":["), sky.count,
+                 used);
   for (std::size_t i = 0; i < sky.count; ++i) {
     const auto& satellite = sky.satellites[i];
     if (i > 0) out += ',';

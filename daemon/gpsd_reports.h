@@ -8,8 +8,8 @@
 
 namespace navcal::daemon {
 
-// Measurements in gpsd's words (gpsd_json(5) of release 3.22; docs/status-protocol.md): degrees, metres, seconds, and
-// beyond gpsd microtesla and m/s2. Each appends one line, newline included.
+// Measurements in gpsd's words (gpsd_json(5) of release 3.22; docs/status-protocol.md): degrees, metres, seconds,
+// and beyond gpsd microtesla and m/s2. Each appends one line, newline included.
 
 /// What every report carries; `utc_known` false leaves times out rather than stating wrong ones.
 struct ReportSource {
@@ -26,7 +26,8 @@ void append_sky(std::string& out, const instruments::SkySample& sky, const instr
                 const instruments::Stamp& stamp, ReportSource source);
 
 /// ATT of a compass. `declination_rad` (positive east) makes true north of the device's magnetic heading. With a
-/// declination of zero the heading is passed on as the device said it, even beyond 360: a mis-set unit stays visible.
+/// declination of zero the heading is passed on as the device said it, even beyond 360: a mis-set unit stays
+/// visible.
 void append_att(std::string& out, const instruments::CompassSample& compass, double declination_rad,
                 const instruments::Stamp& stamp, ReportSource source);
 
@@ -34,8 +35,8 @@ void append_att(std::string& out, const instruments::CompassSample& compass, dou
 void append_att(std::string& out, const instruments::ImuSample& imu, const instruments::Stamp& stamp,
                 ReportSource source);
 
-/// Magnetic inclination, radians, positive down, from the field and the tilt (thesis eq. 2.2); the device's own value
-/// when it has one; nullopt when neither is known.
+/// Magnetic inclination, radians, positive down, from the field and the tilt (thesis eq. 2.2); the device's own
+/// value when it has one; nullopt when neither is known.
 [[nodiscard]] std::optional<double> dip_of(const instruments::CompassSample& compass);
 
 }  // namespace navcal::daemon

@@ -63,12 +63,12 @@ void append_port(std::string& out, const PortSession& port, const pipeline::Port
   }
   if (const auto start_up = port.start_up_state(); !start_up.empty()) text(out, "start_up", start_up);
   const auto& bytes = statistics.bytes;
-  fmt::format_to(std::back_inserter(out),
-                 FMT_STRING(",\"opened\":{},\"bytes\":{},\"frames\":{},\"samples\":{},\"bad\":{},\"skipped\":{},\"held\":{},"
-                            "\"out_of_range\":{},\"gaps\":{},\"lost\":{},\"repeated\":{}"),
-                 port.times_opened(), bytes.bytes, bytes.frames, statistics.samples, bytes.bad_checksum,
-                 bytes.skipped_bytes, statistics.held_bytes, statistics.out_of_range, statistics.silences,
-                 statistics.lost, statistics.repeated);
+  fmt::format_to(
+      std::back_inserter(out),
+      FMT_STRING(",\"opened\":{},\"bytes\":{},\"frames\":{},\"samples\":{},\"bad\":{},\"skipped\":{},\"held\":{},"
+                 "\"out_of_range\":{},\"gaps\":{},\"lost\":{},\"repeated\":{}"),
+      port.times_opened(), bytes.bytes, bytes.frames, statistics.samples, bytes.bad_checksum, bytes.skipped_bytes,
+      statistics.held_bytes, statistics.out_of_range, statistics.silences, statistics.lost, statistics.repeated);
   append_clock(out, statistics.clock);
   append_latency(out, port.latency());
   out += '}';
@@ -91,7 +91,8 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
   }
   number(out, "uptime_s", health.uptime_s, 3);
   if (lines > 1) {
-    fmt::format_to(std::back_inserter(out), FMT_STRING(",\"part\":{},\"parts\":{}"), first / kPortsPerHealth + 1, lines);
+    fmt::format_to(std::back_inserter(out), FMT_STRING(",\"part\":{},\"parts\":{}"), first / kPortsPerHealth + 1,
+                   lines);
   }
   out += ",\"ports\":[";
   for (std::size_t i = first; i < last; ++i) {
@@ -101,8 +102,9 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
   out += "],\"log\":{\"enabled\":";
   out += health.log_enabled ? "true" : "false";
   append_log(out, health.log_enabled, health.log);
-  fmt::format_to(std::back_inserter(out), FMT_STRING("}},\"clients\":{},\"client_queue_bytes\":{},\"client_dropped\":{}"),
-                 health.clients, health.client_queue_bytes, health.client_dropped);
+  fmt::format_to(std::back_inserter(out),
+                 FMT_STRING("}},\"clients\":{},\"client_queue_bytes\":{},\"client_dropped\":{}"), health.clients,
+                 health.client_queue_bytes, health.client_dropped);
   return out;
 }
 

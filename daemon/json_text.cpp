@@ -10,7 +10,7 @@
 namespace navcal::daemon {
 namespace {
 
-constexpr std::array<std::int64_t, 10> kPowersOfTen{1,       10,        100,        1'000,        10'000,
+constexpr std::array<std::int64_t, 10> kPowersOfTen{1,       10,        100,        1'000,       10'000,
                                                     100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
 /// Beyond it a rounded value times 10^9 does not fit 64 bits.
 constexpr double kLargestScaled = 9e18;
@@ -89,7 +89,8 @@ void append_utc(std::string& out, std::int64_t utc_ns, int decimals) {
   const std::int64_t year = year_of_era + era * 400 + (month <= 2 ? 1 : 0);
   fmt::format_to(std::back_inserter(out), FMT_STRING("\"{:04}-{:02}-{:02}T{:02}:{:02}:{:02}"), year, month, day,
                  of_day / 3'600, of_day / 60 % 60, of_day % 60);
-  if (decimals > 0) append_fraction(out, fraction / kPowersOfTen[static_cast<std::size_t>(9 - decimals)], decimals);
+  if (decimals > 0)
+    append_fraction(out, fraction / kPowersOfTen[static_cast<std::size_t>(9 - decimals)], decimals);
   out += "Z\"";
 }
 

@@ -6,10 +6,11 @@
 
 namespace navcal::daemon {
 
-// JSON text appended to a reused buffer. Live reports are written this way because a document tree costs twenty times
-// as much a line; requests, which are rare, are read with nlohmann-json.
+// JSON text appended to a reused buffer. Live reports are written this way because a document tree costs twenty
+// times as much a line; requests, which are rare, are read with nlohmann-json.
 
-/// `text` in quotes. Whatever is not printable ASCII is escaped byte by byte, so the result is valid JSON for any input.
+/// `text` in quotes. Whatever is not printable ASCII is escaped byte by byte, so the result is valid JSON for any
+/// input.
 void append_quoted(std::string& out, std::string_view text);
 
 /// `value` rounded to `decimals` (0..9) places, all of them written: 1.5 -> "1.5000".

@@ -9,9 +9,9 @@
 
 namespace navcal::daemon {
 
-/// A timer for deadlines that are pushed back with every record: it is set only when a deadline comes to lie before
-/// the one it waits for, so a record costs no system call. It may therefore ring early; who is called looks at the
-/// clock and sets it again.
+/// A timer for deadlines that are pushed back with every record: it is set only when a deadline comes to lie
+/// before the one it waits for, so a record costs no system call. It may therefore ring early; who is called looks
+/// at the clock and sets it again.
 class LazyTimer {
  public:
   static constexpr std::int64_t kNever = INT64_MAX;

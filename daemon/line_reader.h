@@ -6,13 +6,14 @@
 
 namespace navcal::daemon {
 
-/// Cuts a stream of text into lines without ever holding more than `max_length` of it. A line longer than that makes
-/// the reader refuse everything from then on.
+/// Cuts a stream of text into lines without ever holding more than `max_length` of it. A line longer than that
+/// makes the reader refuse everything from then on.
 class LineReader {
  public:
   explicit LineReader(std::size_t max_length) : max_length_(max_length) {}
 
-  /// Calls `on_line(std::string_view)` for each line completed, without its newline. False once a line was too long.
+  /// Calls `on_line(std::string_view)` for each line completed, without its newline. False once a line was too
+  /// long.
   template <class OnLine>
   [[nodiscard]] bool feed(std::string_view text, OnLine&& on_line) {
     while (!refused_ && !text.empty()) {

@@ -28,8 +28,9 @@ class Umask {
 std::string taken(const config::StatusSettings& settings) {
   std::string message = fmt::format("port {} at {} is taken", settings.port, settings.address);
   if (settings.port == kGpsdPort) {
-    message += ", usually by gpsd's own socket unit: `systemctl disable --now gpsd.socket gpsd.service` frees it, or "
-               "choose another with status.port";
+    message +=
+        ", usually by gpsd's own socket unit: `systemctl disable --now gpsd.socket gpsd.service` frees it, or "
+        "choose another with status.port";
   } else {
     message += ", perhaps by another navcald: choose another with status.port";
   }
@@ -58,7 +59,8 @@ asio::ip::tcp::acceptor listen_status(asio::any_io_executor executor, const conf
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error == asio::error::address_in_use) throw StartError(taken(settings));
   if (error) {
-    throw StartError(fmt::format("cannot listen at {} port {}: {}", settings.address, settings.port, error.message()));
+    throw StartError(
+        fmt::format("cannot listen at {} port {}: {}", settings.address, settings.port, error.message()));
   }
   return acceptor;
 }

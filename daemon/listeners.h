@@ -15,7 +15,7 @@ namespace navcal::daemon {
 
 /// The control socket, with its permissions from the first moment on. What a dead daemon left behind is replaced;
 /// a living one is not disturbed. Throws StartError.
-[[nodiscard]] boost::asio::local::stream_protocol::acceptor listen_control(boost::asio::any_io_executor executor,
-                                                                           const config::ControlSettings& settings);
+[[nodiscard]] boost::asio::local::stream_protocol::acceptor listen_control(
+    boost::asio::any_io_executor executor, const config::ControlSettings& settings);
 
 }  // namespace navcal::daemon

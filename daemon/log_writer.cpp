@@ -17,7 +17,8 @@ std::chrono::nanoseconds nanoseconds(double seconds) {
 record::LogFolder take_folder(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw StartError(fmt::format("log folder {}: cannot be made: {}", directory.string(), error.message()));
+  if (error)
+    throw StartError(fmt::format("log folder {}: cannot be made: {}", directory.string(), error.message()));
   try {
     return record::LogFolder(record::real_disk(), directory);
   } catch (const std::system_error& failure) {
@@ -48,7 +49,8 @@ void LogWriter::append(Encode&& encode) {
   if (disk_) disk_->append(std::forward<Encode>(encode));
 }
 
-void LogWriter::raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns, protocols::Bytes bytes) {
+void LogWriter::raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns,
+                    protocols::Bytes bytes) {
   append([&](std::string& out) { encoder_.raw(out, port, direction, time_ns, bytes); });
 }
 
@@ -90,7 +92,7 @@ void LogWriter::tick(std::int64_t now_ns) {
   const bool told = disk_->append([&](std::string& out) {
     encoder_.event(out, now_ns, "error", "log.dropped", "",
                    fmt::format("{} records lost: the disk did not keep up and the queue of {} MB was full",
-                               dropped - told_dropped_, settings_.queue_bytes >> 20));
+                               dropped - told_dropped_, settings_.queue_bytes / 1'000'000));
   });
   // When there is still no room, this record is lost as well and the next one tells of all.
   if (told) told_dropped_ = dropped;

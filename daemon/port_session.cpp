@@ -14,11 +14,16 @@ constexpr double kSilent_s = 3.0;
 
 std::string_view name_of(PortSession::State state) {
   switch (state) {
-    case PortSession::State::away: return "away";
-    case PortSession::State::silent: return "silent";
-    case PortSession::State::no_frames: return "no_frames";
-    case PortSession::State::noisy: return "noisy";
-    case PortSession::State::running: break;
+    case PortSession::State::away:
+      return "away";
+    case PortSession::State::silent:
+      return "silent";
+    case PortSession::State::no_frames:
+      return "no_frames";
+    case PortSession::State::noisy:
+      return "noisy";
+    case PortSession::State::running:
+      break;
   }
   return "running";
 }
@@ -60,7 +65,9 @@ void PortSession::on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) {
   if (start_up_) talk(arrival_ns);
 }
 
-void PortSession::on_sent(std::int64_t now_ns, protocols::Bytes bytes) { owner_.on_port_sent(index_, now_ns, bytes); }
+void PortSession::on_sent(std::int64_t now_ns, protocols::Bytes bytes) {
+  owner_.on_port_sent(index_, now_ns, bytes);
+}
 
 void PortSession::on_lost(std::int64_t now_ns, std::string_view reason) {
   open_.reset();
@@ -105,9 +112,12 @@ PortSession::State PortSession::judge(const pipeline::PortStatistics& statistics
   reason = speed_check_.message();
   switch (verdict) {
     case SpeedCheck::Verdict::wrong_speed:
-    case SpeedCheck::Verdict::no_frames: return State::no_frames;
-    case SpeedCheck::Verdict::noise: return State::noisy;
-    case SpeedCheck::Verdict::good: break;
+    case SpeedCheck::Verdict::no_frames:
+      return State::no_frames;
+    case SpeedCheck::Verdict::noise:
+      return State::noisy;
+    case SpeedCheck::Verdict::good:
+      break;
   }
   return State::running;
 }

@@ -35,15 +35,15 @@ class PortOwner {
 class PortSession : private ports::PortListener {
  public:
   enum class State {
-    away,      ///< not there, or cannot be opened
-    silent,    ///< open, and nothing comes
-    no_frames, ///< bytes come, but no intact frame
-    noisy,     ///< intact frames between much that is none
+    away,       ///< not there, or cannot be opened
+    silent,     ///< open, and nothing comes
+    no_frames,  ///< bytes come, but no intact frame
+    noisy,      ///< intact frames between much that is none
     running,
   };
 
-  PortSession(const boost::asio::any_io_executor& executor, std::uint16_t port, const config::PortSettings& settings,
-              PortOwner& owner);
+  PortSession(const boost::asio::any_io_executor& executor, std::uint16_t port,
+              const config::PortSettings& settings, PortOwner& owner);
 
   void start() { port_.start(); }
   void stop();

@@ -65,7 +65,8 @@ void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns
     out += ",\"time\":";
     append_utc(out, *utc_ns, 3);
   }
-  const auto active = std::count_if(last_.begin(), last_.end(), [](const Last& last) { return last.gps.has_value(); });
+  const auto active =
+      std::count_if(last_.begin(), last_.end(), [](const Last& last) { return last.gps.has_value(); });
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"active\":{},\"tpv\":["), active);
   const auto list = [&](auto&& append_one) {
     bool first = true;

@@ -101,7 +101,8 @@ Request device(const json& object) {
   request.kind = Request::Kind::device;
   if (!take(object, "path", request.device)) return not_understood("Invalid DEVICE: path is a string");
   for (const char* key : {"bps", "cycle", "native", "parity", "stopbits", "hexdata"}) {
-    if (object.contains(key)) return not_understood(fmt::format("DEVICE: {} is set by the configuration only", key));
+    if (object.contains(key))
+      return not_understood(fmt::format("DEVICE: {} is set by the configuration only", key));
   }
   return request;
 }
@@ -113,9 +114,9 @@ Request parse(std::string_view command) {
   Request request;
   if (equals == std::string_view::npos) {
     using Kind = Request::Kind;
-    for (const auto& [kind, text] : {std::pair{Kind::version, "VERSION"}, std::pair{Kind::devices, "DEVICES"},
-                                     std::pair{Kind::device, "DEVICE"}, std::pair{Kind::watch, "WATCH"},
-                                     std::pair{Kind::poll, "POLL"}}) {
+    for (const auto& [kind, text] :
+         {std::pair{Kind::version, "VERSION"}, std::pair{Kind::devices, "DEVICES"},
+          std::pair{Kind::device, "DEVICE"}, std::pair{Kind::watch, "WATCH"}, std::pair{Kind::poll, "POLL"}}) {
       if (name == text) request.kind = kind;
     }
     return request.kind == Kind::not_understood ? unrecognised(command) : request;

@@ -7,8 +7,8 @@
 
 namespace navcal::daemon {
 
-/// Listening sockets handed over by systemd (sd_listen_fds(3)), told apart by their kind: TCP is the status socket,
-/// Unix the control socket.
+/// Listening sockets handed over by systemd (sd_listen_fds(3)), told apart by their kind: TCP is the status
+/// socket, Unix the control socket.
 struct ActivatedSockets {
   std::optional<boost::asio::ip::tcp::acceptor> status;
   std::optional<boost::asio::local::stream_protocol::acceptor> control;

@@ -12,8 +12,8 @@ constexpr std::uint64_t kEnough_bytes = 400;
 constexpr double kImplausibleShare = 0.1;
 constexpr double kNoiseShare = 0.2;
 
-/// Bytes that occur in no word of the ASCII protocols: what a UART at another speed makes much of, and what the binary
-/// ones are full of at any speed.
+/// Bytes that occur in no word of the ASCII protocols: what a UART at another speed makes much of, and what the
+/// binary ones are full of at any speed.
 constexpr std::array<bool, 256> kNotText = [] {
   std::array<bool, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -33,7 +33,8 @@ SpeedCheck::Verdict SpeedCheck::judge(const protocols::Counters& counters) {
   const std::uint64_t frames = counters.frames - base_.frames;
   if (bytes_ < kEnough_bytes) {
     // Good news needs no further evidence.
-    if (frames > 0 && (verdict_ == Verdict::wrong_speed || verdict_ == Verdict::no_frames)) verdict_ = Verdict::good;
+    if (frames > 0 && (verdict_ == Verdict::wrong_speed || verdict_ == Verdict::no_frames))
+      verdict_ = Verdict::good;
     return verdict_;
   }
   judged_bytes_ = bytes_;
@@ -53,7 +54,8 @@ SpeedCheck::Verdict SpeedCheck::judge(const protocols::Counters& counters) {
 
 std::string SpeedCheck::message() const {
   switch (verdict_) {
-    case Verdict::good: break;
+    case Verdict::good:
+      break;
     case Verdict::wrong_speed:
       return fmt::format("{} bytes, no intact frame: wrong speed? (configured {})", judged_bytes_, baud_);
     case Verdict::no_frames:

@@ -7,8 +7,8 @@
 
 namespace navcal::daemon {
 
-/// Tells a wrong line speed from noise. A UART at the wrong speed reads every byte wrong, so no frame is ever intact
-/// and what comes is not what the protocol is made of; noise spoils some frames and leaves the others.
+/// Tells a wrong line speed from noise. A UART at the wrong speed reads every byte wrong, so no frame is ever
+/// intact and what comes is not what the protocol is made of; noise spoils some frames and leaves the others.
 class SpeedCheck {
  public:
   enum class Verdict {

@@ -31,7 +31,8 @@ class StatusSource {
 /// gpsd's protocol on TCP (docs/status-protocol.md). Everything a client can do here is reading.
 class StatusServer : private ClientOwner {
  public:
-  StatusServer(boost::asio::ip::tcp::acceptor acceptor, const config::StatusSettings& settings, StatusSource& source);
+  StatusServer(boost::asio::ip::tcp::acceptor acceptor, const config::StatusSettings& settings,
+               StatusSource& source);
 
   void start();
   void stop();

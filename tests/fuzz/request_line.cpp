@@ -1,4 +1,5 @@
-// Whatever a client of the status socket sends, cut however it comes: every command is understood or has a message.
+// Whatever a client of the status socket sends, cut however it comes: every command is understood or has a
+// message.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
