@@ -47,7 +47,9 @@ class PosixFile final : public DiskFile {
     return {};
   }
   std::error_code reserve(std::uint64_t offset, std::uint64_t length) override {
-    const int result = ::fallocate(fd_.get(), 0, static_cast<off_t>(offset), static_cast<off_t>(length));
+    // The length stays that of what was written, so that no reader meets zeros after a loss of power.
+    const int result =
+        ::fallocate(fd_.get(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset), static_cast<off_t>(length));
     // A file system that cannot is used all the same: it only wears the flash more.
     return result != 0 && errno == EOPNOTSUPP ? std::error_code{} : check(result);
   }

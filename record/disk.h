@@ -17,7 +17,8 @@ class DiskFile {
  public:
   virtual ~DiskFile() = default;
   virtual std::error_code write_at(std::uint64_t offset, std::string_view bytes) = 0;
-  /// Takes space from `offset` on, which reads as zero, so that writing there later changes little on the medium.
+  /// Takes space from `offset` on, so that writing there later changes little on the medium; the length stays.
+  /// truncate() gives back what was not used.
   virtual std::error_code reserve(std::uint64_t offset, std::uint64_t length) = 0;
   virtual std::error_code truncate(std::uint64_t length) = 0;
   /// Data and what is needed to find it again (fdatasync).

@@ -67,6 +67,8 @@ TEST_F(LogFolderOnDisk, AFinishedFileHasItsLengthAndIsReadOnly) {
   ASSERT_EQ(::stat((path_ / name).c_str(), &status), 0);
   EXPECT_EQ(static_cast<std::size_t>(status.st_size), log.bytes.size());
   EXPECT_EQ(status.st_mode & 0777U, 0444U);
+  // The space taken in advance was given back.
+  EXPECT_LT(status.st_blocks * 512, 1 << 20);
   EXPECT_TRUE(folder.finish_unfinished().empty());
 }
 
