@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+// The program itself, run by a shell as people run it.
+namespace navcal::cli {
+namespace {
+
+const std::string kFixtures = NAVCAL_SOURCE_DIR "/fixtures/decode/";
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Decode : public testing::Test {
+ protected:
+  struct Outcome {
+    int status = 0;
+    std::string output, errors;
+  };
+
+  Decode() {
+    std::string name = testing::TempDir() + "navcal-decode-XXXXXX";
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~Decode() override { std::filesystem::remove_all(folder_); }
+
+  /// `decode` stands for the program with its subcommand; `shell` is the rest of a command of bash.
+  [[nodiscard]] Outcome run(const std::string& shell) const {
+    const auto script = folder_ / "script";
+    std::ofstream(script) << "set -o pipefail\ndecode() { '" NAVCAL_PROGRAM "' decode \"$@\"; }\n"
+                          << shell << '\n';
+    const std::string command = "bash " + script.string() + " > " + (folder_ / "out").string() + " 2> " +
+                                (folder_ / "err").string() + " < /dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "out"), contents(folder_ / "err")};
+  }
+
+  std::filesystem::path folder_;
+};
+
+std::vector<nlohmann::json> lines(const std::string& text) {
+  std::vector<nlohmann::json> parsed;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) parsed.push_back(nlohmann::json::parse(line));
+  return parsed;
+}
+
+TEST_F(Decode, AnswersEveryStreamAsExpectedToTheByte) {
+  for (const std::string protocol : {"oncore", "nmea", "tcm2", "imu-card", "motor-card"}) {
+    const auto outcome = run("decode --protocol " + protocol + " --json " + kFixtures + protocol + ".bin");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_EQ(outcome.output, contents(kFixtures + protocol + ".jsonl")) << protocol;
+    EXPECT_EQ(outcome.errors, "");
+  }
+}
+
+TEST_F(Decode, StandardInputInSmallPiecesGivesTheSame) {
+  const auto outcome =
+      run("dd if=" + kFixtures + "oncore.bin bs=7 status=none | decode --protocol oncore --json -");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.output, contents(kFixtures + "oncore.jsonl"));
+}
+
+TEST_F(Decode, EveryByteIsInExactlyOnePlace) {
+  for (const std::string protocol : {"oncore", "nmea", "tcm2", "imu-card", "motor-card"}) {
+    const auto all =
+        lines(run("decode --protocol " + protocol + " --json " + kFixtures + protocol + ".bin").output);
+    ASSERT_FALSE(all.empty());
+    const auto& summary = all.back();
+    EXPECT_EQ(summary["class"], "SUMMARY");
+    EXPECT_EQ(summary["bytes"], std::filesystem::file_size(kFixtures + protocol + ".bin"));
+    std::uint64_t framed = 0, frames = 0, end = 0;
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+      EXPECT_EQ(all[i]["class"], "FRAME");
+      EXPECT_EQ(all[i]["protocol"], protocol);
+      EXPECT_GE(all[i]["offset"].get<std::uint64_t>(), end);
+      framed += all[i]["length"].get<std::uint64_t>();
+      end = all[i]["offset"].get<std::uint64_t>() + all[i]["length"].get<std::uint64_t>();
+    }
+    for (const auto& count : summary["frames"]) frames += count.get<std::uint64_t>();
+    EXPECT_EQ(frames, all.size() - 1);
+    EXPECT_EQ(summary["framed_bytes"], framed);
+    EXPECT_EQ(summary["bytes"].get<std::uint64_t>(), framed + summary["skipped_bytes"].get<std::uint64_t>() +
+                                                         summary["incomplete_bytes"].get<std::uint64_t>());
+  }
+}
+
+TEST_F(Decode, PositionsHaveTheKeysOfTheContract) {
+  for (const auto& line : lines(contents(kFixtures + "oncore.jsonl"))) {
+    const std::string id = line.value("id", "");
+    if (id != "Ha" && id != "Ea" && id != "Eq") continue;
+    for (const char* key : {"time", "time_corrected", "lat", "lon", "height_m", "speed_m_s", "heading_deg", "dop",
+                            "visible", "tracked", "fix"}) {
+      EXPECT_TRUE(line.contains(key)) << id << ' ' << key;
+    }
+  }
+}
+
+TEST_F(Decode, ThePivotMovesDatesAndOnlyWhenTheyLieBeforeIt) {
+  const std::string oncore = "decode --protocol oncore --json " + kFixtures + "oncore.bin";
+  const auto third = [](const std::string& text) { return lines(text).at(2); };
+  EXPECT_EQ(third(run(oncore).output)["time"], "2020-04-10T04:50:60.000353244Z");
+  EXPECT_EQ(third(run(oncore).output)["time_corrected"], true);
+  EXPECT_EQ(third(run(oncore + " --pivot 1999-08-22").output)["time"], "2000-08-25T04:50:60.000353244Z");
+  EXPECT_EQ(third(run(oncore + " --pivot 1999-08-22").output)["time_corrected"], false);
+  const std::string nmea = "decode --protocol nmea --json " + kFixtures + "nmea.bin";
+  EXPECT_EQ(third(run(nmea).output)["time"], "2016-12-31T23:59:60.250Z") << "dates of NMEA are left alone";
+  EXPECT_EQ(third(run(nmea + " --pivot 2019-04-07").output)["time_corrected"], true);
+}
+
+TEST_F(Decode, PeopleGetAListingAndASummary) {
+  const auto outcome = run("decode --protocol oncore " + kFixtures + "oncore.bin");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.output.find(" Ha       time=2026-11-21T23:59:60.250000123Z "), std::string::npos);
+  EXPECT_NE(outcome.output.find("fix=3d"), std::string::npos);
+  EXPECT_NE(outcome.output.find("12 frames: Bb 1, Bo 3, Cj 1, Ea 2, Eq 1, Gj 1, Ha 2, Hn 1\n"), std::string::npos);
+  EXPECT_NE(outcome.output.find("1308 bytes: 1065 in frames, 203 skipped, 40 of an unfinished frame at the end\n"),
+            std::string::npos);
+}
+
+TEST_F(Decode, AnEmptyInputIsASummaryOfNothing) {
+  EXPECT_EQ(run("decode --protocol nmea --json - < /dev/null").output,
+            R"({"class":"SUMMARY","bytes":0,"frames":{},"bad_checksum":0,"framed_bytes":0,"skipped_bytes":0,)"
+            R"("incomplete_bytes":0})"
+            "\n");
+}
+
+TEST_F(Decode, BadInputNamesTheFile) {
+  const auto missing = run("decode --protocol nmea /nowhere/gps.nmea");
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_EQ(missing.errors, "navcal: /nowhere/gps.nmea: cannot open: No such file or directory\n");
+  const auto folder = run("decode --protocol nmea /tmp");
+  EXPECT_EQ(folder.status, 3);
+  EXPECT_EQ(folder.errors, "navcal: /tmp: cannot read: Is a directory\n");
+}
+
+TEST_F(Decode, WrongUsageSaysWhatIsKnown) {
+  const auto unknown = run("decode --protocol loran " + kFixtures + "nmea.bin");
+  EXPECT_EQ(unknown.status, 2);
+  for (const char* name : {"loran", "tcm2", "imu-card", "oncore", "motor-card", "nmea"})
+    EXPECT_NE(unknown.errors.find(name), std::string::npos) << name;
+  EXPECT_EQ(run("decode " + kFixtures + "nmea.bin").status, 2) << "no protocol";
+  EXPECT_EQ(run("decode --protocol nmea").status, 2) << "no file";
+  EXPECT_EQ(run("decode --protocol nmea --pivot yesterday " + kFixtures + "nmea.bin").status, 2);
+  const auto help = run("decode --help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.output.find("navcal decode --protocol oncore gps.bin"), std::string::npos) << "an example";
+}
+
+TEST_F(Decode, AFullDiskAndAReaderThatLeavesAreTold) {
+  const auto full = run("decode --protocol nmea --json " + kFixtures + "nmea.bin > /dev/full");
+  EXPECT_EQ(full.status, 1);
+  EXPECT_EQ(full.errors, "navcal: standard output: cannot write: No space left on device\n");
+  const auto gone = run("yes '$HCHDM,182.3,M*21' | decode --protocol nmea --json - | head -1");
+  EXPECT_EQ(gone.status, 1);
+  EXPECT_EQ(lines(gone.output).size(), 1U);
+  EXPECT_EQ(gone.errors, "navcal: standard output: its reader has gone; the rest was not decoded\n");
+}
+
+}  // namespace
+}  // namespace navcal::cli
