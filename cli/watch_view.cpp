@@ -17,7 +17,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// Nothing from the network may move the cursor.
 std::string printable(std::string text) {
   for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    if (c < 0x20 || c > 0x7e) c = '?';
   }
   return text;
 }
@@ -74,8 +74,7 @@ void WatchView::take_health(const Json& health) {
   alarms_ = health.value("alarms", Json::array());
   log_ = health.value("log", Json());
   uptime_s_ = number(health, "uptime_s");
-  if (const double dropped = number(health, "dropped"); dropped >= 0)
-    dropped_ = static_cast<std::uint64_t>(dropped);
+  dropped_ = number(health, "dropped");
   const Json ports = health.value("ports", Json::array());
   if (!ports.is_array()) return;
   for (const Json& port : ports) {
@@ -184,7 +183,7 @@ std::string WatchView::page(Colour colour) const {
   append_motor(out);
   append_log(out);
   append_time(out);
-  if (dropped_ > 0) add(out, "this view missed {} reports\n", dropped_);
+  if (dropped_ > 0) add(out, "this view missed {:.0f} reports\n", dropped_);
   return out;
 }
 

@@ -41,7 +41,7 @@ class WatchView {
   std::map<std::string, std::map<std::string, Json>> last_;  ///< newest report, by class and device
   double uptime_s_ = 0;
   std::map<std::string, double> counted_at_s_;  ///< uptime of the HEALTH before, by device
-  std::uint64_t dropped_ = 0;
+  double dropped_ = 0;
 };
 
 }  // namespace navcal::cli

@@ -14,7 +14,7 @@ namespace navcal::daemon {
 namespace asio = boost::asio;
 namespace {
 
-constexpr std::int64_t kTick_ns = 1'000'000'000;
+constexpr double kTick_s = 1;
 
 spdlog::level::level_enum level_of(std::string_view severity) {
   if (severity == "alarm") return spdlog::level::critical;
@@ -32,6 +32,7 @@ pipeline::UtcMapping first_mapping() {
 Daemon::Daemon(asio::any_io_executor executor, const config::Settings& settings, ActivatedSockets sockets)
     : settings_(settings),
       started_ns_(ports::monotonic_ns()),
+      tick_ns_(static_cast<std::int64_t>(std::min(kTick_s, settings.status.health_interval_s) * 1e9)),
       pipeline_(settings_),
       server_(sockets.status ? std::move(*sockets.status) : listen_status(executor, settings_.status),
               settings_.status, *this),
@@ -159,10 +160,10 @@ void Daemon::tick() {
   for (const std::string& notice : log_.take_notices()) event(now_ns, "warning", "log.notice", "", notice);
   if (now_ns >= next_health_ns_) {
     report_health(now_ns);
-    next_health_ns_ = now_ns + static_cast<std::int64_t>(settings_.status.health_interval_s * 1e9) - kTick_ns / 2;
+    next_health_ns_ = now_ns + static_cast<std::int64_t>(settings_.status.health_interval_s * 1e9) - tick_ns_ / 2;
   }
   notifier_.status(summary());
-  next_tick_ns_ = std::max(next_tick_ns_ + kTick_ns, now_ns);
+  next_tick_ns_ = std::max(next_tick_ns_ + tick_ns_, now_ns);
   tick_timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(next_tick_ns_)));
   tick_timer_.async_wait([this](boost::system::error_code error) {
     if (!error) tick();

@@ -71,6 +71,7 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
 
   const config::Settings settings_;
   const std::int64_t started_ns_;
+  const std::int64_t tick_ns_;
   pipeline::Pipeline pipeline_;
   pipeline::SystemClockWatch clock_watch_;
   StatusServer server_;

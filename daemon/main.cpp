@@ -64,8 +64,9 @@ void wait_for_signal(asio::signal_set& signals, Daemon& daemon) {
 
 void run(const navcal::config::Settings& settings) {
   asio::io_context context(1);
-  Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()));
+  // Before anybody can reach the daemon: a signal that comes early must not kill it.
   asio::signal_set signals(context, SIGTERM, SIGINT, SIGHUP);
+  Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()));
   wait_for_signal(signals, daemon);
   daemon.start();
   context.run();

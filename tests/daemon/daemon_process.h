@@ -88,12 +88,12 @@ class DaemonProcess {
   DaemonProcess(const DaemonProcess&) = delete;
   DaemonProcess& operator=(const DaemonProcess&) = delete;
 
-  /// Waits until its sockets answer.
+  /// Waits until it greets a client: then everything else is open, too.
   void wait_until_ready() const {
     for (int i = 0; i < 4000; ++i) {
       try {
-        const Client client(port_);
-        return;
+        Client client(port_);
+        if (client.line()) return;
       } catch (const std::runtime_error&) {
         ::usleep(5000);
       }

@@ -52,7 +52,9 @@ class DifficultDisk : public record::Disk {
       if (disk_.full) return std::make_error_code(std::errc::no_space_on_device);
       return real_->write_at(offset, bytes);
     }
-    std::error_code reserve(std::uint64_t length) override { return real_->reserve(length); }
+    std::error_code reserve(std::uint64_t offset, std::uint64_t length) override {
+      return real_->reserve(offset, length);
+    }
     std::error_code truncate(std::uint64_t length) override { return real_->truncate(length); }
     std::error_code sync() override { return real_->sync(); }
     std::error_code make_read_only() override { return real_->make_read_only(); }

@@ -1,0 +1,124 @@
+#include "cli/watch_view.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace navcal::cli {
+namespace {
+
+using Colour = WatchView::Colour;
+
+std::string health(double uptime_s, int frames, const std::string& alarms = "[]", int dropped = 0) {
+  return R"({"class":"HEALTH","alarms":)" + alarms + R"(,"uptime_s":)" + std::to_string(uptime_s) +
+         R"(,"ports":[{"device":"imu","state":"running","reason":"","frames":)" + std::to_string(frames) +
+         R"(,"bad":2,"skipped":7,"lost":1}],"log":{"state":"writing","reason":"","file":"/x/navcal-1.mcap","bytes":1500000,"queued":2000,"lost":0},"dropped":)" +
+         std::to_string(dropped) + "}";
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(WatchView, AlarmsComeFirstAndInRed) {
+  WatchView view;
+  view.take(health(1, 20, R"([{"alarm":"leak_forward","device":"imu"}])"));
+  const std::string page = view.page(Colour::ansi);
+  EXPECT_EQ(page.rfind("\x1b[1;37;41m ALARM leak_forward (imu)", 0), 0U) << page;
+  EXPECT_EQ(view.page(Colour::none).find('\x1b'), std::string::npos);
+  EXPECT_EQ(view.line().rfind("ALARM leak_forward (imu)", 0), 0U);
+}
+
+TEST(WatchView, RatesComeFromTheDifferenceOfReports) {
+  WatchView view;
+  view.take(health(10, 200));
+  view.take(health(12, 240));
+  EXPECT_TRUE(has(view.page(Colour::none), "20.0")) << view.page(Colour::none);
+}
+
+TEST(WatchView, AReportOnAChangeDoesNotDistortTheRate) {
+  WatchView view;
+  view.take(health(10, 200));
+  view.take(health(11, 220));
+  view.take(health(11.01, 221));
+  view.take(health(12, 240));
+  EXPECT_TRUE(has(view.line(), "imu running 20.0/s")) << view.line();
+}
+
+TEST(WatchView, EveryKindOfReportIsShown) {
+  WatchView view;
+  view.take(health(1, 20, "[]", 3));
+  view.take(
+      R"({"class":"ATT","device":"compass","heading":123.4000,"pitch":1.5,"roll":-2.5,"mag_len":50.1,"dip":60.0})");
+  view.take(R"({"class":"ATT","device":"imu","depth":4.25,"gyro_x":1,"gyro_y":2,"gyro_z":3})");
+  view.take(R"({"class":"TPV","device":"gps","mode":3,"lat":57.71283,"lon":12.02259,"speed":0.31})");
+  view.take(R"({"class":"MOTOR","device":"motor","rpm":800,"current_A":1.5,"fins_rad":[0.1,null,-0.1]})");
+  view.take(R"({"class":"TIME","source":"gps","bound":0.0125})");
+  const std::string page = view.page(Colour::none);
+  for (const char* part : {"heading 123.4", "depth 4.25 m", "3D 57.7128300 12.0225900",
+                           "800 rpm, 1.50 A, fins 5.7 - -5.7", "log: writing navcal-1.mcap, 1.5 MB, 2 kB queued",
+                           "UTC from gps, to within 0.012500 s", "missed 3 reports"}) {
+    EXPECT_TRUE(has(page, part)) << part << "\n" << page;
+  }
+}
+
+TEST(WatchView, ALostConnectionIsForgotten) {
+  WatchView view;
+  view.take(health(1, 20, R"([{"alarm":"leak_aft","device":"imu"}])"));
+  view.clear();
+  EXPECT_FALSE(has(view.page(Colour::none), "ALARM"));
+}
+
+TEST(WatchView, NothingFromTheNetworkMovesTheCursor) {
+  WatchView view;
+  view.take(
+      R"({"class":"HEALTH","alarms":[{"alarm":"\u001b[2J","device":"a"}],"ports":[{"device":"\u001b[H","state":"x"}],"log":{"state":"\u0007"}})");
+  for (const char c : view.page(Colour::none)) {
+    EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << static_cast<int>(c);
+  }
+}
+
+TEST(WatchView, WrongTypesAnywhereAreSurvived) {
+  const std::string pieces[] = {"\"class\"",
+                                ":",
+                                "\"HEALTH\"",
+                                "\"ATT\"",
+                                "\"TPV\"",
+                                "\"MOTOR\"",
+                                "\"TIME\"",
+                                "{",
+                                "}",
+                                "[",
+                                "]",
+                                ",",
+                                "1",
+                                "null",
+                                "\"ports\"",
+                                "\"alarms\"",
+                                "\"device\"",
+                                "\"log\"",
+                                "\"fins_rad\"",
+                                "\"heading\"",
+                                "\"x\"",
+                                "\"frames\"",
+                                "\"uptime_s\""};
+  std::mt19937 random(7);
+  WatchView view;
+  for (const char* kind : {"HEALTH", "ATT", "TPV", "MOTOR", "TIME", "LOG"}) {
+    for (const char* key : {"ports", "alarms", "log", "fins_rad", "heading", "depth", "lat", "uptime_s", "bound",
+                            "device", "dropped"}) {
+      for (const char* value : {"1", "null", "\"x\"", "[]", "{}", "[1]", "[{}]", "[[]]", "-1", "1e300"}) {
+        view.take(std::string("{\"class\":\"") + kind + "\",\"" + key + "\":" + value + "}");
+        (void)view.page(Colour::ansi);
+        (void)view.line();
+      }
+    }
+  }
+  for (int i = 0; i < 20'000; ++i) {
+    std::string line = "{\"class\":";
+    for (auto n = random() % 12; n > 0; --n) line += pieces[random() % std::size(pieces)];
+    view.take(line);
+  }
+  (void)view.page(Colour::ansi);
+}
+
+}  // namespace
+}  // namespace navcal::cli
