@@ -12,8 +12,8 @@ namespace navcal::daemon {
 /// The real disk with its bad habits under the control of a test.
 class DifficultDisk : public record::Disk {
  public:
-  std::atomic<int> stall_ms{0};   ///< every write takes so long
-  std::atomic<bool> full{false};  ///< every write fails for want of space
+  std::atomic<bool> stalled{false};  ///< every write waits until this is over
+  std::atomic<bool> full{false};     ///< every write fails for want of space
   std::atomic<std::uint64_t> free{1ULL << 40};
 
   std::unique_ptr<record::DiskFile> create(const std::filesystem::path& file, std::error_code& error) override {
@@ -48,7 +48,7 @@ class DifficultDisk : public record::Disk {
    public:
     File(DifficultDisk& disk, std::unique_ptr<record::DiskFile> real) : disk_(disk), real_(std::move(real)) {}
     std::error_code write_at(std::uint64_t offset, std::string_view bytes) override {
-      std::this_thread::sleep_for(std::chrono::milliseconds(disk_.stall_ms));
+      while (disk_.stalled) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (disk_.full) return std::make_error_code(std::errc::no_space_on_device);
       return real_->write_at(offset, bytes);
     }
