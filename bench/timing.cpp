@@ -45,8 +45,8 @@ Row measure(const SimulatedDevice::Options& options) {
 }  // namespace
 
 int main() {
-  fmt::print("delays exponential with 2 ms mean, 30 ms stalls 1 %, device clock off by 100 ppm; {} runs of {} s\n", kSeeds,
-             kDuration_s);
+  fmt::print("delays exponential with 2 ms mean, 30 ms stalls 1 %, device clock off by 100 ppm; {} runs of {} s\n",
+             kSeeds, kDuration_s);
   fmt::print("{:>8} {:>18} {:>14} {:>12} {:>8} {:>14} {:>12}\n", "rate_Hz", "wander_ppm_sqrt_s", "arrival_rms_us",
              "model_rms_us", "ratio", "within_2_sigma", "ns_update");
   for (const double rate_Hz : {10.0, 20.0, 50.0, 200.0}) {

@@ -1,7 +1,9 @@
-// The product as its user has it: emulated instruments on pseudo-terminals, navcald reading them, then the tools on its
-// log. What was sent is what was logged, byte for byte; replay gives the samples that were live.
+// The product as its user has it: emulated instruments on pseudo-terminals, navcald reading them, then the tools
+// on its log. What was sent is what was logged, byte for byte; replay gives the samples that were live.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -53,7 +55,8 @@ class Mission : public testing::Test {
     Process instruments({tool("cli/navcal"), "emulate", "--dir", ports_.string(), "--seed", "5", "--sent-log",
                          (folder_ / "sent.cap").string()},
                         folder_ / "emulate");
-    ASSERT_TRUE(eventually([&] { return instruments.out().find("ready") != std::string::npos; })) << instruments.err();
+    ASSERT_TRUE(eventually([&] { return instruments.out().find("ready") != std::string::npos; }))
+        << instruments.err();
     Process daemon(daemon_command(), folder_ / "navcald");
     ASSERT_TRUE(eventually([&] { return logged_bytes() > 100'000; }, kPatience)) << daemon.err();
     daemon.signal(SIGTERM);
@@ -72,7 +75,8 @@ class Mission : public testing::Test {
     const auto set = [&](const std::string& key, const std::string& value) {
       command.insert(command.end(), {"--set", key + "=" + value});
     };
-    for (const std::string port : {"compass", "imu", "gps", "motor"}) set("port." + port + ".path", (ports_ / port).string());
+    for (const std::string port : {"compass", "imu", "gps", "motor"})
+      set("port." + port + ".path", (ports_ / port).string());
     set("log.directory", logs_.string());
     set("control.socket", (folder_ / "control").string());
     set("status.port", "0");
@@ -140,7 +144,7 @@ TEST_F(Mission, WhatWasSentIsWhatWasLoggedAndReplayIsWhatWasLive) {
 TEST_F(Mission, TheLogExportsToTheFormsThatOthersRead) {
   Process info({tool("cli/navcal"), "log", "info", "--json", log_.string()}, folder_ / "info");
   ASSERT_EQ(info.wait(kPatience), 0) << info.err();
-  EXPECT_NO_THROW((void)nlohmann::json::parse(info.out())) << info.out();
+  EXPECT_TRUE(nlohmann::json::accept(info.out())) << info.out();
 
   const auto capture = folder_ / "again.cap";
   Process cap({tool("cli/navcal"), "log", "export", "--cap", capture.string(), log_.string()}, folder_ / "cap");
@@ -149,10 +153,12 @@ TEST_F(Mission, TheLogExportsToTheFormsThatOthersRead) {
   EXPECT_EQ(exported.received, logged.received);
   EXPECT_EQ(exported.sent, logged.sent);
 
-  Process csv({tool("cli/navcal"), "log", "export", "--csv", (folder_ / "csv").string(), log_.string()}, folder_ / "csvout");
+  Process csv({tool("cli/navcal"), "log", "export", "--csv", (folder_ / "csv").string(), log_.string()},
+              folder_ / "csvout");
   ASSERT_EQ(csv.wait(kPatience), 0) << csv.err();
   std::size_t tables = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "csv")) {
+    if (entry.path().extension() != ".csv") continue;  // the configuration lies beside the tables
     ++tables;
     const auto rows = lines_of(test::read_file(entry.path()));
     ASSERT_FALSE(rows.empty());

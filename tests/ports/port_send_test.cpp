@@ -30,7 +30,7 @@ TEST_F(PortSend, ADialogue) {
   ASSERT_TRUE(run_until(io, [&] { return recorder.received == ":\r\n"; }));
   port->send(bytes_of("ec=e\r"));
   port->send(bytes_of("go\r"));
-  ASSERT_TRUE(run_until(io, [&] { return heard.size() == 10; }));
+  ASSERT_TRUE(run_until(io, [&] { return heard.size() == 10 && recorder.sent.size() == 10; }));
   EXPECT_EQ(heard, "h\rec=e\rgo\r");
   EXPECT_EQ(recorder.sent, heard) << "what is reported as sent is what was sent";
 }
