@@ -5,7 +5,8 @@
 
 int main(int argc, char** argv) {
   using navcal::cli::Exit;
-  CLI::App app{"navcal: watch, decode, replay, log and emulate the instruments of a small underwater vehicle", "navcal"};
+  CLI::App app{"navcal: watch, decode, replay, log and emulate the instruments of a small underwater vehicle",
+               "navcal"};
   app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
   app.require_subcommand(1);
   app.footer("Each command explains itself: navcal decode --help");

@@ -1,8 +1,9 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include "cli/commands.h"
@@ -40,7 +41,8 @@ class Printer : public pipeline::Sink {
 };
 
 /// Which port of the configuration in use each port of the recording is; -1: none of that name.
-std::vector<int> match_ports(const config::Settings& recorded, const config::Settings& used, const std::string& file) {
+std::vector<int> match_ports(const config::Settings& recorded, const config::Settings& used,
+                             const std::string& file) {
   std::vector<int> index;
   for (const auto& port : recorded.ports) {
     const auto found = std::find_if(used.ports.begin(), used.ports.end(),
@@ -79,7 +81,8 @@ void play(record::Recording& recording, const std::string& file, pipeline::Pipel
   }
   pipeline.advance(newest_ns, printer);
   if (entries >= 65536) report_progress(1);
-  for (const auto& remark : recording.remarks()) std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), remark.c_str());
+  for (const auto& remark : recording.remarks())
+    std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), remark.c_str());
 }
 
 void replay(const Options& options) {
@@ -107,7 +110,8 @@ void replay(const Options& options) {
 void add_replay(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("replay", "runs a recording through the pipeline: one JSON line a sample");
-  command->add_option("FILE", options->files, "log (.mcap) or capture (.cap); several of one series in their order")
+  command
+      ->add_option("FILE", options->files, "log (.mcap) or capture (.cap); several of one series in their order")
       ->required();
   command->add_option("--config", options->config, "configuration to use instead of the recording's own");
   command->add_flag("--json", options->json, "JSON lines (this is the default)");

@@ -43,7 +43,8 @@ class PtyHost {
   [[nodiscard]] bool has_client() const;
   /// Bytes that a client has not read yet; a hang-up would lose them.
   [[nodiscard]] std::size_t unread() const;
-  /// The speed to which the client has set its end, until then that of the host; 0 when unplugged or not a usual one.
+  /// The speed to which the client has set its end, until then that of the host; 0 when unplugged or not a usual
+  /// one.
   [[nodiscard]] int client_baud() const;
   [[nodiscard]] const Tally& tally() const;
   [[nodiscard]] const std::filesystem::path& link() const;
