@@ -9,8 +9,8 @@
 #include "cli/commands.h"
 #include "cli/decode_describe.h"
 #include "cli/decode_input.h"
-#include "cli/decode_progress.h"
 #include "cli/decode_stream.h"
+#include "cli/progress.h"
 #include "protocols/imu_card.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"
@@ -44,11 +44,12 @@ template <protocols::Scanner S>
 DecodeSummary decode_with(Describe describe, Protocol protocol, const std::optional<Date>& pivot, Input& input,
                           FieldWriter& fields) {
   const std::string_view name = name_of(protocol);
-  Progress progress(input.size());
+  Progress progress("decode");
+  std::uint64_t done = 0;
   return decode_stream<S>(
       [&] {
         const protocols::Bytes bytes = input.next();
-        progress.advance(bytes.size());
+        progress.show_bytes(done += bytes.size(), input.size());
         return bytes;
       },
       [&](const protocols::Frame& frame) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "cli/decode_output.h"
+#include "cli/output.h"
 #include "protocols/frame.h"
 #include "protocols/nmea_decimal.h"
 #include "protocols/utc.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <map>
 
-#include "cli/decode_output.h"
+#include "cli/output.h"
 #include "protocols/frame.h"
 
 namespace navcal::cli {

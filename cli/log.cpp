@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/progress.h"
 #include "record/export.h"
 #include "record/log_info.h"
 #include "record/log_repair.h"
@@ -31,36 +32,16 @@ class Interruptible {
   }
 };
 
-/// Percentages on a terminal; nothing elsewhere.
-class Percent {
- public:
-  Percent() : enabled_(::isatty(STDERR_FILENO) == 1) {}
-  Percent(const Percent&) = delete;
-  Percent& operator=(const Percent&) = delete;
-  ~Percent() {
-    if (shown_ >= 0) fmt::print(stderr, "\r\x1b[K");
-  }
-  void operator()(double done) {
-    if (interrupted != 0) throw Failure(Exit::failed, "interrupted: nothing was written");
-    const int percent = static_cast<int>(done * 100);
-    if (!enabled_ || percent == shown_ || percent >= 100) return;
-    shown_ = percent;
-    fmt::print(stderr, "\rnavcal log: {} %", percent);
-    std::fflush(stderr);
-  }
-
- private:
-  bool enabled_;
-  int shown_ = -1;
-};
-
 /// Runs a job with progress; turns what it throws into the statuses of the contract.
 template <class Job>
 auto run(Job job) {
   const Interruptible interruptible;
-  Percent percent;
+  Progress progress("log");
   try {
-    return job(record::Progress([&percent](double done) { percent(done); }));
+    return job(record::Progress([&progress](double done) {
+      if (interrupted != 0) throw Failure(Exit::failed, "interrupted: nothing was written");
+      progress.show(done);
+    }));
   } catch (const record::BadRecording& error) {
     throw Failure(Exit::bad_input, error.what());
   } catch (const std::system_error& error) {

@@ -1,7 +1,6 @@
 #include "cli/play_session.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <boost/asio/use_awaitable.hpp>
@@ -9,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+
+#include "cli/progress.h"
 
 namespace navcal::cli {
 namespace {
@@ -56,8 +57,7 @@ asio::awaitable<void> PlaySession::run() {
   co_await wait_for_readers();
   const auto start = steady_clock::now();
   std::optional<std::int64_t> first_ns;
-  bool progress = ::isatty(STDERR_FILENO) != 0;
-  auto told = start;
+  Progress progress("play");
   while (const auto entry = recording_->next()) {
     const auto* read = std::get_if<record::RawRead>(&*entry);
     if (read == nullptr || read->direction != record::Direction::received) continue;
@@ -66,12 +66,8 @@ asio::awaitable<void> PlaySession::run() {
     timer_.expires_at(start + std::chrono::nanoseconds(std::llround(after_ns)));
     co_await timer_.async_wait(asio::use_awaitable);
     hosts_.at(read->port)->write(read->bytes);
-    if (progress && steady_clock::now() - told > std::chrono::seconds(1)) {
-      told = steady_clock::now();
-      fmt::print(stderr, "\rplayed {:.0f} %", 100 * recording_->progress());
-    }
+    progress.show(recording_->progress());
   }
-  if (progress) fmt::print(stderr, "\r              \r");
   co_await wait_until_read();
 }
 

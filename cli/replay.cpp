@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/decode_output.h"
+#include "cli/output.h"
+#include "cli/progress.h"
 #include "config/load.h"
 #include "pipeline/pipeline.h"
 #include "record/recording.h"
@@ -56,15 +57,11 @@ std::vector<int> match_ports(const config::Settings& recorded, const config::Set
   return index;
 }
 
-void report_progress(double share) {
-  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r%3.0f %%", 100 * share);
-}
-
 /// Plays one file through the pipeline; files of one series may follow each other.
 void play(record::Recording& recording, const std::string& file, pipeline::Pipeline& pipeline, Printer& printer) {
   const auto port_index = match_ports(recording.settings(), pipeline.settings(), file);
   std::int64_t newest_ns = 0;
-  std::uint64_t entries = 0;
+  Progress progress("replay");
   while (const auto entry = recording.next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       newest_ns = std::max(newest_ns, raw->time_ns);
@@ -77,10 +74,9 @@ void play(record::Recording& recording, const std::string& file, pipeline::Pipel
     } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) {
       newest_ns = std::max(newest_ns, event->time_ns);
     }
-    if (++entries % 65536 == 0) report_progress(recording.progress());
+    progress.show(recording.progress());
   }
   pipeline.advance(newest_ns, printer);
-  if (entries >= 65536) report_progress(1);
   for (const auto& remark : recording.remarks())
     std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), remark.c_str());
 }

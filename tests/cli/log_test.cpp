@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../record/sample_log.h"
-#include "../record/temporary_folder.h"
 #include "cli/commands.h"
+#include "tests/record/temporary_folder.h"
 
 namespace navcal::cli {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "tests/daemon/tcp_client.h"
-#include "tests/daemon/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace navcal::daemon {
 
@@ -157,7 +157,7 @@ class DaemonProcess {
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::vector<std::string> arguments_;
   std::uint16_t port_ = 0;
   pid_t pid_ = 0;

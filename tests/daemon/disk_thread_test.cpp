@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "tests/daemon/difficult_disk.h"
-#include "tests/daemon/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace navcal::daemon {
 namespace {
@@ -55,7 +55,7 @@ class DiskThreadTest : public ::testing::Test {
   }
 
   DifficultDisk disk_;
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::unique_ptr<DiskThread> thread_;
 };
 

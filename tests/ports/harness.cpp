@@ -12,17 +12,6 @@ namespace navcal::ports::testing {
 
 namespace fs = std::filesystem;
 
-Folder::Folder() {
-  std::string name = (fs::temp_directory_path() / "navcal-ports-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code error;
-  fs::remove_all(path_, error);
-}
-
 bool run_until(boost::asio::io_context& io, const std::function<bool()>& condition,
                std::chrono::milliseconds limit) {
   const auto end = std::chrono::steady_clock::now() + limit;

@@ -12,19 +12,11 @@
 #include "ports/descriptor.h"
 #include "ports/port.h"
 #include "ports/pty_host.h"
+#include "tests/support/temporary_folder.h"
 
 namespace navcal::ports::testing {
 
-/// A folder of this test's own, removed at the end.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using Folder = test::TemporaryFolder;
 
 /// Runs the context until the condition holds. False when it does not within a time that no machine needs.
 bool run_until(boost::asio::io_context& io, const std::function<bool()>& condition,

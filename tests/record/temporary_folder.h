@@ -2,35 +2,29 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
+#include "tests/support/temporary_folder.h"
+
 namespace navcal::record::testing {
 
-/// A folder that goes with the test.
+/// A test with a folder of its own.
 class TemporaryFolder : public ::testing::Test {
  protected:
-  TemporaryFolder() {
-    std::string name = ::testing::TempDir() + "navcal-XXXXXX";
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryFolder() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
     std::ofstream(path_ / name, std::ios::binary) << bytes;
     return path_ / name;
   }
-  static std::string read(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  std::filesystem::path path_;
+  static std::string read(const std::filesystem::path& file) { return test::read_file(file); }
+
+ private:
+  test::TemporaryFolder folder_;
+
+ protected:
+  const std::filesystem::path path_ = folder_.path();
 };
 
 }  // namespace navcal::record::testing

@@ -1,4 +1,4 @@
-#include "cli/decode_output.h"
+#include "cli/output.h"
 
 #include <unistd.h>
 

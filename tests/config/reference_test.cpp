@@ -1,4 +1,6 @@
 // The shipped file and the page in docs/ say what the program does.
+#include "config/reference.h"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,7 +10,6 @@
 
 #include "config/load.h"
 #include "config/options.h"
-#include "config/reference.h"
 
 namespace navcal::config {
 namespace {

@@ -1,10 +1,10 @@
+#include "config/units.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <numbers>
 #include <random>
-
-#include "config/units.h"
 
 namespace navcal::config {
 namespace {

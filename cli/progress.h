@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace navcal::cli {
+
+/// How far a long job has come, on a terminal's standard error; silent when there is none, when standard output is
+/// the same terminal, and for jobs of less than a second.
+class Progress {
+ public:
+  explicit Progress(std::string job);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// 0 to 1 of the whole.
+  void show(double share);
+  /// Of an input whose length may not be known.
+  void show_bytes(std::uint64_t done, std::optional<std::uint64_t> total);
+
+ private:
+  [[nodiscard]] bool due();
+  void print(std::string_view text);
+
+  std::string job_;
+  bool shown_ = false;
+  bool enabled_;
+  std::chrono::steady_clock::time_point next_;
+};
+
+}  // namespace navcal::cli
