@@ -21,7 +21,7 @@ class Talking {
   explicit Talking(const FakeLine& line)
       : thread_([this, &line] {
           for (int i = 0; !over_; i = (i + 1) % 60) {
-            char second[3];
+            char second[16];
             std::snprintf(second, sizeof second, "%02d", i);
             line.sentence("GPRMC,1200" + std::string(second) +
                           ".00,A,5742.7698,N,01201.3554,E,1.31,10.0,211126,,,A");
