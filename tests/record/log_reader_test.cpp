@@ -81,7 +81,7 @@ TEST(LogReader, GarbageInTheMiddleIsPassedOver) {
   std::string bytes = log.bytes;
   const auto at = log.ends[10];
   std::string garbage;
-  for (int i = 0; i < 70'000; ++i) garbage += static_cast<char>(i * i % 251);
+  for (unsigned i = 0; i < 70'000; ++i) garbage += static_cast<char>(i * i % 251);
   bytes.insert(at, garbage);
   LogReader reader = reader_of(bytes);
   EXPECT_EQ(read_all(reader), log.messages);
