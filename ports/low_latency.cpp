@@ -14,12 +14,14 @@ std::string ask_driver(int fd, std::optional<int>& former_flags) {
   serial_struct serial{};
   if (::ioctl(fd, TIOCGSERIAL, &serial) != 0) return "the driver has no low latency mode";
   const int former = serial.flags;
-  if ((former & ASYNC_LOW_LATENCY) != 0) return "the driver was in low latency mode already";
+  if ((static_cast<unsigned>(former) & ASYNC_LOW_LATENCY) != 0)
+    return "the driver was in low latency mode already";
   serial.flags |= ASYNC_LOW_LATENCY;
   if (::ioctl(fd, TIOCSSERIAL, &serial) != 0) return fmt::format("the driver refused: {}", std::strerror(errno));
   former_flags = former;
   serial_struct now{};
-  if (::ioctl(fd, TIOCGSERIAL, &now) == 0 && (now.flags & ASYNC_LOW_LATENCY) != 0) return "low latency mode is on";
+  if (::ioctl(fd, TIOCGSERIAL, &now) == 0 && (static_cast<unsigned>(now.flags) & ASYNC_LOW_LATENCY) != 0)
+    return "low latency mode is on";
   return "asked for, but the driver does not confirm it";
 }
 

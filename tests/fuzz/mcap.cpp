@@ -34,7 +34,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (data[0] % 3 == 1) file += input;
   if (data[0] % 3 == 2) {
     for (std::size_t i = 0; i + 2 < input.size(); i += 3) {
-      const std::size_t at = static_cast<unsigned char>(input[i]) << 8 | static_cast<unsigned char>(input[i + 1]);
+      const auto high = static_cast<std::size_t>(static_cast<unsigned char>(input[i]));
+      const std::size_t at = high << 8 | static_cast<unsigned char>(input[i + 1]);
       file[at % file.size()] = input[i + 2];
     }
   }
