@@ -9,9 +9,6 @@ namespace navcal::instruments {
 inline constexpr double kRadPerDeg = std::numbers::pi / 180;
 /// The g of the accelerometers' scale (VEHICLE.md section 1).
 inline constexpr double kGravity_m_s2 = 9.81;
-inline constexpr double kMetresPerFoot = 0.3048;
-inline constexpr double kMetresPerFathom = 1.8288;
-inline constexpr double kKnot_m_s = 1852.0 / 3600.0;
 
 [[nodiscard]] constexpr double radians_of(double angle, config::AngleUnit unit) {
   switch (unit) {
