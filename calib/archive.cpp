@@ -1,0 +1,42 @@
+#include "calib/archive.h"
+
+#include <bit>
+#include <cstring>
+
+namespace navcal::calib {
+
+static_assert(std::endian::native == std::endian::little, "the state of calibrators is written little-endian");
+
+void Archive::raw(void* data, std::size_t size) {
+  if (saving_) {
+    saved_.append(static_cast<const char*>(data), size);
+    return;
+  }
+  if (!ok_ || source_.size() < size) {
+    ok_ = false;
+    return;
+  }
+  std::memcpy(data, source_.data(), size);
+  source_.remove_prefix(size);
+}
+
+void Archive::tag(std::string_view name) {
+  std::string found(name);
+  (*this)(found);
+  if (found != name) ok_ = false;
+}
+
+void Archive::operator()(std::string& text) {
+  std::uint64_t size = text.size();
+  (*this)(size);
+  if (!saving_) {
+    if (!ok_ || size > source_.size()) {
+      ok_ = false;
+      return;
+    }
+    text.resize(size);
+  }
+  raw(text.data(), text.size());
+}
+
+}  // namespace navcal::calib

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace navcal::calib {
+
+/// Saves and restores the state of calibrators: one function `archive(Archive&)` of each class names its members
+/// in a fixed order and serves for both. Binary, little-endian, exact: a restored calibrator goes on bit for bit
+/// as the saved one would have. A change of a layout changes the tag() of its class.
+class Archive {
+ public:
+  Archive() = default;                                                          ///< saves
+  explicit Archive(std::string_view bytes) : saving_(false), source_(bytes) {}  ///< restores
+
+  [[nodiscard]] bool saving() const { return saving_; }
+  /// False after a restore from bytes that are too short, or of another layout.
+  [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] const std::string& bytes() const { return saved_; }
+  /// Whether a restore has used up everything.
+  [[nodiscard]] bool at_end() const { return source_.empty(); }
+
+  /// Name and version of a layout, e.g. "turn_filter 1"; restoring another one fails.
+  void tag(std::string_view name);
+
+  template <class T>
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(T& value) { raw(&value, sizeof value); }
+  template <class Scalar, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
+  requires(Rows != Eigen::Dynamic && Columns != Eigen::Dynamic) void operator()(
+      Eigen::Matrix<Scalar, Rows, Columns, Options, MaxRows, MaxColumns>& matrix) {
+    raw(matrix.data(), sizeof(Scalar) * static_cast<std::size_t>(matrix.size()));
+  }
+  template <class T>
+  void operator()(std::optional<T>& value) {
+    bool present = value.has_value();
+    (*this)(present);
+    if (!ok_) return;
+    if (!saving_) value = present ? std::optional<T>(T{}) : std::nullopt;
+    if (value) (*this)(*value);
+  }
+  template <class T, std::size_t N>
+  void operator()(std::array<T, N>& values) {
+    for (T& value : values) (*this)(value);
+  }
+  /// At most `kMaxElements` elements: what is damaged must not ask for all memory.
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    std::uint64_t size = values.size();
+    (*this)(size);
+    if (!saving_) {
+      if (size > kMaxElements) ok_ = false;
+      if (!ok_) return;
+      values.assign(size, T{});
+    }
+    for (T& value : values) (*this)(value);
+  }
+  void operator()(std::string& text);
+  template <class T>
+  requires requires(T& object, Archive& archive) { object.archive(archive); }
+  void operator()(T& object) { object.archive(*this); }
+  template <class First, class Second, class... Rest>
+  void operator()(First& first, Second& second, Rest&... rest) {
+    (*this)(first);
+    (*this)(second);
+    (((*this)(rest)), ...);
+  }
+
+ private:
+  static constexpr std::uint64_t kMaxElements = 1 << 20;
+  void raw(void* data, std::size_t size);
+
+  bool saving_ = true;
+  bool ok_ = true;
+  std::string saved_;
+  std::string_view source_;
+};
+
+}  // namespace navcal::calib

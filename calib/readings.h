@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+/// What the calibrators are fed: readings of the instruments in SI units and body axes (x forward, y starboard, z
+/// down), each with the time at which it was measured, in seconds from an origin of the caller's choice. No
+/// calibrator reads a clock.
+namespace navcal::calib {
+
+struct CompassReading {
+  double time_s = 0;
+  std::optional<double> heading_rad;  ///< as the device says it, clockwise from magnetic north
+  std::optional<double> pitch_rad;    ///< positive nose-up
+  std::optional<double> roll_rad;     ///< positive starboard-down
+  std::optional<Eigen::Vector3d> field_body_uT;
+  bool faulty = false;  ///< the device says so itself (TCM2 E002, E004)
+};
+
+struct RateReading {
+  double time_s = 0;
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();  ///< gyro A-x, B-y, A-z
+  double yaw_rate_b_rad_s = 0;                           ///< gyro B-z, redundant
+  Eigen::Vector3d specific_force_m_s2 = Eigen::Vector3d::Zero();
+  bool saturated = false;  ///< the card's converter was over its range
+};
+
+/// A fix at the surface, in a local plane (north, east) that the caller holds fixed.
+struct GroundReading {
+  double time_s = 0;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< north, east
+  double speed_m_s = 0;                                  ///< over ground
+  std::optional<double> course_rad;                      ///< over ground, clockwise from true north
+};
+
+struct MotorReading {
+  double time_s = 0;
+  double rpm = 0;
+};
+
+}  // namespace navcal::calib
