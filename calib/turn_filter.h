@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "calib/archive.h"
+#include "calib/turn_step.h"
+
+namespace navcal::calib {
+
+/// Scale and bias of a yaw gyro, true rate = scale * measured + bias (2.12), and the deviation B, C, D, E of a
+/// compass, psi = psi_m - A - f4(psi_m)'q (2.7, 2.8); rad/s and radians. A is in no turn: it stays in the heading.
+using TurnCoefficients = Eigen::Matrix<double, 6, 1>;
+using TurnCovariance = Eigen::Matrix<double, 6, 6>;
+enum TurnCoefficient : int { kScale, kBias, kB, kC, kD, kE };
+
+/// What is believed before the first reading. A variance of zero holds the coefficient: a compass without error,
+/// or a gyro known exactly. A gyro calibrated before is the covariance of that calibration.
+struct TurnPrior {
+  TurnCoefficients mean = TurnCoefficients::Unit(kScale);
+  TurnCovariance covariance = TurnCovariance::Zero();
+  std::array<bool, 6> sought{};  ///< those that are to be found: loose, and not correlated with any other
+
+  /// The compass has no error, the gyro is unknown (THESIS chapter 3).
+  [[nodiscard]] static TurnPrior unknown_gyro();
+  /// The gyro is known, the compass is not (section 4.2); the covariance that of (scale, bias).
+  [[nodiscard]] static TurnPrior unknown_compass(double scale, double bias_rad_s,
+                                                 const Eigen::Matrix2d& gyro_covariance);
+  /// Neither is known (the thesis's major problem, THESIS 11.3).
+  [[nodiscard]] static TurnPrior unknown_both();
+};
+
+/// Model: psi_m(n) - T(n) = psi0 + scale S1(n) + bias S2(n) + f4(psi_m(n))'q + heading noise (white) + scale times
+/// the integral of the gyro's rate noise (a random walk), S1, S2, T the sums of TurnStep (THESIS 11.7), psi0 one
+/// for each segment; the bias may itself walk. Radians, rad/s, heading clockwise from magnetic north less A.
+///
+/// One filter for three calibrations, told apart by the prior: gyro (errorless compass), compass (known gyro),
+/// both together. Friedland's two stages (IEEE Trans. Automatic Control 14, 1969): a Kalman filter for heading and
+/// bias, the constants entering through their sensitivities, on whose innovations they are found by weighted least
+/// squares. That equals generalised least squares over all readings.
+///
+/// The measured rate is a regressor with noise, which pulls the scale towards zero where the rate hardly changes.
+/// The expectation of that pull is subtracted (corrected score; Nakamura, Biometrika 77, 1990), as much of it as
+/// the residuals bear out: the estimate then is that of errors in variables by maximum likelihood to first order.
+class TurnFilter {
+ public:
+  struct Parameters {
+    double heading_noise_rad = 0.004;       ///< standard deviation of one compass reading
+    double rate_noise_rad_sqrt_s = 0.0016;  ///< density: standard deviation of a reading times sqrt(its period)
+    double bias_walk_rad_s_sqrt_s = 0;      ///< density of the random walk of the bias; 0: it is constant
+  };
+
+  explicit TurnFilter(const Parameters& parameters, const TurnPrior& prior = TurnPrior::unknown_both());
+
+  void update(const TurnStep& step);
+  /// The turn up to the next reading is unknown; what was learnt is kept.
+  void begin_segment() { in_segment_ = false; }
+
+  [[nodiscard]] TurnCoefficients estimate() const;
+  /// Of the estimate; enlarged by reduced_chi_squared() when that exceeds 1.
+  [[nodiscard]] TurnCovariance covariance() const;
+  /// Of what the data say of the coefficients sought, each scaled to unit diagonal; large: they cannot be told
+  /// apart; infinite: nothing is known of one of them.
+  [[nodiscard]] double condition() const;
+  /// Mean square of the normalised innovations at the estimate: 1 when the noise is as stated, with standard
+  /// deviation sqrt(2/readings()).
+  [[nodiscard]] double reduced_chi_squared() const;
+  /// Heading at the last reading, less A, and its variance.
+  [[nodiscard]] double heading_rad() const;
+  [[nodiscard]] double heading_variance_rad2() const;
+  [[nodiscard]] std::uint64_t readings() const { return readings_; }  ///< that told something
+  [[nodiscard]] std::uint64_t left_out() const { return left_out_; }  ///< not finite, or no time between them
+
+  void archive(Archive& archive);
+
+ private:
+  /// What does not change: scale, B, C, D, E.
+  using Constants = Eigen::Matrix<double, 5, 1>;
+  using ConstantsMatrix = Eigen::Matrix<double, 5, 5>;
+  /// Found from the sums so far; constants as departures from the prior.
+  struct Solution {
+    Constants departure = Constants::Zero();
+    ConstantsMatrix covariance = ConstantsMatrix::Zero();
+    double chi_squared = 0;
+    void archive(Archive& archive) { archive(departure, covariance, chi_squared); }
+  };
+
+  void start(const TurnStep& step, const Constants& regressors);
+  void predict(const TurnStep& step);
+  void correct(const TurnStep& step, const Constants& regressors);
+  void solve();
+  [[nodiscard]] Constants regressors(double heading_rad) const;
+  [[nodiscard]] double heading_variance(double heading_rad) const;
+  [[nodiscard]] double scale_of_noise() const;
+  [[nodiscard]] TurnCovariance unscaled_covariance() const;
+
+  Parameters parameters_;
+  TurnPrior prior_;
+  ConstantsMatrix prior_information_;
+
+  // First stage, at the prior's constants: heading and bias, and how they depend on the constants.
+  Eigen::Vector2d state_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d state_covariance_ = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, 2, 5> sensitivity_ = Eigen::Matrix<double, 2, 5>::Zero();
+  Eigen::Matrix2d pull_state_ = Eigen::Matrix2d::Zero();  ///< variance of the scale's sensitivity by rate noise
+
+  // Second stage: sums over the innovations.
+  ConstantsMatrix information_ = ConstantsMatrix::Zero();
+  Constants moment_ = Constants::Zero();
+  double square_ = 0;
+  double pull_ = 0;  ///< what rate noise adds to the information on the scale, in expectation
+  Solution solution_;
+
+  double time_s_ = 0;  ///< of the newest reading
+  bool in_segment_ = false;
+  std::uint64_t readings_ = 0;
+  std::uint64_t innovations_ = 0;
+  std::uint64_t left_out_ = 0;
+};
+
+}  // namespace navcal::calib
