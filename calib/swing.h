@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "calib/archive.h"
+#include "calib/judgement.h"
+
+namespace navcal::calib {
+
+/// Model: deviation(psi_m) = psi_m - psi_ref (rad), averaged while the vehicle rests on each of the eight headings
+/// 0, 45 .. 315 degrees by its own compass; psi_ref from whatever is trusted: a calibrated gyro, the GPS course of
+/// a straight run, or the heading the operator gives. The practice of the REMUS work (THESIS 4.1, Stokey): the
+/// deviations become a correction table, interpolated between headings; A..E of (2.7) are fitted to it beside.
+class Swing {
+ public:
+  static constexpr std::size_t kHeadings = 8;
+  struct Parameters {
+    double dwell_s = 10;              ///< least rest on a heading
+    double settle_s = 2;              ///< the beginning of a rest is not averaged
+    double band_rad = 0.06;           ///< a rest: the compass stays within so much of its mean
+    double sector_rad = 0.2;          ///< how far from the nominal heading a rest may be
+    double longest_gap_s = 2;         ///< between readings of one rest
+    double reference_std_rad = 0.01;  ///< of the reference on one rest, the same for all its readings
+    double reading_std_rad = 0.004;   ///< of a single reading
+  };
+  /// One of the eight.
+  struct Heading {
+    double heading_rad = 0;    ///< mean of the compass there, 0..2 pi
+    double deviation_rad = 0;  ///< mean
+    double std_rad = 0;
+    std::uint32_t rests = 0;
+    std::uint64_t readings = 0;
+  };
+  using Coefficients = Eigen::Matrix<double, 5, 1>;
+  struct Estimate {
+    Coefficients deviation = Coefficients::Zero();  ///< A..E, rad
+    Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+    double residual_rad = 0;  ///< root-mean-square of the eight about A..E
+  };
+
+  Swing() : Swing(Parameters{}) {}
+  explicit Swing(const Parameters& parameters);
+
+  /// Heading as the compass says it and the reference at the same time.
+  void update(double time_s, double measured_heading_rad, double reference_heading_rad);
+
+  [[nodiscard]] std::array<Heading, kHeadings> headings() const;
+  [[nodiscard]] std::array<bool, kHeadings> missing() const;
+  /// Deviation at a measured heading by the table; nullopt until all eight headings are there.
+  [[nodiscard]] std::optional<double> deviation_rad(double measured_heading_rad) const;
+  /// A..E; nullopt with fewer than five headings.
+  [[nodiscard]] std::optional<Estimate> estimate() const;
+  /// Seconds still to rest on the present heading; nullopt while turning or where a rest is not asked for.
+  [[nodiscard]] std::optional<double> remaining_s() const;
+  [[nodiscard]] Judgement judgement() const;
+  void archive(Archive& archive);
+
+ private:
+  /// Sums over a rest, or over all rests on a heading; angles relative to the nominal heading.
+  struct Sums {
+    double weight = 0, heading = 0, deviation = 0;  ///< weighted sums over rests
+    std::uint32_t rests = 0;
+    std::uint64_t readings = 0;
+    void archive(Archive& archive) { archive(weight, heading, deviation, rests, readings); }
+  };
+  void end_rest();
+
+  Parameters parameters_;
+  std::array<Sums, kHeadings> sums_{};
+  // The rest under way.
+  bool resting_ = false;
+  std::size_t sector_ = 0;
+  double begin_s_ = 0, last_s_ = 0;
+  double heading_sum_ = 0, deviation_sum_ = 0, band_sum_ = 0, band_readings_ = 0;
+  std::uint64_t readings_ = 0;
+};
+
+}  // namespace navcal::calib
