@@ -41,7 +41,8 @@ class Archive {
     bool present = value.has_value();
     (*this)(present);
     if (!ok_) return;
-    if (!saving_) value = present ? std::optional<T>(T{}) : std::nullopt;
+    if (!saving_) value.reset();
+    if (!saving_ && present) value.emplace();
     if (value) (*this)(*value);
   }
   template <class T, std::size_t N>

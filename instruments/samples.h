@@ -20,12 +20,19 @@ struct Stamp {
   std::int64_t validity_utc_ns = 0;  ///< validity_ns likewise; for GPS the second that the message states
 };
 
+/// The calibration in force when a sample was made; number 0: none.
+struct CalibrationName {
+  std::uint32_t number = 0;
+  std::uint32_t sum = 0;  ///< over what it says
+};
+
 /// Magnetic compass. Body axes x forward, y starboard, z down; angles as the device said them, magnetic.
 struct CompassSample {
-  std::optional<double> heading_rad;  ///< 0..2 pi clockwise from magnetic north
-  bool heading_is_true = false;       ///< the device itself says true north (HDT, THS)
-  std::optional<double> pitch_rad;    ///< positive nose-up
-  std::optional<double> roll_rad;     ///< positive starboard-down
+  std::optional<double> heading_rad;             ///< 0..2 pi clockwise from magnetic north
+  bool heading_is_true = false;                  ///< the device itself says true north (HDT, THS)
+  std::optional<double> heading_calibrated_rad;  ///< magnetic, by the calibration in force; 0..2 pi
+  std::optional<double> pitch_rad;               ///< positive nose-up
+  std::optional<double> roll_rad;                ///< positive starboard-down
   std::optional<Vector3> field_body_uT;
   std::optional<double> dip_rad;          ///< as the device says it, where it does
   std::optional<double> turn_rate_rad_s;  ///< as the device says it (ROT), positive to starboard
@@ -35,9 +42,11 @@ struct CompassSample {
 
 /// Inertial card (ICD section 3), body axes.
 struct ImuSample {
-  Vector3 rate_rad_s{};           ///< gyro A-x (roll), B-y (pitch), A-z (yaw)
-  double yaw_rate_b_rad_s = 0;    ///< gyro B-z, redundant
-  Vector3 specific_force_m_s2{};  ///< -9.81 in z when level and still
+  Vector3 rate_rad_s{};                               ///< gyro A-x (roll), B-y (pitch), A-z (yaw)
+  double yaw_rate_b_rad_s = 0;                        ///< gyro B-z, redundant
+  std::optional<double> yaw_rate_calibrated_rad_s;    ///< A-z by the calibration in force
+  std::optional<double> yaw_rate_b_calibrated_rad_s;  ///< B-z likewise
+  Vector3 specific_force_m_s2{};                      ///< -9.81 in z when level and still
   double depth_m = 0;
   std::uint8_t sequence = 0;
   bool leak_forward = false;
@@ -92,6 +101,7 @@ struct AltimeterSample {
 struct Sample {
   std::uint16_t port = 0;  ///< index into the configuration's ports
   Stamp stamp;
+  CalibrationName calibration;
   std::variant<CompassSample, ImuSample, GpsSample, SkySample, MotorSample, AltimeterSample> value;
 };
 

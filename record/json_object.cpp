@@ -111,6 +111,11 @@ void JsonObject::text(std::string_view key, std::string_view value) {
   }
 }
 
+void JsonObject::raw(std::string_view key, std::string_view json) {
+  begin(key);
+  out_ += json;
+}
+
 void JsonObject::null(std::string_view key) {
   begin(key);
   out_ += "null";

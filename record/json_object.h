@@ -30,6 +30,8 @@ class JsonObject {
   /// Any bytes; what is not UTF-8 becomes U+FFFD.
   void text(std::string_view key, std::string_view value);
   void null(std::string_view key);
+  /// `json` is a whole value.
+  void raw(std::string_view key, std::string_view json);
 
  private:
   void begin(std::string_view key);

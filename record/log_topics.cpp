@@ -25,6 +25,7 @@ constexpr std::array kCompass{Field{"time", number, "s"},
                               Field{"arrival", number, "s"},
                               Field{"device", text},
                               Field{"heading_rad"},
+                              Field{"heading_calibrated_rad"},
                               Field{"heading_is_true", boolean},
                               Field{"pitch_rad"},
                               Field{"roll_rad"},
@@ -32,7 +33,8 @@ constexpr std::array kCompass{Field{"time", number, "s"},
                               Field{"dip_rad"},
                               Field{"turn_rate_rad_s"},
                               Field{"temperature_C"},
-                              Field{"error", text}};
+                              Field{"error", text},
+                              Field{"calibration", text}};
 
 constexpr std::array kImu{Field{"time", number, "s"},
                           Field{"time_std", number, "s"},
@@ -40,13 +42,16 @@ constexpr std::array kImu{Field{"time", number, "s"},
                           Field{"device", text},
                           Field{"rate_rad_s", vector3},
                           Field{"yaw_rate_b_rad_s"},
+                          Field{"yaw_rate_calibrated_rad_s"},
+                          Field{"yaw_rate_b_calibrated_rad_s"},
                           Field{"specific_force_m_s2", vector3},
                           Field{"depth_m"},
                           Field{"sequence"},
                           Field{"leak_forward", boolean},
                           Field{"leak_aft", boolean},
                           Field{"over_range", boolean},
-                          Field{"low_supply", boolean}};
+                          Field{"low_supply", boolean},
+                          Field{"calibration", text}};
 
 constexpr std::array kGps{Field{"time", number, "s"},
                           Field{"time_std", number, "s"},
@@ -64,7 +69,8 @@ constexpr std::array kGps{Field{"time", number, "s"},
                           Field{"visible"},
                           Field{"tracked"},
                           Field{"time_corrected", boolean},
-                          Field{"leap_known", boolean}};
+                          Field{"leap_known", boolean},
+                          Field{"calibration", text}};
 
 constexpr std::array kMotor{Field{"time", number, "s"},
                             Field{"time_std", number, "s"},
@@ -74,10 +80,12 @@ constexpr std::array kMotor{Field{"time", number, "s"},
                             Field{"rpm_commanded"},
                             Field{"fins_rad", vector3},
                             Field{"current_A"},
-                            Field{"sequence"}};
+                            Field{"sequence"},
+                            Field{"calibration", text}};
 
-constexpr std::array kAltimeter{Field{"time", number, "s"}, Field{"time_std", number, "s"},
-                                Field{"arrival", number, "s"}, Field{"device", text}, Field{"altitude_m"}};
+constexpr std::array kAltimeter{Field{"time", number, "s"},    Field{"time_std", number, "s"},
+                                Field{"arrival", number, "s"}, Field{"device", text},
+                                Field{"altitude_m"},           Field{"calibration", text}};
 
 constexpr std::array kTopics{
     Topic{topic::kConfig, "/config", "navcal.Config", kConfig},

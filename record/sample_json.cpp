@@ -33,12 +33,21 @@ void append_count(JsonObject& json, std::string_view key, const std::optional<st
   }
 }
 
+void append_calibration(JsonObject& json, instruments::CalibrationName name) {
+  if (name.number == 0) {
+    json.null("calibration");
+  } else {
+    json.text("calibration", calibration_text(name));
+  }
+}
+
 /// Writes the members that each kind of sample has of its own.
 struct Body {
   JsonObject& json;
 
   void operator()(const instruments::CompassSample& s) const {
     json.number("heading_rad", s.heading_rad);
+    json.number("heading_calibrated_rad", s.heading_calibrated_rad);
     json.boolean("heading_is_true", s.heading_is_true);
     json.number("pitch_rad", s.pitch_rad);
     json.number("roll_rad", s.roll_rad);
@@ -60,6 +69,8 @@ struct Body {
   void operator()(const instruments::ImuSample& s) const {
     json.numbers("rate_rad_s", s.rate_rad_s);
     json.number("yaw_rate_b_rad_s", s.yaw_rate_b_rad_s);
+    json.number("yaw_rate_calibrated_rad_s", s.yaw_rate_calibrated_rad_s);
+    json.number("yaw_rate_b_calibrated_rad_s", s.yaw_rate_b_calibrated_rad_s);
     json.numbers("specific_force_m_s2", s.specific_force_m_s2);
     json.number("depth_m", s.depth_m);
     json.integer("sequence", s.sequence);
@@ -114,10 +125,15 @@ struct ClassName {
 
 }  // namespace
 
+std::string calibration_text(instruments::CalibrationName name) {
+  return fmt::format("{}-{:08x}", name.number, name.sum);
+}
+
 void append_json(std::string& out, const instruments::Sample& sample, std::string_view device) {
   JsonObject json(out, std::visit(ClassName{}, sample.value));
   append_head(json, sample.stamp, device);
   std::visit(Body{json}, sample.value);
+  append_calibration(json, sample.calibration);
 }
 
 }  // namespace navcal::record

@@ -1,0 +1,115 @@
+#include "calib/correction.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace navcal::calib {
+namespace {
+
+constexpr double kTurn_rad = 2 * std::numbers::pi;
+
+constexpr std::array<std::string_view, kCalibrators.size()> kNames{
+    "gyro",  "gyro_b",       "compass",       "magnetometer", "gps_compass",
+    "swing", "misalignment", "compass_delay", "course_delay"};
+
+double wrapped(double angle_rad) {
+  const double once = angle_rad - kTurn_rad * std::floor(angle_rad / kTurn_rad);
+  return once < kTurn_rad ? once : 0.0;
+}
+
+/// `visit(value)` with the optional of that calibrator.
+template <class Corrections, class Visit>
+auto visit_value(Corrections& c, Calibrator calibrator, Visit visit) {
+  switch (calibrator) {
+    case Calibrator::gyro:
+      return visit(&Correction::gyro, c);
+    case Calibrator::gyro_b:
+      return visit(&Correction::gyro_b, c);
+    case Calibrator::compass:
+      return visit(&Correction::compass, c);
+    case Calibrator::magnetometer:
+      return visit(&Correction::magnetometer, c);
+    case Calibrator::gps_compass:
+      return visit(&Correction::gps_compass, c);
+    case Calibrator::swing:
+      return visit(&Correction::swing, c);
+    case Calibrator::misalignment:
+      return visit(&Correction::misalignment_rad, c);
+    case Calibrator::compass_delay:
+      return visit(&Correction::compass_delay_s, c);
+    case Calibrator::course_delay:
+      break;
+  }
+  return visit(&Correction::course_delay_s, c);
+}
+
+}  // namespace
+
+std::string_view name_of(Calibrator calibrator) { return kNames.at(static_cast<std::size_t>(calibrator)); }
+
+std::optional<Calibrator> calibrator_named(std::string_view name) {
+  for (const Calibrator calibrator : kCalibrators) {
+    if (name_of(calibrator) == name) return calibrator;
+  }
+  return std::nullopt;
+}
+
+double DeviationCorrection::operator()(double measured_rad) const {
+  const auto& [a, b, c, d, e] = coefficients_rad;
+  return measured_rad - (a + b * std::sin(measured_rad) + c * std::cos(measured_rad) +
+                         d * std::sin(2 * measured_rad) + e * std::cos(2 * measured_rad));
+}
+
+double SwingCorrection::operator()(double measured_rad) const {
+  const double place = wrapped(measured_rad) / kTurn_rad * 8;
+  const auto sector = static_cast<std::size_t>(place) % 8;
+  const double share = place - std::floor(place);
+  return measured_rad - ((1 - share) * deviation_rad[sector] + share * deviation_rad[(sector + 1) % 8]);
+}
+
+bool has(const Correction& correction, Calibrator calibrator) {
+  return visit_value(correction, calibrator,
+                     [](auto member, const Correction& c) { return (c.*member).has_value(); });
+}
+
+void copy_value(Correction& to, const Correction& from, Calibrator calibrator) {
+  visit_value(to, calibrator, [&](auto member, Correction& c) { c.*member = from.*member; });
+}
+
+double levelled_heading(const Eigen::Vector3d& field, double roll_rad, double pitch_rad) {
+  const double sin_roll = std::sin(roll_rad), cos_roll = std::cos(roll_rad);
+  const double across = field.y() * sin_roll + field.z() * cos_roll;
+  const double forward = field.x() * std::cos(pitch_rad) + across * std::sin(pitch_rad);
+  const double starboard = field.y() * cos_roll - field.z() * sin_roll;
+  return wrapped(std::atan2(-starboard, forward));
+}
+
+std::optional<double> corrected_heading(const Correction& correction, const CompassReading& reading) {
+  std::optional<double> heading;
+  bool absolute = false;
+  if (correction.magnetometer && reading.field_body_uT && reading.pitch_rad && reading.roll_rad) {
+    heading = levelled_heading((*correction.magnetometer)(*reading.field_body_uT), *reading.roll_rad,
+                               *reading.pitch_rad);
+  } else if (!reading.heading_rad) {
+    return std::nullopt;
+  } else if (correction.compass) {
+    heading = (*correction.compass)(*reading.heading_rad);
+  } else if (correction.gps_compass) {
+    heading = (*correction.gps_compass)(*reading.heading_rad);
+    absolute = true;  // its A is the misalignment
+  } else if (correction.swing) {
+    heading = (*correction.swing)(*reading.heading_rad);
+  }
+  if (correction.misalignment_rad && !absolute) {
+    heading = heading.value_or(*reading.heading_rad) - *correction.misalignment_rad;
+  }
+  if (!heading) return std::nullopt;
+  return wrapped(*heading);
+}
+
+std::optional<double> best_heading(const Correction& correction, const CompassReading& reading) {
+  const auto corrected = corrected_heading(correction, reading);
+  return corrected ? corrected : reading.heading_rad;
+}
+
+}  // namespace navcal::calib

@@ -1,0 +1,123 @@
+#include "record/correction_json.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace navcal::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using calib::Calibrator;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+Json rate_json(const std::optional<calib::RateCorrection>& rate) {
+  if (!rate) return nullptr;
+  Json json;
+  json["scale"] = rate->scale;
+  json["bias_deg_s"] = rate->bias_rad_s * kDegrees;
+  return json;
+}
+
+Json swing_json(const calib::SwingCorrection& swing) {
+  Json json;
+  for (const double deviation_rad : swing.deviation_rad) json["deviation_deg"].push_back(deviation_rad * kDegrees);
+  return json;
+}
+
+Json field_json(const calib::FieldCorrection& field) {
+  Json json;
+  json["offset_uT"] = vector_json(field.offset_uT);
+  json["matrix"] = matrix_json(field.matrix);
+  return json;
+}
+
+Json named(std::string_view name, const std::optional<double>& value, double unit) {
+  if (!value) return nullptr;
+  Json json;
+  json[std::string(name)] = *value * unit;
+  return json;
+}
+
+/// "bias_rad_s" -> "bias_deg_s", with the factor.
+double in_degrees(std::string& name) {
+  constexpr std::string_view kRadians = "_rad";
+  const auto at = name.rfind(kRadians);
+  if (at == std::string::npos) return 1;
+  name.replace(at, kRadians.size(), "_deg");
+  return kDegrees;
+}
+
+}  // namespace
+
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json vector_json(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+Json matrix_json(const Eigen::Matrix3d& matrix) {
+  Json json = Json::array();
+  for (Eigen::Index row = 0; row < 3; ++row) json.push_back(vector_json(matrix.row(row).transpose()));
+  return json;
+}
+
+Json deviation_json(const calib::DeviationCorrection& deviation) {
+  Json json;
+  std::string name = "A_deg";
+  for (const double coefficient_rad : deviation.coefficients_rad) {
+    json[name] = coefficient_rad * kDegrees;
+    ++name.front();
+  }
+  return json;
+}
+
+Json correction_json(const calib::Correction& correction, Calibrator calibrator) {
+  switch (calibrator) {
+    case Calibrator::gyro:
+      return rate_json(correction.gyro);
+    case Calibrator::gyro_b:
+      return rate_json(correction.gyro_b);
+    case Calibrator::compass:
+      return correction.compass ? deviation_json(*correction.compass) : Json(nullptr);
+    case Calibrator::magnetometer:
+      return correction.magnetometer ? field_json(*correction.magnetometer) : Json(nullptr);
+    case Calibrator::gps_compass:
+      return correction.gps_compass ? deviation_json(*correction.gps_compass) : Json(nullptr);
+    case Calibrator::swing:
+      return correction.swing ? swing_json(*correction.swing) : Json(nullptr);
+    case Calibrator::misalignment:
+      return named("A_deg", correction.misalignment_rad, kDegrees);
+    case Calibrator::compass_delay:
+      return named("delay_s", correction.compass_delay_s, 1);
+    case Calibrator::course_delay:
+      break;
+  }
+  return named("delay_s", correction.course_delay_s, 1);
+}
+
+Json values_json(const std::vector<calib::Quantity>& quantities, double calib::Quantity::*which) {
+  Json json = Json::object();
+  for (const auto& quantity : quantities) {
+    std::string name(quantity.name);
+    const double unit = in_degrees(name);
+    json[name] = number_json(quantity.*which * unit);
+  }
+  return json;
+}
+
+Json gate_json(const calib::GateCounts& counts) {
+  Json json;
+  for (std::size_t s = 0; s < calib::kStreams; ++s) {
+    Json stream;
+    stream["taken"] = counts.taken[s];
+    for (std::size_t r = 0; r < calib::kRejections; ++r) {
+      if (counts.left_out[s][r] > 0)
+        stream[std::string(calib::name_of(static_cast<calib::Rejection>(r)))] = counts.left_out[s][r];
+    }
+    stream["gaps"] = counts.gaps[s];
+    json[std::string(calib::name_of(static_cast<calib::Stream>(s)))] = std::move(stream);
+  }
+  json["restarts"] = counts.restarts;
+  return json;
+}
+
+}  // namespace navcal::record
