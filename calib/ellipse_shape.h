@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+
+#include "calib/archive.h"
+
+namespace navcal::calib {
+
+/// Model: levelled field = centre + S u(psi), u = (cos psi, -sin psi), psi the magnetic heading; uT, forward and
+/// starboard, S symmetric: its size is the horizontal field's, its departure from a multiple of the unit matrix
+/// soft iron. THESIS 4.18 turned round, without its rotation by the sampling.
+struct EllipseShape {
+  Eigen::Vector2d centre_uT = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d axes_uT = Eigen::Matrix2d::Identity();  ///< S
+
+  static constexpr int kParameters = 5;  ///< centre x, y; S xx, xy, yy
+  using Vector = Eigen::Matrix<double, kParameters, 1>;
+  using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
+
+  [[nodiscard]] static Eigen::Vector2d direction(double heading_rad) {
+    return {std::cos(heading_rad), -std::sin(heading_rad)};
+  }
+  [[nodiscard]] Eigen::Vector2d at(double heading_rad) const {
+    return centre_uT + axes_uT * direction(heading_rad);
+  }
+  /// d at(heading) / d parameters.
+  [[nodiscard]] static Eigen::Matrix<double, 2, kParameters> slope(double heading_rad) {
+    const Eigen::Vector2d u = direction(heading_rad);
+    Eigen::Matrix<double, 2, kParameters> slope;
+    slope << 1, 0, u.x(), u.y(), 0,  //
+        0, 1, 0, u.x(), u.y();
+    return slope;
+  }
+  [[nodiscard]] double heading_rad(const Eigen::Vector2d& field_uT) const;
+  /// Heading of the nearest point of the ellipse.
+  [[nodiscard]] double foot_rad(const Eigen::Vector2d& field_uT) const;
+  [[nodiscard]] EllipseShape moved(const Vector& step) const;
+  /// Geometric mean of the axes: the size of the horizontal field but for what soft iron adds to it.
+  [[nodiscard]] double radius_uT() const { return std::sqrt(axes_uT.determinant()); }
+  /// Finite, S positive definite, and no axis ten times the other.
+  [[nodiscard]] bool sane() const;
+
+  void archive(Archive& archive) { archive(centre_uT, axes_uT); }
+};
+
+/// Where the horizontal field would be measured in body axes; thesis (2.2).
+[[nodiscard]] Eigen::Vector2d levelled(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
+
+/// Standard deviation of the calibrated heading at the worst heading of the circle, by first order.
+[[nodiscard]] double worst_heading_std_rad(const EllipseShape& shape, const EllipseShape::Matrix& covariance);
+
+/// matrix = radius * S^-1 and the offset, in three dimensions: nothing is said of the vertical.
+struct FieldCorrection;
+[[nodiscard]] FieldCorrection correction_of(const EllipseShape& shape);
+
+}  // namespace navcal::calib

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "calib/ellipsoid_fit.h"
+#include "calib/field_cells.h"
+#include "calib/field_held_out.h"
+#include "calib/judgement.h"
+#include "calib/magnetometer_estimate.h"
+
+namespace navcal::calib {
+
+/// Model: |M (m - c)| = 1 and down' M (m - c) = sin(dip), m the measured field in uT, down the direction of
+/// gravity, both in body axes, M symmetric in 1/uT (EllipsoidShape). The second line is what tilt tells: with it a
+/// hull that rolls and pitches by a few degrees needs not be turned over.
+///
+/// Weighted least squares with the noise of m propagated through both lines (Gauss-Helmert), on cells of the
+/// field, one iteration every so many readings. A known field is information: its dip on sin(dip), its size by
+/// keeping soft iron near the unit matrix.
+class EllipsoidEstimator {
+ public:
+  struct Parameters {
+    double noise_uT = 0.15;        ///< of one reading; the data correct it
+    double tilt_noise_rad = 0.01;  ///< of one reading, with lag and accelerations; the data correct it
+    std::optional<KnownField> known;
+    double soft_iron_std = 0.15;       ///< of the soft iron matrix about the unit matrix, when the field is known
+    int slice_samples = 20;            ///< readings from one iteration to the next
+    double model_error = 0.002;        ///< of a cell, relative to the largest field measured
+    double heading_std_rad = 0.02;     ///< the worst that is accepted, within
+    double expected_tilt_rad = 0.175;  ///< this roll and pitch
+    double offset_std_uT = 1.0;        ///< the worst vertical offset that is accepted
+  };
+
+  explicit EllipsoidEstimator(const Parameters& parameters);
+
+  void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
+  void settle();
+
+  [[nodiscard]] std::optional<MagnetometerEstimate> estimate() const;
+  [[nodiscard]] const std::optional<EllipsoidFit>& fit() const { return fit_; }
+  [[nodiscard]] const FieldCells<3, 6>& cells() const { return cells_; }
+  [[nodiscard]] Judgement judgement() const;
+  /// As EllipseEstimator's.
+  [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const;
+
+  void archive(Archive& archive);
+
+ private:
+  [[nodiscard]] EllipsoidNoise noise() const;
+
+  Parameters parameters_;
+  FieldCells<3, 6> cells_;
+  std::optional<EllipsoidFit> fit_;
+  FieldHeldOut held_out_;
+  double tilt_square_ = 0, tilt_weight_ = 0;  ///< of what gravity disagrees, with forgetting
+  std::uint64_t samples_ = 0;
+};
+
+}  // namespace navcal::calib

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "calib/ellipsoid_shape.h"
+#include "calib/field_cells.h"
+#include "calib/magnetometer_estimate.h"
+
+namespace navcal::calib {
+
+using EllipsoidCells = std::vector<FieldCells<3, 6>::Cell>;
+
+struct EllipsoidNoise {
+  double field_uT = 0.15;
+  double tilt_rad = 0.01;
+};
+
+/// What is known beforehand.
+struct EllipsoidPrior {
+  std::optional<KnownField> known;
+  double soft_iron_std = 0.15;
+};
+
+struct EllipsoidFit {
+  EllipsoidShape shape;
+  EllipsoidShape::Matrix covariance = EllipsoidShape::Matrix::Zero();  ///< with the prior
+  double damping = 0;                                                  ///< Marquardt's
+  bool settled = false;                                                ///< the last iteration moved nothing
+  void archive(Archive& archive) { archive(shape, covariance, damping, settled); }
+};
+
+/// Sphere with gravity, by linear least squares; nullopt: all readings in one point.
+[[nodiscard]] std::optional<EllipsoidShape> starting_sphere(const EllipsoidCells& cells,
+                                                            const EllipsoidPrior& prior);
+
+/// One iteration of Gauss-Newton.
+[[nodiscard]] EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells,
+                                   const EllipsoidNoise& noise, const EllipsoidPrior& prior);
+
+}  // namespace navcal::calib

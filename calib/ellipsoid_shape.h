@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calib/archive.h"
+
+namespace navcal::calib {
+
+/// Model: |M (m - c)| = 1, down' M (m - c) = sine of dip; c in uT, M symmetric in 1/uT, body axes.
+struct EllipsoidShape {
+  Eigen::Vector3d centre_uT = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d matrix_per_uT = Eigen::Matrix3d::Identity();
+  double sine_of_dip = 0;
+
+  static constexpr int kParameters = 10;  ///< c x y z; M xx, yy, zz, yz, xz, xy; sine of dip
+  using Vector = Eigen::Matrix<double, kParameters, 1>;
+  using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
+
+  [[nodiscard]] Eigen::Vector3d unit_field(const Eigen::Vector3d& field_body_uT) const {
+    return matrix_per_uT * (field_body_uT - centre_uT);
+  }
+  /// d (M v) / d (the six of M), the transpose of which serves for w'M v too.
+  [[nodiscard]] static Eigen::Matrix<double, 3, 6> slope_of_matrix(const Eigen::Vector3d& v);
+  [[nodiscard]] EllipsoidShape moved(const Vector& step) const;
+  /// Size of the field if soft iron neither adds to it nor takes from it.
+  [[nodiscard]] double radius_uT() const;
+  /// Finite, M positive definite, no axis ten times another, dip possible.
+  [[nodiscard]] bool sane() const;
+
+  void archive(Archive& archive) { archive(centre_uT, matrix_per_uT, sine_of_dip); }
+};
+
+/// Down in body axes.
+[[nodiscard]] Eigen::Vector3d down_in_body(double roll_rad, double pitch_rad);
+
+/// Standard deviation of the calibrated heading at the worst heading of the circle with roll and pitch up to
+/// `tilt_rad`.
+[[nodiscard]] double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance,
+                                           double tilt_rad);
+
+}  // namespace navcal::calib
