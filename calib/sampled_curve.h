@@ -24,9 +24,13 @@ class SampledCurve {
   [[nodiscard]] double time_s(std::uint32_t i) const { return times_[place(i)]; }
   [[nodiscard]] const Value& value(std::uint32_t i) const { return values_[place(i)]; }
 
+  void drop_oldest() {
+    first_ = (first_ + 1) % kCapacity;
+    --count_;
+  }
   /// The oldest gives way when there is no room.
   void add(double time_s, const Value& value) {
-    if (count_ == kCapacity) pop();
+    if (count_ == kCapacity) drop_oldest();
     times_[place(count_)] = time_s;
     values_[place(count_)] = value;
     ++count_;
@@ -59,7 +63,7 @@ class SampledCurve {
 
   /// Drops what the curve from `time_s` on does not need.
   void forget_before(double time_s) {
-    while (count_ > 3 && this->time_s(2) <= time_s) pop();
+    while (count_ > 3 && this->time_s(2) <= time_s) drop_oldest();
   }
 
   void archive(Archive& archive) {
@@ -69,10 +73,6 @@ class SampledCurve {
 
  private:
   [[nodiscard]] std::uint32_t place(std::uint32_t i) const { return (first_ + i) % kCapacity; }
-  void pop() {
-    first_ = (first_ + 1) % kCapacity;
-    --count_;
-  }
   [[nodiscard]] Value slope(std::uint32_t i) const {
     const std::uint32_t middle = std::min(std::max(i, 1U), count_ - 2);
     const double before = time_s(middle) - time_s(middle - 1), after = time_s(middle + 1) - time_s(middle);

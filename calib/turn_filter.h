@@ -1,35 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 
 #include "calib/archive.h"
+#include "calib/turn_prior.h"
 #include "calib/turn_step.h"
 
 namespace navcal::calib {
-
-/// Scale and bias of a yaw gyro, true rate = scale * measured + bias (2.12), and the deviation B, C, D, E of a
-/// compass, psi = psi_m - A - f4(psi_m)'q (2.7, 2.8); rad/s and radians. A is in no turn: it stays in the heading.
-using TurnCoefficients = Eigen::Matrix<double, 6, 1>;
-using TurnCovariance = Eigen::Matrix<double, 6, 6>;
-enum TurnCoefficient : int { kScale, kBias, kB, kC, kD, kE };
-
-/// What is believed before the first reading. A variance of zero holds the coefficient: a compass without error,
-/// or a gyro known exactly. A gyro calibrated before is the covariance of that calibration.
-struct TurnPrior {
-  TurnCoefficients mean = TurnCoefficients::Unit(kScale);
-  TurnCovariance covariance = TurnCovariance::Zero();
-  std::array<bool, 6> sought{};  ///< those that are to be found: loose, and not correlated with any other
-
-  /// The compass has no error, the gyro is unknown (THESIS chapter 3).
-  [[nodiscard]] static TurnPrior unknown_gyro();
-  /// The gyro is known, the compass is not (section 4.2); the covariance that of (scale, bias).
-  [[nodiscard]] static TurnPrior unknown_compass(double scale, double bias_rad_s,
-                                                 const Eigen::Matrix2d& gyro_covariance);
-  /// Neither is known (the thesis's major problem, THESIS 11.3).
-  [[nodiscard]] static TurnPrior unknown_both();
-};
 
 /// Model: psi_m(n) - T(n) = psi0 + scale S1(n) + bias S2(n) + f4(psi_m(n))'q + heading noise (white) + scale times
 /// the integral of the gyro's rate noise (a random walk), S1, S2, T the sums of TurnStep (THESIS 11.7), psi0 one
@@ -72,6 +50,7 @@ class TurnFilter {
   [[nodiscard]] std::uint64_t readings() const { return readings_; }  ///< that told something
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }  ///< not finite, or no time between them
 
+  /// The prior is part of the state, the parameters are not.
   void archive(Archive& archive);
 
  private:
@@ -86,13 +65,14 @@ class TurnFilter {
     void archive(Archive& archive) { archive(departure, covariance, chi_squared); }
   };
 
-  void start(const TurnStep& step, const Constants& regressors);
+  [[nodiscard]] bool held(int coefficient) const;
+  [[nodiscard]] double without_deviation(double measured_rad) const;
+  [[nodiscard]] Constants deviation_regressors(double measured_rad) const;
+  [[nodiscard]] double heading_variance(double measured_rad) const;
+  void start(const TurnStep& step);
   void predict(const TurnStep& step);
-  void correct(const TurnStep& step, const Constants& regressors);
+  void correct(double measured_rad);
   void solve();
-  [[nodiscard]] Constants regressors(double heading_rad) const;
-  [[nodiscard]] double heading_variance(double heading_rad) const;
-  [[nodiscard]] double scale_of_noise() const;
   [[nodiscard]] TurnCovariance unscaled_covariance() const;
 
   Parameters parameters_;

@@ -45,17 +45,17 @@ class TurnIntegrator {
   void archive(Archive& archive);
 
  private:
-  struct Tilt {
-    Eigen::Vector2d roll_pitch_rad, slope_rad_s;
-  };
-  enum RateAxis { kX, kY, kZ, kZb };
+  enum CompassAxis { kRoll, kPitch, kHeading };
+  enum RateAxis { kX, kY, kZ, kZOfB };
 
-  /// Whether a reading at `time_s` may follow the one at `last_s`; begins anew where there is a gap between.
+  /// Whether a reading at `time_s` may follow the others of `curve`; begins anew where there is a gap between.
   template <class Curve>
   bool in_order(Curve& curve, double time_s);
-  [[nodiscard]] Tilt tilt_at(double time_s, const Eigen::Vector4d& rate,
-                             const Eigen::Vector2d& lagged_slope) const;
   [[nodiscard]] TurnStep step_between(double begin_s, double end_s);
+  /// What the step integrates: S1, S1 of gyro B, S2, T per second.
+  [[nodiscard]] Eigen::Vector4d turning_at(double time_s) const;
+  /// The tilt's slope (roll, pitch) by the gyros.
+  [[nodiscard]] Eigen::Vector2d tilt_slope_at(double time_s) const;
   void advance_lag(double begin_s, double end_s);
 
   Parameters parameters_;
