@@ -2,6 +2,7 @@
 option(NAVCAL_TESTS "build the tests" ON)
 option(NAVCAL_BENCH "build the benchmarks" OFF)
 option(NAVCAL_FUZZ "build the libFuzzer targets (needs clang)" OFF)
+option(NAVCAL_PRECOMPILE "precompile the large headers of libraries; off in the fuzz build, where a missing include shows" ON)
 set(NAVCAL_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,undefined")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -11,6 +12,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
+
+# -O2 as Debian builds: -O3 made the daemon a third larger in memory and no faster. What nobody calls is left out.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+add_compile_options(-ffunction-sections -fdata-sections)
+add_link_options(-Wl,--gc-sections -Wl,--as-needed)
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
 # The same results on every machine: no fused multiply-add behind our back, no -march=native.
@@ -49,11 +55,21 @@ function(navcal_room name)
   target_link_libraries(navcal_${name} PUBLIC ${ROOM_USES})
 endfunction()
 
+# navcal_precompile(TARGET <header>...): half of the time of a build is spent on reading such headers.
+function(navcal_precompile target)
+  if(NAVCAL_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
 # navcal_test(NAME SOURCES... USES...): one GoogleTest program, every case a ctest of its own.
 function(navcal_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest_main)
+  if(NAVCAL_PRECOMPILE)
+    target_precompile_headers(${name} REUSE_FROM navcal_test_headers)
+  endif()
   target_compile_definitions(${name} PRIVATE
     NAVCAL_SOURCE_DIR="${CMAKE_SOURCE_DIR}" NAVCAL_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared"
     NAVCAL_BINARY_DIR="${CMAKE_BINARY_DIR}")

@@ -1,11 +1,12 @@
 #include "daemon/json_text.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <iterator>
 
 namespace navcal::daemon {
 namespace {
@@ -15,9 +16,19 @@ constexpr std::array<std::int64_t, 10> kPowersOfTen{1,       10,        100,    
 /// Beyond it a rounded value times 10^9 does not fit 64 bits.
 constexpr double kLargestScaled = 9e18;
 
+/// Room for two 64-bit integers and what stands between them.
+using Digits = std::array<char, 48>;
+
+/// Compiled format and a buffer of fixed size: this is the larger part of the time from byte to socket.
+template <class Format, class... Values>
+void append_format(std::string& out, const Format& format, Values... values) {
+  Digits digits;
+  out.append(digits.data(), fmt::format_to(digits.data(), format, values...));
+}
+
 /// The digits after the decimal point, `decimals` of them.
 void append_fraction(std::string& out, std::int64_t fraction, int decimals) {
-  fmt::format_to(std::back_inserter(out), FMT_STRING(".{:0{}}"), fraction, decimals);
+  append_format(out, FMT_COMPILE(".{:0{}}"), fraction, decimals);
 }
 
 /// False when `value` cannot be written with that many places: infinite, not a number, or huge.
@@ -28,7 +39,7 @@ bool append_rounded(std::string& out, double value, int decimals, bool trim) {
   const std::int64_t rounded = std::llround(scaled);
   const std::int64_t magnitude = std::abs(rounded);
   if (rounded < 0) out += '-';
-  fmt::format_to(std::back_inserter(out), FMT_STRING("{}"), magnitude / scale);
+  append_format(out, FMT_COMPILE("{}"), magnitude / scale);
   std::int64_t fraction = magnitude % scale;
   if (trim) {
     for (; decimals > 0 && fraction % 10 == 0; --decimals) fraction /= 10;
@@ -40,7 +51,7 @@ bool append_rounded(std::string& out, double value, int decimals, bool trim) {
 void append_number(std::string& out, double value, int decimals, bool trim) {
   if (append_rounded(out, value, decimals, trim)) return;
   if (std::isfinite(value)) {
-    fmt::format_to(std::back_inserter(out), FMT_STRING("{}"), value);
+    append_format(out, FMT_COMPILE("{}"), value);
   } else {
     out += "null";
   }
@@ -58,7 +69,7 @@ void append_quoted(std::string& out, std::string_view text) {
     } else if (c == '\n') {
       out += "\\n";
     } else if (byte < 0x20 || byte >= 0x7f) {
-      fmt::format_to(std::back_inserter(out), FMT_STRING("\\u{:04x}"), byte);
+      append_format(out, FMT_COMPILE("\\u{:04x}"), byte);
     } else {
       out += c;
     }
@@ -71,26 +82,18 @@ void append_fixed(std::string& out, double value, int decimals) { append_number(
 void append_shortest(std::string& out, double value, int decimals) { append_number(out, value, decimals, true); }
 
 void append_utc(std::string& out, std::int64_t utc_ns, int decimals) {
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  constexpr std::int64_t kDay = 86'400;
-  const std::int64_t fraction = ((utc_ns % kSecond) + kSecond) % kSecond;
-  const std::int64_t seconds = (utc_ns - fraction) / kSecond;
-  const std::int64_t of_day = ((seconds % kDay) + kDay) % kDay;
-  // Civil date of a day count, with years that begin in March so that the leap day comes last.
-  const std::int64_t days = (seconds - of_day) / kDay + 719'468;
-  const std::int64_t era = (days >= 0 ? days : days - 146'096) / 146'097;
-  const std::int64_t day_of_era = days - era * 146'097;
-  const std::int64_t year_of_era =
-      (day_of_era - day_of_era / 1'460 + day_of_era / 36'524 - day_of_era / 146'096) / 365;
-  const std::int64_t day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-  const std::int64_t shifted_month = (5 * day_of_year + 2) / 153;
-  const std::int64_t day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
-  const std::int64_t month = shifted_month < 10 ? shifted_month + 3 : shifted_month - 9;
-  const std::int64_t year = year_of_era + era * 400 + (month <= 2 ? 1 : 0);
-  fmt::format_to(std::back_inserter(out), FMT_STRING("\"{:04}-{:02}-{:02}T{:02}:{:02}:{:02}"), year, month, day,
-                 of_day / 3'600, of_day / 60 % 60, of_day % 60);
-  if (decimals > 0)
-    append_fraction(out, fraction / kPowersOfTen[static_cast<std::size_t>(9 - decimals)], decimals);
+  using namespace std::chrono;
+  const sys_time<nanoseconds> time{nanoseconds(utc_ns)};
+  const auto midnight = floor<days>(time);
+  const year_month_day date{midnight};
+  const hh_mm_ss of_day{floor<nanoseconds>(time - midnight)};
+  append_format(out, FMT_COMPILE("\"{:04}-{:02}-{:02}T{:02}:{:02}:{:02}"), static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), of_day.hours().count(),
+                of_day.minutes().count(), of_day.seconds().count());
+  if (decimals > 0) {
+    append_fraction(out, of_day.subseconds().count() / kPowersOfTen[static_cast<std::size_t>(9 - decimals)],
+                    decimals);
+  }
   out += "Z\"";
 }
 

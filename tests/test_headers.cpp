@@ -1,0 +1,2 @@
+// GoogleTest is precompiled here once for all tests.
+#include <gtest/gtest.h>
