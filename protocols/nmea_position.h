@@ -6,6 +6,7 @@
 #include "protocols/gps_fix.h"
 #include "protocols/nmea.h"
 #include "protocols/nmea_decimal.h"
+#include "protocols/units.h"
 #include "protocols/utc.h"
 
 namespace navcal::protocols::nmea {
@@ -18,8 +19,6 @@ struct LatLon {
   double latitude_deg = 0;   ///< north positive
   double longitude_deg = 0;  ///< east positive
 };
-
-inline constexpr double kMetresPerSecondPerKnot = 1852.0 / 3600.0;
 
 /// Position and its quality.
 struct Gga {

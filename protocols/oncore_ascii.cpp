@@ -4,11 +4,10 @@
 
 #include "protocols/decimal.h"
 #include "protocols/oncore.h"
+#include "protocols/units.h"
 
 namespace navcal::protocols::oncore {
 namespace {
-
-constexpr double kKnot_m_s = 1852.0 / 3600.0;
 
 // Columns are fixed:
 // @@Eq,mm,dd,yy,hh,mm,ss,dd,mm.mmmm,n,ddd,mm.mmmm,w,shhhhh.h,sss.s,hhh.h,m,t,dd.d,nn,rrrr,aa,CCC
@@ -69,7 +68,7 @@ std::optional<Position> decode_eq(Bytes frame) {
   const char north = columns.letter(34);
   const char east = columns.letter(48);
   out.filtered.height_m = columns.number(50, 8);
-  out.speed_m_s = columns.number(59, 5) * kKnot_m_s;
+  out.speed_m_s = columns.number(59, 5) * kMetresPerSecondPerKnot;
   out.heading_deg = columns.number(65, 5);
   out.fix = fix_of(columns.letter(73));
   out.dop = columns.number(75, 4);

@@ -4,9 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "tests/support/temporary_folder.h"
 
 // The program itself, run by a shell as people run it.
 namespace navcal::cli {
@@ -14,23 +15,12 @@ namespace {
 
 const std::string kFixtures = NAVCAL_SOURCE_DIR "/fixtures/decode/";
 
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 class Decode : public testing::Test {
  protected:
   struct Outcome {
     int status = 0;
     std::string output, errors;
   };
-
-  Decode() {
-    std::string name = testing::TempDir() + "navcal-decode-XXXXXX";
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Decode() override { std::filesystem::remove_all(folder_); }
 
   /// `decode` stands for the program with its subcommand; `shell` is the rest of a command of bash.
   [[nodiscard]] Outcome run(const std::string& shell) const {
@@ -40,10 +30,11 @@ class Decode : public testing::Test {
     const std::string command = "bash " + script.string() + " > " + (folder_ / "out").string() + " 2> " +
                                 (folder_ / "err").string() + " < /dev/null";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "out"), contents(folder_ / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::read_file(folder_ / "out"),
+            test::read_file(folder_ / "err")};
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 std::vector<nlohmann::json> lines(const std::string& text) {
@@ -57,7 +48,7 @@ TEST_F(Decode, AnswersEveryStreamAsExpectedToTheByte) {
   for (const std::string protocol : {"oncore", "nmea", "tcm2", "imu-card", "motor-card"}) {
     const auto outcome = run("decode --protocol " + protocol + " --json " + kFixtures + protocol + ".bin");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
-    EXPECT_EQ(outcome.output, contents(kFixtures + protocol + ".jsonl")) << protocol;
+    EXPECT_EQ(outcome.output, test::read_file(kFixtures + protocol + ".jsonl")) << protocol;
     EXPECT_EQ(outcome.errors, "");
   }
 }
@@ -66,7 +57,7 @@ TEST_F(Decode, StandardInputInSmallPiecesGivesTheSame) {
   const auto outcome =
       run("dd if=" + kFixtures + "oncore.bin bs=7 status=none | decode --protocol oncore --json -");
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(outcome.output, contents(kFixtures + "oncore.jsonl"));
+  EXPECT_EQ(outcome.output, test::read_file(kFixtures + "oncore.jsonl"));
 }
 
 TEST_F(Decode, EveryByteIsInExactlyOnePlace) {
@@ -94,7 +85,7 @@ TEST_F(Decode, EveryByteIsInExactlyOnePlace) {
 }
 
 TEST_F(Decode, PositionsHaveTheKeysOfTheContract) {
-  for (const auto& line : lines(contents(kFixtures + "oncore.jsonl"))) {
+  for (const auto& line : lines(test::read_file(kFixtures + "oncore.jsonl"))) {
     const std::string id = line.value("id", "");
     if (id != "Ha" && id != "Ea" && id != "Eq") continue;
     for (const char* key : {"time", "time_corrected", "lat", "lon", "height_m", "speed_m_s", "heading_deg", "dop",

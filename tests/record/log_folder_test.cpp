@@ -10,6 +10,7 @@
 
 #include "memory_disk.h"
 #include "sample_log.h"
+#include "tests/support/temporary_folder.h"
 
 namespace navcal::record {
 namespace {
@@ -18,15 +19,8 @@ constexpr std::int64_t kNow_ns = 1'795'000'000'000'000'000;
 
 class LogFolderOnDisk : public ::testing::Test {
  protected:
-  LogFolderOnDisk() {
-    std::string name = ::testing::TempDir() + "navcal-log-XXXXXX";
-    path_ = ::mkdtemp(name.data());
-  }
-  ~LogFolderOnDisk() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path path_;
+  test::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path();
 };
 
 std::string write_log(LogFolder& folder, std::int64_t utc_ns, std::string_view bytes, bool finish) {
