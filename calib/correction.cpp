@@ -60,11 +60,22 @@ double DeviationCorrection::operator()(double measured_rad) const {
                          d * std::sin(2 * measured_rad) + e * std::cos(2 * measured_rad));
 }
 
+DeviationCorrection DeviationCorrection::without_offset() const {
+  DeviationCorrection rest = *this;
+  rest.coefficients_rad[0] = 0;
+  return rest;
+}
+
 double SwingCorrection::operator()(double measured_rad) const {
   const double place = wrapped(measured_rad) / kTurn_rad * 8;
   const auto sector = static_cast<std::size_t>(place) % 8;
   const double share = place - std::floor(place);
   return measured_rad - ((1 - share) * deviation_rad[sector] + share * deviation_rad[(sector + 1) % 8]);
+}
+
+std::optional<double> Correction::offset_rad() const {
+  if (misalignment_rad || !gps_compass) return misalignment_rad;
+  return gps_compass->coefficients_rad[0];
 }
 
 bool has(const Correction& correction, Calibrator calibrator) {
@@ -86,7 +97,6 @@ double levelled_heading(const Eigen::Vector3d& field, double roll_rad, double pi
 
 std::optional<double> corrected_heading(const Correction& correction, const CompassReading& reading) {
   std::optional<double> heading;
-  bool absolute = false;
   if (correction.magnetometer && reading.field_body_uT && reading.pitch_rad && reading.roll_rad) {
     heading = levelled_heading((*correction.magnetometer)(*reading.field_body_uT), *reading.roll_rad,
                                *reading.pitch_rad);
@@ -95,14 +105,12 @@ std::optional<double> corrected_heading(const Correction& correction, const Comp
   } else if (correction.compass) {
     heading = (*correction.compass)(*reading.heading_rad);
   } else if (correction.gps_compass) {
-    heading = (*correction.gps_compass)(*reading.heading_rad);
-    absolute = true;  // its A is the misalignment
+    heading = correction.gps_compass->without_offset()(*reading.heading_rad);
   } else if (correction.swing) {
     heading = (*correction.swing)(*reading.heading_rad);
   }
-  if (correction.misalignment_rad && !absolute) {
-    heading = heading.value_or(*reading.heading_rad) - *correction.misalignment_rad;
-  }
+  if (const auto offset_rad = correction.offset_rad())
+    heading = heading.value_or(*reading.heading_rad) - *offset_rad;
   if (!heading) return std::nullopt;
   return wrapped(*heading);
 }

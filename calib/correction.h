@@ -44,6 +44,7 @@ struct RateCorrection {
 struct DeviationCorrection {
   std::array<double, 5> coefficients_rad{};
   [[nodiscard]] double operator()(double measured_rad) const;
+  [[nodiscard]] DeviationCorrection without_offset() const;  ///< A = 0
   void archive(Archive& archive) { archive(coefficients_rad); }
 };
 
@@ -74,6 +75,8 @@ struct Correction {
   std::optional<double> misalignment_rad;
   std::optional<double> compass_delay_s, course_delay_s;
 
+  /// A, which no turn tells: the misalignment, or what GpsCompass found with it.
+  [[nodiscard]] std::optional<double> offset_rad() const;
   void archive(Archive& archive) {
     archive.tag("correction 1");
     archive(gyro, gyro_b, compass, magnetometer, gps_compass, swing);

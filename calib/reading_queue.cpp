@@ -5,9 +5,7 @@
 namespace navcal::calib {
 namespace {
 
-void archive_reading(Archive& archive, CompassReading& r) {
-  archive(r.time_s, r.heading_rad, r.pitch_rad, r.roll_rad, r.field_body_uT, r.faulty);
-}
+void archive_reading(Archive& archive, CompassReading& r) { calib::archive(archive, r); }
 void archive_reading(Archive& archive, RateReading& r) {
   archive(r.time_s, r.rate_rad_s, r.yaw_rate_b_rad_s, r.specific_force_m_s2, r.saturated);
 }
@@ -24,6 +22,10 @@ Reading reading_of_kind(std::size_t kind, std::index_sequence<I...>) {
 }
 
 }  // namespace
+
+void archive(Archive& archive, CompassReading& r) {
+  archive(r.time_s, r.heading_rad, r.pitch_rad, r.roll_rad, r.field_body_uT, r.faulty);
+}
 
 double time_of(const Reading& reading) {
   return std::visit([](const auto& r) { return r.time_s; }, reading);

@@ -19,6 +19,8 @@ using Reading = std::variant<CompassReading, RateReading, GroundReading, MotorRe
 [[nodiscard]] double time_of(const Reading& reading);
 void set_time(Reading& reading, double time_s);
 
+void archive(Archive& archive, CompassReading& reading);
+
 struct QueuedReading {
   double key_s = 0;  ///< its place in the order
   Reading reading;

@@ -1,3 +1,4 @@
+#include "config/calibration_options.h"
 #include "config/options.h"
 #include "config/text_rules.h"
 
@@ -7,7 +8,7 @@ namespace {
 using S = Settings;
 
 std::vector<Option<S>> make() {
-  return {
+  std::vector<Option<S>> options{
       text<S>(
           {.table = "log",
            .key = "directory",
@@ -139,6 +140,8 @@ std::vector<Option<S>> make() {
            .high = 90},
           [](auto& s) -> auto& { return s.environment.dip_rad; }),
   };
+  for (auto& option : calibration_options()) options.push_back(std::move(option));
+  return options;
 }
 
 }  // namespace

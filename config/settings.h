@@ -97,11 +97,31 @@ struct EnvironmentSettings {
   bool operator==(const EnvironmentSettings&) const = default;
 };
 
+/// What the calibrators must know of vehicle and instruments, and when their word is taken.
+struct CalibrationSettings {
+  bool enabled = true;
+  bool automatic = true;      ///< estimates come into force by themselves
+  double margin = 0.1;        ///< by so much must they be better on readings held out, relative
+  double motor_settle_s = 2;  ///< magnetic readings are left out so long after the motor was switched
+  double heading_noise_rad = 0.008726646259971648;  ///< of one reading, like all of these: 0.5 degrees
+  double gyro_noise_rad_s = 0.0017453292519943296;  ///< 0.1 deg/s
+  double field_noise_uT = 0.2;
+  double bias_walk_rad_s = 0.0003490658503988659;  ///< std of the change in one second: 0.02 deg/s
+  double tilt_lag_s = 0.3;                         ///< of the compass's inclinometer
+  double position_noise_m = 1;
+  double velocity_noise_m_s = 0.1;
+  double current_m_s = 0.15;  ///< standard deviation of the water's, each axis
+  double advance_m = 0.0872;  ///< through the water for one revolution of the shaft; 0: not known
+
+  bool operator==(const CalibrationSettings&) const = default;
+};
+
 struct Settings {
   LogSettings log;
   StatusSettings status;
   ControlSettings control;
   EnvironmentSettings environment;
+  CalibrationSettings calibration;
   std::vector<PortSettings> ports;
 
   bool operator==(const Settings&) const = default;

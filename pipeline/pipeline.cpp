@@ -2,14 +2,48 @@
 
 #include <limits>
 
+#include "pipeline/calibration_stage.h"
 #include "pipeline/port_stream.h"
 
 namespace navcal::pipeline {
+
+namespace {
+
+/// Puts the calibration in force on samples that pass, and lets the calibrators learn from them.
+class Calibrating final : public Sink {
+ public:
+  Calibrating(CalibrationStage& stage, Sink& next) : stage_(stage), next_(next) {}
+  void on_sample(const instruments::Sample& sample) override {
+    instruments::Sample corrected = sample;
+    stage_.correct(corrected);
+    next_.on_sample(corrected);
+    stage_.learn(sample, next_);
+  }
+  void on_frame(std::uint16_t port, const protocols::Frame& frame, std::int64_t arrival_ns) override {
+    next_.on_frame(port, frame, arrival_ns);
+  }
+  void on_mapping(const UtcMapping& mapping) override { next_.on_mapping(mapping); }
+
+ private:
+  CalibrationStage& stage_;
+  Sink& next_;
+};
+
+}  // namespace
 
 struct Pipeline::State {
   config::Settings settings;
   UtcMapping mapping;
   std::vector<std::unique_ptr<PortStream>> ports;
+  std::unique_ptr<CalibrationStage> calibration;
+
+  /// `use(sink)` with the sink to which the ports' samples go.
+  template <class Use>
+  void through_calibration(Sink& sink, Use use) {
+    if (!calibration) return use(sink);
+    Calibrating calibrating(*calibration, sink);
+    use(calibrating);
+  }
 
   /// The port whose incomplete frame is to be given up first; its time in `deadline_ns`.
   PortStream* first_due(std::int64_t& deadline_ns) const {
@@ -31,13 +65,14 @@ Pipeline::Pipeline(const config::Settings& settings) : state_(std::make_unique<S
     state_->ports.push_back(
         std::make_unique<PortStream>(static_cast<std::uint16_t>(i), state_->settings.ports[i], state_->mapping));
   }
+  state_->calibration = CalibrationStage::make(state_->settings);
 }
 
 Pipeline::~Pipeline() = default;
 
 void Pipeline::bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes, Sink& sink) {
   advance(arrival_ns, sink);
-  state_->ports.at(port)->bytes(arrival_ns, bytes, sink);
+  state_->through_calibration(sink, [&](Sink& to) { state_->ports.at(port)->bytes(arrival_ns, bytes, to); });
 }
 
 // In the order of the deadlines, not of the ports: then it makes no difference whether a timer called for each of
@@ -46,7 +81,7 @@ void Pipeline::advance(std::int64_t now_ns, Sink& sink) {
   std::int64_t deadline_ns = 0;
   for (PortStream* due = state_->first_due(deadline_ns); due != nullptr && deadline_ns <= now_ns;
        due = state_->first_due(deadline_ns)) {
-    due->silence(sink);
+    state_->through_calibration(sink, [&](Sink& to) { due->silence(to); });
   }
 }
 
@@ -62,6 +97,36 @@ void Pipeline::set_mapping(const UtcMapping& mapping, Sink& sink) {
 }
 
 const UtcMapping& Pipeline::mapping() const { return state_->mapping; }
+
+bool Pipeline::calibrates() const { return state_->calibration != nullptr; }
+
+std::string Pipeline::order_calibration(CalibrationOrder order, calib::Calibrator calibrator, std::int64_t now_ns,
+                                        Sink& sink) {
+  if (!state_->calibration) return "the configuration has nothing to calibrate";
+  advance(now_ns, sink);  // what is due by then comes before it, live as in replay
+  return state_->calibration->order(order, calibrator, sink);
+}
+
+calib::Report Pipeline::calibration_report() const {
+  return state_->calibration ? state_->calibration->report() : calib::Report{};
+}
+
+CalibrationChange Pipeline::calibration_beginning() {
+  return state_->calibration ? state_->calibration->beginning() : CalibrationChange{};
+}
+
+bool Pipeline::restore_calibration(std::string_view state) {
+  return state_->calibration && state_->calibration->restore(state);
+}
+
+void Pipeline::begin_calibration_run() {
+  if (state_->calibration) state_->calibration->begin_run();
+}
+
+void Pipeline::finish_calibration(Sink& sink) {
+  if (state_->calibration) state_->calibration->finish(sink);
+}
+
 PortStatistics Pipeline::statistics(std::uint16_t port) const { return state_->ports.at(port)->statistics(); }
 const config::Settings& Pipeline::settings() const { return state_->settings; }
 

@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "calib/report.h"
 #include "config/settings.h"
 #include "instruments/clock_model.h"
 #include "instruments/samples.h"
+#include "pipeline/calibration.h"
 #include "pipeline/utc_mapping.h"
 #include "protocols/frame.h"
 
@@ -22,6 +25,8 @@ class Sink {
   virtual void on_frame(std::uint16_t /*port*/, const protocols::Frame& /*frame*/, std::int64_t /*arrival_ns*/) {}
   /// The UTC mapping changed (from GPS time, or by set_mapping()).
   virtual void on_mapping(const UtcMapping& /*mapping*/) {}
+  /// The calibrations changed, by themselves or by order.
+  virtual void on_calibration(const CalibrationChange& /*change*/) {}
 };
 
 /// What is known of one port's stream; everything counted from the beginning.
@@ -37,8 +42,8 @@ struct PortStatistics {
   instruments::ClockState clock;   ///< the device's own clock
 };
 
-/// (port, arrival, bytes) -> stamped samples. The same object live and in replay: no I/O, no clock, no allocation
-/// per byte, and the same calls in the same order give bit-identical samples.
+/// (port, arrival, bytes) -> stamped and calibrated samples. The same object live and in replay: no I/O, no clock,
+/// no allocation per byte, and the same calls in the same order give bit-identical samples.
 class Pipeline {
  public:
   explicit Pipeline(const config::Settings& settings);
@@ -55,6 +60,21 @@ class Pipeline {
   /// A better mapping to UTC (from the system clock); recorded, and set again in replay.
   void set_mapping(const UtcMapping& mapping, Sink& sink);
   [[nodiscard]] const UtcMapping& mapping() const;
+
+  /// Whether there is anything to calibrate; if not, the calls below do nothing.
+  [[nodiscard]] bool calibrates() const;
+  /// The operator's word, or a recorded one. Returns why it cannot be done; empty: it is done.
+  std::string order_calibration(CalibrationOrder order, calib::Calibrator calibrator, std::int64_t now_ns,
+                                Sink& sink);
+  [[nodiscard]] calib::Report calibration_report() const;
+  /// With which a log begins.
+  [[nodiscard]] CalibrationChange calibration_beginning();
+  /// From such a beginning. False when its state is none of ours; nothing has changed then.
+  bool restore_calibration(std::string_view state);
+  /// What was restored is of an earlier run of the program.
+  void begin_calibration_run();
+  /// No more bytes come: the calibrators use all that they have.
+  void finish_calibration(Sink& sink);
 
   [[nodiscard]] PortStatistics statistics(std::uint16_t port) const;
   [[nodiscard]] const config::Settings& settings() const;

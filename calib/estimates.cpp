@@ -1,0 +1,177 @@
+// What the estimators say, in the words of Correction and Report.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "calib/estimators.h"
+
+namespace navcal::calib {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+constexpr std::array<std::string_view, 5> kCoefficients{"A_rad", "B_rad", "C_rad", "D_rad", "E_rad"};
+constexpr std::array<std::string_view, Swing::kHeadings> kSwingHeadings{"N_rad", "NE_rad", "E_rad", "SE_rad",
+                                                                        "S_rad", "SW_rad", "W_rad", "NW_rad"};
+
+double std_of(double variance) { return variance >= 0 ? std::sqrt(variance) : kUnknown; }
+
+RateCorrection rate_of(const TurnFilter& filter) {
+  const TurnCoefficients estimate = filter.estimate();
+  return {estimate[kScale], estimate[kBias]};
+}
+
+DeviationCorrection deviation_of(const TurnFilter& filter) {
+  const TurnCoefficients estimate = filter.estimate();
+  return {{0, estimate[kB], estimate[kC], estimate[kD], estimate[kE]}};
+}
+
+DeviationCorrection deviation_of(const GpsCompass::Vector& unknowns) {
+  return {{unknowns[0], unknowns[1], unknowns[2], unknowns[3], unknowns[4]}};
+}
+
+/// The gyro knows no north: what all eight have in common is A and none of its business.
+std::optional<SwingCorrection> swing_of(const Swing& swing) {
+  const auto table_rad = swing.table_rad();
+  if (!table_rad) return std::nullopt;
+  SwingCorrection correction{*table_rad};
+  const double mean_rad = std::accumulate(table_rad->begin(), table_rad->end(), 0.0) / Swing::kHeadings;
+  for (double& deviation_rad : correction.deviation_rad) deviation_rad -= mean_rad;
+  return correction;
+}
+
+std::vector<Quantity> quantities_of_gyro(const TurnCalibrator& gyro) {
+  if (!gyro.has_estimate()) return {};
+  const TurnCoefficients estimate = gyro.filter().estimate();
+  const TurnCovariance covariance = gyro.filter().covariance();
+  return {{"scale", estimate[kScale], std_of(covariance(kScale, kScale))},
+          {"bias_rad_s", estimate[kBias], std_of(covariance(kBias, kBias))}};
+}
+
+std::vector<Quantity> quantities_of_compass(const TurnCalibrator& compass) {
+  std::vector<Quantity> quantities;
+  if (!compass.has_estimate()) return quantities;
+  const TurnCoefficients estimate = compass.filter().estimate();
+  const TurnCovariance covariance = compass.filter().covariance();
+  for (int i = kB; i <= kE; ++i) {
+    quantities.push_back(
+        {kCoefficients[static_cast<std::size_t>(i - kB + 1)], estimate[i], std_of(covariance(i, i))});
+  }
+  return quantities;
+}
+
+std::vector<Quantity> quantities_of(const std::optional<MagnetometerEstimate>& estimate) {
+  if (!estimate) return {};
+  const auto& offset = estimate->correction.offset_uT;
+  const auto& std = estimate->offset_std_uT;
+  return {{"offset_x_uT", offset.x(), std.x()},
+          {"offset_y_uT", offset.y(), std.y()},
+          {"offset_z_uT", offset.z(), std.z()},
+          {"field_uT", estimate->field_uT, kUnknown},
+          {"residual_uT", estimate->residual_uT, kUnknown},
+          {"worst_heading_rad", 0, estimate->heading_std_rad}};
+}
+
+std::vector<Quantity> quantities_of(const std::optional<GpsCompass::Estimate>& estimate) {
+  std::vector<Quantity> quantities;
+  if (!estimate) return quantities;
+  const auto std = [&](int i) { return std_of(estimate->covariance(i, i)); };
+  for (int i = 0; i < 5; ++i)
+    quantities.push_back({kCoefficients[static_cast<std::size_t>(i)], estimate->unknowns[i], std(i)});
+  constexpr std::array<std::string_view, 4> kOthers{"speed_scale", "slip_s", "current_north_m_s",
+                                                    "current_east_m_s"};
+  for (int i = 0; i < 4; ++i)
+    quantities.push_back({kOthers[static_cast<std::size_t>(i)], estimate->unknowns[5 + i], std(5 + i)});
+  return quantities;
+}
+
+std::vector<Quantity> quantities_of(const Swing& swing) {
+  std::vector<Quantity> quantities;
+  const auto headings = swing.headings();
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    if (headings[i].rests > 0)
+      quantities.push_back({kSwingHeadings[i], headings[i].deviation_rad, headings[i].std_rad});
+  }
+  return quantities;
+}
+
+std::vector<Quantity> quantities_of(const Delay& delay) {
+  if (!std::isfinite(delay.std_s)) return {};
+  return {{"delay_s", delay.delay_s, delay.std_s}};
+}
+
+}  // namespace
+
+const TurnCalibrator& Estimators::turn_calibrator(Calibrator calibrator) const {
+  if (calibrator == Calibrator::gyro) return gyro_;
+  return calibrator == Calibrator::gyro_b ? gyro_b_ : compass_;
+}
+
+Correction Estimators::estimates() const {
+  Correction estimates;
+  if (gyro_.has_estimate()) estimates.gyro = rate_of(gyro_.filter());
+  if (gyro_b_.has_estimate()) estimates.gyro_b = rate_of(gyro_b_.filter());
+  if (compass_.has_estimate()) estimates.compass = deviation_of(compass_.filter());
+  if (const auto magnetometer = magnetometer_.estimate()) estimates.magnetometer = magnetometer->correction;
+  if (const auto& gps = surface_.gps_compass().estimate()) estimates.gps_compass = deviation_of(gps->unknowns);
+  if (swing_) estimates.swing = swing_of(*swing_);
+  if (const auto misalignment = surface_.misalignment().estimate())
+    estimates.misalignment_rad = misalignment->offset_rad;
+  if (const Delay delay = delays_.compass(); std::isfinite(delay.std_s)) estimates.compass_delay_s = delay.delay_s;
+  if (const Delay delay = delays_.course().estimate(); std::isfinite(delay.std_s))
+    estimates.course_delay_s = delay.delay_s;
+  return estimates;
+}
+
+Judgement Estimators::judgement(Calibrator calibrator) const {
+  switch (calibrator) {
+    case Calibrator::gyro:
+    case Calibrator::gyro_b:
+    case Calibrator::compass:
+      return turn_calibrator(calibrator).judgement();
+    case Calibrator::magnetometer:
+      return magnetometer_.judgement();
+    case Calibrator::gps_compass:
+      return surface_.gps_compass().judgement();
+    case Calibrator::misalignment:
+      return surface_.misalignment().judgement();
+    case Calibrator::compass_delay:
+      return delays_.compass_judgement();
+    case Calibrator::course_delay:
+      return delays_.course_judgement();
+    case Calibrator::swing:
+      break;
+  }
+  if (swing_) return swing_->judgement();
+  Judgement judgement;
+  judgement.reason = "not begun";
+  judgement.manoeuvre = "give calibration.start for swing, then rest on each of the eight headings";
+  return judgement;
+}
+
+std::vector<Quantity> Estimators::quantities(Calibrator calibrator) const {
+  switch (calibrator) {
+    case Calibrator::gyro:
+    case Calibrator::gyro_b:
+      return quantities_of_gyro(turn_calibrator(calibrator));
+    case Calibrator::compass:
+      return quantities_of_compass(compass_);
+    case Calibrator::magnetometer:
+      return quantities_of(magnetometer_.estimate());
+    case Calibrator::gps_compass:
+      return quantities_of(surface_.gps_compass().estimate());
+    case Calibrator::swing:
+      return swing_ ? quantities_of(*swing_) : std::vector<Quantity>{};
+    case Calibrator::misalignment:
+      if (const auto estimate = surface_.misalignment().estimate())
+        return {{"A_rad", estimate->offset_rad, estimate->offset_std_rad}};
+      return {};
+    case Calibrator::compass_delay:
+      return quantities_of(delays_.compass());
+    case Calibrator::course_delay:
+      break;
+  }
+  return quantities_of(delays_.course().estimate());
+}
+
+}  // namespace navcal::calib

@@ -1,0 +1,232 @@
+#include "calib/estimators.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "calib/reading_queue.h"
+
+namespace navcal::calib {
+namespace {
+
+/// A scale known no better does not serve the other calibrators.
+constexpr double kServingScaleStd = 0.03;
+
+TurnFilter::Parameters turn_parameters(const SuiteOptions& options) {
+  return {.heading_noise_rad = options.heading_noise_rad,
+          .rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s,
+          .bias_walk_rad_s_sqrt_s = options.bias_walk_rad_s_sqrt_s};
+}
+
+Magnetometer::Parameters field_parameters(const SuiteOptions& options) {
+  Magnetometer::Parameters parameters;
+  parameters.ellipse.noise_uT = options.field_noise_uT;
+  parameters.gyro.noise_uT = options.field_noise_uT;
+  parameters.gyro.rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s;
+  parameters.ellipsoid.noise_uT = options.field_noise_uT;
+  parameters.ellipsoid.known = options.known_field;
+  return parameters;
+}
+
+DelayEstimator::Parameters delay_parameters(const SuiteOptions& options) {
+  DelayEstimator::Parameters parameters;
+  parameters.heading.heading_noise_rad = options.heading_noise_rad;
+  parameters.heading.rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s;
+  parameters.field.field_noise_uT = options.field_noise_uT;
+  parameters.course.velocity_std_m_s = options.velocity_noise_m_s;
+  parameters.tilt_lag_s = options.tilt_lag_s;
+  return parameters;
+}
+
+}  // namespace
+
+Estimators::Estimators(const SuiteOptions& options)
+    : options_(options),
+      turns_({.tilt_lag_s = options.tilt_lag_s}),
+      gyro_(TurnCalibrator::Subject::gyro, turn_parameters(options)),
+      gyro_b_(TurnCalibrator::Subject::gyro, turn_parameters(options)),
+      compass_(TurnCalibrator::Subject::compass, turn_parameters(options)),
+      magnetometer_(field_parameters(options)),
+      surface_(options),
+      delays_(delay_parameters(options)) {}
+
+void Estimators::update(const CompassReading& original, const Correction& in_force) {
+  delays_.update(original);
+  CompassReading reading = original;
+  reading.time_s -= in_force.compass_delay_s.value_or(0);
+  heading_seen_ = heading_seen_ || reading.heading_rad.has_value();
+  if (!heading_seen_ && reading.field_body_uT && reading.pitch_rad && reading.roll_rad)
+    reading.heading_rad = levelled_heading(*reading.field_body_uT, *reading.roll_rad, *reading.pitch_rad);
+  turns_.update(reading);
+  // next() is called after every reading: it makes room.
+  pending_[(first_pending_ + pending_count_) % kPending] = reading;
+  ++pending_count_;
+}
+
+void Estimators::update(const RateReading& reading) {
+  turns_.update(reading);
+  delays_.update(reading);
+  yaw_rate_rad_s_ = reading.rate_rad_s.z();
+}
+
+void Estimators::update(const GroundReading& reading, const Correction& in_force) {
+  surface_.update(reading, in_force);
+  delays_.update(reading);
+}
+
+std::optional<TurnedReading> Estimators::next(const Correction& in_force) {
+  for (;;) {
+    if (!turn_) turn_ = turns_.next();
+    if (pending_count_ == 0) {
+      turn_.reset();
+      finishing_ = false;
+      return std::nullopt;
+    }
+    const double time_s = pending_[first_pending_].time_s;
+    std::optional<TurnStep> turn;
+    if (turn_ && turn_->time_s <= time_s) {
+      turn = std::exchange(turn_, std::nullopt);
+      if (turn->time_s < time_s) continue;  // of a reading that was given up
+    } else if (!turn_ && pending_count_ < kPending && !finishing_) {
+      return std::nullopt;
+    }
+    const TurnedReading turned = take_pending(turn);
+    learn(turned, in_force);
+    return turned;
+  }
+}
+
+TurnedReading Estimators::take_pending(std::optional<TurnStep> turn) {
+  const TurnedReading turned{pending_[first_pending_], turn};
+  first_pending_ = (first_pending_ + 1) % kPending;
+  --pending_count_;
+  return turned;
+}
+
+std::optional<RateCorrection> Estimators::known_gyro(const Correction& in_force) const {
+  if (in_force.gyro) return in_force.gyro;
+  if (!gyro_.has_estimate()) return std::nullopt;
+  if (!(gyro_.filter().covariance()(kScale, kScale) <= kServingScaleStd * kServingScaleStd)) return std::nullopt;
+  const TurnCoefficients estimate = gyro_.filter().estimate();
+  return RateCorrection{estimate[kScale], estimate[kBias]};
+}
+
+void Estimators::learn(const TurnedReading& turned, const Correction& in_force) {
+  if (turned.turn) {
+    gyro_.update(*turned.turn);
+    gyro_b_.update(turned.turn->with_gyro_b());
+    compass_.update(*turned.turn);
+    learn_swing(*turned.turn, in_force);
+  }
+  learn_field(turned);
+  double turn_rate_rad_s = 0;
+  if (yaw_rate_rad_s_) {
+    if (const auto gyro = known_gyro(in_force)) turn_rate_rad_s = (*gyro)(*yaw_rate_rad_s_);
+  }
+  const WaterTrackReading track = surface_.track_of(turned.reading, turn_rate_rad_s);
+  surface_.update(turned.reading, track, in_force);
+  if (turned.reading.heading_rad) delays_.update(track);
+}
+
+void Estimators::learn_field(const TurnedReading& turned) {
+  const auto& reading = turned.reading;
+  if (!reading.field_body_uT || !reading.roll_rad || !reading.pitch_rad) return;
+  if (turned.turn) {
+    magnetometer_.update(*reading.field_body_uT, *reading.roll_rad, *reading.pitch_rad, *turned.turn);
+  } else {
+    magnetometer_.update(*reading.field_body_uT, *reading.roll_rad, *reading.pitch_rad);
+  }
+}
+
+/// The reference is the calibrated gyro, begun at the compass's own heading: what the swing finds is right but for
+/// a constant, which is A.
+void Estimators::learn_swing(const TurnStep& turn, const Correction& in_force) {
+  if (!swing_) return;
+  const auto gyro = known_gyro(in_force);
+  if (!gyro) return;
+  if (!swing_anchored_) {
+    swing_reference_rad_ = turn.heading_rad;
+  } else if (turn.begins_segment) {
+    // Nothing better is known of the turn across a gap.
+    swing_reference_rad_ += std::remainder(turn.heading_rad - swing_heading_rad_, 2 * std::numbers::pi);
+  } else {
+    swing_reference_rad_ +=
+        gyro->scale * turn.measured_angle_rad + gyro->bias_rad_s * turn.bias_time_s + turn.tilt_angle_rad;
+  }
+  swing_anchored_ = true;
+  swing_heading_rad_ = turn.heading_rad;
+  swing_->update(turn.time_s, turn.heading_rad, swing_reference_rad_);
+}
+
+TurnPrior Estimators::compass_prior() const {
+  if (!gyro_.judgement().accepted) return TurnPrior::unknown_both();
+  const TurnCoefficients gyro = gyro_.filter().estimate();
+  return TurnPrior::unknown_compass(gyro[kScale], gyro[kBias], gyro_.filter().covariance().topLeftCorner<2, 2>());
+}
+
+void Estimators::start(Calibrator calibrator) {
+  switch (calibrator) {
+    case Calibrator::gyro:
+      return gyro_.start();
+    case Calibrator::gyro_b:
+      return gyro_b_.start();
+    case Calibrator::compass:
+      return compass_.start(compass_prior());
+    case Calibrator::magnetometer:
+      magnetometer_ = Magnetometer(field_parameters(options_));
+      return on_in_force(Calibrator::gyro);
+    case Calibrator::gps_compass:
+    case Calibrator::misalignment:
+      return surface_.start(calibrator);
+    case Calibrator::swing:
+      swing_.emplace();
+      swing_anchored_ = false;
+      return;
+    case Calibrator::compass_delay:
+    case Calibrator::course_delay:
+      delays_ = DelayEstimator(delay_parameters(options_));
+      return;
+  }
+}
+
+void Estimators::on_in_force(Calibrator calibrator) {
+  switch (calibrator) {
+    case Calibrator::gyro:
+      if (gyro_.judgement().accepted) {
+        const TurnCoefficients gyro = gyro_.filter().estimate();
+        magnetometer_.set_gyro({gyro.head<2>(), gyro_.filter().covariance().topLeftCorner<2, 2>()});
+      }
+      break;
+    case Calibrator::compass:
+    case Calibrator::magnetometer:
+    case Calibrator::gps_compass:
+    case Calibrator::swing:
+      surface_.start(Calibrator::misalignment);  // it was found for another heading
+      break;
+    case Calibrator::misalignment:
+      surface_.on_change();
+      break;
+    case Calibrator::gyro_b:
+    case Calibrator::compass_delay:
+    case Calibrator::course_delay:
+      break;
+  }
+}
+
+void Estimators::archive(Archive& archive) {
+  archive.tag("estimators 1");
+  archive(turns_, gyro_, gyro_b_, compass_, magnetometer_, surface_, delays_, swing_, swing_reference_rad_,
+          swing_heading_rad_, swing_anchored_);
+  for (CompassReading& reading : pending_) calib::archive(archive, reading);
+  archive(first_pending_, pending_count_, yaw_rate_rad_s_, heading_seen_, finishing_);
+  bool has_turn = turn_.has_value();
+  archive(has_turn);
+  if (!archive.saving()) turn_ = has_turn ? std::optional(TurnStep{}) : std::nullopt;
+  if (turn_) {
+    archive(turn_->time_s, turn_->heading_rad, turn_->begins_segment, turn_->duration_s, turn_->measured_angle_rad,
+            turn_->measured_angle_b_rad, turn_->bias_time_s, turn_->tilt_angle_rad);
+  }
+  if (first_pending_ >= kPending || pending_count_ > kPending) first_pending_ = pending_count_ = 0;
+}
+
+}  // namespace navcal::calib

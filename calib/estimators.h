@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "calib/archive.h"
+#include "calib/correction.h"
+#include "calib/delay_estimator.h"
+#include "calib/judgement.h"
+#include "calib/magnetometer.h"
+#include "calib/report.h"
+#include "calib/suite_options.h"
+#include "calib/surface_calibrators.h"
+#include "calib/swing.h"
+#include "calib/turn_calibrator.h"
+#include "calib/turn_integrator.h"
+
+namespace navcal::calib {
+
+/// A reading of the compass with the turn that led to it, where the gyro tells it.
+struct TurnedReading {
+  CompassReading reading;
+  std::optional<TurnStep> turn;
+};
+
+/// All estimators, fed with readings in the order of their times.
+class Estimators {
+ public:
+  explicit Estimators(const SuiteOptions& options);
+
+  void update(const CompassReading& reading, const Correction& in_force);
+  void update(const RateReading& reading);
+  void update(const GroundReading& reading, const Correction& in_force);
+  void update(const MotorReading& reading) { surface_.update(reading); }
+  /// The next reading of the compass whose turn is known, or that will have none; it has been through all
+  /// estimators. To be called until there is none.
+  std::optional<TurnedReading> next(const Correction& in_force);
+  /// No more readings come.
+  void finish() { finishing_ = true; }
+  void settle() { magnetometer_.settle(); }
+
+  /// One calibrator forgets what it has seen; the compass keeps what is known of the gyro.
+  void start(Calibrator calibrator);
+  /// What is in force changed for one calibrator: those that build on it begin anew.
+  void on_in_force(Calibrator calibrator);
+
+  /// The newest estimate of each calibrator that has one.
+  [[nodiscard]] Correction estimates() const;
+  [[nodiscard]] Judgement judgement(Calibrator calibrator) const;
+  [[nodiscard]] std::vector<Quantity> quantities(Calibrator calibrator) const;
+  [[nodiscard]] const Comparison& misalignment_comparison() const { return surface_.comparison(); }
+  void archive(Archive& archive);
+
+ private:
+  static constexpr std::size_t kPending = 64;
+
+  [[nodiscard]] TurnPrior compass_prior() const;
+  [[nodiscard]] const TurnCalibrator& turn_calibrator(Calibrator calibrator) const;
+  /// Of what is in force, or estimated well enough to serve the other calibrators.
+  [[nodiscard]] std::optional<RateCorrection> known_gyro(const Correction& in_force) const;
+  TurnedReading take_pending(std::optional<TurnStep> turn);
+  void learn(const TurnedReading& turned, const Correction& in_force);
+  void learn_field(const TurnedReading& turned);
+  void learn_swing(const TurnStep& turn, const Correction& in_force);
+
+  SuiteOptions options_;
+  TurnIntegrator turns_;
+  TurnCalibrator gyro_, gyro_b_, compass_;
+  Magnetometer magnetometer_;
+  SurfaceCalibrators surface_;
+  DelayEstimator delays_;
+  std::optional<Swing> swing_;  ///< begun by the operator
+  double swing_reference_rad_ = 0, swing_heading_rad_ = 0;
+  bool swing_anchored_ = false;
+  std::array<CompassReading, kPending> pending_{};  ///< ring: their turns are not known yet
+  std::size_t first_pending_ = 0, pending_count_ = 0;
+  std::optional<TurnStep> turn_;          ///< of a pending reading, or of a later one
+  std::optional<double> yaw_rate_rad_s_;  ///< newest, as measured
+  bool heading_seen_ = false;             ///< the compass says headings of its own
+  bool finishing_ = false;
+};
+
+}  // namespace navcal::calib

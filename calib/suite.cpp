@@ -1,0 +1,185 @@
+#include "calib/suite.h"
+
+#include "calib/coverage.h"
+
+namespace navcal::calib {
+namespace {
+
+/// Readings of the compass between two looks at which estimates are accepted.
+constexpr std::uint32_t kJudgeEvery = 25;
+
+/// Those that improve the heading or the rate; delays and the swing come into force by the operator's word alone.
+constexpr std::array kAutomatic{Calibrator::gyro,         Calibrator::gyro_b,      Calibrator::compass,
+                                Calibrator::magnetometer, Calibrator::gps_compass, Calibrator::misalignment};
+
+std::size_t index(Calibrator calibrator) { return static_cast<std::size_t>(calibrator); }
+
+}  // namespace
+
+Suite::Suite(const SuiteOptions& options, Instruments instruments)
+    : options_(options), instruments_(instruments), gate_(options.gate), estimators_(options) {}
+
+void Suite::put(const Reading& reading) {
+  gate_.put(reading);
+  while (const auto clean = gate_.take()) process(*clean);
+}
+
+void Suite::finish() {
+  gate_.flush();
+  while (const auto clean = gate_.take()) process(*clean);
+  estimators_.finish();
+  take_turned();
+  estimators_.settle();
+}
+
+void Suite::process(const Reading& reading) {
+  if (const auto* compass = std::get_if<CompassReading>(&reading)) {
+    if (compass->heading_rad) ++rose_[sector_of(*compass->heading_rad)];
+    estimators_.update(*compass, in_force_.correction());
+  } else if (const auto* rate = std::get_if<RateReading>(&reading)) {
+    estimators_.update(*rate);
+  } else if (const auto* ground = std::get_if<GroundReading>(&reading)) {
+    estimators_.update(*ground, in_force_.correction());
+    adopt_what_is_better();
+  } else if (const auto* motor = std::get_if<MotorReading>(&reading)) {
+    estimators_.update(*motor);
+  }
+  take_turned();
+}
+
+void Suite::take_turned() {
+  while (const auto turned = estimators_.next(in_force_.correction())) judge(*turned);
+}
+
+void Suite::judge(const TurnedReading& turned) {
+  if (readings_since_judged_++ % kJudgeEvery == 0) accepted_ = accepted();
+  if (!turned.turn) return;
+  if (held_out_.update(turned.reading, *turned.turn, in_force_.correction(), accepted_)) adopt_what_is_better();
+}
+
+Correction Suite::accepted() const {
+  const Correction estimates = estimators_.estimates();
+  Correction accepted;
+  for (const Calibrator calibrator : kCalibrators) {
+    if (has(estimates, calibrator) && estimators_.judgement(calibrator).accepted)
+      copy_value(accepted, estimates, calibrator);
+  }
+  return accepted;
+}
+
+const Comparison& Suite::comparison(Calibrator calibrator) const {
+  return calibrator == Calibrator::misalignment ? estimators_.misalignment_comparison() : held_out_.of(calibrator);
+}
+
+void Suite::adopt_what_is_better() {
+  if (!options_.automatic) return;
+  for (const Calibrator calibrator : kAutomatic) {
+    const Comparison& found = comparison(calibrator);
+    if (held_[index(calibrator)] || !has(accepted_, calibrator) || !found.better_by(options_.margin)) continue;
+    adopt(calibrator, accepted_);
+    adopted_[index(calibrator)] = true;
+  }
+}
+
+void Suite::adopt(Calibrator calibrator, const Correction& estimates) {
+  in_force_.adopt(calibrator, estimates);
+  on_change(calibrator);
+}
+
+void Suite::on_change(Calibrator calibrator) {
+  held_out_.on_change();
+  estimators_.on_in_force(calibrator);
+  accepted_ = accepted();
+}
+
+std::optional<Calibrator> Suite::take_adopted() {
+  for (const Calibrator calibrator : kCalibrators) {
+    if (!adopted_[index(calibrator)]) continue;
+    adopted_[index(calibrator)] = false;
+    return calibrator;
+  }
+  return std::nullopt;
+}
+
+std::string Suite::accept(Calibrator calibrator) {
+  if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
+  const Correction estimates = estimators_.estimates();
+  const Judgement judgement = estimators_.judgement(calibrator);
+  if (!judgement.accepted) {
+    return "refused: " + judgement.reason + (judgement.manoeuvre.empty() ? "" : "; " + judgement.manoeuvre);
+  }
+  if (!has(estimates, calibrator)) return "there is no estimate yet";
+  held_[index(calibrator)] = false;
+  adopt(calibrator, estimates);
+  return {};
+}
+
+std::string Suite::roll_back(Calibrator calibrator) {
+  if (!in_force_.roll_back(calibrator)) return "nothing to go back to";
+  held_[index(calibrator)] = true;
+  on_change(calibrator);
+  return {};
+}
+
+std::string Suite::start(Calibrator calibrator) {
+  if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
+  estimators_.start(calibrator);
+  held_out_.forget(calibrator);
+  held_[index(calibrator)] = false;
+  if (calibrator == Calibrator::compass || calibrator == Calibrator::magnetometer) rose_ = {};
+  accepted_ = accepted();
+  return {};
+}
+
+bool Suite::has_instruments(Calibrator calibrator) const {
+  const auto& [compass, rate, ground, motor] = instruments_;
+  switch (calibrator) {
+    case Calibrator::magnetometer:
+      return compass;
+    case Calibrator::gps_compass:
+      return compass && ground && motor && options_.advance_m > 0;
+    case Calibrator::misalignment:
+    case Calibrator::course_delay:
+      return compass && ground;
+    case Calibrator::gyro:
+    case Calibrator::gyro_b:
+    case Calibrator::compass:
+    case Calibrator::swing:
+    case Calibrator::compass_delay:
+      break;
+  }
+  return compass && rate;
+}
+
+Report Suite::report() const {
+  Report report;
+  report.name = in_force_.name();
+  report.in_force = in_force_.correction();
+  report.estimates = estimators_.estimates();
+  for (const Calibrator calibrator : kCalibrators) {
+    if (!has_instruments(calibrator)) continue;
+    CalibratorReport& one = report.calibrators.emplace_back();
+    one.calibrator = calibrator;
+    one.judgement = estimators_.judgement(calibrator);
+    one.judgement.held_out_before = comparison(calibrator).before_rms();
+    one.judgement.held_out_after = comparison(calibrator).estimate_rms();
+    one.verdict = has(report.in_force, calibrator) ? Verdict::in_force
+                  : one.judgement.accepted         ? Verdict::shadow
+                                                   : Verdict::refused;
+    one.estimate = estimators_.quantities(calibrator);
+    one.held = held_[index(calibrator)];
+    one.steps_back = in_force_.steps_back(calibrator);
+  }
+  const Comparison& heading = held_out_.heading();
+  report.heading = {heading.blocks(), heading.before_rms(), heading.estimate_rms(), heading.in_force_rms()};
+  report.rose = rose_;
+  report.gate = gate_.counts();
+  return report;
+}
+
+void Suite::archive(Archive& archive) {
+  archive.tag("suite 1");
+  archive(gate_, estimators_, held_out_, in_force_, accepted_, readings_since_judged_, held_, adopted_, rose_);
+}
+
+}  // namespace navcal::calib

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/archive.h"
+#include "calib/estimators.h"
+#include "calib/gate.h"
+#include "calib/held_out.h"
+#include "calib/in_force.h"
+#include "calib/report.h"
+#include "calib/suite_options.h"
+
+namespace navcal::calib {
+
+/// Which instruments there are: a calibrator without its own is not reported.
+struct Instruments {
+  bool compass = false, rate = false, ground = false, motor = false;
+};
+
+/// Everything that calibrates: readings in, the calibration in force and what is thought of it out. Readings go
+/// through the Gate to all estimators; their estimates run in shadow, are judged on readings held out (HeldOut),
+/// and come into force when they are accepted and better by the margin, or by the operator's word. The same calls
+/// in the same order give the same results to the last bit.
+class Suite {
+ public:
+  Suite(const SuiteOptions& options, Instruments instruments);
+
+  void put(const Reading& reading);
+  /// No more readings come: all that wait are used, and what iterates iterates to its end.
+  void finish();
+  /// Readings go on after a pause of unknown length, on another clock.
+  void restart() { gate_.restart(); }
+
+  [[nodiscard]] const InForce& in_force() const { return in_force_; }
+  /// A calibrator whose estimate came into force by itself since the last call; to be called until there is none.
+  std::optional<Calibrator> take_adopted();
+
+  // The operator's word. Each returns why it cannot be done; empty: it is done.
+  std::string accept(Calibrator calibrator);
+  std::string roll_back(Calibrator calibrator);
+  std::string start(Calibrator calibrator);
+
+  [[nodiscard]] Report report() const;
+  void archive(Archive& archive);
+
+ private:
+  void process(const Reading& reading);
+  void take_turned();
+  void judge(const TurnedReading& turned);
+  [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
+  [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
+  /// The newest estimates of those that are accepted.
+  [[nodiscard]] Correction accepted() const;
+  void adopt_what_is_better();
+  void adopt(Calibrator calibrator, const Correction& estimates);
+  void on_change(Calibrator calibrator);
+
+  SuiteOptions options_;
+  Instruments instruments_;
+  Gate gate_;
+  Estimators estimators_;
+  HeldOut held_out_;
+  InForce in_force_;
+  Correction accepted_;  ///< as of not long ago: judging takes time
+  std::uint32_t readings_since_judged_ = 0;
+  std::array<bool, kCalibrators.size()> held_{};     ///< rolled back: only the operator brings it back
+  std::array<bool, kCalibrators.size()> adopted_{};  ///< not told yet
+  Rose rose_{};
+};
+
+}  // namespace navcal::calib

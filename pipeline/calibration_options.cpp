@@ -1,0 +1,60 @@
+#include "pipeline/calibration_options.h"
+
+#include <cmath>
+
+namespace navcal::pipeline {
+namespace {
+
+using protocols::Protocol;
+
+/// The inertial card's own, where the configuration says no rate.
+constexpr double kUsualRate_Hz = 20;
+/// How well field and dip are known from a map.
+constexpr double kFieldShare = 0.01, kDipStd_rad = 0.01;
+
+std::optional<std::uint16_t> first_of(const config::Settings& settings, Protocol protocol) {
+  for (std::size_t i = 0; i < settings.ports.size(); ++i) {
+    if (settings.ports[i].protocol == protocol) return static_cast<std::uint16_t>(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+CalibratedPorts calibrated_ports(const config::Settings& settings) {
+  CalibratedPorts ports;
+  ports.compass = first_of(settings, Protocol::tcm2);
+  ports.imu = first_of(settings, Protocol::imu_card);
+  ports.gps = first_of(settings, Protocol::oncore);
+  ports.motor = first_of(settings, Protocol::motor_card);
+  // NMEA carries either; what a port of it gives is known only when it comes.
+  const auto nmea = first_of(settings, Protocol::nmea);
+  if (!ports.compass) ports.compass = nmea;
+  if (!ports.gps) ports.gps = nmea;
+  return ports;
+}
+
+calib::SuiteOptions suite_options(const config::Settings& settings, const CalibratedPorts& ports) {
+  const auto& c = settings.calibration;
+  calib::SuiteOptions options;
+  options.gate.motor_settle_s = c.motor_settle_s;
+  options.automatic = c.automatic;
+  options.margin = c.margin;
+  options.heading_noise_rad = c.heading_noise_rad;
+  const double rate_Hz = ports.imu ? settings.ports[*ports.imu].rate_Hz : 0;
+  options.rate_noise_rad_sqrt_s = c.gyro_noise_rad_s / std::sqrt(rate_Hz > 0 ? rate_Hz : kUsualRate_Hz);
+  options.bias_walk_rad_s_sqrt_s = c.bias_walk_rad_s;
+  options.field_noise_uT = c.field_noise_uT;
+  options.tilt_lag_s = c.tilt_lag_s;
+  options.declination_rad = settings.environment.declination_rad;
+  if (const double field_uT = settings.environment.field_uT; field_uT > 0) {
+    options.known_field = {field_uT, settings.environment.dip_rad, kFieldShare * field_uT, kDipStd_rad};
+  }
+  options.position_noise_m = c.position_noise_m;
+  options.velocity_noise_m_s = c.velocity_noise_m_s;
+  options.current_m_s = c.current_m_s;
+  options.advance_m = c.advance_m;
+  return options;
+}
+
+}  // namespace navcal::pipeline

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "calib/suite.h"
+#include "config/settings.h"
+
+namespace navcal::pipeline {
+
+/// The ports whose instruments are calibrated and help to it: the first of each kind, a TCM2 before other
+/// compasses.
+struct CalibratedPorts {
+  std::optional<std::uint16_t> compass, imu, gps, motor;
+  [[nodiscard]] calib::Instruments instruments() const {
+    return {compass.has_value(), imu.has_value(), gps.has_value(), motor.has_value()};
+  }
+};
+[[nodiscard]] CalibratedPorts calibrated_ports(const config::Settings& settings);
+
+/// What the calibrators must know, in their units.
+[[nodiscard]] calib::SuiteOptions suite_options(const config::Settings& settings, const CalibratedPorts& ports);
+
+}  // namespace navcal::pipeline

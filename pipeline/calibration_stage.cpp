@@ -1,0 +1,166 @@
+#include "pipeline/calibration_stage.h"
+
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "pipeline/calibration_options.h"
+
+namespace navcal::pipeline {
+namespace {
+
+using calib::Calibrator;
+using protocols::Protocol;
+
+/// WGS84.
+constexpr double kEquator_m = 6'378'137, kEccentricity2 = 6.69437999014e-3;
+
+Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
+
+calib::CompassReading reading_of(const instruments::CompassSample& sample, double time_s) {
+  calib::CompassReading reading;
+  reading.time_s = time_s;
+  if (!sample.heading_is_true) reading.heading_rad = sample.heading_rad;
+  reading.pitch_rad = sample.pitch_rad;
+  reading.roll_rad = sample.roll_rad;
+  if (sample.field_body_uT) reading.field_body_uT = vector(*sample.field_body_uT);
+  reading.faulty = sample.error.has_value();
+  return reading;
+}
+
+}  // namespace
+
+std::unique_ptr<CalibrationStage> CalibrationStage::make(const config::Settings& settings) {
+  if (!settings.calibration.enabled) return nullptr;
+  const CalibratedPorts ports = calibrated_ports(settings);
+  if (!ports.compass) return nullptr;
+  return std::make_unique<CalibrationStage>(settings, ports);
+}
+
+CalibrationStage::CalibrationStage(const config::Settings& settings, const CalibratedPorts& ports)
+    : suite_(suite_options(settings, ports), ports.instruments()), ports_(ports) {}
+
+double CalibrationStage::seconds(std::int64_t validity_ns) {
+  if (!origin_ns_) origin_ns_ = validity_ns;
+  return static_cast<double>(validity_ns - *origin_ns_) * 1e-9;
+}
+
+void CalibrationStage::correct(instruments::Sample& sample) const {
+  const auto& correction = suite_.in_force().correction();
+  const auto name = suite_.in_force().name();
+  sample.calibration = {name.number, name.sum};
+  if (auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
+    if (sample.port != ports_.compass || compass->heading_is_true) return;
+    compass->heading_calibrated_rad = calib::corrected_heading(correction, reading_of(*compass, 0));
+    const auto delay_ns = std::llround(correction.compass_delay_s.value_or(0) * 1e9);
+    sample.stamp.validity_ns -= delay_ns;
+    sample.stamp.validity_utc_ns -= delay_ns;
+  } else if (auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
+    if (sample.port != ports_.imu) return;
+    if (correction.gyro) imu->yaw_rate_calibrated_rad_s = (*correction.gyro)(imu->rate_rad_s[2]);
+    if (correction.gyro_b) imu->yaw_rate_b_calibrated_rad_s = (*correction.gyro_b)(imu->yaw_rate_b_rad_s);
+  }
+}
+
+void CalibrationStage::learn(const instruments::Sample& original, Sink& sink) {
+  std::visit([&](const auto& value) { learn_from(original, value); }, original.value);
+  while (const auto adopted = suite_.take_adopted()) tell(CalibrationChange::Cause::automatic, *adopted, sink);
+}
+
+void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::CompassSample& compass) {
+  if (sample.port == ports_.compass) suite_.put(reading_of(compass, seconds(sample.stamp.validity_ns)));
+}
+
+void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::ImuSample& imu) {
+  if (sample.port != ports_.imu) return;
+  calib::RateReading reading;
+  reading.time_s = seconds(sample.stamp.validity_ns);
+  reading.rate_rad_s = vector(imu.rate_rad_s);
+  reading.yaw_rate_b_rad_s = imu.yaw_rate_b_rad_s;
+  reading.specific_force_m_s2 = vector(imu.specific_force_m_s2);
+  reading.saturated = imu.over_range;
+  suite_.put(reading);
+}
+
+void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::GpsSample& gps) {
+  const bool fixed = gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
+  if (sample.port != ports_.gps || !fixed || !gps.latitude_rad || !gps.longitude_rad || !gps.speed_m_s) return;
+  if (!origin_latitude_rad_) {
+    origin_latitude_rad_ = gps.latitude_rad;
+    origin_longitude_rad_ = gps.longitude_rad;
+  }
+  calib::GroundReading reading;
+  reading.time_s = seconds(sample.stamp.validity_ns);
+  const double north_rad = *gps.latitude_rad - *origin_latitude_rad_;
+  const double east_rad = std::remainder(*gps.longitude_rad - *origin_longitude_rad_, 2 * std::numbers::pi);
+  const double sine = std::sin(*origin_latitude_rad_);
+  const double shrink = 1 - kEccentricity2 * sine * sine;
+  const double across_m = kEquator_m / std::sqrt(shrink);
+  reading.position_m = {across_m * (1 - kEccentricity2) / shrink * north_rad,
+                        across_m * std::cos(*origin_latitude_rad_) * east_rad};
+  reading.speed_m_s = *gps.speed_m_s;
+  reading.course_rad = gps.course_rad;
+  suite_.put(reading);
+}
+
+void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::MotorSample& motor) {
+  if (sample.port == ports_.motor && motor.rpm)
+    suite_.put(calib::MotorReading{seconds(sample.stamp.validity_ns), *motor.rpm});
+}
+
+std::string CalibrationStage::order(CalibrationOrder order, Calibrator calibrator, Sink& sink) {
+  using Cause = CalibrationChange::Cause;
+  switch (order) {
+    case CalibrationOrder::accept:
+      if (auto why_not = suite_.accept(calibrator); !why_not.empty()) return why_not;
+      tell(Cause::accept, calibrator, sink);
+      break;
+    case CalibrationOrder::roll_back:
+      if (auto why_not = suite_.roll_back(calibrator); !why_not.empty()) return why_not;
+      tell(Cause::roll_back, calibrator, sink);
+      break;
+    case CalibrationOrder::start:
+      if (auto why_not = suite_.start(calibrator); !why_not.empty()) return why_not;
+      tell(Cause::start, calibrator, sink);
+      break;
+  }
+  return {};
+}
+
+void CalibrationStage::finish(Sink& sink) {
+  suite_.finish();
+  while (const auto adopted = suite_.take_adopted()) tell(CalibrationChange::Cause::automatic, *adopted, sink);
+}
+
+void CalibrationStage::tell(CalibrationChange::Cause cause, Calibrator calibrator, Sink& sink) const {
+  sink.on_calibration({cause, calibrator, suite_.in_force().name(), suite_.in_force().correction(), {}});
+}
+
+CalibrationChange CalibrationStage::beginning() {
+  calib::Archive saving;
+  archive(saving);
+  return {CalibrationChange::Cause::begin, std::nullopt, suite_.in_force().name(), suite_.in_force().correction(),
+          saving.bytes()};
+}
+
+bool CalibrationStage::restore(std::string_view state) {
+  // Tried on another first: half of a damaged state is worse than none.
+  CalibrationStage other = *this;
+  calib::Archive restoring(state);
+  other.archive(restoring);
+  if (!restoring.ok() || !restoring.at_end()) return false;
+  *this = std::move(other);
+  return true;
+}
+
+void CalibrationStage::begin_run() {
+  suite_.restart();
+  origin_ns_.reset();
+}
+
+void CalibrationStage::archive(calib::Archive& archive) {
+  archive.tag("calibration_stage 1");
+  archive(suite_, origin_ns_, origin_latitude_rad_, origin_longitude_rad_);
+}
+
+}  // namespace navcal::pipeline
