@@ -120,6 +120,11 @@ class Daemon:
                 time.sleep(0.002)
         s.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         s.sendall(b'?WATCH={"enable":true,"json":true}\n')
+        # What is written before the daemon has heard of us would be counted against it.
+        s.settimeout(timeout_s)
+        answer = b""
+        while b'"class":"WATCH"' not in answer:
+            answer += s.recv(65536)
         s.setblocking(False)
         return s
 
