@@ -111,7 +111,7 @@ void NmeaEpoch::set_place(const std::optional<nmea::LatLon>& place) {
 void NmeaEpoch::set_motion(const std::optional<protocols::nmea::Decimal>& speed_kn,
                            const std::optional<protocols::nmea::Decimal>& course_deg) {
   if (!speed_kn) return;
-  open_.speed_m_s = speed_kn->value() * nmea::kMetresPerSecondPerKnot;
+  open_.speed_m_s = speed_kn->value() * protocols::kMetresPerSecondPerKnot;
   if (course_deg && *open_.speed_m_s >= course_gate_m_s_) open_.course_rad = course_deg->value() * kRadPerDeg;
 }
 
