@@ -5,30 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "calib/ellipse_chain.h"
 #include "calib/ellipse_shape.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer_estimate.h"
 #include "calib/turn_step.h"
 
 namespace navcal::calib {
-
-/// Mean of neighbouring readings, less than two degrees apart, and what the gyro says of the way from the group
-/// before: the regressors of TurnStep, from mean to mean.
-struct TurnGroup {
-  double count = 0;
-  Eigen::Vector2d field_uT = Eigen::Vector2d::Zero();
-  bool begins_segment = true;
-  // Sums of TurnStep since the segment began, at the group's mean.
-  double time_s = 0, measured_angle_rad = 0, bias_time_s = 0, tilt_angle_rad = 0;
-  void archive(Archive& archive);
-};
-
-/// Scale and bias of the gyro, true rate = scale * measured + bias, as believed beforehand.
-struct GyroBelief {
-  Eigen::Vector2d mean{1, 0};  ///< scale; bias in rad/s
-  Eigen::Matrix2d covariance = Eigen::Vector2d(0.04, 0.04).asDiagonal();
-  void archive(Archive& archive) { archive(mean, covariance); }
-};
 
 /// Model: levelled field = centre + S u(psi_k) + noise, and psi_k+1 - psi_k = scale S1 + bias S2 + T (TurnStep)
 /// + the integral of the gyro's noise; uT, radians, rad/s. The gyro says where on the ellipse one is, so that
@@ -41,8 +24,7 @@ struct GyroBelief {
 class EllipseGyro {
  public:
   static constexpr std::size_t kCapacity = 512;
-  static constexpr int kUnknowns = EllipseShape::kParameters + 2;  ///< shape, scale, bias
-  using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+  using Matrix = EllipseChain::Matrix;
 
   struct Parameters {
     double noise_uT = 0.15;
@@ -61,8 +43,8 @@ class EllipseGyro {
   void settle();
 
   [[nodiscard]] std::optional<MagnetometerEstimate> estimate() const;
-  [[nodiscard]] const std::optional<EllipseShape>& shape() const { return shape_; }
-  [[nodiscard]] Eigen::Vector2d gyro() const { return gyro_; }  ///< scale, bias, with what this fit adds
+  [[nodiscard]] std::optional<EllipseShape> shape() const;
+  [[nodiscard]] Eigen::Vector2d gyro() const { return chain_.gyro; }  ///< scale, bias, with what this fit adds
   [[nodiscard]] Matrix covariance() const;
   [[nodiscard]] Judgement judgement() const;
   [[nodiscard]] const std::vector<TurnGroup>& groups() const { return groups_; }
@@ -70,19 +52,16 @@ class EllipseGyro {
   void archive(Archive& archive);
 
  private:
-  struct Progress;
-  void add(const Eigen::Vector2d& field_uT, const TurnStep& turn);
-  bool start();
+  void add(const Eigen::Vector2d& field_uT, const Eigen::Vector4d& way, bool begins_segment);
   void iterate();
 
   Parameters parameters_;
   std::vector<TurnGroup> groups_;
-  std::vector<double> headings_rad_;  ///< one for each group, when there is a shape
-  std::optional<EllipseShape> shape_;
-  Eigen::Vector2d gyro_;
-  Matrix information_ = Matrix::Zero();
-  double chi_squared_ = 0;
-  bool settled_ = false;
+  EllipseChain chain_;
+  bool shape_found_ = false;
+  bool broken_ = false;                                    ///< the way from the last reading is not known
+  Eigen::Vector4d way_ = Eigen::Vector4d::Zero();          ///< time, S1, S2, T since the segment began
+  Eigen::Vector4d group_begin_ = Eigen::Vector4d::Zero();  ///< the same at the newest group's first reading
   std::uint64_t samples_ = 0;
 };
 

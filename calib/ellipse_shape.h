@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <optional>
 
 #include "calib/archive.h"
+#include "calib/correction.h"
 
 namespace navcal::calib {
 
@@ -52,7 +52,6 @@ struct EllipseShape {
 [[nodiscard]] double worst_heading_std_rad(const EllipseShape& shape, const EllipseShape::Matrix& covariance);
 
 /// matrix = radius * S^-1 and the offset, in three dimensions: nothing is said of the vertical.
-struct FieldCorrection;
 [[nodiscard]] FieldCorrection correction_of(const EllipseShape& shape);
 
 }  // namespace navcal::calib

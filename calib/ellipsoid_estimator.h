@@ -48,7 +48,15 @@ class EllipsoidEstimator {
   void archive(Archive& archive);
 
  private:
+  /// One reading off the fit, relative to the size of the field.
+  struct Departure {
+    double size = 0, dip = 0;
+    double noise_variance = 0, fit_variance = 0;  ///< of size
+  };
   [[nodiscard]] EllipsoidNoise noise() const;
+  [[nodiscard]] Departure departure(const Eigen::Vector3d& field_uT, const Eigen::Vector3d& down) const;
+  void learn_noise(const Eigen::Vector3d& field_uT, const Eigen::Vector3d& down);
+  void begin();
 
   Parameters parameters_;
   FieldCells<3, 6> cells_;

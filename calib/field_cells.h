@@ -11,6 +11,9 @@
 
 namespace navcal::calib {
 
+/// Beyond any sum of the Earth's field and a vehicle's iron: such a reading is left out.
+inline constexpr double kHighestField_uT = 500;
+
 /// Bounded summary of readings: cubes of the space of the first `Keys` features, each with the count, mean and
 /// second moments of all `Features`. When they are more than kCapacity, cubes of twice the size take their place,
 /// which loses nothing of the sums. A cube of raw field needs no centre, so an offset larger than the field does

@@ -29,7 +29,6 @@ class Magnetometer {
     EllipseEstimator::Parameters ellipse;
     EllipseGyro::Parameters gyro;
     EllipsoidEstimator::Parameters ellipsoid;
-    double highest_field_uT = 500;  ///< no reading of the Earth's field and a vehicle's iron
   };
   enum class Method : std::uint8_t { none, ellipse, gyro_aided, ellipsoid };
 
@@ -38,8 +37,8 @@ class Magnetometer {
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
   /// With the turn since the reading before, by the gyro.
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad, const TurnStep& turn);
-  /// The gyro was calibrated: true rate = scale * measured + bias.
-  void set_gyro(double scale, double bias_rad_s, const Eigen::Matrix2d& covariance);
+  /// The gyro was calibrated meanwhile.
+  void set_gyro(const GyroBelief& gyro);
   /// Iterates to the end what update() does in slices.
   void settle();
 
@@ -63,7 +62,8 @@ class Magnetometer {
   struct Reading {
     Eigen::Vector3d field_body_uT = Eigen::Vector3d::Zero();
     double roll_rad = 0, pitch_rad = 0;
-    std::optional<TurnStep> turn;
+    bool has_turn = false;
+    TurnStep turn;
     void archive(Archive& archive);
   };
   /// The estimators of one field.
@@ -80,6 +80,7 @@ class Magnetometer {
   };
 
   void take(const Reading& reading);
+  void leave_out();
   void change_field();
 
   Parameters parameters_;
@@ -91,6 +92,7 @@ class Magnetometer {
   std::optional<FieldStep> last_step_;
   std::uint64_t readings_ = 0;
   std::uint64_t left_out_ = 0;
+  bool turn_broken_ = false;  ///< a reading was left out since the last that was used
 };
 
 }  // namespace navcal::calib

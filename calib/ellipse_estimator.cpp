@@ -1,0 +1,96 @@
+#include "calib/ellipse_estimator.h"
+
+#include <Eigen/Dense>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace navcal::calib {
+namespace {
+
+constexpr double kCellSize_uT = 0.7;
+constexpr std::uint64_t kFirstFit = 20;  // readings
+constexpr int kMostIterations = 200;
+
+/// A beginning that depends on the summary alone; the scatter about it is where robust weights begin.
+std::optional<EllipseFit> started(const EllipseCells& cells) {
+  const auto shape = taubin_ellipse(cells);
+  if (!shape) return std::nullopt;
+  EllipseFit fit;
+  fit.shape = *shape;
+  double square = 0, count = 0;
+  for (const auto& cell : cells) {
+    const double distance = mean_distance_uT(*shape, cell);
+    square += cell.count * distance * distance;
+    count += cell.count;
+  }
+  fit.residual_uT = std::sqrt(square / count);
+  return fit;
+}
+
+}  // namespace
+
+EllipseEstimator::EllipseEstimator(const Parameters& parameters) : parameters_(parameters), cells_(kCellSize_uT) {}
+
+void EllipseEstimator::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) {
+  const Eigen::Vector2d field = levelled(field_body_uT, roll_rad, pitch_rad);
+  if (!field.allFinite() || field.cwiseAbs().maxCoeff() > kHighestField_uT) return;
+  if (fit_) {
+    // A fit that knows nothing of this heading yet says nothing by being off.
+    const double known_to = worst_heading_std_rad(fit_->shape, fit_->covariance);
+    if (known_to < parameters_.heading_std_rad) {
+      const double size = (fit_->shape.axes_uT.inverse() * (field - fit_->shape.centre_uT)).norm();
+      held_out_.update(field.norm(), fit_->shape.radius_uT() * (size - 1));
+    }
+  }
+  cells_.add(field);
+  ++samples_;
+  if (samples_ < kFirstFit) return;
+  // Early beginnings are poor ones, on short arcs: begun anew each time the readings have doubled.
+  if (std::has_single_bit(samples_ / kFirstFit) && samples_ % kFirstFit == 0) fit_ = started(cells_.cells());
+  if (samples_ % static_cast<std::uint64_t>(parameters_.slice_samples) != 0) return;
+  if (!fit_) fit_ = started(cells_.cells());
+  if (fit_) fit_ = improve(*fit_, cells_.cells(), parameters_.noise_uT);
+}
+
+void EllipseEstimator::settle() {
+  fit_ = started(cells_.cells());
+  for (int i = 0; fit_ && !fit_->settled && i < kMostIterations; ++i) {
+    fit_ = improve(*fit_, cells_.cells(), parameters_.noise_uT);
+  }
+}
+
+double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const {
+  if (!fit_ || samples_ < 3 * kFirstFit) return 0;
+  FieldCells<2, 2>::Cell reading;
+  reading.count = 1;
+  reading.mean = levelled(field_body_uT, roll_rad, pitch_rad);
+  const double heading = fit_->shape.foot_rad(reading.mean);
+  const Eigen::Vector2d normal = (fit_->shape.axes_uT.inverse() * EllipseShape::direction(heading)).normalized();
+  const EllipseShape::Vector row = EllipseShape::slope(heading).transpose() * normal;
+  const double distance = mean_distance_uT(fit_->shape, reading);
+  const double variance = fit_->residual_uT * fit_->residual_uT + row.dot(fit_->covariance * row) +
+                          parameters_.model_error_uT * parameters_.model_error_uT;
+  const double z = distance * distance / variance;
+  return std::isfinite(z) ? z : std::numeric_limits<double>::max();
+}
+
+std::optional<MagnetometerEstimate> EllipseEstimator::estimate() const {
+  if (!fit_) return std::nullopt;
+  MagnetometerEstimate estimate;
+  estimate.correction = correction_of(fit_->shape);
+  estimate.offset_std_uT.head<2>() = fit_->covariance.diagonal().head<2>().cwiseSqrt();
+  estimate.offset_std_uT.z() = std::numeric_limits<double>::infinity();
+  estimate.residual_uT = fit_->residual_uT;
+  estimate.field_uT = fit_->shape.radius_uT();
+  estimate.heading_std_rad = worst_heading_std_rad(fit_->shape, fit_->covariance);
+  estimate.samples = samples_;
+  return estimate;
+}
+
+void EllipseEstimator::archive(Archive& archive) {
+  archive.tag("ellipse_estimator 1");
+  archive(cells_, fit_, held_out_, samples_);
+}
+
+}  // namespace navcal::calib

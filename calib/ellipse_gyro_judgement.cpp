@@ -1,0 +1,81 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "calib/ellipse_gyro.h"
+#include "calib/ellipse_judgement.h"
+#include "calib/field_coverage.h"
+
+namespace navcal::calib {
+namespace {
+
+constexpr std::size_t kSectors = 36;
+
+/// As for the ellipse: each ten degrees of heading off by `model_error_uT`, in both components here, since the
+/// gyro says where on the ellipse one should be.
+EllipseShape::Matrix doubtful_covariance(const EllipseChain& chain, const std::vector<TurnGroup>& groups,
+                                         double noise_uT, double model_error_uT) {
+  using Columns = Eigen::Matrix<double, EllipseShape::kParameters, 2>;
+  std::array<Columns, kSectors> sums;
+  sums.fill(Columns::Zero());
+  for (std::size_t k = 0; k < std::min(groups.size(), chain.headings_rad.size()); ++k) {
+    const double turns = chain.headings_rad[k] / (2 * std::numbers::pi);
+    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
+    sums[sector] +=
+        (groups[k].count / (noise_uT * noise_uT)) * EllipseShape::slope(chain.headings_rad[k]).transpose();
+  }
+  const EllipseShape::Matrix stated = chain.covariance.topLeftCorner<5, 5>();
+  EllipseShape::Matrix covariance = stated * std::max(1.0, chain.misfit);
+  for (const Columns& sum : sums) {
+    const Columns moved = model_error_uT * (stated * sum);
+    covariance += moved * moved.transpose();
+  }
+  return covariance;
+}
+
+}  // namespace
+
+Judgement EllipseGyro::judgement() const {
+  constexpr double kFullTurn_rad = 2 * std::numbers::pi;
+  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kLeastArc_rad = 45 * kDegree;
+  constexpr double kMostMisfit = 4;  // a gyro of another scale or bias than believed shows here
+  Judgement judgement;
+  judgement.samples = samples_;
+  judgement.condition = std::numeric_limits<double>::infinity();
+  const auto refuse = [&](std::string reason, std::string manoeuvre) {
+    judgement.reason = std::move(reason);
+    judgement.manoeuvre = std::move(manoeuvre);
+    return judgement;
+  };
+  if (!shape_found_) return refuse("the field has hardly changed", "turn through a full circle");
+  judgement.condition = condition_of(chain_.covariance);
+  const FieldCoverage coverage(chain_.headings_rad);
+  judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
+  if (coverage.arc_rad() < kLeastArc_rad || chain_.shape.radius_uT() < 30 * parameters_.noise_uT) {
+    return refuse(
+        "headings within " + whole_degrees(coverage.arc_rad()) + " degrees do not tell the field's offset",
+        coverage.manoeuvre(kFullTurn_rad / 3));
+  }
+  if (chain_.misfit > kMostMisfit) {
+    return refuse("field and gyro disagree: residuals are " + rounded(std::sqrt(chain_.misfit), 1) +
+                      " times what their noise explains",
+                  "calibrate the gyro first, and keep clear of iron");
+  }
+  const double worst_rad = worst_heading_std_rad(
+      chain_.shape, doubtful_covariance(chain_, groups_, parameters_.noise_uT, parameters_.model_error_uT));
+  if (worst_rad > parameters_.heading_std_rad) {
+    return refuse(
+        "the heading would be uncertain by " + rounded(worst_rad / kDegree, 1) + " degrees where it is worst",
+        coverage.manoeuvre(kFullTurn_rad));
+  }
+  judgement.accepted = true;
+  return judgement;
+}
+
+}  // namespace navcal::calib

@@ -1,0 +1,185 @@
+#include "calib/ellipsoid_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace navcal::calib {
+namespace {
+
+using Pair = Eigen::Vector2d;  // the two lines of the model: size, dip
+using Rows = Eigen::Matrix<double, 2, EllipsoidShape::kParameters>;
+using Cell = FieldCells<3, 6>::Cell;
+
+constexpr double kOutlier2 = 36;  // six standard deviations of one reading, squared
+
+struct Departure {
+  Pair value;             // what the cell's readings are off on the mean
+  Rows slope;             // by the parameters
+  Eigen::Matrix2d noise;  // covariance of one reading
+};
+
+Departure departure_of(const EllipsoidShape& shape, const Cell& cell, const EllipsoidNoise& noise) {
+  const Eigen::Matrix3d& m = shape.matrix_per_uT;
+  const Eigen::Vector3d off_centre = cell.mean.head<3>() - shape.centre_uT;
+  const Eigen::Vector3d down = cell.mean.tail<3>();
+  const Eigen::Vector3d unit = m * off_centre;
+  const double size = std::max(unit.norm(), 1e-6);
+  const Eigen::Vector3d direction = unit / size;
+  const Eigen::Matrix3d spread = m * (cell.scatter.topLeftCorner<3, 3>() / cell.count) * m;
+  const Eigen::Matrix3d with_down = cell.scatter.topRightCorner<3, 3>() / cell.count;
+
+  Departure d;
+  // Readings on a curved surface: their mean lies inside it.
+  const double sagitta = 0.5 * (spread.trace() - direction.dot(spread * direction)) / size;
+  d.value = {size + sagitta - 1, down.dot(unit) + (m * with_down).trace() - shape.sine_of_dip};
+  const auto slope = EllipsoidShape::slope_of_matrix(off_centre);
+  d.slope.row(0) << -(m * direction).transpose(), (slope.transpose() * direction).transpose(), 0;
+  Eigen::Matrix<double, 6, 1> joint;
+  joint << with_down(0, 0), with_down(1, 1), with_down(2, 2), with_down(1, 2) + with_down(2, 1),
+      with_down(0, 2) + with_down(2, 0), with_down(0, 1) + with_down(1, 0);
+  d.slope.row(1) << -(m * down).transpose(), (slope.transpose() * down + joint).transpose(), -1;
+
+  Eigen::Matrix<double, 2, 3> by_field;
+  by_field << (m * direction).transpose(), (m * down).transpose();
+  d.noise = noise.field_uT * noise.field_uT * by_field * by_field.transpose();
+  d.noise(1, 1) += noise.tilt_rad * noise.tilt_rad * std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
+  return d;
+}
+
+double weight_of(double square) { return square <= kOutlier2 ? 1 : kOutlier2 / square; }
+double cost_of(double square) {
+  return square <= kOutlier2 ? square : kOutlier2 * (1 + std::log(square / kOutlier2));
+}
+
+/// What is known beforehand, as information about the point of linearisation.
+struct Known {
+  EllipsoidShape::Vector mean = EllipsoidShape::Vector::Zero();  // less the shape
+  EllipsoidShape::Vector information = EllipsoidShape::Vector::Zero();
+
+  Known(const EllipsoidShape& shape, const EllipsoidPrior& prior) {
+    // Wide enough to say nothing, and what is never seen still has a finite variance.
+    constexpr double kAnyCentre_uT = 1e4;
+    information.head<3>().setConstant(1 / (kAnyCentre_uT * kAnyCentre_uT));
+    mean.head<3>() = -shape.centre_uT;
+    if (!prior.known) return;
+    const KnownField& field = *prior.known;
+    const double cosine = std::max(0.1, std::cos(field.dip_rad));
+    mean[9] = std::sin(field.dip_rad) - shape.sine_of_dip;
+    information[9] = 1 / (cosine * cosine * field.dip_std_rad * field.dip_std_rad);
+    const double magnitude = field.magnitude_std_uT / field.magnitude_uT;
+    const double diagonal2 = prior.soft_iron_std * prior.soft_iron_std + magnitude * magnitude;
+    const Eigen::Matrix3d& m = shape.matrix_per_uT;
+    const double per_uT = 1 / field.magnitude_uT;
+    mean.segment<6>(3) << per_uT - m(0, 0), per_uT - m(1, 1), per_uT - m(2, 2), -m(1, 2), -m(0, 2), -m(0, 1);
+    information.segment<3>(3).setConstant(1 / (diagonal2 * per_uT * per_uT));
+    information.segment<3>(6).setConstant(1 / (prior.soft_iron_std * prior.soft_iron_std * per_uT * per_uT));
+  }
+  [[nodiscard]] double cost() const { return mean.dot(information.cwiseProduct(mean)); }
+};
+
+double total_cost(const EllipsoidShape& shape, const EllipsoidShape& weights, const EllipsoidCells& cells,
+                  const EllipsoidNoise& noise, const EllipsoidPrior& prior) {
+  double cost = Known(shape, prior).cost();
+  for (const Cell& cell : cells) {
+    // Weights of the shape from which the step was made: else a large shape would be a good one.
+    const Eigen::Matrix2d inverse = departure_of(weights, cell, noise).noise.inverse();
+    const Pair value = departure_of(shape, cell, noise).value;
+    cost += cell.count * cost_of(value.dot(inverse * value));
+  }
+  return cost;
+}
+
+}  // namespace
+
+EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const EllipsoidNoise& noise,
+                     const EllipsoidPrior& prior) {
+  const Known known(fit.shape, prior);
+  EllipsoidShape::Matrix information = known.information.asDiagonal();
+  EllipsoidShape::Vector gradient = known.information.cwiseProduct(known.mean);
+  double cost = known.cost();
+  for (const Cell& cell : cells) {
+    const Departure d = departure_of(fit.shape, cell, noise);
+    const Eigen::Matrix2d inverse = d.noise.inverse();
+    const double square = d.value.dot(inverse * d.value);
+    const Eigen::Matrix<double, EllipsoidShape::kParameters, 2> weighted =
+        (cell.count * weight_of(square)) * d.slope.transpose() * inverse;
+    information += weighted * d.slope;
+    gradient -= weighted * d.value;
+    cost += cell.count * cost_of(square);
+  }
+  // In units of the least certain, so that centre (uT) and matrix (1/uT) meet on equal terms.
+  const EllipsoidShape::Vector scale = information.diagonal().cwiseSqrt().cwiseInverse();
+  const EllipsoidShape::Matrix scaled =
+      scale.asDiagonal() * information * scale.asDiagonal() + 1e-13 * EllipsoidShape::Matrix::Identity().eval();
+  const auto solved = [&](double damping, const auto& right) {
+    EllipsoidShape::Matrix damped = scaled;
+    damped.diagonal() *= 1 + damping;
+    return (scale.asDiagonal() * damped.ldlt().solve((scale.asDiagonal() * right).eval())).eval();
+  };
+  EllipsoidFit next = fit;
+  next.covariance = solved(0, EllipsoidShape::Matrix::Identity().eval());
+  const EllipsoidShape::Vector step = solved(fit.damping, gradient);
+  const EllipsoidShape moved = fit.shape.moved(step);
+  const bool better =
+      moved.sane() && total_cost(moved, fit.shape, cells, noise, prior) <= cost * (1 + 1e-11) + 1e-12;
+  if (better) {
+    next.shape = moved;
+    next.damping = fit.damping > 1e-6 ? fit.damping / 10 : 0;
+  } else {
+    next.damping = std::min(std::max(10 * fit.damping, 1e-4), 1e8);
+  }
+  const EllipsoidShape::Vector moved_by = step.cwiseQuotient(next.covariance.diagonal().cwiseSqrt());
+  next.settled = better && fit.damping == 0 && moved_by.cwiseAbs().maxCoeff() < 1e-8;
+  return next;
+}
+
+std::optional<EllipsoidShape> starting_sphere(const EllipsoidCells& cells, const EllipsoidPrior& prior) {
+  // |m|^2 - 2 c'm + |c|^2 - r^2 = 0 and down'(m - c) = r sin(dip), linear in c and the two constants; with little
+  // tilt the second line is what fixes c along the axis of the cone of readings.
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double count = 0, square = 0;
+  for (const Cell& cell : cells) {
+    count += cell.count;
+    mean += cell.count * cell.mean.head<3>();
+  }
+  if (cells.size() < 4) return std::nullopt;
+  mean /= count;
+  for (const Cell& cell : cells) square += cell.count * (cell.mean.head<3>() - mean).squaredNorm();
+  const double size = std::sqrt(square / count);
+  if (!(size > 0)) return std::nullopt;
+
+  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Matrix<double, 5, 1> right = Eigen::Matrix<double, 5, 1>::Zero();
+  const auto add = [&](double weight, const Eigen::Matrix<double, 5, 1>& row, double value) {
+    normal += weight * row * row.transpose();
+    right += weight * value * row;
+  };
+  for (const Cell& cell : cells) {
+    const Eigen::Vector3d m = (cell.mean.head<3>() - mean) / size;
+    const Eigen::Vector3d down = cell.mean.tail<3>();
+    Eigen::Matrix<double, 5, 1> row;
+    row << 2 * m, 1, 0;
+    add(cell.count, row, m.squaredNorm());
+    row << down, 0, 1;
+    add(cell.count, row, down.dot(m));
+  }
+  const double magnitude = prior.known ? prior.known->magnitude_uT / size : 0;
+  if (prior.known) {
+    Eigen::Matrix<double, 5, 1> row;
+    row << 0, 0, 0, 0, 1;
+    add(count, row, magnitude * std::sin(prior.known->dip_rad));
+  }
+  normal.diagonal().array() += 1e-6 * count;
+  const Eigen::Matrix<double, 5, 1> solution = normal.ldlt().solve(right);
+  const Eigen::Vector3d centre = solution.head<3>();
+  double radius = std::sqrt(std::max(solution[3] + centre.squaredNorm(), 0.01));
+  if (prior.known) radius = magnitude;
+  EllipsoidShape shape;
+  shape.centre_uT = mean + size * centre;
+  shape.matrix_per_uT = Eigen::Matrix3d::Identity() / (size * radius);
+  shape.sine_of_dip = prior.known ? std::sin(prior.known->dip_rad) : std::clamp(solution[4] / radius, -0.99, 0.99);
+  return shape.sane() ? std::optional(shape) : std::nullopt;
+}
+
+}  // namespace navcal::calib

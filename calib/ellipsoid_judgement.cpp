@@ -1,0 +1,116 @@
+#include "calib/ellipsoid_judgement.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "calib/ellipse_judgement.h"
+#include "calib/ellipsoid_estimator.h"
+#include "calib/field_coverage.h"
+
+namespace navcal::calib {
+
+EllipsoidShape::Matrix doubtful_covariance(const EllipsoidFit& fit, const EllipsoidCells& cells, double field_uT,
+                                           double model_error) {
+  using Row = EllipsoidShape::Vector;
+  // Readings of a kind err together: those whose fields are within twenty degrees of each other.
+  constexpr double kKind = 0.35;
+  std::map<std::array<int, 3>, Row> sums;
+  const Eigen::Matrix3d& m = fit.shape.matrix_per_uT;
+  for (const auto& cell : cells) {
+    const Eigen::Vector3d off_centre = cell.mean.head<3>() - fit.shape.centre_uT;
+    const Eigen::Vector3d direction = (m * off_centre).normalized();
+    Row row = Row::Zero();
+    row.head<3>() = -m * direction;
+    row.segment<6>(3) = EllipsoidShape::slope_of_matrix(off_centre).transpose() * direction;
+    std::array<int, 3> kind{};
+    for (int i = 0; i < 3; ++i)
+      kind[static_cast<std::size_t>(i)] = static_cast<int>(std::floor(direction[i] / kKind));
+    const double variance = field_uT * field_uT * (m * direction).squaredNorm();
+    sums.try_emplace(kind, Row::Zero()).first->second += (cell.count / variance) * row;
+  }
+  EllipsoidShape::Matrix covariance = fit.covariance;
+  for (const auto& [kind, sum] : sums) {
+    const Row moved = model_error * (fit.covariance * sum);
+    covariance += moved * moved.transpose();
+  }
+  return covariance;
+}
+
+double tilt_seen_rad(const EllipsoidCells& cells) {
+  double tilt = 0;
+  for (const auto& cell : cells) {
+    const Eigen::Vector3d down = cell.mean.tail<3>();
+    tilt = std::max(tilt, std::atan2(down.head<2>().norm(), down.z()));
+  }
+  return tilt;
+}
+
+Judgement EllipsoidEstimator::judgement() const {
+  constexpr double kFullTurn_rad = 2 * std::numbers::pi;
+  constexpr double kLeastArc_rad = 3.5;
+  constexpr double kDegree = std::numbers::pi / 180;
+  Judgement judgement;
+  judgement.samples = samples_;
+  judgement.condition = std::numeric_limits<double>::infinity();
+  const auto refuse = [&](std::string reason, std::string manoeuvre) {
+    judgement.reason = std::move(reason);
+    judgement.manoeuvre = std::move(manoeuvre);
+    return judgement;
+  };
+  if (!fit_) return refuse("the field has hardly changed", "turn through a full circle, rolling and pitching");
+  judgement.condition = condition_of(fit_->covariance);
+  judgement.held_out_before = held_out_.before_uT();
+  judgement.held_out_after = held_out_.after_uT();
+
+  std::vector<double> headings;
+  for (const auto& cell : cells_.cells()) {
+    const Eigen::Vector3d unit = fit_->shape.unit_field(cell.mean.head<3>());
+    if (std::abs(unit.norm() - 1) > 0.2) continue;  // an outlier's
+    const Eigen::Vector3d down = cell.mean.tail<3>();
+    const Eigen::Vector2d level =
+        levelled(unit, std::atan2(down.y(), down.z()), std::asin(std::clamp(-down.x(), -1., 1.)));
+    headings.push_back(std::atan2(-level.y(), level.x()));
+  }
+  const FieldCoverage coverage(std::move(headings));
+  const double tilt_rad = tilt_seen_rad(cells_.cells());
+  judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
+  const std::string tilt_more = "turn through a full circle with roll or pitch beyond ";
+  if (coverage.arc_rad() < kLeastArc_rad && tilt_rad < 60 * kDegree) {
+    return refuse("headings within " + whole_degrees(coverage.arc_rad()) + " degrees, tilt within " +
+                      whole_degrees(tilt_rad) + " degrees do not tell the field's offset from its size",
+                  coverage.manoeuvre(kFullTurn_rad));
+  }
+  const double centre = fit_->shape.centre_uT.norm();
+  const double field = parameters_.known ? parameters_.known->magnitude_uT : fit_->shape.radius_uT();
+  if (centre > field && tilt_rad < 45 * kDegree) {
+    return refuse("the hard iron of " + rounded(centre, 0) + " uT exceeds the Earth's field, and tilt within " +
+                      whole_degrees(tilt_rad) + " degrees does not determine it",
+                  tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
+  }
+  // Errors of the instrument's scales grow with the field that it measures.
+  const double relative = parameters_.model_error * (1 + centre / field);
+  const auto covariance = doubtful_covariance(*fit_, cells_.cells(), noise().field_uT, relative);
+  const double vertical_uT = std::sqrt(covariance(2, 2));
+  if (vertical_uT > parameters_.offset_std_uT) {
+    return refuse("the vertical offset is uncertain by " + rounded(vertical_uT, 1) + " uT: tilt stayed within " +
+                      whole_degrees(tilt_rad) + " degrees",
+                  tilt_more + whole_degrees(std::min(1.2, tilt_rad + 15 * kDegree)) + " degrees");
+  }
+  const double worst_rad = worst_heading_std_rad(fit_->shape, covariance, parameters_.expected_tilt_rad);
+  if (worst_rad > parameters_.heading_std_rad) {
+    return refuse(
+        "the heading would be uncertain by " + rounded(worst_rad / kDegree, 1) + " degrees where it is worst",
+        coverage.arc_rad() < 0.9 * kFullTurn_rad
+            ? coverage.manoeuvre(kFullTurn_rad)
+            : tilt_more + whole_degrees(std::min(1.2, tilt_rad + 15 * kDegree)) + " degrees");
+  }
+  judgement.accepted = true;
+  return judgement;
+}
+
+}  // namespace navcal::calib
