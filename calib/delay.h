@@ -10,8 +10,7 @@ struct Delay {
   double delay_s = 0;
   double std_s = std::numeric_limits<double>::infinity();
   std::uint64_t readings = 0;
-  /// Root of the mean square of what the delay is seen by, the change of the rate of turn (rad/s): near zero, and
-  /// nothing can be known.
+  /// Standard deviation of the rate of turn over the readings: near zero, nothing can be known of a delay.
   double rate_spread_rad_s = 0;
 };
 

@@ -39,12 +39,14 @@ class CourseDelay {
  private:
   using Vector = Eigen::Matrix<double, 6, 1>;
   using Matrix = Eigen::Matrix<double, 6, 6>;
+  void correct(const GroundReading& ground, const WaterTrackReading& at);
 
   Parameters parameters_;
   GpsTrack track_;
   Vector state_ = Vector::Zero();  ///< A..E, tau - k
   Matrix covariance_;
-  double rate_square_sum_ = 0;
+  double chi_squared_ = 0;  ///< sum of the squared innovations over their variances
+  double rate_sum_ = 0, rate_square_sum_ = 0;
   std::uint64_t readings_ = 0;
 };
 

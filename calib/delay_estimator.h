@@ -45,6 +45,7 @@ class DelayEstimator {
   void archive(Archive& archive);
 
  private:
+  void follow_tilt(const RateReading& rate);
   void take_steps();
 
   Parameters parameters_;
@@ -52,6 +53,9 @@ class DelayEstimator {
   HeadingDelay heading_;
   FieldDelay field_;
   CourseDelay course_;
+  double tilt_time_s_ = 0;
+  double roll_rad_ = 0, pitch_rad_ = 0;  ///< newest, as the compass says
+  HeadingDelay::TiltSlope tilt_;
 };
 
 }  // namespace navcal::calib

@@ -46,22 +46,28 @@ class FieldDelay {
   enum State : int { kField = 0, kHardIron = 3, kBias = 6, kDelayIron = 9, kDelay = 12 };
   using Vector = Eigen::Matrix<double, kStates, 1>;
   using Matrix = Eigen::Matrix<double, kStates, kStates>;
-  void begin(const Eigen::Vector3d& field_uT);
+  /// A value and the time of it.
+  struct Timed {
+    double time_s = 0;
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    void archive(Archive& archive) { archive(time_s, value); }
+  };
+  using Field = Timed;
+  using Rate = Timed;
   void advance(const Eigen::Vector3d& mean_rate_rad_s, double duration_s);
   void correct(const Eigen::Vector3d& field_uT, const Eigen::Vector3d& rate_rad_s);
-  void seek_field_anew();
+  /// Three states from `first` on are known no better than that, and have nothing to do with the others.
+  void forget(int first, double std);
 
   Parameters parameters_;
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
-  bool started_ = false;  ///< x is known
-  bool has_rate_ = false;
-  double rate_time_s_ = 0;
-  Eigen::Vector3d rate_rad_s_ = Eigen::Vector3d::Zero();
-  bool has_field_ = false;  ///< one waits for the rate after it
-  double field_time_s_ = 0;
-  Eigen::Vector3d field_uT_ = Eigen::Vector3d::Zero();
+  std::optional<Rate> rate_;    ///< the newest
+  std::optional<Field> field_;  ///< waits for the rate after it
+  Eigen::Vector3d last_field_uT_ = Eigen::Vector3d::Zero();
+  double chi_squared_ = 0;  ///< sum of the squared innovations over their variances
   double rate_square_sum_ = 0;
+  Eigen::Vector3d rate_sum_ = Eigen::Vector3d::Zero();
   std::uint64_t readings_ = 0, left_out_ = 0;
   std::uint32_t rejected_in_a_row_ = 0, field_steps_ = 0;
 };

@@ -49,17 +49,19 @@ class HeadingDelay {
     TurnStep step;
     TiltSlope tilt;
     double rate_angle_rad = 0, rate_time_s = 0;
+    void archive(Archive& archive);
   };
+  void begin(const TurnStep& step);
   void predict(const TurnStep& step);
-  void correct(const TurnStep& step, const TiltSlope& tilt, double turn_rate_rad_s);
+  void correct(const TurnStep& step, const TiltSlope& tilt, double measured_rate_rad_s);
 
   Parameters parameters_;
   Vector state_ = Vector::Zero();
   Matrix covariance_ = Matrix::Zero();
   std::optional<Waiting> waiting_;  ///< until the step after it, for the rate about it
-  double turn_rad_ = 0;             ///< unwrapped measured heading
+  double chi_squared_ = 0;          ///< sum of the squared innovations over their variances
+  double rate_sum_ = 0, rate_square_sum_ = 0;
   std::uint64_t readings_ = 0;
-  bool in_segment_ = false;
 };
 
 }  // namespace navcal::calib

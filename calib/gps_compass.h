@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "calib/archive.h"
+#include "calib/gps_coefficients.h"
 #include "calib/gps_summary.h"
 #include "calib/gps_track.h"
 #include "calib/judgement.h"
@@ -21,13 +22,15 @@ namespace navcal::calib {
 /// Refitted every so many fixes.
 class GpsCompass {
  public:
-  static constexpr int kUnknowns = 9;  ///< A B C D E (rad), speed scale, slip (s), current north, east (m/s)
-  using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+  static constexpr int kUnknowns =
+      GpsCoefficients::kUnknowns;  ///< A B C D E (rad), speed scale, slip (s), current north, east (m/s)
+  using Vector = GpsCoefficients::Unknowns;
   using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
   struct Parameters {
     GpsSummary::Parameters summary;
     double declination_rad = 0;
-    double deviation_std_rad = 0.35;  ///< prior of each of B..E; A has none
+    double offset_std_rad = 10;       ///< prior of A: none
+    double deviation_std_rad = 0.35;  ///< prior of each of B..E
     double speed_scale_std = 0.2;     ///< prior about 1
     double slip_s = -0.15, slip_std_s = 0.1;
     double current_std_m_s = 0.3;       ///< prior, each axis
@@ -37,10 +40,14 @@ class GpsCompass {
   struct Estimate {
     Vector unknowns = Vector::Zero();
     Matrix covariance = Matrix::Zero();
-    std::uint64_t fixes = 0;       ///< used
-    double worst_std_rad = 0;      ///< of the corrected heading, worst over the circle
-    double worst_heading_rad = 0;  ///< and where
+    std::uint64_t fixes = 0;         ///< used
+    double worst_std_rad = 0;        ///< of the corrected heading, worst over the circle
+    double worst_heading_rad = 0;    ///< and where
+    double reduced_chi_squared = 0;  ///< of what was observed; above 1 it has widened the covariance
     bool converged = false;
+    void archive(Archive& archive) {
+      archive(unknowns, covariance, fixes, worst_std_rad, worst_heading_rad, reduced_chi_squared, converged);
+    }
   };
 
   GpsCompass() : GpsCompass(Parameters{}) {}
@@ -60,7 +67,7 @@ class GpsCompass {
   void archive(Archive& archive);
 
  private:
-  [[nodiscard]] Estimate iterate(Vector start, int steps) const;
+  [[nodiscard]] Estimate iterate(Vector x, int steps) const;
 
   Parameters parameters_;
   GpsTrack track_;

@@ -55,9 +55,11 @@ class Misalignment {
   struct Sum {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    Eigen::Vector2d directions = Eigen::Vector2d::Zero();  ///< weighted sum of unit vectors
+    double about_rad = 0;  ///< the first run's A, from which the others are counted, so that no seam matters
     double length_m = 0;
     std::uint32_t runs = 0;
-    void archive(Archive& archive) { archive(information, right, length_m, runs); }
+    void archive(Archive& archive) { archive(information, right, directions, about_rad, length_m, runs); }
   };
   void add(const StraightRun::Line& line, Sum& sum) const;
 

@@ -68,6 +68,7 @@ class StraightRun {
     void archive(Archive& archive) { archive(n, t, tt, x, tx); }
   };
   std::optional<Line> end();
+  [[nodiscard]] double heading_gap_s() const;
   [[nodiscard]] bool off_the_line(const GroundReading& ground) const;
 
   Parameters parameters_;

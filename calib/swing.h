@@ -48,34 +48,47 @@ class Swing {
   void update(double time_s, double measured_heading_rad, double reference_heading_rad);
 
   [[nodiscard]] std::array<Heading, kHeadings> headings() const;
-  [[nodiscard]] std::array<bool, kHeadings> missing() const;
-  /// Deviation at a measured heading by the table; nullopt until all eight headings are there.
+  [[nodiscard]] std::size_t missing() const;  ///< how many of the eight
+  /// The correction table: deviation at the measured headings 0, 45 .. 315 degrees; nullopt until all are there.
+  /// From where the vehicle rested to the nominal heading it goes along the fitted curve.
+  [[nodiscard]] std::optional<std::array<double, kHeadings>> table_rad() const;
+  /// Deviation at a measured heading, linear between the entries of the table.
   [[nodiscard]] std::optional<double> deviation_rad(double measured_heading_rad) const;
   /// A..E; nullopt with fewer than five headings.
   [[nodiscard]] std::optional<Estimate> estimate() const;
-  /// Seconds still to rest on the present heading; nullopt while turning or where a rest is not asked for.
+  /// Seconds still to rest on the present heading, 0 when it is enough; nullopt where no rest counts.
   [[nodiscard]] std::optional<double> remaining_s() const;
   [[nodiscard]] Judgement judgement() const;
   void archive(Archive& archive);
 
  private:
-  /// Sums over a rest, or over all rests on a heading; angles relative to the nominal heading.
+  /// Over all rests on a heading: weighted sums of means, of headings from the nominal one, of deviations from the
+  /// first that was seen there.
   struct Sums {
-    double weight = 0, heading = 0, deviation = 0;  ///< weighted sums over rests
+    double weight = 0, heading = 0, deviation = 0, about_rad = 0;
     std::uint32_t rests = 0;
     std::uint64_t readings = 0;
-    void archive(Archive& archive) { archive(weight, heading, deviation, rests, readings); }
+    void archive(Archive& archive) { archive(weight, heading, deviation, about_rad, rests, readings); }
   };
-  void end_rest();
+  /// The rest under way; sums as above.
+  struct Rest {
+    std::size_t sector = 0;
+    double begin_s = 0, last_s = 0;
+    double mean_rad = 0;  ///< of all its headings, from the nominal one
+    std::uint64_t of_mean = 0;
+    double heading = 0, deviation = 0, about_rad = 0;
+    std::uint64_t readings = 0;  ///< after it had settled
+    void archive(Archive& archive) {
+      archive(sector, begin_s, last_s, mean_rad, of_mean, heading, deviation, about_rad, readings);
+    }
+  };
+  void add(const Rest& rest, std::array<Sums, kHeadings>& sums) const;
+  /// With the rest under way when it is long enough.
+  [[nodiscard]] std::array<Sums, kHeadings> sums() const;
 
   Parameters parameters_;
   std::array<Sums, kHeadings> sums_{};
-  // The rest under way.
-  bool resting_ = false;
-  std::size_t sector_ = 0;
-  double begin_s_ = 0, last_s_ = 0;
-  double heading_sum_ = 0, deviation_sum_ = 0, band_sum_ = 0, band_readings_ = 0;
-  std::uint64_t readings_ = 0;
+  std::optional<Rest> rest_;
 };
 
 }  // namespace navcal::calib
