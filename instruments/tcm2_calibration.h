@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/settings.h"
+#include "instruments/turn_count.h"
+#include "protocols/frame.h"
+#include "protocols/tcm2_reply.h"
+
+namespace navcal::instruments {
+
+/// The TCM2's calibration of itself (ICD section 1): `h` twice, `cc`, `mpcal=e`, `go`; the vehicle makes two slow
+/// turns with as much tilt as can be had; `h` twice, `mpcal=d`, which answers the score (else `lc?` does), `go`.
+/// A value machine like StartUp, which must be silent meanwhile. However it ends, the device is told to go on, and
+/// one that may still be calibrating is told to stop it.
+class Tcm2Calibration {
+ public:
+  struct Limits {
+    double turns = 2;
+    std::int64_t longest_ns = 600'000'000'000;  ///< the score is read after this time, turned or not
+  };
+  explicit Tcm2Calibration(const config::PortSettings& settings) : Tcm2Calibration(settings, Limits{}) {}
+  Tcm2Calibration(const config::PortSettings& settings, const Limits& limits);
+
+  /// The device is in service; anything that was left of a calibration before is forgotten.
+  void begin(std::int64_t now_ns);
+  /// It has turned enough, the operator says. Before it turned at all: it is called off.
+  void stop(std::int64_t now_ns);
+  void on_frame(const protocols::Frame& frame, std::int64_t now_ns);
+  /// Calibrated yaw rate, where a gyro tells it; without, turns are counted by the compass that is calibrated.
+  void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
+  /// Bytes to send now, if any; call again until nullopt.
+  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns);
+  /// When next() should be called again, monotonic; INT64_MAX when only a frame can change something.
+  [[nodiscard]] std::int64_t deadline_ns() const { return due_ns_; }
+
+  [[nodiscard]] bool busy() const { return phase_ != Phase::idle; }
+  /// Of the last one that came to its end.
+  [[nodiscard]] const std::optional<protocols::tcm2::CalibrationScore>& score() const { return score_; }
+  /// Why there is no score; empty while it is under way and after a good end.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  /// For people: "turned 310 of 720 degrees", "score H9V3M1.2", "failed: cc refused (E010)".
+  [[nodiscard]] std::string state() const;
+
+ private:
+  enum class Phase : std::uint8_t {
+    idle,
+    first_halt,   ///< the first `h` is due
+    second_halt,  ///< the second `h` is due
+    clearing,     ///< `cc` is to be sent or waits for its reply, as the following
+    enabling,     ///< `mpcal=e`
+    starting,     ///< `go`, until the first word
+    turning,
+    closing,   ///< `mpcal=d`
+    asking,    ///< `lc?`
+    resuming,  ///< `go`, until the first word
+  };
+
+  void enter(Phase phase, std::int64_t due_ns);
+  void halt_then(Phase phase, std::int64_t now_ns);
+  void end_turning(std::int64_t now_ns);
+  void fail(std::string reason, std::int64_t now_ns);
+  void on_reply(const protocols::tcm2::Reply& reply, std::int64_t now_ns);
+  void on_word(const protocols::Frame& frame, std::int64_t now_ns);
+  void on_unanswered(std::int64_t now_ns);
+  [[nodiscard]] double turned_rad() const;
+
+  config::AngleUnit heading_unit_;
+  Limits limits_;
+  std::int64_t stopped_after_ns_;  ///< words are taken to have stopped after this time without one
+  Phase phase_ = Phase::idle;
+  Phase after_halts_ = Phase::clearing;
+  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
+  int attempts_ = 0;
+  bool calibrating_ = false;  ///< `mpcal=e` was sent and may have been obeyed
+  std::int64_t turning_ends_ns_ = 0;
+  TurnCount by_compass_, by_gyro_;
+  double gyro_angle_rad_ = 0;
+  std::optional<std::int64_t> gyro_ns_;  ///< of the newest rate
+  std::optional<protocols::tcm2::CalibrationScore> score_;
+  std::string failure_;
+};
+
+}  // namespace navcal::instruments

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "instruments/tcm2_calibration.h"
+#include "protocols/tcm2.h"
+#include "sim/tcm2.h"
+
+// The calibration dialogue against the emulated compass, on simulated time, over a line that may lose or delay.
+namespace navcal::instruments::test {
+
+inline constexpr std::int64_t kMs = 1'000'000;
+inline constexpr std::int64_t kSecond = 1000 * kMs;
+
+/// Turns at a steady rate, pitching and rolling a little.
+class Turning final : public sim::Motion {
+ public:
+  explicit Turning(double rate_deg_s) : rate_deg_s_(rate_deg_s) {}
+  [[nodiscard]] sim::State at(std::int64_t t_ns) const override;
+
+ private:
+  double rate_deg_s_;
+};
+
+class Tcm2CalibrationBench {
+ public:
+  explicit Tcm2CalibrationBench(double rate_deg_s = 6, const Tcm2Calibration::Limits& limits = {});
+
+  /// Runs to the end of the dialogue, or for so long. `each` is called every millisecond.
+  void run_for(
+      std::int64_t duration_ns, const std::function<void()>& each = [] {});
+  /// What was sent, one after the other, CR shown as a blank.
+  [[nodiscard]] std::string transcript() const;
+  /// Words that came in the last second of the run.
+  [[nodiscard]] bool words_flow();
+
+  Tcm2Calibration dialogue;
+  std::int64_t now_ns = 1'764'000'000 * kSecond;
+  std::vector<std::string> sent;
+  /// Whether a command gets through, and a line of the device's; by default all do.
+  std::function<bool(const std::string&)> command_passes = [](const std::string&) { return true; };
+  std::function<bool(const std::string&)> line_passes = [](const std::string&) { return true; };
+  /// How late lines arrive.
+  std::int64_t delay_ns = 0;
+  void power_cycle() { device_.power_on(now_ns); }
+  /// A line that comes as if the device had sent it.
+  void reply_later(const std::string& line) { late_.push_back({now_ns + delay_ns, line}); }
+
+ private:
+  struct Late {
+    std::int64_t due_ns;
+    std::string line;
+  };
+  void deliver();
+
+  Turning motion_;
+  sim::Tcm2 device_;
+  protocols::tcm2::Parser parser_;
+  std::vector<sim::Emission> emissions_;
+  std::vector<Late> late_;
+  std::int64_t last_word_ns_ = 0;
+};
+
+}  // namespace navcal::instruments::test
