@@ -71,6 +71,10 @@ void play(record::Recording& recording, const std::string& file, pipeline::Pipel
       }
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, printer);
+    } else if (const auto* calibration = std::get_if<pipeline::CalibrationChange>(&*entry)) {
+      newest_ns = std::max(newest_ns, calibration->time_ns);
+      if (const auto problem = pipeline.replay_calibration(*calibration, printer); !problem.empty())
+        std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), problem.c_str());
     } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) {
       newest_ns = std::max(newest_ns, event->time_ns);
     }

@@ -40,6 +40,7 @@ Daemon::Daemon(asio::any_io_executor executor, const config::Settings& settings,
                sockets.control ? std::filesystem::path() : settings_.control.socket,
                [this](const ControlRequest& request) { return answer(request); }),
       log_(settings_, started_ns_, first_mapping()),
+      calibrations_(settings_, pipeline_, log_, server_),
       publisher_(settings_, server_),
       notifier_(executor),
       deadline_timer_(executor, [this] { advance(); }),
@@ -54,6 +55,7 @@ Daemon::~Daemon() = default;
 
 void Daemon::start() {
   event(started_ns_, "info", "daemon.start", "", "navcald " NAVCAL_VERSION);
+  calibrations_.begin(ports::monotonic_ns());
   watch_system_clock();
   for (const auto& session : sessions_) session->start();
   server_.start();
@@ -76,6 +78,7 @@ void Daemon::stop(std::string_view reason) {
 void Daemon::finish() {
   const std::int64_t now_ns = ports::monotonic_ns();
   for (const std::string& line : health(now_ns)) log_.health(now_ns, line + "}");
+  calibrations_.stop(now_ns);
   log_.finish(now_ns);
   for (const std::string& notice : log_.take_notices()) spdlog::warn("log: {}", notice);
 }
@@ -83,6 +86,7 @@ void Daemon::finish() {
 void Daemon::rotate_log() {
   const std::int64_t now_ns = ports::monotonic_ns();
   event(now_ns, "info", "log.rotate", "", "on request");
+  pipeline_.advance(now_ns, *this);  // the new file begins with the calibrators as they are then
   log_.rotate(now_ns);
 }
 
@@ -115,6 +119,13 @@ void Daemon::on_mapping(const pipeline::UtcMapping& mapping) {
   spdlog::info("UTC from {}, {}", pipeline::name_of(mapping.source),
                bounded ? fmt::format("to within {:.6f} s", static_cast<double>(mapping.bound_ns) * 1e-9)
                        : std::string("its error is not known"));
+}
+
+void Daemon::on_calibration(const pipeline::CalibrationChange& change) {
+  calibrations_.on_change(change);
+  event(change.time_ns, "info", "calibration.changed", "",
+        fmt::format("{} {}: in force is now {}", calib::name_of(change.calibrator.value()),
+                    pipeline::name_of(change.cause), change.name.text()));
 }
 
 void Daemon::update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu) {
@@ -156,10 +167,15 @@ void Daemon::tick() {
   for (std::uint16_t port = 0; port < sessions_.size(); ++port) {
     sessions_[port]->tick(now_ns, pipeline_.statistics(port));
   }
+  pipeline_.advance(now_ns, *this);
   log_.tick(now_ns);
+  calibrations_.tick(now_ns);
+  for (const std::string& notice : calibrations_.take_notices())
+    event(now_ns, "warning", "calibration.notice", "", notice);
   for (const std::string& notice : log_.take_notices()) event(now_ns, "warning", "log.notice", "", notice);
   if (now_ns >= next_health_ns_) {
     report_health(now_ns);
+    calibrations_.report(now_ns);
     next_health_ns_ = now_ns + static_cast<std::int64_t>(settings_.status.health_interval_s * 1e9) - tick_ns_ / 2;
   }
   notifier_.status(summary());
@@ -189,7 +205,6 @@ void Daemon::report_health(std::int64_t now_ns) {
     record::append_json(reports, now_ns, pipeline_.mapping());
     reports += '\n';
     append_log_report(reports, log_.enabled(), log_.state());
-    reports += "{\"class\":\"CALIB\",\"calibrators\":[]}\n";
   }
   server_.publish_health(std::move(lines));
   if (!reports.empty()) server_.publish(reports);

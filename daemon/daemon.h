@@ -10,6 +10,7 @@
 
 #include "config/settings.h"
 #include "daemon/alarms.h"
+#include "daemon/calibrations.h"
 #include "daemon/control_server.h"
 #include "daemon/lazy_timer.h"
 #include "daemon/log_writer.h"
@@ -44,6 +45,7 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   void on_sample(const instruments::Sample& sample) override;
   void on_frame(std::uint16_t port, const protocols::Frame& frame, std::int64_t arrival_ns) override;
   void on_mapping(const pipeline::UtcMapping& mapping) override;
+  void on_calibration(const pipeline::CalibrationChange& change) override;
   // PortOwner
   void on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) override;
   void on_port_sent(std::uint16_t port, std::int64_t now_ns, protocols::Bytes bytes) override;
@@ -77,6 +79,7 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   StatusServer server_;
   ControlServer control_;
   LogWriter log_;  ///< after the sockets: a second daemon must not begin a file before it finds them taken
+  Calibrations calibrations_;
   Publisher publisher_;
   Notifier notifier_;
   Alarms alarms_;

@@ -58,7 +58,10 @@ std::string Daemon::answer(const ControlRequest& request) {
     case ControlCommand::calibration_start:
     case ControlCommand::calibration_accept:
     case ControlCommand::calibration_rollback:
-      return control_error("no calibrators in this version");
+      // The compass's own procedure is a dialogue with the device, not one of our calibrators.
+      if (request.calibrator == "tcm2")
+        return control_error("the TCM2's own calibration is not part of this version");
+      return calibrations_.answer(request, ports::monotonic_ns(), *this);
     case ControlCommand::status:
       break;
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "daemon/json_text.h"
+#include "record/sample_json.h"
 
 namespace navcal::daemon {
 namespace {
@@ -74,11 +75,17 @@ constexpr GpsdFix gpsd_fix(Fix fix) {
 double length(const instruments::Vector3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /// Degrees from true north.
-double true_heading_deg(const instruments::CompassSample& compass, double declination_rad) {
-  const double heading_deg = *compass.heading_rad * kDegrees;
-  if (compass.heading_is_true || declination_rad == 0) return heading_deg;
+double true_heading_deg(double heading_rad, double declination_rad) {
+  const double heading_deg = heading_rad * kDegrees;
+  if (declination_rad == 0) return heading_deg;
   const double wrapped = std::fmod(heading_deg + declination_rad * kDegrees, 360.0);
   return wrapped < 0 ? wrapped + 360.0 : wrapped;
+}
+
+void calibration(std::string& out, ReportSource source) {
+  if (source.calibration.number == 0) return;
+  key(out, "calibration");
+  append_quoted(out, record::calibration_text(source.calibration));
 }
 
 }  // namespace
@@ -148,11 +155,13 @@ void append_att(std::string& out, const instruments::CompassSample& compass, dou
                 const instruments::Stamp& stamp, ReportSource source) {
   begin(out, "ATT", source.device);
   if (source.utc_known) time(out, stamp.validity_utc_ns, 6);
-  if (compass.heading_rad && std::isfinite(*compass.heading_rad)) {
-    const double heading_deg = true_heading_deg(compass, declination_rad);
+  const auto& heading_rad = compass.heading_calibrated_rad ? compass.heading_calibrated_rad : compass.heading_rad;
+  if (heading_rad && std::isfinite(*heading_rad)) {
+    const double heading_deg = true_heading_deg(*heading_rad, compass.heading_is_true ? 0 : declination_rad);
     fixed(out, "heading", heading_deg, 4);
     fixed(out, "yaw", heading_deg, 4);
   }
+  if (compass.heading_calibrated_rad) fixed(out, "heading_device", compass.heading_rad, 4, kDegrees);
   fixed(out, "pitch", compass.pitch_rad, 4, kDegrees);
   fixed(out, "roll", compass.roll_rad, 4, kDegrees);
   fixed(out, "dip", dip_of(compass), 3, kDegrees);
@@ -167,6 +176,7 @@ void append_att(std::string& out, const instruments::CompassSample& compass, dou
   fixed(out, "gyro_z", compass.turn_rate_rad_s, 4, kDegrees);
   if (compass.temperature_C) shortest(out, "temp", *compass.temperature_C, 4);
   if (compass.error) fmt::format_to(std::back_inserter(out), FMT_STRING(",\"error\":\"{:03X}\""), *compass.error);
+  calibration(out, source);
   out += kEnd;
 }
 
@@ -184,7 +194,10 @@ void append_att(std::string& out, const instruments::ImuSample& imu, const instr
   fixed(out, "gyro_y", rate[1], 4, kDegrees);
   fixed(out, "gyro_z", rate[2], 4, kDegrees);
   fixed(out, "gyro_b_z", imu.yaw_rate_b_rad_s, 4, kDegrees);
+  fixed(out, "gyro_z_calibrated", imu.yaw_rate_calibrated_rad_s, 4, kDegrees);
+  fixed(out, "gyro_b_z_calibrated", imu.yaw_rate_b_calibrated_rad_s, 4, kDegrees);
   fixed(out, "depth", imu.depth_m, 4);
+  calibration(out, source);
   out += kEnd;
 }
 

@@ -15,6 +15,7 @@ namespace navcal::daemon {
 struct ReportSource {
   std::string_view device;
   bool utc_known = true;
+  instruments::CalibrationName calibration{};  ///< in force when the sample was made
 };
 
 /// TPV: time is the second that the message states. Position only when the receiver calls it a fix.
@@ -25,7 +26,8 @@ void append_tpv(std::string& out, const instruments::GpsSample& gps, const instr
 void append_sky(std::string& out, const instruments::SkySample& sky, const instruments::GpsSample* position,
                 const instruments::Stamp& stamp, ReportSource source);
 
-/// ATT of a compass. `declination_rad` (positive east) makes true north of the device's magnetic heading. With a
+/// ATT of a compass. `declination_rad` (positive east) makes true north of the magnetic heading, which is that of
+/// the calibration in force where there is one; the device's own then stands beside it. Without, and with a
 /// declination of zero the heading is passed on as the device said it, even beyond 360: a mis-set unit stays
 /// visible.
 void append_att(std::string& out, const instruments::CompassSample& compass, double declination_rad,

@@ -41,7 +41,11 @@ LogWriter::LogWriter(const config::Settings& settings, std::int64_t now_ns, cons
 
 void LogWriter::begin_file(std::int64_t now_ns) {
   file_begun_ns_ = now_ns;
-  disk_->next_file(mapping_.to_utc(now_ns), [&](std::string& out) { encoder_.begin(out, now_ns, mapping_); });
+  const std::string calibration = calibration_ ? calibration_(now_ns) : std::string();
+  disk_->next_file(mapping_.to_utc(now_ns), [&](std::string& out) {
+    encoder_.begin(out, now_ns, mapping_);
+    if (!calibration.empty()) encoder_.calib(out, now_ns, calibration);
+  });
 }
 
 template <class Encode>

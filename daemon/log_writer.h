@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "config/settings.h"
@@ -29,6 +31,11 @@ class LogWriter {
   void health(std::int64_t now_ns, std::string_view json);
   void calib(std::int64_t now_ns, std::string_view json);
 
+  /// What every file from now on begins with, besides configuration and time: one object for /calib.
+  void begin_files_with(std::function<std::string(std::int64_t)> calibration) {
+    calibration_ = std::move(calibration);
+  }
+
   /// Ends this file and begins another.
   void rotate(std::int64_t now_ns);
   /// To be called about once a second: rotation by size and age, the event that tells of lost records.
@@ -50,6 +57,7 @@ class LogWriter {
   record::LogEncoder encoder_;
   std::unique_ptr<DiskThread> disk_;
   pipeline::UtcMapping mapping_;
+  std::function<std::string(std::int64_t now_ns)> calibration_;
   std::int64_t file_begun_ns_ = 0;
   std::uint64_t told_dropped_ = 0;
 };

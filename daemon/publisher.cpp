@@ -34,7 +34,9 @@ void Publisher::sample(const instruments::Sample& sample) {
   }
   if (!server_.watched(sample.port)) return;
   report_.clear();
-  append(sample, source(sample.port));
+  ReportSource from = source(sample.port);
+  from.calibration = sample.calibration;
+  append(sample, from);
   server_.publish(sample.port, report_);
 }
 

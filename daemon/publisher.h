@@ -32,7 +32,9 @@ class Publisher {
     instruments::Stamp sky_stamp;
   };
   void append(const instruments::Sample& sample, ReportSource source);
-  [[nodiscard]] ReportSource source(std::uint16_t port) const { return {settings_.ports[port].name, utc_known_}; }
+  [[nodiscard]] ReportSource source(std::uint16_t port) const {
+    return {settings_.ports[port].name, utc_known_, {}};
+  }
 
   const config::Settings& settings_;
   StatusServer& server_;

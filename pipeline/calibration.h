@@ -26,6 +26,7 @@ struct CalibrationChange {
     roll_back,
     start,
   };
+  std::int64_t time_ns = 0;  ///< monotonic
   Cause cause = Cause::begin;
   std::optional<calib::Calibrator> calibrator;  ///< none: all
   calib::CorrectionName name;                   ///< in force from now on

@@ -63,8 +63,9 @@ void CalibrationStage::correct(instruments::Sample& sample) const {
 }
 
 void CalibrationStage::learn(const instruments::Sample& original, Sink& sink) {
+  newest_ns_ = original.stamp.arrival_ns;
   std::visit([&](const auto& value) { learn_from(original, value); }, original.value);
-  while (const auto adopted = suite_.take_adopted()) tell(CalibrationChange::Cause::automatic, *adopted, sink);
+  tell_adopted(sink);
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::CompassSample& compass) {
@@ -108,20 +109,21 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
     suite_.put(calib::MotorReading{seconds(sample.stamp.validity_ns), *motor.rpm});
 }
 
-std::string CalibrationStage::order(CalibrationOrder order, Calibrator calibrator, Sink& sink) {
+std::string CalibrationStage::order(CalibrationOrder order, Calibrator calibrator, std::int64_t now_ns,
+                                    Sink& sink) {
   using Cause = CalibrationChange::Cause;
   switch (order) {
     case CalibrationOrder::accept:
       if (auto why_not = suite_.accept(calibrator); !why_not.empty()) return why_not;
-      tell(Cause::accept, calibrator, sink);
+      tell(now_ns, Cause::accept, calibrator, sink);
       break;
     case CalibrationOrder::roll_back:
       if (auto why_not = suite_.roll_back(calibrator); !why_not.empty()) return why_not;
-      tell(Cause::roll_back, calibrator, sink);
+      tell(now_ns, Cause::roll_back, calibrator, sink);
       break;
     case CalibrationOrder::start:
       if (auto why_not = suite_.start(calibrator); !why_not.empty()) return why_not;
-      tell(Cause::start, calibrator, sink);
+      tell(now_ns, Cause::start, calibrator, sink);
       break;
   }
   return {};
@@ -129,18 +131,27 @@ std::string CalibrationStage::order(CalibrationOrder order, Calibrator calibrato
 
 void CalibrationStage::finish(Sink& sink) {
   suite_.finish();
-  while (const auto adopted = suite_.take_adopted()) tell(CalibrationChange::Cause::automatic, *adopted, sink);
+  tell_adopted(sink);
 }
 
-void CalibrationStage::tell(CalibrationChange::Cause cause, Calibrator calibrator, Sink& sink) const {
-  sink.on_calibration({cause, calibrator, suite_.in_force().name(), suite_.in_force().correction(), {}});
+void CalibrationStage::tell_adopted(Sink& sink) {
+  while (const auto adopted = suite_.take_adopted()) {
+    tell(newest_ns_, CalibrationChange::Cause::automatic, *adopted, sink);
+  }
 }
 
-CalibrationChange CalibrationStage::beginning() {
+void CalibrationStage::tell(std::int64_t now_ns, CalibrationChange::Cause cause, Calibrator calibrator,
+                            Sink& sink) const {
+  const auto& in_force = suite_.in_force();
+  sink.on_calibration({now_ns, cause, calibrator, in_force.name(), in_force.correction(), {}});
+}
+
+CalibrationChange CalibrationStage::beginning(std::int64_t now_ns) {
   calib::Archive saving;
   archive(saving);
-  return {CalibrationChange::Cause::begin, std::nullopt, suite_.in_force().name(), suite_.in_force().correction(),
-          saving.bytes()};
+  const auto& in_force = suite_.in_force();
+  return {now_ns,          CalibrationChange::Cause::begin, std::nullopt,
+          in_force.name(), in_force.correction(),           saving.bytes()};
 }
 
 bool CalibrationStage::restore(std::string_view state) {
@@ -160,7 +171,7 @@ void CalibrationStage::begin_run() {
 
 void CalibrationStage::archive(calib::Archive& archive) {
   archive.tag("calibration_stage 1");
-  archive(suite_, origin_ns_, origin_latitude_rad_, origin_longitude_rad_);
+  archive(suite_, newest_ns_, origin_ns_, origin_latitude_rad_, origin_longitude_rad_);
 }
 
 }  // namespace navcal::pipeline

@@ -27,13 +27,13 @@ class CalibrationStage {
   /// Feeds it, as it was before. Tells the sink of what came into force by it.
   void learn(const instruments::Sample& original, Sink& sink);
   /// The operator's word; what cannot be done is said in words, and nothing is told to the sink then.
-  std::string order(CalibrationOrder order, calib::Calibrator calibrator, Sink& sink);
+  std::string order(CalibrationOrder order, calib::Calibrator calibrator, std::int64_t now_ns, Sink& sink);
   void finish(Sink& sink);
 
   [[nodiscard]] calib::Report report() const { return suite_.report(); }
   [[nodiscard]] const calib::InForce& in_force() const { return suite_.in_force(); }
   /// A change of the kind with which a log begins.
-  [[nodiscard]] CalibrationChange beginning();
+  [[nodiscard]] CalibrationChange beginning(std::int64_t now_ns);
   /// Everything, to the last bit, from a state of beginning(). False when it is none; nothing has changed then.
   bool restore(std::string_view state);
   /// What was restored is of an earlier run, with another monotonic clock.
@@ -47,11 +47,13 @@ class CalibrationStage {
   template <class Other>
   void learn_from(const instruments::Sample&, const Other&) {}
   [[nodiscard]] double seconds(std::int64_t validity_ns);
-  void tell(CalibrationChange::Cause cause, calib::Calibrator calibrator, Sink& sink) const;
+  void tell(std::int64_t now_ns, CalibrationChange::Cause cause, calib::Calibrator calibrator, Sink& sink) const;
+  void tell_adopted(Sink& sink);
   void archive(calib::Archive& archive);
 
   calib::Suite suite_;
   CalibratedPorts ports_;
+  std::int64_t newest_ns_ = 0;             ///< arrival of the newest sample
   std::optional<std::int64_t> origin_ns_;  ///< of the seconds that the suite is told
   std::optional<double> origin_latitude_rad_, origin_longitude_rad_;
 };

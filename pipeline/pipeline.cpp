@@ -104,19 +104,34 @@ std::string Pipeline::order_calibration(CalibrationOrder order, calib::Calibrato
                                         Sink& sink) {
   if (!state_->calibration) return "the configuration has nothing to calibrate";
   advance(now_ns, sink);  // what is due by then comes before it, live as in replay
-  return state_->calibration->order(order, calibrator, sink);
+  return state_->calibration->order(order, calibrator, now_ns, sink);
 }
 
 calib::Report Pipeline::calibration_report() const {
   return state_->calibration ? state_->calibration->report() : calib::Report{};
 }
 
-CalibrationChange Pipeline::calibration_beginning() {
-  return state_->calibration ? state_->calibration->beginning() : CalibrationChange{};
+CalibrationChange Pipeline::calibration_beginning(std::int64_t now_ns) {
+  return state_->calibration ? state_->calibration->beginning(now_ns) : CalibrationChange{};
 }
 
 bool Pipeline::restore_calibration(std::string_view state) {
   return state_->calibration && state_->calibration->restore(state);
+}
+
+std::string Pipeline::replay_calibration(const CalibrationChange& change, Sink& sink) {
+  using Cause = CalibrationChange::Cause;
+  if (!state_->calibration || change.cause == Cause::automatic) return {};
+  if (change.cause == Cause::begin) {
+    advance(change.time_ns, sink);
+    const bool restored = restore_calibration(change.state);
+    return restored ? "" : "the state of its calibrators is of another version: they begin anew";
+  }
+  const auto order = change.cause == Cause::accept      ? CalibrationOrder::accept
+                     : change.cause == Cause::roll_back ? CalibrationOrder::roll_back
+                                                        : CalibrationOrder::start;
+  const auto why_not = order_calibration(order, change.calibrator.value(), change.time_ns, sink);
+  return why_not.empty() ? "" : "a recorded change of the calibration cannot be made again: " + why_not;
 }
 
 void Pipeline::begin_calibration_run() {

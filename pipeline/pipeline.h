@@ -67,10 +67,13 @@ class Pipeline {
   std::string order_calibration(CalibrationOrder order, calib::Calibrator calibrator, std::int64_t now_ns,
                                 Sink& sink);
   [[nodiscard]] calib::Report calibration_report() const;
-  /// With which a log begins.
-  [[nodiscard]] CalibrationChange calibration_beginning();
+  /// With which a log begins. advance() must have been called with the same time, in replay too.
+  [[nodiscard]] CalibrationChange calibration_beginning(std::int64_t now_ns);
   /// From such a beginning. False when its state is none of ours; nothing has changed then.
   bool restore_calibration(std::string_view state);
+  /// A recorded change, made again. What follows from the bytes is not: it will happen by itself. Returns what was
+  /// wrong with it, for people.
+  std::string replay_calibration(const CalibrationChange& change, Sink& sink);
   /// What was restored is of an earlier run of the program.
   void begin_calibration_run();
   /// No more bytes come: the calibrators use all that they have.

@@ -3,6 +3,7 @@
 #include "record/correction_json.h"
 #include "record/flat_json.h"
 #include "record/json_object.h"
+#include "record/mapping_json.h"
 
 namespace navcal::record {
 namespace {
@@ -29,11 +30,11 @@ std::string in_force_json(const calib::Correction& correction) {
 
 }  // namespace
 
-void append_json(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping,
+void append_json(std::string& out, const pipeline::UtcMapping& mapping,
                  const pipeline::CalibrationChange& change) {
   JsonObject json(out, "CALIBRATION");
-  json.seconds("time", mapping.to_utc(now_ns));
-  json.seconds("monotonic", now_ns);
+  json.seconds("time", mapping.to_utc(change.time_ns));
+  json.seconds("monotonic", change.time_ns);
   json.text("cause", pipeline::name_of(change.cause));
   json.text("calibrator", change.calibrator ? calib::name_of(*change.calibrator) : "");
   json.text("name", change.name.text());
@@ -41,12 +42,16 @@ void append_json(std::string& out, std::int64_t now_ns, const pipeline::UtcMappi
   if (change.cause == Cause::begin) json.text("state", base64(change.state));
 }
 
+bool is_calibration_change(std::string_view json) { return json.starts_with(kHead); }
+
 std::optional<pipeline::CalibrationChange> calibration_from_json(std::string_view json) {
-  if (!json.starts_with(kHead)) return std::nullopt;
+  if (!is_calibration_change(json)) return std::nullopt;
   const auto members = FlatJson::parse(json);
   const auto cause = members ? cause_named(members->get("cause")) : std::nullopt;
-  if (!cause) return std::nullopt;
+  const auto time_ns = members ? nanoseconds(members->get("monotonic")) : std::nullopt;
+  if (!cause || !time_ns) return std::nullopt;
   pipeline::CalibrationChange change;
+  change.time_ns = *time_ns;
   change.cause = *cause;
   change.calibrator = calib::calibrator_named(members->get("calibrator"));
   if (*cause == Cause::begin) {

@@ -22,10 +22,11 @@ namespace navcal::record {
 void append_calibrate_json(std::string& out, const calib::Report& report);
 
 /// CALIBRATION of /calib: a change, from which replay goes on.
-void append_json(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping,
-                 const pipeline::CalibrationChange& change);
+void append_json(std::string& out, const pipeline::UtcMapping& mapping, const pipeline::CalibrationChange& change);
 
-/// What replay needs of such an object: cause, calibrator and state; nullopt when it is another one.
+/// Told from CALIB without reading it whole.
+[[nodiscard]] bool is_calibration_change(std::string_view json);
+/// What replay needs of such an object: time, cause, calibrator and state; nullopt when it is another one.
 [[nodiscard]] std::optional<pipeline::CalibrationChange> calibration_from_json(std::string_view json);
 
 }  // namespace navcal::record

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "config/load.h"
+#include "record/calibration_json.h"
 #include "record/flat_json.h"
 #include "record/log_topics.h"
 #include "record/mapping_json.h"
@@ -88,6 +89,10 @@ std::optional<Entry> LogRecording::entry_of(const LogMessage& message) {
     const auto at = json ? nanoseconds(json->get("monotonic")) : std::nullopt;
     if (at) return LoggedEvent{*at, std::string(message.data.substr(0, message.data.size() - kJsonTail)) + '}'};
     remark(message, "an event that cannot be read: passed over");
+  } else if (channel.topic == "/calib" && is_calibration_change(message.data)) {
+    auto change = calibration_from_json(message.data);
+    if (change) return std::move(*change);
+    remark(message, "a change of the calibration that cannot be read: passed over");
   }
   return std::nullopt;
 }

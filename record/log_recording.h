@@ -7,7 +7,8 @@
 
 namespace navcal::record {
 
-/// A log as a recording: the raw bytes, the mappings and the events; samples are left to be computed anew.
+/// A log as a recording: the raw bytes, the mappings, the events and the changes of calibration; samples are left
+/// to be computed anew.
 class LogRecording final : public Recording {
  public:
   LogRecording(std::unique_ptr<ByteSource> source, std::string name);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "pipeline/calibration.h"
 #include "pipeline/utc_mapping.h"
 #include "record/log_encoder.h"
 
@@ -38,7 +39,7 @@ struct MappingChange {
   pipeline::UtcMapping mapping;
 };
 
-using Entry = std::variant<RawRead, MappingChange, LoggedEvent>;
+using Entry = std::variant<RawRead, MappingChange, LoggedEvent, pipeline::CalibrationChange>;
 
 /// Whether a file begins as a log does. Throws BadRecording when it cannot be read.
 [[nodiscard]] bool is_log(const std::filesystem::path& file);

@@ -1,0 +1,132 @@
+#include "daemon/calibration_store.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "pipeline/calibration_options.h"
+#include "record/checked_file.h"
+
+namespace navcal::daemon {
+namespace {
+
+/// Between the words on the instruments and the state itself.
+constexpr std::string_view kSeparator = "\n--\n";
+
+/// The first line that differs.
+std::string difference(std::string_view before, std::string_view now) {
+  while (!before.empty() && !now.empty()) {
+    const auto a = before.substr(0, before.find('\n')), b = now.substr(0, now.find('\n'));
+    if (a != b) return fmt::format("it was \"{}\" and is \"{}\"", a, b);
+    before.remove_prefix(std::min(before.size(), a.size() + 1));
+    now.remove_prefix(std::min(now.size(), b.size() + 1));
+  }
+  return before.empty() ? "an instrument was added" : "an instrument was taken away";
+}
+
+}  // namespace
+
+std::string describe_instruments(const config::Settings& settings) {
+  const auto ports = pipeline::calibrated_ports(settings);
+  std::string out;
+  if (ports.compass) {
+    const auto& port = settings.ports[*ports.compass];
+    out += fmt::format("compass {} {}, units {} {}\n", port.name, protocols::name_of(port.protocol),
+                       static_cast<int>(port.compass.heading_unit), static_cast<int>(port.compass.tilt_unit));
+  }
+  if (ports.imu) {
+    const auto& port = settings.ports[*ports.imu];
+    out += fmt::format("imu {} {}, zeros {}, scales {}\n", port.name, protocols::name_of(port.protocol),
+                       fmt::join(port.imu_card.zero_mV, " "), fmt::join(port.imu_card.scale, " "));
+  }
+  return out;
+}
+
+CalibrationStore::CalibrationStore(const config::Settings& settings)
+    : file_(settings.log.directory / "calibration.state"), instruments_(describe_instruments(settings)) {}
+
+CalibrationStore::~CalibrationStore() { stop(); }
+
+std::optional<std::string> CalibrationStore::load() {
+  auto read = record::read_checked(file_);
+  switch (read.state) {
+    case record::CheckedContent::State::absent:
+      return std::nullopt;
+    case record::CheckedContent::State::damaged:
+      keep_aside(".damaged", read.reason);
+      return std::nullopt;
+    case record::CheckedContent::State::good:
+      break;
+  }
+  const auto separator = read.content.find(kSeparator);
+  if (separator == std::string::npos) {
+    keep_aside(".damaged", "it does not say of which instruments it is");
+    return std::nullopt;
+  }
+  const std::string before = read.content.substr(0, separator + 1);
+  if (before != instruments_) {
+    keep_aside(".void", "the instruments were changed: " + difference(before, instruments_));
+    return std::nullopt;
+  }
+  return read.content.substr(separator + kSeparator.size());
+}
+
+void CalibrationStore::reject(std::string_view reason) { keep_aside(".void", reason); }
+
+void CalibrationStore::keep_aside(std::string_view suffix, std::string_view reason) {
+  const std::filesystem::path aside = file_.string() + std::string(suffix);
+  std::error_code error;
+  std::filesystem::rename(file_, aside, error);
+  note(fmt::format("{} is not used: {}; {}; the calibrators begin anew", file_.string(), reason,
+                   error ? "it cannot be kept aside: " + error.message() : "kept as " + aside.string()));
+}
+
+void CalibrationStore::save(std::string state) {
+  const std::lock_guard lock(mutex_);
+  if (stopping_) return;
+  waiting_ = instruments_ + std::string(kSeparator.substr(1)) + std::move(state);
+  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+  wake_.notify_one();
+}
+
+void CalibrationStore::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    wake_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void CalibrationStore::run() {
+  for (;;) {
+    std::string content;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return waiting_ || stopping_; });
+      if (!waiting_) return;
+      content = *std::exchange(waiting_, std::nullopt);
+    }
+    std::error_code error;
+    std::filesystem::create_directories(file_.parent_path(), error);
+    if (!error) error = record::write_checked(file_, content);
+    if (error && !std::exchange(failing_, true)) {
+      note(fmt::format("{} cannot be written: {}", file_.string(), error.message()));
+    } else if (!error && std::exchange(failing_, false)) {
+      note(fmt::format("{} is written again", file_.string()));
+    }
+  }
+}
+
+void CalibrationStore::note(std::string notice) {
+  const std::lock_guard lock(mutex_);
+  notices_.push_back(std::move(notice));
+}
+
+std::vector<std::string> CalibrationStore::take_notices() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(notices_, {});
+}
+
+}  // namespace navcal::daemon

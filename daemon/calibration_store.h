@@ -1,0 +1,59 @@
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "config/settings.h"
+
+namespace navcal::daemon {
+
+/// Keeps the state of the calibrators, with the calibration in force, across restarts: one checked file in the log
+/// folder (record/checked_file.h). Written by a thread of its own, since a disk may take seconds; of several
+/// states that wait only the newest is written. A file that is damaged, or of instruments that were changed since,
+/// is kept aside and told of; the calibrators then begin anew.
+class CalibrationStore {
+ public:
+  explicit CalibrationStore(const config::Settings& settings);
+  ~CalibrationStore();
+  CalibrationStore(const CalibrationStore&) = delete;
+  CalibrationStore& operator=(const CalibrationStore&) = delete;
+
+  /// At start-up: the state to go on from, if there is one.
+  [[nodiscard]] std::optional<std::string> load();
+  /// The state that load() gave is not understood: it is of another version.
+  void reject(std::string_view reason);
+  void save(std::string state);
+  /// Writes what waits, and ends the thread.
+  void stop();
+
+  /// What happened since the last call, for people.
+  [[nodiscard]] std::vector<std::string> take_notices();
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+ private:
+  void run();
+  void keep_aside(std::string_view suffix, std::string_view reason);
+  void note(std::string notice);
+
+  const std::filesystem::path file_;
+  const std::string instruments_;  ///< what a state is good for, in words
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<std::string> waiting_;
+  std::vector<std::string> notices_;
+  bool stopping_ = false;
+  bool failing_ = false;  ///< told already
+  std::thread thread_;
+};
+
+/// The instruments and those settings of theirs on which what was learnt depends, one a line.
+[[nodiscard]] std::string describe_instruments(const config::Settings& settings);
+
+}  // namespace navcal::daemon

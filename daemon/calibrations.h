@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/settings.h"
+#include "daemon/calibration_store.h"
+#include "daemon/control_request.h"
+#include "daemon/log_writer.h"
+#include "daemon/status_server.h"
+#include "pipeline/pipeline.h"
+
+namespace navcal::daemon {
+
+/// What the daemon does with the calibrators of its pipeline: CALIB on the status socket and in the log, the
+/// operator's orders, and their state kept across restarts. Does nothing when there is nothing to calibrate.
+class Calibrations {
+ public:
+  Calibrations(const config::Settings& settings, pipeline::Pipeline& pipeline, LogWriter& log,
+               StatusServer& server);
+
+  /// Before the first bytes: goes on from where the run before ended, and begins the log with it.
+  void begin(std::int64_t now_ns);
+  /// From the pipeline.
+  void on_change(const pipeline::CalibrationChange& change);
+  /// CALIB to those who watch; into the log now and then.
+  void report(std::int64_t now_ns);
+  /// Saves the state when it is time.
+  void tick(std::int64_t now_ns);
+  /// Saves the state; the log gets a last CALIB.
+  void stop(std::int64_t now_ns);
+
+  /// A calibration.* command; its answer, newline included.
+  [[nodiscard]] std::string answer(const ControlRequest& request, std::int64_t now_ns, pipeline::Sink& sink);
+  /// What is to be told to people.
+  [[nodiscard]] std::vector<std::string> take_notices() { return store_.take_notices(); }
+
+ private:
+  void save(std::int64_t now_ns);
+  void report(std::int64_t now_ns, bool into_log);
+  [[nodiscard]] std::string beginning(std::int64_t now_ns);
+
+  pipeline::Pipeline& pipeline_;
+  LogWriter& log_;
+  StatusServer& server_;
+  CalibrationStore store_;
+  std::int64_t next_save_ns_ = 0;
+  std::int64_t next_log_ns_ = 0;
+  bool changed_ = false;  ///< not saved and reported yet
+};
+
+}  // namespace navcal::daemon
