@@ -11,10 +11,10 @@ namespace navcal::calib {
 namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
-/// How a scale or a deviation not yet known enters the weights: a gyro or compass is hardly worse than this.
-constexpr double kLikelyError = 0.1;
+/// Scales and biases (rad/s) are hardly more wrong than this; for weights and unwrapping only.
+constexpr double kLikelyError = 0.05;
 
-/// Estimate as far as it is known, for weights.
+/// A departure as far as it is known.
 double shrunk(double departure, double variance) {
   return departure * kLikelyError * kLikelyError / (kLikelyError * kLikelyError + variance);
 }
@@ -23,9 +23,8 @@ constexpr int kConstants[] = {kScale, kB, kC, kD, kE};
 
 double wrapped(double angle_rad) { return std::remainder(angle_rad, kTurn_rad); }
 
-Eigen::Vector4d harmonics(double heading_rad) {
-  return {std::sin(heading_rad), std::cos(heading_rad), std::sin(2 * heading_rad), std::cos(2 * heading_rad)};
-}
+/// Fewer do not tell how large the noise is.
+constexpr std::uint64_t kEnoughInnovations = 50;
 
 }  // namespace
 
@@ -36,45 +35,38 @@ TurnFilter::TurnFilter(const Parameters& parameters, const TurnPrior& prior)
   for (int i = 0; i < 5; ++i) {
     with_bias[i] = prior.covariance(kConstants[i], kBias);
     for (int j = 0; j < 5; ++j) covariance(i, j) = prior.covariance(kConstants[i], kConstants[j]);
-    // Held: no regressor will touch it, and what stands here only keeps the matrix regular.
-    if (covariance(i, i) == 0) covariance(i, i) = 1;
+    // Held: no row will touch it, and what stands here only keeps the matrix regular.
+    if (held(kConstants[i])) covariance(i, i) = 1;
   }
   prior_information_ = covariance.inverse();
-  information_ = prior_information_;
-  sensitivity_.row(1) = prior_information_ * with_bias;
-  state_[1] = prior.mean[kBias];
-  state_covariance_(1, 1) =
-      std::max(prior.covariance(kBias, kBias) - with_bias.dot(prior_information_ * with_bias), 0.0);
+  const Constants slope = prior_information_ * with_bias;
+  track_.row(1) << -prior.mean[kBias], slope.transpose();
+  covariance_(1, 1) = std::max(prior.covariance(kBias, kBias) - with_bias.dot(slope), 0.0);
   solve();
 }
 
 bool TurnFilter::held(int coefficient) const { return prior_.covariance(coefficient, coefficient) == 0; }
 
-TurnFilter::Constants TurnFilter::deviation_regressors(double heading_rad) const {
-  Constants all;
-  all << 0, harmonics(heading_rad);
+TurnFilter::Reading TurnFilter::reading(double measured_rad) const {
+  const double s1 = std::sin(measured_rad), c1 = std::cos(measured_rad);
+  const double s2 = std::sin(2 * measured_rad), c2 = std::cos(2 * measured_rad);
+  Reading reading;
+  reading.row << unwrapped_rad_, 0, s1, c1, s2, c2;
+  reading.slope << 1, 0, c1, -s1, 2 * c2, -2 * s2;
   for (int i = 1; i < 5; ++i) {
-    if (held(kConstants[i])) all[i] = 0;
+    const int in_row = 1 + i;
+    const double believed = prior_.mean[kConstants[i]];
+    reading.row[0] -= reading.row[in_row] * believed;
+    reading.slope[0] -= reading.slope[in_row] * believed;
+    if (held(kConstants[i])) reading.row[in_row] = reading.slope[in_row] = 0;
   }
-  return all;
-}
-
-double TurnFilter::heading_variance(double measured_rad) const {
-  // psi = psi_m - E(psi_m): the noise of psi_m counts by 1 - E'.
-  const Constants slope{0, std::cos(measured_rad), -std::sin(measured_rad), 2 * std::cos(2 * measured_rad),
-                        -2 * std::sin(2 * measured_rad)};
-  double factor = 1;
-  for (int i = 1; i < 5; ++i) {
-    factor -= slope[i] * (prior_.mean[kConstants[i]] + shrunk(solution_.departure[i], solution_.covariance(i, i)));
-  }
-  const double deviation = parameters_.heading_noise_rad * std::clamp(factor, 0.5, 2.0);
-  return deviation * deviation;
+  return reading;
 }
 
 void TurnFilter::update(const TurnStep& step) {
-  const Eigen::Vector<double, 7> all{
-      step.time_s,      step.heading_rad,   step.duration_s, step.measured_angle_rad, step.measured_angle_b_rad,
-      step.bias_time_s, step.tilt_angle_rad};
+  Eigen::Matrix<double, 7, 1> all;
+  all << step.time_s, step.heading_rad, step.duration_s, step.measured_angle_rad, step.measured_angle_b_rad,
+      step.bias_time_s, step.tilt_angle_rad;
   const bool begins = step.begins_segment || !in_segment_;
   if (!all.allFinite() || (!begins && step.duration_s <= 0)) {
     ++left_out_;
@@ -84,121 +76,133 @@ void TurnFilter::update(const TurnStep& step) {
   if (begins) {
     start(step);
   } else {
+    unwrap(step);
     predict(step);
     correct(step.heading_rad);
     solve();
   }
   in_segment_ = true;
+  measured_rad_ = step.heading_rad;
   time_s_ = step.time_s;
   ++readings_;
 }
 
-double TurnFilter::without_deviation(double measured_rad) const {
-  return measured_rad - prior_.mean.tail<4>().dot(harmonics(measured_rad));
+double TurnFilter::scale_as_known() const {
+  return prior_.mean[kScale] + shrunk(solution_.departure[0], solution_.covariance(0, 0));
+}
+
+void TurnFilter::unwrap(const TurnStep& step) {
+  // By the gyro as far as it is known; a deviation changes little from one reading to the next.
+  const double scale = scale_as_known();
+  const double bias =
+      prior_.mean[kBias] + shrunk(estimate()[kBias] - prior_.mean[kBias], unscaled_covariance()(kBias, kBias));
+  const double turn = scale * step.measured_angle_rad + bias * step.bias_time_s + step.tilt_angle_rad;
+  unwrapped_rad_ += turn + wrapped(step.heading_rad - measured_rad_ - turn);
+  // Whole turns are dropped, lest digits be lost over a long mission.
+  const double whole = unwrapped_rad_ - wrapped(unwrapped_rad_);
+  unwrapped_rad_ -= whole;
+  track_(0, 0) += whole;
 }
 
 void TurnFilter::start(const TurnStep& step) {
+  const double heading_variance = parameters_.heading_noise_rad * parameters_.heading_noise_rad;
   const double pause_s = readings_ > 0 ? std::max(step.time_s - time_s_, 0.0) : 0;
-  state_covariance_(1, 1) += parameters_.bias_walk_rad_s_sqrt_s * parameters_.bias_walk_rad_s_sqrt_s * pause_s;
-  state_[0] = wrapped(without_deviation(step.heading_rad));
-  sensitivity_.row(0) = -deviation_regressors(step.heading_rad);
-  state_covariance_(0, 0) = heading_variance(step.heading_rad);
-  state_covariance_(0, 1) = state_covariance_(1, 0) = 0;
-  pull_state_(0, 0) = pull_state_(0, 1) = pull_state_(1, 0) = 0;
+  unwrapped_rad_ = wrapped(step.heading_rad);
+  const Reading first = reading(step.heading_rad);
+  track_.row(0) = -first.row.transpose();
+  covariance_(0, 0) = heading_variance;
+  covariance_(0, 1) = covariance_(1, 0) = 0;
+  covariance_(1, 1) += parameters_.bias_walk_rad_s_sqrt_s * parameters_.bias_walk_rad_s_sqrt_s * pause_s;
+  noise_.start(first.slope, heading_variance);
 }
 
 void TurnFilter::predict(const TurnStep& step) {
-  Eigen::Matrix2d transition;
-  transition << 1, step.bias_time_s, 0, 1;
-  state_ = transition * state_;
-  state_[0] = wrapped(state_[0] + prior_.mean[kScale] * step.measured_angle_rad + step.tilt_angle_rad);
-  sensitivity_ = transition * sensitivity_;
-  if (!held(kScale)) sensitivity_(0, 0) += step.measured_angle_rad;
+  Row by_rate = Row::Zero();
+  by_rate[0] = -prior_.mean[kScale];
+  if (!held(kScale)) by_rate[1] = 1;
+  track_.row(0) += step.bias_time_s * track_.row(1) + step.measured_angle_rad * by_rate.transpose();
+  track_(0, 0) -= step.tilt_angle_rad;
 
   // White noise of the rate through F, which is bias_time / duration.
   const double angle_noise = parameters_.rate_noise_rad_sqrt_s * step.bias_time_s;
   const double angle_variance = angle_noise * angle_noise / step.duration_s;
-  const double scale = prior_.mean[kScale] + shrunk(solution_.departure[0], solution_.covariance(0, 0));
+  const double scale = scale_as_known();
   const double walk = parameters_.bias_walk_rad_s_sqrt_s;
-  state_covariance_ = transition * state_covariance_ * transition.transpose();
-  state_covariance_(0, 0) += scale * scale * angle_variance;
-  state_covariance_(1, 1) += walk * walk * step.duration_s;
-  pull_state_ = transition * pull_state_ * transition.transpose();
-  pull_state_(0, 0) += angle_variance;
+  Eigen::Matrix2d transition;
+  transition << 1, step.bias_time_s, 0, 1;
+  covariance_ = transition * covariance_ * transition.transpose();
+  covariance_(0, 0) += scale * scale * angle_variance;
+  covariance_(1, 1) += walk * walk * step.duration_s;
+  noise_.predict(step.bias_time_s, by_rate, angle_variance);
 }
 
 void TurnFilter::correct(double measured_rad) {
-  const Constants gradient = deviation_regressors(measured_rad) + sensitivity_.row(0).transpose();
-  const double expected = gradient.dot(solution_.departure);
-  // The turn since the last reading is known far better than half a turn once anything is known.
-  const double innovation = wrapped(without_deviation(measured_rad) - state_[0] - expected) + expected;
-  const double variance_of_reading = heading_variance(measured_rad);
-  const double variance = state_covariance_(0, 0) + variance_of_reading;
+  const double heading_variance = parameters_.heading_noise_rad * parameters_.heading_noise_rad;
+  const Reading now = reading(measured_rad);
+  const Row row = now.row + track_.row(0).transpose();
+  const double variance = covariance_(0, 0) + heading_variance;
+  const Eigen::Vector2d gain = covariance_.col(0) / variance;
 
-  information_ += gradient * gradient.transpose() / variance;
-  moment_ += gradient * (innovation / variance);
-  square_ += innovation * innovation / variance;
-  pull_ += pull_state_(0, 0) / variance;
+  products_ += row * row.transpose() / variance;
   ++innovations_;
+  noise_.correct(now.slope, heading_variance, variance, gain);
 
-  const Eigen::Vector2d gain = state_covariance_.col(0) / variance;
   Eigen::Matrix2d keep = Eigen::Matrix2d::Identity();
   keep.col(0) -= gain;
-  state_ += gain * innovation;
-  sensitivity_ -= gain * gradient.transpose();
-  state_covariance_ = keep * state_covariance_ * keep.transpose() + gain * gain.transpose() * variance_of_reading;
-  pull_state_ = keep * pull_state_ * keep.transpose();
+  track_ -= gain * row.transpose();
+  covariance_ = keep * covariance_ * keep.transpose() + gain * gain.transpose() * heading_variance;
 }
 
 void TurnFilter::solve() {
-  ConstantsMatrix covariance = information_.ldlt().solve(ConstantsMatrix::Identity());
-  Constants departure = covariance * moment_;
-  const double chi_squared =
-      square_ - 2 * moment_.dot(departure) + departure.dot((information_ - prior_information_) * departure);
-  solution_.chi_squared = std::max(chi_squared, 0.0);
-
-  if (!held(kScale)) {
-    const Constants along = covariance.col(0);  // how all move when the scale does
-    const double prior_information = 1 / prior_.covariance(kScale, kScale);
-    const double learnt = 1 / along[0] - prior_information;
-    const double pull = pull_ * reduced_chi_squared();
-    if (learnt > 2 * pull) {
-      const double enlarged = pull / (1 - pull * along[0]);
-      departure += along * (enlarged * (prior_.mean[kScale] + departure[0]));
-      covariance += along * along.transpose() * enlarged;
-      // The noise in the score is that of the information before the subtraction.
-      const Constants corrected = covariance.col(0);
-      covariance += corrected * corrected.transpose() * pull;
-    } else {
-      // The turns seen are no more than noise: the scale stays as believed before.
-      departure -= along * (departure[0] / along[0]);
-      covariance += along * along.transpose() * (learnt / (prior_information * along[0]));
+  const ConstantsMatrix from_data = products_.bottomRightCorner<5, 5>();
+  const ConstantsMatrix information = from_data + prior_information_;
+  const Constants moment = products_.bottomLeftCorner<5, 1>();
+  solution_.departure = information.ldlt().solve(moment);
+  // How much of the noise stated is there is seen at the estimate, which depends on it: twice is enough.
+  for (int pass = 0; pass < 2; ++pass) {
+    Row at_estimate;
+    at_estimate << 1, -solution_.departure;
+    solution_.square = at_estimate.dot(products_ * at_estimate);
+    solution_.expected_square = at_estimate.dot(noise_.expected() * at_estimate);
+    const TurnNoise::Products noise = noise_.expected() * reduced_chi_squared();
+    const ConstantsMatrix noise_information = noise.bottomRightCorner<5, 5>();
+    if (ConstantsMatrix(information - 2 * noise_information).llt().info() != Eigen::Success) {
+      solution_.departure.setZero();
+      solution_.covariance = prior_information_.inverse();
+      return;
     }
+    const ConstantsMatrix inverse =
+        ConstantsMatrix(information - noise_information).ldlt().solve(ConstantsMatrix::Identity());
+    solution_.departure = inverse * (moment - noise.bottomLeftCorner<5, 1>());
+    // The subtraction made the information smaller, not the noise.
+    solution_.covariance = inverse * information * inverse;
   }
-  solution_.departure = departure;
-  solution_.covariance = covariance;
 }
 
 double TurnFilter::reduced_chi_squared() const {
   const auto sought = static_cast<std::uint64_t>(std::count(prior_.sought.begin(), prior_.sought.end(), true));
-  return innovations_ > sought ? solution_.chi_squared / static_cast<double>(innovations_ - sought) : 1;
+  if (innovations_ < sought + kEnoughInnovations) return 1;
+  // What is sought takes its share away.
+  const double left = 1 - static_cast<double>(sought) / static_cast<double>(innovations_);
+  return std::max(solution_.square, 0.0) / (solution_.expected_square * left);
 }
 
 TurnCoefficients TurnFilter::estimate() const {
   TurnCoefficients all = prior_.mean;
   for (int i = 0; i < 5; ++i) all[kConstants[i]] += solution_.departure[i];
-  all[kBias] = state_[1] + sensitivity_.row(1).dot(solution_.departure);
+  all[kBias] = -track_(1, 0) + track_.row(1).tail<5>().dot(solution_.departure);
   return all;
 }
 
 TurnCovariance TurnFilter::unscaled_covariance() const {
   TurnCovariance all;
-  const Eigen::Matrix<double, 1, 5> with_bias = sensitivity_.row(1) * solution_.covariance;
+  const Eigen::Matrix<double, 1, 5> by_constants = track_.row(1).tail<5>();
+  const Eigen::Matrix<double, 1, 5> with_bias = by_constants * solution_.covariance;
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < 5; ++j) all(kConstants[i], kConstants[j]) = solution_.covariance(i, j);
     all(kBias, kConstants[i]) = all(kConstants[i], kBias) = with_bias[i];
   }
-  all(kBias, kBias) = state_covariance_(1, 1) + with_bias.dot(sensitivity_.row(1));
+  all(kBias, kBias) = covariance_(1, 1) + with_bias.dot(by_constants);
   for (int i : kConstants) {
     if (!held(i)) continue;
     all.row(i).setZero();
@@ -241,18 +245,19 @@ double TurnFilter::condition() const {
 }
 
 double TurnFilter::heading_rad() const {
-  return wrapped(state_[0] + sensitivity_.row(0).dot(solution_.departure));
+  return wrapped(-track_(0, 0) + track_.row(0).tail<5>().dot(solution_.departure));
 }
 
 double TurnFilter::heading_variance_rad2() const {
-  return state_covariance_(0, 0) + sensitivity_.row(0).dot(solution_.covariance * sensitivity_.row(0).transpose());
+  const Eigen::Matrix<double, 1, 5> by_constants = track_.row(0).tail<5>();
+  return covariance_(0, 0) + (by_constants * solution_.covariance).dot(by_constants);
 }
 
 void TurnFilter::archive(Archive& archive) {
   archive.tag("turn_filter 1");
   archive(prior_.mean, prior_.covariance, prior_.sought, prior_information_);
-  archive(state_, state_covariance_, sensitivity_, pull_state_, information_, moment_, square_, pull_, solution_,
-          time_s_, in_segment_, readings_, innovations_, left_out_);
+  archive(track_, covariance_, noise_, products_, solution_, measured_rad_, unwrapped_rad_, time_s_, in_segment_,
+          readings_, innovations_, left_out_);
 }
 
 }  // namespace navcal::calib

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "calib/archive.h"
+#include "calib/turn_noise.h"
 #include "calib/turn_prior.h"
 #include "calib/turn_step.h"
 
@@ -18,9 +19,10 @@ namespace navcal::calib {
 /// bias, the constants entering through their sensitivities, on whose innovations they are found by weighted least
 /// squares. That equals generalised least squares over all readings.
 ///
-/// The measured rate is a regressor with noise, which pulls the scale towards zero where the rate hardly changes.
-/// The expectation of that pull is subtracted (corrected score; Nakamura, Biometrika 77, 1990), as much of it as
-/// the residuals bear out: the estimate then is that of errors in variables by maximum likelihood to first order.
+/// Measured rate and measured heading are regressors with noise: it pulls the scale towards zero where the rate
+/// hardly changes, and bends scale and deviation together where only part of the circle is seen. The expectation
+/// of that pull is subtracted (corrected score; Nakamura, Biometrika 77, 1990), as much of it as the residuals
+/// bear out. Where what is left is no more than the noise, all constants stay as believed before.
 class TurnFilter {
  public:
   struct Parameters {
@@ -57,18 +59,25 @@ class TurnFilter {
   /// What does not change: scale, B, C, D, E.
   using Constants = Eigen::Matrix<double, 5, 1>;
   using ConstantsMatrix = Eigen::Matrix<double, 5, 5>;
+  using Row = TurnNoise::Row;
   /// Found from the sums so far; constants as departures from the prior.
   struct Solution {
     Constants departure = Constants::Zero();
     ConstantsMatrix covariance = ConstantsMatrix::Zero();
-    double chi_squared = 0;
-    void archive(Archive& archive) { archive(departure, covariance, chi_squared); }
+    double square = 0;           ///< sum of the squares of normalised innovations
+    double expected_square = 1;  ///< what it should be by the noise stated
+    void archive(Archive& archive) { archive(departure, covariance, square, expected_square); }
+  };
+  /// A compass reading: unwrapped and less the prior's deviation; 0; harmonics of the constants not held.
+  struct Reading {
+    Row row = Row::Zero();
+    Row slope = Row::Zero();  ///< of the row, by the measured heading
   };
 
   [[nodiscard]] bool held(int coefficient) const;
-  [[nodiscard]] double without_deviation(double measured_rad) const;
-  [[nodiscard]] Constants deviation_regressors(double measured_rad) const;
-  [[nodiscard]] double heading_variance(double measured_rad) const;
+  [[nodiscard]] Reading reading(double measured_rad) const;
+  [[nodiscard]] double scale_as_known() const;
+  void unwrap(const TurnStep& step);
   void start(const TurnStep& step);
   void predict(const TurnStep& step);
   void correct(double measured_rad);
@@ -79,20 +88,19 @@ class TurnFilter {
   TurnPrior prior_;
   ConstantsMatrix prior_information_;
 
-  // First stage, at the prior's constants: heading and bias, and how they depend on the constants.
-  Eigen::Vector2d state_ = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d state_covariance_ = Eigen::Matrix2d::Zero();
-  Eigen::Matrix<double, 2, 5> sensitivity_ = Eigen::Matrix<double, 2, 5>::Zero();
-  Eigen::Matrix2d pull_state_ = Eigen::Matrix2d::Zero();  ///< variance of the scale's sensitivity by rate noise
+  // First stage: heading and bias, negative, at the prior's constants (first column), and how they depend on the
+  // constants (the others).
+  Eigen::Matrix<double, 2, 6> track_ = Eigen::Matrix<double, 2, 6>::Zero();
+  Eigen::Matrix2d covariance_ = Eigen::Matrix2d::Zero();
+  TurnNoise noise_;
 
-  // Second stage: sums over the innovations.
-  ConstantsMatrix information_ = ConstantsMatrix::Zero();
-  Constants moment_ = Constants::Zero();
-  double square_ = 0;
-  double pull_ = 0;  ///< what rate noise adds to the information on the scale, in expectation
+  // Second stage: sums over the rows of the innovations.
+  TurnNoise::Products products_ = TurnNoise::Products::Zero();
   Solution solution_;
 
-  double time_s_ = 0;  ///< of the newest reading
+  double measured_rad_ = 0;   ///< newest reading
+  double unwrapped_rad_ = 0;  ///< the same, continuous
+  double time_s_ = 0;         ///< of the newest reading
   bool in_segment_ = false;
   std::uint64_t readings_ = 0;
   std::uint64_t innovations_ = 0;
