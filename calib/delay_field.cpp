@@ -9,6 +9,7 @@ namespace navcal::calib {
 namespace {
 
 constexpr double kFieldPrior_uT = 100;
+constexpr std::uint64_t kReadingsForNoise = 100;
 
 double square(double x) { return x * x; }
 
@@ -127,8 +128,10 @@ void FieldDelay::correct(const Eigen::Vector3d& field_uT, const Eigen::Vector3d&
 Delay FieldDelay::estimate() const {
   if (readings_ == 0) return {};
   const auto n = static_cast<double>(readings_);
+  // How noisy the field is and how well the model turns it is not known beforehand; the residuals tell.
+  const double noise_scale = readings_ < kReadingsForNoise ? 1 : chi_squared_ / (3 * n);
   return {.delay_s = state_[kDelay],
-          .std_s = std::sqrt(covariance_(kDelay, kDelay) * std::max(1.0, chi_squared_ / (3 * n))),
+          .std_s = std::sqrt(covariance_(kDelay, kDelay) * noise_scale),
           .readings = readings_,
           .rate_spread_rad_s = std::sqrt(std::max(0.0, rate_square_sum_ / n - (rate_sum_ / n).squaredNorm()))};
 }

@@ -13,14 +13,15 @@ namespace navcal::calib {
 /// Model: x' = -(omega + b) x x and field_m = x + h + tau omega x (field_m - h) + noise (uT, body axes, omega in
 /// rad/s): x is the Earth's field as the body sees it turn, h hard iron, b the gyro's bias, and the measured field
 /// is what it was tau seconds before. Linear in x, h, b, tau and tau h taken as unknowns of their own; a random
-/// walk of x takes what scale errors and soft iron leave. Needs no heading, no level and no calibration, but a
+/// walk of x takes what scale errors and soft iron leave. The standard error follows the
+/// innovations, larger or smaller than stated. Needs no heading, no level and no calibration, but a
 /// changing rate. Kalman filter over 13 states; O(1) per reading. A field that steps (a magnet, a motor) is left
 /// out until it stays, then hard iron is sought anew and the delay kept.
 class FieldDelay {
  public:
   struct Parameters {
     double field_noise_uT = 0.3;           ///< each axis, each reading
-    double walk_uT_sqrt_s = 0.5;           ///< of x
+    double walk_uT_sqrt_s = 0.15;          ///< of x
     double hard_iron_std_uT = 50;          ///< prior
     double bias_std_rad_s = 0.05;          ///< prior
     double delay_std_s = 0.5;              ///< prior
@@ -33,6 +34,7 @@ class FieldDelay {
   explicit FieldDelay(const Parameters& parameters);
 
   void update(const RateReading& rate);
+  /// Readings of both in the order of their times.
   void update(const CompassReading& compass);
 
   [[nodiscard]] Delay estimate() const;
