@@ -1,10 +1,8 @@
 #include "calib/turn_filter.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace navcal::calib {
@@ -174,8 +172,10 @@ void TurnFilter::solve() {
     const ConstantsMatrix inverse =
         ConstantsMatrix(information - noise_information).ldlt().solve(ConstantsMatrix::Identity());
     solution_.departure = inverse * (moment - noise.bottomLeftCorner<5, 1>());
-    // The subtraction made the information smaller, not the noise.
-    solution_.covariance = inverse * information * inverse;
+    // The subtraction made the information smaller, not the noise; and a compass whose deviation falls with the
+    // heading shows less noise than its readings have.
+    const double noise_seen = innovations_ > 0 ? solution_.expected_square / static_cast<double>(innovations_) : 1;
+    solution_.covariance = noise_seen * inverse * information * inverse;
   }
 }
 
@@ -213,35 +213,6 @@ TurnCovariance TurnFilter::unscaled_covariance() const {
 
 TurnCovariance TurnFilter::covariance() const {
   return unscaled_covariance() * std::max(reduced_chi_squared(), 1.0);
-}
-
-double TurnFilter::condition() const {
-  // At most six: no allocation.
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-  const TurnCovariance all = unscaled_covariance();
-  int chosen[6] = {};
-  int count = 0;
-  for (int i = 0; i < 6; ++i) {
-    if (prior_.sought[static_cast<std::size_t>(i)]) chosen[count++] = i;
-  }
-  if (count == 0) return 1;
-  Matrix information(count, count);
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) information(i, j) = all(chosen[i], chosen[j]);
-  }
-  information = Matrix(information.inverse());
-  for (int i = 0; i < count; ++i) {
-    const double believed = 1 / prior_.covariance(chosen[i], chosen[i]);
-    information(i, i) -= believed;
-    // Less than was believed before, but for rounding.
-    if (!(information(i, i) > 1e-6 * believed)) return std::numeric_limits<double>::infinity();
-  }
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> unit = information.diagonal().cwiseSqrt().cwiseInverse();
-  information = Matrix(unit.asDiagonal() * information * unit.asDiagonal());
-  const auto eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix>(information, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!(eigenvalues[0] > 0)) return std::numeric_limits<double>::infinity();
-  return eigenvalues[count - 1] / eigenvalues[0];
 }
 
 double TurnFilter::heading_rad() const {
