@@ -20,6 +20,13 @@ void Archive::raw(void* data, std::size_t size) {
   source_.remove_prefix(size);
 }
 
+void Archive::operator()(bool& value) {
+  std::uint8_t byte = value ? 1 : 0;
+  raw(&byte, sizeof byte);
+  if (byte > 1) ok_ = false;
+  if (ok_) value = byte == 1;
+}
+
 void Archive::tag(std::string_view name) {
   std::string found(name);
   (*this)(found);

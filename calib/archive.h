@@ -31,6 +31,8 @@ class Archive {
 
   template <class T>
   requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(T& value) { raw(&value, sizeof value); }
+  /// A byte that is neither of the two values fails: to have it in a bool would be undefined.
+  void operator()(bool& value);
   template <class Scalar, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
   requires(Rows != Eigen::Dynamic && Columns != Eigen::Dynamic) void operator()(
       Eigen::Matrix<Scalar, Rows, Columns, Options, MaxRows, MaxColumns>& matrix) {

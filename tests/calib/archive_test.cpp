@@ -70,6 +70,14 @@ TEST(Archive, CutAnywhereItFails) {
   }
 }
 
+TEST(Archive, ABoolThatIsNeitherFails) {
+  bool flag = true;
+  Archive archive{std::string_view("\2")};
+  archive(flag);
+  EXPECT_FALSE(archive.ok());
+  EXPECT_TRUE(flag);
+}
+
 TEST(Archive, AnotherLayoutFails) {
   Archive saving;
   saving.tag("everything 2");

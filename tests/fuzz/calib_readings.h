@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "calib/suite.h"
+
+namespace navcal::calib::fuzz {
+
+/// Takes numbers from the fuzzer's bytes; zeros when they are used up.
+class Source {
+ public:
+  explicit Source(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+  [[nodiscard]] bool empty() const { return bytes_.empty(); }
+  template <class T>
+  T take() {
+    T value{};
+    const std::size_t size = std::min(sizeof value, bytes_.size());
+    std::memcpy(&value, bytes_.data(), size);
+    bytes_ = bytes_.subspan(size);
+    return value;
+  }
+  /// Mostly what an instrument could say, sometimes any 64 bits at all.
+  double number(double typical) {
+    const auto kind = take<std::uint8_t>();
+    if (kind < 8) return take<double>();
+    return typical * take<std::int16_t>() / 16384.0;
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+/// One reading, at `time_s`, which goes on by itself or jumps.
+inline Reading take_reading(Source& source, double& time_s) {
+  const auto kind = source.take<std::uint8_t>();
+  time_s += kind < 16 ? source.number(100) : 0.05;
+  const auto vector = [&](double typical) {
+    const double x = source.number(typical), y = source.number(typical);
+    return Eigen::Vector3d(x, y, source.number(typical));
+  };
+  switch (kind % 4) {
+    case 0: {
+      CompassReading reading;
+      reading.time_s = time_s;
+      if (kind & 16) reading.heading_rad = source.number(4);
+      if (kind & 32) reading.pitch_rad = source.number(0.3);
+      if (kind & 32) reading.roll_rad = source.number(0.3);
+      if (kind & 64) reading.field_body_uT = vector(60);
+      reading.faulty = (kind & 128) != 0;
+      return reading;
+    }
+    case 1: {
+      RateReading reading;
+      reading.time_s = time_s;
+      reading.rate_rad_s = vector(1);
+      reading.yaw_rate_b_rad_s = source.number(1);
+      reading.specific_force_m_s2 = vector(10);
+      reading.saturated = (kind & 128) != 0;
+      return reading;
+    }
+    case 2: {
+      GroundReading reading;
+      reading.time_s = time_s;
+      reading.position_m = vector(1000).head<2>();
+      reading.speed_m_s = source.number(2);
+      if (kind & 16) reading.course_rad = source.number(4);
+      return reading;
+    }
+    default:
+      return MotorReading{time_s, source.number(1000)};
+  }
+}
+
+/// Whatever came: what is in force and what is reported stay numbers.
+inline void check(const Suite& suite) {
+  const Report report = suite.report();
+  const auto require = [](bool holds) {
+    if (!holds) std::abort();
+  };
+  for (const auto& one : report.calibrators) {
+    for (const auto& quantity : one.estimate) require(std::isfinite(quantity.value) && !(quantity.std < 0));
+    require(one.judgement.coverage >= 0 && one.judgement.coverage <= 1);
+    require(one.judgement.accepted || !one.judgement.reason.empty());
+  }
+}
+
+}  // namespace navcal::calib::fuzz
