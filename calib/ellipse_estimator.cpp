@@ -1,6 +1,7 @@
 #include "calib/ellipse_estimator.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kCellSize_uT = 0.7;
 constexpr std::uint64_t kFirstFit = 20;  // readings
+constexpr double kJudged = 50;           // readings held against a fit before it may find others surprising
 constexpr int kMostIterations = 200;
 
 /// A beginning that depends on the summary alone; the scatter about it is where robust weights begin.
@@ -61,7 +63,7 @@ void EllipseEstimator::settle() {
 }
 
 double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const {
-  if (!fit_ || samples_ < 3 * kFirstFit) return 0;
+  if (!fit_ || held_out_.weight() < kJudged) return 0;
   FieldCells<2, 2>::Cell reading;
   reading.count = 1;
   reading.mean = levelled(field_body_uT, roll_rad, pitch_rad);
@@ -69,7 +71,8 @@ double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double r
   const Eigen::Vector2d normal = (fit_->shape.axes_uT.inverse() * EllipseShape::direction(heading)).normalized();
   const EllipseShape::Vector row = EllipseShape::slope(heading).transpose() * normal;
   const double distance = mean_distance_uT(fit_->shape, reading);
-  const double variance = fit_->residual_uT * fit_->residual_uT + row.dot(fit_->covariance * row) +
+  const double noise_uT = std::max(fit_->residual_uT, held_out_.after_uT());
+  const double variance = noise_uT * noise_uT + row.dot(fit_->covariance * row) +
                           parameters_.model_error_uT * parameters_.model_error_uT;
   const double z = distance * distance / variance;
   return std::isfinite(z) ? z : std::numeric_limits<double>::max();

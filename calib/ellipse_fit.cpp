@@ -112,8 +112,10 @@ EllipseFit improve(const EllipseFit& fit, const EllipseCells& cells, double nois
   damped.diagonal() *= 1 + fit.damping;
   const EllipseShape::Vector step = damped.ldlt().solve(sums.gradient);
   const EllipseShape moved = fit.shape.moved(step);
+  // Close to the end the cost no longer tells: the arc within a cell has a slope of its own that is left out here.
+  const bool close = fit.damping == 0 && step.cwiseAbs().maxCoeff() < 1e-3 * fit.shape.axes_uT.trace();
   const bool better =
-      moved.sane() && total_cost(moved, cells, scale) <= sums.cost * (1 + 1e-12) + 1e-18 * sums.count;
+      moved.sane() && (close || total_cost(moved, cells, scale) <= sums.cost * (1 + 1e-12) + 1e-18 * sums.count);
   if (better) {
     next.shape = moved;
     next.damping = fit.damping > 1e-6 ? fit.damping / 10 : 0;

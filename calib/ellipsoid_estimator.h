@@ -35,15 +35,17 @@ class EllipsoidEstimator {
 
   explicit EllipsoidEstimator(const Parameters& parameters);
 
+  /// Roll or pitch not a number: the tilt is not known, the size of the field still tells.
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
   void settle();
 
   [[nodiscard]] std::optional<MagnetometerEstimate> estimate() const;
   [[nodiscard]] const std::optional<EllipsoidFit>& fit() const { return fit_; }
-  [[nodiscard]] const FieldCells<3, 6>& cells() const { return cells_; }
+  /// The summary: those with tilt, then those without.
+  [[nodiscard]] EllipsoidCells cells() const;
   [[nodiscard]] Judgement judgement() const;
   /// As EllipseEstimator's.
-  [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const;
+  [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT) const;
 
   void archive(Archive& archive);
 
@@ -60,6 +62,7 @@ class EllipsoidEstimator {
 
   Parameters parameters_;
   FieldCells<3, 6> cells_;
+  FieldCells<3, 6> tiltless_;  ///< readings whose tilt is not known: down is zero
   std::optional<EllipsoidFit> fit_;
   FieldHeldOut held_out_;
   double tilt_square_ = 0, tilt_weight_ = 0;  ///< of what gravity disagrees, with forgetting

@@ -16,8 +16,29 @@ constexpr double kOutlier2 = 36;  // six standard deviations of one reading, squ
 struct Departure {
   Pair value;             // what the cell's readings are off on the mean
   Rows slope;             // by the parameters
-  Eigen::Matrix2d noise;  // covariance of one reading
+  Eigen::Matrix2d noise;  // of one reading, so that over the count it is that of their mean
 };
+
+/// What of the noise the departure itself reveals. Slopes at the reading less that do not vary with the noise that
+/// they are multiplied with: else a small tilt, with noise, would look like a larger one and shift the centre.
+Eigen::Vector3d adjustment(const Departure& d, double noise_uT, const Eigen::Matrix<double, 2, 3>& by_field) {
+  const Pair weighted = d.noise.inverse() * d.value;
+  if (d.value.dot(weighted) > kOutlier2) return Eigen::Vector3d::Zero();
+  return noise_uT * noise_uT * by_field.transpose() * weighted;
+}
+
+Rows slopes(const Eigen::Matrix3d& m, const Eigen::Vector3d& off_centre, const Eigen::Vector3d& down,
+            const Eigen::Matrix3d& with_down) {
+  const Eigen::Vector3d direction = (m * off_centre).normalized();
+  const auto slope = EllipsoidShape::slope_of_matrix(off_centre);
+  Eigen::Matrix<double, 6, 1> joint;
+  joint << with_down(0, 0), with_down(1, 1), with_down(2, 2), with_down(1, 2) + with_down(2, 1),
+      with_down(0, 2) + with_down(2, 0), with_down(0, 1) + with_down(1, 0);
+  Rows rows;
+  rows.row(0) << -(m * direction).transpose(), (slope.transpose() * direction).transpose(), 0;
+  rows.row(1) << -(m * down).transpose(), (slope.transpose() * down + joint).transpose(), -1;
+  return rows;
+}
 
 Departure departure_of(const EllipsoidShape& shape, const Cell& cell, const EllipsoidNoise& noise) {
   const Eigen::Matrix3d& m = shape.matrix_per_uT;
@@ -33,17 +54,22 @@ Departure departure_of(const EllipsoidShape& shape, const Cell& cell, const Elli
   // Readings on a curved surface: their mean lies inside it.
   const double sagitta = 0.5 * (spread.trace() - direction.dot(spread * direction)) / size;
   d.value = {size + sagitta - 1, down.dot(unit) + (m * with_down).trace() - shape.sine_of_dip};
-  const auto slope = EllipsoidShape::slope_of_matrix(off_centre);
-  d.slope.row(0) << -(m * direction).transpose(), (slope.transpose() * direction).transpose(), 0;
-  Eigen::Matrix<double, 6, 1> joint;
-  joint << with_down(0, 0), with_down(1, 1), with_down(2, 2), with_down(1, 2) + with_down(2, 1),
-      with_down(0, 2) + with_down(2, 0), with_down(0, 1) + with_down(1, 0);
-  d.slope.row(1) << -(m * down).transpose(), (slope.transpose() * down + joint).transpose(), -1;
-
   Eigen::Matrix<double, 2, 3> by_field;
   by_field << (m * direction).transpose(), (m * down).transpose();
   d.noise = noise.field_uT * noise.field_uT * by_field * by_field.transpose();
-  d.noise(1, 1) += noise.tilt_rad * noise.tilt_rad * std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
+  if (down.isZero(0)) {
+    d.value[1] = 0;  // tilt was not known: the first line alone
+    d.noise = Eigen::Vector2d(d.noise(0, 0), 1).asDiagonal();
+    d.slope = slopes(m, off_centre - adjustment(d, noise.field_uT, by_field), down, Eigen::Matrix3d::Zero());
+    d.slope.row(1).setZero();
+    return d;
+  }
+  // The lag of an inclinometer and the vehicle's accelerations are the same in all readings of a cell: there the
+  // tilt is known no better than by one of them.
+  const double tilt2 = cell.count * noise.tilt_rad * noise.tilt_rad;
+  d.noise(1, 1) += tilt2 * std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
+  const Eigen::Vector3d tilted = tilt2 * d.noise.inverse().row(1).dot(d.value) * (unit - down * down.dot(unit));
+  d.slope = slopes(m, off_centre - adjustment(d, noise.field_uT, by_field), down - tilted, with_down);
   return d;
 }
 
@@ -61,6 +87,8 @@ struct Known {
     // Wide enough to say nothing, and what is never seen still has a finite variance.
     constexpr double kAnyCentre_uT = 1e4;
     information.head<3>().setConstant(1 / (kAnyCentre_uT * kAnyCentre_uT));
+    information[9] = 1e-2;
+    mean[9] = -shape.sine_of_dip;
     mean.head<3>() = -shape.centre_uT;
     if (!prior.known) return;
     const KnownField& field = *prior.known;
@@ -121,16 +149,20 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
   next.covariance = solved(0, EllipsoidShape::Matrix::Identity().eval());
   const EllipsoidShape::Vector step = solved(fit.damping, gradient);
   const EllipsoidShape moved = fit.shape.moved(step);
+  // Close to the end the cost no longer tells: the arc within a cell has a slope of its own that is left out here.
+  const EllipsoidShape::Vector moved_by = step.cwiseQuotient(next.covariance.diagonal().cwiseSqrt());
+  const double moved_most = std::max(step.head<3>().norm() / fit.shape.radius_uT(),
+                                     step.segment<6>(3).norm() / fit.shape.matrix_per_uT.norm());
+  const bool close = fit.damping == 0 && moved_most < 1e-3;
   const bool better =
-      moved.sane() && total_cost(moved, fit.shape, cells, noise, prior) <= cost * (1 + 1e-11) + 1e-12;
+      moved.sane() && (close || total_cost(moved, fit.shape, cells, noise, prior) <= cost * (1 + 1e-11) + 1e-12);
   if (better) {
     next.shape = moved;
     next.damping = fit.damping > 1e-6 ? fit.damping / 10 : 0;
   } else {
     next.damping = std::min(std::max(10 * fit.damping, 1e-4), 1e8);
   }
-  const EllipsoidShape::Vector moved_by = step.cwiseQuotient(next.covariance.diagonal().cwiseSqrt());
-  next.settled = better && fit.damping == 0 && moved_by.cwiseAbs().maxCoeff() < 1e-8;
+  next.settled = better && fit.damping == 0 && moved_by.cwiseAbs().maxCoeff() < 1e-9;
   return next;
 }
 
@@ -161,6 +193,7 @@ std::optional<EllipsoidShape> starting_sphere(const EllipsoidCells& cells, const
     Eigen::Matrix<double, 5, 1> row;
     row << 2 * m, 1, 0;
     add(cell.count, row, m.squaredNorm());
+    if (down.isZero(0)) continue;
     row << down, 0, 1;
     add(cell.count, row, down.dot(m));
   }

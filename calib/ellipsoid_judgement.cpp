@@ -68,6 +68,7 @@ Judgement EllipsoidEstimator::judgement() const {
   judgement.held_out_after = held_out_.after_uT();
 
   std::vector<double> headings;
+  const EllipsoidCells all = cells();
   for (const auto& cell : cells_.cells()) {
     const Eigen::Vector3d unit = fit_->shape.unit_field(cell.mean.head<3>());
     if (std::abs(unit.norm() - 1) > 0.2) continue;  // an outlier's
@@ -87,15 +88,15 @@ Judgement EllipsoidEstimator::judgement() const {
   }
   const double centre = fit_->shape.centre_uT.norm();
   const double field = parameters_.known ? parameters_.known->magnitude_uT : fit_->shape.radius_uT();
-  if (centre > field && tilt_rad < 45 * kDegree) {
+  // Errors of the instrument's scales grow with the field that it measures.
+  const double relative = parameters_.model_error * (1 + centre / field);
+  const auto covariance = doubtful_covariance(*fit_, all, noise().field_uT, relative);
+  const double vertical_uT = std::sqrt(covariance(2, 2));
+  if (centre - 2 * vertical_uT > field && tilt_rad < 45 * kDegree) {
     return refuse("the hard iron of " + rounded(centre, 0) + " uT exceeds the Earth's field, and tilt within " +
                       whole_degrees(tilt_rad) + " degrees does not determine it",
                   tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
   }
-  // Errors of the instrument's scales grow with the field that it measures.
-  const double relative = parameters_.model_error * (1 + centre / field);
-  const auto covariance = doubtful_covariance(*fit_, cells_.cells(), noise().field_uT, relative);
-  const double vertical_uT = std::sqrt(covariance(2, 2));
   if (vertical_uT > parameters_.offset_std_uT) {
     return refuse("the vertical offset is uncertain by " + rounded(vertical_uT, 1) + " uT: tilt stayed within " +
                       whole_degrees(tilt_rad) + " degrees",

@@ -6,7 +6,7 @@
 namespace navcal::calib {
 
 void FieldHeldOut::update(double raw_size_uT, double departure_uT) {
-  constexpr double kMemory = 1000;  // readings
+  constexpr double kMemory = 300;  // readings
   weight_ = std::min(weight_ + 1, kMemory);
   const double gain = 1 / weight_;
   raw_ += gain * (raw_size_uT - raw_);

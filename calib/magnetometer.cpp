@@ -22,7 +22,7 @@ void Magnetometer::Estimators::update(const Reading& reading) {
 
 double Magnetometer::Estimators::surprise(const Reading& reading) const {
   return std::max(ellipse.surprise(reading.field_body_uT, reading.roll_rad, reading.pitch_rad),
-                  ellipsoid.surprise(reading.field_body_uT, reading.roll_rad, reading.pitch_rad));
+                  ellipsoid.surprise(reading.field_body_uT));
 }
 
 void Magnetometer::Estimators::archive(Archive& archive) { archive(ellipse, gyro, ellipsoid); }

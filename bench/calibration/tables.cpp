@@ -2,10 +2,22 @@
 
 #include <array>
 
+#include "bench/calibration/magnetometer.h"
+#include "bench/calibration/turn_tables.h"
+
 namespace navcal::bench {
 
 std::span<const Table> tables() {
-  static constexpr std::array<Table, 0> kTables{};
+  static constexpr std::array kTables{
+      Table{"gyro", "Gyro against an errorless compass (THESIS 11.1)", print_gyro},
+      Table{"compass", "Compass with a calibrated gyro (THESIS 11.2)", print_compass},
+      Table{"joint", "Compass and gyro together (THESIS 11.3)", print_joint},
+      Table{"drift", "A drifting gyro (THESIS 11.6, item 7)", print_drift},
+      Table{"cost", "Cost of one update", print_cost},
+      Table{"magnetometer", "Magnetometer: distortions of figures 4.11 and 4.12 on the eight paths",
+            print_magnetometer},
+      Table{"magnetometer-real", "Magnetometer: recordings of others", print_magnetometer_real},
+  };
   return kTables;
 }
 

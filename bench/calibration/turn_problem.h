@@ -31,8 +31,9 @@ enum class TurnProblem {
 ///
 /// Model: psi_m(n) = T(n) + psi0 + scale S1(n) + bias S2(n) + f4(psi_m(n))'q + e(n), with the true regressors. The
 /// rates along the path are unknown, too, and known by the readings of the gyro only: eliminating them leaves the
-/// covariance V = diag(sigma_psi^2 (1 - E')^2) + scale^2 sigma_g^2 W, where W is that of the trapezoid sums of white
-/// noise; the bound is the inverse of X'V^-1 X, less the row and column of psi0. Noise of the tilt is left out.
+/// covariance V = diag(sigma_psi^2 (1 - E')^2) + scale^2 sigma_g^2 W, where W is that of the trapezoid sums of
+/// white noise; the bound is the inverse of X'V^-1 X, less the row and column of psi0. Noise of the tilt is left
+/// out.
 [[nodiscard]] Eigen::VectorXd cramer_rao(TurnProblem problem, const std::vector<calib::test::TruePoint>& path,
                                          const calib::test::Noise& noise);
 

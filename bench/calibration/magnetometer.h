@@ -1,0 +1,12 @@
+#pragma once
+
+#include "bench/calibration/tables.h"
+
+namespace navcal::bench {
+
+/// THESIS 11.4.
+void print_magnetometer(const TableOptions& options);
+/// The recordings of others in ../shared/data.
+void print_magnetometer_real(const TableOptions& options);
+
+}  // namespace navcal::bench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/ellipse_estimator.h"
+#include "calib/ellipse_gyro.h"
+#include "tests/calib/thesis_paths.h"
+
+/// What the noise of the thesis lets one know of an ellipse: root-mean-square error of heading over the circle by
+/// the Cramer-Rao bound, degrees.
+namespace navcal::bench {
+
+[[nodiscard]] calib::EllipseEstimator::Parameters ellipse_parameters();
+/// The gyro known exactly, or unknown.
+[[nodiscard]] calib::EllipseGyro::Parameters gyro_parameters(bool unknown);
+
+/// Every heading free.
+[[nodiscard]] double ellipse_bound_deg(const std::vector<calib::test::TruePoint>& path,
+                                       const calib::EllipseShape& truth);
+/// Headings tied by the gyro with its noise: dense information on all unknowns, inverted as it is.
+[[nodiscard]] double gyro_bound_deg(const std::vector<calib::test::TruePoint>& path,
+                                    const calib::EllipseShape& truth, bool unknown);
+
+}  // namespace navcal::bench

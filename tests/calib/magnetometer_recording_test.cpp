@@ -1,0 +1,83 @@
+// Recordings of real instruments; the figures of other tools are in ../shared/data/ORIGIN.md.
+#include "tests/calib/magnetometer_recording.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "calib/ellipsoid_estimator.h"
+#include "calib/magnetometer.h"
+
+namespace navcal::calib::test {
+namespace {
+
+std::vector<RecordedField> recording(const char* name) {
+  return recorded_field(std::string(NAVCAL_SHARED_DIR "/data/") + name);
+}
+
+using Chosen = std::function<bool(const RecordedField&)>;
+
+EllipsoidEstimator fitted(const std::vector<RecordedField>& readings, const Chosen& chosen) {
+  EllipsoidEstimator estimator({});
+  for (const auto& r : readings) {
+    if (chosen(r)) estimator.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
+  }
+  estimator.settle();
+  return estimator;
+}
+
+double spread(const EllipsoidEstimator& estimator, const std::vector<RecordedField>& readings,
+              const Chosen& chosen) {
+  const FieldCorrection correction = estimator.estimate()->correction;
+  std::vector<double> sizes;
+  for (const auto& r : readings) {
+    if (chosen(r)) sizes.push_back(correction(r.field_body_uT).norm());
+  }
+  return spread_percent(sizes);
+}
+
+bool even_block(const RecordedField& r, double block_s) {
+  return static_cast<long>(std::floor(r.time_s / block_s)) % 2 == 0;
+}
+
+TEST(MagnetometerRecording, BoardTurnedThroughTheWholeSphere) {
+  const auto readings = recording("hmc_sphere.cap");
+  if (readings.empty()) GTEST_SKIP() << "../shared is missing";
+  const auto all = [](const RecordedField&) { return true; };
+  EXPECT_LE(spread(fitted(readings, all), readings, all), 0.41);
+  const auto even = [](const RecordedField& r) { return even_block(r, 10); };
+  const auto odd = [](const RecordedField& r) { return !even_block(r, 10); };
+  EXPECT_LE(spread(fitted(readings, even), readings, odd), 0.50);  // not fitted
+}
+
+TEST(MagnetometerRecording, GliderAgreesWithItsOwnCalibration) {
+  const auto readings = recording("sg171.cap");
+  if (readings.empty()) GTEST_SKIP() << "../shared is missing";
+  const auto all = [](const RecordedField&) { return true; };
+  const auto estimator = fitted(readings, all);
+  const Eigen::Vector3d own(3.07, -0.95, 0.84);
+  EXPECT_LT((estimator.estimate()->correction.offset_uT - own).cwiseAbs().maxCoeff(), 0.1);
+  const auto even = [](const RecordedField& r) { return even_block(r, 600); };
+  const auto odd = [](const RecordedField& r) { return !even_block(r, 600); };
+  EXPECT_LE(spread(fitted(readings, even), readings, odd), 0.29);  // not fitted
+}
+
+TEST(MagnetometerRecording, MagnetBroughtNearAndTakenAway) {
+  const auto readings = recording("broad34.cap");
+  if (readings.empty()) GTEST_SKIP() << "../shared is missing";
+  Magnetometer magnetometer{Magnetometer::Parameters{}};
+  std::vector<double> found_s;
+  for (const auto& r : readings) {
+    magnetometer.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
+    if (magnetometer.field_steps() > found_s.size()) found_s.push_back(r.time_s);
+  }
+  ASSERT_EQ(found_s.size(), 2u);
+  EXPECT_NEAR(found_s[0], 45.3, 1);
+  EXPECT_NEAR(found_s[1], 100, 1);
+  const auto on = [](const RecordedField& r) { return r.time_s > 46.5 && r.time_s < 98.5; };
+  EXPECT_LE(spread(fitted(readings, on), readings, on), 1.632);
+}
+
+}  // namespace
+}  // namespace navcal::calib::test
