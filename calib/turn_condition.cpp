@@ -7,32 +7,30 @@
 namespace navcal::calib {
 
 double TurnFilter::condition() const {
-  // At most six: no allocation.
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-  const TurnCovariance all = unscaled_covariance();
-  int chosen[6] = {};
-  int count = 0;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto sought = [this](int i) { return prior_.sought[static_cast<std::size_t>(i)]; };
+  TurnCovariance information = unscaled_covariance();
+  // The others become ones on the diagonal: among eigenvalues whose mean is one they are never the extremes.
   for (int i = 0; i < 6; ++i) {
-    if (prior_.sought[static_cast<std::size_t>(i)]) chosen[count++] = i;
+    if (sought(i)) continue;
+    information.row(i).setZero();
+    information.col(i).setZero();
+    information(i, i) = 1;
   }
-  if (count == 0) return 1;
-  Matrix information(count, count);
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) information(i, j) = all(chosen[i], chosen[j]);
-  }
-  information = Matrix(information.inverse());
-  for (int i = 0; i < count; ++i) {
-    const double believed = 1 / prior_.covariance(chosen[i], chosen[i]);
+  information = information.inverse().eval();
+  for (int i = 0; i < 6; ++i) {
+    if (!sought(i)) continue;
+    const double believed = 1 / prior_.covariance(i, i);
     information(i, i) -= believed;
     // Hardly more than was believed before, which is next to nothing.
-    if (!(information(i, i) > believed)) return std::numeric_limits<double>::infinity();
+    if (!(information(i, i) > believed)) return kInfinity;
   }
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> unit = information.diagonal().cwiseSqrt().cwiseInverse();
-  information = Matrix(unit.asDiagonal() * information * unit.asDiagonal());
-  const auto eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix>(information, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!(eigenvalues[0] > 0)) return std::numeric_limits<double>::infinity();
-  return eigenvalues[count - 1] / eigenvalues[0];
+  const Eigen::Matrix<double, 6, 1> unit = information.diagonal().cwiseSqrt().cwiseInverse();
+  information = (unit.asDiagonal() * information * unit.asDiagonal()).eval();
+  const Eigen::Matrix<double, 6, 1> eigenvalues =
+      Eigen::SelfAdjointEigenSolver<TurnCovariance>(information, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(eigenvalues[0] > 0)) return kInfinity;
+  return eigenvalues[5] / eigenvalues[0];
 }
 
 }  // namespace navcal::calib
