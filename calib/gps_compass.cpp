@@ -32,12 +32,6 @@ Unknowns prior_weight(const GpsCompass::Parameters& p) {
   return std.array().square().inverse();
 }
 
-/// A for which the mean of the velocities is met: a start that needs no near guess.
-double first_offset(const GpsSummary& summary, double declination_rad) {
-  const int zeroth = GpsSummary::index(0, 0);
-  return declination_rad - std::arg(summary.right()[zeroth]);
-}
-
 }  // namespace
 
 GpsCompass::GpsCompass(const Parameters& parameters)
@@ -66,7 +60,8 @@ void GpsCompass::update(const GroundReading& ground) { track_.update(ground); }
 std::optional<GpsCompass::Estimate> GpsCompass::solve() const {
   if (summary_.fixes() == 0) return std::nullopt;
   Vector start = prior_mean(parameters_);
-  start[0] = first_offset(summary_, parameters_.declination_rad);
+  // The positions are no help to begin with: they see harmonics of slow motion as an offset.
+  start[0] = parameters_.declination_rad - std::arg(summary_.velocity_from_heading());
   return iterate(start, kMostSteps);
 }
 

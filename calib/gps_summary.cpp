@@ -14,6 +14,12 @@ bool finite(const GroundReading& ground) {
          (!ground.course_rad || std::isfinite(*ground.course_rad));
 }
 
+void archive_complex(Archive& archive, GpsSummary::Complex& value) {
+  double real = value.real(), imaginary = value.imag();
+  archive(real, imaginary);
+  value = {real, imaginary};
+}
+
 }  // namespace
 
 GpsSummary::Terms GpsSummary::terms(const WaterTrackReading& track) const {
@@ -80,6 +86,7 @@ void GpsSummary::fix(const GroundReading& ground, const WaterTrackReading& track
   }
   const double receiver_m2 = square_of(parameters_.position_std_m);
   ++fixes_;
+  velocity_from_heading_ += velocity_m_s * std::polar(1.0, -track.heading_rad);
   observe(terms(track), velocity_m_s,
           square_of(parameters_.velocity_std_m_s) + square_of(parameters_.model_std_m_s));
   if (!position_) {
@@ -100,16 +107,6 @@ void GpsSummary::fix(const GroundReading& ground, const WaterTrackReading& track
   position_->velocity_m_s = velocity_m_s;
 }
 
-namespace {
-
-void archive_complex(Archive& archive, GpsSummary::Complex& value) {
-  double real = value.real(), imaginary = value.imag();
-  archive(real, imaginary);
-  value = {real, imaginary};
-}
-
-}  // namespace
-
 void GpsSummary::Position::archive(Archive& archive) {
   archive_complex(archive, state_m);
   archive(variance_m2, response, time_s);
@@ -119,6 +116,7 @@ void GpsSummary::Position::archive(Archive& archive) {
 
 void GpsSummary::archive(Archive& archive) {
   archive.tag("gps_summary 1");
+  archive_complex(archive, velocity_from_heading_);
   archive(information_, right_, square_, fixes_, left_out_, position_);
 }
 

@@ -55,6 +55,8 @@ class GpsSummary {
   [[nodiscard]] const Information& information() const { return information_; }  ///< lower triangle
   [[nodiscard]] const Terms& right() const { return right_; }
   [[nodiscard]] double square() const { return square_; }  ///< weighted sum of squares of what was observed
+  /// Sum of the velocities seen from the headings: its angle is -A, roughly, with no other unknown known.
+  [[nodiscard]] Complex velocity_from_heading() const { return velocity_from_heading_; }
   [[nodiscard]] std::uint64_t fixes() const { return fixes_; }
   [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
   [[nodiscard]] static constexpr int index(int slip_power, int harmonic) {
@@ -81,6 +83,7 @@ class GpsSummary {
   Information information_ = Information::Zero();
   Terms right_ = Terms::Zero();
   double square_ = 0;
+  Complex velocity_from_heading_;
   std::uint64_t fixes_ = 0;
   LeftOut left_out_;
   std::optional<Position> position_;
