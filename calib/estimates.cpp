@@ -152,8 +152,14 @@ Judgement Estimators::judgement(Calibrator calibrator) const {
 std::vector<Quantity> Estimators::quantities(Calibrator calibrator) const {
   switch (calibrator) {
     case Calibrator::gyro:
-    case Calibrator::gyro_b:
-      return quantities_of_gyro(turn_calibrator(calibrator));
+      return quantities_of_gyro(gyro_);
+    case Calibrator::gyro_b: {
+      auto quantities = quantities_of_gyro(gyro_b_);
+      // By what is in force of both.
+      if (const auto disagreement = gyros_.disagreement_rad_s())
+        quantities.push_back({"disagreement_rad_s", *disagreement, gyros_.standard_error_rad_s()});
+      return quantities;
+    }
     case Calibrator::compass:
       return quantities_of_compass(compass_);
     case Calibrator::magnetometer:
@@ -172,6 +178,14 @@ std::vector<Quantity> Estimators::quantities(Calibrator calibrator) const {
       break;
   }
   return quantities_of(delays_.course().estimate());
+}
+
+Eigen::MatrixXd Estimators::covariance(Calibrator calibrator) const {
+  if (calibrator == Calibrator::compass && compass_.has_estimate())
+    return compass_.filter().covariance().block<4, 4>(kB, kB);
+  const auto& gps = surface_.gps_compass().estimate();
+  if (calibrator == Calibrator::gps_compass && gps) return gps->covariance;
+  return {};
 }
 
 }  // namespace navcal::calib

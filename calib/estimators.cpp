@@ -48,7 +48,8 @@ Estimators::Estimators(const SuiteOptions& options)
       compass_(TurnCalibrator::Subject::compass, turn_parameters(options)),
       magnetometer_(field_parameters(options)),
       surface_(options),
-      delays_(delay_parameters(options)) {}
+      delays_(delay_parameters(options)),
+      gyros_({}) {}
 
 void Estimators::update(const CompassReading& original, const Correction& in_force) {
   delays_.update(original);
@@ -66,6 +67,7 @@ void Estimators::update(const CompassReading& original, const Correction& in_for
 void Estimators::update(const RateReading& reading) {
   turns_.update(reading);
   delays_.update(reading);
+  gyros_.update(reading);
   yaw_rate_rad_s_ = reading.rate_rad_s.z();
 }
 
@@ -174,7 +176,7 @@ void Estimators::start(Calibrator calibrator) {
       return compass_.start(compass_prior());
     case Calibrator::magnetometer:
       magnetometer_ = Magnetometer(field_parameters(options_));
-      return on_in_force(Calibrator::gyro);
+      return tell_magnetometer_of_gyro();
     case Calibrator::gps_compass:
     case Calibrator::misalignment:
       return surface_.start(calibrator);
@@ -189,13 +191,23 @@ void Estimators::start(Calibrator calibrator) {
   }
 }
 
-void Estimators::on_in_force(Calibrator calibrator) {
+void Estimators::tell_magnetometer_of_gyro() {
+  if (!gyro_.judgement().accepted) return;
+  const TurnCoefficients gyro = gyro_.filter().estimate();
+  magnetometer_.set_gyro({gyro.head<2>(), gyro_.filter().covariance().topLeftCorner<2, 2>()});
+}
+
+void Estimators::on_in_force(Calibrator calibrator, const Correction& in_force) {
+  const auto line = [](const std::optional<RateCorrection>& rate) {
+    return GyroPair::Line{rate.value_or(RateCorrection{}).scale, rate.value_or(RateCorrection{}).bias_rad_s};
+  };
   switch (calibrator) {
     case Calibrator::gyro:
-      if (gyro_.judgement().accepted) {
-        const TurnCoefficients gyro = gyro_.filter().estimate();
-        magnetometer_.set_gyro({gyro.head<2>(), gyro_.filter().covariance().topLeftCorner<2, 2>()});
-      }
+      tell_magnetometer_of_gyro();
+      gyros_.set_calibration(line(in_force.gyro), line(in_force.gyro_b));
+      break;
+    case Calibrator::gyro_b:
+      gyros_.set_calibration(line(in_force.gyro), line(in_force.gyro_b));
       break;
     case Calibrator::compass:
     case Calibrator::magnetometer:
@@ -206,7 +218,6 @@ void Estimators::on_in_force(Calibrator calibrator) {
     case Calibrator::misalignment:
       surface_.on_change();
       break;
-    case Calibrator::gyro_b:
     case Calibrator::compass_delay:
     case Calibrator::course_delay:
       break;
@@ -215,7 +226,7 @@ void Estimators::on_in_force(Calibrator calibrator) {
 
 void Estimators::archive(Archive& archive) {
   archive.tag("estimators 1");
-  archive(turns_, gyro_, gyro_b_, compass_, magnetometer_, surface_, delays_, swing_, swing_reference_rad_,
+  archive(turns_, gyro_, gyro_b_, compass_, magnetometer_, surface_, delays_, gyros_, swing_, swing_reference_rad_,
           swing_heading_rad_, swing_anchored_);
   for (CompassReading& reading : pending_) calib::archive(archive, reading);
   archive(first_pending_, pending_count_, yaw_rate_rad_s_, heading_seen_, finishing_);

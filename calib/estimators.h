@@ -7,6 +7,7 @@
 #include "calib/archive.h"
 #include "calib/correction.h"
 #include "calib/delay_estimator.h"
+#include "calib/gyro_pair.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer.h"
 #include "calib/report.h"
@@ -43,12 +44,14 @@ class Estimators {
   /// One calibrator forgets what it has seen; the compass keeps what is known of the gyro.
   void start(Calibrator calibrator);
   /// What is in force changed for one calibrator: those that build on it begin anew.
-  void on_in_force(Calibrator calibrator);
+  void on_in_force(Calibrator calibrator, const Correction& in_force);
 
   /// The newest estimate of each calibrator that has one.
   [[nodiscard]] Correction estimates() const;
   [[nodiscard]] Judgement judgement(Calibrator calibrator) const;
   [[nodiscard]] std::vector<Quantity> quantities(Calibrator calibrator) const;
+  /// As in CalibratorReport.
+  [[nodiscard]] Eigen::MatrixXd covariance(Calibrator calibrator) const;
   [[nodiscard]] const Comparison& misalignment_comparison() const { return surface_.comparison(); }
   void archive(Archive& archive);
 
@@ -61,6 +64,7 @@ class Estimators {
   [[nodiscard]] std::optional<RateCorrection> known_gyro(const Correction& in_force) const;
   TurnedReading take_pending(std::optional<TurnStep> turn);
   void learn(const TurnedReading& turned, const Correction& in_force);
+  void tell_magnetometer_of_gyro();
   void learn_field(const TurnedReading& turned);
   void learn_swing(const TurnStep& turn, const Correction& in_force);
 
@@ -70,6 +74,7 @@ class Estimators {
   Magnetometer magnetometer_;
   SurfaceCalibrators surface_;
   DelayEstimator delays_;
+  GyroPair gyros_;
   std::optional<Swing> swing_;  ///< begun by the operator
   double swing_reference_rad_ = 0, swing_heading_rad_ = 0;
   bool swing_anchored_ = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ struct CalibratorReport {
   Verdict verdict = Verdict::refused;
   Judgement judgement;
   std::vector<Quantity> estimate;  ///< empty when there is none yet
+  Eigen::MatrixXd covariance;      ///< of compass (B..E) and GPS-aided compass; empty of the others
   bool held = false;               ///< rolled back: comes into force only by the operator's word
   std::size_t steps_back = 0;      ///< changes that can be rolled back
 

@@ -88,7 +88,7 @@ void Suite::adopt(Calibrator calibrator, const Correction& estimates) {
 
 void Suite::on_change(Calibrator calibrator) {
   held_out_.on_change();
-  estimators_.on_in_force(calibrator);
+  estimators_.on_in_force(calibrator, in_force_.correction());
   accepted_ = accepted();
 }
 
@@ -167,6 +167,7 @@ Report Suite::report() const {
                   : one.judgement.accepted         ? Verdict::shadow
                                                    : Verdict::refused;
     one.estimate = estimators_.quantities(calibrator);
+    one.covariance = estimators_.covariance(calibrator);
     one.held = held_[index(calibrator)];
     one.steps_back = in_force_.steps_back(calibrator);
   }
