@@ -6,6 +6,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "cli/watch_text.h"
+
 namespace navcal::cli {
 namespace {
 
@@ -13,29 +15,6 @@ using Json = nlohmann::json;
 
 constexpr std::string_view kRed = "\x1b[1;37;41m", kPlain = "\x1b[0m";
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-/// Nothing from the network may move the cursor.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (c < 0x20 || c > 0x7e) c = '?';
-  }
-  return text;
-}
-
-std::string text(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? printable(found->get<std::string>()) : std::string();
-}
-
-double number(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : NAN;
-}
-
-/// "-" for what is not there.
-std::string shown(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
-}
 
 template <class... Arguments>
 void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -65,6 +44,8 @@ void WatchView::take(std::string_view line) {
     take_health(report);
   } else if (kind == "TIME") {
     time_ = report;
+  } else if (kind == "CALIB") {
+    calibration_.take(report);
   } else if (!kind.empty()) {
     last_[kind][text(report, "device")] = report;
   }
@@ -183,6 +164,7 @@ std::string WatchView::page(Colour colour) const {
   append_motor(out);
   append_log(out);
   append_time(out);
+  calibration_.append(out);
   if (dropped_ > 0) add(out, "this view missed {:.0f} reports\n", dropped_);
   return out;
 }
@@ -210,6 +192,7 @@ std::string WatchView::line() const {
       }
     }
   }
+  if (!calibration_.name().empty()) add(out, "calibration {}; ", calibration_.name());
   return out + log_state(log_);
 }
 

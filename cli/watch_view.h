@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "cli/watch_calibration.h"
+
 namespace navcal::cli {
 
 /// What a running daemon says, put together for people: lines of the status socket in, text out. No I/O.
@@ -39,6 +41,7 @@ class WatchView {
   std::map<std::string, Json> ports_;                        ///< of HEALTH, by device
   std::map<std::string, double> frames_per_s_;               ///< by device
   std::map<std::string, std::map<std::string, Json>> last_;  ///< newest report, by class and device
+  WatchCalibration calibration_;
   double uptime_s_ = 0;
   std::map<std::string, double> counted_at_s_;  ///< uptime of the HEALTH before, by device
   double dropped_ = 0;

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "instruments/start_up.h"
+#include "pipeline/calibration_options.h"
 
 namespace navcal::daemon {
 namespace {
@@ -15,6 +16,23 @@ std::string place(const config::PortSettings& port) {
   if (!port.path.empty()) return port.path;
   if (!port.udev_name.empty()) return fmt::format("udev name {}", port.udev_name);
   return fmt::format("USB adapter with serial number {}", port.usb_serial);
+}
+
+void append_calibration(std::string& out, const config::Settings& settings) {
+  const auto ports = pipeline::calibrated_ports(settings);
+  if (!settings.calibration.enabled || !ports.compass) {
+    out += settings.calibration.enabled ? "calibration: nothing to calibrate\n" : "calibration: off\n";
+    return;
+  }
+  out += fmt::format("calibration: of {}", settings.ports[*ports.compass].name);
+  for (const auto& helper : {ports.imu, ports.gps, ports.motor}) {
+    if (helper) out += fmt::format(", {}", settings.ports[*helper].name);
+  }
+  if (settings.calibration.automatic) {
+    out += fmt::format("; estimates come into force when better by {:.0f} %\n", settings.calibration.margin * 100);
+  } else {
+    out += "; estimates come into force by calibration.accept\n";
+  }
 }
 
 }  // namespace
@@ -36,6 +54,7 @@ std::string describe(const config::Settings& settings) {
   } else {
     line(fmt::runtime("log: off"));
   }
+  append_calibration(out, settings);
   line(fmt::runtime("status: TCP {} port {}, at most {} clients"), settings.status.address, settings.status.port,
        settings.status.max_clients);
   line(fmt::runtime("control: {} with permissions {:04o}"), settings.control.socket.string(),

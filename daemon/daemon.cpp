@@ -55,8 +55,8 @@ Daemon::~Daemon() = default;
 
 void Daemon::start() {
   event(started_ns_, "info", "daemon.start", "", "navcald " NAVCAL_VERSION);
-  calibrations_.begin(ports::monotonic_ns());
   watch_system_clock();
+  calibrations_.begin(ports::monotonic_ns());
   for (const auto& session : sessions_) session->start();
   server_.start();
   control_.start();

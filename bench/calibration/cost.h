@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace navcal::bench {
+
+/// Something that takes samples forever; made by a function, so that each measurement begins with a new one.
+struct CostItem {
+  std::string_view name;
+  std::function<std::function<void(std::size_t sample)>()> make;
+};
+
+/// Of one package each; a new estimator is one more entry in one of them, a new package one more line in cost.cpp.
+[[nodiscard]] std::vector<CostItem> turn_costs();
+
+}  // namespace navcal::bench

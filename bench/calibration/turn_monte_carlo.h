@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "bench/calibration/turn_problem.h"
+
+namespace navcal::bench {
+
+/// What our filter did on one path in many runs with the thesis's noise; vectors in the order of sought().
+struct TurnStatistics {
+  Eigen::VectorXd rms, bound;
+  Eigen::VectorXd covered;  ///< share of runs with the truth within two standard errors
+  CurveError curve;         ///< means of the runs' own, degrees
+  double reduced_chi_squared = 0;
+
+  /// Of root-mean-square error to bound, the worst coefficient's.
+  [[nodiscard]] double worst_ratio() const { return (rms.array() / bound.array()).maxCoeff(); }
+};
+
+/// The same runs for the same seed.
+[[nodiscard]] TurnStatistics monte_carlo(TurnProblem problem, const std::vector<calib::test::TruePoint>& path,
+                                         int runs, unsigned seed);
+
+}  // namespace navcal::bench

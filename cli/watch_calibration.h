@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace navcal::cli {
+
+/// The calibrators as `watch` shows them: CALIB reports in, text out. No I/O.
+class WatchCalibration {
+ public:
+  void take(const nlohmann::json& calib);
+  /// Table of calibrators beside the compass rose; empty when nothing was reported.
+  void append(std::string& out) const;
+  /// Name of the calibration in force; empty when nothing was reported.
+  [[nodiscard]] std::string name() const { return name_; }
+
+ private:
+  using Json = nlohmann::json;
+  static constexpr std::size_t kSectors = 36;
+
+  std::string name_;
+  std::map<std::string, Json> calibrators_;
+  Json heading_;
+  std::array<double, kSectors> rose_{};
+};
+
+/// Headings visited, north up: '.' for a sector never seen, 'o' and '#' for seen and often seen. Lines without
+/// ends.
+[[nodiscard]] std::vector<std::string> compass_rose(const std::array<double, 36>& visits);
+
+}  // namespace navcal::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace navcal::cli {
+
+// What a daemon said, made fit for a terminal. Nothing is taken on trust: any member may be missing or of any
+// type.
+
+/// Nothing from the network may move the cursor.
+[[nodiscard]] std::string printable(std::string text);
+
+/// The text at `key`, printable; empty when there is none.
+[[nodiscard]] std::string text(const nlohmann::json& object, const char* key);
+
+/// The number at `key`; not-a-number when there is none.
+[[nodiscard]] double number(const nlohmann::json& object, const char* key);
+
+/// "-" for what is not there.
+[[nodiscard]] std::string shown(double value, int decimals);
+
+}  // namespace navcal::cli

@@ -1,0 +1,88 @@
+#include "cli/watch_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli/watch_view.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr const char* kReport =
+    R"({"class":"CALIB","name":"7-1a2b3c4d","calibrators":[)"
+    R"({"calibrator":"gyro","verdict":"in_force","accepted":true,"reason":"","manoeuvre":"","coverage":1.0,)"
+    R"("held_out_before_deg":3.21,"held_out_after_deg":0.42,"estimate":{"scale":1.1111,"bias_deg_s":-6.37},)"
+    R"("std":{"scale":0.0012,"bias_deg_s":0.02}},)"
+    R"({"calibrator":"compass","verdict":"refused","reason":"only 220 degrees of the circle were seen",)"
+    R"("manoeuvre":"turn through 140 more degrees, headings 220 to 0","coverage":0.61,"held":true}],)"
+    R"("heading":{"blocks":12,"before_rms_deg":5.2,"in_force_rms_deg":0.45,"after_rms_deg":0.42},)"
+    R"("rose":[50,50,50,5,5,5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,50]})";
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(WatchCalibration, SaysWhatIsInForceWhatIsRefusedAndWhatToDo) {
+  WatchView view;
+  view.take(kReport);
+  const std::string page = view.page(WatchView::Colour::none);
+  for (const char* part : {"calibration in force: 7-1a2b3c4d", "5.20 deg raw, 0.45 in force", "3.21 > 0.42 deg",
+                           "scale 1.111 +- 0.0012", "bias_deg_s -6.37 +- 0.02", "refused, held", "61 %",
+                           "turn through 140 more degrees, headings 220 to 0"}) {
+    EXPECT_TRUE(has(page, part)) << part << "\n" << page;
+  }
+  EXPECT_TRUE(has(view.line(), "calibration 7-1a2b3c4d"));
+}
+
+TEST(WatchCalibration, PartsOfAReportAreShownTogether) {
+  WatchView view;
+  view.take(R"({"class":"CALIB","name":"1-x","part":1,"parts":2,"calibrators":[{"calibrator":"gyro"}]})");
+  view.take(R"({"class":"CALIB","name":"1-x","part":2,"parts":2,"calibrators":[{"calibrator":"swing"}]})");
+  const std::string page = view.page(WatchView::Colour::none);
+  EXPECT_TRUE(has(page, "gyro") && has(page, "swing")) << page;
+}
+
+TEST(CompassRose, EverySectorHasAPlaceOfItsOwn) {
+  std::array<double, 36> none{};
+  const auto count = [](const std::vector<std::string>& rows, char c) {
+    std::ptrdiff_t n = 0;
+    for (const auto& row : rows) n += std::count(row.begin(), row.end(), c);
+    return n;
+  };
+  EXPECT_EQ(count(compass_rose(none), '.'), 36);
+  for (std::size_t i = 0; i < none.size(); ++i) {
+    auto one = none;
+    one[i] = 100;
+    EXPECT_EQ(count(compass_rose(one), '#'), 1) << i;
+    EXPECT_EQ(count(compass_rose(one), '.'), 35) << i;
+  }
+}
+
+TEST(CompassRose, NorthIsUpAndEastIsRight) {
+  std::array<double, 36> visits{};
+  visits[0] = 100;  // headings 0 to 10
+  const auto rows = compass_rose(visits);
+  EXPECT_NE(rows.front().find('#'), std::string::npos);
+  EXPECT_GT(rows.front().find('#'), rows.front().size() / 2);
+  visits = {};
+  visits[8] = 100;  // 80 to 90
+  std::size_t column = 0;
+  for (const auto& row : compass_rose(visits)) {
+    if (row.find('#') != std::string::npos) column = row.find('#');
+  }
+  EXPECT_GE(column + 2, rows.front().size());
+}
+
+TEST(WatchCalibration, WrongTypesAreSurvived) {
+  WatchView view;
+  for (const char* key : {"name", "calibrators", "heading", "rose", "part"}) {
+    for (const char* value : {"1", "null", "\"x\"", "[]", "{}", "[1]", "[{}]", "[[]]", "-1", "1e300",
+                              R"([{"calibrator":1,"verdict":[],"estimate":[],"std":1,"held":"x"}])"}) {
+      view.take(std::string(R"({"class":"CALIB",")") + key + "\":" + value + "}");
+      (void)view.page(WatchView::Colour::ansi);
+      (void)view.line();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace navcal::cli
