@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bench/calibration/gps_delay_tables.h"
 #include "bench/calibration/magnetometer.h"
 #include "bench/calibration/turn_tables.h"
 
@@ -17,6 +18,8 @@ std::span<const Table> tables() {
       Table{"magnetometer", "Magnetometer: distortions of figures 4.11 and 4.12 on the eight paths",
             print_magnetometer},
       Table{"magnetometer-real", "Magnetometer: recordings of others", print_magnetometer_real},
+      Table{"gps", "A..E by GPS (THESIS 11.5)", print_gps},
+      Table{"delay", "Delay of the compass", print_delay},
   };
   return kTables;
 }
