@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "bench/calibration/tables.h"
+#include "bench/calibration/gps_delay_tables.h"
 #include "calib/gps_compass.h"
 #include "calib/gps_course_fit.h"
 #include "tests/calib/gps_paths.h"
