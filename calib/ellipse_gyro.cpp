@@ -56,7 +56,9 @@ void EllipseGyro::add(const Eigen::Vector2d& field_uT, const Eigen::Vector4d& wa
     TurnGroup& group = groups_.back();
     const Eigen::Vector4d from = way_ - group_begin_;
     const double turned = parameters_.gyro.mean[0] * from[1] + parameters_.gyro.mean[1] * from[2] + from[3];
-    if (std::abs(turned) < kGroupTurn_rad && from[0] < kGroupTime_s) {
+    const Eigen::Vector2d by_gyro = from.segment<2>(1);
+    const double unsure = std::sqrt(by_gyro.dot(parameters_.gyro.covariance * by_gyro));
+    if (std::abs(turned) + unsure < kGroupTurn_rad && from[0] < kGroupTime_s) {
       group.count += 1;
       const double gain = 1 / group.count;
       group.field_uT += gain * (field_uT - group.field_uT);
