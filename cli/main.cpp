@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Each command explains itself: navcal decode --help");
 
+  navcal::cli::add_calibrate(app);
   navcal::cli::add_decode(app);
   navcal::cli::add_emulate(app);
   navcal::cli::add_log(app);

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/port_matching.h"
 #include "cli/progress.h"
 #include "config/load.h"
 #include "pipeline/pipeline.h"
@@ -40,22 +41,6 @@ class Printer : public pipeline::Sink {
   Output& output_;
   std::string line_;
 };
-
-/// Which port of the configuration in use each port of the recording is; -1: none of that name.
-std::vector<int> match_ports(const config::Settings& recorded, const config::Settings& used,
-                             const std::string& file) {
-  std::vector<int> index;
-  for (const auto& port : recorded.ports) {
-    const auto found = std::find_if(used.ports.begin(), used.ports.end(),
-                                    [&](const config::PortSettings& other) { return other.name == port.name; });
-    index.push_back(found == used.ports.end() ? -1 : static_cast<int>(found - used.ports.begin()));
-    if (found == used.ports.end()) {
-      std::fprintf(stderr, "navcal: %s: port %s is not in the configuration: left out\n", file.c_str(),
-                   port.name.c_str());
-    }
-  }
-  return index;
-}
 
 /// Plays one file through the pipeline; files of one series may follow each other.
 void play(record::Recording& recording, const std::string& file, pipeline::Pipeline& pipeline, Printer& printer) {

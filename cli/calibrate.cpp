@@ -1,0 +1,95 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cli/calibrate_page.h"
+#include "cli/calibrate_run.h"
+#include "cli/calibrate_text.h"
+#include "cli/commands.h"
+#include "cli/output.h"
+#include "config/load.h"
+#include "record/calibration_json.h"
+#include "record/whole_file.h"
+
+namespace navcal::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string config, report;
+  bool json = false;
+};
+
+/// Before the work is done rather than after it.
+void expect_folder_of(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw Failure(Exit::failed, file.string() + ": " + std::system_category().message(errno));
+  }
+}
+
+void write_page(const std::filesystem::path& path, const std::string& page) {
+  record::WholeFile file(path);
+  file.write(page);
+  file.commit();
+}
+
+void calibrate(const Options& options) {
+  try {
+    if (!options.report.empty()) expect_folder_of(options.report);
+    const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
+                                                 : config::load(options.config);
+    std::optional<CalibrateHistory> history;
+    if (!options.report.empty()) history.emplace(settings);
+    CalibrateRun run(settings, history ? &*history : nullptr);
+    for (const std::string& file : options.files) run.play(file);
+    const calib::Report report = run.finish();
+    for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+
+    std::string answer;
+    if (options.json) {
+      record::append_calibrate_json(answer, report);
+      answer += '\n';
+    } else {
+      answer = calibrate_text(report, run.duration_s());
+    }
+    Output output(STDOUT_FILENO, "standard output");
+    output.append(answer);
+    output.flush();
+    if (history) {
+      const PageSource source{options.files, options.config, run.settings(), run.duration_s(), run.remarks()};
+      write_page(options.report, calibrate_page(report, *history, source));
+    }
+  } catch (const record::BadRecording& error) {
+    throw Failure(Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw Failure(Exit::bad_input, error.what());
+  } catch (const std::system_error& error) {
+    throw Failure(Exit::failed, error.what());
+  }
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("calibrate", "what a recording says of compass and gyros, and how sure it is");
+  command
+      ->add_option("FILE", options->files,
+                   "logs (.mcap) or captures (.cap), in their order; of one series, or several recordings")
+      ->required();
+  command->add_option("--config", options->config, "configuration to use instead of the recording's own");
+  command->add_flag("--json", options->json, "one JSON object instead of text");
+  command->add_option("--report", options->report, "page to write, with pictures; needs no other file")
+      ->option_text("FILE.html");
+  command->footer("Example: navcal calibrate --report dive.html dive.mcap");
+  command->callback([options] { calibrate(*options); });
+}
+
+}  // namespace navcal::cli

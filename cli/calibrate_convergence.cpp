@@ -1,0 +1,109 @@
+// Estimates over time.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string_view>
+
+#include "cli/calibrate_figures.h"
+#include "cli/svg_plot.h"
+#include "cli/time_axis.h"
+
+namespace navcal::cli {
+namespace {
+
+using Ink = SvgPlot::Ink;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr std::size_t kLeastPoints = 4;
+
+struct Curve {
+  const char* estimate;
+  const char* name;
+};
+/// What is shown in one diagram.
+struct Group {
+  const char* title;
+  const char* unit;
+  double factor;
+  std::array<Curve, 4> curves;
+};
+constexpr std::array kGroups{
+    Group{"Gyro A: scale", "scale", 1, {{{"gyro.scale", "A"}, {"gyro_b.scale", "B"}, {}, {}}}},
+    Group{
+        "Gyro A and B: bias", "deg/s", kDegrees, {{{"gyro.bias_rad_s", "A"}, {"gyro_b.bias_rad_s", "B"}, {}, {}}}},
+    Group{"Compass deviation",
+          "degrees",
+          kDegrees,
+          {{{"compass.B_rad", "B"}, {"compass.C_rad", "C"}, {"compass.D_rad", "D"}, {"compass.E_rad", "E"}}}},
+    Group{"Magnetometer: offset",
+          "uT",
+          1,
+          {{{"magnetometer.offset_x_uT", "forward"},
+            {"magnetometer.offset_y_uT", "starboard"},
+            {"magnetometer.offset_z_uT", "down"},
+            {}}}},
+    Group{"Misalignment",
+          "degrees",
+          kDegrees,
+          {{{"misalignment.A_rad", "A"}, {"gps_compass.A_rad", "A with B to E"}, {}, {}}}},
+    Group{"Delay of the compass", "milliseconds", 1000, {{{"compass_delay.delay_s", "delay"}, {}, {}, {}}}},
+};
+constexpr std::array kInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
+
+/// What the second half of the time needs: the first estimates of all are anywhere.
+Range late_range(const std::vector<std::span<const EstimatePoint>>& curves, double factor) {
+  double least = INFINITY, most = -INFINITY;
+  for (const auto curve : curves) {
+    for (const EstimatePoint& point : curve.subspan(curve.size() / 2)) {
+      const double band = std::isfinite(point.std) ? 2 * point.std : 0;
+      least = std::min(least, (point.value - band) * factor);
+      most = std::max(most, (point.value + band) * factor);
+    }
+  }
+  const double margin = std::max(0.4 * (most - least), 1e-9 + 1e-4 * std::abs(most));
+  return {least - margin, most + margin};
+}
+
+void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const EstimatePoint> curve, const TimeAxis& time,
+          double factor) {
+  std::vector<Point> line, lower, upper;
+  for (const EstimatePoint& point : curve) {
+    const double t = time(point.time_s);
+    line.push_back({t, point.value * factor});
+    lower.push_back({t, (point.value - 2 * point.std) * factor});
+    upper.push_back({t, (point.value + 2 * point.std) * factor});
+  }
+  plot.band(ink, "", lower, upper);
+  plot.line(ink, name, line);
+}
+
+}  // namespace
+
+std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estimates) {
+  std::vector<double> times_s;
+  for (const auto& [name, points] : estimates) {
+    for (const auto& point : {points.front(), points.back()}) times_s.push_back(point.time_s);
+  }
+  std::sort(times_s.begin(), times_s.end());
+  const TimeAxis time(times_s);
+  std::vector<Figure> figures;
+  for (const Group& group : kGroups) {
+    std::vector<std::span<const EstimatePoint>> curves;
+    std::vector<const char*> names;
+    for (const Curve& curve : group.curves) {
+      const auto found = curve.estimate != nullptr ? estimates.find(curve.estimate) : estimates.end();
+      if (found == estimates.end() || found->second.size() < kLeastPoints) continue;
+      curves.emplace_back(found->second);
+      names.push_back(curve.name);
+    }
+    if (curves.empty()) continue;
+    SvgPlot plot(group.title, time.axis(), {group.unit, late_range(curves, group.factor)});
+    for (std::size_t i = 0; i < curves.size(); ++i) draw(plot, kInks[i], names[i], curves[i], time, group.factor);
+    figures.push_back({group.title, plot.svg(), "With two standard errors to either side."});
+  }
+  return figures;
+}
+
+}  // namespace navcal::cli

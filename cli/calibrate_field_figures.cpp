@@ -1,0 +1,165 @@
+// The magnetometer before and after.
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calib/ellipse_shape.h"
+#include "cli/calibrate_figures.h"
+#include "cli/svg_plot.h"
+#include "cli/time_axis.h"
+
+namespace navcal::cli {
+namespace {
+
+using Ink = SvgPlot::Ink;
+
+constexpr std::size_t kMostDots = 1500;
+constexpr double kSide = 460;
+constexpr std::array<const char*, 3> kAxes{"forward, uT", "starboard, uT", "down, uT"};
+
+/// The readings of the field, levelled where a horizontal ellipse was fitted.
+struct Fields {
+  std::vector<double> time_s;
+  std::vector<Eigen::Vector3d> before, after;
+};
+
+Eigen::Vector3d levelled3(const Eigen::Vector3d& field_uT, const calib::CompassReading& reading) {
+  const Eigen::Vector2d level = calib::levelled(field_uT, *reading.roll_rad, *reading.pitch_rad);
+  return {level.x(), level.y(), 0};
+}
+
+Fields fields_of(const std::vector<TurnedSample>& samples, const std::optional<calib::FieldCorrection>& correction,
+                 bool level) {
+  Fields fields;
+  for (const TurnedSample& sample : samples) {
+    const auto& reading = sample.reading;
+    if (!reading.field_body_uT || (level && (!reading.roll_rad || !reading.pitch_rad))) continue;
+    const auto placed = [&](const Eigen::Vector3d& field) { return level ? levelled3(field, reading) : field; };
+    fields.time_s.push_back(reading.time_s);
+    fields.before.push_back(placed(*reading.field_body_uT));
+    if (correction) fields.after.push_back(placed((*correction)(*reading.field_body_uT)));
+  }
+  return fields;
+}
+
+/// Components `across` and `up` of every so many.
+std::vector<Point> projected(const std::vector<Eigen::Vector3d>& fields, int across, int up) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < fields.size(); i += fields.size() / kMostDots + 1) {
+    points.push_back({fields[i][across], fields[i][up]});
+  }
+  return points;
+}
+
+/// Outline of {m: |matrix (m - offset)| = size}, seen along the axis that is neither `across` nor `up`: of the
+/// ellipsoid's inverse form the part of those two.
+std::vector<Point> outline(const calib::FieldCorrection& correction, double size_uT, int across, int up) {
+  const Eigen::Matrix3d inverse = correction.matrix.inverse() * size_uT;
+  const Eigen::Matrix3d form = inverse * inverse.transpose();
+  Eigen::Matrix2d part;
+  part << form(across, across), form(across, up), form(up, across), form(up, up);
+  const Eigen::Matrix2d root = part.llt().matrixL();
+  std::vector<Point> points;
+  for (int degrees = 0; degrees <= 360; degrees += 4) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Eigen::Vector2d place = root * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    points.push_back({correction.offset_uT[across] + place.x(), correction.offset_uT[up] + place.y()});
+  }
+  return points;
+}
+
+SvgPlot square_plot(std::string_view title, int across, int up, const std::vector<Point>& points,
+                    const std::vector<Point>& line) {
+  std::vector<double> x{0}, y{0};
+  for (const auto* list : {&points, &line}) {
+    for (const Point& point : *list) {
+      x.push_back(point.x);
+      y.push_back(point.y);
+    }
+  }
+  const Range rx = range_of(x), ry = range_of(y);
+  const double half = std::max(rx.length(), ry.length()) / 2;
+  const auto around = [half](Range r) {
+    const double middle = (r.least + r.most) / 2;
+    return Range{middle - half, middle + half};
+  };
+  const double height = kSide - SvgPlot::kLeft - SvgPlot::kRight + SvgPlot::kTop + SvgPlot::kBottom;
+  return {title,
+          {kAxes[static_cast<std::size_t>(across)], around(rx)},
+          {kAxes[static_cast<std::size_t>(up)], around(ry)},
+          {kSide, height}};
+}
+
+double spread_percent(const std::vector<Eigen::Vector3d>& fields) {
+  double mean = 0, squares = 0, count = 0;
+  for (const auto& field : fields) {
+    const double departure = field.norm() - mean;
+    mean += departure / ++count;
+    squares += departure * (field.norm() - mean);
+  }
+  return count > 1 && mean > 0 ? 100 * std::sqrt(squares / (count - 1)) / mean : 0;
+}
+
+Figure size_figure(const Fields& fields, bool level) {
+  const TimeAxis time(fields.time_s);
+  std::vector<Point> before, after;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < fields.before.size(); i += fields.before.size() / kMostDots + 1) {
+    before.push_back({time(fields.time_s[i]), fields.before[i].norm()});
+    heights.push_back(before.back().y);
+    if (fields.after.empty()) continue;
+    after.push_back({time(fields.time_s[i]), fields.after[i].norm()});
+    heights.push_back(after.back().y);
+  }
+  SvgPlot plot("Size of the field", time.axis(), {"uT", range_of(heights)});
+  plot.points(Ink::before, "measured", before);
+  plot.points(Ink::after, "calibrated", after);
+  std::string caption = fmt::format("{} field. Spread, its standard deviation over its mean: {:.2f} % as measured",
+                                    level ? "Horizontal" : "Whole", spread_percent(fields.before));
+  if (!fields.after.empty()) caption += fmt::format(", {:.2f} % calibrated", spread_percent(fields.after));
+  return {"Size of the field", plot.svg(), caption + "."};
+}
+
+}  // namespace
+
+std::vector<Figure> field_figures(const calib::Report& report, const std::vector<TurnedSample>& samples) {
+  const auto* const magnetometer = report.find(calib::Calibrator::magnetometer);
+  if (magnetometer == nullptr) return {};
+  const auto& correction = report.estimates.magnetometer;
+  const auto* const vertical = magnetometer->quantity("offset_z_uT");
+  const auto* const size = magnetometer->quantity("field_uT");
+  const bool level = vertical == nullptr || !std::isfinite(vertical->std);
+  const Fields fields = fields_of(samples, correction, level);
+  if (fields.before.empty()) return {};
+
+  std::vector<Figure> figures;
+  const std::string seen = level ? "levelled by pitch and roll" : "in the axes of the vehicle";
+  const auto add_view = [&](int across, int up, const std::string& from) {
+    const auto before = projected(fields.before, across, up);
+    const auto fitted =
+        correction && size != nullptr ? outline(*correction, size->value, across, up) : std::vector<Point>{};
+    SvgPlot raw = square_plot("Field as measured", across, up, before, fitted);
+    raw.points(Ink::before, "measured", before);
+    raw.line(Ink::fit, level ? "fitted ellipse" : "outline of the fitted ellipsoid", fitted);
+    figures.push_back({"Field as measured, " + from, raw.svg(), "Readings " + seen + "."});
+    if (!correction || size == nullptr) return;
+    const auto after = projected(fields.after, across, up);
+    const auto circle = outline({}, size->value, across, up);
+    SvgPlot calibrated = square_plot("Field calibrated", across, up, after, circle);
+    calibrated.points(Ink::after, "calibrated", after);
+    calibrated.line(Ink::fit, level ? "horizontal field" : "outline of the sphere", circle);
+    figures.push_back({"Field calibrated, " + from, calibrated.svg(),
+                       fmt::format("matrix * (measured - offset), {}; {} {:.1f} uT.", seen,
+                                   level ? "horizontal field" : "field", size->value)});
+  };
+  add_view(1, 0, "from above");
+  if (!level) add_view(0, 2, "from the side");
+  figures.push_back(size_figure(fields, level));
+  return figures;
+}
+
+}  // namespace navcal::cli

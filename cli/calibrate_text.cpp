@@ -1,0 +1,108 @@
+#include "cli/calibrate_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "calib/coverage.h"
+#include "cli/calibrate_words.h"
+#include "cli/svg_rose.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr std::size_t kWidth = 110;  ///< of a line
+constexpr std::size_t kTitle = 19, kVerdict = 10;
+
+template <class... Arguments>
+void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
+}
+
+/// Pieces in lines of kWidth, each but the first indented to the column of the first.
+void append_wrapped(std::string& out, const std::vector<std::string>& pieces, std::string_view between) {
+  std::size_t column = kTitle + kVerdict;
+  bool begins = true;
+  for (const std::string& piece : pieces) {
+    if (!begins && column + between.size() + piece.size() > kWidth) {
+      out.append("\n").append(kTitle + kVerdict, ' ');
+      column = kTitle + kVerdict;
+      begins = true;
+    }
+    if (!begins) out += between;
+    out += piece;
+    column += piece.size() + (begins ? 0 : between.size());
+    begins = false;
+  }
+  out += '\n';
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (end > begin) words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+void append_calibrator(std::string& out, const calib::CalibratorReport& report) {
+  std::vector<std::string> pieces;
+  for (const ShownQuantity& quantity : shown(report)) pieces.push_back(text_of(quantity, "+-"));
+  add(out, "{:<{}}{:<{}}", title_of(report.calibrator), kTitle, verdict_of(report), kVerdict);
+  const bool estimated = !pieces.empty();
+  if (estimated) append_wrapped(out, pieces, ",  ");
+  const auto append_line = [&](const std::string& text) {
+    if (text.empty()) return;
+    if (estimated) out.append(kTitle + kVerdict, ' ');
+    append_wrapped(out, words_of(text), " ");
+  };
+  const std::string objection = objection_of(report), held_out = held_out_of(report, "->");
+  append_line(objection);
+  if (!held_out.empty()) append_line("on readings held out " + held_out);
+  if (!estimated && objection.empty() && held_out.empty()) out += '\n';
+}
+
+void append_rose(std::string& out, const calib::Rose& rose) {
+  if (calib::visited(rose) == 0) return;
+  add(out, "headings seen      N{0:8}E{0:8}S{0:8}W{0:8}N\n", "");
+  add(out, "{:<19}{}   ({} of {} sectors; . never, : seldom)\n", "", text_rose(rose), calib::visited(rose),
+      rose.size());
+}
+
+void append_readings(std::string& out, const calib::GateCounts& gate, double duration_s) {
+  add(out, "{:<19}{}", "readings", duration_text(duration_s));
+  for (std::size_t i = 0; i < calib::kStreams; ++i) {
+    if (gate.taken[i] == 0) continue;
+    const auto stream = static_cast<calib::Stream>(i);
+    const std::string left_out = left_out_of(gate, stream);
+    add(out, ", {} {}{}", gate.taken[i], calib::name_of(stream),
+        left_out.empty() ? "" : " (left out: " + left_out + ")");
+  }
+  out += '\n';
+}
+
+}  // namespace
+
+std::string calibrate_text(const calib::Report& report, double duration_s) {
+  std::string out;
+  append_readings(out, report.gate, duration_s);
+  if (report.calibrators.empty()) {
+    return out + "Nothing can be calibrated: the recording has no compass (a port of protocol tcm2 or nmea).\n";
+  }
+  for (const auto& calibrator : report.calibrators) append_calibrator(out, calibrator);
+  append_rose(out, report.rose);
+  out += sentence_of(report.heading) + "\n";
+  const auto lacks = [&](calib::Calibrator calibrator) { return report.find(calibrator) == nullptr; };
+  if (lacks(calib::Calibrator::gyro))
+    out += "No gyro in the recording (a port of protocol imu-card): none of what turns on it.\n";
+  if (lacks(calib::Calibrator::misalignment))
+    out += "No GPS in the recording: A, which no turn tells, stays unknown.\n";
+  return out;
+}
+
+}  // namespace navcal::cli

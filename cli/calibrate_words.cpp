@@ -1,0 +1,149 @@
+#include "cli/calibrate_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace navcal::cli {
+namespace {
+
+using calib::Calibrator;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr std::array<std::string_view, calib::kCalibrators.size()> kTitles{
+    "Gyro A",         "Gyro B",         "Compass deviation", "Magnetometer",       "Compass by GPS",
+    "Eight headings", "Misalignment A", "Delay of compass",  "Delay of GPS course"};
+constexpr int kLeastDecimals = 0, kMostDecimals = 6;
+
+/// How a quantity is shown: what its name ends with, by how much it is multiplied, the unit, and the error beyond
+/// which nothing is known of it.
+struct Unit {
+  std::string_view ending;
+  double factor;
+  std::string_view text;
+  double unknown;
+};
+constexpr double kScaleUnknown = 1;
+constexpr std::array kUnits{Unit{"_rad_s", kDegrees, "deg/s", 100},
+                            Unit{"_rad", kDegrees, "deg", 180},
+                            Unit{"_uT", 1, "uT", 1000},
+                            Unit{"_m_s", 1, "m/s", 100},
+                            Unit{"delay_s", 1000, "ms", 10000},
+                            Unit{"_s", 1, "s", 100}};
+
+/// Two digits of the error, or four of the value where the error is not known.
+int decimals_for(double value, double error) {
+  const bool known = std::isfinite(error) && error > 0;
+  const double guide = known ? error : std::abs(value) / 100;
+  if (!(guide > 0)) return 3;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(guide))), kLeastDecimals, kMostDecimals);
+}
+
+std::string without_ending(std::string_view name, std::string_view ending) {
+  // "delay_s" keeps its noun.
+  if (ending.front() == '_')
+    name.remove_suffix(ending.size());
+  else
+    name.remove_suffix(2);
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+}  // namespace
+
+std::string_view title_of(Calibrator calibrator) { return kTitles.at(static_cast<std::size_t>(calibrator)); }
+
+std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
+  std::vector<ShownQuantity> all;
+  for (const calib::Quantity& quantity : report.estimate) {
+    const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
+                                   [&](const Unit& u) { return quantity.name.ends_with(u.ending); });
+    const bool found = unit != kUnits.end();
+    const double factor = found ? unit->factor : 1;
+    const double value = quantity.value * factor, error = quantity.std * factor;
+    const int decimals = decimals_for(value, error);
+    ShownQuantity one;
+    one.name = found ? without_ending(quantity.name, unit->ending) : std::string(quantity.name);
+    one.unit = found ? unit->text : "";
+    if (std::isfinite(error) && error > (found ? unit->unknown : kScaleUnknown)) {
+      one.value = "unknown";
+      one.unit.clear();
+      all.push_back(std::move(one));
+      continue;
+    }
+    // What has an error and no value of its own: the corrected heading at its worst.
+    if (quantity.name != "worst_heading_rad") one.value = fmt::format("{:.{}f}", value, decimals);
+    if (std::isfinite(error)) one.error = fmt::format("{:.{}f}", error, decimals);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+std::string text_of(const ShownQuantity& quantity, std::string_view plus_minus) {
+  std::string text = quantity.name;
+  if (!quantity.value.empty()) text += " " + quantity.value;
+  if (!quantity.error.empty()) text.append(" ").append(plus_minus).append(" ").append(quantity.error);
+  if (!quantity.unit.empty()) text += " " + quantity.unit;
+  return text;
+}
+
+std::string_view verdict_of(const calib::CalibratorReport& report) {
+  return report.judgement.accepted ? "accepted" : "refused";
+}
+
+std::string objection_of(const calib::CalibratorReport& report) {
+  const auto& judgement = report.judgement;
+  if (judgement.accepted) return {};
+  if (judgement.manoeuvre.empty()) return judgement.reason;
+  return judgement.reason.empty() ? judgement.manoeuvre : judgement.reason + "; " + judgement.manoeuvre;
+}
+
+std::string held_out_of(const calib::CalibratorReport& report, std::string_view arrow) {
+  const double before = report.judgement.held_out_before, after = report.judgement.held_out_after;
+  if (!(before > 0) && !(after > 0)) return {};
+  return fmt::format("{:.2f} {} {:.2f} deg", before * kDegrees, arrow, after * kDegrees);
+}
+
+std::string sentence_of(const calib::HeadingCheck& heading) {
+  if (heading.blocks == 0) {
+    return "The heading could not be judged: that takes a calibrated gyro and turns after it was calibrated.";
+  }
+  return fmt::format(
+      "Heading against the calibrated gyro, on readings that had no part in the estimates: {:.2f} deg as the "
+      "compass says it, {:.2f} deg calibrated (root-mean-square over {} blocks of turns).",
+      heading.before_rad * kDegrees, heading.after_rad * kDegrees, heading.blocks);
+}
+
+std::string left_out_of(const calib::GateCounts& gate, calib::Stream stream) {
+  std::string text;
+  const auto& counts = gate.left_out.at(static_cast<std::size_t>(stream));
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    std::string reason(calib::name_of(static_cast<calib::Rejection>(i)));
+    std::replace(reason.begin(), reason.end(), '_', ' ');
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[i], reason);
+  }
+  return text;
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(std::lround(std::max(seconds, 0.0)));
+  if (whole < 60) return fmt::format("{:.1f} s", seconds);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
+calib::Correction accepted_estimates(const calib::Report& report) {
+  calib::Correction accepted;
+  for (const auto& calibrator : report.calibrators) {
+    if (calibrator.judgement.accepted) copy_value(accepted, report.estimates, calibrator.calibrator);
+  }
+  return accepted;
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,136 @@
+#include "cli/html_page.h"
+
+#include <utility>
+
+namespace navcal::cli {
+namespace {
+
+/// Colours keep their meaning for the colour-blind, too: blue and orange (Okabe and Ito), and a word beside each.
+constexpr std::string_view kStyle = R"(
+:root { color-scheme: light dark; --ink:#1b2733; --soft:#5a6775; --line:#dfe4ea; --strong:#aeb8c3; --page:#ffffff;
+  --card:#f6f8fa; --before:#c2571a; --after:#0b6fa8; --fit:#1b2733; --second:#c2571a; --third:#1d7f58;
+  --fourth:#8a4f9e; --good:#17693f; --good-back:#dff3e6; --bad:#a3261c; --bad-back:#fbe4e1; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink:#e4e9ef; --soft:#9aa7b5; --line:#2c3641; --strong:#566372; --page:#12181f; --card:#19212a;
+    --before:#f0965a; --after:#5db4ea; --fit:#e4e9ef; --second:#f0965a; --third:#5fc79a; --fourth:#c795da;
+    --good:#8be0b0; --good-back:#173d2a; --bad:#ffaea5; --bad-back:#4a201c; }
+}
+@media print {
+  :root { color-scheme: light; --ink:#000; --soft:#444; --line:#ddd; --strong:#999; --page:#fff; --card:#fff;
+    --before:#c2571a; --after:#0b6fa8; --fit:#000; --second:#c2571a; --third:#1d7f58; --fourth:#8a4f9e;
+    --good:#17693f; --good-back:#fff; --bad:#a3261c; --bad-back:#fff; }
+  figure, table, .fact { break-inside: avoid; }
+  h2 { break-after: avoid; }
+  main { max-width: none; padding: 0; }
+}
+body { margin:0; background:var(--page); color:var(--ink); font:15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
+main { max-width:1180px; margin:0 auto; padding:28px 24px 48px; }
+h1 { font-size:26px; margin:0 0 4px; }
+h2 { font-size:18px; margin:34px 0 10px; padding-top:14px; border-top:1px solid var(--line); }
+p { margin:6px 0 10px; max-width:85ch; }
+.fact { display:flex; gap:12px; align-items:baseline; margin:7px 0; }
+.fact b { flex:0 0 92px; text-align:center; font-size:12px; font-weight:600; border-radius:4px; padding:2px 0;
+  color:var(--soft); background:var(--card); border:1px solid var(--line); }
+.fact b.good { color:var(--good); background:var(--good-back); border-color:transparent; }
+.fact b.bad { color:var(--bad); background:var(--bad-back); border-color:transparent; }
+.figures { display:grid; grid-template-columns:repeat(auto-fit, minmax(min(100%, 480px), 1fr)); gap:18px; }
+figure { margin:0; padding:14px 16px 10px; background:var(--card); border:1px solid var(--line); border-radius:8px; }
+figure h3 { margin:0 0 8px; font-size:15px; }
+figcaption { color:var(--soft); font-size:13px; margin-top:6px; }
+svg { max-width:100%; height:auto; display:block; margin:0 auto; font-size:12px; fill:var(--soft); }
+svg svg { overflow:hidden; }
+svg text.tick { font-size:11px; }
+.grid { stroke:var(--line); fill:none; stroke-width:1; }
+.grid.strong { stroke:var(--strong); stroke-dasharray:4 3; }
+.frame { stroke:var(--strong); fill:none; stroke-width:1; }
+.line { fill:none; stroke-width:2; stroke-linejoin:round; }
+.dots { fill:none; stroke-width:3.2; stroke-linecap:round; stroke-opacity:.55; }
+.area { fill-opacity:.2; stroke:none; }
+.sector { fill:var(--after); stroke:var(--card); stroke-width:1; }
+.line.before, .dots.before { stroke:var(--before); }
+.line.after, .dots.after, .line.first, .dots.first { stroke:var(--after); }
+.line.fit, .dots.fit { stroke:var(--fit); }
+.line.second { stroke:var(--second); } .line.third { stroke:var(--third); } .line.fourth { stroke:var(--fourth); }
+.area.before, .area.second { fill:var(--second); } .area.after, .area.first { fill:var(--after); }
+.area.fit { fill:var(--fit); } .area.third { fill:var(--third); } .area.fourth { fill:var(--fourth); }
+.scroll { overflow-x:auto; }
+table { border-collapse:collapse; font-size:14px; font-variant-numeric:tabular-nums; }
+th, td { text-align:left; vertical-align:top; padding:5px 18px 5px 0; border-bottom:1px solid var(--line); }
+th { color:var(--soft); font-weight:600; font-size:13px; }
+)";
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+HtmlPage::HtmlPage(std::string_view title) {
+  const std::string name = escaped(title);
+  html_ =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
+      name + "</title>\n<style>";
+  html_.append(kStyle).append("</style>\n</head>\n<body>\n<main>\n<h1>").append(name).append("</h1>\n");
+}
+
+void HtmlPage::section(std::string_view title) {
+  if (std::exchange(in_section_, true)) html_ += "</section>\n";
+  html_ += "<section>\n<h2>" + escaped(title) + "</h2>\n";
+}
+
+void HtmlPage::paragraph(std::string_view text) { html_ += "<p>" + escaped(text) + "</p>\n"; }
+
+void HtmlPage::fact(std::string_view kind, std::string_view word, std::string_view sentence) {
+  html_ += "<div class=\"fact\"><b class=\"" + escaped(kind) + "\">" + escaped(word) + "</b><span>" +
+           escaped(sentence) + "</span></div>\n";
+}
+
+void HtmlPage::begin_figures() { html_ += "<div class=\"figures\">\n"; }
+
+void HtmlPage::figure(std::string_view title, const std::string& svg_html, std::string_view caption) {
+  html_ += "<figure>\n<h3>" + escaped(title) + "</h3>\n" + svg_html + "<figcaption>" + escaped(caption) +
+           "</figcaption>\n</figure>\n";
+}
+
+void HtmlPage::end_figures() { html_ += "</div>\n"; }
+
+void HtmlPage::table(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows) {
+  html_ += "<div class=\"scroll\"><table>\n<thead><tr>";
+  for (const auto& head : heads) html_ += "<th>" + escaped(head) + "</th>";
+  html_ += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : rows) {
+    html_ += "<tr>";
+    for (const auto& cell : row) html_ += "<td>" + escaped(cell) + "</td>";
+    html_ += "</tr>\n";
+  }
+  html_ += "</tbody>\n</table></div>\n";
+}
+
+std::string HtmlPage::finish() && {
+  if (in_section_) html_ += "</section>\n";
+  html_ += "</main>\n</body>\n</html>\n";
+  return std::move(html_);
+}
+
+}  // namespace navcal::cli

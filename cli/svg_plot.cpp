@@ -1,0 +1,199 @@
+#include "cli/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "cli/html_page.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr double kLetterWidth = 6.3;  // of the legend's type, on the average
+constexpr std::array<std::string_view, 7> kInks{"before", "after", "fit", "first", "second", "third", "fourth"};
+
+template <class... Arguments>
+void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
+}
+
+std::string_view name_of(SvgPlot::Ink ink) { return kInks[static_cast<std::size_t>(ink)]; }
+
+/// A tick as people write it: no digits that the distance between ticks does not need.
+std::string tick_text(double value, double step) {
+  const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
+  std::string text = fmt::format("{:.{}f}", std::abs(value) < step * 1e-6 ? 0.0 : value, decimals);
+  if (text.front() == '-') text.replace(0, 1, "\u2212");
+  return text;
+}
+
+double round_step(double length, int about) {
+  const double rough = length / std::max(about, 1);
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= rough * 0.999) return digit * power;
+  }
+  return 10 * power;
+}
+
+std::vector<double> multiples(Range range, double step) {
+  std::vector<double> values;
+  const double first = std::ceil(range.least / step - 1e-9);
+  for (double i = first; i * step <= range.most + 1e-9 * step; ++i) values.push_back(i * step);
+  return values;
+}
+
+}  // namespace
+
+Range range_of(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }),
+               values.end());
+  if (values.empty()) return {-1, 1};
+  std::sort(values.begin(), values.end());
+  const std::size_t few = values.size() / 300;
+  Range range{values[few], values[values.size() - 1 - few]};
+  const double least_length = std::max(1e-6, 1e-6 * std::abs(range.least));
+  const double margin = std::max(0.06 * range.length(), least_length);
+  return {range.least - margin, range.most + margin};
+}
+
+std::vector<double> round_values(Range range, int about) {
+  if (!(range.length() > 0) || !std::isfinite(range.length())) return {};
+  return multiples(range, round_step(range.length(), about));
+}
+
+SvgPlot::SvgPlot(std::string_view title, Axis x, Axis y, Size size)
+    : title_(escaped(title)), x_(std::move(x)), y_(std::move(y)), size_(size) {}
+
+double SvgPlot::x_of(double x) const {
+  return (x - x_.range.least) / x_.range.length() * (size_.width - kLeft - kRight);
+}
+
+double SvgPlot::y_of(double y) const {
+  return (y_.range.most - y) / y_.range.length() * (size_.height - kTop - kBottom);
+}
+
+bool SvgPlot::visible(const Point& point) const {
+  return x_.range.contains(point.x) && y_.range.contains(point.y);
+}
+
+/// Far outside is as good as just outside, and does not overflow a browser's numbers.
+void SvgPlot::append_path(std::string& path, std::span<const Point> points, bool& begun) const {
+  for (const Point& point : points) {
+    const double x = x_of(point.x), y = y_of(point.y);
+    if (!std::isfinite(x) || !std::isfinite(y)) {
+      begun = false;
+      continue;
+    }
+    add(path, "{}{:.1f} {:.1f}", begun ? 'L' : 'M', std::clamp(x, -9999.0, 9999.0),
+        std::clamp(y, -9999.0, 9999.0));
+    begun = true;
+  }
+}
+
+void SvgPlot::band(Ink ink, std::string_view name, std::span<const Point> lower, std::span<const Point> upper) {
+  std::vector<Point> around(lower.begin(), lower.end());
+  around.insert(around.end(), upper.rbegin(), upper.rend());
+  around.erase(std::remove_if(around.begin(), around.end(),
+                              [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }),
+               around.end());
+  if (around.empty()) return;
+  std::string path;
+  bool begun = false;
+  append_path(path, around, begun);
+  add(body_, "<path class=\"area {}\" d=\"{}Z\"/>\n", name_of(ink), path);
+  legend(ink, Mark::area, name);
+}
+
+void SvgPlot::points(Ink ink, std::string_view name, std::span<const Point> points) {
+  std::string path;
+  for (const Point& point : points) {
+    // A line of no length with round ends is a dot, in a third of the bytes of a circle.
+    if (visible(point)) add(path, "M{:.1f} {:.1f}h0", x_of(point.x), y_of(point.y));
+  }
+  if (path.empty()) return;
+  add(body_, "<path class=\"dots {}\" d=\"{}\"/>\n", name_of(ink), path);
+  legend(ink, Mark::dot, name);
+}
+
+void SvgPlot::line(Ink ink, std::string_view name, std::span<const Point> points) {
+  std::string path;
+  bool begun = false;
+  append_path(path, points, begun);
+  if (path.empty()) return;
+  add(body_, "<path class=\"line {}\" d=\"{}\"/>\n", name_of(ink), path);
+  legend(ink, Mark::stroke, name);
+}
+
+void SvgPlot::level(double y) {
+  if (!y_.range.contains(y)) return;
+  add(body_, "<path class=\"grid strong\" d=\"M0 {:.1f}h{:.1f}\"/>\n", y_of(y), size_.width - kLeft - kRight);
+}
+
+void SvgPlot::legend(Ink ink, Mark mark, std::string_view name) {
+  if (name.empty()) return;
+  switch (mark) {
+    case Mark::dot:
+      add(legend_, "<path class=\"dots {}\" style=\"stroke-width:6\" d=\"M{:.0f} 14h0\"/>", name_of(ink),
+          legend_x_ + 8);
+      break;
+    case Mark::stroke:
+      add(legend_, "<path class=\"line {}\" d=\"M{:.0f} 14h16\"/>", name_of(ink), legend_x_);
+      break;
+    case Mark::area:
+      add(legend_, "<path class=\"area {}\" d=\"M{:.0f} 9h16v10h-16Z\"/>", name_of(ink), legend_x_);
+      break;
+  }
+  add(legend_, "<text x=\"{:.0f}\" y=\"18\">{}</text>\n", legend_x_ + 21, escaped(name));
+  legend_x_ += 36 + kLetterWidth * static_cast<double>(name.size());
+}
+
+void SvgPlot::append_axes(std::string& out) const {
+  const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
+  const auto ticks_of = [](const Axis& axis, int about) {
+    return axis.step > 0 ? multiples(axis.range, axis.step) : round_values(axis.range, about);
+  };
+  const auto step_of = [](const std::vector<double>& ticks) {
+    return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+  };
+  const auto along = ticks_of(x_, 8), up = ticks_of(y_, 6);
+  std::string grid, text;
+  for (const double tick : along) {
+    const double x = kLeft + x_of(tick);
+    add(grid, "M{:.1f} {:.1f}v{:.1f}", x, kTop, height);
+    add(text, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x,
+        kTop + height + 15, tick_text(tick, step_of(along)));
+  }
+  for (const double tick : up) {
+    const double y = kTop + y_of(tick);
+    add(grid, "M{:.1f} {:.1f}h{:.1f}", kLeft, y, width);
+    add(text, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft - 6, y + 4,
+        tick_text(tick, step_of(up)));
+  }
+  add(out, "<path class=\"grid\" d=\"{}\"/>\n{}", grid, text);
+  add(out, "<text text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft + width / 2,
+      size_.height - 7, escaped(x_.label));
+  add(out, "<text text-anchor=\"middle\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>\n",
+      kTop + height / 2, escaped(y_.label));
+}
+
+std::string SvgPlot::svg() const {
+  const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
+  std::string out;
+  add(out, "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
+      size_.width, size_.height);
+  add(out, "<title>{}</title>\n", title_);
+  append_axes(out);
+  // A picture within the picture cuts off what lies outside the axes.
+  add(out, "<svg x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n", kLeft, kTop, width,
+      height, body_);
+  add(out, "<path class=\"frame\" d=\"M{:.1f} {:.1f}h{:.1f}v{:.1f}h-{:.1f}Z\"/>\n", kLeft, kTop, width, height,
+      width);
+  return out + legend_ + "</svg>\n";
+}
+
+}  // namespace navcal::cli

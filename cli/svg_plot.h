@@ -1,0 +1,72 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace navcal::cli {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+struct Range {
+  double least = 0, most = 1;
+  [[nodiscard]] double length() const { return most - least; }
+  [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
+};
+
+/// Around all finite values but the outermost few in a thousand on either side, with a margin; never empty.
+[[nodiscard]] Range range_of(std::vector<double> values);
+/// Round values within a range, about so many, 1, 2 or 5 apart in their leading digit.
+[[nodiscard]] std::vector<double> round_values(Range range, int about);
+
+/// A diagram as SVG that stands within a page: colours come from the page's style by class (html_page.cpp), so
+/// that one picture serves light, dark and paper. Written by hand because no Debian or npm package draws for C++
+/// without a JavaScript library in every page.
+class SvgPlot {
+ public:
+  struct Axis {
+    std::string label;
+    Range range;
+    double step = 0;  ///< between ticks; 0: round values
+  };
+  /// Colours of the page.
+  enum class Ink { before, after, fit, first, second, third, fourth };
+  struct Size {
+    double width = 560, height = 320;
+  };
+  static constexpr double kLeft = 58, kRight = 14, kTop = 30, kBottom = 42;
+
+  SvgPlot(std::string_view title, Axis x, Axis y, Size size);
+  SvgPlot(std::string_view title, Axis x, Axis y) : SvgPlot(title, std::move(x), std::move(y), Size()) {}
+
+  // What is drawn first lies below. A name enters the legend once; an empty one does not. Points that are not
+  // finite are left out and end a line; what lies outside the axes is cut off.
+  void band(Ink ink, std::string_view name, std::span<const Point> lower, std::span<const Point> upper);
+  void points(Ink ink, std::string_view name, std::span<const Point> points);
+  void line(Ink ink, std::string_view name, std::span<const Point> points);
+  /// A thin level line.
+  void level(double y);
+
+  [[nodiscard]] std::string svg() const;
+
+ private:
+  enum class Mark { dot, stroke, area };
+
+  [[nodiscard]] double x_of(double x) const;
+  [[nodiscard]] double y_of(double y) const;
+  [[nodiscard]] bool visible(const Point& point) const;
+  void append_path(std::string& path, std::span<const Point> points, bool& begun) const;
+  void append_axes(std::string& out) const;
+  void legend(Ink ink, Mark mark, std::string_view name);
+
+  std::string title_;
+  Axis x_, y_;
+  Size size_;
+  std::string body_, legend_;
+  double legend_x_ = kLeft;
+};
+
+}  // namespace navcal::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "calib/judgement.h"
+
+namespace navcal::cli {
+
+/// Headings visited as a compass rose, north up: each sector as long as the root of its count, so that its area
+/// tells the count.
+[[nodiscard]] std::string svg_rose(const calib::Rose& rose);
+
+/// The same in one line of text, from north by east: '.' for a sector never visited, ':' for one seen little.
+[[nodiscard]] std::string text_rose(const calib::Rose& rose);
+
+}  // namespace navcal::cli
