@@ -71,15 +71,12 @@ double gyro_bound_deg(const std::vector<TruePoint>& path, const EllipseShape& tr
   const double variance = Noise{}.field_uT * Noise{}.field_uT;
   for (Eigen::Index k = 0; k < count; ++k) {
     const TruePoint& point = path[static_cast<std::size_t>(k)];
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, first + count);
-    rows.leftCols<5>() = EllipseShape::slope(point.heading_rad);
-    rows.col(first + k) = along(truth, point.heading_rad);
-    const auto used = [&](Eigen::Index i) { return i < first || i == first + k; };
-    for (Eigen::Index i = 0; i < first + count; ++i) {
-      if (!used(i)) continue;
-      for (Eigen::Index j = 0; j < first + count; ++j) {
-        if (used(j)) information(i, j) += rows.col(i).dot(rows.col(j)) / variance;
-      }
+    Eigen::Matrix<double, 2, 6> slope;
+    slope << EllipseShape::slope(point.heading_rad), along(truth, point.heading_rad);
+    const Eigen::Matrix<double, 6, 6> told = slope.transpose() * slope / variance;
+    const auto place = [&](Eigen::Index i) { return i < 5 ? i : first + k; };
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      for (Eigen::Index j = 0; j < 6; ++j) information(place(i), place(j)) += told(i, j);
     }
     if (k == 0) continue;
     const TruePoint& before = path[static_cast<std::size_t>(k - 1)];
@@ -93,9 +90,12 @@ double gyro_bound_deg(const std::vector<TruePoint>& path, const EllipseShape& tr
     }
   }
   // Only the first columns of the inverse are wanted.
-  const Eigen::MatrixXd columns =
-      information.ldlt().solve(Eigen::MatrixXd::Identity(first + count, EllipseShape::kParameters));
-  return rms_heading_deg(truth, columns.topRows<EllipseShape::kParameters>());
+  const Eigen::MatrixXd columns = information.ldlt().solve(Eigen::MatrixXd::Identity(first + count, first));
+  EllipseShape::Matrix covariance;
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    for (Eigen::Index j = 0; j < 5; ++j) covariance(i, j) = columns(i, j);
+  }
+  return rms_heading_deg(truth, covariance);
 }
 
 }  // namespace navcal::bench
