@@ -112,7 +112,7 @@ TurnCoefficients recursive(const std::vector<TurnStep>& all, const TurnFilter::P
 TEST(TurnFilterBatch, BothTogetherWithNoiseOfTheCompass) {
   TurnFilter::Parameters p;
   p.rate_noise_rad_sqrt_s = 0;
-  const auto all = steps(400, 0.004);
+  const auto all = steps(200, 0.004);
   const auto difference = recursive(all, p, TurnPrior::unknown_both()) - batch(all, p, TurnPrior::unknown_both());
   EXPECT_LT(difference.norm(), 1e-9);
 }
@@ -120,7 +120,7 @@ TEST(TurnFilterBatch, BothTogetherWithNoiseOfTheCompass) {
 TEST(TurnFilterBatch, CompassWithNoiseOfBoth) {
   const TurnFilter::Parameters p;
   const TurnPrior prior = TurnPrior::unknown_compass(1.05, 0.05, Eigen::Matrix2d::Zero());
-  const auto all = steps(400, 0.004);
+  const auto all = steps(200, 0.004);
   EXPECT_LT((recursive(all, p, prior) - batch(all, p, prior)).norm(), 1e-9);
 }
 
