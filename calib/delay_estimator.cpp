@@ -29,7 +29,11 @@ DelayEstimator::DelayEstimator(const Parameters& parameters)
         turns.tilt_lag_s = parameters.tilt_lag_s;
         return turns;
       }()),
-      heading_(parameters.heading),
+      heading_([&] {
+        auto heading = parameters.heading;
+        heading.level_std_s = parameters.level_std_s;
+        return HeadingDelay(heading);
+      }()),
       field_(parameters.field),
       course_(parameters.course) {}
 
@@ -71,7 +75,8 @@ void DelayEstimator::take_steps() {
 
 Delay DelayEstimator::compass() const {
   const Delay by_heading = heading_.estimate(), by_field = field_.estimate();
-  return by_field.std_s < by_heading.std_s ? by_field : by_heading;
+  // The heading has gone through a level that is late itself: as good in numbers, it still is the worse witness.
+  return by_field.std_s < 3 * by_heading.std_s ? by_field : by_heading;
 }
 
 Judgement DelayEstimator::compass_judgement() const { return judge(compass(), parameters_.accepted_std_s); }

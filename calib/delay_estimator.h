@@ -22,7 +22,9 @@ class DelayEstimator {
     HeadingDelay::Parameters heading;
     FieldDelay::Parameters field;
     CourseDelay::Parameters course;
-    double tilt_lag_s = 0.3;        ///< of the compass's inclinometer
+    double tilt_lag_s = 0.3;  ///< of the compass's inclinometer
+    double level_std_s =
+        0.0015;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
     double accepted_std_s = 0.002;  ///< compass
     double accepted_course_std_s = 0.15;
   };
@@ -35,7 +37,7 @@ class DelayEstimator {
   void update(const WaterTrackReading& track) { course_.update(track); }
   void update(const GroundReading& ground) { course_.update(ground); }
 
-  /// Of the compass against the gyro: by the field or by the heading, whichever knows it better.
+  /// Of the compass against the gyro: by the field, or by the heading where that knows it far better.
   [[nodiscard]] Delay compass() const;
   [[nodiscard]] const HeadingDelay& heading() const { return heading_; }
   [[nodiscard]] const FieldDelay& field() const { return field_; }

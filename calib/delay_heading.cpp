@@ -88,8 +88,10 @@ Delay HeadingDelay::estimate() const {
   const auto n = static_cast<double>(readings_);
   // The regressor is the rate as measured, so the state is the delay times the gyro's scale.
   const double scale = state_[kScale];
+  const double noise_s =
+      std::sqrt(covariance_(kDelay, kDelay) * std::max(1.0, chi_squared_ / n)) / std::abs(scale);
   return {.delay_s = state_[kDelay] / scale,
-          .std_s = std::sqrt(covariance_(kDelay, kDelay) * std::max(1.0, chi_squared_ / n)) / std::abs(scale),
+          .std_s = std::hypot(noise_s, parameters_.level_std_s),
           .readings = readings_,
           .rate_spread_rad_s = std::sqrt(std::max(0.0, rate_square_sum_ / n - square(rate_sum_ / n)))};
 }

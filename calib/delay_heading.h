@@ -25,6 +25,7 @@ class HeadingDelay {
     double scale_std = 0.3, bias_std_rad_s = 0.3;
     double deviation_std_rad = 0.5;
     double tilt_lag_std_s = 1.5;  ///< prior of kappa
+    double level_std_s = 0;       ///< of what the level feigns, beside the noise; no more readings lessen it
   };
   /// Slopes of roll and pitch, through the lag of the inclinometer (rad/s); zero where they are not known.
   struct TiltSlope {
