@@ -109,18 +109,52 @@ const TurnCalibrator& Estimators::turn_calibrator(Calibrator calibrator) const {
 
 Correction Estimators::estimates() const {
   Correction estimates;
-  if (gyro_.has_estimate()) estimates.gyro = rate_of(gyro_.filter());
-  if (gyro_b_.has_estimate()) estimates.gyro_b = rate_of(gyro_b_.filter());
-  if (compass_.has_estimate()) estimates.compass = deviation_of(compass_.filter());
-  if (const auto magnetometer = magnetometer_.estimate()) estimates.magnetometer = magnetometer->correction;
-  if (const auto& gps = surface_.gps_compass().estimate()) estimates.gps_compass = deviation_of(gps->unknowns);
-  if (swing_) estimates.swing = swing_of(*swing_);
-  if (const auto misalignment = surface_.misalignment().estimate())
-    estimates.misalignment_rad = misalignment->offset_rad;
-  if (const Delay delay = delays_.compass(); std::isfinite(delay.std_s)) estimates.compass_delay_s = delay.delay_s;
-  if (const Delay delay = delays_.course().estimate(); std::isfinite(delay.std_s))
-    estimates.course_delay_s = delay.delay_s;
+  for (const Calibrator calibrator : kCalibrators) put_estimate(calibrator, estimates);
   return estimates;
+}
+
+void Estimators::put_estimate(Calibrator calibrator, Correction& into) const {
+  const auto rate = [](const TurnCalibrator& gyro) {
+    return gyro.has_estimate() ? std::optional(rate_of(gyro.filter())) : std::nullopt;
+  };
+  const auto delay = [](const Delay& found) {
+    return std::isfinite(found.std_s) ? std::optional(found.delay_s) : std::nullopt;
+  };
+  switch (calibrator) {
+    case Calibrator::gyro:
+      into.gyro = rate(gyro_);
+      break;
+    case Calibrator::gyro_b:
+      into.gyro_b = rate(gyro_b_);
+      break;
+    case Calibrator::compass:
+      into.compass = compass_.has_estimate() ? std::optional(deviation_of(compass_.filter())) : std::nullopt;
+      break;
+    case Calibrator::magnetometer: {
+      const auto magnetometer = magnetometer_.estimate();
+      into.magnetometer = magnetometer ? std::optional(magnetometer->correction) : std::nullopt;
+      break;
+    }
+    case Calibrator::gps_compass: {
+      const auto& gps = surface_.gps_compass().estimate();
+      into.gps_compass = gps ? std::optional(deviation_of(gps->unknowns)) : std::nullopt;
+      break;
+    }
+    case Calibrator::swing:
+      into.swing = swing_ ? swing_of(*swing_) : std::nullopt;
+      break;
+    case Calibrator::misalignment: {
+      const auto misalignment = surface_.misalignment().estimate();
+      into.misalignment_rad = misalignment ? std::optional(misalignment->offset_rad) : std::nullopt;
+      break;
+    }
+    case Calibrator::compass_delay:
+      into.compass_delay_s = delay(delays_.compass());
+      break;
+    case Calibrator::course_delay:
+      into.course_delay_s = delay(delays_.course().estimate());
+      break;
+  }
 }
 
 Judgement Estimators::judgement(Calibrator calibrator) const {

@@ -48,6 +48,8 @@ class Estimators {
 
   /// The newest estimate of each calibrator that has one.
   [[nodiscard]] Correction estimates() const;
+  /// Of one calibrator, put into its place in `into`, or that place emptied.
+  void put_estimate(Calibrator calibrator, Correction& into) const;
   [[nodiscard]] Judgement judgement(Calibrator calibrator) const;
   [[nodiscard]] std::vector<Quantity> quantities(Calibrator calibrator) const;
   /// As in CalibratorReport.

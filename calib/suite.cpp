@@ -5,8 +5,8 @@
 namespace navcal::calib {
 namespace {
 
-/// Readings of the compass between two looks at which estimates are accepted.
-constexpr std::uint32_t kJudgeEvery = 25;
+/// Readings of the compass from one judgement to the next: each calibrator is judged every 27.
+constexpr std::uint64_t kJudgeEvery = 3;
 
 /// Those that improve the heading or the rate; delays and the swing come into force by the operator's word alone.
 constexpr std::array kAutomatic{Calibrator::gyro,         Calibrator::gyro_b,      Calibrator::compass,
@@ -52,19 +52,18 @@ void Suite::take_turned() {
 }
 
 void Suite::judge(const TurnedReading& turned) {
-  if (readings_since_judged_++ % kJudgeEvery == 0) accepted_ = accepted();
+  if (readings_ % kJudgeEvery == 0) refresh_accepted(kCalibrators[readings_ / kJudgeEvery % kCalibrators.size()]);
+  ++readings_;
   if (!turned.turn) return;
   if (held_out_.update(turned.reading, *turned.turn, in_force_.correction(), accepted_)) adopt_what_is_better();
 }
 
-Correction Suite::accepted() const {
-  const Correction estimates = estimators_.estimates();
-  Correction accepted;
-  for (const Calibrator calibrator : kCalibrators) {
-    if (has(estimates, calibrator) && estimators_.judgement(calibrator).accepted)
-      copy_value(accepted, estimates, calibrator);
+void Suite::refresh_accepted(Calibrator calibrator) {
+  if (estimators_.judgement(calibrator).accepted) {
+    estimators_.put_estimate(calibrator, accepted_);
+  } else {
+    copy_value(accepted_, Correction{}, calibrator);
   }
-  return accepted;
 }
 
 const Comparison& Suite::comparison(Calibrator calibrator) const {
@@ -89,7 +88,7 @@ void Suite::adopt(Calibrator calibrator, const Correction& estimates) {
 void Suite::on_change(Calibrator calibrator) {
   held_out_.on_change();
   estimators_.on_in_force(calibrator, in_force_.correction());
-  accepted_ = accepted();
+  refresh_accepted(Calibrator::misalignment);  // it may have begun anew
 }
 
 std::optional<Calibrator> Suite::take_adopted() {
@@ -103,7 +102,8 @@ std::optional<Calibrator> Suite::take_adopted() {
 
 std::string Suite::accept(Calibrator calibrator) {
   if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
-  const Correction estimates = estimators_.estimates();
+  Correction estimates;
+  estimators_.put_estimate(calibrator, estimates);
   const Judgement judgement = estimators_.judgement(calibrator);
   if (!judgement.accepted) {
     return "refused: " + judgement.reason + (judgement.manoeuvre.empty() ? "" : "; " + judgement.manoeuvre);
@@ -127,7 +127,7 @@ std::string Suite::start(Calibrator calibrator) {
   held_out_.forget(calibrator);
   held_[index(calibrator)] = false;
   if (calibrator == Calibrator::compass || calibrator == Calibrator::magnetometer) rose_ = {};
-  accepted_ = accepted();
+  refresh_accepted(calibrator);
   return {};
 }
 
@@ -180,7 +180,7 @@ Report Suite::report() const {
 
 void Suite::archive(Archive& archive) {
   archive.tag("suite 1");
-  archive(gate_, estimators_, held_out_, in_force_, accepted_, readings_since_judged_, held_, adopted_, rose_);
+  archive(gate_, estimators_, held_out_, in_force_, accepted_, readings_, held_, adopted_, rose_);
 }
 
 }  // namespace navcal::calib

@@ -53,8 +53,8 @@ class Suite {
   void judge(const TurnedReading& turned);
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
-  /// The newest estimates of those that are accepted.
-  [[nodiscard]] Correction accepted() const;
+  /// Looks anew whether a calibrator's estimate is accepted.
+  void refresh_accepted(Calibrator calibrator);
   void adopt_what_is_better();
   void adopt(Calibrator calibrator, const Correction& estimates);
   void on_change(Calibrator calibrator);
@@ -65,8 +65,8 @@ class Suite {
   Estimators estimators_;
   HeldOut held_out_;
   InForce in_force_;
-  Correction accepted_;  ///< as of not long ago: judging takes time
-  std::uint32_t readings_since_judged_ = 0;
+  Correction accepted_;  ///< as of not long ago: one calibrator is judged after the other, for it takes time
+  std::uint64_t readings_ = 0;
   std::array<bool, kCalibrators.size()> held_{};     ///< rolled back: only the operator brings it back
   std::array<bool, kCalibrators.size()> adopted_{};  ///< not told yet
   Rose rose_{};

@@ -69,8 +69,8 @@ std::vector<std::string> compass_rose(const std::array<double, 36>& visits) {
   std::vector<std::string> rows(kRows, std::string(kColumns, ' '));
   const auto put = [&](double turns, double radius, char c) {
     const double angle = 2 * std::numbers::pi * turns;
-    const auto row = std::lround(kRows / 2 - radius * (kRows / 2 - 1) * std::cos(angle));
-    const auto column = std::lround(kColumns / 2 + radius * (kColumns / 2 - 1) * std::sin(angle));
+    const auto row = std::lround(kRows / 2 - radius * (kRows / 2) * std::cos(angle));
+    const auto column = std::lround(kColumns / 2 + radius * (kColumns / 2) * std::sin(angle));
     rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = c;
   };
   for (std::size_t i = 0; i < visits.size(); ++i) {

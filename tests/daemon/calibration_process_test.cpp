@@ -48,8 +48,7 @@ TEST_F(CalibrationProcess, ReportsItsCalibratorsAndTakesOrders) {
   daemon.wait_until_ready();
   Client watcher(daemon.port());
   watcher.send("?WATCH={\"enable\":true,\"json\":true};\n");
-  json calib;
-  while (calib.value("class", "") != "CALIB") calib = json::parse(watcher.line().value());
+  const json calib = json::parse(watcher.line_with("\"class\":\"CALIB\""));
   EXPECT_EQ(calib["name"], "none");
   ASSERT_EQ(calib["calibrators"].size(), 1U) << "there is no gyro and no GPS";
   EXPECT_EQ(calib["calibrators"][0]["calibrator"], "magnetometer");

@@ -203,6 +203,7 @@ TEST_F(CalibrationReplay, ALogOfAnotherVersionBeginsAnewAndSaysSo) {
 }
 
 TEST_F(CalibrationReplay, AStateCutAnywhereChangesNothing) {
+  begin_file(kStart_ns);
   run(20, [](int, std::int64_t) {});
   const auto state = pipeline_.calibration_beginning(kStart_ns + 30'000 * kMs).state;
   std::mt19937 random(3);
