@@ -30,9 +30,8 @@ struct Group {
   std::array<Curve, 4> curves;
 };
 constexpr std::array kGroups{
-    Group{"Gyro A: scale", "scale", 1, {{{"gyro.scale", "A"}, {"gyro_b.scale", "B"}, {}, {}}}},
-    Group{
-        "Gyro A and B: bias", "deg/s", kDegrees, {{{"gyro.bias_rad_s", "A"}, {"gyro_b.bias_rad_s", "B"}, {}, {}}}},
+    Group{"Gyros: scale", "scale", 1, {{{"gyro.scale", "A"}, {"gyro_b.scale", "B"}, {}, {}}}},
+    Group{"Gyros: bias", "deg/s", kDegrees, {{{"gyro.bias_rad_s", "A"}, {"gyro_b.bias_rad_s", "B"}, {}, {}}}},
     Group{"Compass deviation",
           "degrees",
           kDegrees,
@@ -95,6 +94,7 @@ std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estim
     for (const Curve& curve : group.curves) {
       const auto found = curve.estimate != nullptr ? estimates.find(curve.estimate) : estimates.end();
       if (found == estimates.end() || found->second.size() < kLeastPoints) continue;
+      if (!std::isfinite(found->second.back().std)) continue;  // not determined, and shown as zero
       curves.emplace_back(found->second);
       names.push_back(curve.name);
     }

@@ -18,6 +18,8 @@ using Ink = SvgPlot::Ink;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kMostDots = 1500;
+/// A curve that is known no better is not worth a picture.
+constexpr double kWorstCurve_rad = 0.3;
 const SvgPlot::Axis kHeadingAxis{"heading as the compass says it, degrees", {0, 360}, 45};
 
 /// Every so many, so that not more than kMostDots remain.
@@ -55,6 +57,7 @@ std::optional<Figure> deviation_figure(const calib::Report& report,
     const double deviation_rad =
         std::remainder(heading_rad - (*report.estimates.compass)(heading_rad), 2 * std::numbers::pi);
     const double band_rad = 2 * deviation_std_rad(*compass, heading_rad);
+    if (!(band_rad < kWorstCurve_rad)) return std::nullopt;
     curve.push_back({double(degrees), deviation_rad * kDegrees});
     lower.push_back({double(degrees), (deviation_rad - band_rad) * kDegrees});
     upper.push_back({double(degrees), (deviation_rad + band_rad) * kDegrees});

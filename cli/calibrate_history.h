@@ -36,7 +36,7 @@ struct EstimatePoint {
 /// recording. Listens to the pipeline and hands everything on.
 class CalibrateHistory final : public pipeline::Sink {
  public:
-  static constexpr std::size_t kMostSamples = 8192, kMostPoints = 400;
+  static constexpr std::size_t kMostSamples = 8192, kMostPoints = 160;
   /// "gyro.scale", "compass.B_rad".
   using Estimates = std::map<std::string, std::vector<EstimatePoint>>;
 

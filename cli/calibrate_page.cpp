@@ -58,10 +58,8 @@ void append_figures(HtmlPage& page, const std::vector<Figure>& figures) {
 
 void append_heading(HtmlPage& page, const calib::Report& report, const CalibrateHistory& history) {
   calib::Correction estimates = accepted_estimates(report);
-  const bool accepted_gyro = estimates.gyro.has_value();
-  estimates.gyro = report.estimates.gyro;
-  // The curve is shown whether it was accepted or not; the residuals are of what was.
-  estimates.compass = estimates.compass ? estimates.compass : report.estimates.compass;
+  // The curve is shown before it is accepted, too, once there is something to see; the gyro must be.
+  if (!estimates.compass) estimates.compass = report.estimates.compass;
   const auto residuals = heading_residuals(history.samples(), estimates);
   std::vector<Figure> figures;
   if (auto figure = deviation_figure(report, residuals)) figures.push_back(std::move(*figure));
@@ -69,9 +67,7 @@ void append_heading(HtmlPage& page, const calib::Report& report, const Calibrate
   figures.push_back(rose_figure(report));
   page.section("Heading");
   if (residuals.empty()) {
-    page.paragraph("There is nothing to hold the heading against: that takes a gyro and turns.");
-  } else if (!accepted_gyro) {
-    page.paragraph("The gyro's own calibration was refused: what is held against it is as uncertain as it is.");
+    page.paragraph("There is nothing to hold the heading against: that takes a calibrated gyro, and turns.");
   }
   append_figures(page, figures);
 }

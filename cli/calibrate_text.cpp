@@ -15,7 +15,7 @@ namespace navcal::cli {
 namespace {
 
 constexpr std::size_t kWidth = 110;  ///< of a line
-constexpr std::size_t kTitle = 19, kVerdict = 10;
+constexpr std::size_t kTitle = 21, kVerdict = 10;
 
 template <class... Arguments>
 void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -69,13 +69,13 @@ void append_calibrator(std::string& out, const calib::CalibratorReport& report) 
 
 void append_rose(std::string& out, const calib::Rose& rose) {
   if (calib::visited(rose) == 0) return;
-  add(out, "headings seen      N{0:8}E{0:8}S{0:8}W{0:8}N\n", "");
-  add(out, "{:<19}{}   ({} of {} sectors; . never, : seldom)\n", "", text_rose(rose), calib::visited(rose),
+  add(out, "{1:<{2}}N{0:8}E{0:8}S{0:8}W{0:8}N\n", "", "headings seen", kTitle);
+  add(out, "{:<{}}{}   ({} of {} sectors; . never, : seldom)\n", "", kTitle, text_rose(rose), calib::visited(rose),
       rose.size());
 }
 
 void append_readings(std::string& out, const calib::GateCounts& gate, double duration_s) {
-  add(out, "{:<19}{}", "readings", duration_text(duration_s));
+  add(out, "{:<{}}{}", "readings", kTitle, duration_text(duration_s));
   for (std::size_t i = 0; i < calib::kStreams; ++i) {
     if (gate.taken[i] == 0) continue;
     const auto stream = static_cast<calib::Stream>(i);

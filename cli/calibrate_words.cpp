@@ -43,15 +43,17 @@ int decimals_for(double value, double error) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(guide))), kLeastDecimals, kMostDecimals);
 }
 
-std::string without_ending(std::string_view name, std::string_view ending) {
-  // "delay_s" keeps its noun.
-  if (ending.front() == '_')
-    name.remove_suffix(ending.size());
-  else
-    name.remove_suffix(2);
-  std::string words(name);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
+/// "bias_rad_s" becomes "bias"; "delay_s" keeps its noun.
+std::string name_without(std::string_view name, std::string_view ending) {
+  name.remove_suffix(ending.starts_with('_') ? ending.size() : 2);
+  return std::string(name);
+}
+
+/// Where nothing is known a number would only mislead; empty where something is.
+std::string_view instead_of_value(const calib::Quantity& quantity, double error, double unknown) {
+  if (std::isfinite(error)) return error > unknown ? "unknown" : "";
+  // An ellipse in the horizontal plane says nothing of the vertical.
+  return quantity.name.starts_with("offset_") ? "not determined" : "";
 }
 
 }  // namespace
@@ -68,10 +70,12 @@ std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
     const double value = quantity.value * factor, error = quantity.std * factor;
     const int decimals = decimals_for(value, error);
     ShownQuantity one;
-    one.name = found ? without_ending(quantity.name, unit->ending) : std::string(quantity.name);
+    one.name = found ? name_without(quantity.name, unit->ending) : std::string(quantity.name);
+    std::replace(one.name.begin(), one.name.end(), '_', ' ');
     one.unit = found ? unit->text : "";
-    if (std::isfinite(error) && error > (found ? unit->unknown : kScaleUnknown)) {
-      one.value = "unknown";
+    if (const auto word = instead_of_value(quantity, error, found ? unit->unknown : kScaleUnknown);
+        !word.empty()) {
+      one.value = word;
       one.unit.clear();
       all.push_back(std::move(one));
       continue;

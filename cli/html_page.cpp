@@ -1,5 +1,6 @@
 #include "cli/html_page.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace navcal::cli {
@@ -35,6 +36,7 @@ p { margin:6px 0 10px; max-width:85ch; }
 .fact b.bad { color:var(--bad); background:var(--bad-back); border-color:transparent; }
 .figures { display:grid; grid-template-columns:repeat(auto-fit, minmax(min(100%, 480px), 1fr)); gap:18px; }
 figure { margin:0; padding:14px 16px 10px; background:var(--card); border:1px solid var(--line); border-radius:8px; }
+.figures figure:last-child:nth-child(odd):not(:first-child) { grid-column:1/-1; }
 figure h3 { margin:0 0 8px; font-size:15px; }
 figcaption { color:var(--soft); font-size:13px; margin-top:6px; }
 svg { max-width:100%; height:auto; display:block; margin:0 auto; font-size:12px; fill:var(--soft); }
@@ -59,12 +61,36 @@ th, td { text-align:left; vertical-align:top; padding:5px 18px 5px 0; border-bot
 th { color:var(--soft); font-weight:600; font-size:13px; }
 )";
 
+/// Length of the UTF-8 character at the beginning of `text`; 0 where there is none: a file's name may be anything.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = static_cast<unsigned char>(text.front());
+  const std::size_t length = byte < 0x80   ? 1
+                             : byte < 0xc2 ? 0
+                             : byte < 0xe0 ? 2
+                             : byte < 0xf0 ? 3
+                             : byte < 0xf5 ? 4
+                                           : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  for (const char c : text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length != 1) {
+      out += length == 0 ? "?" : text.substr(0, length);
+      text.remove_prefix(std::max<std::size_t>(length, 1));
+      continue;
+    }
+    const char c = text.front();
+    text.remove_prefix(1);
     switch (c) {
       case '&':
         out += "&amp;";

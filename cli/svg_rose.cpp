@@ -55,9 +55,9 @@ std::string svg_rose(const calib::Rose& rose) {
 }
 
 std::string text_rose(const calib::Rose& rose) {
-  const std::uint32_t most = *std::max_element(rose.begin(), rose.end());
+  const std::uint64_t most = *std::max_element(rose.begin(), rose.end());
   std::string text;
-  for (const std::uint32_t count : rose) text += count == 0 ? '.' : count * 5 < most ? ':' : '#';
+  for (const std::uint64_t count : rose) text += count == 0 ? '.' : count * 5 < most ? ':' : '#';
   return text;
 }
 

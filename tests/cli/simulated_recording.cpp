@@ -85,7 +85,8 @@ std::vector<sim::PathRow> path_of(double duration_s, Rate rate_deg_s) {
     row.rate_rad_s = {0, 0, rate_rad_s};
     row.rpm = 700;
     rows.push_back(row);
-    row.euler_rad[2] += rate_rad_s * kStep_s;
+    // The rate goes straight from row to row.
+    row.euler_rad[2] += (rate_rad_s + rate_deg_s(row.t_s + kStep_s) * kRadians) / 2 * kStep_s;
     row.position_m[0] += kSpeed_m_s * std::cos(row.euler_rad[2]) * kStep_s;
     row.position_m[1] += kSpeed_m_s * std::sin(row.euler_rad[2]) * kStep_s;
   }
@@ -118,7 +119,7 @@ std::string simulated_recording(const std::vector<sim::PathRow>& path, const Rec
   }
   if (options.imu) {
     auto card = seeded<sim::ImuCard>(options.seed + 1);
-    card.card.scale[2] *= options.gyro_scale;
+    card.card.scale[1] *= options.gyro_scale;
     sim::ImuCard imu(card, motion);
     imu.power_on(begin_ns);
     run(imu, 1, options, end_ns, reads);

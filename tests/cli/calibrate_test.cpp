@@ -1,0 +1,159 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/calibrate_command.h"
+#include "tests/cli/simulated_recording.h"
+
+namespace navcal::cli::test {
+namespace {
+
+using Json = nlohmann::json;
+
+RecordingOptions with_iron(double duration_s) {
+  RecordingOptions options;
+  options.duration_s = duration_s;
+  options.offset_uT = {4, -3, 2};
+  options.matrix << 1.05, 0.02, 0, 0.02, 0.97, 0, 0, 0, 1;
+  options.gyro_scale = 0.9;
+  return options;
+}
+
+/// Two minutes among iron, with a gyro that reads a tenth too little.
+const std::string& turning() {
+  static const std::string capture = simulated_recording(turning_path(120), with_iron(120));
+  return capture;
+}
+
+class Calibrate : public CalibrateCommand {
+ protected:
+  Json json_of(const std::vector<std::string>& files) {
+    std::vector<std::string> arguments{"--json"};
+    arguments.insert(arguments.end(), files.begin(), files.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.message;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << "one object, one line";
+    return Json::parse(outcome.output, nullptr, false);
+  }
+};
+
+TEST_F(Calibrate, TheKeysOfTheContract) {
+  const Json json = json_of({write("a.cap", turning())});
+  for (const char* part : {"gyro", "gyro_b"}) {
+    for (const char* key : {"scale", "scale_std", "bias_rad_s", "bias_std", "samples"})
+      EXPECT_TRUE(json[part][key].is_number()) << part << ' ' << key;
+    EXPECT_TRUE(json[part]["accepted"].is_boolean());
+    EXPECT_TRUE(json[part]["reason"].is_string());
+  }
+  for (const char* key : {"deviation_deg", "deviation_std_deg"}) {
+    for (const char* coefficient : {"B", "C", "D", "E"})
+      EXPECT_TRUE(json["compass"][key][coefficient].is_number()) << key << coefficient;
+    EXPECT_TRUE(json["compass"][key].contains("A"));
+  }
+  const Json& magnetometer = json["magnetometer"];
+  EXPECT_EQ(magnetometer["offset_uT"].size(), 3U);
+  ASSERT_EQ(magnetometer["matrix"].size(), 3U);
+  for (const Json& row : magnetometer["matrix"]) EXPECT_EQ(row.size(), 3U);
+  EXPECT_TRUE(magnetometer["residual_uT"].is_number());
+  EXPECT_GE(magnetometer["coverage"], 0);
+  EXPECT_LE(magnetometer["coverage"], 1);
+  EXPECT_TRUE(json["heading"]["before_rms_deg"].is_number());
+  EXPECT_TRUE(json["heading"]["after_rms_deg"].is_number());
+  EXPECT_EQ(json["heading"]["held_out"], true);
+  for (const char* beyond : {"swing", "compass_delay", "course_delay", "misalignment", "gps_compass", "left_out"})
+    EXPECT_TRUE(json.contains(beyond)) << beyond;
+}
+
+TEST_F(Calibrate, FindsWhatWasPutIn) {
+  const Json json = json_of({write("a.cap", turning())});
+  EXPECT_TRUE(json["gyro"]["accepted"]) << json["gyro"]["reason"];
+  const double scale_error = json["gyro"]["scale"].get<double>() - 1 / 0.9;
+  EXPECT_LT(std::abs(scale_error), 4 * json["gyro"]["scale_std"].get<double>()) << scale_error;
+  EXPECT_TRUE(json["magnetometer"]["accepted"]) << json["magnetometer"]["reason"];
+  EXPECT_NEAR(json["magnetometer"]["offset_uT"][0], 4, 0.1);
+  EXPECT_NEAR(json["magnetometer"]["offset_uT"][1], -3, 0.1);
+  EXPECT_LT(json["heading"]["after_rms_deg"], json["heading"]["before_rms_deg"].get<double>() / 4);
+}
+
+TEST_F(Calibrate, TwoRecordingsTellMoreThanOne) {
+  auto options = with_iron(120);
+  options.seed = 9;
+  options.begin_s += 86'400;
+  const auto first = write("a.cap", turning());
+  const auto second = write("b.cap", simulated_recording(turning_path(120), options));
+  const Json one = json_of({first}), both = json_of({first, second});
+  EXPECT_GT(both["magnetometer"]["samples"], one["magnetometer"]["samples"]);
+  EXPECT_GT(both["gyro"]["samples"], one["gyro"]["samples"]);
+  // In the other order time goes back: another run of the instruments, and no worse.
+  const Json reversed = json_of({second, first});
+  EXPECT_EQ(reversed["gyro"]["samples"], both["gyro"]["samples"]);
+  EXPECT_TRUE(reversed["gyro"]["accepted"]) << reversed["gyro"]["reason"];
+}
+
+TEST_F(Calibrate, ASeriesIsOneRecording) {
+  const std::string& whole = turning();
+  std::size_t cut = whole.size() / 2;
+  cut = whole.find('\n', cut) + 1;
+  const std::string ports = whole.substr(0, whole.find("\n1") + 1);
+  const Json series = json_of({write("1.cap", whole.substr(0, cut)), write("2.cap", ports + whole.substr(cut))});
+  const Json one = json_of({write("a.cap", whole)});
+  EXPECT_EQ(series["gyro"], one["gyro"]);
+  EXPECT_EQ(series["magnetometer"], one["magnetometer"]);
+}
+
+TEST_F(Calibrate, AStraightRunIsRefusedWithTheReasonAndTheManoeuvre) {
+  const Json json = json_of({write("a.cap", simulated_recording(straight_path(60), with_iron(60)))});
+  for (const char* part : {"gyro", "gyro_b", "compass", "magnetometer"}) {
+    EXPECT_FALSE(json[part]["accepted"]) << part;
+    EXPECT_NE(json[part]["reason"].get<std::string>().find("turn"), std::string::npos) << json[part]["reason"];
+  }
+  EXPECT_TRUE(json["heading"]["before_rms_deg"].is_null());
+}
+
+TEST_F(Calibrate, InstrumentsThatAreNotThereAreNamed) {
+  auto options = with_iron(30);
+  options.compass = false;
+  const auto no_compass = write("c.cap", simulated_recording(turning_path(30), options));
+  options.compass = true;
+  options.imu = options.gps = false;
+  const auto no_gyro = write("g.cap", simulated_recording(turning_path(30), options));
+  const auto nothing = write("n.cap", "#capture 1\n#port imu imu-card 57600\n");
+  for (const auto& file : {no_compass, no_gyro, nothing}) {
+    const Json json = json_of({file});
+    EXPECT_FALSE(json["gyro"]["accepted"]) << file;
+    EXPECT_NE(json["gyro"]["reason"], "") << file;
+    EXPECT_FALSE(json["compass"]["accepted"]) << file;
+    EXPECT_TRUE(json["compass"]["deviation_deg"]["A"].is_null()) << file;
+  }
+  EXPECT_TRUE(json_of({no_gyro})["magnetometer"]["offset_uT"].is_array());
+  EXPECT_NE(run({nothing}).output.find("has no compass"), std::string::npos);
+}
+
+TEST_F(Calibrate, TextForPeople) {
+  const Outcome outcome = run({write("a.cap", turning())});
+  EXPECT_EQ(outcome.status, 0) << outcome.message;
+  for (const char* part : {"2 min ", "Gyro A ", "accepted", "scale 1.1", "+-", "deg/s", "headings seen",
+                           "36 of 36 sectors", "Heading against the calibrated gyro"}) {
+    EXPECT_NE(outcome.output.find(part), std::string::npos) << part << '\n' << outcome.output;
+  }
+  EXPECT_EQ(outcome.output.find("nan"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("inf"), std::string::npos) << outcome.output;
+}
+
+TEST_F(Calibrate, BadInputNamesFileAndPlace) {
+  const auto text = write("a.txt", "hello, world");
+  EXPECT_EQ(run({text}).status, 3);
+  EXPECT_EQ(run({text}).message.find(text), 0U) << run({text}).message;
+  EXPECT_EQ(run({(folder_ / "absent.cap").string()}).status, 3);
+  const auto torn = write("b.cap", "#capture 1\n#port imu imu-card 57600\nx\n");
+  EXPECT_EQ(run({torn}).status, 3);
+  EXPECT_EQ(run({torn}).message.find(torn + ":3: "), 0U) << run({torn}).message;
+  const auto good = write("c.cap", turning().substr(0, 100'000));
+  const auto bad_config = write("d.toml", "[calibration]\nmargin = 1\n");
+  const Outcome outcome = run({"--config", bad_config, good});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.message.find(bad_config), std::string::npos) << outcome.message;
+  EXPECT_EQ(run({good, text}).status, 3) << "the second of two";
+  EXPECT_EQ(run({}).status, 2);
+}
+
+}  // namespace
+}  // namespace navcal::cli::test

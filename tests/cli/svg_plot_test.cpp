@@ -1,0 +1,131 @@
+#include "cli/svg_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cli/html_page.h"
+#include "cli/svg_rose.h"
+#include "tests/cli/markup.h"
+
+namespace navcal::cli {
+namespace {
+
+using test::count;
+using test::flaw_in;
+
+SvgPlot plot() { return {"a < b", {"x & y", {0, 10}}, {"\"y\"", {-1, 1}}}; }
+
+TEST(SvgPlot, TheCheckOfTheTestsFindsFlaws) {
+  EXPECT_EQ(flaw_in("<a><b x=\"1\"/>text &amp; more</a>"), "");
+  for (const char* bad : {"<a><b></a>", "<a>", "</a>", "<a>&</a>", "<a>1 > 2</a>", "<a b=\"<\"/>", "text", "<a"}) {
+    EXPECT_NE(flaw_in(bad), "") << bad;
+  }
+}
+
+TEST(SvgPlot, WhateverIsDrawnIsWellFormed) {
+  SvgPlot empty = plot();
+  EXPECT_EQ(flaw_in(empty.svg()), "");
+  SvgPlot full = plot();
+  const std::vector<Point> points{{0, 0}, {5, 0.5}, {NAN, 0}, {7, INFINITY}, {10, -1}, {1e300, 1e300}};
+  full.band(SvgPlot::Ink::after, "<band>", points, points);
+  full.points(SvgPlot::Ink::before, "dots & more", points);
+  full.line(SvgPlot::Ink::fit, "line", points);
+  full.level(0);
+  EXPECT_EQ(flaw_in(full.svg()), "");
+  EXPECT_EQ(full.svg().find("nan"), std::string::npos);
+  EXPECT_EQ(full.svg().find("inf"), std::string::npos);
+}
+
+TEST(SvgPlot, PointsOutsideAreLeftOut) {
+  SvgPlot some = plot();
+  const std::vector<Point> points{{1, 0}, {2, 0}, {11, 0}, {3, 2}, {-1, 0}};
+  some.points(SvgPlot::Ink::before, "", points);
+  EXPECT_EQ(count(some.svg(), "h0"), 2);
+}
+
+TEST(SvgPlot, NothingToDrawLeavesNoTraceInTheLegend) {
+  SvgPlot some = plot();
+  some.points(SvgPlot::Ink::before, "dots", {});
+  some.line(SvgPlot::Ink::before, "line", {});
+  some.band(SvgPlot::Ink::before, "band", {}, {});
+  EXPECT_EQ(some.svg(), plot().svg());
+}
+
+TEST(SvgPlot, ALineEndsWhereAPointIsMissing) {
+  SvgPlot some = plot();
+  const std::vector<Point> points{{0, 0}, {1, 0}, {NAN, 0}, {2, 0}, {3, 0}};
+  const int before = count(some.svg(), "L");
+  some.line(SvgPlot::Ink::fit, "", points);
+  EXPECT_EQ(count(some.svg(), "L") - before, 2);
+}
+
+TEST(SvgPlot, RoundValuesAreRoundAndWithin) {
+  EXPECT_EQ(round_values({0, 10}, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  for (const double scale : {1e-9, 0.37, 1.0, 123456.0}) {
+    const Range range{-0.31 * scale, 1.7 * scale};
+    const auto values = round_values(range, 6);
+    EXPECT_GE(values.size(), 3U);
+    EXPECT_LE(values.size(), 13U);
+    for (const double value : values) {
+      EXPECT_GE(value, range.least - 1e-9 * scale);
+      EXPECT_LE(value, range.most + 1e-9 * scale);
+    }
+  }
+  EXPECT_TRUE(round_values({1, 1}, 5).empty());
+  EXPECT_TRUE(round_values({0, INFINITY}, 5).empty());
+}
+
+TEST(SvgPlot, ARangeIsNeverEmptyAndPassesOverTheFewOutermost) {
+  for (const auto& values : {std::vector<double>{}, {NAN}, {3}, {0, 0}, {1e12, 1e12}}) {
+    const Range range = range_of(values);
+    EXPECT_GT(range.length(), 0);
+    EXPECT_TRUE(std::isfinite(range.length()));
+  }
+  std::vector<double> values(1000, 0);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i % 10);
+  values.push_back(1e9);
+  EXPECT_LT(range_of(values).most, 11);
+  EXPECT_GE(range_of(values).most, 9);
+}
+
+TEST(SvgRose, EverySectorThatWasSeenIsThere) {
+  calib::Rose rose{};
+  EXPECT_EQ(flaw_in(svg_rose(rose)), "");
+  EXPECT_EQ(count(svg_rose(rose), "Z"), 0);
+  EXPECT_EQ(text_rose(rose), std::string(36, '.'));
+  rose[0] = 100;
+  rose[35] = 1;
+  EXPECT_EQ(count(svg_rose(rose), "Z"), 2);
+  EXPECT_EQ(text_rose(rose), "#" + std::string(34, '.') + ":");
+  rose.fill(4'000'000'000U);
+  EXPECT_EQ(flaw_in(svg_rose(rose)), "");
+  EXPECT_EQ(text_rose(rose), std::string(36, '#'));
+}
+
+TEST(HtmlPage, AnyTextIsWellFormed) {
+  const std::string any = "<b> & \"q\" \x01\x7f \xff\xc3 caf\xc3\xa9";
+  HtmlPage page(any);
+  page.fact(any, any, any);
+  page.section(any);
+  page.paragraph(any);
+  page.begin_figures();
+  page.figure(any, plot().svg(), any);
+  page.end_figures();
+  page.table({any}, {{any}, {any}});
+  const std::string html = std::move(page).finish();
+  EXPECT_EQ(flaw_in(html), "");
+  EXPECT_EQ(html.find('\xff'), std::string::npos) << "not UTF-8";
+  EXPECT_NE(html.find("caf\xc3\xa9"), std::string::npos);
+}
+
+TEST(HtmlPage, NeedsNoOtherFile) {
+  HtmlPage page("title");
+  const std::string html = std::move(page).finish();
+  for (const char* outside : {"http:", "https:", "<script", "<link", "src=", "@import", "url("}) {
+    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+  }
+}
+
+}  // namespace
+}  // namespace navcal::cli
