@@ -106,8 +106,8 @@ struct CalibrationSettings {
   double heading_noise_rad = 0.008726646259971648;  ///< of one reading, like all of these: 0.5 degrees
   double gyro_noise_rad_s = 0.0017453292519943296;  ///< 0.1 deg/s
   double field_noise_uT = 0.2;
-  double bias_walk_rad_s = 0.0003490658503988659;  ///< std of the change in one second: 0.02 deg/s
-  double tilt_lag_s = 0.3;                         ///< of the compass's inclinometer
+  double bias_walk_rad_s = 0.00034906585039886593;  ///< std of the change in one second: 0.02 deg/s
+  double tilt_lag_s = 0.3;                          ///< of the compass's inclinometer
   double position_noise_m = 1;
   double velocity_noise_m_s = 0.1;
   double current_m_s = 0.15;  ///< standard deviation of the water's, each axis

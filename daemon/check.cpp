@@ -26,7 +26,7 @@ void append_calibration(std::string& out, const config::Settings& settings) {
   }
   out += fmt::format("calibration: of {}", settings.ports[*ports.compass].name);
   for (const auto& helper : {ports.imu, ports.gps, ports.motor}) {
-    if (helper) out += fmt::format(", {}", settings.ports[*helper].name);
+    if (helper && helper != ports.compass) out += fmt::format(", {}", settings.ports[*helper].name);
   }
   if (settings.calibration.automatic) {
     out += fmt::format("; estimates come into force when better by {:.0f} %\n", settings.calibration.margin * 100);
