@@ -51,7 +51,7 @@ void Calibrations::report(std::int64_t now_ns, bool into_log) {
   const auto& mapping = pipeline_.mapping();
   const bool utc_known = mapping.source != pipeline::UtcMapping::Source::none;
   const auto lines = record::calib_lines(pipeline_.calibration_report(),
-                                         utc_known ? std::optional(mapping.to_utc(now_ns)) : std::nullopt);
+                                         utc_known ? std::optional(mapping.to_utc(now_ns)) : std::nullopt, tcm2_);
   for (const std::string& line : lines) {
     if (into_log) log_.calib(now_ns, line);
     if (server_.watched()) server_.publish(line + "\n");

@@ -31,6 +31,8 @@ class Calibrations {
   /// Saves the state; the log gets a last CALIB.
   void stop(std::int64_t now_ns);
 
+  /// What is known of the TCM2's calibration of itself, to stand beside ours in CALIB: an object of JSON.
+  void set_tcm2(std::string json) { tcm2_ = std::move(json); }
   /// A calibration.* command; its answer, newline included.
   [[nodiscard]] std::string answer(const ControlRequest& request, std::int64_t now_ns, pipeline::Sink& sink);
   /// What is to be told to people.
@@ -45,6 +47,7 @@ class Calibrations {
   LogWriter& log_;
   StatusServer& server_;
   CalibrationStore store_;
+  std::string tcm2_;
   std::int64_t next_save_ns_ = 0;
   std::int64_t next_log_ns_ = 0;
   bool changed_ = false;  ///< not saved and reported yet

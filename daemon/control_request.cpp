@@ -11,12 +11,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, ControlCommand>, 6> kCommands{{
+constexpr std::array<std::pair<std::string_view, ControlCommand>, 7> kCommands{{
     {"event", ControlCommand::event},
     {"log.rotate", ControlCommand::log_rotate},
     {"calibration.start", ControlCommand::calibration_start},
     {"calibration.accept", ControlCommand::calibration_accept},
     {"calibration.rollback", ControlCommand::calibration_rollback},
+    {"calibration.stop", ControlCommand::calibration_stop},
     {"status", ControlCommand::status},
 }};
 

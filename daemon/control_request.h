@@ -16,6 +16,7 @@ enum class ControlCommand {
   calibration_start,
   calibration_accept,
   calibration_rollback,
+  calibration_stop,
   status,
 };
 

@@ -108,7 +108,11 @@ void Daemon::on_sample(const instruments::Sample& sample) {
   publisher_.sample(sample);
   sessions_[sample.port]->published(ports::monotonic_ns() - sample.stamp.arrival_ns);
   log_.sample(sample);
-  if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) update_alarms(sample, *imu);
+  if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
+    update_alarms(sample, *imu);
+    if (PortSession* const compass = tcm2(); compass != nullptr && imu->yaw_rate_calibrated_rad_s)
+      compass->on_yaw_rate(*imu->yaw_rate_calibrated_rad_s, sample.stamp.arrival_ns);
+  }
 }
 
 void Daemon::on_mapping(const pipeline::UtcMapping& mapping) {
@@ -175,6 +179,7 @@ void Daemon::tick() {
   for (const std::string& notice : log_.take_notices()) event(now_ns, "warning", "log.notice", "", notice);
   if (now_ns >= next_health_ns_) {
     report_health(now_ns);
+    calibrations_.set_tcm2(tcm2_json());
     calibrations_.report(now_ns);
     next_health_ns_ = now_ns + static_cast<std::int64_t>(settings_.status.health_interval_s * 1e9) - tick_ns_ / 2;
   }

@@ -52,6 +52,8 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   void on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity, std::string_view name,
                      std::string_view message) override;
   void on_port_changed(std::uint16_t port) override;
+  void on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
+                             const instruments::Tcm2Calibration& calibration) override;
   // StatusSource
   [[nodiscard]] std::size_t device_count() const override { return sessions_.size(); }
   [[nodiscard]] std::optional<std::uint16_t> device_named(std::string_view name) const override;
@@ -60,6 +62,10 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   void append_poll(std::string& out) const override;
 
   [[nodiscard]] std::string answer(const ControlRequest& request);
+  [[nodiscard]] std::string answer_tcm2(const ControlRequest& request);
+  /// The session of the compass that can calibrate itself; null when there is none.
+  [[nodiscard]] PortSession* tcm2() const;
+  [[nodiscard]] std::string tcm2_json() const;
   void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
              std::string_view message);
   void update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu);

@@ -59,9 +59,11 @@ std::string Daemon::answer(const ControlRequest& request) {
     case ControlCommand::calibration_accept:
     case ControlCommand::calibration_rollback:
       // The compass's own procedure is a dialogue with the device, not one of our calibrators.
-      if (request.calibrator == "tcm2")
-        return control_error("the TCM2's own calibration is not part of this version");
+      if (request.calibrator == "tcm2") return answer_tcm2(request);
       return calibrations_.answer(request, ports::monotonic_ns(), *this);
+    case ControlCommand::calibration_stop:
+      if (request.calibrator == "tcm2") return answer_tcm2(request);
+      return control_error("only tcm2, the compass's calibration of itself, is stopped; ours never end");
     case ControlCommand::status:
       break;
   }

@@ -34,12 +34,14 @@ PortSession::PortSession(const boost::asio::any_io_executor& executor, std::uint
       settings_(settings),
       owner_(owner),
       start_up_(instruments::make_start_up(settings)),
-      start_up_timer_(executor, [this] { talk(ports::monotonic_ns()); }),
+      talk_timer_(executor, [this] { talk(ports::monotonic_ns()); }),
       speed_check_(settings.protocol, settings.baud),
-      port_(executor, settings, *this) {}
+      port_(executor, settings, *this) {
+  if (settings.protocol == protocols::Protocol::tcm2) compass_calibration_.emplace(settings);
+}
 
 void PortSession::stop() {
-  start_up_timer_.stop();
+  talk_timer_.stop();
   port_.stop();
 }
 
@@ -52,17 +54,15 @@ void PortSession::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
                        fmt::format("{} at {} Bd{}{}; low latency: {}", port.path, settings_.baud,
                                    port.description.empty() ? "" : ", ", port.description, port.low_latency));
   set_state(now_ns, State::running, "opened");
-  if (start_up_) {
-    start_up_->begin(now_ns);
-    talk(now_ns);
-  }
+  if (start_up_) start_up_->begin(now_ns);
+  talk(now_ns);
 }
 
 void PortSession::on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) {
   last_bytes_ns_ = arrival_ns;
   owner_.on_port_bytes(index_, arrival_ns, bytes);
   speed_check_.bytes(bytes);
-  if (start_up_) talk(arrival_ns);
+  talk(arrival_ns);
 }
 
 void PortSession::on_sent(std::int64_t now_ns, protocols::Bytes bytes) {
@@ -71,19 +71,62 @@ void PortSession::on_sent(std::int64_t now_ns, protocols::Bytes bytes) {
 
 void PortSession::on_lost(std::int64_t now_ns, std::string_view reason) {
   open_.reset();
-  start_up_timer_.stop();
+  talk_timer_.stop();
+  if (calibrating_compass_) {
+    // Whether it still calibrates nobody knows: the start-up that follows its return makes it say words again.
+    compass_calibration_->abandon("the compass went away");
+    calibrating_compass_ = false;
+    owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
+  }
   owner_.on_port_event(index_, now_ns, "warning", "port.lost", reason);
   set_state(now_ns, State::away, std::string(reason));
 }
 
 void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_ns) {
+  if (compass_calibration_) compass_calibration_->on_frame(frame, arrival_ns);
   if (start_up_) start_up_->on_frame(frame, arrival_ns);
 }
 
+std::string PortSession::calibrate_compass(std::int64_t now_ns) {
+  if (!compass_calibration_) return "there is no TCM2 at this port";
+  if (!open_) return "the compass is away: " + reason_;
+  if (calibrating_compass_) return "it is under way: " + compass_calibration_->state();
+  compass_calibration_->begin(now_ns);
+  calibrating_compass_ = true;
+  owner_.on_port_event(index_, now_ns, "info", "tcm2.calibration",
+                       "begun: turn twice, slowly, with as much tilt "
+                       "as can be had");
+  talk(now_ns);
+  return {};
+}
+
+std::string PortSession::stop_calibrating_compass(std::int64_t now_ns) {
+  if (!calibrating_compass_) return "the compass is not calibrating itself";
+  compass_calibration_->stop(now_ns);
+  talk(now_ns);
+  return {};
+}
+
+void PortSession::on_yaw_rate(double rate_rad_s, std::int64_t now_ns) {
+  if (calibrating_compass_) compass_calibration_->on_yaw_rate(rate_rad_s, now_ns);
+}
+
+bool PortSession::talk_of_calibration(std::int64_t now_ns) {
+  if (!calibrating_compass_) return false;
+  while (const auto bytes = compass_calibration_->next(now_ns)) port_.send(*bytes);
+  if (compass_calibration_->busy()) {
+    talk_timer_.arm(compass_calibration_->deadline_ns());
+    return true;
+  }
+  calibrating_compass_ = false;
+  owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
+  return false;
+}
+
 void PortSession::talk(std::int64_t now_ns) {
-  if (!open_) return;
+  if (!open_ || talk_of_calibration(now_ns) || !start_up_) return;
   while (const auto bytes = start_up_->next(now_ns)) port_.send(*bytes);
-  start_up_timer_.arm(start_up_->deadline_ns());
+  talk_timer_.arm(start_up_->deadline_ns());
 }
 
 void PortSession::tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics) {

@@ -11,6 +11,7 @@
 #include "daemon/lazy_timer.h"
 #include "daemon/speed_check.h"
 #include "instruments/start_up.h"
+#include "instruments/tcm2_calibration.h"
 #include "pipeline/pipeline.h"
 #include "ports/port.h"
 
@@ -29,6 +30,9 @@ class PortOwner {
   virtual void on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity,
                              std::string_view name, std::string_view message) = 0;
   virtual void on_port_changed(std::uint16_t port) = 0;
+  /// A compass has come to the end of the calibration of itself, good or bad. Not within on_port_bytes().
+  virtual void on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
+                                     const instruments::Tcm2Calibration& calibration) = 0;
 };
 
 /// One configured port at work: the port itself, the device's start-up dialogue, and what is known of both.
@@ -51,6 +55,16 @@ class PortSession : private ports::PortListener {
   /// From the pipeline, within on_port_bytes().
   void on_frame(const protocols::Frame& frame, std::int64_t arrival_ns);
   void published(std::int64_t latency_ns) { latency_.add(latency_ns); }
+  /// Lets a TCM2 calibrate itself. Returns why it cannot; empty: it has begun.
+  [[nodiscard]] std::string calibrate_compass(std::int64_t now_ns);
+  /// The vehicle has turned enough. Returns why that is nothing to the point; empty: the score will be read.
+  [[nodiscard]] std::string stop_calibrating_compass(std::int64_t now_ns);
+  /// Calibrated, of the vehicle; from the pipeline.
+  void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
+  /// Null when this is no TCM2.
+  [[nodiscard]] const instruments::Tcm2Calibration* compass_calibration() const {
+    return compass_calibration_ ? &*compass_calibration_ : nullptr;
+  }
   /// To be called about once a second: judges the state.
   void tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics);
 
@@ -72,6 +86,8 @@ class PortSession : private ports::PortListener {
   void on_lost(std::int64_t now_ns, std::string_view reason) override;
 
   void talk(std::int64_t now_ns);
+  /// True while it has the device to itself.
+  bool talk_of_calibration(std::int64_t now_ns);
   void set_state(std::int64_t now_ns, State state, std::string reason);
   State judge(const pipeline::PortStatistics& statistics, std::int64_t now_ns, std::string& reason);
 
@@ -79,7 +95,9 @@ class PortSession : private ports::PortListener {
   const config::PortSettings settings_;
   PortOwner& owner_;
   std::unique_ptr<instruments::StartUp> start_up_;
-  LazyTimer start_up_timer_;
+  std::optional<instruments::Tcm2Calibration> compass_calibration_;
+  bool calibrating_compass_ = false;
+  LazyTimer talk_timer_;
   std::string last_start_up_state_;
   SpeedCheck speed_check_;
   LatencyHistogram latency_;

@@ -49,7 +49,7 @@ Tcm2Calibration::Tcm2Calibration(const config::PortSettings& settings, const Lim
 }
 
 void Tcm2Calibration::begin(std::int64_t now_ns) {
-  calibrating_ = false;
+  touched_ = calibrating_ = false;
   score_.reset();
   failure_.clear();
   by_compass_ = by_gyro_ = {};
@@ -76,6 +76,12 @@ void Tcm2Calibration::stop(std::int64_t now_ns) {
     case Phase::resuming:
       break;
   }
+}
+
+void Tcm2Calibration::abandon(std::string reason) {
+  if (phase_ == Phase::idle) return;
+  if (failure_.empty() && !score_) failure_ = std::move(reason);
+  enter(Phase::idle, kNever_ns);
 }
 
 void Tcm2Calibration::enter(Phase phase, std::int64_t due_ns) {
@@ -207,6 +213,7 @@ std::optional<std::vector<std::uint8_t>> Tcm2Calibration::next(std::int64_t now_
       enter(after_halts_, now_ns + kSettle_ns);
       return tcm2::encode_command({Verb::halt});
     case Phase::clearing:
+      touched_ = true;
       return ask({Verb::clear_calibration}, kReplyTimeout_ns);
     case Phase::enabling:
       calibrating_ = true;

@@ -30,6 +30,8 @@ class Tcm2Calibration {
   void begin(std::int64_t now_ns);
   /// It has turned enough, the operator says. Before it turned at all: it is called off.
   void stop(std::int64_t now_ns);
+  /// The device cannot be reached any more: ends at once.
+  void abandon(std::string reason);
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns);
   /// Calibrated yaw rate, where a gyro tells it; without, turns are counted by the compass that is calibrated.
   void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
@@ -41,6 +43,8 @@ class Tcm2Calibration {
   [[nodiscard]] bool busy() const { return phase_ != Phase::idle; }
   /// Of the last one that came to its end.
   [[nodiscard]] const std::optional<protocols::tcm2::CalibrationScore>& score() const { return score_; }
+  /// `cc` was sent: the compass corrects itself otherwise than before, whatever came of the rest.
+  [[nodiscard]] bool touched() const { return touched_; }
   /// Why there is no score; empty while it is under way and after a good end.
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// For people: "turned 310 of 720 degrees", "score H9V3M1.2", "failed: cc refused (E010)".
@@ -76,6 +80,7 @@ class Tcm2Calibration {
   Phase after_halts_ = Phase::clearing;
   std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   int attempts_ = 0;
+  bool touched_ = false;
   bool calibrating_ = false;  ///< `mpcal=e` was sent and may have been obeyed
   std::int64_t turning_ends_ns_ = 0;
   TurnCount by_compass_, by_gyro_;

@@ -62,13 +62,18 @@ std::string beginning(const calib::Report& report, std::optional<std::int64_t> u
 
 }  // namespace
 
-std::vector<std::string> calib_lines(const calib::Report& report, std::optional<std::int64_t> utc_ns) {
+std::vector<std::string> calib_lines(const calib::Report& report, std::optional<std::int64_t> utc_ns,
+                                     std::string_view tcm2) {
   const std::string common = beginning(report, utc_ns);
   Json whole;
   whole["heading"] = heading_json(report.heading);
   whole["rose"] = report.rose;
   whole["left_out"] = gate_json(report.gate);
   std::string rest = whole.dump();
+  if (!tcm2.empty()) {
+    rest.pop_back();
+    rest.append(",\"tcm2\":").append(tcm2).append("}");
+  }
   rest.front() = ',';  // its members go on where those of the beginning end
 
   std::vector<std::string> lists(1);

@@ -18,6 +18,7 @@ TEST(ControlRequest, EveryCommandOfTheContractIsKnown) {
         std::pair{"calibration.start", ControlCommand::calibration_start},
         std::pair{"calibration.accept", ControlCommand::calibration_accept},
         std::pair{"calibration.rollback", ControlCommand::calibration_rollback},
+        std::pair{"calibration.stop", ControlCommand::calibration_stop},
         std::pair{"status", ControlCommand::status}}) {
     const auto line = nlohmann::json{{"command", name}, {"text", "dive 3"}, {"calibrator", "compass"}}.dump();
     const auto parsed = parse_control(line);

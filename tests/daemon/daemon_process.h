@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
@@ -43,6 +44,14 @@ class FakeLine {
     char tail[8];
     std::snprintf(tail, sizeof tail, "*%02X\r\n", checksum);
     write("$" + std::string(body) + tail);
+  }
+  /// What the daemon has sent since, waiting up to `limit_ms` for it to begin.
+  [[nodiscard]] std::string read(int limit_ms) const {
+    pollfd ready{master_, POLLIN, 0};
+    char bytes[256];
+    if (::poll(&ready, 1, limit_ms) <= 0) return {};
+    const ssize_t n = ::read(master_, bytes, sizeof bytes);
+    return n > 0 ? std::string(bytes, static_cast<std::size_t>(n)) : std::string();
   }
   [[nodiscard]] const std::string& path() const { return path_; }
 

@@ -1,0 +1,60 @@
+// The TCM2's calibration of itself: begun and ended by the operator, its score beside ours.
+#include <fmt/format.h>
+
+#include "daemon/daemon.h"
+#include "daemon/json_text.h"
+
+namespace navcal::daemon {
+
+PortSession* Daemon::tcm2() const {
+  for (const auto& session : sessions_) {
+    if (session->compass_calibration() != nullptr) return session.get();
+  }
+  return nullptr;
+}
+
+std::string Daemon::answer_tcm2(const ControlRequest& request) {
+  PortSession* const compass = tcm2();
+  if (compass == nullptr) return control_error("the configuration has no TCM2");
+  const std::int64_t now_ns = ports::monotonic_ns();
+  std::string why_not =
+      "the TCM2 takes its calibration over by itself: there is nothing to accept or to roll back";
+  if (request.command == ControlCommand::calibration_start) why_not = compass->calibrate_compass(now_ns);
+  if (request.command == ControlCommand::calibration_stop) why_not = compass->stop_calibrating_compass(now_ns);
+  if (!why_not.empty()) return control_error(why_not);
+  return "{\"ok\":true,\"tcm2\":" + tcm2_json() + "}\n";
+}
+
+std::string Daemon::tcm2_json() const {
+  const PortSession* const compass = tcm2();
+  if (compass == nullptr) return {};
+  const auto& calibration = *compass->compass_calibration();
+  std::string out = "{\"state\":";
+  append_quoted(out, calibration.state());
+  out += ",\"score\":";
+  if (const auto& score = calibration.score()) {
+    out += fmt::format("{{\"horizontal\":{},\"vertical\":{},\"magnitude\":{}}}", score->horizontal,
+                       score->vertical, score->magnitude);
+  } else {
+    out += "null";
+  }
+  return out + "}";
+}
+
+void Daemon::on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
+                                   const instruments::Tcm2Calibration& calibration) {
+  on_port_event(port, now_ns, calibration.failure().empty() ? "info" : "warning", "tcm2.calibration",
+                calibration.state());
+  if (!calibration.touched()) return;
+  // What was learnt of the compass before is of another compass: it corrects its field and heading otherwise now.
+  for (const auto calibrator : {calib::Calibrator::compass, calib::Calibrator::magnetometer,
+                                calib::Calibrator::gps_compass, calib::Calibrator::misalignment}) {
+    pipeline_.order_calibration(pipeline::CalibrationOrder::start, calibrator, now_ns, *this);
+  }
+  event(
+      now_ns, "warning", "calibration.notice", settings_.ports[port].name,
+      "the compass corrects itself otherwise than before: what is in force for it was made for the compass as it "
+      "was, and its calibrators begin anew");
+}
+
+}  // namespace navcal::daemon
