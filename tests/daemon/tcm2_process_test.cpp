@@ -82,7 +82,7 @@ TEST_F(Tcm2Process, ItsScoreStandsBesideOurs) {
   ASSERT_TRUE(compass.serve_until("mpcal=d")) << compass.heard();
   ASSERT_TRUE(compass.serve_until("go")) << compass.heard();
   EXPECT_EQ(compass.heard(), "h h cc mpcal=e go h h mpcal=d go ");
-  json tcm2;
+  json tcm2 = reported();
   for (int i = 0; i < 100 && tcm2.value("score", json()).is_null(); ++i) {
     compass.serve_until("nothing", 20);
     tcm2 = reported();
