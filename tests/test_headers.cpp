@@ -1,2 +1,4 @@
-// GoogleTest is precompiled here once for all tests.
+// What is precompiled once for all tests.
 #include <gtest/gtest.h>
+
+#include <Eigen/Core>
