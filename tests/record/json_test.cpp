@@ -44,11 +44,13 @@ TEST(Json, TimesThatAreNone) {
 TEST(Json, ASampleReadsAsInTheContract) {
   std::string text;
   append_json(text, testing::compass_sample(6'000'000'007), "compass");
-  EXPECT_EQ(text,
-            "{\"class\":\"COMPASS\",\"time\":1790000005.950000008,\"time_std\":0.001500000,"
-            "\"arrival\":1790000006.000000008,\"device\":\"compass\",\"heading_rad\":5.7334,"
-            "\"heading_calibrated_rad\":null,\"heading_is_true\":false,\"pitch_rad\":0.1,\"roll_rad\":null,\"field_body_uT\":[55.11,12.33,-18.43],"
-            "\"dip_rad\":null,\"turn_rate_rad_s\":null,\"temperature_C\":null,\"error\":null,\"calibration\":null}");
+  EXPECT_EQ(
+      text,
+      "{\"class\":\"COMPASS\",\"time\":1790000005.950000008,\"time_std\":0.001500000,"
+      "\"arrival\":1790000006.000000008,\"device\":\"compass\",\"heading_rad\":5.7334,"
+      "\"heading_calibrated_rad\":null,\"heading_is_true\":false,\"pitch_rad\":0.1,\"roll_rad\":null,\"field_body_"
+      "uT\":[55.11,12.33,-18.43],"
+      "\"dip_rad\":null,\"turn_rate_rad_s\":null,\"temperature_C\":null,\"error\":null,\"calibration\":null}");
 }
 
 TEST(Json, EveryKindOfSampleIsJsonWithTheMembersOfItsTopic) {
