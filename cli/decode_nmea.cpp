@@ -51,7 +51,7 @@ void write(FieldWriter& fields, const nmea::Rmc& rmc, const std::optional<Date>&
   position.date = rmc.date;
   position.time = rmc.time;
   place_into(position, rmc.place);
-  position.speed_m_s = value_of(rmc.speed_kn, nmea::kMetresPerSecondPerKnot);
+  position.speed_m_s = value_of(rmc.speed_kn, protocols::kMetresPerSecondPerKnot);
   position.heading_deg = value_of(rmc.course_deg);
   position.fix = rmc.fix();
   write_position(fields, position, pivot);
@@ -69,7 +69,7 @@ void write(FieldWriter& fields, const nmea::Gll& gll) {
 }
 
 void write(FieldWriter& fields, const nmea::Vtg& vtg) {
-  const auto knots = value_of(vtg.speed_kn, nmea::kMetresPerSecondPerKnot);
+  const auto knots = value_of(vtg.speed_kn, protocols::kMetresPerSecondPerKnot);
   fields.number("heading_deg", vtg.course_true_deg);
   fields.number("heading_magnetic_deg", vtg.course_magnetic_deg);
   fields.number("speed_m_s", knots ? knots : value_of(vtg.speed_km_h, 1 / 3.6), 4);

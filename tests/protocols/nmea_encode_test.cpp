@@ -39,7 +39,7 @@ TEST(NmeaEncode, RmcAndVtgComeBackAsTheyWereEncoded) {
     EXPECT_EQ(rmc->time, sent.time);
     EXPECT_EQ(rmc->valid, sent.fix != Fix::none);
     if (!rmc->valid) continue;
-    EXPECT_NEAR(rmc->speed_kn->value() * nmea::kMetresPerSecondPerKnot, sent.speed_m_s, 0.003);
+    EXPECT_NEAR(rmc->speed_kn->value() * kMetresPerSecondPerKnot, sent.speed_m_s, 0.003);
     EXPECT_NEAR(rmc->course_deg->value(), sent.course_deg, 1e-9);
     EXPECT_NEAR(vtg->course_true_deg->value(), sent.course_deg, 1e-9);
     EXPECT_NEAR(vtg->speed_km_h->value() / 3.6, sent.speed_m_s, 0.0015);
