@@ -44,7 +44,14 @@ class Archive {
     (*this)(present);
     if (!ok_) return;
     if (!saving_) value.reset();
-    if (!saving_ && present) value.emplace();
+    if (!saving_ && present) {
+      // clang 14 takes a class nested in one that is still open for one without a default constructor, for ever.
+      if constexpr (std::is_default_constructible_v<T>) {
+        value.emplace();
+      } else {
+        value.emplace(T{});
+      }
+    }
     if (value) (*this)(*value);
   }
   template <class T, std::size_t N>

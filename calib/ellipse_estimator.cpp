@@ -13,6 +13,7 @@ constexpr double kCellSize_uT = 0.7;
 constexpr std::uint64_t kFirstFit = 20;  // readings
 constexpr double kJudged = 50;           // readings held against a fit before it may find others surprising
 constexpr int kMostIterations = 200;
+constexpr double kVerticalOffset_uT = 20;  // of a magnetometer amid batteries and motors
 
 /// A beginning that depends on the summary alone; the scatter about it is where robust weights begin.
 std::optional<EllipseFit> started(const EllipseCells& cells) {
@@ -67,13 +68,16 @@ double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double r
   FieldCells<2, 2>::Cell reading;
   reading.count = 1;
   reading.mean = levelled(field_body_uT, roll_rad, pitch_rad);
-  const double heading = fit_->shape.foot_rad(reading.mean);
-  const Eigen::Vector2d normal = (fit_->shape.axes_uT.inverse() * EllipseShape::direction(heading)).normalized();
-  const EllipseShape::Vector row = EllipseShape::slope(heading).transpose() * normal;
+  const Eigen::Vector2d u = fit_->shape.foot(reading.mean);
+  const Eigen::Vector2d normal = (fit_->shape.axes_uT.inverse() * u).normalized();
+  const EllipseShape::Vector row = EllipseShape::slope(u).transpose() * normal;
   const double distance = mean_distance_uT(fit_->shape, reading);
   const double noise_uT = std::max(fit_->residual_uT, held_out_.after_uT());
+  // The vertical offset, of which the ellipse knows nothing, comes into the level with every tilt: a dive is no
+  // change of the field.
+  const double tilted_uT = kVerticalOffset_uT * std::hypot(std::sin(roll_rad), std::sin(pitch_rad));
   const double variance = noise_uT * noise_uT + row.dot(fit_->covariance * row) +
-                          parameters_.model_error_uT * parameters_.model_error_uT;
+                          parameters_.model_error_uT * parameters_.model_error_uT + tilted_uT * tilted_uT;
   const double z = distance * distance / variance;
   return std::isfinite(z) ? z : std::numeric_limits<double>::max();
 }

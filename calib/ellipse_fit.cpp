@@ -15,14 +15,14 @@ constexpr std::size_t kSectors = 36;
 
 struct Distance {
   double distance_uT = 0;
-  double heading_rad = 0;
+  Eigen::Vector2d foot = Eigen::Vector2d::Zero();  // its u
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
 };
 
 Distance distance_of(const EllipseShape& shape, const FieldCells<2, 2>::Cell& cell) {
   Distance result;
-  result.heading_rad = shape.foot_rad(cell.mean);
-  const Eigen::Vector2d u = EllipseShape::direction(result.heading_rad);
+  result.foot = shape.foot(cell.mean);
+  const Eigen::Vector2d& u = result.foot;
   const Eigen::Vector2d along = shape.axes_uT * Eigen::Vector2d(u.y(), -u.x());
   const double speed = along.norm();
   const Eigen::Vector2d tangent = along / speed;
@@ -64,13 +64,13 @@ struct Sums {
     for (const auto& cell : cells) {
       const Distance d = distance_of(shape, cell);
       const double weight = cell.count * weight_of(d.distance_uT, scale_uT);
-      const EllipseShape::Vector row = EllipseShape::slope(d.heading_rad).transpose() * d.normal;
+      const EllipseShape::Vector row = EllipseShape::slope(d.foot).transpose() * d.normal;
       information += weight * row * row.transpose();
       gradient += weight * d.distance_uT * row;
       cost += cell.count * cost_of(d.distance_uT, scale_uT);
       count += weight;
       square += weight * (d.distance_uT * d.distance_uT + d.normal.dot(cell.scatter * d.normal) / cell.count);
-      const double turns = d.heading_rad / (2 * std::numbers::pi);
+      const double turns = std::atan2(-d.foot.y(), d.foot.x()) / (2 * std::numbers::pi);
       const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
       sector_count[sector] += weight;
       sector_sum[sector] += weight * d.distance_uT;

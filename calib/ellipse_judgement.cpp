@@ -32,11 +32,11 @@ EllipseShape::Matrix doubtful_covariance(const EllipseFit& fit, const EllipseCel
   sums.fill(EllipseShape::Vector::Zero());
   const Eigen::Matrix2d inverse = fit.shape.axes_uT.inverse();
   for (const auto& cell : cells) {
-    const double heading = fit.shape.foot_rad(cell.mean);
-    const double turns = heading / (2 * std::numbers::pi);
+    const Eigen::Vector2d u = fit.shape.foot(cell.mean);
+    const double turns = std::atan2(-u.y(), u.x()) / (2 * std::numbers::pi);
     const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
-    const Eigen::Vector2d normal = (inverse * EllipseShape::direction(heading)).normalized();
-    sums[sector] += cell.count * EllipseShape::slope(heading).transpose() * normal;
+    const Eigen::Vector2d normal = (inverse * u).normalized();
+    sums[sector] += cell.count * EllipseShape::slope(u).transpose() * normal;
   }
   const EllipseShape::Matrix per_uT2 = fit.covariance / (fit.residual_uT * fit.residual_uT);
   EllipseShape::Matrix covariance = fit.covariance * std::max(1.0, fit.misfit);

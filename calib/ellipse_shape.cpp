@@ -11,20 +11,24 @@ double EllipseShape::heading_rad(const Eigen::Vector2d& field_uT) const {
   return std::atan2(-y.y(), y.x());
 }
 
-double EllipseShape::foot_rad(const Eigen::Vector2d& field_uT) const {
-  double heading = heading_rad(field_uT);
+Eigen::Vector2d EllipseShape::foot(const Eigen::Vector2d& field_uT) const {
+  const Eigen::Vector2d from_centre = field_uT - centre_uT;
+  Eigen::Vector2d u = axes_uT.inverse() * from_centre;
+  if (!(u.squaredNorm() > 0)) return direction(0);  // the centre itself, or not a number
+  u.normalize();
   // Newton's iterations on half the squared distance, where it is convex; readings are near the ellipse, so two or
-  // three of them reach the last digit.
+  // three of them reach the last digit. A step is a move along the tangent and back to the circle: no sine of an
+  // angle is needed, and this is called for every cell in every iteration.
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector2d u = direction(heading);
-    const Eigen::Vector2d slope = axes_uT * Eigen::Vector2d(u.y(), -u.x());
-    const Eigen::Vector2d off = field_uT - centre_uT - axes_uT * u;
+    const Eigen::Vector2d by_heading(u.y(), -u.x());
+    const Eigen::Vector2d slope = axes_uT * by_heading;
+    const Eigen::Vector2d off = from_centre - axes_uT * u;
     const double curvature = slope.squaredNorm() + off.dot(axes_uT * u);
     const double step = off.dot(slope) / std::max(curvature, 0.2 * slope.squaredNorm());
-    heading += std::clamp(step, -0.5, 0.5);
+    u = (u + std::clamp(step, -0.5, 0.5) * by_heading).normalized();
     if (!(std::abs(step) > 1e-14)) break;
   }
-  return heading;
+  return u;
 }
 
 EllipseShape EllipseShape::moved(const Vector& step) const {
@@ -58,8 +62,9 @@ double worst_heading_std_rad(const EllipseShape& shape, const EllipseShape::Matr
   double worst = 0;
   for (int i = 0; i < kHeadings; ++i) {
     const double heading = 2 * std::numbers::pi * i / kHeadings;
-    const Eigen::Vector2d across(-std::sin(heading), -std::cos(heading));  // d u / d heading
-    const EllipseShape::Vector row = EllipseShape::slope(heading).transpose() * (inverse * across);
+    const Eigen::Vector2d u = EllipseShape::direction(heading);
+    const Eigen::Vector2d across(u.y(), -u.x());  // d u / d heading
+    const EllipseShape::Vector row = EllipseShape::slope(u).transpose() * (inverse * across);
     worst = std::max(worst, row.dot(covariance * row));
   }
   return std::sqrt(worst);

@@ -25,17 +25,24 @@ struct EllipseShape {
   [[nodiscard]] Eigen::Vector2d at(double heading_rad) const {
     return centre_uT + axes_uT * direction(heading_rad);
   }
-  /// d at(heading) / d parameters.
-  [[nodiscard]] static Eigen::Matrix<double, 2, kParameters> slope(double heading_rad) {
-    const Eigen::Vector2d u = direction(heading_rad);
+  /// d at(heading) / d parameters, u = direction(heading).
+  [[nodiscard]] static Eigen::Matrix<double, 2, kParameters> slope(const Eigen::Vector2d& u) {
     Eigen::Matrix<double, 2, kParameters> slope;
     slope << 1, 0, u.x(), u.y(), 0,  //
         0, 1, 0, u.x(), u.y();
     return slope;
   }
+  [[nodiscard]] static Eigen::Matrix<double, 2, kParameters> slope(double heading_rad) {
+    return slope(direction(heading_rad));
+  }
   [[nodiscard]] double heading_rad(const Eigen::Vector2d& field_uT) const;
-  /// Heading of the nearest point of the ellipse.
-  [[nodiscard]] double foot_rad(const Eigen::Vector2d& field_uT) const;
+  /// u of the nearest point of the ellipse.
+  [[nodiscard]] Eigen::Vector2d foot(const Eigen::Vector2d& field_uT) const;
+  /// Its heading.
+  [[nodiscard]] double foot_rad(const Eigen::Vector2d& field_uT) const {
+    const Eigen::Vector2d u = foot(field_uT);
+    return std::atan2(-u.y(), u.x());
+  }
   [[nodiscard]] EllipseShape moved(const Vector& step) const;
   /// Geometric mean of the axes: the size of the horizontal field but for what soft iron adds to it.
   [[nodiscard]] double radius_uT() const { return std::sqrt(axes_uT.determinant()); }

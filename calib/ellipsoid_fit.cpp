@@ -132,7 +132,8 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
     const double square = d.value.dot(inverse * d.value);
     const Eigen::Matrix<double, EllipsoidShape::kParameters, 2> weighted =
         (cell.count * weight_of(square)) * d.slope.transpose() * inverse;
-    information += weighted * d.slope;
+    // Too small for the blocked product that Eigen would choose at this size.
+    information += weighted.lazyProduct(d.slope);
     gradient -= weighted * d.value;
     cost += cell.count * cost_of(square);
   }

@@ -90,7 +90,7 @@ void GpsSummary::fix(const GroundReading& ground, const WaterTrackReading& track
   observe(terms(track), velocity_m_s,
           square_of(parameters_.velocity_std_m_s) + square_of(parameters_.model_std_m_s));
   if (!position_) {
-    position_.emplace();
+    position_ = Position{};
     position_->state_m = fix_m;
     position_->variance_m2 = receiver_m2;
   } else {

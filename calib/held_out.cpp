@@ -36,11 +36,22 @@ void Comparison::Sums::add(double before_square, double in_force_square, double 
   before = kForgetting * before + before_square;
   in_force = kForgetting * in_force + in_force_square;
   estimate = kForgetting * estimate + estimate_square;
+  const double gain = in_force_square - estimate_square;
+  gain_square = kForgetting * gain_square + gain * gain;
   weight = kForgetting * weight + 1;
+  weight_square = kForgetting * kForgetting * weight_square + 1;
   ++blocks;
 }
 
 double Comparison::Sums::rms(double sum) const { return weight > 0 ? std::sqrt(sum / weight) : 0; }
+
+double Comparison::Sums::significance() const {
+  if (blocks < 2) return 0;
+  const double mean = (in_force - estimate) / weight;
+  const double others = weight * weight / weight_square - 1;  // blocks that count, less one
+  const double variance = std::max(gain_square / weight - mean * mean, 0.0) / others;
+  return variance > 0 ? mean / std::sqrt(variance) : mean > 0 ? kLeastStandardErrors : 0;
+}
 
 void Comparison::add(double before_square, double in_force_square, double estimate_square) {
   all_.add(before_square, in_force_square, estimate_square);
@@ -49,7 +60,8 @@ void Comparison::add(double before_square, double in_force_square, double estima
 
 bool Comparison::better_by(double margin) const {
   const Sums& s = since_change_;
-  return s.blocks >= kLeastBlocks && s.rms(s.estimate) < (1 - margin) * s.rms(s.in_force);
+  return s.blocks >= kLeastBlocks && s.significance() >= kLeastStandardErrors &&
+         s.rms(s.estimate) < (1 - margin) * s.rms(s.in_force);
 }
 
 void HeldOut::Scatter::add(double residual_rad) {

@@ -17,7 +17,8 @@ class Comparison {
   void add(double before_square, double in_force_square, double estimate_square);
   /// Something else is in force from now on.
   void on_change() { since_change_ = {}; }
-  /// The estimate beats what is in force by this relative margin, on blocks enough.
+  /// The estimate beats what is in force by this relative margin, and from block to block by more than chance
+  /// would have it: three standard errors of the mean gain.
   [[nodiscard]] bool better_by(double margin) const;
 
   [[nodiscard]] double before_rms() const { return all_.rms(all_.before); }
@@ -27,14 +28,20 @@ class Comparison {
   void archive(Archive& archive) { archive(all_, since_change_); }
 
  private:
-  static constexpr std::uint64_t kLeastBlocks = 2;
+  static constexpr std::uint64_t kLeastBlocks = 3;
+  static constexpr double kLeastStandardErrors = 3;
   struct Sums {
     double before = 0, in_force = 0, estimate = 0;
-    double weight = 0;
+    double gain_square = 0;  ///< of in_force less estimate
+    double weight = 0, weight_square = 0;
     std::uint64_t blocks = 0;
     void add(double before_square, double in_force_square, double estimate_square);
     [[nodiscard]] double rms(double sum) const;
-    void archive(Archive& archive) { archive(before, in_force, estimate, weight, blocks); }
+    /// Mean gain over its standard error; 0 before the second block.
+    [[nodiscard]] double significance() const;
+    void archive(Archive& archive) {
+      archive(before, in_force, estimate, gain_square, weight, weight_square, blocks);
+    }
   };
   Sums all_, since_change_;
 };

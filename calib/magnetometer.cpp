@@ -40,6 +40,7 @@ void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad,
 
 void Magnetometer::take(const Reading& reading) {
   ++readings_;
+  answer_.reset();
   if (!reading.field_body_uT.allFinite() || reading.field_body_uT.cwiseAbs().maxCoeff() > kHighestField_uT ||
       !std::isfinite(reading.roll_rad) || !std::isfinite(reading.pitch_rad)) {
     leave_out();
@@ -95,12 +96,14 @@ void Magnetometer::change_field() {
 }
 
 void Magnetometer::set_gyro(const GyroBelief& gyro) {
+  answer_.reset();
   parameters_.gyro.gyro = gyro;
   now_.gyro.set_gyro(gyro);
   if (before_) before_->gyro.set_gyro(gyro);
 }
 
 void Magnetometer::settle() {
+  answer_.reset();
   now_.ellipse.settle();
   now_.gyro.settle();
   now_.ellipsoid.settle();
@@ -108,6 +111,7 @@ void Magnetometer::settle() {
 
 void Magnetometer::archive(Archive& archive) {
   archive.tag("magnetometer 1");
+  answer_.reset();
   archive(parameters_.gyro.gyro, now_, watch_, recent_, field_steps_, last_step_, readings_, left_out_,
           turn_broken_);
   bool has_before = before_.has_value();

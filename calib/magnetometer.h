@@ -42,10 +42,11 @@ class Magnetometer {
   /// Iterates to the end what update() does in slices.
   void settle();
 
-  [[nodiscard]] Method method() const;  ///< none: nothing is accepted
+  [[nodiscard]] Method method() const { return answer().method; }  ///< none: nothing is accepted
   /// Of method(); of the best guess when nothing is accepted; nullopt when there is none.
-  [[nodiscard]] std::optional<MagnetometerEstimate> estimate() const;
-  [[nodiscard]] Judgement judgement() const;
+  [[nodiscard]] const std::optional<MagnetometerEstimate>& estimate() const { return answer().estimate; }
+  /// Of the same.
+  [[nodiscard]] const Judgement& judgement() const { return answer().judgement; }
 
   [[nodiscard]] const EllipseEstimator& ellipse() const { return now_.ellipse; }
   [[nodiscard]] const EllipseGyro& gyro_aided() const { return now_.gyro; }
@@ -79,6 +80,14 @@ class Magnetometer {
     void archive(Archive& archive);
   };
 
+  struct Answer {
+    Method method = Method::none;
+    std::optional<MagnetometerEstimate> estimate;
+    Judgement judgement;
+  };
+
+  [[nodiscard]] const Answer& answer() const;
+  [[nodiscard]] Answer chosen() const;
   void take(const Reading& reading);
   void leave_out();
   void change_field();
@@ -92,7 +101,8 @@ class Magnetometer {
   std::optional<FieldStep> last_step_;
   std::uint64_t readings_ = 0;
   std::uint64_t left_out_ = 0;
-  bool turn_broken_ = false;  ///< a reading was left out since the last that was used
+  mutable std::optional<Answer> answer_;  ///< to judge takes longer than to learn; empty: not asked since
+  bool turn_broken_ = false;              ///< a reading was left out since the last that was used
 };
 
 }  // namespace navcal::calib

@@ -4,47 +4,31 @@
 
 namespace navcal::calib {
 
-Magnetometer::Method Magnetometer::method() const {
-  Method best = Method::none;
-  double least = std::numeric_limits<double>::infinity();
+const Magnetometer::Answer& Magnetometer::answer() const {
+  if (!answer_) answer_ = chosen();
+  return *answer_;
+}
+
+Magnetometer::Answer Magnetometer::chosen() const {
+  Answer best;
+  double least = std::numeric_limits<double>::infinity();  // of those that accept; of all while none does
   const auto consider = [&](Method method, const auto& estimator) {
-    const auto estimate = estimator.estimate();
-    if (!estimate || !(estimate->heading_std_rad < least) || !estimator.judgement().accepted) return;
+    auto estimate = estimator.estimate();
+    if (!estimate) return;
+    auto judgement = estimator.judgement();
+    const bool accepted = best.method != Method::none;
+    const bool better = estimate->heading_std_rad < least;
+    if (judgement.accepted ? accepted && !better : accepted || !better) return;
     least = estimate->heading_std_rad;
-    best = method;
+    best = {judgement.accepted ? method : Method::none, std::move(estimate), std::move(judgement)};
   };
   // The ellipsoid first: it alone knows the vertical offset, without which every tilt is an error of heading.
   consider(Method::ellipsoid, now_.ellipsoid);
-  if (best != Method::none) return best;
+  if (best.method != Method::none) return best;
   consider(Method::ellipse, now_.ellipse);
   consider(Method::gyro_aided, now_.gyro);
+  if (!best.estimate) best.judgement = now_.ellipse.judgement();
   return best;
-}
-
-std::optional<MagnetometerEstimate> Magnetometer::estimate() const {
-  switch (method()) {
-    case Method::ellipsoid:
-      return now_.ellipsoid.estimate();
-    case Method::gyro_aided:
-      return now_.gyro.estimate();
-    case Method::ellipse:
-    case Method::none:
-      break;
-  }
-  return now_.ellipse.estimate();
-}
-
-Judgement Magnetometer::judgement() const {
-  switch (method()) {
-    case Method::ellipsoid:
-      return now_.ellipsoid.judgement();
-    case Method::gyro_aided:
-      return now_.gyro.judgement();
-    case Method::ellipse:
-    case Method::none:
-      break;
-  }
-  return now_.ellipse.judgement();
 }
 
 }  // namespace navcal::calib

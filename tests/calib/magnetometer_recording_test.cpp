@@ -63,6 +63,15 @@ TEST(MagnetometerRecording, GliderAgreesWithItsOwnCalibration) {
   EXPECT_LE(spread(fitted(readings, even), readings, odd), 0.29);  // not fitted
 }
 
+TEST(MagnetometerRecording, GliderIsAcceptedReadingByReading) {
+  const auto readings = recording("sg171.cap");
+  if (readings.empty()) GTEST_SKIP() << "../shared is missing";
+  Magnetometer magnetometer{Magnetometer::Parameters{}};
+  for (const auto& r : readings) magnetometer.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
+  EXPECT_EQ(magnetometer.field_steps(), 0u);
+  EXPECT_EQ(magnetometer.method(), Magnetometer::Method::ellipsoid) << magnetometer.judgement().reason;
+}
+
 TEST(MagnetometerRecording, MagnetBroughtNearAndTakenAway) {
   const auto readings = recording("broad34.cap");
   if (readings.empty()) GTEST_SKIP() << "../shared is missing";

@@ -89,6 +89,26 @@ TEST(Magnetometer, NoStepWhereThereIsNone) {
   }
 }
 
+/// Spirals down and up: a hull that is hardly level, whose vertical offset the ellipse takes for a change of
+/// field.
+TEST(Magnetometer, ADiveIsNoStep) {
+  Random random(16);
+  std::vector<Attitude> motion;
+  for (int i = 0; i < 600; ++i) motion.push_back({0.05 * i, 0.02 * std::sin(0.21 * i), 0.02 * std::sin(0.13 * i)});
+  for (int i = 600; i < 2400; ++i) {
+    const double pitch_rad = (i / 300) % 2 == 0 ? -0.45 : 0.4;
+    motion.push_back({0.05 * i, 0.05 * std::sin(0.21 * i), pitch_rad + 0.02 * std::sin(0.13 * i)});
+  }
+  Iron iron;
+  iron.hard_uT = {3, -2, 12};
+  Magnetometer magnetometer{Magnetometer::Parameters{}};
+  feed(magnetometer, field_on(motion, iron, random));
+  EXPECT_EQ(magnetometer.field_steps(), 0u);
+  EXPECT_LT(magnetometer.left_out(), 20u);
+  EXPECT_EQ(magnetometer.method(), Magnetometer::Method::ellipsoid) << magnetometer.judgement().reason;
+  EXPECT_LT((magnetometer.estimate()->correction.offset_uT - iron.hard_uT).norm(), 1.0);
+}
+
 TEST(Magnetometer, RestoredGoesOnBitForBit) {
   Random random(4);
   const auto first = turning(500, 0, kBefore, random), second = turning(300, 500, kAfter, random);

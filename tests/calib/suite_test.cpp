@@ -88,6 +88,24 @@ TEST(Suite, EstimatesComeIntoForceWhenTheyAreBetterOnReadingsHeldOut) {
   EXPECT_GE(report.name.number, 3U);
 }
 
+TEST(Suite, WhatIsRightAlreadyIsNotReplacedByChance) {
+  int changes = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Suite suite(thesis_options(), {true, false, false, false});
+    Suite with_gyros(thesis_options(), kCompassAndGyros);
+    for (const Reading& reading : readings_along("path_long600", {}, {}, seed)) {
+      if (std::holds_alternative<CompassReading>(reading)) suite.put(reading);
+      with_gyros.put(reading);
+      while (const auto adopted = with_gyros.take_adopted()) {
+        // The gyros are wrong, and are to be corrected.
+        if (*adopted != Calibrator::gyro && *adopted != Calibrator::gyro_b) ++changes;
+      }
+      while (suite.take_adopted()) ++changes;
+    }
+  }
+  EXPECT_EQ(changes, 0);
+}
+
 TEST(Suite, WithoutAutomaticEverythingStaysInShadowUntilTheOperatorSpeaks) {
   SuiteOptions options = thesis_options();
   options.automatic = false;
