@@ -179,7 +179,7 @@ Report Suite::report() const {
 }
 
 void Suite::archive(Archive& archive) {
-  archive.tag("suite 1");
+  archive.tag("suite 2");
   archive(gate_, estimators_, held_out_, in_force_, accepted_, readings_, held_, adopted_, rose_);
 }
 

@@ -48,7 +48,7 @@ void CalibrateRun::play(const std::string& file) {
   Progress progress("calibrate");
   file_begins_ = true;
   while (const auto entry = recording->next()) {
-    at(time_of(*entry));
+    at(file, time_of(*entry));
     take(*entry, ports);
     if (history_ != nullptr) history_->look(*pipeline_);
     progress.show(recording->progress());
@@ -57,11 +57,11 @@ void CalibrateRun::play(const std::string& file) {
   for (const auto& remark : recording->remarks()) remarks_.push_back(file + ": " + remark);
 }
 
-void CalibrateRun::at(std::int64_t time_ns) {
+void CalibrateRun::at(const std::string& file, std::int64_t time_ns) {
   if (file_begins_) {
     const bool first = newest_ns_ == 0;
     if (first || time_ns < newest_ns_ || time_ns > newest_ns_ + kSeriesGap_ns) {
-      if (!first) begin_recording(time_ns);
+      if (!first) begin_recording(file, time_ns);
       newest_ns_ = time_ns;
     }
     if (first) begin_swing();
@@ -72,10 +72,14 @@ void CalibrateRun::at(std::int64_t time_ns) {
   newest_ns_ = time_ns;
 }
 
-void CalibrateRun::begin_recording(std::int64_t time_ns) {
+void CalibrateRun::begin_recording(const std::string& file, std::int64_t time_ns) {
   const std::string state = pipeline_->calibration_beginning(newest_ns_).state;
   pipeline_ = std::make_unique<pipeline::Pipeline>(settings_);
-  if (pipeline_->calibrates() && pipeline_->restore_calibration(state)) pipeline_->begin_calibration_run();
+  if (pipeline_->calibrates() && pipeline_->restore_calibration(state)) {
+    pipeline_->begin_calibration_run();
+  } else if (pipeline_->calibrates()) {
+    remarks_.push_back(file + ": what the files before it taught was lost");
+  }
   if (history_ != nullptr) history_->begin_recording();
   newest_ns_ = time_ns;
 }

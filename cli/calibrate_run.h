@@ -34,9 +34,9 @@ class CalibrateRun {
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  void begin_recording(std::int64_t time_ns);
+  void begin_recording(const std::string& file, std::int64_t time_ns);
   void take(const record::Entry& entry, const std::vector<int>& ports);
-  void at(std::int64_t time_ns);
+  void at(const std::string& file, std::int64_t time_ns);
   void begin_swing();
 
   config::Settings settings_;

@@ -63,6 +63,18 @@ void append_calibrator(std::vector<std::string>& lines, const std::string& name,
   if (const auto words = words_of(calibrator); !words.empty()) lines.push_back("  " + words);
 }
 
+/// Of the compass's calibration of itself: "tcm2          running  1.5 of 2 turns".
+void append_tcm2(std::vector<std::string>& lines, const Json& tcm2) {
+  if (!tcm2.is_object()) return;
+  std::string line = fmt::format("{:<14}{}", "tcm2's own", text(tcm2, "state"));
+  if (const auto score = tcm2.find("score"); score != tcm2.end() && score->is_object()) {
+    fmt::format_to(std::back_inserter(line), ", score horizontal {} vertical {} of 9, magnitude {}",
+                   shown(number(*score, "horizontal"), 0), shown(number(*score, "vertical"), 0),
+                   shown(number(*score, "magnitude"), 1));
+  }
+  lines.push_back(std::move(line));
+}
+
 }  // namespace
 
 std::vector<std::string> compass_rose(const std::array<double, 36>& visits) {
@@ -89,6 +101,7 @@ std::vector<std::string> compass_rose(const std::array<double, 36>& visits) {
 void WatchCalibration::take(const Json& calib) {
   name_ = text(calib, "name");
   heading_ = calib.value("heading", Json());
+  tcm2_ = calib.value("tcm2", Json());
   const Json calibrators = calib.value("calibrators", Json::array());
   if (calibrators.is_array()) {
     for (const Json& calibrator : calibrators) {
@@ -108,6 +121,7 @@ void WatchCalibration::append(std::string& out) const {
     const auto found = calibrators_.find(name);
     if (found != calibrators_.end()) append_calibrator(lines, found->first, found->second);
   }
+  append_tcm2(lines, tcm2_);
   fmt::format_to(std::back_inserter(out), "calibration in force: {}", name_);
   if (heading_.is_object() && number(heading_, "blocks") > 0) {
     fmt::format_to(std::back_inserter(out),

@@ -24,6 +24,7 @@ class WatchCalibration {
   std::string name_;
   std::map<std::string, Json> calibrators_;
   Json heading_;
+  Json tcm2_;
   std::array<double, kSectors> rose_{};
 };
 

@@ -67,7 +67,10 @@ void Daemon::start() {
 
 void Daemon::stop(std::string_view reason) {
   notifier_.stopping();
-  event(ports::monotonic_ns(), "info", "daemon.stop", "", reason);
+  const std::int64_t now_ns = ports::monotonic_ns();
+  // Replay will advance to the time of the event that follows: what it then gives up must have been given up here.
+  pipeline_.advance(now_ns, *this);
+  event(now_ns, "info", "daemon.stop", "", reason);
   for (const auto& session : sessions_) session->stop();
   deadline_timer_.stop();
   tick_timer_.cancel();

@@ -41,6 +41,16 @@ TEST(WatchCalibration, PartsOfAReportAreShownTogether) {
   EXPECT_TRUE(has(page, "gyro") && has(page, "swing")) << page;
 }
 
+TEST(WatchCalibration, TheCompassesOwnCalibrationStandsBesideOurs) {
+  WatchView view;
+  view.take(R"({"class":"CALIB","name":"1-x","calibrators":[{"calibrator":"compass"}],"tcm2":{"state":"done",)"
+            R"("score":{"horizontal":9,"vertical":4,"magnitude":12.3}}})");
+  const std::string page = view.page(WatchView::Colour::none);
+  EXPECT_TRUE(has(page, "tcm2's own") && has(page, "horizontal 9 vertical 4 of 9, magnitude 12.3")) << page;
+  view.take(R"({"class":"CALIB","name":"1-x","calibrators":[],"tcm2":{"state":"not begun","score":null}})");
+  EXPECT_TRUE(has(view.page(WatchView::Colour::none), "not begun"));
+}
+
 TEST(CompassRose, EverySectorHasAPlaceOfItsOwn) {
   std::array<double, 36> none{};
   const auto count = [](const std::vector<std::string>& rows, char c) {
@@ -74,9 +84,10 @@ TEST(CompassRose, NorthIsUpAndEastIsRight) {
 
 TEST(WatchCalibration, WrongTypesAreSurvived) {
   WatchView view;
-  for (const char* key : {"name", "calibrators", "heading", "rose", "part"}) {
-    for (const char* value : {"1", "null", "\"x\"", "[]", "{}", "[1]", "[{}]", "[[]]", "-1", "1e300",
-                              R"([{"calibrator":1,"verdict":[],"estimate":[],"std":1,"held":"x"}])"}) {
+  for (const char* key : {"name", "calibrators", "heading", "rose", "part", "tcm2"}) {
+    for (const char* value :
+         {"1", "null", "\"x\"", "[]", "{}", "[1]", "[{}]", "[[]]", "-1", "1e300", R"({"score":[],"state":1})",
+          R"([{"calibrator":1,"verdict":[],"estimate":[],"std":1,"held":"x"}])"}) {
       view.take(std::string(R"({"class":"CALIB",")") + key + "\":" + value + "}");
       (void)view.page(WatchView::Colour::ansi);
       (void)view.line();
