@@ -44,6 +44,8 @@ class EllipsoidEstimator {
   /// The summary: those with tilt, then those without.
   [[nodiscard]] EllipsoidCells cells() const;
   [[nodiscard]] Judgement judgement() const;
+  /// The greatest angle of the hull's vertical from the plumb line among the cells.
+  [[nodiscard]] double tilt_seen_rad() const;
   /// As EllipseEstimator's.
   [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT) const;
 

@@ -41,9 +41,9 @@ EllipsoidShape::Matrix doubtful_covariance(const EllipsoidFit& fit, const Ellips
   return covariance;
 }
 
-double tilt_seen_rad(const EllipsoidCells& cells) {
+double EllipsoidEstimator::tilt_seen_rad() const {
   double tilt = 0;
-  for (const auto& cell : cells) {
+  for (const auto& cell : cells_.cells()) {
     const Eigen::Vector3d down = cell.mean.tail<3>();
     tilt = std::max(tilt, std::atan2(down.head<2>().norm(), down.z()));
   }
@@ -78,7 +78,7 @@ Judgement EllipsoidEstimator::judgement() const {
     headings.push_back(std::atan2(-level.y(), level.x()));
   }
   const FieldCoverage coverage(std::move(headings));
-  const double tilt_rad = tilt_seen_rad(cells_.cells());
+  const double tilt_rad = tilt_seen_rad();
   judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
   const std::string tilt_more = "turn through a full circle with roll or pitch beyond ";
   if (coverage.arc_rad() < kLeastArc_rad && tilt_rad < 60 * kDegree) {

@@ -9,7 +9,4 @@ namespace navcal::calib {
 [[nodiscard]] EllipsoidShape::Matrix doubtful_covariance(const EllipsoidFit& fit, const EllipsoidCells& cells,
                                                          double field_uT, double model_error);
 
-/// The largest tilt among the readings.
-[[nodiscard]] double tilt_seen_rad(const EllipsoidCells& cells);
-
 }  // namespace navcal::calib

@@ -28,6 +28,10 @@ Magnetometer::Answer Magnetometer::chosen() const {
   consider(Method::ellipse, now_.ellipse);
   consider(Method::gyro_aided, now_.gyro);
   if (!best.estimate) best.judgement = now_.ellipse.judgement();
+  // Where the hull does not stay level, what the level fits miss is not what stands against them.
+  constexpr double kLevel_rad = 0.17;
+  if (best.method == Method::none && now_.ellipsoid.fit() && now_.ellipsoid.tilt_seen_rad() > kLevel_rad)
+    best = {Method::none, now_.ellipsoid.estimate(), now_.ellipsoid.judgement()};
   return best;
 }
 

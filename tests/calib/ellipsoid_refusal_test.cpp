@@ -2,27 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "calib/ellipsoid_estimator.h"
 #include "tests/calib/magnetometer_paths.h"
 
 namespace navcal::calib::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-/// `turns_deg` forth and back, with roll and pitch of two other periods.
-std::vector<Attitude> motion(int readings, double turns_deg, double roll_deg, double pitch_deg) {
-  std::vector<Attitude> motion;
-  for (int i = 0; i < readings; ++i) {
-    const double way = 2.0 * i / readings;
-    const double there = way < 1 ? way : 2 - way;
-    motion.push_back({turns_deg * there * kDegree, roll_deg * std::sin(0.11 * i) * kDegree,
-                      pitch_deg * std::sin(0.037 * i) * kDegree});
-  }
-  return motion;
-}
 
 EllipsoidEstimator fitted(const std::vector<Attitude>& motion, const Iron& iron, bool known) {
   Random random(11);
@@ -32,13 +17,6 @@ EllipsoidEstimator fitted(const std::vector<Attitude>& motion, const Iron& iron,
   for (const auto& r : field_on(motion, iron, random)) estimator.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
   estimator.settle();
   return estimator;
-}
-
-Iron some_iron() {
-  Iron iron;
-  iron.hard_uT = {4, -6, 9};
-  iron.soft << 1.04, 0.02, 0, 0.02, 0.97, 0.01, 0, 0.01, 1.02;
-  return iron;
 }
 
 void expect_refused(const EllipsoidEstimator& estimator, const std::string& reason) {
@@ -53,32 +31,32 @@ TEST(EllipsoidRefusal, GliderWhoseHardIronExceedsTheField) {
   Iron iron;
   iron.hard_uT = {45, -30, 25};
   for (const bool known : {false, true}) {
-    expect_refused(fitted(motion(1200, 720, 15, 20), iron, known), "exceeds the Earth's field");
+    expect_refused(fitted(swinging(1200, 720, 15, 20), iron, known), "exceeds the Earth's field");
   }
 }
 
 TEST(EllipsoidRefusal, DiveWithYawWithin120Degrees) {
   for (const bool known : {false, true}) {
-    expect_refused(fitted(motion(1200, 120, 4, 25), some_iron(), known), "headings within 1");
+    expect_refused(fitted(swinging(1200, 120, 4, 25), some_iron(), known), "headings within 1");
   }
 }
 
 TEST(EllipsoidRefusal, PlanarSwingAskedForAVerticalOffset) {
   for (const bool known : {false, true}) {
-    expect_refused(fitted(motion(1200, 1080, 0, 0), some_iron(), known), "vertical offset");
+    expect_refused(fitted(swinging(1200, 1080, 0, 0), some_iron(), known), "vertical offset");
   }
 }
 
-TEST(EllipsoidRefusal, NoTurnAtAll) { expect_refused(fitted(motion(1200, 0, 5, 5), some_iron(), true), ""); }
+TEST(EllipsoidRefusal, NoTurnAtAll) { expect_refused(fitted(swinging(1200, 0, 5, 5), some_iron(), true), ""); }
 
 TEST(EllipsoidAcceptance, AWholeSphere) {
-  const auto estimator = fitted(motion(2400, 2160, 170, 80), some_iron(), false);
+  const auto estimator = fitted(swinging(2400, 2160, 170, 80), some_iron(), false);
   EXPECT_TRUE(estimator.judgement().accepted) << estimator.judgement().reason;
   EXPECT_LT((estimator.estimate()->correction.offset_uT - some_iron().hard_uT).norm(), 0.1);
 }
 
 TEST(EllipsoidAcceptance, TheTiltOfAStableHullInAKnownField) {
-  const auto estimator = fitted(motion(2400, 1440, 12, 10), some_iron(), true);
+  const auto estimator = fitted(swinging(2400, 1440, 12, 10), some_iron(), true);
   const auto estimate = *estimator.estimate();
   std::printf("  offset off by %.3f %.3f %.3f uT, stated %.3f %.3f %.3f\n",
               estimate.correction.offset_uT.x() - some_iron().hard_uT.x(),

@@ -93,6 +93,24 @@ Eigen::Vector3d field_in_body(const Attitude& a) {
           (Eigen::AngleAxisd(-a.heading_rad, Eigen::Vector3d::UnitZ()) * field));
 }
 
+Iron some_iron() {
+  Iron iron;
+  iron.hard_uT = {4, -6, 9};
+  iron.soft << 1.04, 0.02, 0, 0.02, 0.97, 0.01, 0, 0.01, 1.02;
+  return iron;
+}
+
+std::vector<Attitude> swinging(int readings, double turn_deg, double roll_deg, double pitch_deg) {
+  std::vector<Attitude> motion;
+  for (int i = 0; i < readings; ++i) {
+    const double way = 2.0 * i / readings;
+    const double there = way < 1 ? way : 2 - way;
+    motion.push_back({turn_deg * there * kDegree, roll_deg * std::sin(0.11 * i) * kDegree,
+                      pitch_deg * std::sin(0.037 * i) * kDegree});
+  }
+  return motion;
+}
+
 std::vector<FieldReading> field_on(const std::vector<Attitude>& motion, const Iron& iron, Random& random) {
   constexpr double kFieldNoise_uT = 0.15;
   constexpr double kTiltNoise_rad = 0.1 * kDegree;

@@ -31,7 +31,7 @@ TYPED_TEST(StreamParserOf, ResultDoesNotDependOnTheCuts) {
     ASSERT_GT(expected.frames.size(), 5U);
     EXPECT_EQ(byte_by_byte<TypeParam>(stream), expected) << "byte by byte, seed " << seed;
     Random random(seed + 1000);
-    for (const std::size_t longest : {2, 3, 7, 30, 200}) {
+    for (const std::size_t longest : {2UL, 3UL, 7UL, 30UL, 200UL}) {
       const auto in_pieces = run_in_pieces<TypeParam>(stream, [&] { return below(random, longest + 1); });
       EXPECT_EQ(in_pieces.outcome(), expected) << "pieces up to " << longest << ", seed " << seed;
     }
