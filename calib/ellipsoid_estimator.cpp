@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kCellSize_uT = 0.7;
 constexpr std::uint64_t kFirstFit = 40;  // readings
-constexpr int kMostIterations = 50;  // ten or so where the data determine the shape
-constexpr double kJudged = 50;         // readings held against a fit before it may find others surprising
-constexpr double kPriorReadings = 50;  // what the noise believed beforehand is worth
+constexpr int kMostIterations = 50;      // ten or so where the data determine the shape
+constexpr double kJudged = 50;           // readings held against a fit before it may find others surprising
+constexpr double kPriorReadings = 50;    // what the noise believed beforehand is worth
 
 }  // namespace
 

@@ -31,7 +31,8 @@ TEST_F(PortBytes, ComeThroughIntactHoweverTheyAreCut) {
   std::string written;
   std::uniform_int_distribution<std::size_t> length(1, 5000);
   for (int i = 0; i < 100; ++i) {
-    const std::string piece = random_bytes(random, i % 3 == 0 ? 1 + static_cast<std::size_t>(i) % 7 : length(random));
+    const std::string piece =
+        random_bytes(random, i % 3 == 0 ? 1 + static_cast<std::size_t>(i) % 7 : length(random));
     written += piece;
     ASSERT_EQ(host.write(bytes_of(piece)), piece.size());
     if (i % 4 != 0) {
