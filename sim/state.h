@@ -19,7 +19,9 @@ struct State {
   Vector3 specific_force_m_s2{};  ///< body axes, at the origin; (0, 0, -9.81) at rest
   double rpm_commanded = 0;
   double rpm = 0;
-  Vector3 fins_rad{};
+  Vector3 fins_rad{};                   ///< of the servos' shafts, as the motor card reports them
+  double motor_current_A = 0;           ///< drawn by the motor, without the sensor's noise
+  std::array<double, 2> current_m_s{};  ///< of the water, north and east: course over ground is velocity plus this
   Vector3 field_world_uT{19.0, 0.6, 44.0};
   double water_temperature_C = 15;
 };
