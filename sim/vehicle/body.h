@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace navcal::sim {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// How a vehicle lies and moves. The origin is its centre of buoyancy; body axes x forward, y starboard, z down;
+/// world axes north, east, down.
+struct Body {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d euler_rad = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw; yaw is not wrapped
+  Vector6 velocity = Vector6::Zero();                   ///< u, v, w through the water; p, q, r
+};
+
+/// Body forces X, Y, Z and moments K, M, N about the origin, of a force acting at a point.
+inline Vector6 force_at(const Eigen::Vector3d& point_m, const Eigen::Vector3d& force_N) {
+  Vector6 all;
+  all << force_N, point_m.y() * force_N.z() - point_m.z() * force_N.y(),
+      point_m.z() * force_N.x() - point_m.x() * force_N.z(), point_m.x() * force_N.y() - point_m.y() * force_N.x();
+  return all;
+}
+
+}  // namespace navcal::sim

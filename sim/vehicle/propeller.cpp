@@ -1,0 +1,34 @@
+#include "sim/vehicle/propeller.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navcal::sim {
+
+Propeller::Propeller(const config::PropellerSettings& propeller, const config::WaterSettings& water)
+    : settings_(propeller), density_kg_m3_(water.density_kg_m3) {}
+
+Propeller::Force Propeller::at(double surge_m_s, double shaft_rps) const {
+  if (!(shaft_rps > 0)) return {0, 0};
+  const double D = settings_.diameter_m;
+  const double advance = std::max(surge_m_s, 0.0) / (shaft_rps * D);
+  const double KT = std::max(settings_.thrust_at_rest + settings_.thrust_slope * advance, 0.0);
+  const double scale_N = density_kg_m3_ * shaft_rps * shaft_rps * D * D * D * D;
+  return {scale_N * KT, settings_.torque_felt * scale_N * D * settings_.torque};
+}
+
+double Propeller::shaft_for(double surge_m_s, double drag_kg_m) const {
+  // rho D^4 KT0 n^2 + rho D^3 KT1 u n - drag u^2 = 0, the greater root.
+  const double D = settings_.diameter_m;
+  const double a = density_kg_m3_ * D * D * D * D * settings_.thrust_at_rest;
+  const double b = density_kg_m3_ * D * D * D * settings_.thrust_slope * surge_m_s;
+  const double c = -drag_kg_m * surge_m_s * surge_m_s;
+  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+}
+
+double Propeller::current_A(double shaft_rps) const {
+  const double n = std::max(shaft_rps, 0.0);
+  return settings_.idle_current_A + settings_.current_A_s3 * n * n * n;
+}
+
+}  // namespace navcal::sim
