@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "sim/rotation.h"
+#include "sim/vehicle/propeller.h"
 
 namespace navcal::sim {
 namespace {
@@ -65,7 +66,8 @@ State state_of(const PathRow& row, const Vector3& velocity_change_m_s2) {
       specific_force(row.euler_rad, row.velocity_body_m_s, row.rate_rad_s, velocity_change_m_s2);
   state.rpm_commanded = state.rpm = row.rpm;
   state.fins_rad = row.fins_rad;
-  state.water_temperature_C = 15 - 0.25 * row.position_m[2];  // VEHICLE.md section 2
+  state.motor_current_A = current_A(config::PropellerSettings{}, row.rpm / 60);
+  state.water_temperature_C = water_temperature_C(row.position_m[2]);
   return state;
 }
 

@@ -9,6 +9,8 @@ using Vector3 = std::array<double, 3>;
 
 inline constexpr double kGravity_m_s2 = 9.81;
 
+[[nodiscard]] inline double water_temperature_C(double depth_m) { return 15 - 0.25 * depth_m; }
+
 /// What the instruments could measure at one instant (VEHICLE.md sections 1 and 2). Body axes x forward,
 /// y starboard, z down; world axes north, east, down.
 struct State {

@@ -26,9 +26,9 @@ double Propeller::shaft_for(double surge_m_s, double drag_kg_m) const {
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
 }
 
-double Propeller::current_A(double shaft_rps) const {
+double current_A(const config::PropellerSettings& propeller, double shaft_rps) {
   const double n = std::max(shaft_rps, 0.0);
-  return settings_.idle_current_A + settings_.current_A_s3 * n * n * n;
+  return propeller.idle_current_A + propeller.current_A_s3 * n * n * n;
 }
 
 }  // namespace navcal::sim

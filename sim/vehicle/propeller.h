@@ -18,12 +18,13 @@ class Propeller {
   [[nodiscard]] Force at(double surge_m_s, double shaft_rps) const;
   /// The shaft speed at which thrust equals a drag of `drag_kg_m` u^2, u > 0.
   [[nodiscard]] double shaft_for(double surge_m_s, double drag_kg_m) const;
-  /// What the motor draws at this shaft speed.
-  [[nodiscard]] double current_A(double shaft_rps) const;
 
  private:
   config::PropellerSettings settings_;
   double density_kg_m3_;
 };
+
+/// What the motor draws at this shaft speed: I = I0 + k n^3.
+[[nodiscard]] double current_A(const config::PropellerSettings& propeller, double shaft_rps);
 
 }  // namespace navcal::sim

@@ -66,11 +66,8 @@ Vehicle::Change Vehicle::change(const Body& body, const Controls& held, const In
   return change;
 }
 
-Vector6 Vehicle::acceleration(const Body& body, const Controls& held, const Influences& influences) const {
-  return change(body, held, influences).velocity;
-}
-
-Body Vehicle::after(const Body& body, const Controls& held, const Influences& influences, double step_s) const {
+Vehicle::Step Vehicle::step(const Body& body, const Controls& held, const Influences& influences,
+                            double step_s) const {
   const auto moved = [&](const Change& by, double time_s) {
     return Body{body.position_m + time_s * by.position_m_s, body.euler_rad + time_s * by.euler_rad_s,
                 body.velocity + time_s * by.velocity};
@@ -82,7 +79,7 @@ Body Vehicle::after(const Body& body, const Controls& held, const Influences& in
   const Change mean{(k1.position_m_s + 2 * k2.position_m_s + 2 * k3.position_m_s + k4.position_m_s) / 6,
                     (k1.euler_rad_s + 2 * k2.euler_rad_s + 2 * k3.euler_rad_s + k4.euler_rad_s) / 6,
                     (k1.velocity + 2 * k2.velocity + 2 * k3.velocity + k4.velocity) / 6};
-  return moved(mean, step_s);
+  return {moved(mean, step_s), k1.velocity};
 }
 
 void check_stable(const Body& body, double time_s) {

@@ -33,13 +33,14 @@ class Vehicle {
  public:
   explicit Vehicle(const config::VehicleSettings& settings);
 
-  /// nu' at this state, with what is held.
-  [[nodiscard]] Vector6 acceleration(const Body& body, const Controls& held, const Influences& influences) const;
+  struct Step {
+    Body body;             ///< at its end
+    Vector6 acceleration;  ///< nu' at its beginning
+  };
   /// One step of the classical Runge-Kutta method of fourth order.
-  [[nodiscard]] Body after(const Body& body, const Controls& held, const Influences& influences,
-                           double step_s) const;
+  [[nodiscard]] Step step(const Body& body, const Controls& held, const Influences& influences,
+                          double step_s) const;
   [[nodiscard]] const Matrix6& mass() const { return mass_; }
-  [[nodiscard]] const Propeller& propeller() const { return propeller_; }
 
  private:
   struct Change {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/vehicle/body.h"
+
+namespace navcal::sim {
+
+/// Where the servos and the shaft are.
+struct Actuators {
+  Eigen::Vector3d fins_rad = Eigen::Vector3d::Zero();  ///< of the servos' shafts
+  double shaft_rps = 0;
+  double shaft_commanded_rps = 0;
+};
+
+/// Who moves a vehicle's fins and propeller, and where the run begins. Asked once a step, in order of time.
+class Helm {
+ public:
+  virtual ~Helm() = default;
+  [[nodiscard]] virtual Body start() const = 0;
+  [[nodiscard]] virtual Actuators actuators_at_start() const = 0;
+  /// Where the actuators are at time_s + step_s, for a vehicle that is at `body` at time_s.
+  [[nodiscard]] virtual Actuators next(double time_s, double step_s, const Body& body) = 0;
+  /// Its orders have ended (once; it goes on all the same, or begins again).
+  [[nodiscard]] virtual bool finished() const = 0;
+};
+
+}  // namespace navcal::sim

@@ -1,0 +1,100 @@
+#include "sim/vehicle/simulated_motion.h"
+
+#include <algorithm>
+
+#include "sim/rotation.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr double kStep_s = 1e-9 * SimulatedMotion::kStep_ns;
+
+Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+State between(const State& a, const State& b, double part) {
+  const auto scalar = [&](double from, double to) { return from + part * (to - from); };
+  const auto vector = [&](const Vector3& from, const Vector3& to) {
+    return Vector3{scalar(from[0], to[0]), scalar(from[1], to[1]), scalar(from[2], to[2])};
+  };
+  State state = a;
+  state.position_m = vector(a.position_m, b.position_m);
+  state.euler_rad = vector(a.euler_rad, b.euler_rad);
+  state.velocity_body_m_s = vector(a.velocity_body_m_s, b.velocity_body_m_s);
+  state.rate_rad_s = vector(a.rate_rad_s, b.rate_rad_s);
+  state.specific_force_m_s2 = vector(a.specific_force_m_s2, b.specific_force_m_s2);
+  state.rpm = scalar(a.rpm, b.rpm);
+  state.fins_rad = vector(a.fins_rad, b.fins_rad);
+  state.motor_current_A = scalar(a.motor_current_A, b.motor_current_A);
+  state.water_temperature_C = scalar(a.water_temperature_C, b.water_temperature_C);
+  return state;
+}
+
+}  // namespace
+
+SimulatedMotion::SimulatedMotion(const config::VehicleSettings& vehicle, std::unique_ptr<Helm> helm,
+                                 const MotionOptions& options)
+    : vehicle_(vehicle),
+      propeller_(vehicle.propeller),
+      options_(options),
+      helm_(std::move(helm)),
+      body_(helm_->start()),
+      actuators_(helm_->actuators_at_start()) {
+  check_stable(body_, 0);
+}
+
+State SimulatedMotion::at(std::int64_t t_ns) const {
+  const std::int64_t elapsed_ns = std::max<std::int64_t>(0, t_ns - options_.start_ns);
+  const std::int64_t step = elapsed_ns / kStep_ns;
+  while (steps_ < step + 2) take_step();
+  const std::int64_t oldest = steps_ - static_cast<std::int64_t>(states_.size());
+  if (step < oldest) return states_.front();
+  const auto index = static_cast<std::size_t>(step - oldest);
+  const double part = static_cast<double>(elapsed_ns - step * kStep_ns) / static_cast<double>(kStep_ns);
+  return between(states_[index], states_[index + 1], part);
+}
+
+double SimulatedMotion::duration_s() const {
+  while (!ended_s_) take_step();
+  return *ended_s_;
+}
+
+void SimulatedMotion::take_step() const {
+  const double time_s = static_cast<double>(steps_) * kStep_s;
+  Influences influences;
+  if (options_.influencer != nullptr) options_.influencer->influence(time_s, influences);
+  const Actuators next = helm_->next(time_s, kStep_s, body_);
+  Controls held{next.fins_rad, actuators_.shaft_rps};
+  if (options_.influencer != nullptr) {
+    Vector3 fins_rad = array_of(next.fins_rad);
+    options_.influencer->link_fins(time_s + kStep_s, kStep_s, fins_rad);
+    held.fins_rad = {fins_rad[0], fins_rad[1], fins_rad[2]};
+  }
+  const Vehicle::Step step = vehicle_.step(body_, held, influences, kStep_s);
+  states_.push_back(state_of(step.acceleration, influences));
+  if (static_cast<double>(states_.size()) * kStep_s > options_.history_s && states_.size() > 2)
+    states_.pop_front();
+  ++steps_;
+  body_ = step.body;
+  actuators_ = next;
+  check_stable(body_, time_s + kStep_s);
+  if (!ended_s_ && helm_->finished()) ended_s_ = static_cast<double>(steps_) * kStep_s;
+}
+
+State SimulatedMotion::state_of(const Vector6& acceleration, const Influences& influences) const {
+  State state;
+  state.position_m = array_of(body_.position_m);
+  state.euler_rad = array_of(body_.euler_rad);
+  state.velocity_body_m_s = array_of(body_.velocity.head<3>());
+  state.rate_rad_s = array_of(body_.velocity.tail<3>());
+  state.specific_force_m_s2 =
+      specific_force(state.euler_rad, state.velocity_body_m_s, state.rate_rad_s, array_of(acceleration.head<3>()));
+  state.rpm_commanded = 60 * actuators_.shaft_commanded_rps;
+  state.rpm = 60 * actuators_.shaft_rps;
+  state.fins_rad = array_of(actuators_.fins_rad);
+  state.motor_current_A = current_A(propeller_, actuators_.shaft_rps);
+  state.current_m_s = influences.current_m_s;
+  state.water_temperature_C = water_temperature_C(state.position_m[2]);
+  return state;
+}
+
+}  // namespace navcal::sim

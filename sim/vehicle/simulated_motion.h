@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "sim/state.h"
+#include "sim/vehicle/helm.h"
+#include "sim/vehicle/vehicle.h"
+
+namespace navcal::sim {
+
+/// What a SimulatedMotion is made of besides the vehicle and its helm.
+struct MotionOptions {
+  std::int64_t start_ns = 0;                ///< when the run begins
+  VehicleInfluencer* influencer = nullptr;  ///< must outlive the motion
+  /// How far back states are kept, seconds; what is asked for further back gets the oldest there is. A state takes
+  /// 0.2 kB, so a run that lasts for days needs a bound.
+  double history_s = std::numeric_limits<double>::infinity();
+};
+
+/// A vehicle under way: taken ahead in steps of 0.01 s as far as it is asked for, states between steps in a
+/// straight line. Over a step the fins are held where they are at its end, the shaft speed as it is at its
+/// beginning. After its helm's orders have ended it goes on as the helm does. Not for several threads at once.
+class SimulatedMotion final : public Motion {
+ public:
+  static constexpr std::int64_t kStep_ns = 10'000'000;
+
+  SimulatedMotion(const config::VehicleSettings& vehicle, std::unique_ptr<Helm> helm,
+                  const MotionOptions& options);
+
+  /// Before the run it is as at the beginning. Throws UnstableVehicle.
+  [[nodiscard]] State at(std::int64_t t_ns) const override;
+  /// When the orders end, seconds from the start: taken ahead so far, and further back than `history_s` the states
+  /// are gone. Throws UnstableVehicle.
+  [[nodiscard]] double duration_s() const;
+
+ private:
+  void take_step() const;
+  [[nodiscard]] State state_of(const Vector6& acceleration, const Influences& influences) const;
+
+  Vehicle vehicle_;
+  config::PropellerSettings propeller_;
+  MotionOptions options_;
+  // The motion is what it is from the beginning on; only as much of it as was asked for has been worked out.
+  mutable std::unique_ptr<Helm> helm_;
+  mutable Body body_;
+  mutable Actuators actuators_;
+  mutable std::int64_t steps_ = 0;    ///< taken
+  mutable std::deque<State> states_;  ///< at the beginnings of the newest of them
+  mutable std::optional<double> ended_s_;
+};
+
+}  // namespace navcal::sim
