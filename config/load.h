@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "config/error.h"
 #include "config/settings.h"
 #include "protocols/frame.h"
 
@@ -15,17 +15,6 @@ namespace navcal::config {
 /// "port.compass.path=/dev/pts/3", "log.enabled=false". Text needs no quotes. Where a port is (path, udev_name or
 /// usb_serial) replaces what the file says of it, whichever of the three that was.
 using Overrides = std::vector<std::string>;
-
-/// What is wrong with a configuration, everything at once. what() has one line for each problem:
-/// "navcald.toml:14: log.sync_intervall_s: unknown key; did you mean sync_interval_s?"
-class Error : public std::runtime_error {
- public:
-  explicit Error(std::vector<std::string> problems);
-  [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
-
- private:
-  std::vector<std::string> problems_;
-};
 
 /// Reads a configuration file (docs/configuration.md). Throws Error.
 [[nodiscard]] Settings load(const std::filesystem::path& file, const Overrides& overrides = {});

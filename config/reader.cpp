@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "config/load.h"
+#include "config/option_lookup.h"
 #include "config/options.h"
-#include "config/suggestion.h"
 #include "config/text_rules.h"
 
 namespace navcal::config {
@@ -15,48 +15,11 @@ namespace {
 
 constexpr std::string_view kPort = "port";
 
-template <class Owner>
-const Option<Owner>* find(const std::vector<Option<Owner>>& options, std::string_view table,
-                          std::string_view key) {
-  const auto found = std::find_if(options.begin(), options.end(), [&](const Option<Owner>& option) {
-    return option.table == table && option.key == key;
-  });
-  return found == options.end() ? nullptr : &*found;
-}
-
-template <class Owner>
-std::vector<std::string> keys_of(const std::vector<Option<Owner>>& options, std::string_view table) {
-  std::vector<std::string> keys;
-  for (const auto& option : options) {
-    if (option.table == table) keys.emplace_back(option.key);
-  }
-  return keys;
-}
-
-template <class Owner>
-std::vector<std::string> tables_of(const std::vector<Option<Owner>>& options) {
-  std::vector<std::string> tables;
-  for (const auto& option : options) {
-    if (!option.table.empty() && (tables.empty() || tables.back() != option.table))
-      tables.emplace_back(option.table);
-  }
-  return tables;
-}
-
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 bool is_place(std::string_view key) { return key == "path" || key == "udev_name" || key == "usb_serial"; }
-
-/// The value in the option's own kind, or why not.
-template <class Owner>
-std::optional<std::string> set(const Option<Owner>& option, Owner& owner, const Entry& entry) {
-  Value value = entry.plain_text && option.is_textual() ? Value(*entry.plain_text) : entry.value;
-  auto refused = option.adopt(value);
-  if (!refused) option.set(owner, value);
-  return refused;
-}
 
 }  // namespace
 
@@ -90,23 +53,8 @@ void Reader::take(const std::vector<Entry>& entries) {
 }
 
 void Reader::take_daemon(const Entry& entry) {
-  const auto& options = daemon_options();
-  const std::string& table = entry.keys.front();
-  auto tables = tables_of(options);
-  if (!contains(tables, table)) {
-    if (entry.keys.size() > 1 && entry.line != 0) return;  // its table has been complained of already
-    tables.emplace_back(kPort);
-    complain(entry, "unknown key" + suggestion(table, tables));
-  } else if (entry.keys.size() == 1) {
-    if (!std::holds_alternative<Table>(entry.value)) complain(entry, fmt::format("a table [{}] is wanted", table));
-  } else if (const auto* option = find(options, table, entry.keys[1]);
-             option == nullptr || entry.keys.size() > 2) {
-    // In a file, what lies deeper has been complained of with the key above it.
-    if (entry.keys.size() > 2 && entry.line != 0) return;
-    complain(entry, "unknown key" + suggestion(entry.keys[1], keys_of(options, table)));
-  } else if (auto refused = set(*option, settings_, entry)) {
+  if (auto refused = take_entry(daemon_options(), settings_, entry, {std::string(kPort)}))
     complain(entry, std::move(*refused));
-  }
 }
 
 void Reader::take_port(const std::string& name, const std::vector<const Entry*>& entries) {

@@ -31,6 +31,19 @@ inline constexpr Unit kMetresPerSecond{"m/s"};
 inline constexpr Unit kMillivolts{"mV"};
 inline constexpr Unit kMillivoltsPer{"mV per deg/s, per g, per m"};
 inline constexpr Unit kBits{"bit/s"};
+inline constexpr Unit kSquareMetres{"m2"};
+inline constexpr Unit kKilograms{"kg"};
+inline constexpr Unit kKilogramsPerCubicMetre{"kg/m3"};
+inline constexpr Unit kAmperes{"A"};
+inline constexpr Unit kAmperesSecondsCubed{"A s3"};
+inline constexpr Unit kRpm{"rpm", 1, 60};
+inline constexpr Unit kRadians{"rad"};
+inline constexpr Unit kPerRadian{"1/rad"};
+inline constexpr Unit kPerSecond{"1/s"};
+inline constexpr Unit kPerMetre{"1/m"};
+inline constexpr Unit kPerMetreSecond{"1/(m s)"};
+inline constexpr Unit kDegreesPerMetre{"deg/m", std::numbers::pi, 180};
+inline constexpr Unit kDegreesPerMetreSecond{"deg/(m s)", std::numbers::pi, 180};
 
 template <class Field>
 Field to_inside(double number, const Unit& unit) {

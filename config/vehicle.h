@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 namespace navcal::config {
 
 struct WaterSettings {
@@ -29,7 +31,7 @@ struct FinSettings {
   double station_m = -0.40;
   double radius_m = 0.085;
   double lag_s = 0.15;
-  double limit_rad = 0.4363323129985824;  // 25 degrees
+  double limit_rad = 25 * std::numbers::pi / 180;
 };
 
 struct PropellerSettings {
@@ -53,16 +55,16 @@ struct AutopilotSettings {
   double period_s = 0.1;
   double rudder_per_heading = 1.2;
   double rudder_per_turn_s = 0.5;
-  double rudder_limit_rad = 0.3839724354387525;  // 22 degrees
-  double pitch_per_depth_rad_m = 0.35;
-  double pitch_per_depth_integral_rad_m_s = 0.03;
-  double pitch_limit_rad = 0.4363323129985824;  // 25 degrees
+  double rudder_limit_rad = 22 * std::numbers::pi / 180;
+  double pitch_per_depth_rad_m = 20 * std::numbers::pi / 180;
+  double pitch_per_depth_integral_rad_m_s = 1 * std::numbers::pi / 180;
+  double pitch_limit_rad = 25 * std::numbers::pi / 180;
   double elevator_per_pitch = 0.8;
   double elevator_per_pitch_integral_per_s = 0.3;
   double elevator_per_turn_s = 0.4;
-  double elevator_limit_rad = 0.2617993877991494;  // 15 degrees
-  double shaft_per_speed_m = 4;
-  double shaft_per_way_per_m = 2;
+  double elevator_limit_rad = 15 * std::numbers::pi / 180;
+  double shaft_per_speed_per_m = 4;
+  double shaft_per_way_per_m_s = 2;
   double shaft_limit_rps = 30;
 };
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "config/option.h"
+#include "config/vehicle.h"
+
+namespace navcal::config {
+
+/// Every setting of a vehicle, table by table.
+[[nodiscard]] const std::vector<Option<VehicleSettings>>& vehicle_options();
+[[nodiscard]] std::string_view vehicle_table_description(std::string_view table);
+
+}  // namespace navcal::config
