@@ -1,0 +1,38 @@
+#pragma once
+
+#include <deque>
+
+#include "trial/snapshot.h"
+#include "trial/vehicle.h"
+
+namespace navcal::trial {
+
+/// Earth's field where the vehicle swims: north, east, down.
+inline const Vector3 kField_uT{19.0, 0.6, 44.0};
+inline constexpr double kReferenceTemperature_C = 15;
+
+/// The vehicle with its recent past, so that an instrument can ask what was at a time between two steps or some
+/// seconds ago. Electronics warm from the water's temperature at power-on (15 C, less 0.25 C a metre) towards 8 C
+/// above it: T' = (T_water(z) + 8 C - T) / 200 s.
+class World {
+ public:
+  /// `memory_s`: how far back at() may reach.
+  World(Vehicle vehicle, double memory_s);
+
+  /// A whole number of steps of the vehicle on.
+  void advance(double to_s);
+  /// Before the beginning everything was as at the beginning.
+  [[nodiscard]] Snapshot at(double time_s) const;
+
+  [[nodiscard]] Vehicle& vehicle() { return vehicle_; }
+  [[nodiscard]] const Snapshot& now() const { return past_.back(); }
+
+ private:
+  void remember(double step_s);
+
+  Vehicle vehicle_;
+  double memory_s_;
+  std::deque<Snapshot> past_;
+};
+
+}  // namespace navcal::trial
