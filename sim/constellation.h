@@ -23,6 +23,7 @@ inline constexpr std::array<SkySatellite, 8> kSky{{{2, 61, 48, 47, true},
                                                    {29, 27, 259, 41, true},
                                                    {30, 6, 332, 31, false}}};
 inline constexpr std::uint8_t kSkyUsed = 7;
+inline constexpr std::uint8_t kSkyUsedFlat = 3;  ///< of a two-dimensional fix
 inline constexpr double kSkyPdop = 1.9, kSkyHdop = 1.1, kSkyVdop = 1.5;
 
 }  // namespace navcal::sim

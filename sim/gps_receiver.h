@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "protocols/utc.h"
+#include "sim/effects/effect_set.h"
+#include "sim/electronics.h"
 #include "sim/geodesy.h"
 #include "sim/noise.h"
 
@@ -12,13 +14,15 @@ namespace navcal::sim {
 struct GpsReading {
   std::int64_t utc_ns = 0;
   bool fixed = false;
+  double degraded = 1;  ///< by which its noise is greater than that of a settled fix
   double latitude_deg = 0, longitude_deg = 0, height_m = 0;  ///< without a fix the last known
   double speed_m_s = 0;
   double course_deg = 0;
 };
 
-/// Satellites to position (VEHICLE.md section 3): none below 0.35 m, the first fix 2 to 10 s after surfacing or
-/// power-on.
+/// Satellites to position and velocity over ground: none below 0.35 m, the first fix 2 to 10 s after surfacing or
+/// power-on, the first ones of few satellites. Fix n (from 0) has noise of (1 + 2^(1-n)) times the final one and
+/// a dilution of precision likewise, and is two-dimensional as long as that is above 1.4.
 class GpsReceiver {
  public:
   struct Options {
@@ -27,6 +31,7 @@ class GpsReceiver {
     double velocity_noise_m_s = 0.1;
     double antenna_depth_m = 0.35;
     double least_search_s = 2, longest_search_s = 10;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal
   };
   GpsReceiver(const Options& options, const Motion& motion, std::uint64_t seed);
 
@@ -35,11 +40,18 @@ class GpsReceiver {
   [[nodiscard]] GpsReading measure(std::int64_t second_ns);
 
  private:
+  /// Whether the sky is seen, and has been for long enough.
+  [[nodiscard]] bool fixes(std::int64_t second_ns);
+
   Options options_;
   const Motion& motion_;
+  EffectSet none_;
+  EffectSet& effects_;
+  Electronics electronics_;
   Noise noise_;
   std::int64_t powered_ns_ = 0;
   std::optional<std::int64_t> fix_due_ns_;  ///< while the sky is seen
+  int fixes_ = 0;                           ///< since then
   GpsReading last_;
 };
 

@@ -3,13 +3,15 @@
 #include "config/settings.h"
 #include "protocols/imu_card.h"
 #include "sim/device.h"
+#include "sim/effects/effect_set.h"
+#include "sim/electronics.h"
 #include "sim/noise.h"
 #include "sim/state.h"
 
 namespace navcal::sim {
 
-/// Inertial card (ICD section 3, errors of VEHICLE.md section 3): sends without being asked, at the pace of its
-/// own clock, and hears nothing.
+/// Inertial card: sends without being asked, at the pace of its own clock, and hears nothing. Its errors are those
+/// of docs/simulator.md; effects see its gyros, accelerometers and depth before the noise, its voltages after it.
 class ImuCard final : public Device {
  public:
   struct Options {
@@ -22,6 +24,7 @@ class ImuCard final : public Device {
     double depth_noise_m = 0.02;
     std::uint64_t seed = 1;
     int baud = 57600;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal
   };
   ImuCard(const Options& options, const Motion& motion);
 
@@ -36,9 +39,14 @@ class ImuCard final : public Device {
 
  private:
   [[nodiscard]] protocols::imu_card::Record measure(std::int64_t t_ns);
+  /// Of the channels in their order, as the sensors give them: deg/s, g, m.
+  [[nodiscard]] std::array<double, 8> signals(const Instant& now);
 
   Options options_;
   const Motion& motion_;
+  EffectSet none_;
+  EffectSet& effects_;
+  Electronics electronics_;
   Noise noise_;
   Line line_;
   Ticks ticks_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/vehicle/propeller.h"
+
 namespace navcal::sim {
 namespace {
 
@@ -14,7 +16,10 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 }  // namespace
 
 MotorCard::MotorCard(const Options& options, const Motion& motion)
-    : options_(options), motion_(motion), noise_(options.seed) {}
+    : options_(options),
+      motion_(motion),
+      effects_(options.effects != nullptr ? *options.effects : none_),
+      noise_(options.seed) {}
 
 void MotorCard::power_on(std::int64_t t_ns) {
   ticks_ = Ticks(t_ns, kPeriod_s, options_.clock_ppm);
@@ -40,17 +45,20 @@ void MotorCard::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
 }
 
 void MotorCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  for (; ticks_.next_ns() <= t_ns; ticks_.pass()) {
+  while (ticks_.next_ns() <= t_ns) {
     const std::int64_t sent_ns = ticks_.next_ns();
     const auto status = measure(sent_ns - std::llround(options_.latency_s * 1e9));
     line_.put(sent_ns, options_.baud, wire::encode_status(status), out);
+    ticks_.pass(effects_.slow_ppm(Instrument::motor, effects_.time_s(sent_ns)));
   }
 }
 
 MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
   if (!command_) {
     const State state = motion_.at(t_ns);
-    return {state.rpm, {state.fins_rad[0] * kDegrees, state.fins_rad[1] * kDegrees, state.fins_rad[2] * kDegrees}};
+    Actuators now{state.rpm, {}, state.motor_current_A};
+    for (std::size_t i = 0; i < 3; ++i) now.fins_deg[i] = state.fins_rad[i] * kDegrees;
+    return now;
   }
   const double since_s = std::max(0.0, static_cast<double>(t_ns - commanded_ns_) * 1e-9);
   const auto follow = [&](double from, double to, double lag_s) {
@@ -61,22 +69,23 @@ MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
   for (std::size_t i = 0; i < 3; ++i) {
     now.fins_deg[i] = follow(at_command_.fins_deg[i], command_->fins_deg[i], options_.fin_lag_s);
   }
+  now.current_A = current_A(config::PropellerSettings{}, now.rpm / 60);
   return now;
 }
 
 wire::Status MotorCard::measure(std::int64_t t_ns) {
   const Actuators now = actuators_at(t_ns);
+  const double louder = effects_.noise(Instrument::motor, effects_.time_s(t_ns));
   wire::Status status;
   status.sequence = sequence_++;
   status.rpm_commanded =
       command_ ? command_->rpm : static_cast<std::int32_t>(std::lround(motion_.at(t_ns).rpm_commanded));
   status.rpm = static_cast<std::int32_t>(std::lround(now.rpm));
   for (std::size_t i = 0; i < 3; ++i) {
-    status.fins_deg[i] = rounded(now.fins_deg[i] + noise_.normal(options_.fin_noise_deg), 0.1);
+    status.fins_deg[i] = rounded(now.fins_deg[i] + noise_.normal(options_.fin_noise_deg * louder), 0.1);
   }
-  const double turns_s = now.rpm / 60;
-  const double current = 0.15 + 5.5e-4 * std::pow(std::max(turns_s, 0.0), 3);  // VEHICLE.md section 1
-  status.current_A = rounded(std::max(0.0, current + noise_.normal(options_.current_noise_A)), 0.01);
+  const double current_A = now.current_A + noise_.normal(options_.current_noise_A * louder);
+  status.current_A = rounded(std::max(0.0, current_A), 0.01);
   return status;
 }
 

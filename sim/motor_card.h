@@ -4,13 +4,14 @@
 
 #include "protocols/motor_card.h"
 #include "sim/device.h"
+#include "sim/effects/effect_set.h"
 #include "sim/noise.h"
 #include "sim/state.h"
 
 namespace navcal::sim {
 
-/// Motor controller card (ICD section 4). Until the host commands it, it tells what the vehicle does; from then on
-/// its shaft and fins follow the command with the lags of VEHICLE.md section 1.
+/// Motor controller card. Until the host commands it, it tells what the vehicle does; from then on its shaft and
+/// fins follow the command with the nominal vehicle's lags (docs/simulator.md).
 class MotorCard final : public Device {
  public:
   struct Options {
@@ -22,6 +23,7 @@ class MotorCard final : public Device {
     double fin_lag_s = 0.15;
     std::uint64_t seed = 1;
     int baud = 19200;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal
   };
   MotorCard(const Options& options, const Motion& motion);
 
@@ -40,6 +42,7 @@ class MotorCard final : public Device {
   struct Actuators {
     double rpm = 0;
     std::array<double, 3> fins_deg{};
+    double current_A = 0;
   };
   /// What shaft and fins do at t_ns.
   [[nodiscard]] Actuators actuators_at(std::int64_t t_ns) const;
@@ -47,6 +50,8 @@ class MotorCard final : public Device {
 
   Options options_;
   const Motion& motion_;
+  EffectSet none_;
+  EffectSet& effects_;
   Noise noise_;
   Line line_;
   Ticks ticks_;

@@ -13,6 +13,17 @@ namespace wire = protocols::oncore;
 
 constexpr std::uint8_t kUsedForPosition = 8;
 
+/// The first fixes are of three satellites, which is too few for the height.
+bool is_flat(const GpsReading& reading) { return reading.fixed && reading.degraded > 1.4; }
+
+bool in_use(const GpsReading& reading, std::size_t satellite) {
+  return reading.fixed && kSky[satellite].used && satellite < (is_flat(reading) ? kSkyUsedFlat : kSkyUsed);
+}
+
+protocols::Fix fix_of(const GpsReading& reading) {
+  return is_flat(reading) ? protocols::Fix::fix_2d : protocols::Fix::fix_3d;
+}
+
 wire::Position position_of(const GpsReading& reading, const ReceiverTime& time) {
   wire::Position position;
   position.date = date_of(time.reported_ns);
@@ -22,16 +33,17 @@ wire::Position position_of(const GpsReading& reading, const ReceiverTime& time) 
   position.speed_m_s = reading.speed_m_s;
   position.speed_3d_m_s = reading.speed_m_s;
   position.heading_deg = reading.course_deg;
-  position.dop = reading.fixed ? kSkyPdop : 0;
+  const bool flat = is_flat(reading);
+  position.dop = reading.fixed ? (flat ? kSkyHdop : kSkyPdop) * reading.degraded : 0;
   position.visible = static_cast<std::uint8_t>(kSky.size());
-  position.tracked = reading.fixed ? kSkyUsed : std::uint8_t{0};
-  position.fix = reading.fixed ? protocols::Fix::fix_3d : protocols::Fix::acquiring;
+  position.tracked = reading.fixed ? (flat ? kSkyUsedFlat : kSkyUsed) : std::uint8_t{0};
+  position.fix = reading.fixed ? fix_of(reading) : protocols::Fix::acquiring;
   position.antenna = wire::Antenna::ok;
   position.channel_count = kSky.size();
   for (std::size_t i = 0; i < kSky.size(); ++i) {
     position.channels[i].satellite = kSky[i].prn;
     if (!reading.fixed) continue;
-    position.channels[i].mode = kSky[i].used ? kUsedForPosition : std::uint8_t{0};
+    position.channels[i].mode = in_use(reading, i) ? kUsedForPosition : std::uint8_t{0};
     position.channels[i].cn0 = kSky[i].cn0_dBHz;
   }
   position.temperature_C = 25;
@@ -76,19 +88,20 @@ std::vector<std::uint8_t> nmea_sentences(const GpsReading& reading, const Receiv
   nmea::Navigation navigation;
   navigation.date = date_of(time.reported_ns);
   navigation.time = time_of(time.reported_ns);
-  navigation.fix = reading.fixed ? protocols::Fix::fix_3d : protocols::Fix::none;
+  navigation.fix = reading.fixed ? fix_of(reading) : protocols::Fix::none;
   navigation.latitude_deg = reading.latitude_deg;
   navigation.longitude_deg = reading.longitude_deg;
   navigation.altitude_m = reading.height_m;
   navigation.speed_m_s = reading.speed_m_s;
   navigation.course_deg = reading.course_deg;
-  navigation.pdop = kSkyPdop;
-  navigation.hdop = kSkyHdop;
-  navigation.vdop = kSkyVdop;
+  navigation.pdop = kSkyPdop * reading.degraded;
+  navigation.hdop = kSkyHdop * reading.degraded;
+  navigation.vdop = kSkyVdop * reading.degraded;
   nmea::Satellites satellites;
-  for (const SkySatellite& satellite : kSky) {
-    satellites.push_back({satellite.prn, satellite.elevation_deg, satellite.azimuth_deg, satellite.cn0_dBHz,
-                          reading.fixed && satellite.used});
+  for (std::size_t i = 0; i < kSky.size(); ++i) {
+    const SkySatellite& satellite = kSky[i];
+    satellites.push_back(
+        {satellite.prn, satellite.elevation_deg, satellite.azimuth_deg, satellite.cn0_dBHz, in_use(reading, i)});
   }
   std::vector<std::uint8_t> sentences;
   for (const auto& sentence : {nmea::encode_gga(navigation, satellites), nmea::encode_rmc(navigation),

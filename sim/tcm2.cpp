@@ -28,6 +28,7 @@ double wrapped(double angle, double turn, double resolution) {
 
 Tcm2::Tcm2(const Options& options, const Motion& motion)
     : options_(options),
+      effects_(options.sensor.effects != nullptr ? *options.sensor.effects : none_),
       sensor_(options.sensor, motion, options.seed),
       baud_(options.baud),
       next_baud_(options.baud) {}
@@ -36,6 +37,7 @@ void Tcm2::power_on(std::int64_t t_ns) {
   sensor_.power_on(t_ns);
   measured_ns_ = t_ns;
   settings_ = {};
+  settings_.field = options_.field_at_power_on;
   restart(t_ns);
   if (options_.go_at_power_on) start(t_ns + kStartsUp_ns);
 }
@@ -73,7 +75,7 @@ void Tcm2::advance(std::int64_t t_ns, std::vector<Emission>& out) {
       continue;
     }
     const std::int64_t sent_ns = words_.next_ns();
-    words_.pass();
+    words_.pass(effects_.slow_ppm(Instrument::compass, effects_.time_s(sent_ns)));
     // A device that samples faster than its line can carry leaves words out.
     if (line_.free_ns() > sent_ns) continue;
     line_.put(sent_ns, baud_, word(sent_ns, settings_), out);

@@ -18,8 +18,9 @@ class Tcm2 final : public Device {
  public:
   struct Options {
     Tcm2Sensor::Options sensor;
-    int baud = 38400;             ///< from the factory 9600; the vehicle's is set to 38400
-    bool go_at_power_on = false;  ///< words from the beginning, as a unit so configured
+    int baud = 38400;                ///< from the factory 9600; the vehicle's is set to 38400
+    bool go_at_power_on = false;     ///< words from the beginning, as a unit so configured
+    bool field_at_power_on = false;  ///< with the magnetometers' readings in them
     double clock_ppm = 0;
     double latency_s = 0.05;  ///< from the measurement to the first byte of a word
     std::uint64_t seed = 1;
@@ -58,6 +59,8 @@ class Tcm2 final : public Device {
   [[nodiscard]] std::int64_t latency_ns() const;
 
   Options options_;
+  EffectSet none_;
+  EffectSet& effects_;
   Tcm2Sensor sensor_;
   Tcm2Score score_;
   Line line_;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <optional>
-
+#include "sim/effects/effect_set.h"
+#include "sim/effects/low_pass.h"
+#include "sim/electronics.h"
 #include "sim/noise.h"
 #include "sim/state.h"
 
@@ -17,7 +18,8 @@ struct Tcm2Reading {
   bool tilt_out_of_range = false;
 };
 
-/// Magnetometers, fluid inclinometer and thermometer with the errors of VEHICLE.md section 3.
+/// Magnetometers, fluid inclinometer (a first-order lag of the tilt) and thermometer, with the errors of
+/// docs/simulator.md. Effects see the earth's field, the body's, the tilt before and after the fluid.
 class Tcm2Sensor {
  public:
   struct Options {
@@ -26,8 +28,7 @@ class Tcm2Sensor {
     double fluid_lag_s = 0.3;
     double tilt_range_deg = 50;
     double temperature_noise_C = 0.1;
-    double warming_C = 8;  ///< of the electronics above the water, in the end
-    double warming_time_s = 200;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal
   };
   Tcm2Sensor(const Options& options, const Motion& motion, std::uint64_t seed);
 
@@ -37,14 +38,19 @@ class Tcm2Sensor {
   [[nodiscard]] Tcm2Reading measure(std::int64_t t_ns);
 
  private:
-  void settle(std::int64_t t_ns);
+  /// Fluid and field at this instant; what has a memory is shown the time in between in small steps.
+  void feel(std::int64_t t_ns);
 
   Options options_;
   const Motion& motion_;
+  EffectSet none_;
+  EffectSet& effects_;
+  Electronics electronics_;
   Noise noise_;
-  std::int64_t settled_ns_ = 0;
-  double pitch_rad_ = 0, roll_rad_ = 0;
-  double temperature_C_ = 0;
+  LowPass fluid_;
+  std::int64_t powered_ns_ = 0, felt_ns_ = 0;
+  Tilt tilt_;  ///< of the fluid
+  Vector3 field_body_uT_{};
 };
 
 }  // namespace navcal::sim

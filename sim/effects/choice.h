@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/effects/effect.h"
+#include "sim/noise.h"
+
+namespace navcal::sim {
+
+/// Parameters of so many typical strengths, in a direction (a sign) that is drawn; a parameter that knows only one
+/// sign gets that.
+[[nodiscard]] std::vector<double> drawn_parameters(const EffectDescription& effect, double strength, Noise& noise);
+
+/// Why a value cannot be ("tau_s lies between 0 and 10"), or nothing.
+[[nodiscard]] std::optional<std::string> refusal(const EffectParameter& parameter, double value);
+
+/// "there is no effect magnetfield; did you mean ...? Known are: ...".
+[[nodiscard]] std::string unknown_effect(std::string_view name);
+
+/// The table of all effects as people read it, in the form that docs/simulator.md takes.
+[[nodiscard]] std::string effects_text();
+
+}  // namespace navcal::sim

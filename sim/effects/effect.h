@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <memory>
+#include <span>
+
+#include "sim/effects/description.h"
+#include "sim/effects/instant.h"
+#include "sim/effects/places.h"
+#include "sim/vehicle/influences.h"
+
+namespace navcal::sim {
+
+/// One departure from the nominal model, by a few parameters. Each hook is called in order of its own instrument's
+/// time and changes what it is handed; those that are not overridden change nothing. The result depends only on
+/// the arguments, the parameters and the effect's own filter or noise: the simulator and the diagnosis, which
+/// differentiates by the parameters, use the same code.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  [[nodiscard]] virtual const EffectDescription& description() const = 0;
+  /// With what its filters hold.
+  [[nodiscard]] virtual std::unique_ptr<Effect> clone() const = 0;
+  [[nodiscard]] virtual std::span<const double> parameters() const = 0;
+  /// As many as are described, in that order, in the units of their names.
+  virtual void set_parameters(std::span<const double> values) = 0;
+  /// For what is random in it.
+  virtual void reseed(std::uint64_t /*seed*/) {}
+
+  // Compass. The earth's field, the body's field, what the inclinometer's fluid is driven to, what it says.
+  virtual void earth_field(const Instant&, Vector3& /*field_world_uT*/) {}
+  virtual void body_field(const Instant&, Vector3& /*field_body_uT*/) {}
+  virtual void tilt_seen(const Instant&, Tilt&) {}
+  virtual void tilt_said(const Instant&, Tilt&) {}
+  // Inertial card.
+  virtual void gyros(const Instant&, GyroRates& /*rate_rad_s*/) {}
+  virtual void accelerometers(const Instant&, Vector3& /*force_m_s2*/) {}
+  virtual void depth(const Instant&, double& /*depth_m*/) {}
+  virtual void card_voltages(const Instant&, CardVoltages_mV&) {}
+  // Receiver.
+  virtual void antenna(const Instant&, AntennaMotion&) {}
+  virtual void delays(Delays&) {}
+  // Vehicle (sim/vehicle/influences.h).
+  virtual void influence(Influences&) {}
+  virtual void link_fins(double /*step_s*/, Vector3& /*fins_rad*/) {}
+  // Noise, clocks and lines.
+  virtual void noise(Instrument, double& /*factor*/) {}
+  virtual void clock(Instrument, double& /*slow_ppm*/) {}
+  virtual void line(Instrument, double /*time_s*/, Transmission&) {}
+};
+
+/// An effect of N parameters; `Self` is the class derived from it.
+template <class Self, std::size_t N>
+class EffectOf : public Effect {
+ public:
+  [[nodiscard]] std::unique_ptr<Effect> clone() const final {
+    return std::make_unique<Self>(static_cast<const Self&>(*this));
+  }
+  [[nodiscard]] std::span<const double> parameters() const final { return p_; }
+  void set_parameters(std::span<const double> values) final {
+    assert(values.size() == N);
+    std::copy_n(values.begin(), N, p_.begin());
+  }
+
+ protected:
+  [[nodiscard]] Vector3 vector(std::size_t first = 0) const { return {p_[first], p_[first + 1], p_[first + 2]}; }
+
+  std::array<double, N> p_{};
+};
+
+/// to += factor * vector.
+inline void add_scaled(Vector3& to, double factor, const Vector3& vector) {
+  for (std::size_t i = 0; i < 3; ++i) to[i] += factor * vector[i];
+}
+
+}  // namespace navcal::sim

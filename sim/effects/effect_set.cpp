@@ -1,0 +1,102 @@
+#include "sim/effects/effect_set.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace navcal::sim {
+
+EffectSet::EffectSet(const EffectSet& other) : VehicleInfluencer(other), begin_ns_(other.begin_ns_) {
+  members_.reserve(other.members_.size());
+  for (const Member& member : other.members_) members_.push_back({member.effect->clone(), member.when});
+}
+
+EffectSet& EffectSet::operator=(const EffectSet& other) { return *this = EffectSet(other); }
+
+Effect& EffectSet::add(std::unique_ptr<Effect> effect, const Interval& when) {
+  const auto later =
+      std::upper_bound(members_.begin(), members_.end(), effect->description().order,
+                       [](int order, const Member& b) { return order < b.effect->description().order; });
+  return *members_.insert(later, {std::move(effect), when})->effect;
+}
+
+void EffectSet::reseed(std::uint64_t seed) {
+  constexpr std::uint64_t kApart = 0x9e3779b97f4a7c15;  // so that neighbouring seeds share no stream
+  for (const Member& member : members_) member.effect->reseed(seed += kApart);
+}
+
+template <class Hook>
+void EffectSet::each(double time_s, Hook hook) {
+  for (const Member& member : members_) {
+    if (member.when.contains(time_s)) hook(*member.effect);
+  }
+}
+
+void EffectSet::earth_field(const Instant& now, Vector3& field_world_uT) {
+  each(now.time_s, [&](Effect& effect) { effect.earth_field(now, field_world_uT); });
+}
+
+void EffectSet::body_field(const Instant& now, Vector3& field_body_uT) {
+  each(now.time_s, [&](Effect& effect) { effect.body_field(now, field_body_uT); });
+}
+
+void EffectSet::tilt_seen(const Instant& now, Tilt& tilt) {
+  each(now.time_s, [&](Effect& effect) { effect.tilt_seen(now, tilt); });
+}
+
+void EffectSet::tilt_said(const Instant& now, Tilt& tilt) {
+  each(now.time_s, [&](Effect& effect) { effect.tilt_said(now, tilt); });
+}
+
+void EffectSet::gyros(const Instant& now, GyroRates& rate_rad_s) {
+  each(now.time_s, [&](Effect& effect) { effect.gyros(now, rate_rad_s); });
+}
+
+void EffectSet::accelerometers(const Instant& now, Vector3& force_m_s2) {
+  each(now.time_s, [&](Effect& effect) { effect.accelerometers(now, force_m_s2); });
+}
+
+void EffectSet::depth(const Instant& now, double& depth_m) {
+  each(now.time_s, [&](Effect& effect) { effect.depth(now, depth_m); });
+}
+
+void EffectSet::card_voltages(const Instant& now, CardVoltages_mV& voltages) {
+  each(now.time_s, [&](Effect& effect) { effect.card_voltages(now, voltages); });
+}
+
+void EffectSet::antenna(const Instant& now, AntennaMotion& motion) {
+  each(now.time_s, [&](Effect& effect) { effect.antenna(now, motion); });
+}
+
+Delays EffectSet::delays(double time_s) {
+  Delays more;
+  each(time_s, [&](Effect& effect) { effect.delays(more); });
+  return more;
+}
+
+void EffectSet::influence(double time_s, Influences& on) {
+  each(time_s, [&](Effect& effect) { effect.influence(on); });
+}
+
+void EffectSet::link_fins(double time_s, double step_s, Vector3& fins_rad) {
+  each(time_s, [&](Effect& effect) { effect.link_fins(step_s, fins_rad); });
+}
+
+double EffectSet::noise(Instrument of, double time_s) {
+  double factor = 1;
+  each(time_s, [&](Effect& effect) { effect.noise(of, factor); });
+  return factor;
+}
+
+double EffectSet::slow_ppm(Instrument of, double time_s) {
+  double ppm = 0;
+  each(time_s, [&](Effect& effect) { effect.clock(of, ppm); });
+  return ppm;
+}
+
+Transmission EffectSet::line(Instrument of, double time_s) {
+  Transmission way;
+  each(time_s, [&](Effect& effect) { effect.line(of, time_s, way); });
+  return way;
+}
+
+}  // namespace navcal::sim

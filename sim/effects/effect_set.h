@@ -1,0 +1,74 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+
+/// When an effect acts, in seconds of the mission.
+struct Interval {
+  double from_s = -std::numeric_limits<double>::infinity();
+  double until_s = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool contains(double time_s) const { return time_s >= from_s && time_s < until_s; }
+};
+
+/// Effects that act together, each in its place of the order that its description gives. Copies are deep: a copy
+/// goes on from the same filters and noise. Without effects nothing changes.
+class EffectSet final : public VehicleInfluencer {
+ public:
+  /// `begin_ns`: UTC of the mission's beginning.
+  explicit EffectSet(std::int64_t begin_ns = 0) : begin_ns_(begin_ns) {}
+  EffectSet(const EffectSet& other);
+  EffectSet& operator=(const EffectSet& other);
+  EffectSet(EffectSet&&) = default;
+  EffectSet& operator=(EffectSet&&) = default;
+  ~EffectSet() override = default;
+
+  /// Returns the effect added, for whoever changes its parameters.
+  Effect& add(std::unique_ptr<Effect> effect, const Interval& when = {});
+  /// What is random in each effect, by one seed.
+  void reseed(std::uint64_t seed);
+  [[nodiscard]] std::size_t size() const { return members_.size(); }
+  [[nodiscard]] Effect& operator[](std::size_t i) const { return *members_[i].effect; }
+  [[nodiscard]] const Interval& interval(std::size_t i) const { return members_[i].when; }
+
+  [[nodiscard]] double time_s(std::int64_t t_ns) const { return static_cast<double>(t_ns - begin_ns_) * 1e-9; }
+  [[nodiscard]] Instant instant(std::int64_t t_ns, const State& state, double electronics_C) const {
+    return {time_s(t_ns), state, electronics_C};
+  }
+
+  // The hooks of Effect, through all that act now.
+  void earth_field(const Instant& now, Vector3& field_world_uT);
+  void body_field(const Instant& now, Vector3& field_body_uT);
+  void tilt_seen(const Instant& now, Tilt& tilt);
+  void tilt_said(const Instant& now, Tilt& tilt);
+  void gyros(const Instant& now, GyroRates& rate_rad_s);
+  void accelerometers(const Instant& now, Vector3& force_m_s2);
+  void depth(const Instant& now, double& depth_m);
+  void card_voltages(const Instant& now, CardVoltages_mV& voltages);
+  void antenna(const Instant& now, AntennaMotion& motion);
+  [[nodiscard]] Delays delays(double time_s);
+  void influence(double time_s, Influences& on) override;
+  void link_fins(double time_s, double step_s, Vector3& fins_rad) override;
+  /// By which the standard deviation of an instrument's noise is multiplied.
+  [[nodiscard]] double noise(Instrument of, double time_s);
+  /// By which an instrument's clock runs slower than nominal.
+  [[nodiscard]] double slow_ppm(Instrument of, double time_s);
+  [[nodiscard]] Transmission line(Instrument of, double time_s);
+
+ private:
+  struct Member {
+    std::unique_ptr<Effect> effect;
+    Interval when;
+  };
+  template <class Hook>
+  void each(double time_s, Hook hook);
+
+  std::int64_t begin_ns_;
+  std::vector<Member> members_;
+};
+
+}  // namespace navcal::sim

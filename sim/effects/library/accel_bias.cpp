@@ -1,0 +1,23 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 3> kParameters{
+    {{"x_m_s2", 0.12, -20, 20}, {"y_m_s2", 0.12, -20, 20}, {"z_m_s2", 0.12, -20, 20}}};
+
+constexpr EffectDescription kDescription{
+    .name = "accel_bias", .equation = "f += b", .parameters = kParameters, .vector = 3};
+
+/// The accelerometers' zeros are off.
+class AccelBias final : public EffectOf<AccelBias, 3> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void accelerometers(const Instant&, Vector3& force_m_s2) override { add_scaled(force_m_s2, 1, vector()); }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_accel_bias() { return std::make_unique<AccelBias>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,26 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 3> kParameters{
+    {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}}};
+
+constexpr EffectDescription kDescription{
+    .name = "accel_vibration", .equation = "f += k I^2", .parameters = kParameters, .vector = 3};
+
+/// The motor's vibration is rectified by the accelerometers.
+class AccelVibration final : public EffectOf<AccelVibration, 3> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void accelerometers(const Instant& now, Vector3& force_m_s2) override {
+    const double current_A = now.state.motor_current_A;
+    add_scaled(force_m_s2, current_A * current_A, vector());
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_accel_vibration() { return std::make_unique<AccelVibration>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,24 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"force_N", 0.4, -20, 20}}};
+
+constexpr EffectDescription kDescription{.name = "buoyancy",
+                                         .equation = "Z_world -= F at the origin",
+                                         .parameters = kParameters,
+                                         .place = EffectPlace::vehicle};
+
+/// The vehicle is not of the water's weight.
+class Buoyancy final : public EffectOf<Buoyancy, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void influence(Influences& on) override { on.buoyancy_N += p_[0]; }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_buoyancy() { return std::make_unique<Buoyancy>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,32 @@
+#include "sim/effects/effect.h"
+#include "sim/effects/low_pass.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 0.2, 0, 10}}};
+
+constexpr EffectDescription kDescription{.name = "compass_lag",
+                                         .equation = "tau m' + m = field",
+                                         .parameters = kParameters,
+                                         .order = 4,
+                                         .step = 0.7,
+                                         .one_sided = true};
+
+/// The compass filters its magnetometers, hence its heading.
+class CompassLag final : public EffectOf<CompassLag, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void body_field(const Instant& now, Vector3& field_body_uT) override {
+    field_body_uT = filter_.at(now.time_s, field_body_uT, p_[0]);
+  }
+
+ private:
+  LowPass filter_;
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_compass_lag() { return std::make_unique<CompassLag>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,31 @@
+#include <cmath>
+#include <numbers>
+
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"angle_deg", 4, -180, 180}}};
+
+constexpr EffectDescription kDescription{
+    .name = "declination", .equation = "B = Rz(d) B", .parameters = kParameters};
+
+/// The earth's field is turned about the vertical, positive to the east.
+class Declination final : public EffectOf<Declination, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void earth_field(const Instant&, Vector3& field_world_uT) override {
+    const double c = std::cos(p_[0] * kRadians), s = std::sin(p_[0] * kRadians);
+    const auto [north, east, down] = field_world_uT;
+    field_world_uT = {c * north - s * east, s * north + c * east, down};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_declination() { return std::make_unique<Declination>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,21 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"scale", 0.06, -0.9, 1}}};
+
+constexpr EffectDescription kDescription{.name = "depth_scale", .equation = "z += s z", .parameters = kParameters};
+
+/// The pressure gauge's scale is off.
+class DepthScale final : public EffectOf<DepthScale, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.state.position_m[2]; }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_depth_scale() { return std::make_unique<DepthScale>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,22 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"m_per_C", 0.025, -1, 1}}};
+
+constexpr EffectDescription kDescription{
+    .name = "depth_temperature", .equation = "z += c T, T above 15 C", .parameters = kParameters};
+
+/// The pressure gauge's zero moves as the electronics warm up.
+class DepthTemperature final : public EffectOf<DepthTemperature, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.warmth_C(); }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_depth_temperature() { return std::make_unique<DepthTemperature>(); }
+
+}  // namespace navcal::sim

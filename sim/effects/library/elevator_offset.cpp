@@ -1,0 +1,30 @@
+#include <numbers>
+
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"angle_deg", 1, -20, 20}}};
+
+constexpr EffectDescription kDescription{.name = "elevator_offset",
+                                         .equation = "d += mixed elevator o",
+                                         .parameters = kParameters,
+                                         .place = EffectPlace::vehicle};
+
+/// The fins stand off in the sense of an elevator command, between servo and fin.
+class ElevatorOffset final : public EffectOf<ElevatorOffset, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void link_fins(double, Vector3& fins_rad) override {
+    const double elevator_rad = p_[0] * std::numbers::pi / 180;
+    constexpr double kShare = std::numbers::sqrt3 / 2;  // docs/simulator.md: how rudder and elevator mix
+    add_scaled(fins_rad, elevator_rad, {0, kShare, -kShare});
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_elevator_offset() { return std::make_unique<ElevatorOffset>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,41 @@
+#include <numbers>
+
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"width_deg", 2, 0, 30}}};
+
+constexpr EffectDescription kDescription{.name = "fin_backlash",
+                                         .equation = "d stays within b/2 of the servo",
+                                         .parameters = kParameters,
+                                         .place = EffectPlace::vehicle,
+                                         .order = 2,
+                                         .step = 0.6,
+                                         .one_sided = true};
+
+/// Play of total width b between the servo that is reported and the fin.
+class FinBacklash final : public EffectOf<FinBacklash, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void link_fins(double, Vector3& fins_rad) override {
+    if (!begun_) fins_rad_ = fins_rad;
+    begun_ = true;
+    const double half_rad = p_[0] * std::numbers::pi / 360;
+    for (std::size_t i = 0; i < 3; ++i) {
+      fins_rad_[i] = std::clamp(fins_rad_[i], fins_rad[i] - half_rad, fins_rad[i] + half_rad);
+    }
+    fins_rad = fins_rad_;
+  }
+
+ private:
+  Vector3 fins_rad_{};
+  bool begun_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_fin_backlash() { return std::make_unique<FinBacklash>(); }
+
+}  // namespace navcal::sim

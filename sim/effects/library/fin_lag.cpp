@@ -1,0 +1,35 @@
+#include "sim/effects/effect.h"
+#include "sim/effects/low_pass.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 0.2, 0, 5}}};
+
+constexpr EffectDescription kDescription{.name = "fin_lag",
+                                         .equation = "tau d' + d = servo",
+                                         .parameters = kParameters,
+                                         .place = EffectPlace::vehicle,
+                                         .order = 1,
+                                         .step = 0.7,
+                                         .one_sided = true};
+
+/// A further lag between the servo that is reported and the fin.
+class FinLag final : public EffectOf<FinLag, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void link_fins(double step_s, Vector3& fins_rad) override {
+    elapsed_s_ += step_s;
+    fins_rad = filter_.at(elapsed_s_, fins_rad, p_[0]);
+  }
+
+ private:
+  LowPass filter_;
+  double elapsed_s_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_fin_lag() { return std::make_unique<FinLag>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,25 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 1, 0, 10}}};
+
+constexpr EffectDescription kDescription{.name = "gps_latency",
+                                         .equation = "p(t - tau), v(t - tau)",
+                                         .parameters = kParameters,
+                                         .step = 0.7,
+                                         .one_sided = true};
+
+/// Position and velocity are older than the second that the message states.
+class GpsLatency final : public EffectOf<GpsLatency, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void delays(Delays& more) override { more.gps_s += p_[0]; }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_gps_latency() { return std::make_unique<GpsLatency>(); }
+
+}  // namespace navcal::sim

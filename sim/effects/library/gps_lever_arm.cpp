@@ -1,0 +1,27 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 3> kParameters{
+    {{"x_m", 0.45, -10, 10}, {"y_m", 0.45, -10, 10}, {"z_m", 0.45, -10, 10}}};
+
+constexpr EffectDescription kDescription{
+    .name = "gps_lever_arm", .equation = "p += R l, v += R (w x l)", .parameters = kParameters, .vector = 3};
+
+/// The antenna is off the origin by l, in body axes.
+class GpsLeverArm final : public EffectOf<GpsLeverArm, 3> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void antenna(const Instant& now, AntennaMotion& motion) override {
+    const Matrix3 R = R_world_from_body(now.state.euler_rad);
+    add_scaled(motion.position_m, 1, R * vector());
+    add_scaled(motion.velocity_m_s, 1, R * cross(now.state.rate_rad_s, vector()));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_gps_lever_arm() { return std::make_unique<GpsLeverArm>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,26 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 4> kParameters{{{"scale_ax", 0.03, -0.9, 1},
+                                                      {"scale_az", 0.03, -0.9, 1},
+                                                      {"scale_by", 0.03, -0.9, 1},
+                                                      {"scale_bz", 0.03, -0.9, 1}}};
+
+constexpr EffectDescription kDescription{.name = "gyro_scale", .equation = "w += k w", .parameters = kParameters};
+
+/// Each gyro's scale is off.
+class GyroScale final : public EffectOf<GyroScale, 4> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void gyros(const Instant& now, GyroRates& rate_rad_s) override {
+    for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * now.state.rate_rad_s[kGyroAxes[i]];
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_gyro_scale() { return std::make_unique<GyroScale>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,23 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 3> kParameters{
+    {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}}};
+
+constexpr EffectDescription kDescription{
+    .name = "hard_iron", .equation = "m += b", .parameters = kParameters, .vector = 3};
+
+/// Permanent magnetism of the vehicle.
+class HardIron final : public EffectOf<HardIron, 3> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void body_field(const Instant&, Vector3& field_body_uT) override { add_scaled(field_body_uT, 1, vector()); }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_hard_iron() { return std::make_unique<HardIron>(); }
+
+}  // namespace navcal::sim

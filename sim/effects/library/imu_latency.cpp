@@ -1,0 +1,22 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 0.05, 0, 1}}};
+
+constexpr EffectDescription kDescription{
+    .name = "imu_latency", .equation = "x(t - tau)", .parameters = kParameters, .step = 0.7, .one_sided = true};
+
+/// All channels of the inertial card are older than nominal.
+class ImuLatency final : public EffectOf<ImuLatency, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void delays(Delays& more) override { more.card_s += p_[0]; }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_imu_latency() { return std::make_unique<ImuLatency>(); }
+
+}  // namespace navcal::sim

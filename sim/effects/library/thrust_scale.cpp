@@ -1,0 +1,24 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"scale", 0.08, -0.9, 1}}};
+
+constexpr EffectDescription kDescription{.name = "thrust_scale",
+                                         .equation = "thrust *= 1 + k",
+                                         .parameters = kParameters,
+                                         .place = EffectPlace::vehicle};
+
+/// The propeller pushes more than nominal.
+class ThrustScale final : public EffectOf<ThrustScale, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void influence(Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_thrust_scale() { return std::make_unique<ThrustScale>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,28 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 2> kParameters{{{"north_m_s", 0.06, -5, 5}, {"east_m_s", 0.06, -5, 5}}};
+
+constexpr EffectDescription kDescription{.name = "water_current",
+                                         .equation = "v_world += c",
+                                         .parameters = kParameters,
+                                         .place = EffectPlace::vehicle,
+                                         .vector = 2};
+
+/// The water moves over the ground.
+class WaterCurrent final : public EffectOf<WaterCurrent, 2> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void influence(Influences& on) override {
+    on.current_m_s[0] += p_[0];
+    on.current_m_s[1] += p_[1];
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_water_current() { return std::make_unique<WaterCurrent>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,22 @@
+#include "sim/effects/effect.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::array<EffectParameter, 1> kParameters{{{"per_s", 0.3, -0.15, 10}}};
+
+constexpr EffectDescription kDescription{
+    .name = "yaw_damping", .equation = "N -= k M66 r", .parameters = kParameters, .place = EffectPlace::vehicle};
+
+/// The hull resists turning more than nominal.
+class YawDamping final : public EffectOf<YawDamping, 1> {
+ public:
+  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  void influence(Influences& on) override { on.yaw_damping_per_s += p_[0]; }
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_yaw_damping() { return std::make_unique<YawDamping>(); }
+
+}  // namespace navcal::sim

@@ -1,0 +1,93 @@
+#include "sim/recording.h"
+
+#include <algorithm>
+
+#include "protocols/oncore_command.h"
+#include "sim/imu_card.h"
+#include "sim/motor_card.h"
+#include "sim/oncore.h"
+#include "sim/tcm2.h"
+
+namespace navcal::sim {
+namespace {
+
+constexpr std::uint8_t kEverySecond = 1;
+
+Tcm2::Options compass_options(bool noise) {
+  Tcm2::Options options;
+  options.go_at_power_on = options.field_at_power_on = true;
+  if (!noise) {
+    options.sensor.field_noise_uT = options.sensor.tilt_noise_deg = options.sensor.temperature_noise_C = 0;
+  }
+  return options;
+}
+
+ImuCard::Options card_options(bool noise) {
+  ImuCard::Options options;
+  if (!noise) {
+    options.rate_noise_deg_s = options.turn_on_bias_deg_s = 0;
+    options.force_noise_m_s2 = options.depth_noise_m = 0;
+  }
+  return options;
+}
+
+Oncore::Options receiver_options(bool noise) {
+  Oncore::Options options;
+  if (!noise) options.receiver.position_noise_m = options.receiver.velocity_noise_m_s = 0;
+  return options;
+}
+
+MotorCard::Options motor_options(bool noise) {
+  MotorCard::Options options;
+  if (!noise) options.fin_noise_deg = options.current_noise_A = 0;
+  return options;
+}
+
+}  // namespace
+
+Recording::Recording(const Options& options, const Motion& motion)
+    : effects_(options.effects != nullptr ? *options.effects : none_) {
+  Noise seeds(options.seed);
+  const auto seed = [&] { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); };
+  const auto add = [&](Instrument of, std::unique_ptr<Device> device) {
+    HostLine::Options line{of, options.noise ? HostLine::Options{}.delay_s : 0, seed()};
+    device->power_on(options.begin_ns);
+    channels_.push_back({std::move(device), HostLine(line)});
+  };
+  auto compass = compass_options(options.noise);
+  compass.seed = seed();
+  compass.sensor.effects = &effects_;
+  add(Instrument::compass, std::make_unique<Tcm2>(compass, motion));
+  auto card = card_options(options.noise);
+  card.seed = seed();
+  card.effects = &effects_;
+  add(Instrument::imu, std::make_unique<ImuCard>(card, motion));
+  auto receiver = receiver_options(options.noise);
+  receiver.seed = seed();
+  receiver.receiver.effects = &effects_;
+  add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
+  auto motor = motor_options(options.noise);
+  motor.seed = seed();
+  motor.effects = &effects_;
+  add(Instrument::motor, std::make_unique<MotorCard>(motor, motion));
+
+  const auto poll = protocols::oncore::encode_poll(protocols::oncore::kHa, kEverySecond);
+  channels_[static_cast<std::size_t>(Instrument::gps)].device->on_bytes(options.begin_ns, poll);
+  sent_.push_back({options.begin_ns, Instrument::gps, true, poll});
+}
+
+void Recording::advance(std::int64_t t_ns, std::vector<LineRead>& out) {
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  std::move(sent_.begin(), sent_.end(), std::back_inserter(out));
+  sent_.clear();
+  for (auto& [device, line] : channels_) {
+    emissions_.clear();
+    device->advance(t_ns, emissions_);
+    for (const Emission& emission : emissions_) line.take(emission, device->baud(), effects_);
+    line.reads_until(t_ns, out);
+  }
+  std::stable_sort(out.begin() + first, out.end(),
+                   [](const LineRead& a, const LineRead& b) { return a.time_ns < b.time_ns; });
+}
+
+}  // namespace navcal::sim

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "sim/host_line.h"
+#include "sim/state.h"
+
+namespace navcal::sim {
+
+/// The four instruments from power-on, each on its line, as a host records them. Nothing has to be said to them:
+/// the compass is set up to send all it has, and the receiver is asked for its position every second in the first
+/// moment.
+class Recording {
+ public:
+  struct Options {
+    std::int64_t begin_ns = 0;  ///< power comes, UTC
+    bool noise = true;          ///< of the instruments and the host; resolution and latency stay
+    std::uint64_t seed = 1;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal; must outlive the recording
+  };
+  Recording(const Options& options, const Motion& motion);
+
+  /// The reads that returned up to t_ns (UTC), appended in order of time; t_ns never goes back.
+  void advance(std::int64_t t_ns, std::vector<LineRead>& out);
+
+ private:
+  struct Channel {
+    std::unique_ptr<Device> device;
+    HostLine line;
+  };
+  EffectSet none_;
+  EffectSet& effects_;
+  std::vector<Channel> channels_;
+  std::vector<Emission> emissions_;
+  std::vector<LineRead> sent_;
+};
+
+}  // namespace navcal::sim
