@@ -13,64 +13,68 @@ using Cell = FieldCells<3, 6>::Cell;
 
 constexpr double kOutlier2 = 36;  // six standard deviations of one reading, squared
 
+/// How far a cell is off the model.
 struct Departure {
-  Pair value;             // what the cell's readings are off on the mean
-  Rows slope;             // by the parameters
-  Eigen::Matrix2d noise;  // of one reading, so that over the count it is that of their mean
+  Pair value;                            // of the cell's readings on the mean
+  Eigen::Matrix2d noise;                 // of one reading, so that over the count it is that of their mean
+  Eigen::Matrix<double, 2, 3> by_field;  // of the value
+  double tilt2 = 0;                      // variance of the tilt, rad2
 };
-
-/// What of the noise the departure itself reveals. Slopes at the reading less that do not vary with the noise that
-/// they are multiplied with: else a small tilt, with noise, would look like a larger one and shift the centre.
-Eigen::Vector3d adjustment(const Departure& d, double noise_uT, const Eigen::Matrix<double, 2, 3>& by_field) {
-  const Pair weighted = d.noise.inverse() * d.value;
-  if (d.value.dot(weighted) > kOutlier2) return Eigen::Vector3d::Zero();
-  return noise_uT * noise_uT * by_field.transpose() * weighted;
-}
-
-Rows slopes(const Eigen::Matrix3d& m, const Eigen::Vector3d& off_centre, const Eigen::Vector3d& down,
-            const Eigen::Matrix3d& with_down) {
-  const Eigen::Vector3d direction = (m * off_centre).normalized();
-  const auto slope = EllipsoidShape::slope_of_matrix(off_centre);
-  Eigen::Matrix<double, 6, 1> joint;
-  joint << with_down(0, 0), with_down(1, 1), with_down(2, 2), with_down(1, 2) + with_down(2, 1),
-      with_down(0, 2) + with_down(2, 0), with_down(0, 1) + with_down(1, 0);
-  Rows rows;
-  rows.row(0) << -(m * direction).transpose(), (slope.transpose() * direction).transpose(), 0;
-  rows.row(1) << -(m * down).transpose(), (slope.transpose() * down + joint).transpose(), -1;
-  return rows;
-}
 
 Departure departure_of(const EllipsoidShape& shape, const Cell& cell, const EllipsoidNoise& noise) {
   const Eigen::Matrix3d& m = shape.matrix_per_uT;
-  const Eigen::Vector3d off_centre = cell.mean.head<3>() - shape.centre_uT;
   const Eigen::Vector3d down = cell.mean.tail<3>();
-  const Eigen::Vector3d unit = m * off_centre;
+  const Eigen::Vector3d unit = m * (cell.mean.head<3>() - shape.centre_uT);
   const double size = std::max(unit.norm(), 1e-6);
   const Eigen::Vector3d direction = unit / size;
-  const Eigen::Matrix3d spread = m * (cell.scatter.topLeftCorner<3, 3>() / cell.count) * m;
-  const Eigen::Matrix3d with_down = cell.scatter.topRightCorner<3, 3>() / cell.count;
 
   Departure d;
+  d.by_field << (m * direction).transpose(), (m * down).transpose();
   // Readings on a curved surface: their mean lies inside it.
+  const Eigen::Matrix3d spread = m.lazyProduct(cell.scatter.topLeftCorner<3, 3>() / cell.count).lazyProduct(m);
   const double sagitta = 0.5 * (spread.trace() - direction.dot(spread * direction)) / size;
-  d.value = {size + sagitta - 1, down.dot(unit) + (m * with_down).trace() - shape.sine_of_dip};
-  Eigen::Matrix<double, 2, 3> by_field;
-  by_field << (m * direction).transpose(), (m * down).transpose();
-  d.noise = noise.field_uT * noise.field_uT * by_field * by_field.transpose();
+  const double joint = m.cwiseProduct(cell.scatter.topRightCorner<3, 3>()).sum() / cell.count;
+  d.value = {size + sagitta - 1, down.dot(unit) + joint - shape.sine_of_dip};
+  d.noise = noise.field_uT * noise.field_uT * d.by_field.lazyProduct(d.by_field.transpose());
   if (down.isZero(0)) {
     d.value[1] = 0;  // tilt was not known: the first line alone
     d.noise = Eigen::Vector2d(d.noise(0, 0), 1).asDiagonal();
-    d.slope = slopes(m, off_centre - adjustment(d, noise.field_uT, by_field), down, Eigen::Matrix3d::Zero());
-    d.slope.row(1).setZero();
     return d;
   }
   // The lag of an inclinometer and the vehicle's accelerations are the same in all readings of a cell: there the
   // tilt is known no better than by one of them.
-  const double tilt2 = cell.count * noise.tilt_rad * noise.tilt_rad;
-  d.noise(1, 1) += tilt2 * std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
-  const Eigen::Vector3d tilted = tilt2 * d.noise.inverse().row(1).dot(d.value) * (unit - down * down.dot(unit));
-  d.slope = slopes(m, off_centre - adjustment(d, noise.field_uT, by_field), down - tilted, with_down);
+  d.tilt2 = cell.count * noise.tilt_rad * noise.tilt_rad;
+  d.noise(1, 1) += d.tilt2 * std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
   return d;
+}
+
+/// Of the value by the parameters, at the reading less what of its noise the departure itself reveals: slopes that
+/// varied with the noise that they are multiplied with would take a small tilt, with noise, for a larger one, and
+/// shift the centre.
+Rows slope_of(const EllipsoidShape& shape, const Cell& cell, const EllipsoidNoise& noise, const Departure& d) {
+  const Eigen::Matrix3d& m = shape.matrix_per_uT;
+  Eigen::Vector3d off_centre = cell.mean.head<3>() - shape.centre_uT;
+  Eigen::Vector3d down = cell.mean.tail<3>();
+  const bool tilt_known = !down.isZero(0);
+  const Pair weighted = d.noise.inverse() * d.value;
+  if (tilt_known) {
+    const Eigen::Vector3d unit = m * off_centre;
+    down -= d.tilt2 * weighted[1] * (unit - down * down.dot(unit));
+  }
+  if (d.value.dot(weighted) <= kOutlier2)
+    off_centre -= noise.field_uT * noise.field_uT * d.by_field.transpose() * weighted;
+
+  const Eigen::Vector3d direction = (m * off_centre).normalized();
+  const auto slope = EllipsoidShape::slope_of_matrix(off_centre);
+  Rows rows = Rows::Zero();
+  rows.row(0) << -(m * direction).transpose(), (slope.transpose() * direction).transpose(), 0;
+  if (!tilt_known) return rows;
+  const Eigen::Matrix3d with_down = cell.scatter.topRightCorner<3, 3>() / cell.count;
+  Eigen::Matrix<double, 6, 1> joint;
+  joint << with_down(0, 0), with_down(1, 1), with_down(2, 2), with_down(1, 2) + with_down(2, 1),
+      with_down(0, 2) + with_down(2, 0), with_down(0, 1) + with_down(1, 0);
+  rows.row(1) << -(m * down).transpose(), (slope.transpose() * down + joint).transpose(), -1;
+  return rows;
 }
 
 double weight_of(double square) { return square <= kOutlier2 ? 1 : kOutlier2 / square; }
@@ -128,12 +132,13 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
   double cost = known.cost();
   for (const Cell& cell : cells) {
     const Departure d = departure_of(fit.shape, cell, noise);
+    const Rows slope = slope_of(fit.shape, cell, noise, d);
     const Eigen::Matrix2d inverse = d.noise.inverse();
     const double square = d.value.dot(inverse * d.value);
     const Eigen::Matrix<double, EllipsoidShape::kParameters, 2> weighted =
-        (cell.count * weight_of(square)) * d.slope.transpose() * inverse;
+        (cell.count * weight_of(square)) * slope.transpose() * inverse;
     // Too small for the blocked product that Eigen would choose at this size.
-    information += weighted.lazyProduct(d.slope);
+    information += weighted.lazyProduct(slope);
     gradient -= weighted * d.value;
     cost += cell.count * cost_of(square);
   }

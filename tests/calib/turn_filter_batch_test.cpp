@@ -113,7 +113,8 @@ TEST(TurnFilterBatch, BothTogetherWithNoiseOfTheCompass) {
   TurnFilter::Parameters p;
   p.rate_noise_rad_sqrt_s = 0;
   const auto all = steps(200, 0.004);
-  const auto difference = recursive(all, p, TurnPrior::unknown_both()) - batch(all, p, TurnPrior::unknown_both());
+  const TurnCoefficients difference =
+      recursive(all, p, TurnPrior::unknown_both()) - batch(all, p, TurnPrior::unknown_both());
   EXPECT_LT(difference.norm(), 1e-9);
 }
 
