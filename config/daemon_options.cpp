@@ -1,4 +1,5 @@
 #include "config/calibration_options.h"
+#include "config/navigation_options.h"
 #include "config/options.h"
 #include "config/text_rules.h"
 
@@ -141,6 +142,7 @@ std::vector<Option<S>> make() {
           [](auto& s) -> auto& { return s.environment.dip_rad; }),
   };
   for (auto& option : calibration_options()) options.push_back(std::move(option));
+  for (auto& option : navigation_options()) options.push_back(std::move(option));
   return options;
 }
 

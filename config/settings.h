@@ -116,12 +116,26 @@ struct CalibrationSettings {
   bool operator==(const CalibrationSettings&) const = default;
 };
 
+/// Dead reckoning between fixes. Way of a revolution, noise of fixes, currents and the tilt's lag are those of
+/// CalibrationSettings.
+struct NavigationSettings {
+  bool enabled = true;
+  double interval_s = 1;                            ///< between reports
+  double heading_error_rad = 0.087266462599716474;  ///< standard deviation, as the device says it: 5 degrees
+  double heading_error_calibrated_rad = 0.017453292519943295;  ///< 1 degree
+  double speed_error = 0.05;                                   ///< of the speed by the shaft, relative
+  double speed_lag_s = 0.9;                                    ///< of the vehicle's speed behind its shaft's
+
+  bool operator==(const NavigationSettings&) const = default;
+};
+
 struct Settings {
   LogSettings log;
   StatusSettings status;
   ControlSettings control;
   EnvironmentSettings environment;
   CalibrationSettings calibration;
+  NavigationSettings navigation;
   std::vector<PortSettings> ports;
 
   bool operator==(const Settings&) const = default;

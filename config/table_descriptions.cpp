@@ -10,12 +10,13 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 9> kDescriptions{{
+constexpr std::array<Description, 10> kDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, for reading only."},
     {"control", "The control socket: what changes the daemon (calibrations, marks in the log)."},
     {"environment", "Where the vehicle is used."},
     {"calibration", "The calibrators of compass and gyros (docs/calibration.md)."},
+    {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
     {"",
      "A serial port with its device. NAME (1 to 31 of a-z, 0-9, _ and -) is the device's name in reports, log and "
      "messages."},

@@ -1,19 +1,16 @@
 #include "pipeline/calibration_stage.h"
 
 #include <cmath>
-#include <numbers>
 #include <variant>
 
 #include "pipeline/calibration_options.h"
+#include "pipeline/local_plane.h"
 
 namespace navcal::pipeline {
 namespace {
 
 using calib::Calibrator;
 using protocols::Protocol;
-
-/// WGS84.
-constexpr double kEquator_m = 6'378'137, kEccentricity2 = 6.69437999014e-3;
 
 Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
 
@@ -92,13 +89,9 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
   }
   calib::GroundReading reading;
   reading.time_s = seconds(sample.stamp.validity_ns);
-  const double north_rad = *gps.latitude_rad - *origin_latitude_rad_;
-  const double east_rad = std::remainder(*gps.longitude_rad - *origin_longitude_rad_, 2 * std::numbers::pi);
-  const double sine = std::sin(*origin_latitude_rad_);
-  const double shrink = 1 - kEccentricity2 * sine * sine;
-  const double across_m = kEquator_m / std::sqrt(shrink);
-  reading.position_m = {across_m * (1 - kEccentricity2) / shrink * north_rad,
-                        across_m * std::cos(*origin_latitude_rad_) * east_rad};
+  const LocalPlane plane(*origin_latitude_rad_, *origin_longitude_rad_);
+  const auto [north_m, east_m] = plane.position_m(*gps.latitude_rad, *gps.longitude_rad);
+  reading.position_m = {north_m, east_m};
   reading.speed_m_s = *gps.speed_m_s;
   reading.course_rad = gps.course_rad;
   suite_.put(reading);

@@ -3,21 +3,25 @@
 #include <limits>
 
 #include "pipeline/calibration_stage.h"
+#include "pipeline/navigation_stage.h"
 #include "pipeline/port_stream.h"
 
 namespace navcal::pipeline {
 
 namespace {
 
-/// Puts the calibration in force on samples that pass, and lets the calibrators learn from them.
-class Calibrating final : public Sink {
+/// Puts the calibration in force on samples that pass, lets the estimator of position see both, and the
+/// calibrators learn from what came. Either stage may be absent.
+class Stages final : public Sink {
  public:
-  Calibrating(CalibrationStage& stage, Sink& next) : stage_(stage), next_(next) {}
+  Stages(CalibrationStage* calibration, NavigationStage* navigation, const UtcMapping& mapping, Sink& next)
+      : calibration_(calibration), navigation_(navigation), mapping_(mapping), next_(next) {}
   void on_sample(const instruments::Sample& sample) override {
     instruments::Sample corrected = sample;
-    stage_.correct(corrected);
+    if (calibration_ != nullptr) calibration_->correct(corrected);
     next_.on_sample(corrected);
-    stage_.learn(sample, next_);
+    if (navigation_ != nullptr) navigation_->take(sample, corrected, mapping_, next_);
+    if (calibration_ != nullptr) calibration_->learn(sample, next_);
   }
   void on_frame(std::uint16_t port, const protocols::Frame& frame, std::int64_t arrival_ns) override {
     next_.on_frame(port, frame, arrival_ns);
@@ -25,7 +29,9 @@ class Calibrating final : public Sink {
   void on_mapping(const UtcMapping& mapping) override { next_.on_mapping(mapping); }
 
  private:
-  CalibrationStage& stage_;
+  CalibrationStage* calibration_;
+  NavigationStage* navigation_;
+  const UtcMapping& mapping_;
   Sink& next_;
 };
 
@@ -36,13 +42,14 @@ struct Pipeline::State {
   UtcMapping mapping;
   std::vector<std::unique_ptr<PortStream>> ports;
   std::unique_ptr<CalibrationStage> calibration;
+  std::unique_ptr<NavigationStage> navigation;
 
   /// `use(sink)` with the sink to which the ports' samples go.
   template <class Use>
-  void through_calibration(Sink& sink, Use use) {
-    if (!calibration) return use(sink);
-    Calibrating calibrating(*calibration, sink);
-    use(calibrating);
+  void through_stages(Sink& sink, Use use) {
+    if (!calibration && !navigation) return use(sink);
+    Stages stages(calibration.get(), navigation.get(), mapping, sink);
+    use(stages);
   }
 
   /// The port whose incomplete frame is to be given up first; its time in `deadline_ns`.
@@ -66,13 +73,14 @@ Pipeline::Pipeline(const config::Settings& settings) : state_(std::make_unique<S
         std::make_unique<PortStream>(static_cast<std::uint16_t>(i), state_->settings.ports[i], state_->mapping));
   }
   state_->calibration = CalibrationStage::make(state_->settings);
+  state_->navigation = NavigationStage::make(state_->settings);
 }
 
 Pipeline::~Pipeline() = default;
 
 void Pipeline::bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes, Sink& sink) {
   advance(arrival_ns, sink);
-  state_->through_calibration(sink, [&](Sink& to) { state_->ports.at(port)->bytes(arrival_ns, bytes, to); });
+  state_->through_stages(sink, [&](Sink& to) { state_->ports.at(port)->bytes(arrival_ns, bytes, to); });
 }
 
 // In the order of the deadlines, not of the ports: then it makes no difference whether a timer called for each of
@@ -81,7 +89,7 @@ void Pipeline::advance(std::int64_t now_ns, Sink& sink) {
   std::int64_t deadline_ns = 0;
   for (PortStream* due = state_->first_due(deadline_ns); due != nullptr && deadline_ns <= now_ns;
        due = state_->first_due(deadline_ns)) {
-    state_->through_calibration(sink, [&](Sink& to) { due->silence(to); });
+    state_->through_stages(sink, [&](Sink& to) { due->silence(to); });
   }
 }
 
@@ -140,6 +148,10 @@ void Pipeline::begin_calibration_run() {
 
 void Pipeline::finish_calibration(Sink& sink) {
   if (state_->calibration) state_->calibration->finish(sink);
+}
+
+void Pipeline::begin_navigation_run() {
+  if (state_->navigation) state_->navigation->begin_run();
 }
 
 PortStatistics Pipeline::statistics(std::uint16_t port) const { return state_->ports.at(port)->statistics(); }

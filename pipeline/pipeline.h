@@ -11,6 +11,7 @@
 #include "instruments/clock_model.h"
 #include "instruments/samples.h"
 #include "pipeline/calibration.h"
+#include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
 #include "protocols/frame.h"
 
@@ -27,6 +28,8 @@ class Sink {
   virtual void on_mapping(const UtcMapping& /*mapping*/) {}
   /// The calibrations changed, by themselves or by order.
   virtual void on_calibration(const CalibrationChange& /*change*/) {}
+  /// Where the vehicle is thought to be, at the interval of the configuration.
+  virtual void on_navigation(const NavigationSample& /*sample*/) {}
 };
 
 /// What is known of one port's stream; everything counted from the beginning.
@@ -78,6 +81,9 @@ class Pipeline {
   void begin_calibration_run();
   /// No more bytes come: the calibrators use all that they have.
   void finish_calibration(Sink& sink);
+
+  /// The vehicle may have been anywhere since: position and attitude are estimated anew.
+  void begin_navigation_run();
 
   [[nodiscard]] PortStatistics statistics(std::uint16_t port) const;
   [[nodiscard]] const config::Settings& settings() const;

@@ -1,0 +1,221 @@
+#include "nav/navigator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "nav/angles.h"
+
+namespace navcal::nav {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A longer pause between two frames of the card says that nothing is known of the turns within it.
+constexpr double kRatePause_s = 0.5;
+/// A shaft that was not heard of for so long may have stopped.
+constexpr double kShaftPause_s = 2;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+/// A turn within the second before a fix makes its velocity so many times worse than the reckoned one changed.
+constexpr double kChangeShare = 2;
+/// How a heading that no compass holds gets lost: by a zero of the gyros not known, and with no gyros at all.
+constexpr double kGyroDrift_rad_s = 0.005, kBlindDrift_rad_s = 0.2;
+/// A heading of which nothing is known: uniform around the circle.
+const double kAnyHeading_rad = std::numbers::pi / std::sqrt(3.0);
+
+double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
+
+/// Beyond these an instrument has lost its mind, whatever it is. What is no number is beyond everything.
+constexpr double kMostRate_rad_s = 100, kMostDepth_m = 12'000, kMostAngle_rad = 100, kMostShaft_per_s = 1000;
+constexpr double kMostPosition_m = 2e7, kMostVelocity_m_s = 1e4, kLeastFixStd_m = 1e-3, kMostFixStd_m = 1e5;
+
+bool within(double value, double most) { return std::abs(value) <= most; }
+bool within(const std::optional<double>& value, double most) { return !value || within(*value, most); }
+bool plausible(const RateReading& r) {
+  return (r.rate_rad_s.array().abs() <= kMostRate_rad_s).all() && within(r.depth_m, kMostDepth_m);
+}
+bool plausible(const CompassReading& r) {
+  return within(r.heading_rad, kMostAngle_rad) && within(r.pitch_rad, kMostAngle_rad) &&
+         within(r.roll_rad, kMostAngle_rad);
+}
+bool plausible(const ShaftReading& r) { return within(r.revolutions_per_s, kMostShaft_per_s); }
+bool plausible(const FixReading& r) {
+  if (r.velocity_m_s && !(r.velocity_m_s->array().abs() <= kMostVelocity_m_s).all()) return false;
+  if (!(r.velocity_std_m_s >= kLeastFixStd_m && r.velocity_std_m_s <= kMostFixStd_m)) return false;
+  return (r.position_m.array().abs() <= kMostPosition_m).all() && r.std_m >= kLeastFixStd_m &&
+         r.std_m <= kMostFixStd_m;
+}
+
+}  // namespace
+
+Navigator::Navigator(const Options& options)
+    : options_(options), attitude_(options.attitude), depth_(options.depth), reckoning_(options.reckoning) {}
+
+bool Navigator::is_new(Last& last, std::int64_t time_ns, bool plausible) {
+  if (!plausible || (last && time_ns <= *last)) {
+    ++left_out_;
+    return false;
+  }
+  last = time_ns;
+  return true;
+}
+
+bool Navigator::rates_come(std::int64_t time_ns) const {
+  return rates_ns_ && seconds(time_ns - *rates_ns_) <= kRatePause_s;
+}
+
+void Navigator::take(const RateReading& reading) {
+  const Last before_ns = rates_ns_;
+  if (!is_new(rates_ns_, reading.time_ns, plausible(reading))) return;
+  const bool follows = before_ns && seconds(reading.time_ns - *before_ns) <= kRatePause_s;
+  const Vector3d mean_rate_rad_s = (rate_rad_s_ + reading.rate_rad_s) / 2;
+  rate_rad_s_ = reading.rate_rad_s;
+  // Others may have driven the time beyond the first frames after a pause.
+  if (time_ns_ && reading.time_ns <= *time_ns_) return;
+  advance(reading.time_ns, follows ? std::optional(mean_rate_rad_s) : std::nullopt);
+  depth_.correct(reading.depth_m);
+}
+
+void Navigator::take(const CompassReading& reading) {
+  if (!is_new(compass_ns_, reading.time_ns, plausible(reading))) return;
+  drive(reading.time_ns);
+  const auto pose = past_.at(reading.time_ns);
+  if (!pose) {
+    ++left_out_;
+    return;
+  }
+  if (reading.roll_rad && reading.pitch_rad) {
+    // The fluid shows the tilt of some time ago.
+    const std::int64_t felt_ns = reading.time_ns - std::llround(options_.attitude.tilt_lag_s * 1e9);
+    const Pose felt = past_.at(felt_ns).value_or(*pose);
+    const double since_s = tilt_ns_ ? seconds(reading.time_ns - *tilt_ns_) : 0;
+    const Vector2d turned = attitude_.correct_tilt(wrapped(*reading.roll_rad - felt.roll_rad),
+                                                   *reading.pitch_rad - felt.pitch_rad, since_s);
+    past_.correct(turned.x(), turned.y(), 0);
+    tilt_ns_ = reading.time_ns;
+  }
+  if (reading.heading_rad) {
+    const double since_s = heading_ns_ ? seconds(reading.time_ns - *heading_ns_) : 0;
+    const double turned = attitude_.correct_heading(wrapped(*reading.heading_rad - pose->heading_rad), since_s);
+    past_.correct(0, 0, turned);
+    heading_ns_ = reading.time_ns;
+    heading_calibrated_ = reading.calibrated;
+    drift_rad_ = 0;
+  }
+}
+
+void Navigator::take(const ShaftReading& reading) {
+  if (!is_new(shaft_ns_, reading.time_ns, plausible(reading))) return;
+  drive(reading.time_ns);
+  revolutions_per_s_ = reading.revolutions_per_s;
+}
+
+void Navigator::take(const FixReading& reading) {
+  if (!is_new(fix_ns_, reading.time_ns, plausible(reading))) return;
+  drive(reading.time_ns);
+  const auto pose = past_.at(reading.time_ns);
+  if (!pose) {
+    ++left_out_;
+    return;
+  }
+  if (const auto outage = reckoning_.fix(reading, pose->reckoned_m, seconds(*time_ns_ - reading.time_ns)))
+    outage_ = outage;
+  if (reading.velocity_m_s && speed_known_ && attitude_.heading_known()) observe_set(reading);
+}
+
+/// A receiver's velocity is a mean over about the second before: what changed within it is no measure of the set.
+void Navigator::observe_set(const FixReading& reading) {
+  const auto now = past_.at(reading.time_ns), half = past_.at(reading.time_ns - kSecond_ns / 2),
+             full = past_.at(reading.time_ns - kSecond_ns);
+  if (!now || !half || !full) return;
+  const Vector2d newer_m = now->reckoned_m - half->reckoned_m, older_m = half->reckoned_m - full->reckoned_m;
+  const double change_m_s = 2 * (newer_m - older_m).norm();
+  reckoning_.observe_set(*reading.velocity_m_s - 2 * newer_m,
+                         std::hypot(reading.velocity_std_m_s, kChangeShare * change_m_s));
+}
+
+void Navigator::drive(std::int64_t time_ns) {
+  if (rates_come(time_ns) || (time_ns_ && time_ns <= *time_ns_)) return;
+  advance(time_ns, std::nullopt);
+}
+
+void Navigator::advance(std::int64_t time_ns, const std::optional<Vector3d>& mean_rate_rad_s) {
+  const double duration_s = time_ns_ ? seconds(time_ns - *time_ns_) : 0;
+  time_ns_ = time_ns;
+  Way way;
+  way.duration_s = duration_s;
+  way.heading_std_rad = heading_std_rad();
+  const Vector2d ahead_before = ahead();
+  if (mean_rate_rad_s) {
+    attitude_.turn(*mean_rate_rad_s, duration_s);
+  } else {
+    attitude_.lose_track();
+  }
+  drift_rad_ += (mean_rate_rad_s ? kGyroDrift_rad_s : kBlindDrift_rad_s) * duration_s;
+  way.ahead = (ahead_before + ahead()) / 2;
+  way.heading_known = attitude_.heading_known();
+  const double speed_before_m_s = speed_m_s_;
+  move_speed(duration_s);
+  way.speed_known = speed_known_;
+  way.speed_m_s = speed_known_ ? (speed_before_m_s + speed_m_s_) / 2 : 0;
+  reckoning_.advance(way);
+  depth_.advance(attitude_.tilt_known() ? -way.speed_m_s * std::sin(attitude_.pitch_rad()) : 0, duration_s);
+  past_.push(
+      {time_ns, attitude_.roll_rad(), attitude_.pitch_rad(), attitude_.heading_rad(), reckoning_.reckoned_m()});
+}
+
+/// The vehicle's speed follows its shaft's; a propeller that turns backwards gives nothing.
+void Navigator::move_speed(double duration_s) {
+  const bool shaft_comes = shaft_ns_ && seconds(*time_ns_ - *shaft_ns_) <= kShaftPause_s;
+  const bool known = shaft_comes && options_.advance_m > 0;
+  const double target_m_s = known ? options_.advance_m * std::max(revolutions_per_s_, 0.0) : 0;
+  if (known && speed_known_ && options_.speed_lag_s > 0) {
+    speed_m_s_ += (speed_m_s_ - target_m_s) * std::expm1(-duration_s / options_.speed_lag_s);
+  } else {
+    speed_m_s_ = target_m_s;
+  }
+  speed_known_ = known;
+}
+
+Vector2d Navigator::ahead() const {
+  return std::cos(attitude_.pitch_rad()) *
+         Vector2d(std::cos(attitude_.heading_rad()), std::sin(attitude_.heading_rad()));
+}
+
+double Navigator::heading_std_rad() const {
+  if (!attitude_.heading_known()) return kAnyHeading_rad;
+  const double error_rad =
+      heading_calibrated_ ? options_.heading_error_calibrated_rad : options_.heading_error_rad;
+  return std::min(std::hypot(error_rad, drift_rad_), kAnyHeading_rad);
+}
+
+Estimate Navigator::estimate() const {
+  Estimate estimate;
+  estimate.time_ns = time_ns();
+  estimate.heading_std_rad = heading_std_rad();
+  if (attitude_.heading_known()) estimate.heading_rad = as_heading(attitude_.heading_rad());
+  if (attitude_.tilt_known()) {
+    estimate.pitch_rad = attitude_.pitch_rad();
+    estimate.roll_rad = attitude_.roll_rad();
+  }
+  estimate.depth_m = depth_.depth_m();
+  if (speed_known_) estimate.speed_m_s = speed_m_s_;
+  estimate.set_m_s = reckoning_.set_m_s();
+  if (speed_known_ && attitude_.heading_known()) {
+    const Vector2d level_m_s = speed_m_s_ * ahead() + reckoning_.set_m_s();
+    estimate.velocity_m_s = Vector3d(level_m_s.x(), level_m_s.y(), depth_.sinking_m_s());
+  }
+  if (reckoning_.known()) {
+    estimate.position_m = reckoning_.position_m();
+    estimate.position_std_m = reckoning_.std_m();
+    estimate.since_fix_s = reckoning_.since_fix_s();
+    estimate.since_fix_m = reckoning_.since_fix_m();
+  }
+  return estimate;
+}
+
+std::optional<Outage> Navigator::take_outage() { return std::exchange(outage_, std::nullopt); }
+
+}  // namespace navcal::nav

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nav/attitude.h"
+#include "nav/dead_reckoning.h"
+#include "nav/depth_filter.h"
+#include "nav/estimate.h"
+#include "nav/options.h"
+#include "nav/past_poses.h"
+#include "nav/readings.h"
+
+namespace navcal::nav {
+
+/// Attitude, depth and position of a vehicle that has a compass, gyros, a depth gauge, a shaft that is counted,
+/// and now and then a fix (docs/navigation.md). Readings come in the order of their arrival, each with the time at
+/// which it was measured.
+///
+/// The card with the gyros drives the time: each of its frames moves everything on to its own time. Any other
+/// reading is compared with what was thought of its time, and what follows from the difference corrects the
+/// present. While no frames come, whatever comes drives the time. A reading that is not newer than the last of its
+/// kind, is older than what is remembered, or holds what no instrument can say, is left out.
+///
+/// No memory is taken after construction. The same calls give the same results to the last bit.
+class Navigator {
+ public:
+  explicit Navigator(const Options& options);
+
+  void take(const RateReading& reading);
+  void take(const CompassReading& reading);
+  void take(const ShaftReading& reading);
+  void take(const FixReading& reading);
+
+  /// Whether anything came yet.
+  [[nodiscard]] bool started() const { return time_ns_.has_value(); }
+  [[nodiscard]] std::int64_t time_ns() const { return time_ns_.value_or(0); }
+  [[nodiscard]] Estimate estimate() const;
+  /// A stretch without fixes that the last fix ended; once.
+  [[nodiscard]] std::optional<Outage> take_outage();
+  [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
+
+ private:
+  /// The newest reading of a kind.
+  using Last = std::optional<std::int64_t>;
+
+  [[nodiscard]] bool is_new(Last& last, std::int64_t time_ns, bool plausible);
+  [[nodiscard]] bool rates_come(std::int64_t time_ns) const;
+  /// While nothing else does, this reading moves the time on.
+  void drive(std::int64_t time_ns);
+  void advance(std::int64_t time_ns, const std::optional<Eigen::Vector3d>& mean_rate_rad_s);
+  void move_speed(double duration_s);
+  [[nodiscard]] Eigen::Vector2d ahead() const;
+  void observe_set(const FixReading& reading);
+  [[nodiscard]] double heading_std_rad() const;
+
+  Options options_;
+  Attitude attitude_;
+  DepthFilter depth_;
+  DeadReckoning reckoning_;
+  PastPoses past_;
+  std::optional<std::int64_t> time_ns_;
+  Last rates_ns_, compass_ns_, shaft_ns_, fix_ns_;
+  Eigen::Vector3d rate_rad_s_ = Eigen::Vector3d::Zero();
+  double revolutions_per_s_ = 0;
+  double speed_m_s_ = 0;
+  bool speed_known_ = false;
+  std::optional<std::int64_t> heading_ns_, tilt_ns_;  ///< of the last reading that had one
+  bool heading_calibrated_ = false;
+  double drift_rad_ = 0;  ///< of the heading since then, one standard deviation
+  std::optional<Outage> outage_;
+  std::uint64_t left_out_ = 0;
+};
+
+}  // namespace navcal::nav

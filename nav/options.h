@@ -1,0 +1,41 @@
+#pragma once
+
+namespace navcal::nav {
+
+/// Gains are rates: a reading that comes dt after the one before it corrects by 1 - exp(-gain dt) of what it
+/// differs. The defaults give 0.02 of the heading and 0.05 of the tilt with every word of a 10 Hz compass, 0.03 of
+/// the depth with every frame of a 20 Hz card (docs/navigation.md).
+struct AttitudeOptions {
+  double heading_gain_per_s = 0.2;
+  double tilt_gain_per_s = 0.5;
+  /// What the gyros' zeros are corrected by: these times the difference, each second.
+  double heading_zero_gain_per_s2 = 0.002;
+  double tilt_zero_gain_per_s2 = 0.01;
+  double tilt_lag_s = 0.3;  ///< of the inclinometer
+};
+
+struct DepthOptions {
+  double gain_per_s = 0.6;
+  double rate_gain_per_s2 = 0.09;  ///< a quarter of the square of the gain: the fastest return without overshoot
+};
+
+struct ReckoningOptions {
+  double walk_m2_per_s = 0.02;     ///< growth of the variance of a position, each axis
+  double set_m_s = 0.15;           ///< standard deviation of the set, each axis; 0: there is none
+  double set_time_s = 600;         ///< after which a set is forgotten
+  double speed_error = 0.05;       ///< relative, the same all along
+  double unknown_speed_m_s = 1.5;  ///< how fast it may go when nothing tells how fast it goes
+};
+
+struct Options {
+  AttitudeOptions attitude;
+  DepthOptions depth;
+  ReckoningOptions reckoning;
+  double advance_m = 0.0872;  ///< through the water for one revolution of the shaft; 0: not known
+  double speed_lag_s = 0.9;   ///< of the vehicle's speed behind its shaft's
+  /// How far a heading may be off all along a leg, one standard deviation.
+  double heading_error_rad = 0.087266462599716474;
+  double heading_error_calibrated_rad = 0.017453292519943295;
+};
+
+}  // namespace navcal::nav

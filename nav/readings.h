@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+/// What the estimator is told: readings in SI units and body axes (x forward, y starboard, z down), each with the
+/// time at which it was measured, in nanoseconds on one clock of the caller's choice. Nothing here reads a clock.
+namespace navcal::nav {
+
+struct RateReading {
+  std::int64_t time_ns = 0;
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
+  double depth_m = 0;
+};
+
+struct CompassReading {
+  std::int64_t time_ns = 0;
+  std::optional<double> heading_rad;  ///< from true north, clockwise
+  std::optional<double> pitch_rad;    ///< positive nose-up
+  std::optional<double> roll_rad;     ///< positive starboard-down
+  bool calibrated = false;            ///< the heading is that of a calibration
+};
+
+struct ShaftReading {
+  std::int64_t time_ns = 0;
+  double revolutions_per_s = 0;
+};
+
+struct FixReading {
+  std::int64_t time_ns = 0;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< north, east of an origin of the caller's choice
+  double std_m = 1;                                      ///< each axis
+  std::optional<Eigen::Vector2d> velocity_m_s;           ///< north, east, over ground
+  double velocity_std_m_s = 0.1;                         ///< each axis
+};
+
+}  // namespace navcal::nav

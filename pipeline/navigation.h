@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "instruments/samples.h"
+#include "nav/estimate.h"
+
+namespace navcal::pipeline {
+
+/// What reports and log call it, where an instrument's sample has the name of its port.
+inline constexpr std::string_view kNavigationDevice = "navigation";
+
+/// Whence a position is.
+enum class PositionSource : std::uint8_t {
+  none,      ///< there was no fix yet
+  fixes,     ///< the last fix is as young as fixes usually are
+  reckoned,  ///< reckoned on from the last one
+};
+
+/// "none", "fixes", "reckoned".
+[[nodiscard]] std::string_view name_of(PositionSource source);
+
+/// The estimate of one instant (docs/navigation.md).
+struct NavigationSample {
+  instruments::Stamp stamp;  ///< validity is that of the estimate, arrival that of the sample that called for it
+  instruments::CalibrationName calibration;
+  nav::Estimate estimate;  ///< its north and east are of no interest outside: they have an origin of their own
+  PositionSource source = PositionSource::none;
+  std::optional<double> latitude_rad, longitude_rad;  ///< WGS84
+  /// A stretch without fixes that has just ended, and how far off it would have ended without calibrations.
+  std::optional<nav::Outage> outage;
+  std::optional<double> outage_error_uncalibrated_m;
+};
+
+}  // namespace navcal::pipeline

@@ -1,0 +1,155 @@
+#include "pipeline/navigation_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace navcal::pipeline {
+namespace {
+
+/// Fixes come once a second and half a second late.
+constexpr double kFixIsCurrent_s = 2.5;
+/// A receiver with a good sky has this dilution of precision; the noise of the configuration is meant for it.
+constexpr double kGoodDop = 2;
+constexpr double kSecondsPerMinute = 60;
+
+Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+std::string_view name_of(PositionSource source) {
+  switch (source) {
+    case PositionSource::fixes:
+      return "fixes";
+    case PositionSource::reckoned:
+      return "reckoned";
+    case PositionSource::none:
+      break;
+  }
+  return "none";
+}
+
+nav::Options navigation_options(const config::Settings& settings) {
+  nav::Options options;
+  options.attitude.tilt_lag_s = settings.calibration.tilt_lag_s;
+  options.reckoning.set_m_s = settings.calibration.current_m_s;
+  options.reckoning.speed_error = settings.navigation.speed_error;
+  options.advance_m = settings.calibration.advance_m;
+  options.speed_lag_s = settings.navigation.speed_lag_s;
+  options.heading_error_rad = settings.navigation.heading_error_rad;
+  options.heading_error_calibrated_rad = settings.navigation.heading_error_calibrated_rad;
+  return options;
+}
+
+std::unique_ptr<NavigationStage> NavigationStage::make(const config::Settings& settings) {
+  const CalibratedPorts ports = calibrated_ports(settings);
+  const bool something = ports.compass || ports.imu || ports.gps;
+  if (!settings.navigation.enabled || !something) return nullptr;
+  return std::make_unique<NavigationStage>(settings, ports);
+}
+
+NavigationStage::NavigationStage(const config::Settings& settings, const CalibratedPorts& ports)
+    : ports_(ports),
+      options_(navigation_options(settings)),
+      declination_rad_(settings.environment.declination_rad),
+      position_noise_m_(settings.calibration.position_noise_m),
+      velocity_noise_m_s_(settings.calibration.velocity_noise_m_s),
+      interval_ns_(std::llround(settings.navigation.interval_s * 1e9)),
+      calibrated_(options_),
+      uncalibrated_(options_) {}
+
+void NavigationStage::begin_run() {
+  calibrated_ = uncalibrated_ = nav::Navigator(options_);
+  plane_.reset();
+  told_ = 0;
+}
+
+void NavigationStage::take(const instruments::Sample& original, const instruments::Sample& corrected,
+                           const UtcMapping& mapping, Sink& sink) {
+  if (const auto* compass = std::get_if<instruments::CompassSample>(&corrected.value)) {
+    if (corrected.port != ports_.compass) return;
+    feed(calibrated_, corrected, *compass, true);
+    feed(uncalibrated_, original, std::get<instruments::CompassSample>(original.value), false);
+  } else if (const auto* imu = std::get_if<instruments::ImuSample>(&corrected.value)) {
+    if (corrected.port != ports_.imu) return;
+    feed(calibrated_, corrected, *imu, true);
+    feed(uncalibrated_, original, std::get<instruments::ImuSample>(original.value), false);
+  } else if (const auto* motor = std::get_if<instruments::MotorSample>(&corrected.value)) {
+    if (corrected.port != ports_.motor || !motor->rpm) return;
+    const nav::ShaftReading reading{corrected.stamp.validity_ns, *motor->rpm / kSecondsPerMinute};
+    calibrated_.take(reading);
+    uncalibrated_.take(reading);
+  } else if (const auto* gps = std::get_if<instruments::GpsSample>(&corrected.value)) {
+    if (corrected.port != ports_.gps) return;
+    feed_fix(corrected, *gps);
+  }
+  tell(corrected, mapping, sink);
+}
+
+void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample& sample,
+                           const instruments::CompassSample& compass, bool calibrated) const {
+  if (compass.error) return;
+  nav::CompassReading reading;
+  reading.time_ns = sample.stamp.validity_ns;
+  reading.calibrated = calibrated && compass.heading_calibrated_rad;
+  reading.heading_rad = reading.calibrated ? compass.heading_calibrated_rad : compass.heading_rad;
+  if (reading.heading_rad && !compass.heading_is_true) *reading.heading_rad += declination_rad_;
+  reading.pitch_rad = compass.pitch_rad;
+  reading.roll_rad = compass.roll_rad;
+  navigator.take(reading);
+}
+
+void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample& sample,
+                           const instruments::ImuSample& imu, bool calibrated) const {
+  nav::RateReading reading;
+  reading.time_ns = sample.stamp.validity_ns;
+  reading.rate_rad_s = vector(imu.rate_rad_s);
+  if (calibrated && imu.yaw_rate_calibrated_rad_s) reading.rate_rad_s.z() = *imu.yaw_rate_calibrated_rad_s;
+  reading.depth_m = imu.depth_m;
+  navigator.take(reading);
+}
+
+void NavigationStage::feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps) {
+  const bool fixed = gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
+  if (!fixed || !gps.latitude_rad || !gps.longitude_rad) return;
+  if (!plane_) plane_.emplace(*gps.latitude_rad, *gps.longitude_rad);
+  const auto [north_m, east_m] = plane_->position_m(*gps.latitude_rad, *gps.longitude_rad);
+  nav::FixReading reading;
+  reading.time_ns = sample.stamp.validity_ns;
+  reading.position_m = {north_m, east_m};
+  if (gps.speed_m_s && gps.course_rad) {
+    reading.velocity_m_s = *gps.speed_m_s * Eigen::Vector2d(std::cos(*gps.course_rad), std::sin(*gps.course_rad));
+  }
+  reading.velocity_std_m_s = velocity_noise_m_s_;
+  reading.std_m = position_noise_m_ * std::max(1.0, gps.dop.value_or(kGoodDop) / kGoodDop);
+  calibrated_.take(reading);
+  uncalibrated_.take(reading);
+}
+
+void NavigationStage::tell(const instruments::Sample& trigger, const UtcMapping& mapping, Sink& sink) {
+  if (!calibrated_.started()) return;
+  const auto outage = calibrated_.take_outage();
+  const auto uncalibrated_outage = uncalibrated_.take_outage();
+  const std::int64_t interval = calibrated_.time_ns() / interval_ns_;
+  if (interval <= told_ && !outage) return;
+  told_ = std::max(told_, interval);
+
+  NavigationSample sample;
+  sample.calibration = trigger.calibration;
+  sample.estimate = calibrated_.estimate();
+  sample.stamp = trigger.stamp;
+  sample.stamp.validity_ns = sample.estimate.time_ns;
+  sample.stamp.validity_utc_ns = mapping.to_utc(sample.estimate.time_ns);
+  if (const auto& position_m = sample.estimate.position_m; position_m && plane_) {
+    const auto place = plane_->place(position_m->x(), position_m->y());
+    sample.latitude_rad = place.latitude_rad;
+    sample.longitude_rad = place.longitude_rad;
+    sample.source =
+        sample.estimate.since_fix_s <= kFixIsCurrent_s ? PositionSource::fixes : PositionSource::reckoned;
+  }
+  sample.outage = outage;
+  if (uncalibrated_outage) sample.outage_error_uncalibrated_m = uncalibrated_outage->error_m;
+  sink.on_navigation(sample);
+}
+
+}  // namespace navcal::pipeline

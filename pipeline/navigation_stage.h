@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "config/settings.h"
+#include "instruments/samples.h"
+#include "nav/navigator.h"
+#include "pipeline/calibration_options.h"
+#include "pipeline/local_plane.h"
+#include "pipeline/navigation.h"
+#include "pipeline/pipeline.h"
+
+namespace navcal::pipeline {
+
+/// Between samples and the estimator of position: picks the instruments, feeds them, and tells the sink at the
+/// interval of the configuration. Two estimators run side by side, one with the calibration in force and one
+/// without any, so that every stretch without fixes shows what the calibration is worth.
+class NavigationStage {
+ public:
+  /// Null when the configuration says not to, or has nothing to navigate by.
+  static std::unique_ptr<NavigationStage> make(const config::Settings& settings);
+  NavigationStage(const config::Settings& settings, const CalibratedPorts& ports);
+
+  /// `original` as it was before the calibration in force was put on it. The sink must have had the sample.
+  void take(const instruments::Sample& original, const instruments::Sample& corrected, const UtcMapping& mapping,
+            Sink& sink);
+  /// Everything begins anew.
+  void begin_run();
+
+ private:
+  void feed(nav::Navigator& navigator, const instruments::Sample& sample,
+            const instruments::CompassSample& compass, bool calibrated) const;
+  void feed(nav::Navigator& navigator, const instruments::Sample& sample, const instruments::ImuSample& imu,
+            bool calibrated) const;
+  void feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps);
+  void tell(const instruments::Sample& trigger, const UtcMapping& mapping, Sink& sink);
+
+  CalibratedPorts ports_;
+  nav::Options options_;
+  double declination_rad_;
+  double position_noise_m_, velocity_noise_m_s_;
+  std::int64_t interval_ns_;
+  nav::Navigator calibrated_, uncalibrated_;
+  std::optional<LocalPlane> plane_;
+  std::int64_t told_ = 0;  ///< intervals of the monotonic clock, up to the one that was last told of
+};
+
+/// What the estimator must know, in its units.
+[[nodiscard]] nav::Options navigation_options(const config::Settings& settings);
+
+}  // namespace navcal::pipeline

@@ -1,0 +1,1 @@
+navcal_fuzz(fuzz_navigator SOURCES navigator.cpp USES navcal::nav)

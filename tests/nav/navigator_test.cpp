@@ -1,0 +1,166 @@
+// Attitude, speed and time: what holds of any way.
+#include "nav/navigator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "nav/angles.h"
+#include "tests/nav/drive.h"
+
+namespace navcal::nav::test {
+namespace {
+
+DriveOptions quiet() {
+  DriveOptions options;
+  options.noise = false;
+  return options;
+}
+
+const auto kStraight = [](double) { return 0.0; };
+
+TEST(Navigator, SaysNothingBeforeItWasTold) {
+  const Navigator navigator({});
+  EXPECT_FALSE(navigator.started());
+  const auto estimate = navigator.estimate();
+  EXPECT_FALSE(estimate.heading_rad);
+  EXPECT_FALSE(estimate.pitch_rad);
+  EXPECT_FALSE(estimate.depth_m);
+  EXPECT_FALSE(estimate.speed_m_s);
+  EXPECT_FALSE(estimate.velocity_m_s);
+  EXPECT_FALSE(estimate.position_m);
+}
+
+TEST(Navigator, AVehicleThatLiesStillStaysWhereItIs) {
+  const auto way = level_way(600, 0, kStraight, 1.5, 2);
+  auto options = quiet();
+  options.fixed = [](double t_s) { return t_s < 20; };
+  const auto readings = readings_along(way, 600, options);
+  Navigator navigator({});
+  double std_m = 0;
+  for (const auto& arrived : readings) {
+    give(navigator, arrived.reading);
+    const auto estimate = navigator.estimate();
+    if (since_start_s(arrived.arrival_ns) < 21) continue;
+    EXPECT_GE(estimate.position_std_m.x(), std_m) << "without fixes nothing gets better";
+    std_m = estimate.position_std_m.x();
+  }
+  EXPECT_LT(position_error_m(navigator, way), 1e-6);
+  EXPECT_NEAR(heading_error_rad(navigator, way), 0, 1e-9);
+  const auto estimate = navigator.estimate();
+  EXPECT_NEAR(estimate.depth_m.value(), 1.5, 1e-9);
+  EXPECT_NEAR(estimate.velocity_m_s.value().norm(), 0, 1e-9);
+  EXPECT_NEAR(estimate.since_fix_s, 581, 0.1);
+  EXPECT_EQ(estimate.since_fix_m, 0);
+}
+
+TEST(Navigator, GoesRoundAndRoundWithoutAJumpAtNorthOrSouth) {
+  const auto way = level_way(200, 1, [](double) { return -0.5; });
+  Navigator navigator({});
+  double before_rad = NAN;
+  for (const auto& arrived : readings_along(way, 200, quiet())) {
+    give(navigator, arrived.reading);
+    const auto estimate = navigator.estimate();
+    if (!estimate.heading_rad) continue;
+    ASSERT_GE(*estimate.heading_rad, 0);
+    ASSERT_LT(*estimate.heading_rad, 2 * std::numbers::pi);
+    if (std::isfinite(before_rad)) {
+      ASSERT_LT(std::abs(wrapped(*estimate.heading_rad - before_rad)), 0.03);
+    }
+    before_rad = *estimate.heading_rad;
+    ASSERT_NEAR(heading_error_rad(navigator, way), 0, 0.1 * kDegree);
+  }
+  EXPECT_LT(position_error_m(navigator, way), 0.1);
+}
+
+TEST(Navigator, LateReadingsAreComparedWithTheirOwnTime) {
+  // At 40 deg/s a heading that is 66 ms old is off by 2.6 degrees, and a fix of half a second ago by half a metre.
+  const auto way = level_way(120, 1, [](double) { return 40 * kDegree; });
+  auto options = quiet();
+  Navigator late({});
+  give(late, readings_along(way, 120, options));
+  options.late = false;
+  Navigator prompt({});
+  give(prompt, readings_along(way, 120, options));
+  EXPECT_NEAR(heading_error_rad(late, way), 0, 0.05 * kDegree);
+  EXPECT_NEAR(heading_error_rad(prompt, way), 0, 0.05 * kDegree);
+  EXPECT_LT(position_error_m(late, way), 0.03);
+  EXPECT_LT(position_error_m(prompt, way), 0.03);
+}
+
+TEST(Navigator, LearnsTheZerosOfItsGyros) {
+  const auto way = level_way(900, 1, [](double t_s) { return 0.2 * std::sin(t_s / 10); });
+  auto options = quiet();
+  options.zero_rad_s = Eigen::Vector3d(0.3, -0.3, 0.3) * kDegree;
+  const auto readings = readings_along(way, 900, options);
+  Navigator navigator({});
+  give(navigator, readings, 60);
+  // Without an integral it would stay at 0.3 deg/s over 0.2/s: 1.5 degrees.
+  EXPECT_LT(std::abs(heading_error_rad(navigator, way)), 1.5 * kDegree);
+  navigator = Navigator({});
+  give(navigator, readings);
+  EXPECT_NEAR(heading_error_rad(navigator, way), 0, 0.05 * kDegree);
+  EXPECT_NEAR(navigator.estimate().roll_rad.value(), 0, 0.05 * kDegree);
+  EXPECT_NEAR(navigator.estimate().pitch_rad.value(), 0, 0.05 * kDegree);
+}
+
+TEST(Navigator, SmoothsTheNoiseOfTheCompass) {
+  const auto way = level_way(300, 1, kStraight);
+  Navigator navigator({});
+  double square = 0;
+  int count = 0;
+  for (const auto& arrived : readings_along(way, 300, {})) {
+    give(navigator, arrived.reading);
+    if (since_start_s(arrived.arrival_ns) < 100) continue;
+    square += std::pow(heading_error_rad(navigator, way), 2);
+    ++count;
+  }
+  // White noise of s through a gain of g a reading leaves s sqrt(g/2): a tenth at 0.02; the gyros' noise adds to
+  // it.
+  EXPECT_LT(std::sqrt(square / count), 0.2 * 0.5 * kDegree);
+}
+
+TEST(Navigator, SpeedFollowsTheShaft) {
+  Navigator navigator({});
+  for (std::int64_t i = 0; i <= 200; ++i) {
+    const std::int64_t t_ns = kStart_ns + i * 50'000'000;
+    navigator.take(ShaftReading{t_ns - 5'000'000, i < 100 ? 0.0 : 10.0});
+    navigator.take(RateReading{t_ns, Eigen::Vector3d::Zero(), 0});
+    if (i == 99) {
+      EXPECT_EQ(navigator.estimate().speed_m_s, 0);
+    }
+    // One time constant after the step: 1 - 1/e of it.
+    if (i == 117) {
+      EXPECT_NEAR(*navigator.estimate().speed_m_s, 0.872 * (1 - std::exp(-1)), 0.02);
+    }
+  }
+  EXPECT_NEAR(*navigator.estimate().speed_m_s, 0.872, 0.01);
+}
+
+TEST(Navigator, APropellerThatTurnsBackwardsGivesNothing) {
+  Navigator navigator({});
+  for (std::int64_t i = 0; i <= 200; ++i) {
+    navigator.take(ShaftReading{kStart_ns + i * 50'000'000, -10});
+    navigator.take(RateReading{kStart_ns + i * 50'000'000, Eigen::Vector3d::Zero(), 0});
+  }
+  EXPECT_EQ(navigator.estimate().speed_m_s, 0);
+}
+
+TEST(Navigator, TheSameReadingsGiveTheSameBits) {
+  const auto way = reference_way("path5");
+  const auto readings = readings_along(way, 50, {});
+  Navigator one({}), other({});
+  give(one, readings);
+  give(other, readings);
+  const auto a = one.estimate(), b = other.estimate();
+  EXPECT_EQ(a.time_ns, b.time_ns);
+  EXPECT_EQ(a.heading_rad, b.heading_rad);
+  EXPECT_EQ(a.position_m, b.position_m);
+  EXPECT_EQ(a.position_std_m, b.position_std_m);
+  EXPECT_EQ(a.velocity_m_s, b.velocity_m_s);
+  EXPECT_EQ(a.depth_m, b.depth_m);
+}
+
+}  // namespace
+}  // namespace navcal::nav::test
