@@ -62,6 +62,19 @@ void collect(const toml::table& table, std::vector<std::string>& keys, std::vect
   }
 }
 
+/// Takes [[list]] out of the document.
+void collect_list(std::string_view list, toml::table& document, std::vector<Entry>& entries) {
+  const toml::array* tables = document.get_as<toml::array>(list);
+  if (tables == nullptr || !tables->is_homogeneous<toml::table>()) return;
+  std::size_t number = 0;
+  for (const toml::node& element : *tables) {
+    std::vector<std::string> keys{fmt::format("{}[{}]", list, ++number)};
+    entries.push_back({keys, Table{}, static_cast<unsigned>(element.source().begin.line), std::nullopt});
+    collect(*element.as_table(), keys, entries);
+  }
+  document.erase(list);
+}
+
 /// The value of `text` read as TOML, when it is exactly one.
 std::optional<Value> one_value(const std::string& text) {
   const std::string line = "v=" + text;
@@ -79,15 +92,17 @@ std::optional<Value> one_value(const std::string& text) {
 
 std::string Entry::name() const { return fmt::format("{}", fmt::join(keys, ".")); }
 
-std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems) {
+std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems, std::string_view list) {
   if (auto problem = beyond_bounds(toml)) {
     problems.push_back(std::move(*problem));
     return {};
   }
   std::vector<Entry> entries;
   try {
+    toml::table document = toml::parse(toml);
+    if (!list.empty()) collect_list(list, document, entries);
     std::vector<std::string> keys;
-    collect(toml::parse(toml), keys, entries);
+    collect(document, keys, entries);
   } catch (const toml::parse_error& error) {
     problems.push_back({static_cast<unsigned>(error.source().begin.line), "", std::string(error.description())});
     return {};

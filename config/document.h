@@ -26,8 +26,10 @@ struct Problem {
   std::string message;
 };
 
-/// The entries of a file, line by line; tables are entries too. What cannot be read at all is one problem.
-[[nodiscard]] std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems);
+/// The entries of a file, line by line; tables are entries too. What cannot be read at all is one problem. The
+/// tables of the array [[list]], when one is wanted, have the keys "list[1]", "list[2]" and so on.
+[[nodiscard]] std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems,
+                                               std::string_view list = {});
 
 /// One "key=value" of the command line.
 [[nodiscard]] std::optional<Entry> read_override(std::string_view text, std::vector<Problem>& problems);

@@ -1,0 +1,145 @@
+#include "config/mission_options.h"
+
+#include "config/text_rules.h"
+
+namespace navcal::config {
+namespace {
+
+using M = Mission;
+using S = MissionStep;
+
+Option<S> number(std::string_view key, std::optional<double> S::*value, Unit unit, double low, double high,
+                 std::string_view description) {
+  OptionInfo info{
+      .key = key, .description = description, .kind = Kind::real, .unit = unit, .low = low, .high = high};
+  return {std::move(info), {}, [value, unit](S& step, const Value& given) {
+            step.*value = to_inside<double>(std::get<double>(given), unit);
+          }};
+}
+
+Option<S> count(std::string_view key, std::optional<int> S::*value, double low, double high,
+                std::string_view description) {
+  OptionInfo info{.key = key, .description = description, .kind = Kind::integer, .low = low, .high = high};
+  return {std::move(info), {}, [value](S& step, const Value& given) {
+            step.*value = static_cast<int>(std::get<std::int64_t>(given));
+          }};
+}
+
+std::vector<Option<M>> make_mission_options() {
+  return {
+      text<M>(
+          {.table = "mission",
+           .key = "description",
+           .description = "What it is for.",
+           .text_rule = "a text without control characters",
+           .text_holds = is_printable},
+          [](auto& m) -> auto& { return m.description; }),
+      choice<M>(
+          {.table = "mission",
+           .key = "at_end",
+           .description = "Begin again, or go on as at the end.",
+           .choices = {"repeat", "hold"}},
+          [](auto& m) -> auto& { return m.at_end; }),
+      real<M>(
+          {.table = "start",
+           .key = "heading_deg",
+           .description = "Heading, true.",
+           .unit = kDegrees,
+           .low = -360,
+           .high = 360},
+          [](auto& m) -> auto& { return m.start.heading_rad; }),
+      real<M>(
+          {.table = "start", .key = "depth_m", .description = "Depth.", .unit = kMetres, .low = 0, .high = 1000},
+          [](auto& m) -> auto& { return m.start.depth_m; }),
+      real<M>(
+          {.table = "start",
+           .key = "speed_m_s",
+           .description = "Speed.",
+           .unit = kMetresPerSecond,
+           .low = 0,
+           .high = 10},
+          [](auto& m) -> auto& { return m.start.speed_m_s; }),
+      real<M>(
+          {.table = "start",
+           .key = "shaft_rpm",
+           .description = "Shaft speed.",
+           .unit = kRpm,
+           .low = 0,
+           .high = 60000},
+          [](auto& m) -> auto& { return m.start.shaft_rps; }),
+  };
+}
+
+std::vector<Option<S>> make_step_options() {
+  return {
+      choice<S>(
+          {.key = "do",
+           .description = "What is done.",
+           .choices = {"leg", "turn", "circle", "spiral", "zigzag", "pirouette", "dive", "surface", "speed",
+                       "swing", "doublet", "direct"}},
+          [](auto& s) -> auto& { return s.kind; }),
+      choice<S>(
+          {.key = "on",
+           .description = "What a doublet moves.",
+           .choices = {"rudder", "elevator", "fin1", "fin2", "fin3"}},
+          [](auto& s) -> auto& { return s.on; }),
+      number("heading_deg", &S::heading_rad, kDegrees, -360, 360, "True heading; the shorter way round."),
+      number("by_deg", &S::by_rad, kDegrees, -36000, 36000, "Change of heading, to starboard."),
+      number("turns", &S::turns, kNoUnit, -1000, 1000, "Turns, to starboard."),
+      number("rate_deg_s", &S::rate_rad_s, kDegreesPerSecond, 0.1, 90, "Rate of turn."),
+      number("depth_m", &S::depth_m, kMetres, 0, 1000, "Depth."),
+      number("shaft_rpm", &S::shaft_rps, kRpm, 0, 60000, "Shaft speed, from now on."),
+      number("speed_m_s", &S::speed_m_s, kMetresPerSecond, 0.05, 10, "Speed to be held, from now on."),
+      number("seconds", &S::seconds, kSeconds, 0.1, 1e6, "How long."),
+      number("metres", &S::metres, kMetres, 0.1, 1e6, "How far."),
+      number("rudder_deg", &S::rudder_rad, kDegrees, -50, 50, "Rudder, positive to starboard."),
+      number("elevator_deg", &S::elevator_rad, kDegrees, -50, 50, "Elevator, positive nose up."),
+      number("fin1_deg", &S::fin1_rad, kDegrees, -80, 80, "Angle of the fin."),
+      number("fin2_deg", &S::fin2_rad, kDegrees, -80, 80, "Angle of the fin."),
+      number("fin3_deg", &S::fin3_rad, kDegrees, -80, 80, "Angle of the fin."),
+      number("reach_deg", &S::reach_rad, kDegrees, 1, 170, "How far the heading goes either way."),
+      number("amplitude_deg", &S::amplitude_rad, kDegrees, -50, 50, "How far the surface goes from where it is."),
+      count("times", &S::times, 1, 10000, "How often."),
+      count("stations", &S::stations, 2, 360, "Headings, evenly all round."),
+  };
+}
+
+}  // namespace
+
+const std::vector<Option<M>>& mission_options() {
+  static const std::vector<Option<M>> options = make_mission_options();
+  return options;
+}
+
+const std::vector<Option<S>>& step_options() {
+  static const std::vector<Option<S>> options = make_step_options();
+  return options;
+}
+
+const StepRule& rule_of(StepKind kind) {
+  // In the order of StepKind.
+  static const std::vector<StepRule> rules{
+      {{{"seconds", "metres"}}, {{"heading_deg", "by_deg"}, {"depth_m"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"heading_deg", "by_deg"}}, {{"rate_deg_s"}, {"depth_m"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"turns"}}, {{"rate_deg_s"}, {"depth_m"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"turns"}, {"depth_m"}}, {{"rate_deg_s"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"rudder_deg"}, {"reach_deg"}, {"times"}}, {{"depth_m"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"turns"}, {"rudder_deg"}}, {{"depth_m"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"depth_m"}}, {{"heading_deg", "by_deg"}, {"seconds"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"seconds"}}, {{"heading_deg", "by_deg"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"seconds"}, {"shaft_rpm", "speed_m_s"}}, {}},
+      {{{"stations"}, {"seconds"}}, {{"rate_deg_s"}, {"depth_m"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"on"}, {"amplitude_deg"}, {"seconds"}}, {{"times"}, {"shaft_rpm", "speed_m_s"}}},
+      {{{"seconds"}},
+       {{"rudder_deg", "fin1_deg"},
+        {"elevator_deg", "fin2_deg"},
+        {"elevator_deg", "fin3_deg"},
+        {"rudder_deg", "fin2_deg"},
+        {"rudder_deg", "fin3_deg"},
+        {"elevator_deg", "fin1_deg"},
+        {"shaft_rpm"}}},
+  };
+  return rules.at(static_cast<std::size_t>(kind));
+}
+
+}  // namespace navcal::config

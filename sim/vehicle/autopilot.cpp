@@ -1,0 +1,73 @@
+#include "sim/vehicle/autopilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace navcal::sim {
+namespace {
+
+/// Within +-limit; the integral of the error grows only where that does not push further beyond it.
+double limited(double wanted, double limit, double error, double period_s, double& integral) {
+  if (std::abs(wanted) < limit || wanted * error < 0) integral += error * period_s;
+  return std::clamp(wanted, -limit, limit);
+}
+
+}  // namespace
+
+Eigen::Vector3d mixed_fins(double rudder_rad, double elevator_rad) {
+  constexpr double kSide = std::numbers::sqrt3 / 2;
+  return {-rudder_rad, rudder_rad / 2 + kSide * elevator_rad, rudder_rad / 2 - kSide * elevator_rad};
+}
+
+Autopilot::Autopilot(const config::VehicleSettings& settings)
+    : settings_(settings.autopilot),
+      fin_limit_rad_(settings.fins.limit_rad),
+      drag_kg_m_(0.5 * settings.water.density_kg_m3 * settings.hull.axial_drag * std::numbers::pi *
+                 settings.hull.diameter_m * settings.hull.diameter_m / 4),
+      propeller_(settings.propeller, settings.water) {}
+
+Orders Autopilot::orders(const Demand& demand, const Body& body) {
+  Orders orders;
+  orders.rudder_rad = demand.rudder_rad ? *demand.rudder_rad : rudder(demand, body);
+  orders.elevator_rad = demand.elevator_rad ? *demand.elevator_rad : elevator(demand, body);
+  orders.fins_rad = mixed_fins(orders.rudder_rad, orders.elevator_rad);
+  for (std::size_t i = 0; i < 3; ++i) {
+    double& fin = orders.fins_rad[static_cast<Eigen::Index>(i)];
+    fin = std::clamp(demand.fins_rad[i].value_or(fin), -fin_limit_rad_, fin_limit_rad_);
+  }
+  orders.shaft_rps = std::clamp(shaft(demand, body), 0.0, settings_.shaft_limit_rps);
+  return orders;
+}
+
+double Autopilot::rudder(const Demand& demand, const Body& body) const {
+  const double turn =
+      (std::sin(body.euler_rad[0]) * body.velocity[4] + std::cos(body.euler_rad[0]) * body.velocity[5]) /
+      std::cos(body.euler_rad[1]);
+  const double wanted = settings_.rudder_per_heading * (demand.heading_rad - body.euler_rad[2]) +
+                        settings_.rudder_per_turn_s * (demand.turn_rad_s - turn);
+  return std::clamp(wanted, -settings_.rudder_limit_rad, settings_.rudder_limit_rad);
+}
+
+double Autopilot::elevator(const Demand& demand, const Body& body) {
+  const double too_deep_m = body.position_m.z() - demand.depth_m;
+  const double pitch = limited(settings_.pitch_per_depth_rad_m * too_deep_m +
+                                   settings_.pitch_per_depth_integral_rad_m_s * depth_integral_m_s_,
+                               settings_.pitch_limit_rad, too_deep_m, settings_.period_s, depth_integral_m_s_);
+  const double error = pitch - body.euler_rad[1];
+  return limited(settings_.elevator_per_pitch * error +
+                     settings_.elevator_per_pitch_integral_per_s * pitch_integral_rad_s_ -
+                     settings_.elevator_per_turn_s * body.velocity[4],
+                 settings_.elevator_limit_rad, error, settings_.period_s, pitch_integral_rad_s_);
+}
+
+double Autopilot::shaft(const Demand& demand, const Body& body) {
+  if (!demand.speed_m_s) return demand.shaft_rps;
+  const double error = *demand.speed_m_s - body.velocity[0];
+  const double wanted = propeller_.shaft_for(*demand.speed_m_s, drag_kg_m_) +
+                        settings_.shaft_per_speed_per_m * error +
+                        settings_.shaft_per_way_per_m_s * speed_integral_m_;
+  return limited(wanted, settings_.shaft_limit_rps, error, settings_.period_s, speed_integral_m_);
+}
+
+}  // namespace navcal::sim

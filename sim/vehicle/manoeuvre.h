@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+
+#include "config/mission.h"
+#include "sim/vehicle/autopilot.h"
+#include "sim/vehicle/body.h"
+
+namespace navcal::sim {
+
+/// What a manoeuvre can go by.
+struct Situation {
+  double since_s = 0;   ///< it began
+  double period_s = 0;  ///< since it was asked last
+  double way_m = 0;     ///< through the water, since it began
+  Body body;
+  Orders last;  ///< the orders given last
+};
+
+/// One step of a mission under way: changes what is wanted of the vehicle.
+class Manoeuvre {
+ public:
+  virtual ~Manoeuvre() = default;
+  /// Once, before the first go_on().
+  virtual void begin(const Situation& now, Demand& demand) = 0;
+  /// At each period; false: it is done, and what is in `demand` stays.
+  [[nodiscard]] virtual bool go_on(const Situation& now, Demand& demand) = 0;
+};
+
+/// The heading next to `near_rad` that is `heading_rad` but for whole turns.
+[[nodiscard]] double nearest_heading(double heading_rad, double near_rad);
+
+/// Leg, dive, surface, speed: in steady_manoeuvre.cpp. Turn, circle, spiral, swing: in turning_manoeuvre.cpp.
+/// Zigzag, pirouette, doublet, direct: in rudder_manoeuvre.cpp.
+[[nodiscard]] std::unique_ptr<Manoeuvre> make_steady_manoeuvre(const config::MissionStep& step);
+[[nodiscard]] std::unique_ptr<Manoeuvre> make_turning_manoeuvre(const config::MissionStep& step);
+[[nodiscard]] std::unique_ptr<Manoeuvre> make_rudder_manoeuvre(const config::MissionStep& step);
+
+}  // namespace navcal::sim
