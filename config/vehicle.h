@@ -6,6 +6,8 @@ namespace navcal::config {
 
 struct WaterSettings {
   double density_kg_m3 = 1000;
+
+  bool operator==(const WaterSettings&) const = default;
 };
 
 struct HullSettings {
@@ -21,6 +23,8 @@ struct HullSettings {
   double lift_slope_per_rad = 0.6;
   double lift_area_factor = 0.7;
   double lift_at_m = 0.05;
+
+  bool operator==(const HullSettings&) const = default;
 };
 
 struct FinSettings {
@@ -32,6 +36,8 @@ struct FinSettings {
   double radius_m = 0.085;
   double lag_s = 0.15;
   double limit_rad = 25 * std::numbers::pi / 180;
+
+  bool operator==(const FinSettings&) const = default;
 };
 
 struct PropellerSettings {
@@ -43,12 +49,16 @@ struct PropellerSettings {
   double lag_s = 0.5;
   double idle_current_A = 0.15;
   double current_A_s3 = 5.5e-4;
+
+  bool operator==(const PropellerSettings&) const = default;
 };
 
 struct DampingSettings {
   double roll_ratio = 0.25;
   double pitch_ratio = 0.5;
   double yaw_per_s = 0.15;
+
+  bool operator==(const DampingSettings&) const = default;
 };
 
 struct AutopilotSettings {
@@ -56,8 +66,8 @@ struct AutopilotSettings {
   double rudder_per_heading = 1.2;
   double rudder_per_turn_s = 0.5;
   double rudder_limit_rad = 22 * std::numbers::pi / 180;
-  double pitch_per_depth_rad_m = 20 * std::numbers::pi / 180;
-  double pitch_per_depth_integral_rad_m_s = 1 * std::numbers::pi / 180;
+  double pitch_per_depth_rad_m = 12 * std::numbers::pi / 180;
+  double pitch_per_depth_integral_rad_m_s = 0.5 * std::numbers::pi / 180;
   double pitch_limit_rad = 25 * std::numbers::pi / 180;
   double elevator_per_pitch = 0.8;
   double elevator_per_pitch_integral_per_s = 0.3;
@@ -66,6 +76,8 @@ struct AutopilotSettings {
   double shaft_per_speed_per_m = 4;
   double shaft_per_way_per_m_s = 2;
   double shaft_limit_rps = 30;
+
+  bool operator==(const AutopilotSettings&) const = default;
 };
 
 /// The vehicle and its autopilot as the simulator takes them, SI and radians; by default the reference vehicle.
@@ -77,6 +89,8 @@ struct VehicleSettings {
   PropellerSettings propeller;
   DampingSettings damping;
   AutopilotSettings autopilot;
+
+  bool operator==(const VehicleSettings&) const = default;
 };
 
 }  // namespace navcal::config

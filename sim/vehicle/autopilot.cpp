@@ -7,10 +7,14 @@
 namespace navcal::sim {
 namespace {
 
-/// Within +-limit; the integral of the error grows only where that does not push further beyond it.
-double limited(double wanted, double limit, double error, double period_s, double& integral) {
-  if (std::abs(wanted) < limit || wanted * error < 0) integral += error * period_s;
-  return std::clamp(wanted, -limit, limit);
+/// Gain on an error and on its integral, and a limit. The integral is for what stands against the vehicle all the
+/// time: it grows only where the error alone asks for a small part of the limit, so that long changes leave
+/// nothing in it.
+double limited(double by_error, double per_integral, double limit, double error, double period_s,
+               double& integral) {
+  constexpr double kSmallPart = 0.25;
+  if (std::abs(by_error) < kSmallPart * limit) integral += error * period_s;
+  return std::clamp(by_error + per_integral * integral, -limit, limit);
 }
 
 }  // namespace
@@ -51,23 +55,21 @@ double Autopilot::rudder(const Demand& demand, const Body& body) const {
 
 double Autopilot::elevator(const Demand& demand, const Body& body) {
   const double too_deep_m = body.position_m.z() - demand.depth_m;
-  const double pitch = limited(settings_.pitch_per_depth_rad_m * too_deep_m +
-                                   settings_.pitch_per_depth_integral_rad_m_s * depth_integral_m_s_,
-                               settings_.pitch_limit_rad, too_deep_m, settings_.period_s, depth_integral_m_s_);
+  const double pitch =
+      limited(settings_.pitch_per_depth_rad_m * too_deep_m, settings_.pitch_per_depth_integral_rad_m_s,
+              settings_.pitch_limit_rad, too_deep_m, settings_.period_s, depth_integral_m_s_);
   const double error = pitch - body.euler_rad[1];
-  return limited(settings_.elevator_per_pitch * error +
-                     settings_.elevator_per_pitch_integral_per_s * pitch_integral_rad_s_ -
-                     settings_.elevator_per_turn_s * body.velocity[4],
-                 settings_.elevator_limit_rad, error, settings_.period_s, pitch_integral_rad_s_);
+  return limited(settings_.elevator_per_pitch * error - settings_.elevator_per_turn_s * body.velocity[4],
+                 settings_.elevator_per_pitch_integral_per_s, settings_.elevator_limit_rad, error,
+                 settings_.period_s, pitch_integral_rad_s_);
 }
 
 double Autopilot::shaft(const Demand& demand, const Body& body) {
   if (!demand.speed_m_s) return demand.shaft_rps;
   const double error = *demand.speed_m_s - body.velocity[0];
-  const double wanted = propeller_.shaft_for(*demand.speed_m_s, drag_kg_m_) +
-                        settings_.shaft_per_speed_per_m * error +
-                        settings_.shaft_per_way_per_m_s * speed_integral_m_;
-  return limited(wanted, settings_.shaft_limit_rps, error, settings_.period_s, speed_integral_m_);
+  const double usual = propeller_.shaft_for(*demand.speed_m_s, drag_kg_m_);
+  return usual + limited(settings_.shaft_per_speed_per_m * error, settings_.shaft_per_way_per_m_s,
+                         settings_.shaft_limit_rps, error, settings_.period_s, speed_integral_m_);
 }
 
 }  // namespace navcal::sim

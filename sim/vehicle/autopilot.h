@@ -37,7 +37,7 @@ struct Demand {
 ///   pitch wanted = c e_z + d integral(e_z), nose up when too deep
 ///   elevator = f e_theta + g integral(e_theta) - h q
 ///   shaft = that whose thrust equals the axial drag at the speed wanted + k e_u + l integral(e_u).
-/// Each integral stands still while what it drives is at its limit. It steers by the true state.
+/// Each integral grows only where the error before it is small. It steers by the true state.
 class Autopilot {
  public:
   explicit Autopilot(const config::VehicleSettings& settings);

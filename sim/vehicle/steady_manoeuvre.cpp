@@ -8,7 +8,7 @@ namespace {
 
 using config::MissionStep;
 
-constexpr double kSurfaceDepth_m = 0.15;
+constexpr double kSurfaceDepth_m = 0.2;
 constexpr double kLongestChangeOfDepth_s = 120;
 
 void aim(const MissionStep& step, Demand& demand) {

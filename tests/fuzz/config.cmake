@@ -1,1 +1,2 @@
 navcal_fuzz(fuzz_toml SOURCES toml.cpp USES navcal::config)
+navcal_fuzz(fuzz_mission SOURCES mission.cpp USES navcal::config)

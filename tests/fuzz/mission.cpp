@@ -1,0 +1,31 @@
+// Any bytes as a mission and as a vehicle: an Error, or something that holds to its rules. A vehicle comes back
+// from its file.
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "config/mission_file.h"
+#include "config/vehicle_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace navcal::config;
+  const std::string_view input(reinterpret_cast<const char*>(data), size);
+  try {
+    const Mission mission = parse_mission(input, "fuzz.toml");
+    if (mission.steps.empty()) std::abort();
+    for (const MissionStep& step : mission.steps) {
+      if (step.kind == StepKind::leg && step.seconds.has_value() == step.metres.has_value()) std::abort();
+      if (step.kind == StepKind::swing && !step.stations) std::abort();
+      if (step.line == 0) std::abort();
+    }
+  } catch (const Error& error) {
+    if (error.problems().empty()) std::abort();
+  }
+  try {
+    const VehicleSettings vehicle = parse_vehicle(input, "fuzz.toml");
+    if (!(parse_vehicle(vehicle_file(vehicle), "again.toml") == vehicle)) std::abort();
+  } catch (const Error& error) {
+    if (error.problems().empty()) std::abort();
+  }
+  return 0;
+}
