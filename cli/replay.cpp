@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,10 @@
 #include "cli/output.h"
 #include "cli/port_matching.h"
 #include "cli/progress.h"
+#include "cli/watch_text.h"
 #include "config/load.h"
 #include "pipeline/pipeline.h"
+#include "record/navigation_json.h"
 #include "record/recording.h"
 #include "record/sample_json.h"
 
@@ -35,12 +38,24 @@ class Printer : public pipeline::Sink {
     line_ += '\n';
     output_.append(line_);
   }
+  void on_navigation(const pipeline::NavigationSample& sample) override {
+    line_.clear();
+    record::append_json(line_, sample);
+    line_ += '\n';
+    output_.append(line_);
+  }
 
  private:
   const config::Settings& settings_;
   Output& output_;
   std::string line_;
 };
+
+/// The daemon knows nothing of where the vehicle was in its last run, unlike its calibrations.
+bool is_daemon_start(const record::LoggedEvent& event) {
+  const auto json = nlohmann::json::parse(event.json, nullptr, false);
+  return json.is_object() && text(json, "name") == "daemon.start";
+}
 
 /// Plays one file through the pipeline; files of one series may follow each other.
 void play(record::Recording& recording, const std::string& file, pipeline::Pipeline& pipeline, Printer& printer) {
@@ -62,6 +77,7 @@ void play(record::Recording& recording, const std::string& file, pipeline::Pipel
         std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), problem.c_str());
     } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) {
       newest_ns = std::max(newest_ns, event->time_ns);
+      if (is_daemon_start(*event)) pipeline.begin_navigation_run();
     }
     progress.show(recording.progress());
   }

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "cli/watch_navigation.h"
 #include "cli/watch_text.h"
 
 namespace navcal::cli {
@@ -46,6 +47,10 @@ void WatchView::take(std::string_view line) {
     time_ = report;
   } else if (kind == "CALIB") {
     calibration_.take(report);
+  } else if (kind == "NAV") {
+    navigation_ = report;
+  } else if (kind == "TPV" && text(report, "device") == "navigation") {
+    return;  // NAV says more
   } else if (!kind.empty()) {
     last_[kind][text(report, "device")] = report;
   }
@@ -161,6 +166,7 @@ std::string WatchView::page(Colour colour) const {
   append_ports(out);
   append_attitude(out);
   append_position(out);
+  append_navigation(out, navigation_);
   append_motor(out);
   append_log(out);
   append_time(out);
@@ -192,6 +198,7 @@ std::string WatchView::line() const {
       }
     }
   }
+  if (const auto words = reckoned_words(navigation_); !words.empty()) add(out, "{}; ", words);
   if (!calibration_.name().empty()) add(out, "calibration {}; ", calibration_.name());
   return out + log_state(log_);
 }

@@ -38,6 +38,7 @@ class WatchView {
   Json alarms_ = Json::array();
   Json log_;
   Json time_;
+  Json navigation_;
   std::map<std::string, Json> ports_;                        ///< of HEALTH, by device
   std::map<std::string, double> frames_per_s_;               ///< by device
   std::map<std::string, std::map<std::string, Json>> last_;  ///< newest report, by class and device

@@ -135,6 +135,13 @@ void Daemon::on_calibration(const pipeline::CalibrationChange& change) {
                     pipeline::name_of(change.cause), change.name.text()));
 }
 
+void Daemon::on_navigation(const pipeline::NavigationSample& sample) {
+  publisher_.navigation(sample);
+  log_.navigation(sample);
+  if (sample.outage)
+    event(sample.stamp.arrival_ns, "info", "navigation.fix", "", pipeline::words_for_outage(sample));
+}
+
 void Daemon::update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu) {
   const auto& changes = alarms_.update(sample.port, imu, sample.stamp.arrival_ns);
   for (const auto& change : changes) {

@@ -23,10 +23,13 @@ std::optional<std::uint16_t> Daemon::device_named(std::string_view name) const {
   for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
     if (settings_.ports[port].name == name) return port;
   }
+  if (name == pipeline::kNavigationDevice) return navigation_device(settings_);
   return std::nullopt;
 }
 
-std::string_view Daemon::device_name(std::uint16_t port) const { return settings_.ports[port].name; }
+std::string_view Daemon::device_name(std::uint16_t port) const {
+  return port == navigation_device(settings_) ? pipeline::kNavigationDevice : settings_.ports[port].name;
+}
 
 void Daemon::append_device(std::string& out, std::uint16_t port) const {
   const auto& settings = settings_.ports[port];

@@ -54,6 +54,9 @@ struct GpsdFix {
   int status;  ///< 0: nothing to add; 5 dead reckoning, 7 surveyed position
 };
 
+constexpr GpsdFix kReckoned{2, 5};
+constexpr double kStandstill_m_s = 0.01;
+
 constexpr GpsdFix gpsd_fix(Fix fix) {
   switch (fix) {
     case Fix::fix_2d:
@@ -113,6 +116,32 @@ void append_tpv(std::string& out, const instruments::GpsSample& gps, const instr
   }
   if (gps.time_corrected) out += ",\"time_corrected\":true";
   if (!gps.leap_known) out += ",\"leap_known\":false";
+  out += kEnd;
+}
+
+void append_tpv(std::string& out, const pipeline::NavigationSample& sample, bool utc_known) {
+  const auto& estimate = sample.estimate;
+  begin(out, "TPV", pipeline::kNavigationDevice);
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"mode\":{},\"status\":{}"), kReckoned.mode,
+                 kReckoned.status);
+  if (utc_known) time(out, sample.stamp.validity_utc_ns, 3);
+  fixed(out, "lat", sample.latitude_rad, 9, kDegrees);
+  fixed(out, "lon", sample.longitude_rad, 9, kDegrees);
+  const auto& std_m = estimate.position_std_m;
+  fixed(out, "epx", std_m.y(), 3);
+  fixed(out, "epy", std_m.x(), 3);
+  fixed(out, "eph", std_m.norm(), 3);
+  if (const auto& velocity = estimate.velocity_m_s) {
+    const double speed_m_s = std::hypot(velocity->x(), velocity->y());
+    // Where nothing moves there is no direction.
+    if (speed_m_s > kStandstill_m_s) {
+      const double track_rad = std::atan2(velocity->y(), velocity->x());
+      fixed(out, "track", track_rad < 0 ? track_rad + 2 * std::numbers::pi : track_rad, 4, kDegrees);
+    }
+    fixed(out, "speed", speed_m_s, 3);
+    fixed(out, "climb", -velocity->z(), 3);
+  }
+  fixed(out, "depth", estimate.depth_m, 3);
   out += kEnd;
 }
 

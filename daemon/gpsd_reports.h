@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "instruments/samples.h"
+#include "pipeline/navigation.h"
 
 namespace navcal::daemon {
 
@@ -21,6 +22,10 @@ struct ReportSource {
 /// TPV: time is the second that the message states. Position only when the receiver calls it a fix.
 void append_tpv(std::string& out, const instruments::GpsSample& gps, const instruments::Stamp& stamp,
                 ReportSource source);
+
+/// TPV of a position that was reckoned on from the last fix: 2D, status 5 (dead reckoning), with its standard
+/// errors.
+void append_tpv(std::string& out, const pipeline::NavigationSample& sample, bool utc_known);
 
 /// SKY: satellites, and the dilution of precision of the same receiver's last position, if any.
 void append_sky(std::string& out, const instruments::SkySample& sky, const instruments::GpsSample* position,

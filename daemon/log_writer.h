@@ -11,6 +11,7 @@
 #include "config/settings.h"
 #include "daemon/disk_thread.h"
 #include "instruments/samples.h"
+#include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
 #include "record/log_encoder.h"
 
@@ -25,6 +26,7 @@ class LogWriter {
 
   void raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns, protocols::Bytes bytes);
   void sample(const instruments::Sample& sample);
+  void navigation(const pipeline::NavigationSample& sample);
   void mapping(std::int64_t now_ns, const pipeline::UtcMapping& mapping);
   void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
              std::string_view message);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "daemon/json_text.h"
+#include "record/navigation_json.h"
 #include "record/sample_json.h"
 
 namespace navcal::daemon {
@@ -40,6 +41,20 @@ void Publisher::sample(const instruments::Sample& sample) {
   server_.publish(sample.port, report_);
 }
 
+void Publisher::navigation(const pipeline::NavigationSample& sample) {
+  last_navigation_ = sample;
+  const std::uint16_t device = navigation_device(settings_);
+  if (!server_.watched(device)) return;
+  report_.clear();
+  record::append_json(report_, sample);
+  report_ += '\n';
+  server_.publish(device, report_);
+  if (sample.source != pipeline::PositionSource::reckoned) return;
+  report_.clear();
+  append_tpv(report_, sample, utc_known_);
+  server_.publish(device, report_);
+}
+
 void Publisher::append(const instruments::Sample& sample, ReportSource source) {
   const auto& stamp = sample.stamp;
   std::visit(Overloaded{
@@ -70,8 +85,9 @@ void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns
   const auto active =
       std::count_if(last_.begin(), last_.end(), [](const Last& last) { return last.gps.has_value(); });
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"active\":{},\"tpv\":["), active);
+  bool first = true;
   const auto list = [&](auto&& append_one) {
-    bool first = true;
+    first = true;
     for (std::uint16_t port = 0; port < last_.size(); ++port) {
       const std::size_t before = out.size();
       if (!first) out += ',';
@@ -87,6 +103,11 @@ void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns
     if (last.gps) append_tpv(out, *last.gps, last.gps_stamp, source(port));
     return last.gps.has_value();
   });
+  if (last_navigation_ && last_navigation_->source == pipeline::PositionSource::reckoned) {
+    if (!first) out += ',';
+    append_tpv(out, *last_navigation_, utc_known_);
+    out.pop_back();
+  }
   out += "],\"gst\":[],\"sky\":[";
   list([&](const Last& last, std::uint16_t port) {
     if (last.sky) append_sky(out, *last.sky, last.gps ? &*last.gps : nullptr, last.sky_stamp, source(port));

@@ -9,8 +9,14 @@
 #include "daemon/gpsd_reports.h"
 #include "daemon/status_server.h"
 #include "instruments/samples.h"
+#include "pipeline/navigation.h"
 
 namespace navcal::daemon {
+
+/// What is estimated is a device to those who watch, behind those of the ports.
+[[nodiscard]] inline std::uint16_t navigation_device(const config::Settings& settings) {
+  return static_cast<std::uint16_t>(settings.ports.size());
+}
 
 /// Makes the reports of the status socket out of samples: once for all who watch, and not at all when nobody does.
 class Publisher {
@@ -18,9 +24,12 @@ class Publisher {
   Publisher(const config::Settings& settings, StatusServer& server);
 
   void sample(const instruments::Sample& sample);
+  /// NAV to everybody; TPV too while no fix is current, for then the receivers' own say nothing.
+  void navigation(const pipeline::NavigationSample& sample);
   /// Whether times in UTC mean anything yet.
   void set_utc_known(bool known) { utc_known_ = known; }
-  /// The answer to ?POLL;: the last position and satellites of every receiver.
+  /// The answer to ?POLL;: the last position and satellites of every receiver, and the reckoned position while no
+  /// fix is current.
   void append_poll(std::string& out, std::optional<std::int64_t> utc_ns) const;
 
  private:
@@ -39,6 +48,7 @@ class Publisher {
   const config::Settings& settings_;
   StatusServer& server_;
   std::vector<Last> last_;
+  std::optional<pipeline::NavigationSample> last_navigation_;
   std::string report_;
   bool utc_known_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "instruments/samples.h"
@@ -33,5 +34,8 @@ struct NavigationSample {
   std::optional<nav::Outage> outage;
   std::optional<double> outage_error_uncalibrated_m;
 };
+
+/// "83 s and 91 m without a fix ended 2.3 m off: 2.5 m per 100 m; without calibrations 7.9 m off".
+[[nodiscard]] std::string words_for_outage(const NavigationSample& sample);
 
 }  // namespace navcal::pipeline

@@ -17,18 +17,6 @@ Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]
 
 }  // namespace
 
-std::string_view name_of(PositionSource source) {
-  switch (source) {
-    case PositionSource::fixes:
-      return "fixes";
-    case PositionSource::reckoned:
-      return "reckoned";
-    case PositionSource::none:
-      break;
-  }
-  return "none";
-}
-
 nav::Options navigation_options(const config::Settings& settings) {
   nav::Options options;
   options.attitude.tilt_lag_s = settings.calibration.tilt_lag_s;

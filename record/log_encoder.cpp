@@ -13,6 +13,7 @@
 #include "record/mapping_json.h"
 #include "record/mcap_format.h"
 #include "record/mcap_summary.h"
+#include "record/navigation_json.h"
 #include "record/sample_json.h"
 
 namespace navcal::record {
@@ -193,6 +194,11 @@ void LogEncoder::sample(std::string& out, const instruments::Sample& sample) {
   if (channel == 0) return;  // satellites in view: the raw bytes have them
   state_->json_message(out, channel, sample.stamp.arrival_ns, sample.stamp.validity_ns,
                        [&](std::string& text) { append_json(text, sample, state_->ports[sample.port].name); });
+}
+
+void LogEncoder::navigation(std::string& out, const pipeline::NavigationSample& sample) {
+  state_->json_message(out, topic::kNav, sample.stamp.arrival_ns, sample.stamp.validity_ns,
+                       [&](std::string& text) { append_json(text, sample); });
 }
 
 void LogEncoder::mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping) {

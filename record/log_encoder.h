@@ -7,6 +7,7 @@
 
 #include "config/settings.h"
 #include "instruments/samples.h"
+#include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
 #include "protocols/frame.h"
 
@@ -28,6 +29,7 @@ class LogEncoder {
   void raw(std::string& out, std::uint16_t port, Direction direction, std::int64_t time_ns,
            protocols::Bytes bytes);
   void sample(std::string& out, const instruments::Sample& sample);
+  void navigation(std::string& out, const pipeline::NavigationSample& sample);
   void mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
   /// `severity`: "info", "warning", "error", "alarm"; `name`: a short key such as "port.lost"; `port` may be
   /// empty.

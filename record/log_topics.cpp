@@ -87,6 +87,32 @@ constexpr std::array kAltimeter{Field{"time", number, "s"},    Field{"time_std",
                                 Field{"arrival", number, "s"}, Field{"device", text},
                                 Field{"altitude_m"},           Field{"calibration", text}};
 
+constexpr std::array kNav{Field{"time", number, "s"},
+                          Field{"time_std", number, "s"},
+                          Field{"arrival", number, "s"},
+                          Field{"device", text},
+                          Field{"position", text},
+                          Field{"lat", number, "deg"},
+                          Field{"lon", number, "deg"},
+                          Field{"north_std_m"},
+                          Field{"east_std_m"},
+                          Field{"since_fix_s"},
+                          Field{"since_fix_m"},
+                          Field{"depth_m"},
+                          Field{"heading_rad"},
+                          Field{"heading_std_rad"},
+                          Field{"pitch_rad"},
+                          Field{"roll_rad"},
+                          Field{"speed_m_s"},
+                          Field{"velocity_m_s", vector3},
+                          Field{"set_north_m_s"},
+                          Field{"set_east_m_s"},
+                          Field{"outage_s"},
+                          Field{"outage_m"},
+                          Field{"outage_error_m"},
+                          Field{"outage_error_uncalibrated_m"},
+                          Field{"calibration", text}};
+
 constexpr std::array kTopics{
     Topic{topic::kConfig, "/config", "navcal.Config", kConfig},
     Topic{topic::kTime, "/time", "navcal.Time", kTime},
@@ -98,6 +124,7 @@ constexpr std::array kTopics{
     Topic{topic::kGps, "/gps", "navcal.Gps", kGps},
     Topic{topic::kMotor, "/motor", "navcal.Motor", kMotor},
     Topic{topic::kAltimeter, "/altimeter", "navcal.Altimeter", kAltimeter},
+    Topic{topic::kNav, "/nav", "navcal.Nav", kNav},
 };
 
 nlohmann::ordered_json schema_of(const Field& field) {

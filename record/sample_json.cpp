@@ -5,11 +5,10 @@
 #include <numbers>
 
 #include "record/json_object.h"
+#include "record/sample_head.h"
 
 namespace navcal::record {
 namespace {
-
-using instruments::Stamp;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
@@ -18,26 +17,11 @@ std::optional<double> degrees(const std::optional<double>& rad) {
   return *rad * kDegreesPerRadian;
 }
 
-void append_head(JsonObject& json, const Stamp& stamp, std::string_view device) {
-  json.seconds("time", stamp.validity_utc_ns);
-  json.seconds("time_std", stamp.std_ns);
-  json.seconds("arrival", stamp.arrival_utc_ns);
-  json.text("device", device);
-}
-
 void append_count(JsonObject& json, std::string_view key, const std::optional<std::uint8_t>& count) {
   if (count) {
     json.integer(key, *count);
   } else {
     json.null(key);
-  }
-}
-
-void append_calibration(JsonObject& json, instruments::CalibrationName name) {
-  if (name.number == 0) {
-    json.null("calibration");
-  } else {
-    json.text("calibration", calibration_text(name));
   }
 }
 
@@ -124,6 +108,21 @@ struct ClassName {
 };
 
 }  // namespace
+
+void append_head(JsonObject& json, const instruments::Stamp& stamp, std::string_view device) {
+  json.seconds("time", stamp.validity_utc_ns);
+  json.seconds("time_std", stamp.std_ns);
+  json.seconds("arrival", stamp.arrival_utc_ns);
+  json.text("device", device);
+}
+
+void append_calibration(JsonObject& json, instruments::CalibrationName name) {
+  if (name.number == 0) {
+    json.null("calibration");
+  } else {
+    json.text("calibration", calibration_text(name));
+  }
+}
 
 std::string calibration_text(instruments::CalibrationName name) {
   return fmt::format("{}-{:08x}", name.number, name.sum);

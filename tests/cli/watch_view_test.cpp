@@ -43,6 +43,25 @@ TEST(WatchView, AReportOnAChangeDoesNotDistortTheRate) {
   EXPECT_TRUE(has(view.line(), "imu running 20.0/s")) << view.line();
 }
 
+TEST(WatchView, TellsAReckonedPositionFromOneByFixes) {
+  WatchView view;
+  const std::string begin = R"({"class":"NAV","device":"navigation","position":)";
+  view.take(begin + R"("none","lat":null,"heading_rad":1.5707963,"speed_m_s":1.02,"depth_m":0.5})");
+  EXPECT_TRUE(has(view.page(Colour::none), "no position before the first fix, heading 90.0 deg true"));
+  EXPECT_FALSE(has(view.line(), "reckoned"));
+  view.take(begin + R"("reckoned","lat":37.5,"lon":-80,"north_std_m":3,"east_std_m":4,"since_fix_s":83.2,)" +
+            R"("since_fix_m":91.4})");
+  view.take(R"({"class":"TPV","device":"navigation","mode":2,"lat":37.5,"lon":-80})");
+  EXPECT_TRUE(has(view.page(Colour::none), "37.5000000 -80.0000000, off by 5.0 m"));
+  EXPECT_TRUE(has(view.page(Colour::none), "RECKONED: 83 s and 91 m since the last fix"));
+  EXPECT_TRUE(has(view.line(), "reckoned 37.5000000 -80.0000000 off by 5.0 m; "));
+  EXPECT_FALSE(has(view.page(Colour::none), "2D")) << "said once";
+  view.take(begin + R"("fixes","lat":37.5,"lon":-80,"north_std_m":0.3,"east_std_m":0.4})");
+  EXPECT_FALSE(has(view.page(Colour::none), "RECKONED"));
+  view.take(R"({"class":"NAV","position":7,"lat":"x","north_std_m":[]})");
+  EXPECT_FALSE(view.page(Colour::none).empty());
+}
+
 TEST(WatchView, EveryKindOfReportIsShown) {
   WatchView view;
   view.take(health(1, 20, "[]", 3));

@@ -51,6 +51,38 @@ GpsSample fix_3d() {
   return gps;
 }
 
+TEST(GpsdReports, AReckonedPositionIsMarkedAsSuch) {
+  pipeline::NavigationSample sample;
+  sample.stamp = stamp_at(kFirstOfMarch2026_ns);
+  sample.source = pipeline::PositionSource::reckoned;
+  sample.latitude_rad = 57.71283 * kRadians;
+  sample.longitude_rad = -12.02259 * kRadians;
+  sample.estimate.position_std_m = {3, 4};
+  sample.estimate.velocity_m_s = Eigen::Vector3d(0, -1.5, 0.25);
+  sample.estimate.depth_m = 2.5;
+  std::string line;
+  append_tpv(line, sample, true);
+  const json report = json::parse(line);
+  EXPECT_EQ(report["class"], "TPV");
+  EXPECT_EQ(report["device"], "navigation");
+  EXPECT_EQ(report["mode"], 2);
+  EXPECT_EQ(report["status"], 5) << "gpsd's dead reckoning";
+  EXPECT_EQ(report["time"], "2026-03-01T00:00:00.000Z");
+  EXPECT_NEAR(report["lat"].get<double>(), 57.71283, 1e-8);
+  EXPECT_EQ(report["epy"], 3);
+  EXPECT_EQ(report["epx"], 4);
+  EXPECT_EQ(report["eph"], 5);
+  EXPECT_EQ(report["track"], 270);
+  EXPECT_EQ(report["speed"], 1.5);
+  EXPECT_EQ(report["climb"], -0.25);
+  EXPECT_EQ(report["depth"], 2.5);
+  sample.estimate.velocity_m_s = Eigen::Vector3d::Zero();
+  line.clear();
+  append_tpv(line, sample, false);
+  EXPECT_FALSE(json::parse(line).contains("time"));
+  EXPECT_FALSE(json::parse(line).contains("track")) << "where nothing moves there is no direction";
+}
+
 TEST(GpsdReports, TpvHasGpsdsKeysUnitsAndOrder) {
   const std::string line = tpv(fix_3d());
   EXPECT_EQ(found(line, R"re("class":"TPV".*?"time":"([^"]+)")re"), "2026-03-01T00:00:00.100Z");

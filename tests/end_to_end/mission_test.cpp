@@ -25,7 +25,7 @@ constexpr std::chrono::seconds kPatience{60};
 
 std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
 
-constexpr std::array kTopics{"/compass", "/imu", "/gps", "/motor"};
+constexpr std::array kTopics{"/compass", "/imu", "/gps", "/motor", "/nav"};
 
 struct Traffic {
   std::map<std::string, std::string> received, sent;  // by port

@@ -9,6 +9,7 @@
 #include "record/json_object.h"
 #include "record/log_topics.h"
 #include "record/mapping_json.h"
+#include "record/navigation_json.h"
 #include "record/sample_json.h"
 #include "sample_log.h"
 
@@ -75,6 +76,42 @@ TEST(Json, EveryKindOfSampleIsJsonWithTheMembersOfItsTopic) {
   check("/motor");
   sample.value = instruments::AltimeterSample{};
   check("/altimeter");
+}
+
+TEST(Json, AnEstimateHasTheMembersOfItsTopicWhetherItKnowsMuchOrLittle) {
+  pipeline::NavigationSample sample;
+  const auto json_of = [&] {
+    std::string text;
+    append_json(text, sample);
+    const auto json = nlohmann::json::parse(text);
+    const Topic* const topic = json_topic("/nav");
+    EXPECT_EQ(json.size(), topic->fields.size() + 1);
+    for (const Field& field : topic->fields) EXPECT_TRUE(json.contains(std::string(field.name))) << field.name;
+    return json;
+  };
+  auto json = json_of();
+  EXPECT_EQ(json["class"], "NAV");
+  EXPECT_EQ(json["position"], "none");
+  for (const char* key : {"lat", "north_std_m", "since_fix_s", "heading_rad", "heading_std_rad", "velocity_m_s",
+                          "set_north_m_s", "outage_m", "outage_error_uncalibrated_m", "calibration"})
+    EXPECT_TRUE(json[key].is_null()) << key;
+
+  sample.source = pipeline::PositionSource::reckoned;
+  sample.latitude_rad = std::numbers::pi / 4;
+  sample.longitude_rad = -std::numbers::pi / 2;
+  sample.estimate.position_m = Eigen::Vector2d(1, 2);
+  sample.estimate.position_std_m = {3, 4};
+  sample.estimate.velocity_m_s = Eigen::Vector3d(1, 0.5, -0.25);
+  sample.estimate.heading_rad = 1.5;
+  sample.outage = nav::Outage{100, 90, 2};
+  json = json_of();
+  EXPECT_EQ(json["position"], "reckoned");
+  EXPECT_EQ(json["lat"], 45);
+  EXPECT_EQ(json["lon"], -90);
+  EXPECT_EQ(json["north_std_m"], 3);
+  EXPECT_EQ(json["east_std_m"], 4);
+  EXPECT_EQ(json["velocity_m_s"], nlohmann::json::parse("[1,0.5,-0.25]"));
+  EXPECT_EQ(json["outage_error_m"], 2);
 }
 
 TEST(Json, NumbersReadBackToTheLastBitAndTheRestIsNull) {

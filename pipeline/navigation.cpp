@@ -1,0 +1,37 @@
+#include "pipeline/navigation.h"
+
+#include <fmt/format.h>
+
+namespace navcal::pipeline {
+namespace {
+
+/// Below it a share of the distance means nothing.
+constexpr double kLeastDistance_m = 10;
+
+}  // namespace
+
+std::string_view name_of(PositionSource source) {
+  switch (source) {
+    case PositionSource::fixes:
+      return "fixes";
+    case PositionSource::reckoned:
+      return "reckoned";
+    case PositionSource::none:
+      break;
+  }
+  return "none";
+}
+
+std::string words_for_outage(const NavigationSample& sample) {
+  if (!sample.outage) return {};
+  const auto& outage = *sample.outage;
+  std::string words = fmt::format("{:.0f} s and {:.0f} m without a fix ended {:.1f} m off", outage.duration_s,
+                                  outage.distance_m, outage.error_m);
+  if (outage.distance_m >= kLeastDistance_m)
+    words += fmt::format(": {:.1f} m per 100 m", 100 * outage.error_m / outage.distance_m);
+  if (sample.calibration.number != 0 && sample.outage_error_uncalibrated_m)
+    words += fmt::format("; without calibrations {:.1f} m off", *sample.outage_error_uncalibrated_m);
+  return words;
+}
+
+}  // namespace navcal::pipeline

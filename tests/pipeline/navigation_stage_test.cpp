@@ -1,0 +1,213 @@
+#include "pipeline/navigation_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace navcal::pipeline {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kLatitude_rad = 37 * kRadians, kLongitude_rad = -80 * kRadians;
+enum Port : std::uint16_t { compass, imu, gps, motor, second_gps };
+
+config::Settings vehicle() {
+  using protocols::Protocol;
+  config::Settings settings;
+  for (const auto protocol :
+       {Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card, Protocol::nmea})
+    settings.ports.emplace_back().protocol = protocol;
+  return settings;
+}
+
+struct Told : Sink {
+  void on_sample(const instruments::Sample&) override {}
+  void on_navigation(const NavigationSample& sample) override { samples.push_back(sample); }
+  std::vector<NavigationSample> samples;
+};
+
+/// A vehicle that runs north at 10 revolutions a second; time passes in steps of 50 ms.
+class NavigationStageTest : public testing::Test {
+ protected:
+  explicit NavigationStageTest(const config::Settings& settings = vehicle())
+      : stage_(settings, calibrated_ports(settings)) {}
+
+  void give(Port port, const decltype(instruments::Sample::value)& value, instruments::CalibrationName name = {}) {
+    instruments::Sample sample;
+    sample.port = port;
+    sample.stamp = {now_ns_ + 10 * kMs, now_ns_, kMs, now_ns_ + 10 * kMs + mapping_.offset_ns,
+                    now_ns_ + mapping_.offset_ns};
+    sample.calibration = name;
+    sample.value = value;
+    stage_.take(sample, sample, mapping_, told_);
+  }
+  [[nodiscard]] instruments::GpsSample fix(double latitude_rad = kLatitude_rad) const {
+    instruments::GpsSample gps;
+    gps.fix = instruments::Fix::fix_3d;
+    gps.latitude_rad = latitude_rad;
+    gps.longitude_rad = kLongitude_rad;
+    return gps;
+  }
+  void run(double seconds, bool fixes, double heading_rad = 0) {
+    const auto steps = static_cast<int>(seconds * 20);
+    for (int i = 0; i < steps; ++i) {
+      now_ns_ += 50 * kMs;
+      instruments::MotorSample shaft;
+      shaft.rpm = 600;
+      give(motor, shaft);
+      give(imu, instruments::ImuSample{});
+      instruments::CompassSample word;
+      word.heading_rad = heading_rad;
+      word.heading_is_true = heading_is_true_;
+      word.pitch_rad = word.roll_rad = 0;
+      give(compass, word);
+      if (fixes && now_ns_ % 1'000'000'000 == 0) give(gps, fix());
+    }
+  }
+  [[nodiscard]] const NavigationSample& newest() const { return told_.samples.back(); }
+
+  NavigationStage stage_;
+  UtcMapping mapping_{UtcMapping::Source::gps, 1'900'000'000'000'000'000, 0, 0};
+  Told told_;
+  std::int64_t now_ns_ = 500'000'000'000;
+  bool heading_is_true_ = false;
+};
+
+TEST_F(NavigationStageTest, TellsAtTheInterval) {
+  run(10, false);
+  ASSERT_EQ(told_.samples.size(), 11U);
+  EXPECT_EQ(told_.samples.front().stamp.validity_ns, 500'050'000'000) << "the first at once";
+  told_.samples.erase(told_.samples.begin());
+  for (const auto& sample : told_.samples) {
+    EXPECT_EQ(sample.stamp.validity_ns % 1'000'000'000, 0) << "at the first frame within each";
+    EXPECT_EQ(sample.stamp.validity_utc_ns, mapping_.to_utc(sample.stamp.validity_ns));
+    EXPECT_EQ(sample.source, PositionSource::none);
+    EXPECT_FALSE(sample.latitude_rad);
+  }
+}
+
+TEST_F(NavigationStageTest, ReckonsOnFromTheLastFix) {
+  give(gps, fix());
+  run(1, false);
+  EXPECT_EQ(newest().source, PositionSource::fixes);
+  run(99, false);
+  EXPECT_EQ(newest().source, PositionSource::reckoned);
+  // 100 s at 0.872 m/s; one minute of latitude is a nautical mile, nearly.
+  const double run_m = (*newest().latitude_rad - kLatitude_rad) / kRadians * 60 * 1852;
+  EXPECT_NEAR(run_m, 87.2, 1);
+  EXPECT_NEAR(*newest().longitude_rad, kLongitude_rad, 1e-9);
+}
+
+TEST_F(NavigationStageTest, AFixThatEndsAStretchWithoutTellsAtOnceHowFarOffItWas) {
+  give(gps, fix());
+  run(100.25, false);
+  EXPECT_FALSE(newest().outage);
+  give(gps, fix());
+  ASSERT_TRUE(newest().outage);
+  EXPECT_EQ(newest().source, PositionSource::fixes);
+  EXPECT_NEAR(newest().outage->duration_s, 100.25, 0.1);
+  EXPECT_NEAR(newest().outage->error_m, 87, 2);
+  EXPECT_NEAR(*newest().outage_error_uncalibrated_m, newest().outage->error_m, 1e-9);
+  EXPECT_EQ(words_for_outage(newest()).rfind("100 s and 87 m without a fix ended 8", 0), 0U)
+      << words_for_outage(newest());
+  run(2, false);
+  EXPECT_FALSE(newest().outage) << "told once";
+  EXPECT_EQ(words_for_outage(newest()), "");
+}
+
+TEST_F(NavigationStageTest, ACalibratedHeadingIsPreferredByTheOneAndUnknownToTheOther) {
+  give(gps, fix());
+  for (int i = 0; i < 2000; ++i) {
+    now_ns_ += 50 * kMs;
+    instruments::MotorSample shaft;
+    shaft.rpm = 600;
+    give(motor, shaft);
+    give(imu, instruments::ImuSample{}, {1, 2});
+    instruments::CompassSample word;
+    word.heading_rad = 0.2;
+    word.heading_calibrated_rad = 0;
+    word.pitch_rad = word.roll_rad = 0;
+    give(compass, word, {1, 2});
+  }
+  EXPECT_NEAR(*newest().estimate.heading_rad, 0, 1e-6);
+  EXPECT_LT(newest().estimate.heading_std_rad, 2 * kRadians);
+  instruments::GpsSample there = fix(kLatitude_rad + 87.2 / 1852 / 60 * kRadians);
+  give(gps, there, {1, 2});
+  ASSERT_TRUE(newest().outage);
+  EXPECT_LT(newest().outage->error_m, 2);
+  EXPECT_NEAR(*newest().outage_error_uncalibrated_m, 0.2 * 87, 2);
+  EXPECT_NE(words_for_outage(newest()).find("without calibrations 1"), std::string::npos);
+}
+
+TEST_F(NavigationStageTest, OnlyTheFirstReceiverAndOnlyRealFixesCount) {
+  for (const auto kind : {instruments::Fix::none, instruments::Fix::propagated, instruments::Fix::hold,
+                          instruments::Fix::acquiring, instruments::Fix::bad_geometry}) {
+    auto gps_sample = fix();
+    gps_sample.fix = kind;
+    give(gps, gps_sample);
+  }
+  give(second_gps, fix());
+  run(2, false);
+  EXPECT_EQ(newest().source, PositionSource::none);
+}
+
+TEST_F(NavigationStageTest, BeginsAnew) {
+  give(gps, fix());
+  run(5, false);
+  stage_.begin_run();
+  run(5, false);
+  EXPECT_EQ(newest().source, PositionSource::none);
+}
+
+class WithDeclination : public NavigationStageTest {
+ protected:
+  static config::Settings declined() {
+    auto settings = vehicle();
+    settings.environment.declination_rad = -10 * kRadians;
+    return settings;
+  }
+  WithDeclination() : NavigationStageTest(declined()) {}
+};
+
+TEST_F(WithDeclination, MagneticHeadingsAreMadeTrueAndTrueOnesLeft) {
+  run(30, false, 5 * kRadians);
+  EXPECT_NEAR(*newest().estimate.heading_rad, 355 * kRadians, 1e-6);
+  heading_is_true_ = true;
+  stage_.begin_run();
+  run(30, false, 5 * kRadians);
+  EXPECT_NEAR(*newest().estimate.heading_rad, 5 * kRadians, 1e-6);
+}
+
+TEST(NavigationStageMake, IsNotMadeForNothing) {
+  auto settings = vehicle();
+  EXPECT_NE(NavigationStage::make(settings), nullptr);
+  settings.navigation.enabled = false;
+  EXPECT_EQ(NavigationStage::make(settings), nullptr);
+  settings = {};
+  settings.ports.emplace_back().protocol = protocols::Protocol::motor_card;
+  EXPECT_EQ(NavigationStage::make(settings), nullptr);
+}
+
+TEST(LocalPlane, GoesThereAndBack) {
+  for (const double latitude_deg : {-70.0, 0.0, 37.0}) {
+    for (const double longitude_deg : {-180.0, 0.0, 179.9999}) {
+      const LocalPlane plane(latitude_deg * kRadians, longitude_deg * kRadians);
+      const auto place = plane.place(1234, -567);
+      const auto [north_m, east_m] = plane.position_m(place.latitude_rad, place.longitude_rad);
+      EXPECT_NEAR(north_m, 1234, 1e-6);
+      EXPECT_NEAR(east_m, -567, 1e-6);
+      EXPECT_LE(std::abs(place.longitude_rad), std::numbers::pi);
+    }
+  }
+}
+
+TEST(LocalPlane, AMinuteOfLatitudeIsANauticalMile) {
+  const LocalPlane plane(45 * kRadians, 0);
+  EXPECT_NEAR(plane.position_m(45 * kRadians + kRadians / 60, 0)[0], 1852, 1);
+  EXPECT_NEAR(plane.position_m(45 * kRadians, kRadians / 60)[1], 1852 * std::cos(45 * kRadians), 5);
+}
+
+}  // namespace
+}  // namespace navcal::pipeline
