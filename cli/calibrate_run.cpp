@@ -16,6 +16,7 @@ constexpr std::int64_t kSeriesGap_ns = 60'000'000'000;
 config::Settings with_calibration(config::Settings settings) {
   settings.calibration.enabled = true;
   settings.calibration.automatic = true;
+  settings.navigation.enabled = false;  // nobody asks here where it was
   return settings;
 }
 
