@@ -28,6 +28,7 @@ void add_log(CLI::App& app);
 void add_play(CLI::App& app);
 void add_ports(CLI::App& app);
 void add_replay(CLI::App& app);
+void add_simulate(CLI::App& app);
 void add_watch(CLI::App& app);
 
 }  // namespace navcal::cli

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/interruptible.h"
 #include "cli/progress.h"
 #include "record/export.h"
 #include "record/log_info.h"
@@ -16,22 +16,6 @@
 namespace navcal::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-
-/// Ctrl-C ends the work at the next step, so that half-written files are removed on the way out.
-class Interruptible {
- public:
-  Interruptible() {
-    interrupted = 0;
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
-  }
-  Interruptible(const Interruptible&) = delete;
-  Interruptible& operator=(const Interruptible&) = delete;
-  ~Interruptible() {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-  }
-};
-
 /// Runs a job with progress; turns what it throws into the statuses of the contract.
 template <class Job>
 auto run(Job job) {
@@ -39,7 +23,7 @@ auto run(Job job) {
   Progress progress("log");
   try {
     return job(record::Progress([&progress](double done) {
-      if (interrupted != 0) throw Failure(Exit::failed, "interrupted: nothing was written");
+      if (Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
       progress.show(done);
     }));
   } catch (const record::BadRecording& error) {

@@ -5,8 +5,9 @@
 
 int main(int argc, char** argv) {
   using navcal::cli::Exit;
-  CLI::App app{"navcal: watch, decode, replay, log and emulate the instruments of a small underwater vehicle",
-               "navcal"};
+  CLI::App app{
+      "navcal: watch, decode, replay, log, simulate and emulate the instruments of a small underwater vehicle",
+      "navcal"};
   app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
   app.require_subcommand(1);
   app.footer("Each command explains itself: navcal decode --help");
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   navcal::cli::add_play(app);
   navcal::cli::add_ports(app);
   navcal::cli::add_replay(app);
+  navcal::cli::add_simulate(app);
   navcal::cli::add_watch(app);
 
   try {

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/simulate_effects.h"
+#include "cli/simulate_motion.h"
+#include "cli/simulate_page.h"
+#include "cli/simulate_run.h"
+#include "record/whole_file.h"
+#include "sim/effects/choice.h"
+
+namespace navcal::cli {
+namespace {
+
+struct Options {
+  SimulateArguments arguments;
+  bool list_effects = false;
+};
+
+void run(const SimulateArguments& arguments) {
+  sim::EffectSet effects = simulate_effects(arguments);
+  const SimulatedRun run = simulate_motion(arguments, effects);
+  std::optional<SimulateHistory> history;
+  if (!arguments.report.empty()) history.emplace(simulated_ports(), run.duration_s);
+  write_simulation(arguments, run, effects, history ? &*history : nullptr);
+  if (history) {
+    record::WholeFile page(arguments.report);
+    page.write(simulate_page(*history, arguments, run, effects));
+    page.commit();
+  }
+}
+
+void simulate(const Options& options) {
+  if (options.list_effects) {
+    std::fputs(sim::effects_text().c_str(), stdout);
+    return;
+  }
+  const auto& arguments = options.arguments;
+  const int given = int{!arguments.path.empty()} + int{!arguments.drive.empty()} + int{!arguments.mission.empty()};
+  if (given != 1) {
+    throw Failure(Exit::usage, "one of --path, --drive and --mission says how the vehicle moves");
+  }
+  if (arguments.capture.empty()) throw Failure(Exit::usage, "-o FILE.cap says where the recording goes");
+  run(arguments);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  auto* command = app.add_subcommand("simulate", "a recording from the simulator, with the truth beside it");
+  const auto options = std::make_shared<Options>();
+  auto& arguments = options->arguments;
+  const auto* const motion = "How the vehicle moves (one of these)";
+  command
+      ->add_option("--path", arguments.path,
+                   "carried along a path: t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3")
+      ->option_text("CSV")
+      ->group(motion);
+  command
+      ->add_option("--drive", arguments.drive,
+                   "driven by the shaft speed and the fins of such a file, from the state in its first row")
+      ->option_text("CSV")
+      ->group(motion);
+  command->add_option("--mission", arguments.mission, "under its autopilot: a mission that is shipped, or a file")
+      ->option_text("NAME|FILE")
+      ->group(motion);
+  command->add_option("--vehicle", arguments.vehicle, "the vehicle, if it is not the reference vehicle")
+      ->option_text("FILE.toml");
+  command->add_option("--seconds", arguments.seconds, "for so long, instead of to the end of path or mission")
+      ->check(CLI::Range(0.01, 1e6));
+  command
+      ->add_option(
+          "--effect", arguments.effects,
+          "departure from the nominal model, in typical strengths; its direction comes from the seed; repeatable")
+      ->option_text("NAME=STRENGTH");
+  command
+      ->add_option("--effects", arguments.effects_file,
+                   "departures with exact parameters: a table [NAME] each, with from_s and until_s")
+      ->option_text("FILE.toml");
+  command->add_option("--seed", arguments.seed, "of noise, biases and directions")->capture_default_str();
+  command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
+  command->add_option("-o,--output", arguments.capture, "the recording")->option_text("FILE.cap");
+  command->add_option("--truth", arguments.truth, "the true motion, with the columns of --path, 100 rows a second")
+      ->option_text("FILE.csv");
+  command->add_option("--report", arguments.report, "page with pictures; needs no other file")
+      ->option_text("FILE.html");
+  command->add_flag("--list-effects", options->list_effects,
+                    "all effects with equation, parameters, typical strength");
+  command->footer(
+      "Time 0 of the mission is 2026-01-01, 00:00:00 UTC.\n\n"
+      "Example: navcal simulate --mission survey --effect motor_field=1 -o survey.cap --truth survey.csv");
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace navcal::cli

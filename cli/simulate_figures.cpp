@@ -1,0 +1,135 @@
+#include "cli/simulate_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "cli/simulate_plot.h"
+#include "cli/svg_plot.h"
+#include "sim/geodesy.h"
+
+namespace navcal::cli {
+namespace {
+
+using Ink = SvgPlot::Ink;
+using sim::State;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr std::array kInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
+
+double heading_deg(double rad) {
+  const double deg = std::fmod(rad * kDegrees, 360);
+  return deg < 0 ? deg + 360 : deg;
+}
+
+std::optional<double> degrees(const std::optional<double>& rad) {
+  return rad ? std::optional(*rad * kDegrees) : std::nullopt;
+}
+
+std::vector<Point> fixes_of(const SimulatedSeries& series) {
+  const sim::Origin origin;
+  const auto corner = sim::geodetic(origin, {1000, 1000, 0});
+  std::vector<Point> points;
+  for (const auto& fix : series.gps) {
+    if (!fix.value.latitude_rad || !fix.value.longitude_rad) continue;
+    if (fix.value.fix != instruments::Fix::fix_2d && fix.value.fix != instruments::Fix::fix_3d) continue;
+    const double share_north =
+        (*fix.value.latitude_rad * kDegrees - origin.latitude_deg) / (corner[0] - origin.latitude_deg);
+    const double share_east =
+        (*fix.value.longitude_rad * kDegrees - origin.longitude_deg) / (corner[1] - origin.longitude_deg);
+    points.push_back({1000 * share_east, 1000 * share_north});
+  }
+  return points;
+}
+
+/// A metre is as long to the north as to the east.
+SimulatedFigure track(const SimulatedSeries& series) {
+  constexpr double kSide = 460;
+  std::vector<Point> way;
+  std::vector<double> easts, norths;
+  for (const auto& state : series.states) {
+    way.push_back({state.value.position_m[1], state.value.position_m[0]});
+    easts.push_back(way.back().x);
+    norths.push_back(way.back().y);
+  }
+  Range east = range_of(easts), north = range_of(norths);
+  const double half = std::max({east.length(), north.length(), 2.0}) / 2;
+  for (Range* range : {&east, &north}) {
+    const double middle = (range->least + range->most) / 2;
+    *range = {middle - half, middle + half};
+  }
+  SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kSide});
+  plot.points(Ink::before, "GPS", fixes_of(series));
+  plot.line(Ink::after, "truth", way);
+  return {"Track", plot.svg(), "True track, and the fixes of the receiver."};
+}
+
+}  // namespace
+
+std::vector<SimulatedFigure> motion_figures(const SimulatedSeries& series) {
+  const auto plot = [&] { return SimulatedPlot(series.states); };
+  const auto& states = series.states;
+  std::vector<SimulatedFigure> figures{track(series)};
+  figures.push_back(
+      {"Heading",
+       plot()
+           .dots(Ink::before, "compass", series.compass,
+                 [](const auto& word) {
+                   return word.heading_rad ? std::optional(heading_deg(*word.heading_rad)) : std::nullopt;
+                 })
+           .dots(Ink::after, "truth", states, [](const State& state) { return heading_deg(state.euler_rad[2]); })
+           .svg("Heading", "degrees"),
+       "True heading from true north, and the compass's, which is magnetic."});
+  figures.push_back({"Depth",
+                     plot()
+                         .dots(Ink::before, "card", series.imu, [](const auto& record) { return record.depth_m; })
+                         .line(Ink::after, "truth", states, [](const State& state) { return state.position_m[2]; })
+                         .svg("Depth", "m"),
+                     "Of the origin, down."});
+  figures.push_back({"Speed",
+                     plot()
+                         .dots(Ink::before, "GPS", series.gps, [](const auto& fix) { return fix.speed_m_s; })
+                         .line(Ink::after, "ahead, through the water", states,
+                               [](const State& state) { return state.velocity_body_m_s[0]; })
+                         .svg("Speed", "m/s"),
+                     "The receiver's is over ground, and zero where it has none."});
+  auto fins = plot();
+  constexpr std::array<const char*, 3> kFins{"1", "2", "3"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    fins.line(kInks[i], kFins[i], series.motor, [i](const auto& status) { return degrees(status.fins_rad[i]); });
+  }
+  figures.push_back({"Fins", fins.svg("Fins", "degrees"), "As the motor card reports the servos' shafts."});
+  return figures;
+}
+
+std::vector<SimulatedFigure> instrument_figures(const SimulatedSeries& series) {
+  const auto plot = [&] { return SimulatedPlot(series.states); };
+  constexpr std::array<const char*, 3> kAxes{"forward", "starboard", "down"};
+  auto field = plot(), force = plot(), rates = plot(), tilt = plot();
+  constexpr std::array<const char*, 3> kGyros{"A-x", "B-y", "A-z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    field.line(kInks[i], kAxes[i], series.compass, [i](const auto& word) {
+      return word.field_body_uT ? std::optional((*word.field_body_uT)[i]) : std::nullopt;
+    });
+    force.line(kInks[i], kAxes[i], series.imu, [i](const auto& record) { return record.specific_force_m_s2[i]; });
+    rates.line(kInks[i], kGyros[i], series.imu,
+               [i](const auto& record) { return record.rate_rad_s[i] * kDegrees; });
+  }
+  rates.line(kInks[3], "B-z", series.imu, [](const auto& record) { return record.yaw_rate_b_rad_s * kDegrees; });
+  tilt.line(kInks[0], "roll", series.compass, [](const auto& word) { return degrees(word.roll_rad); })
+      .line(kInks[1], "pitch", series.compass, [](const auto& word) { return degrees(word.pitch_rad); });
+  const auto shaft = plot().line(kInks[0], "", series.motor, [](const auto& status) { return status.rpm; });
+  const auto current =
+      plot().line(kInks[0], "", series.motor, [](const auto& status) { return status.current_A; });
+  const auto warm = plot().line(kInks[0], "", series.compass, [](const auto& word) { return word.temperature_C; });
+  return {{"Field", field.svg("Compass: field", "uT"), "In body axes."},
+          {"Tilt", tilt.svg("Compass: tilt", "degrees"), "Of the inclinometer, whose fluid lags."},
+          {"Temperature", warm.svg("Compass: temperature", "C"), "Of the electronics."},
+          {"Gyros", rates.svg("Inertial card: rates", "degrees a second"), "With the biases of this power-on."},
+          {"Accelerometers", force.svg("Inertial card: specific force", "m/s2"),
+           "In body axes; level, \u22129.81 down."},
+          {"Shaft", shaft.svg("Motor card: shaft", "rpm"), "As measured."},
+          {"Current", current.svg("Motor card: current", "A"), "Of the propulsion motor."}};
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,1 @@
+navcal_fuzz(fuzz_effects SOURCES effects.cpp USES navcal::sim)
