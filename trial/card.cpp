@@ -15,6 +15,7 @@ constexpr double kRateNoise_deg_s = 0.1, kForceNoise_m_s2 = 0.02, kDepthNoise_m 
 constexpr double kMiddle_mV = 2048, kRate_mV_s_per_deg = 10, kForce_mV_per_g = 1000;
 constexpr double kSurface_mV = 250, kDepth_mV_per_m = 187.5;
 constexpr double kLargest = 65520;
+constexpr double kBetweenJumps_s = 20;  ///< in the mean
 /// Of the supply's relative loss, how much the converter's reference loses.
 constexpr double kReferenceShare = 0.05;
 
@@ -36,14 +37,15 @@ PerGyro Card::rates(const Snapshot& s) {
   for (int i = 0; i < 4; ++i) {
     const int axis = kGyroAxes[static_cast<std::size_t>(i)];
     const int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
-    bias_rad_s_(i) += noise(departures_.gyro_walk_rad_s_sqrt_s * std::sqrt(kPeriod_s));
+    bool& jumped = jumped_[static_cast<std::size_t>(i)];
+    if (departures_.gyro_jump_rad_s != 0 && dice().uniform() < kPeriod_s / kBetweenJumps_s) jumped = !jumped;
     rate(i) =
         w(axis) *
             (1 + departures_.gyro_scale(i) + departures_.gyro_nonlinearity_s_per_rad(i) * std::abs(w(axis))) +
         departures_.gyro_temperature_rad_s_per_K(i) * warmer_K + departures_.gyro_drift_rad_s2(i) * s.time_s +
         departures_.gyro_force_rad_s_per_m_s2.row(i).dot(force.transpose()) +
         departures_.gyro_cross(i, 0) * w(first) + departures_.gyro_cross(i, 1) * w(second) + bias_rad_s_(i) +
-        noise(kRateNoise_deg_s * kDegree);
+        (jumped ? departures_.gyro_jump_rad_s : 0) + noise(kRateNoise_deg_s * kDegree);
   }
   return rate;
 }

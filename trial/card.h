@@ -30,7 +30,8 @@ class Card final : public Instrument {
 
   CardDepartures departures_;
   PerGyro bias_rad_s_ = PerGyro::Zero();
-  double seat_m_ = 0;  ///< of the play in the depth sensor
+  std::array<bool, 4> jumped_{};  ///< which gyros stand beside their bias
+  double seat_m_ = 0;             ///< of the play in the depth sensor
   std::uint8_t sequence_;
   Reading reading_;
 };

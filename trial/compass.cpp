@@ -15,18 +15,18 @@ constexpr double kMemory_s = 60;
 constexpr double kSubstep_s = 0.004;
 constexpr double kFieldNoise_uT = 0.15, kTiltNoise_deg = 0.1, kTemperatureNoise_C = 0.1;
 
-Eigen::Matrix3d cross_matrix(const Vector3& a) {
-  Eigen::Matrix3d S;
-  S << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return S;
+/// Turns a vector from the housing's axes to those of a triad that is turned by this rotation vector.
+Eigen::Matrix3d to_turned_triad(const Vector3& turned_rad) {
+  const double angle = turned_rad.norm();
+  if (angle == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(-angle, turned_rad / angle).toRotationMatrix();
 }
 
 Eigen::Matrix3d iron(const CompassDepartures& departures) {
   const auto& s = departures.soft_iron;
   Eigen::Matrix3d S;
   S << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
-  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
-  return (one - cross_matrix(departures.misalignment_rad)) * (one + S);
+  return to_turned_triad(departures.misalignment_rad) * (Eigen::Matrix3d::Identity() + S);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace navcal::trial {
 /// TCM2 (ICD section 1): field in body axes, tilt through a fluid, heading of the levelled field (Mach 2003, eq.
 /// 2.2), temperature; 10 Hz, 50 ms from measurement to the first byte.
 ///     m = (1 + S) B            soft iron, B the field in body axes
-///     m -= a x m               the triad turned against the housing
+///     m = exp(-[a]x) m         the triad turned against the housing: m - a x m where a is small
 ///     m += b + k I + c (T - 15 C) + h L60[B]
 ///     m_i *= 1 - s m_i^2       (beyond the library)
 ///     tau m' + m = ...         tau = lag + |l| + l . (cos psi, sin psi) (beyond the library: l)

@@ -72,7 +72,7 @@ struct CardDepartures {
   // Beyond the library.
   Vector3 gyro_twist_rad_per_K2 = Vector3::Zero();
   double depth_play_m = 0;
-  double gyro_walk_rad_s_sqrt_s = 0;
+  double gyro_jump_rad_s = 0;
 };
 
 struct GpsDepartures {

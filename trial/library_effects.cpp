@@ -45,7 +45,7 @@ std::vector<EffectKind> compass_effects() {
       {"tilt_slosh", {"gain"}, {.typical = 0.3, .sign = Sign::positive}, [](D& d) { return &d.compass.slosh; }},
       {"tilt_offset",
        {"roll_deg", "pitch_deg"},
-       {.typical = 1, .group = 2, .si = kDegree},
+       {.typical = 1, .si = kDegree},
        [](D& d) { return d.compass.tilt_offset_rad.data(); }},
   };
 }
@@ -73,7 +73,7 @@ std::vector<EffectKind> gyro_effects() {
        [](D& d) { return d.card.gyro_force_rad_s_per_m_s2.data(); }},
       {"gyro_cross_axis",
        {"ax_from_y", "ax_from_z", "az_from_x", "az_from_y", "by_from_x", "by_from_z", "bz_from_x", "bz_from_y"},
-       {.typical = 0.03, .group = 2},
+       {.typical = 0.03},
        [](D& d) { return d.card.gyro_cross.data(); }},
       {"gyro_nonlinearity",
        {"s_per_deg_ax", "s_per_deg_az", "s_per_deg_by", "s_per_deg_bz"},

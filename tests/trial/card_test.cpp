@@ -147,6 +147,18 @@ TEST(Card, DepthHysteresisStaysWithinItsPlayAndLagsBehindEveryReversal) {
   EXPECT_NEAR(greatest, half_m, 0.01);  // and up
 }
 
+TEST(Card, PopcornStandsAtOneOfTwoLevels) {
+  int jumps = 0;
+  double last = 0;
+  for (const CardSample& sample : card_along(world(), with("gyro_popcorn", {{"deg_per_s", 0.4}}).card)) {
+    const double level = (sample.values[1] - nominal(world().at(sample.time_s), 1)) / (0.4 * kDegree);
+    ASSERT_NEAR(level, level > 0.5 ? 1 : 0, 0.51 * kRateStep_rad_s / (0.4 * kDegree));
+    if (std::round(level) != last) ++jumps;
+    last = std::round(level);
+  }
+  EXPECT_LE(jumps, 8);
+}
+
 TEST(Card, NoiseIsOfTheStatedSize) {
   Fitting fitting = exact();
   fitting.noisy = true;

@@ -62,7 +62,10 @@ TEST(Compass, SoftIronBeforeMisalignment) {
     Eigen::Matrix3d S;
     S << 0.02, 0.01, -0.02, 0.01, -0.01, 0.015, -0.02, 0.015, 0.03;
     const Vector3 m = in_body(s) + S * in_body(s);
-    return Vector3(m - (kDegree * Vector3(1, -2, 3)).cross(m));
+    // A turn is many small ones.
+    Vector3 turned = m;
+    for (int i = 0; i < 1000; ++i) turned -= (1e-3 * kDegree * Vector3(1, -2, 3)).cross(turned);
+    return turned;
   });
 }
 

@@ -146,8 +146,8 @@ TEST(Run, OrdersAreWrittenOnceAndAsTheCardTakesThem) {
 
 TEST(Run, EveryEffectChangesWhatIsRead) {
   Mission mission = short_mission();
-  mission.duration_s = 30;
-  mission.orders = {steer(0, 0, 0.2, 1.1), steer(18, 90, 1.5, 1.4)};
+  mission.duration_s = 22;
+  mission.orders = {steer(0, 0, 0.2, 1.1), steer(12, 90, 1.5, 1.4)};
   const auto bytes_of = [](const Kept& kept) {
     std::vector<std::uint8_t> bytes;
     for (const Port port : {Port::compass, Port::imu, Port::gps, Port::motor}) {
