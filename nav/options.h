@@ -22,7 +22,7 @@ struct DepthOptions {
 struct ReckoningOptions {
   double walk_m2_per_s = 0.02;     ///< growth of the variance of a position, each axis
   double set_m_s = 0.15;           ///< standard deviation of the set, each axis; 0: there is none
-  double set_time_s = 600;         ///< after which a set is forgotten
+  double set_time_s = 3600;        ///< after which a set is forgotten
   double speed_error = 0.05;       ///< relative, the same all along
   double unknown_speed_m_s = 1.5;  ///< how fast it may go when nothing tells how fast it goes
 };

@@ -105,7 +105,7 @@ TEST(DeadReckoning, TheSetIsLearntAtTheSurfaceAndUsedBelow) {
   give(does_not, readings);
   // 180 s at 0.206 m/s.
   EXPECT_GT(position_error_m(does_not, way, options.current_m_s), 30);
-  EXPECT_LT(position_error_m(learns, way, options.current_m_s), 12) << "a third is forgotten, as sets change";
+  EXPECT_LT(position_error_m(learns, way, options.current_m_s), 12) << "a little is forgotten, as sets change";
 }
 
 /// Errors of a vehicle that is as well known as the options say: each drawn anew.
