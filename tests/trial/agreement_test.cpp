@@ -78,7 +78,7 @@ std::unique_ptr<sim::Effect> counterpart(const Effect& effect) {
 }
 
 TEST(Agreement, BothVehiclesSwimTheSameWay) {
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const auto rows = random_drive(50, seed);
     sim::EffectSet none;
     expect_agreement(swum_by_sim(rows, none), swum_by_trial(rows, {}), 0.01, 0.05);
