@@ -13,7 +13,9 @@
 #include "cli/emulate_console.h"
 #include "cli/emulate_input.h"
 #include "cli/emulate_session.h"
+#include "config/mission_file.h"
 #include "sim/path.h"
+#include "sim/vehicle/vehicle.h"
 
 namespace navcal::cli {
 namespace {
@@ -55,6 +57,12 @@ void add_plans(CLI::App* command, const std::string& name, std::vector<Plan>& pl
       help);
 }
 
+std::string mission_names() {
+  std::vector<std::string_view> names;
+  for (const auto& mission : config::shipped_missions()) names.push_back(mission.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 void add_emulate(CLI::App& app) {
@@ -69,6 +77,12 @@ void add_emulate(CLI::App& app) {
       "CSV (t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3) along which the vehicle moves; one\n"
       "that ends as it began is repeated, after any other the last turn and speed go on. Without it:\n"
       "two and a half minutes of legs, circles and a dive, repeated");
+  auto* const mission = command->add_option(
+      "--mission", arguments->mission,
+      "an autopiloted mission, begun again at its end: " + mission_names() + ", or a TOML file");
+  mission->excludes(command->get_option("--path"));
+  command->add_option("--vehicle", arguments->vehicle, "TOML file of the vehicle that does the mission")
+      ->needs(mission);
   command->add_option("--seconds", arguments->seconds, "stop after so long; 0: not")->check(CLI::Range(0.0, 1e9));
   command->add_option("--seed", arguments->seed, "of every noise and bias")->capture_default_str();
   command
@@ -102,6 +116,10 @@ void add_emulate(CLI::App& app) {
       run(*arguments);
     } catch (const sim::BadPath& error) {
       throw Failure(Exit::bad_input, error.what());
+    } catch (const config::Error& error) {
+      throw Failure(Exit::bad_input, error.what());
+    } catch (const sim::UnstableVehicle& error) {
+      throw Failure(Exit::failed, error.what());
     }
   });
 }

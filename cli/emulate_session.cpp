@@ -8,10 +8,9 @@
 #include <functional>
 
 #include "cli/commands.h"
+#include "cli/emulate_motion.h"
 #include "ports/port.h"
-#include "sim/default_path.h"
 #include "sim/motor_card.h"
-#include "sim/path.h"
 #include "sim/tcm2.h"
 
 namespace navcal::cli {
@@ -42,8 +41,7 @@ std::vector<config::PortSettings> port_lines(int compass_baud) {
 
 EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments)
     : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()) {
-  auto rows = arguments.path.empty() ? sim::default_path() : sim::load_path(arguments.path);
-  motion_ = std::make_unique<sim::PathMotion>(std::move(rows), ports::monotonic_ns() + utc_minus_monotonic_ns_);
+  motion_ = emulate_motion(arguments, ports::monotonic_ns() + utc_minus_monotonic_ns_);
   if (!arguments.sent_log.empty()) {
     auto lines = port_lines(arguments.compass_baud);
     if (arguments.gps == sim::Oncore::Kind::nmea) lines[2].protocol = protocols::Protocol::nmea;

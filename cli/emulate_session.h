@@ -19,7 +19,9 @@ namespace navcal::cli {
 
 struct EmulateArguments {
   std::filesystem::path dir;
-  std::filesystem::path path;  ///< empty: the path that comes with it
+  std::filesystem::path path;     ///< empty, and no mission: the path that comes with it
+  std::string mission;            ///< name of a shipped one, or a file
+  std::filesystem::path vehicle;  ///< of the mission; empty: the reference vehicle
   std::filesystem::path sent_log;
   double seconds = 0;  ///< 0: until it is stopped
   std::uint64_t seed = 1;
@@ -35,7 +37,7 @@ struct EmulateArguments {
 /// The four instruments of the vehicle, live.
 class EmulateSession {
  public:
-  /// Makes the ports. Throws sim::BadPath, Failure, or what ports::PtyHost throws.
+  /// Makes the ports. Throws sim::BadPath, config::Error, Failure, or what ports::PtyHost throws.
   EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments);
 
   [[nodiscard]] const std::vector<std::unique_ptr<EmulatedPort>>& ports() const { return ports_; }
