@@ -24,6 +24,7 @@ struct EmulatedMotorCard : ::testing::Test {
   EmulatedMotorCard() {
     motion.state.rpm = motion.state.rpm_commanded = 720;
     motion.state.fins_rad = {0.1, -0.05, 0};
+    motion.state.motor_current_A = 1.1;
     card.power_on(t_ns);
   }
   wire::Status status_after(double seconds) {
@@ -47,7 +48,7 @@ TEST_F(EmulatedMotorCard, TellsWhatTheVehicleDoesTenTimesASecond) {
   EXPECT_EQ(status.rpm_commanded, 720);
   EXPECT_NEAR(*status.fins_deg[0], 5.7, 1e-9);
   EXPECT_NEAR(*status.fins_deg[1], -2.9, 1e-9);
-  EXPECT_NEAR(*status.current_A, 0.15 + 5.5e-4 * std::pow(12, 3), 0.005);
+  EXPECT_NEAR(*status.current_A, 1.1, 1e-9);
 }
 
 TEST_F(EmulatedMotorCard, FollowsACommandAndSaysSoInTheNextStatus) {
@@ -57,6 +58,7 @@ TEST_F(EmulatedMotorCard, FollowsACommandAndSaysSoInTheNextStatus) {
   EXPECT_EQ(status_after(0.1).rpm_commanded, 900);
   const wire::Status settled = status_after(5);
   EXPECT_EQ(settled.rpm, 900);
+  EXPECT_NEAR(*settled.current_A, 0.15 + 5.5e-4 * std::pow(15, 3), 0.005);
   EXPECT_NEAR(*settled.fins_deg[0], 10, 0.05);
 }
 
