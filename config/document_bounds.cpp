@@ -10,7 +10,27 @@ namespace {
 constexpr std::size_t kMaxBytes = 256 * 1024;
 constexpr int kMaxDots = 32;
 
+bool begins_key(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '-' ||
+         c == '"' || c == '\'';
+}
+
+/// Of a line that begins with a bracket: what stands behind it is no name. An end too soon the parser tells
+/// itself.
+bool heads_no_table(std::string_view line) {
+  constexpr std::string_view kBlank = " \t\r";
+  const auto skip = [&](std::string_view what) {
+    line.remove_prefix(std::min(line.find_first_not_of(what), line.size()));
+  };
+  skip(kBlank);
+  if (!line.starts_with('[')) return false;
+  line.remove_prefix(line.starts_with("[[") ? 2 : 1);
+  skip(kBlank);
+  return !line.empty() && line.front() != ']' && line.front() != '[' && !begins_key(line.front());
+}
+
 std::string complaint_about(std::string_view line) {
+  if (heads_no_table(line)) return "a name is missing behind the bracket";
   int dots = 0;
   char quote = 0;  // within a text: the quote that ends it
   for (std::size_t at = 0; at < line.size(); ++at) {

@@ -53,6 +53,18 @@ TEST(ConfigDocuments, TheDeepestNestingThatIsFollowedIsSurvived) {
   EXPECT_GE(problems_of("[" + repeated("a.", 31) + "a]\n" + repeated("a.", 31) + "a = 1\n").size(), 1U);
 }
 
+TEST(ConfigDocuments, ABracketWithoutANameIsRefused) {
+  for (const std::string bad : {"[\x02"
+                                "4\x02",
+                                "[=]", "  [ !a]", "[[ .a]]", "[[\t#]]", "[{]"}) {
+    EXPECT_EQ(problems_of("x = 1\n" + bad + "\n"), Problems{"t.toml:2: a name is missing behind the bracket"})
+        << bad;
+  }
+  for (const std::string told_by_the_parser : {"[", "[[", "[]", "[ ]", "[[]]", "[ [a]]"}) {
+    EXPECT_GE(problems_of(told_by_the_parser).size(), 1U) << told_by_the_parser;
+  }
+}
+
 TEST(ConfigDocuments, AnEndlessFileIsRefused) {
   EXPECT_EQ(problems_of(repeated("# comment\n", 30000)),
             Problems{"t.toml:1: the file has more than 262144 bytes"});
