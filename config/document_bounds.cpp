@@ -18,7 +18,7 @@ bool begins_key(char c) {
 /// Of a line that begins with a bracket: what stands behind it is no name. An end too soon the parser tells
 /// itself.
 bool heads_no_table(std::string_view line) {
-  constexpr std::string_view kBlank = " \t\r";
+  constexpr std::string_view kBlank = " \t";
   const auto skip = [&](std::string_view what) {
     line.remove_prefix(std::min(line.find_first_not_of(what), line.size()));
   };
@@ -26,7 +26,7 @@ bool heads_no_table(std::string_view line) {
   if (!line.starts_with('[')) return false;
   line.remove_prefix(line.starts_with("[[") ? 2 : 1);
   skip(kBlank);
-  return !line.empty() && line.front() != ']' && line.front() != '[' && !begins_key(line.front());
+  return line.empty() || (line.front() != ']' && !begins_key(line.front()));
 }
 
 std::string complaint_about(std::string_view line) {

@@ -54,13 +54,14 @@ TEST(ConfigDocuments, TheDeepestNestingThatIsFollowedIsSurvived) {
 }
 
 TEST(ConfigDocuments, ABracketWithoutANameIsRefused) {
-  for (const std::string bad : {"[\x02"
-                                "4\x02",
-                                "[=]", "  [ !a]", "[[ .a]]", "[[\t#]]", "[{]"}) {
+  for (const std::string bad :
+       {"[\x02"
+        "4\x02",
+        "[=]", "  [ !a]", "[[ .a]]", "[[\t#]]", "[{]", "[", "[ [a]]", "[[[", "[\ra]", "[ \t"}) {
     EXPECT_EQ(problems_of("x = 1\n" + bad + "\n"), Problems{"t.toml:2: a name is missing behind the bracket"})
         << bad;
   }
-  for (const std::string told_by_the_parser : {"[", "[[", "[]", "[ ]", "[[]]", "[ [a]]"}) {
+  for (const std::string told_by_the_parser : {"[]", "[ ]", "[[]]"}) {
     EXPECT_GE(problems_of(told_by_the_parser).size(), 1U) << told_by_the_parser;
   }
 }
