@@ -27,16 +27,9 @@ double final_error(const std::vector<TruePoint>& path, double walk, Random& rand
   TurnFilter filter(parameters, TurnPrior::unknown_gyro());
   TurnIntegrator integrator({});
   for (const Measured& m : measure(TurnProblem::gyro, path, Noise{}, random)) {
-    CompassReading compass;
-    compass.time_s = m.time_s;
-    compass.heading_rad = m.heading_rad;
-    compass.roll_rad = m.roll_rad;
-    compass.pitch_rad = m.pitch_rad;
-    RateReading rate;
-    rate.time_s = m.time_s;
-    rate.rate_rad_s = m.rate_rad_s;
+    RateReading rate = rate_of(m);
     rate.rate_rad_s.z() -= kRamp_rad_s2 * m.time_s / kTrueScale;
-    integrator.update(compass);
+    integrator.update(compass_of(m));
     integrator.update(rate);
     while (const auto step = integrator.next()) filter.update(*step);
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calib/turn_integrator.h"
+#include "tests/calib/filtered_turns.h"
 
 namespace navcal::bench {
 
@@ -63,25 +63,7 @@ std::vector<Measured> measure(TurnProblem problem, const std::vector<TruePoint>&
 }
 
 TurnFilter filtered(TurnProblem problem, std::span<const Measured> readings) {
-  TurnFilter::Parameters parameters;
-  parameters.heading_noise_rad = Noise{}.heading_rad;
-  parameters.rate_noise_rad_sqrt_s = Noise{}.rate_rad_s * std::sqrt(kPeriod_s);
-  TurnFilter filter(parameters, prior_of(problem));
-  TurnIntegrator integrator({});
-  for (const Measured& m : readings) {
-    CompassReading compass;
-    compass.time_s = m.time_s;
-    compass.heading_rad = m.heading_rad;
-    compass.roll_rad = m.roll_rad;
-    compass.pitch_rad = m.pitch_rad;
-    RateReading rate;
-    rate.time_s = m.time_s;
-    rate.rate_rad_s = m.rate_rad_s;
-    integrator.update(compass);
-    integrator.update(rate);
-    while (const auto step = integrator.next()) filter.update(*step);
-  }
-  return filter;
+  return calib::test::filtered(readings, prior_of(problem));
 }
 
 Eigen::VectorXd cramer_rao(TurnProblem problem, const std::vector<TruePoint>& path, const Noise& noise) {

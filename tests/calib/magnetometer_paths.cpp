@@ -44,16 +44,9 @@ std::vector<FieldReading> level_field_on(const std::vector<TruePoint>& path, con
     }
   };
   for (const Measured& m : measured) {
-    CompassReading compass;
-    compass.time_s = m.time_s;
-    compass.heading_rad = m.heading_rad;
-    compass.roll_rad = m.roll_rad;
-    compass.pitch_rad = m.pitch_rad;
-    RateReading rate;
-    rate.time_s = m.time_s;
-    rate.rate_rad_s = m.rate_rad_s;
+    RateReading rate = rate_of(m);
     rate.yaw_rate_b_rad_s = m.rate_rad_s.z();
-    integrator.update(compass);
+    integrator.update(compass_of(m));
     integrator.update(rate);
     take();
   }

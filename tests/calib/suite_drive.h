@@ -23,18 +23,11 @@ inline std::vector<Reading> readings_along(const std::string& path, const Deviat
   std::vector<Reading> readings;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const Measured& m = measured[i];
-    RateReading rate;
-    rate.time_s = m.time_s;
-    rate.rate_rad_s = m.rate_rad_s;
+    RateReading rate = rate_of(m);
     rate.yaw_rate_b_rad_s =
         (points[i].rate_rad_s.z() - kGyroB.bias_rad_s) / kGyroB.scale + noise.rate_rad_s * normal(random);
     readings.emplace_back(rate);
-    CompassReading compass;
-    compass.time_s = m.time_s;
-    compass.heading_rad = m.heading_rad;
-    compass.roll_rad = m.roll_rad;
-    compass.pitch_rad = m.pitch_rad;
-    readings.emplace_back(compass);
+    readings.emplace_back(compass_of(m));
   }
   return readings;
 }

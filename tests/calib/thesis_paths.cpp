@@ -45,6 +45,22 @@ double measured_heading_rad(const Deviation& coefficients, double true_heading_r
   return measured;
 }
 
+CompassReading compass_of(const Measured& measured) {
+  CompassReading compass;
+  compass.time_s = measured.time_s;
+  compass.heading_rad = measured.heading_rad;
+  compass.roll_rad = measured.roll_rad;
+  compass.pitch_rad = measured.pitch_rad;
+  return compass;
+}
+
+RateReading rate_of(const Measured& measured) {
+  RateReading rate;
+  rate.time_s = measured.time_s;
+  rate.rate_rad_s = measured.rate_rad_s;
+  return rate;
+}
+
 std::vector<Measured> measure(const std::vector<TruePoint>& path, const Deviation& deviation, const Noise& noise,
                               Random& random) {
   std::normal_distribution<double> normal;

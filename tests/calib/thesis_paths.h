@@ -55,6 +55,10 @@ struct Measured {
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();  ///< z by (2.11); x and y true plus noise
 };
 
+[[nodiscard]] CompassReading compass_of(const Measured& measured);
+/// Gyro B says nothing.
+[[nodiscard]] RateReading rate_of(const Measured& measured);
+
 using Random = std::mt19937_64;
 /// `deviation` zero: an error-free compass but for noise. Gyro z with the thesis's a and b.
 [[nodiscard]] std::vector<Measured> measure(const std::vector<TruePoint>& path, const Deviation& deviation,

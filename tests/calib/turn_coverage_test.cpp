@@ -2,36 +2,12 @@
 
 #include <cmath>
 
-#include "calib/turn_filter.h"
-#include "calib/turn_integrator.h"
-#include "tests/calib/thesis_paths.h"
+#include "tests/calib/filtered_turns.h"
 
 namespace navcal::calib {
 namespace {
 
 using namespace test;
-
-TurnFilter filtered(const std::vector<Measured>& readings, const TurnPrior& prior) {
-  TurnFilter::Parameters parameters;
-  parameters.heading_noise_rad = Noise{}.heading_rad;
-  parameters.rate_noise_rad_sqrt_s = Noise{}.rate_rad_s * std::sqrt(0.1);
-  TurnFilter filter(parameters, prior);
-  TurnIntegrator integrator({});
-  for (const Measured& m : readings) {
-    CompassReading compass;
-    compass.time_s = m.time_s;
-    compass.heading_rad = m.heading_rad;
-    compass.roll_rad = m.roll_rad;
-    compass.pitch_rad = m.pitch_rad;
-    RateReading rate;
-    rate.time_s = m.time_s;
-    rate.rate_rad_s = m.rate_rad_s;
-    integrator.update(compass);
-    integrator.update(rate);
-    while (const auto step = integrator.next()) filter.update(*step);
-  }
-  return filter;
-}
 
 TEST(TurnCoverage, WithoutNoiseTheGoalsOfTheGyroOnEveryPath) {
   for (int p = 1; p <= 8; ++p) {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../record/sample_log.h"
-#include "cli/commands.h"
+#include "tests/cli/command_outcome.h"
 #include "tests/record/temporary_folder.h"
 
 namespace navcal::cli {
@@ -12,27 +12,9 @@ namespace {
 
 class LogCommand : public record::testing::TemporaryFolder {
  protected:
-  struct Outcome {
-    int status = 0;
-    std::string message;
-    std::string output;
-  };
-  static Outcome run(std::vector<std::string> arguments) {
-    CLI::App app;
-    add_log(app);
-    std::reverse(arguments.begin(), arguments.end());
-    arguments.emplace_back("log");
-    Outcome outcome;
-    ::testing::internal::CaptureStdout();
-    try {
-      app.parse(std::move(arguments));
-    } catch (const CLI::ParseError& error) {
-      outcome = {static_cast<int>(Exit::usage), error.what(), ""};
-    } catch (const Failure& failure) {
-      outcome = {static_cast<int>(failure.status()), failure.what(), ""};
-    }
-    outcome.output = ::testing::internal::GetCapturedStdout();
-    return outcome;
+  static test::Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "log");
+    return test::run_command(add_log, std::move(arguments));
   }
 };
 

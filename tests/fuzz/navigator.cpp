@@ -1,33 +1,15 @@
 // Readings of any content and order: the navigator neither crashes nor says what is no number.
 #include "nav/navigator.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <span>
+
+#include "tests/fuzz/source.h"
 
 namespace {
 
 using namespace navcal::nav;
-
-/// Takes numbers from the fuzzer's bytes; zeros when they are used up.
-struct Source {
-  std::span<const std::uint8_t> bytes;
-  template <class T>
-  T take() {
-    T value{};
-    const std::size_t size = std::min(sizeof value, bytes.size());
-    std::memcpy(&value, bytes.data(), size);
-    bytes = bytes.subspan(size);
-    return value;
-  }
-  /// Mostly what an instrument could say, sometimes any 64 bits at all.
-  double number(double typical) {
-    if (take<std::uint8_t>() < 8) return take<double>();
-    return typical * take<std::int16_t>() / 16384.0;
-  }
-};
+using navcal::fuzz::Source;
 
 void require(bool holds) {
   if (!holds) std::abort();
@@ -47,10 +29,10 @@ void check(const Estimate& e) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Source source{{data, size}};
+  Source source({data, size});
   Navigator navigator({});
   std::int64_t time_ns = 0;
-  while (!source.bytes.empty()) {
+  while (!source.empty()) {
     const auto kind = source.take<std::uint8_t>();
     time_ns += (kind < 16 ? std::int64_t{1'000'000'000} : 1'000'000) * source.take<std::int8_t>();
     switch (kind % 4) {

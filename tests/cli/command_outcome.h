@@ -1,0 +1,36 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+
+namespace navcal::cli::test {
+
+struct Outcome {
+  int status = 0;
+  std::string message, output;
+};
+
+/// One subcommand run within this program; `arguments` begin with its name.
+inline Outcome run_command(void (*add)(CLI::App&), std::vector<std::string> arguments) {
+  CLI::App app;
+  add(app);
+  std::reverse(arguments.begin(), arguments.end());
+  Outcome outcome;
+  ::testing::internal::CaptureStdout();
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::ParseError& error) {
+    outcome = {static_cast<int>(Exit::usage), error.what(), ""};
+  } catch (const Failure& failure) {
+    outcome = {static_cast<int>(failure.status()), failure.what(), ""};
+  }
+  outcome.output = ::testing::internal::GetCapturedStdout();
+  return outcome;
+}
+
+}  // namespace navcal::cli::test
