@@ -35,8 +35,8 @@ struct EffectParameterEstimate {
 
 struct Confusion {
   std::string name;
-  std::string tie_breaker;      ///< the manoeuvre that tells them apart
-  double separation_nats = 0;   ///< expected log evidence between both in this mission
+  std::string tie_breaker;     ///< the manoeuvre that tells them apart
+  double separation_nats = 0;  ///< expected log evidence between both in this mission
 };
 
 struct EffectFinding {
@@ -96,19 +96,19 @@ struct BankFacts {
 
 struct Diagnosis {
   Verdict verdict = Verdict::unknown;
-  std::string sentence;  ///< the verdict for people
-  std::vector<WhereEntry> where;            ///< what stands clear, strongest first
-  std::vector<WhereEntry> map;              ///< every channel and regime, for the picture
-  std::vector<EffectFinding> effects;       ///< the set on which the verdict rests
-  std::vector<EffectFinding> candidates;    ///< all that were considered likely, most probable first
+  std::string sentence;                   ///< the verdict for people
+  std::vector<WhereEntry> where;          ///< what stands clear, strongest first
+  std::vector<WhereEntry> map;            ///< every channel and regime, for the picture
+  std::vector<EffectFinding> effects;     ///< the set on which the verdict rests
+  std::vector<EffectFinding> candidates;  ///< all that were considered likely, most probable first
   Gap gap;
-  std::vector<std::string> unexplained;     ///< what structure is left
-  std::vector<std::string> next;            ///< what to do now: a manoeuvre, an effect to add
-  std::vector<std::string> remarks;         ///< about the recording: gaps, missing instruments, what cannot be said
+  std::vector<std::string> unexplained;  ///< what structure is left
+  std::vector<std::string> next;         ///< what to do now: a manoeuvre, an effect to add
+  std::vector<std::string> remarks;      ///< about the recording: gaps, missing instruments, what cannot be said
   std::array<double, 4> gyro_bias_rad_s{};  ///< A-x, A-z, B-y, B-z; a nuisance, never a cause
   std::vector<ChangePoint> changes;
-  std::optional<Scatter> scatter;           ///< of the strongest channel
-  std::vector<Course> courses;              ///< of each channel
+  std::optional<Scatter> scatter;  ///< of the strongest channel
+  std::vector<Course> courses;     ///< of each channel
   BankFacts bank;
   double duration_s = 0;  ///< of the mission
   double seconds = 0;     ///< that the diagnosis took, without the bank

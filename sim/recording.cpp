@@ -1,6 +1,7 @@
 #include "sim/recording.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "protocols/oncore_command.h"
 #include "sim/imu_card.h"
@@ -61,10 +62,15 @@ Recording::Recording(const Options& options, const Motion& motion)
   auto card = card_options(options.noise);
   card.seed = seed();
   card.effects = &effects_;
+  if (!options.turn_on_bias) card.turn_on_bias_deg_s = 0;
   add(Instrument::imu, std::make_unique<ImuCard>(card, motion));
   auto receiver = receiver_options(options.noise);
   receiver.seed = seed();
   receiver.receiver.effects = &effects_;
+  if (options.sky_always_seen) {
+    receiver.receiver.antenna_depth_m = std::numeric_limits<double>::infinity();
+    receiver.receiver.least_search_s = receiver.receiver.longest_search_s = 0;
+  }
   add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
   auto motor = motor_options(options.noise);
   motor.seed = seed();

@@ -19,6 +19,8 @@ class Recording {
     bool noise = true;          ///< of the instruments and the host; resolution and latency stay
     std::uint64_t seed = 1;
     EffectSet* effects = nullptr;  ///< nullptr: nominal; must outlive the recording
+    bool turn_on_bias = true;      ///< of the gyros
+    bool sky_always_seen = false;  ///< fixes at every depth, from the first second on
   };
   Recording(const Options& options, const Motion& motion);
 

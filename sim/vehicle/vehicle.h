@@ -40,6 +40,10 @@ class Vehicle {
   /// One step of the classical Runge-Kutta method of fourth order.
   [[nodiscard]] Step step(const Body& body, const Controls& held, const Influences& influences,
                           double step_s) const;
+  /// nu' at this instant.
+  [[nodiscard]] Vector6 acceleration(const Body& body, const Controls& held, const Influences& influences) const {
+    return change(body, held, influences).velocity;
+  }
   [[nodiscard]] const Matrix6& mass() const { return mass_; }
 
  private:

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "config/vehicle.h"
+#include "gap/innovations.h"
+#include "gap/library.h"
+#include "gap/null_bank.h"
+
+namespace navcal::gap {
+
+/// Null banks of missions that were diagnosed before. A bank serves every mission that was steered alike: the same
+/// shaft speeds, turns, depths and fixes within a tolerance, by the same nominal vehicle, library and program.
+class BankCache {
+ public:
+  /// Empty folder: nothing is kept.
+  BankCache(std::filesystem::path folder, const config::VehicleSettings& vehicle, const Library& library);
+
+  /// The bank of at least so many missions whose own mission is nearest, if it is near enough. A file that cannot
+  /// be read as one is passed over.
+  [[nodiscard]] std::optional<NullBank> find(const Replay& replay, const Course10Hz& course,
+                                             const BankOptions& options) const;
+  /// Throws std::system_error.
+  void keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string model_;  ///< what else must be the same
+};
+
+}  // namespace navcal::gap

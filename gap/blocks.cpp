@@ -1,0 +1,46 @@
+#include "gap/blocks.h"
+
+#include <cmath>
+
+#include "gap/evidence.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kPiece_s = 60;
+
+bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
+  const Eigen::Index grid = layout.intervals * kEvidenceChannels;
+  if (row < grid) {
+    return static_cast<long>(static_cast<double>(row / kEvidenceChannels) * kInterval_s / kPiece_s) % 2 == 0;
+  }
+  return row < (grid + rows) / 2;  // fixes: the first half of them
+}
+
+}  // namespace
+
+std::vector<double> gains_of_blocks(const Explanation& explanation, const Library& library, const Priors& priors,
+                                    const Layout& layout) {
+  const Linearised& linear = explanation.linear;
+  const Eigen::Index rows = linear.residual.size();
+  Eigen::VectorXd mask(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
+  const Eigen::VectorXd data = linear.residual + linear.design * linear.at;
+  const auto members = members_of(library, explanation.effects);
+  std::vector<double> gains;
+  for (const bool learn_from_even : {true, false}) {
+    const Eigen::VectorXd learn = learn_from_even ? mask : Eigen::VectorXd((1 - mask.array()).matrix());
+    const Eigen::MatrixXd design = learn.asDiagonal() * linear.design;
+    const Evidence evidence(design.transpose() * linear.design, design.transpose() * data, priors.spike,
+                            priors.slab);
+    const Eigen::VectorXd without = evidence.base_posterior().mean, with = evidence.posterior(members).mean;
+    const Eigen::VectorXd judged = (1 - learn.array()).matrix();
+    const auto misfit = [&](const Eigen::VectorXd& values) {
+      return judged.cwiseProduct(data - linear.design * values).squaredNorm();
+    };
+    gains.push_back(0.5 * (misfit(without) - misfit(with)));
+  }
+  return gains;
+}
+
+}  // namespace navcal::gap

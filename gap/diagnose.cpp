@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "gap/advice.h"
+#include "gap/answer.h"
+#include "gap/bank_cache.h"
+#include "gap/biases.h"
+#include "gap/blocks.h"
+#include "gap/holdout.h"
+#include "gap/request.h"
+#include "gap/search.h"
+#include "gap/verdict.h"
+#include "gap/where.h"
+
+namespace navcal::gap {
+namespace {
+
+/// A mission ready to be compared with its nulls.
+struct Prepared {
+  Mission mission;
+  std::unique_ptr<Replay> replay;
+  Eigen::VectorXd at;
+  Course10Hz course;
+  NullBank bank;
+  bool from_cache = false;
+};
+
+class Diagnosing {
+ public:
+  Diagnosing(const Request& request, const Progress& progress)
+      : request_(request),
+        progress_(progress),
+        library_(request.excluded),
+        cache_(request.cache, request.vehicle, library_),
+        threads_(request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency())) {}
+
+  [[nodiscard]] Diagnosis run();
+
+ private:
+  /// nullptr: nothing can be said from it, and a remark says why.
+  [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
+  void find_bank(Prepared& prepared, const std::string& name);
+  void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
+
+  const Request& request_;
+  const Progress& progress_;
+  Library library_;
+  BankCache cache_;
+  unsigned threads_;
+};
+
+std::unique_ptr<Prepared> Diagnosing::prepare(const std::filesystem::path& file, Diagnosis& answer) {
+  auto prepared = std::make_unique<Prepared>();
+  const std::string name = file.filename().string();
+  prepared->mission = load_mission(file, [&](double done) { progress_("reading " + name, done); });
+  for (const auto& remark : prepared->mission.remarks) answer.remarks.push_back(remark);
+  const std::string shortcoming = prepared->mission.shortcoming();
+  if (!shortcoming.empty()) {
+    answer.remarks.push_back(name + ": " + shortcoming);
+    return nullptr;
+  }
+  if (prepared->mission.fixes.size() < 3) {
+    answer.remarks.push_back(name +
+                             ": hardly a GPS fix, so nothing can be said of declination, current, GPS and speed");
+  }
+  prepared->replay = std::make_unique<Replay>(prepared->mission, request_.vehicle);
+  if (prepared->replay->intervals() < 200) {
+    answer.remarks.push_back(name + ": compass, inertial card and motor card have less than 20 s in common");
+    return nullptr;
+  }
+  prepared->at = with_biases_found(*prepared->replay, library_, threads_);
+  (void)prepared->replay->run(library_.model(prepared->at), &prepared->course);
+  find_bank(*prepared, name);
+  if (prepared->bank.missions < 10) {
+    answer.remarks.push_back(name +
+                             ": no simulated vehicle could follow this mission, so nothing can be compared");
+    return nullptr;
+  }
+  return prepared;
+}
+
+void Diagnosing::find_bank(Prepared& prepared, const std::string& name) {
+  const BankOptions options{request_.bank_missions, request_.bank_seed, threads_};
+  if (auto bank = cache_.find(*prepared.replay, prepared.course, options)) {
+    prepared.bank = std::move(*bank);
+    prepared.from_cache = true;
+    return;
+  }
+  prepared.bank = make_null_bank(*prepared.replay, prepared.course, request_.vehicle, library_, prepared.at,
+                                 options, [&](double done) { progress_("null bank of " + name, done); });
+  cache_.keep(*prepared.replay, prepared.course, prepared.bank);
+}
+
+void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts,
+                          Diagnosis& answer) {
+  const Priors priors = learnt_priors(library_, a.bank.gram, a.bank.scores);
+  progress_("linearising", 0);
+  const Linearised nominal = linearise(*a.replay, library_, a.bank.whitening, a.at, threads_);
+  const SearchResult found = search(*a.replay, library_, a.bank.whitening, nominal, priors, threads_,
+                                    [&](double done) { progress_("searching", done); });
+
+  // Members alone go into the missions held out; all that was found, small as it is, is taken out of what is left.
+  Eigen::VectorXd members = Eigen::VectorXd::Zero(found.best.mean.size());
+  for (const Eigen::Index j : members_of(library_, found.best.effects)) members[j] = found.best.mean[j];
+  const Comparison here = compare(*a.replay, library_, a.bank, members, threads_);
+  const Eigen::MatrixXd was = followed(here.nominal, a.course, here.fix_times_s);
+  const Innovations rest = a.replay->run(library_.model(found.best.mean));
+  const Eigen::MatrixXd is = followed(rest, here.course, here.fix_times_s);
+  answer.map = where_map(was, a.bank.followed);
+  answer.where = clear_of_nulls(answer.map);
+  const auto leftover = clear_of_nulls(where_map(is, a.bank.followed));
+
+  std::vector<Comparison> compared;
+  std::vector<double> nats;
+  for (std::size_t i = 0; i < holdouts.size(); ++i) {
+    progress_("missions held out", static_cast<double>(i) / static_cast<double>(holdouts.size()));
+    compared.push_back(compare(*holdouts[i]->replay, library_, holdouts[i]->bank, members, threads_));
+    nats.push_back(compared.back().gain_nats());
+  }
+  const bool blocks = compared.empty();
+  if (blocks) {
+    nats = gains_of_blocks(found.best, library_, priors, layout_of(*a.replay));
+    compared.push_back(here);
+  }
+  const PooledClosure closure = pooled_closure(compared);
+  const Judgement judgement = judge({found, library_, answer.where, leftover, nats, closure, blocks});
+
+  answer.verdict = judgement.verdict;
+  answer.unexplained = judgement.reasons;
+  answer.duration_s = a.mission.duration_s;
+  for (Eigen::Index i = 0; i < Library::kBiases; ++i) {
+    answer.gyro_bias_rad_s[static_cast<std::size_t>(i)] = found.best.mean[i];
+  }
+  answer.bank = {a.bank.missions, a.bank.seed, a.from_cache, a.bank.seconds};
+  write_findings(found, library_, priors, answer);
+  write_gap(compared, closure, !blocks, answer);
+  answer.changes = change_points(here.nominal, a.course, here.fix_times_s, a.bank.followed);
+  answer.courses = courses(here.nominal, here.improved, here.course, here.fix_times_s);
+  if (!answer.where.empty()) {
+    answer.scatter = scatter(answer.where.front(), here.nominal, here.improved, here.course, here.fix_times_s);
+  }
+  write_words(answer);
+}
+
+Diagnosis Diagnosing::run() {
+  Diagnosis answer;
+  const auto a = prepare(request_.mission, answer);
+  std::vector<std::unique_ptr<Prepared>> holdouts;
+  for (const auto& file : request_.holdouts) {
+    auto prepared = prepare(file, answer);
+    if (prepared) holdouts.push_back(std::move(prepared));
+  }
+  const auto began = std::chrono::steady_clock::now();
+  if (a) {
+    diagnose(*a, holdouts, answer);
+  } else {
+    answer.sentence = "Nothing can be said from this recording: " +
+                      (answer.remarks.empty() ? std::string("it is empty") : answer.remarks.back()) + ".";
+  }
+  if (request_.holdouts.empty()) {
+    answer.remarks.emplace_back(
+        "no mission was held out: blocks of this one had to do, which is weaker (--holdout OTHER.cap)");
+  }
+  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return answer;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Request& request, const Progress& progress) {
+  return Diagnosing(request, progress).run();
+}
+
+}  // namespace navcal::gap

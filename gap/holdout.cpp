@@ -1,0 +1,130 @@
+#include "gap/holdout.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "gap/biases.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kBlock_s = 10;
+constexpr int kResamples = 1000;
+/// Further above the floor than this many of its standard deviations, a gap is one.
+constexpr double kClear = 3;
+
+/// The innovations by these effects with the biases that fit them, and their whitened form.
+struct Fitted {
+  Innovations innovations;
+  Eigen::VectorXd white;
+};
+
+Fitted fitted(const Replay& replay, const Library& library, const Whitening& whitening, Eigen::VectorXd values,
+              unsigned threads, Course10Hz* course) {
+  const Layout layout = layout_of(replay);
+  constexpr std::array<Eigen::Index, Library::kBiases> kColumns{0, 1, 2, 3};
+  const Linearised linear =
+      relinearise(replay, library, whitening, {values, {}, {}, {}, {}}, values, kColumns, threads);
+  Eigen::Matrix4d gram = linear.gram.topLeftCorner<Library::kBiases, Library::kBiases>();
+  gram.diagonal().array() += 1e-9 * gram.trace() + 1e-12;
+  values.head<Library::kBiases>() += gram.llt().solve(linear.score.head<Library::kBiases>());
+  Fitted result;
+  result.innovations = replay.run(library.model(values), course);
+  result.white = whitening(result.innovations, layout);
+  return result;
+}
+
+std::vector<double> blocks(const Eigen::VectorXd& white, const Layout& layout) {
+  const auto length = static_cast<Eigen::Index>(kBlock_s / kInterval_s) * kEvidenceChannels;
+  const Eigen::Index grid = layout.intervals * kEvidenceChannels;
+  std::vector<double> sums;
+  for (Eigen::Index from = 0; from < grid; from += length) {
+    sums.push_back(white.segment(from, std::min(length, grid - from)).squaredNorm());
+  }
+  // A handful of fixes belong together: one outlying surfacing is one event.
+  constexpr Eigen::Index kFixes = 10 * kFixChannels;
+  for (Eigen::Index from = grid; from < white.size(); from += kFixes) {
+    sums.push_back(white.segment(from, std::min(kFixes, white.size() - from)).squaredNorm());
+  }
+  return sums;
+}
+
+}  // namespace
+
+Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
+                   const Eigen::VectorXd& effects, unsigned threads) {
+  const Layout layout = layout_of(replay);
+  Eigen::VectorXd nominal = with_biases_found(replay, library, threads);
+  Eigen::VectorXd improved = effects;
+  improved.head<Library::kBiases>() = nominal.head<Library::kBiases>();
+  Comparison result;
+  Fitted before = fitted(replay, library, bank.whitening, nominal, threads, nullptr);
+  Fitted after = fitted(replay, library, bank.whitening, improved, threads, &result.course);
+  result.measurements = static_cast<double>(Whitening::count(before.white));
+  result.before = before.white.squaredNorm() / result.measurements;
+  result.after = after.white.squaredNorm() / result.measurements;
+  result.before_blocks = blocks(before.white, layout);
+  result.after_blocks = blocks(after.white, layout);
+  result.nominal = std::move(before.innovations);
+  result.improved = std::move(after.innovations);
+  for (const FixReading& fix : replay.mission().fixes) result.fix_times_s.push_back(fix.time_s);
+  result.channel_floor = bank.followed.mean_square.col(overall_regime()).cwiseSqrt();
+  double square = 0;
+  for (const double power : bank.powers) result.floor += power / static_cast<double>(bank.powers.size());
+  for (const double power : bank.powers) square += (power - result.floor) * (power - result.floor);
+  result.floor_std = std::sqrt(square / std::max<double>(1, static_cast<double>(bank.powers.size()) - 1));
+  return result;
+}
+
+PooledClosure pooled_closure(const std::vector<Comparison>& comparisons) {
+  PooledClosure pooled;
+  double measurements = 0, floor_variance = 0;
+  for (const Comparison& each : comparisons) measurements += each.measurements;
+  if (!(measurements > 0)) return pooled;
+  for (const Comparison& each : comparisons) {
+    const double weight = each.measurements / measurements;
+    pooled.before += weight * each.before;
+    pooled.after += weight * each.after;
+    pooled.floor += weight * each.floor;
+    floor_variance += weight * weight * each.floor_std * each.floor_std;
+  }
+  const double floor_std = std::sqrt(floor_variance);
+  pooled.clear = pooled.before - pooled.floor > kClear * floor_std;
+  if (!pooled.clear) return pooled;
+  pooled.closed = 1 - (pooled.after - pooled.floor) / (pooled.before - pooled.floor);
+
+  std::mt19937_64 dice(1);
+  std::normal_distribution<double> normal;
+  std::vector<double> closures;
+  for (int n = 0; n < kResamples; ++n) {
+    double before = 0, after = 0;
+    for (const Comparison& each : comparisons) {
+      std::uniform_int_distribution<std::size_t> pick(0, each.before_blocks.size() - 1);
+      for (std::size_t i = 0; i < each.before_blocks.size(); ++i) {
+        const std::size_t block = pick(dice);
+        before += each.before_blocks[block];
+        after += each.after_blocks[block];
+      }
+    }
+    // The floor's spread holds that of the noise, which before and after share.
+    const double floor = pooled.floor + floor_std * normal(dice);
+    const double gap = before / measurements - floor;
+    if (gap > 0) closures.push_back(1 - (after / measurements - floor) / gap);
+  }
+  if (closures.size() < kResamples / 2) {
+    pooled.clear = false;
+    return pooled;
+  }
+  std::sort(closures.begin(), closures.end());
+  const auto quantile = [&](double q) {
+    return closures[static_cast<std::size_t>(q * static_cast<double>(closures.size() - 1))];
+  };
+  pooled.lower = std::min(quantile(0.025), pooled.closed);
+  pooled.upper = std::max(quantile(0.975), pooled.closed);
+  return pooled;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,66 @@
+#include "gap/library.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <stdexcept>
+
+#include "sim/effects/choice.h"
+#include "sim/effects/effect_table.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kBias_rad_s = 0.3 * std::numbers::pi / 180;  // the usual one at power-on
+constexpr std::array<std::string_view, 4> kBiasNames{"bias_ax", "bias_az", "bias_by", "bias_bz"};
+
+}  // namespace
+
+Library::Library(std::span<const std::string> excluded) {
+  for (const std::string& name : excluded) {
+    if (sim::make_effect(name) == nullptr) throw std::invalid_argument(sim::unknown_effect(name));
+  }
+  for (std::size_t i = 0; i < kBiasNames.size(); ++i) {
+    unknowns_.push_back({kNuisance, i, kBiasNames[i], kBias_rad_s, 1, -1, 1});
+  }
+  for (const auto& entry : sim::effect_table()) {
+    auto effect = entry.make();
+    const auto& description = effect->description();
+    if (description.place == sim::EffectPlace::lines) continue;
+    held_.push_back(std::find(excluded.begin(), excluded.end(), entry.name) == excluded.end());
+    first_.push_back(static_cast<Eigen::Index>(unknowns_.size()));
+    for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+      const auto& parameter = description.parameters[i];
+      unknowns_.push_back({effects_.size(), i, parameter.name, parameter.typical, description.step,
+                           parameter.least, parameter.greatest});
+    }
+    effects_.push_back(std::move(effect));
+  }
+}
+
+std::vector<Eigen::Index> Library::moving() const {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(unknowns_.size()); ++j) {
+    const std::size_t effect = unknowns_[static_cast<std::size_t>(j)].effect;
+    if (effect == kNuisance || held_[effect]) columns.push_back(j);
+  }
+  return columns;
+}
+
+Model Library::model(const Eigen::VectorXd& values) const {
+  Model model;
+  for (std::size_t i = 0; i < kBiasNames.size(); ++i) model.bias_rad_s[i] = values[static_cast<Eigen::Index>(i)];
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const auto part = values.segment(first(e), count(e));
+    if (part.isZero(0)) continue;
+    std::vector<double> parameters;
+    for (Eigen::Index i = 0; i < part.size(); ++i) {
+      const Unknown& unknown = unknowns_[static_cast<std::size_t>(first(e) + i)];
+      parameters.push_back(std::clamp(part[i], unknown.least, unknown.greatest));
+    }
+    model.effects.add(effects_[e]->clone()).set_parameters(parameters);
+  }
+  return model;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,119 @@
+#include "gap/null_bank.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+
+#include "gap/null_mission.h"
+#include "gap/parallel.h"
+#include "sim/vehicle/vehicle.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Whose noise the whitening is learnt from.
+constexpr std::size_t kWhiteningMissions = 30;
+
+struct Null {
+  Innovations nominal;
+  Layout layout;
+  Course10Hz course;
+  std::vector<double> fix_times_s;
+  std::optional<Innovations> noise;  ///< by its own true parameters
+};
+
+std::vector<double> fix_times(const Mission& mission) {
+  std::vector<double> times_s;
+  for (const FixReading& fix : mission.fixes) times_s.push_back(fix.time_s);
+  return times_s;
+}
+
+/// Of the shape of another mission that was steered alike: cut off, or filled with what was not measured.
+Innovations fitted_into(const Innovations& innovations, const Layout& layout) {
+  const auto shaped = [](const Eigen::MatrixXd& from, Eigen::Index rows) {
+    Eigen::MatrixXd to = Eigen::MatrixXd::Constant(rows, from.cols(), std::numeric_limits<double>::quiet_NaN());
+    const Eigen::Index both = std::min(rows, from.rows());
+    to.topRows(both) = from.topRows(both);
+    return to;
+  };
+  Innovations result;
+  result.grid = shaped(innovations.grid, layout.intervals);
+  result.fixes = shaped(innovations.fixes, static_cast<Eigen::Index>(layout.fix_numbers.size()));
+  return result;
+}
+
+}  // namespace
+
+NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const config::VehicleSettings& vehicle,
+                        const Library& library, const Eigen::VectorXd& at, const BankOptions& options,
+                        const std::function<void(double)>& progress) {
+  const auto began = std::chrono::steady_clock::now();
+  NullBank bank;
+  bank.seed = options.seed;
+  const auto count = static_cast<std::size_t>(options.missions);
+  std::vector<std::optional<Null>> nulls(count);
+  std::atomic<std::size_t> done{0};
+  std::mutex progress_mutex;
+  in_parallel(options.threads, count, [&](std::size_t i) {
+    const std::uint64_t seed = options.seed * 1'000'003 + i;
+    const Eigen::VectorXd values = benign_mismatch(library, seed);
+    const Model truth = library.model(values);
+    try {
+      const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
+      const Replay replay(mission, vehicle);
+      Null null;
+      null.layout = layout_of(replay);
+      null.fix_times_s = fix_times(mission);
+      null.nominal = replay.run(Model{}, &null.course);
+      if (i < kWhiteningMissions) null.noise = replay.run(truth);
+      nulls[i] = std::move(null);
+    } catch (const sim::UnstableVehicle&) {
+      // One that cannot swim this way is not in the bank, and the bank says how many are.
+    }
+    const std::lock_guard lock(progress_mutex);
+    progress(0.95 * static_cast<double>(++done) / static_cast<double>(count));
+  });
+  std::erase_if(nulls, [](const auto& null) { return !null; });
+  bank.missions = static_cast<int>(nulls.size());
+  if (nulls.empty()) return bank;
+
+  std::vector<Innovations> noise;
+  std::vector<Layout> layouts;
+  for (auto& null : nulls) {
+    if (!null->noise) continue;
+    noise.push_back(std::move(*null->noise));
+    layouts.push_back(null->layout);
+  }
+  bank.whitening = Whitening(noise, layouts);
+
+  // The recorded mission's design serves all: they were steered alike.
+  const Linearised linear = linearise(recorded, library, bank.whitening, at, options.threads);
+  const Layout layout = layout_of(recorded);
+  bank.gram = linear.gram;
+  bank.scores.resize(linear.gram.rows(), static_cast<Eigen::Index>(nulls.size()));
+  Eigen::MatrixXd biases = linear.gram.topLeftCorner(Library::kBiases, Library::kBiases);
+  biases.diagonal().array() += 1e-12 + 1e-9 * biases.trace();
+  const Eigen::LLT<Eigen::MatrixXd> bias_gram(biases);
+  std::vector<Eigen::MatrixXd> followed_by_nulls;
+  for (std::size_t i = 0; i < nulls.size(); ++i) {
+    const Null& null = *nulls[i];
+    const Eigen::VectorXd white = bank.whitening(fitted_into(null.nominal, layout), layout);
+    const auto column = static_cast<Eigen::Index>(i);
+    bank.scores.col(column) = linear.design.transpose() * white;
+    const Eigen::VectorXd bias = bias_gram.solve(bank.scores.col(column).head(Library::kBiases));
+    const Eigen::VectorXd left = white - linear.design.leftCols(Library::kBiases) * bias;
+    bank.powers.push_back(left.squaredNorm() / static_cast<double>(Whitening::count(left)));
+    followed_by_nulls.push_back(followed(null.nominal, null.course, null.fix_times_s));
+  }
+  bank.followed = RegimeStatistics(followed_by_nulls);
+  bank.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  progress(1);
+  return bank;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,281 @@
+#include "gap/regimes.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <boost/math/distributions/gamma.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kSettling_s = 20;
+/// Correction of the estimator's depth a second, for each metre that it is off: turns a depth into a rate.
+constexpr double kDepthGain_per_s = 0.6;
+constexpr double kSurface_m = 0.35;
+/// Bands of frequency: what means over so many rows show, and what they do not.
+constexpr Eigen::Index kSlow = 200, kFast = 20;
+
+enum Reported : std::size_t {
+  compass_heading,
+  compass_field,
+  compass_tilt,
+  imu_gyro,
+  imu_accel,
+  imu_depth,
+  gps_position,
+  gps_velocity,
+  vehicle_yaw_rate,
+  vehicle_pitch_rate,
+  vehicle_speed,
+  vehicle_depth_rate
+};
+
+enum Regime : std::size_t {
+  constant,
+  heading_once,
+  heading_twice,
+  turn_rate,
+  turn_rate_size,
+  roll,
+  pitch,
+  motor_current,
+  temperature,
+  time_passed,
+  depth_below,
+  speed,
+  surface,
+  rudder,
+  elevator,
+  slow,
+  fast,
+  overall
+};
+
+Eigen::Map<const Eigen::VectorXd> mapped(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+/// Mean square of the fit of each column on the drivers (their means taken off, but for a constant).
+double fitted_mean_square(const Eigen::MatrixXd& values, const Eigen::MatrixXd& drivers) {
+  Eigen::MatrixXd gram = drivers.transpose() * drivers;
+  const double size = gram.trace();
+  if (!(size > 1e-12 * static_cast<double>(drivers.rows()))) return 0;  // the driver stands still
+  gram.diagonal().array() += 1e-9 * size;
+  const Eigen::MatrixXd fit = drivers * gram.llt().solve(drivers.transpose() * values);
+  return fit.squaredNorm() / static_cast<double>(values.rows());
+}
+
+Eigen::MatrixXd without_mean(Eigen::MatrixXd columns) {
+  columns.rowwise() -= columns.colwise().mean().eval();
+  return columns;
+}
+
+/// Means of blocks, at each row.
+Eigen::MatrixXd block_means(const Eigen::MatrixXd& values, Eigen::Index length) {
+  Eigen::MatrixXd means(values.rows(), values.cols());
+  for (Eigen::Index from = 0; from < values.rows(); from += length) {
+    const Eigen::Index rows = std::min(length, values.rows() - from);
+    means.middleRows(from, rows).rowwise() = values.middleRows(from, rows).colwise().mean().eval();
+  }
+  return means;
+}
+
+/// Mean square of a band of frequencies, or of all.
+double values_square(const Eigen::MatrixXd& values, std::size_t band) {
+  const auto n = static_cast<double>(values.rows());
+  if (band == overall) return values.squaredNorm() / n;
+  if (values.rows() < 2 * kSlow) return 0;
+  if (band == slow) return without_mean(block_means(values, kSlow)).squaredNorm() / n;
+  return (values - block_means(values, kFast)).squaredNorm() / n;
+}
+
+}  // namespace
+
+const std::vector<ReportedChannel>& reported_channels() {
+  static const std::vector<ReportedChannel> kAll{{"compass.heading", "deg", kDegrees},
+                                                 {"compass.field", "uT", 1},
+                                                 {"compass.tilt", "deg", kDegrees},
+                                                 {"imu.gyro", "deg/s", kDegrees},
+                                                 {"imu.accel", "m/s2", 1},
+                                                 {"imu.depth", "m", 1},
+                                                 {"gps.position", "m", 1},
+                                                 {"gps.velocity", "m/s", 1},
+                                                 {"vehicle.yaw_rate", "deg/s", kDegrees},
+                                                 {"vehicle.pitch_rate", "deg/s", kDegrees},
+                                                 {"vehicle.speed", "m/s", 1},
+                                                 {"vehicle.depth_rate", "m/s", 1}};
+  return kAll;
+}
+
+const std::vector<std::string_view>& regimes() {
+  static const std::vector<std::string_view> kAll{
+      "constant",      "heading_once", "heading_twice", "turn_rate", "turn_rate_size", "roll",    "pitch",
+      "motor_current", "temperature",  "time",          "depth",     "speed",          "surface", "rudder",
+      "elevator",      "slow",         "fast"};
+  return kAll;
+}
+
+Eigen::Index overall_regime() { return overall; }
+
+ChannelSeries series_of(std::size_t channel, const Innovations& innovations, const Course10Hz& course,
+                        const std::vector<double>& fix_times_s) {
+  ChannelSeries series;
+  const bool at_fixes = channel == gps_position || channel == gps_velocity || channel == vehicle_speed;
+  const std::size_t points = at_fixes ? fix_times_s.size() : course.time_s.size();
+  std::vector<Eigen::VectorXd> rows;
+  for (std::size_t i = 0; i < points; ++i) {
+    std::size_t at = i;
+    if (at_fixes) {
+      const double place = (fix_times_s[i] - course.time_s.front()) / kInterval_s;
+      if (place < 0 || place >= static_cast<double>(course.time_s.size())) continue;
+      at = static_cast<std::size_t>(place);
+    }
+    if (course.time_s[at] < course.time_s.front() + kSettling_s) continue;
+    Eigen::VectorXd row;
+    const auto grid = [&](Eigen::Index column) { return innovations.grid(static_cast<Eigen::Index>(i), column); };
+    const auto fix = [&](Eigen::Index column) { return innovations.fixes(static_cast<Eigen::Index>(i), column); };
+    switch (channel) {
+      case compass_heading:
+        row = Eigen::VectorXd::Constant(1, grid(heading));
+        break;
+      case compass_field:
+        row = Eigen::Vector3d{grid(field_x), grid(field_y), grid(field_z)};
+        break;
+      case compass_tilt:
+        row = Eigen::Vector2d{grid(tilt_roll), grid(tilt_pitch)};
+        break;
+      case imu_gyro:
+        row = Eigen::Vector2d{grid(gyro_roll), (grid(gyro_yaw_a) - grid(gyro_yaw_b)) / std::numbers::sqrt2};
+        break;
+      case imu_accel:
+        row = Eigen::Vector3d{grid(force_x), grid(force_y), grid(force_z)};
+        break;
+      case imu_depth:
+        row = Eigen::VectorXd::Constant(1, grid(depth));
+        break;
+      case gps_position:
+        row =
+            innovations.fix_scale_m[static_cast<Eigen::Index>(i)] * Eigen::Vector2d{fix(fix_north), fix(fix_east)};
+        break;
+      case gps_velocity:
+        row = Eigen::Vector2d{fix(velocity_north), fix(velocity_east)};
+        break;
+      case vehicle_yaw_rate:
+        row = Eigen::VectorXd::Constant(1, (grid(gyro_yaw_a) + grid(gyro_yaw_b)) / 2);
+        break;
+      case vehicle_pitch_rate:
+        row = Eigen::VectorXd::Constant(1, grid(gyro_pitch));
+        break;
+      case vehicle_speed:
+        row = Eigen::VectorXd::Constant(1, std::cos(course.heading_rad[at]) * fix(velocity_north) +
+                                               std::sin(course.heading_rad[at]) * fix(velocity_east));
+        break;
+      default:
+        row = Eigen::VectorXd::Constant(1, kDepthGain_per_s * grid(depth));
+    }
+    if (!row.allFinite()) continue;
+    rows.push_back(row * reported_channels()[channel].per_si);
+    series.rows.push_back(at);
+  }
+  series.values.resize(static_cast<Eigen::Index>(rows.size()), rows.empty() ? 0 : rows.front().size());
+  for (std::size_t i = 0; i < rows.size(); ++i) series.values.row(static_cast<Eigen::Index>(i)) = rows[i];
+  if (channel == vehicle_depth_rate && series.values.rows() > 0) series.values = block_means(series.values, 10);
+  return series;
+}
+
+Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
+  const auto one = [](const auto& column) { return without_mean(Eigen::MatrixXd(column)); };
+  const Eigen::ArrayXd turned = mapped(course.heading_rad).array();
+  Eigen::MatrixXd both(turned.size(), 2);
+  switch (regime) {
+    case constant:
+      return Eigen::MatrixXd::Ones(turned.size(), 1);
+    case heading_once:
+      both << turned.cos(), turned.sin();
+      return without_mean(both);
+    case heading_twice:
+      both << (2 * turned).cos(), (2 * turned).sin();
+      return without_mean(both);
+    case turn_rate:
+      return one(mapped(course.yaw_rate_rad_s));
+    case turn_rate_size:
+      return one(mapped(course.yaw_rate_rad_s).cwiseAbs());
+    case roll:
+      return one(mapped(course.roll_rad));
+    case pitch:
+      return one(mapped(course.pitch_rad));
+    case motor_current:
+      return one(mapped(course.current_A));
+    case temperature:
+      return one(mapped(course.warmth_C));
+    case time_passed:
+      return one(mapped(course.time_s));
+    case depth_below:
+      return one(mapped(course.depth_m));
+    case speed:
+      return one(mapped(course.surge_m_s));
+    case surface:
+      return one((mapped(course.depth_m).array() < kSurface_m).cast<double>().matrix());
+    case rudder:
+      return one(mapped(course.rudder_rad));
+    case elevator:
+      return one(mapped(course.elevator_rad));
+    default:
+      return {};
+  }
+}
+
+Eigen::MatrixXd followed(const Innovations& innovations, const Course10Hz& course,
+                         const std::vector<double>& fix_times_s) {
+  const auto channels = static_cast<Eigen::Index>(reported_channels().size());
+  const auto kinds = static_cast<Eigen::Index>(regimes().size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(channels, kinds);
+  std::vector<Eigen::MatrixXd> drivers;
+  for (std::size_t k = 0; k < regimes().size(); ++k) drivers.push_back(drivers_of(k, course));
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    const ChannelSeries series = series_of(static_cast<std::size_t>(c), innovations, course, fix_times_s);
+    const Eigen::Index n = series.values.rows();
+    if (n < 8) continue;
+    for (Eigen::Index k = 0; k < kinds; ++k) {
+      const auto& driver = drivers[static_cast<std::size_t>(k)];
+      double square = 0;
+      if (driver.size() > 0) {
+        Eigen::MatrixXd here(n, driver.cols());
+        for (Eigen::Index i = 0; i < n; ++i) {
+          here.row(i) = driver.row(static_cast<Eigen::Index>(series.rows[static_cast<std::size_t>(i)]));
+        }
+        square = fitted_mean_square(series.values, here);
+      } else {
+        square = values_square(series.values, static_cast<std::size_t>(k));
+      }
+      result(c, k) = std::sqrt(square);
+    }
+  }
+  return result;
+}
+
+RegimeStatistics::RegimeStatistics(const std::vector<Eigen::MatrixXd>& of_nulls) {
+  if (of_nulls.empty()) return;
+  mean_square = variance = Eigen::MatrixXd::Zero(of_nulls.front().rows(), of_nulls.front().cols());
+  for (const auto& null : of_nulls) mean_square += null.cwiseAbs2();
+  mean_square /= static_cast<double>(of_nulls.size());
+  for (const auto& null : of_nulls) variance += (null.cwiseAbs2() - mean_square).cwiseAbs2();
+  variance /= std::max<double>(1, static_cast<double>(of_nulls.size()) - 1);
+}
+
+double RegimeStatistics::floor(Eigen::Index channel, Eigen::Index regime) const {
+  return std::sqrt(mean_square(channel, regime));
+}
+
+double RegimeStatistics::p_value(Eigen::Index channel, Eigen::Index regime, double value) const {
+  const double mean = mean_square(channel, regime);
+  constexpr double kHeavier = 1.5;
+  const double spread = kHeavier * variance(channel, regime);
+  if (!(mean > 0) || !(spread > 0) || !(value > 0)) return 1;
+  const boost::math::gamma_distribution<double> gamma(mean * mean / spread, spread / mean);
+  return boost::math::cdf(boost::math::complement(gamma, value * value));
+}
+
+}  // namespace navcal::gap

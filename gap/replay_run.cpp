@@ -1,0 +1,397 @@
+#include "gap/replay_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sim/rotation.h"
+
+namespace navcal::gap {
+using sim::operator*;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// The estimator's gains, found by a study of this vehicle: a reading or a frame each.
+constexpr double kHeadingGain = 0.02, kTiltGain = 0.05, kRateGain = 0.15, kDepthGain = 0.03;
+constexpr double kFixVariance_m2 = 1, kDriftVariance_m2_s = 0.02;
+constexpr double kFluidLag_s = 0.3;
+/// A card silent for longer has been off: the estimator begins anew.
+constexpr double kRestart_s = 5;
+constexpr double kLongestStep_s = 0.06;
+constexpr double kSubmerged_s = 10;
+
+Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
+Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
+
+Eigen::Vector3d euler_rates(const Eigen::Vector3d& euler_rad, const Eigen::Vector3d& rate_rad_s) {
+  const double cf = std::cos(euler_rad[0]), sf = std::sin(euler_rad[0]);
+  const double yaw = (sf * rate_rad_s[1] + cf * rate_rad_s[2]) / std::cos(euler_rad[1]);
+  return {rate_rad_s[0] + std::sin(euler_rad[1]) * yaw, cf * rate_rad_s[1] - sf * rate_rad_s[2], yaw};
+}
+
+/// Of a field levelled by a tilt, clockwise from magnetic north (Mach 2003, eq. 2.2).
+double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
+  const double sf = std::sin(roll_rad), cf = std::cos(roll_rad), st = std::sin(pitch_rad),
+               ct = std::cos(pitch_rad);
+  return std::atan2(field[2] * sf - field[1] * cf, field[0] * ct + field[1] * sf * st + field[2] * cf * st);
+}
+
+sim::State between(const sim::State& a, const sim::State& b, double part) {
+  const auto mean = [part](const Vector3& from, const Vector3& to) {
+    Vector3 result{};
+    for (std::size_t i = 0; i < 3; ++i) result[i] = from[i] + part * (to[i] - from[i]);
+    return result;
+  };
+  sim::State state = a;
+  state.position_m = mean(a.position_m, b.position_m);
+  state.euler_rad = mean(a.euler_rad, b.euler_rad);
+  state.velocity_body_m_s = mean(a.velocity_body_m_s, b.velocity_body_m_s);
+  state.rate_rad_s = mean(a.rate_rad_s, b.rate_rad_s);
+  state.specific_force_m_s2 = mean(a.specific_force_m_s2, b.specific_force_m_s2);
+  state.motor_current_A = a.motor_current_A + part * (b.motor_current_A - a.motor_current_A);
+  return state;
+}
+
+}  // namespace
+
+ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
+    : in_(input), effects_(model.effects), bias_rad_s_(model.bias_rad_s) {
+  link_fins();
+  moments_.reserve(in_.mission.card.size());
+  out_.grid = Eigen::MatrixXd::Zero(in_.intervals, kChannels);
+  counts_ = Eigen::MatrixXi::Zero(in_.intervals, kChannels);
+  const auto fixes = static_cast<Eigen::Index>(in_.mission.fixes.size());
+  out_.fixes = Eigen::MatrixXd::Constant(fixes, kFixChannels, std::numeric_limits<double>::quiet_NaN());
+  out_.fix_scale_m = Eigen::VectorXd::Ones(fixes);
+}
+
+void ReplayRun::link_fins() {
+  constexpr double kStep_s = ActuatorTrack::kStep_s;
+  sim::Controls sum;
+  linked_fins_rad_.reserve(in_.actuators.size());
+  integrals_.reserve(in_.actuators.size());
+  for (std::size_t k = 0; k < in_.actuators.size(); ++k) {
+    Vector3 fins_rad = in_.actuators[k].fins_rad;
+    effects_.link_fins(static_cast<double>(k) * kStep_s, kStep_s, fins_rad);
+    linked_fins_rad_.push_back(fins_rad);
+    if (k > 0) {
+      sum.fins_rad += kStep_s / 2 * (vector_of(linked_fins_rad_[k - 1]) + vector_of(fins_rad));
+      sum.shaft_rps += kStep_s / 2 * (in_.actuators[k - 1].shaft_rps + in_.actuators[k].shaft_rps);
+    }
+    integrals_.push_back(sum);
+  }
+}
+
+sim::Controls ReplayRun::controls(double from_s, double until_s) const {
+  const double last = static_cast<double>(integrals_.size() - 1);
+  const auto at = [&](double time_s) {
+    const double place = std::clamp(time_s / ActuatorTrack::kStep_s, 0.0, last);
+    const auto k = std::min(static_cast<std::size_t>(place), integrals_.size() - 2);
+    const double part = place - static_cast<double>(k);
+    const auto &a = integrals_[k], &b = integrals_[k + 1];
+    return sim::Controls{a.fins_rad + part * (b.fins_rad - a.fins_rad),
+                         a.shaft_rps + part * (b.shaft_rps - a.shaft_rps)};
+  };
+  const double least_s = 1e-3;
+  if (until_s - from_s < least_s) until_s = from_s + least_s;
+  if (until_s >= last * ActuatorTrack::kStep_s) {
+    return {vector_of(linked_fins_rad_.back()), in_.actuators.back().shaft_rps};
+  }
+  const auto a = at(from_s), b = at(until_s);
+  return {(b.fins_rad - a.fins_rad) / (until_s - from_s), (b.shaft_rps - a.shaft_rps) / (until_s - from_s)};
+}
+
+sim::Instant ReplayRun::instant(double time_s, const sim::State& state) const {
+  return {time_s, state, electronics_C_};
+}
+
+void ReplayRun::complete(sim::State& state, double time_s) {
+  const auto row = static_cast<std::size_t>(
+      std::clamp(time_s / ActuatorTrack::kStep_s, 0.0, static_cast<double>(in_.actuators.size() - 1)));
+  const sim::Controls now{vector_of(linked_fins_rad_[row]), in_.actuators[row].shaft_rps};
+  const auto acceleration = in_.vehicle.acceleration(body_, now, influences_);
+  state.position_m = array_of(body_.position_m);
+  state.euler_rad = array_of(body_.euler_rad);
+  state.velocity_body_m_s = array_of(body_.velocity.head<3>());
+  state.rate_rad_s = array_of(body_.velocity.tail<3>());
+  state.specific_force_m_s2 = sim::specific_force(state.euler_rad, state.velocity_body_m_s, state.rate_rad_s,
+                                                  array_of(acceleration.head<3>()));
+  state.fins_rad = in_.actuators[row].fins_rad;
+  state.rpm = 60 * now.shaft_rps;
+  state.motor_current_A = in_.current_A[row];
+  state.current_m_s = influences_.current_m_s;
+}
+
+void ReplayRun::begin(const CardReading& reading) {
+  while (next_word_ + 1 < in_.mission.compass.size() && in_.mission.compass[next_word_].time_s < reading.time_s) {
+    ++next_word_;
+  }
+  const CompassReading& word = in_.mission.compass[std::min(next_word_, in_.mission.compass.size() - 1)];
+  const sim::State nominal;
+  const double variation_rad = std::atan2(nominal.field_world_uT[1], nominal.field_world_uT[0]);
+  const double heading_rad = word.heading_rad.value_or(heading_of(word.field_uT, word.roll_rad, word.pitch_rad));
+  body_ = {};
+  body_.euler_rad = {word.roll_rad, word.pitch_rad, heading_rad + variation_rad};
+  body_.position_m.z() = reading.depth_m;
+  const auto row = static_cast<std::size_t>(
+      std::clamp(reading.time_s / ActuatorTrack::kStep_s, 0.0, static_cast<double>(in_.actuators.size() - 1)));
+  constexpr double kAdvance_m = 0.087;  // a turn of the shaft, at a steady speed
+  body_.velocity[0] = kAdvance_m * in_.actuators[row].shaft_rps;
+  for (std::size_t i = 0; i < 3; ++i) gyro_said_rad_s_[i] = 0;
+  gyro_said_rad_s_ = {reading.gyro_rad_s[0], reading.gyro_rad_s[2],
+                      (reading.gyro_rad_s[1] + reading.gyro_rad_s[3]) / 2};
+  gyro_error_rad_s_ = {bias_rad_s_[0], bias_rad_s_[2], (bias_rad_s_[1] + bias_rad_s_[3]) / 2};
+  body_.velocity.tail<3>() = vector_of(gyro_said_rad_s_) - vector_of(gyro_error_rad_s_);
+  if (!in_.electronics_C.empty())
+    electronics_C_ = in_.electronics_C[std::min(next_word_, in_.electronics_C.size() - 1)];
+  fluid_ = {};
+  last_fix_s_.reset();
+  variance_m2_ = 0;
+}
+
+void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
+  const double step_s = until_s - from_s;
+  influences_ = {};
+  effects_.influence(from_s, influences_);
+  const Eigen::Vector3d euler = body_.euler_rad;
+  const Eigen::Vector3d rate = vector_of(gyro_rad_s);
+  body_ = in_.vehicle.step(body_, controls(from_s, until_s), influences_, step_s).body;
+  const Eigen::Vector3d middle = euler + step_s / 2 * euler_rates(euler, rate);
+  body_.euler_rad = euler + step_s * euler_rates(middle, rate);
+  distance_m_ += step_s * body_.velocity.head<3>().norm();
+}
+
+void ReplayRun::carry(const CardReading& to) {
+  const double from_s = moments_.back().time_s;
+  const double span_s = to.time_s - from_s;
+  const Vector3 said{to.gyro_rad_s[0], to.gyro_rad_s[2], (to.gyro_rad_s[1] + to.gyro_rad_s[3]) / 2};
+  Vector3 rate{};
+  for (std::size_t i = 0; i < 3; ++i) rate[i] = (gyro_said_rad_s_[i] + said[i]) / 2 - gyro_error_rad_s_[i];
+  gyro_said_rad_s_ = said;
+  const int steps = std::max(1, static_cast<int>(std::ceil(span_s / kLongestStep_s)));
+  for (int i = 0; i < steps; ++i) {
+    // Over a gap the gyros' two ends say little of what was between: the vehicle's own model does.
+    if (steps > 3) rate = array_of(body_.velocity.tail<3>());
+    step(from_s + span_s * i / steps, from_s + span_s * (i + 1) / steps, rate);
+  }
+}
+
+sim::State ReplayRun::past(double time_s) const {
+  auto later = std::lower_bound(moments_.begin(), moments_.end(), time_s,
+                                [](const Moment& moment, double t) { return moment.time_s < t; });
+  if (later == moments_.begin()) return moments_.front().predicted;
+  if (later == moments_.end()) return moments_.back().predicted;
+  const Moment& earlier = *std::prev(later);
+  return between(earlier.corrected, later->predicted,
+                 (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
+}
+
+ReplayRun::Instruments ReplayRun::card(double time_s, const sim::State& state) {
+  const sim::Instant now = instant(time_s, state);
+  Instruments said;
+  for (std::size_t i = 0; i < 4; ++i) said.gyro_rad_s[i] = state.rate_rad_s[sim::kGyroAxes[i]];
+  said.force_m_s2 = state.specific_force_m_s2;
+  said.depth_m = state.position_m[2];
+  effects_.gyros(now, said.gyro_rad_s);
+  effects_.accelerometers(now, said.force_m_s2);
+  effects_.depth(now, said.depth_m);
+  for (std::size_t i = 0; i < 4; ++i) said.gyro_rad_s[i] += bias_rad_s_[i];
+  if (effects_.size() == 0) return said;
+
+  static const config::ImuCardSettings kCard;
+  sim::CardVoltages_mV voltages{};
+  const auto unit = [](std::size_t i) { return i < 4 ? kDegree : i < 7 ? sim::kGravity_m_s2 : 1.0; };
+  const auto signal = [&](std::size_t i) -> double& {
+    return i < 4 ? said.gyro_rad_s[i] : i < 7 ? said.force_m_s2[i - 4] : said.depth_m;
+  };
+  for (std::size_t i = 0; i < 8; ++i) voltages[i] = kCard.zero_mV[i] + kCard.scale[i] * signal(i) / unit(i);
+  effects_.card_voltages(now, voltages);
+  for (std::size_t i = 0; i < 8; ++i) signal(i) = (voltages[i] - kCard.zero_mV[i]) / kCard.scale[i] * unit(i);
+  return said;
+}
+
+void ReplayRun::add(double time_s, Channel channel, double innovation) {
+  const auto row = static_cast<Eigen::Index>(std::floor((time_s - in_.begin_s) / kInterval_s));
+  if (time_s < in_.begin_s || row >= in_.intervals || !std::isfinite(innovation)) return;
+  out_.grid(row, channel) += innovation;
+  ++counts_(row, channel);
+}
+
+void ReplayRun::take_card(const CardReading& reading) {
+  const double delay_s = effects_.delays(reading.time_s).card_s;
+  const Moment& now = moments_.back();
+  const Instruments said = card(reading.time_s, delay_s > 0 ? past(reading.time_s - delay_s) : now.predicted);
+  std::array<double, 4> missed{};
+  for (std::size_t i = 0; i < 4; ++i) missed[i] = reading.gyro_rad_s[i] - said.gyro_rad_s[i];
+  add(reading.time_s, gyro_roll, missed[0]);
+  add(reading.time_s, gyro_pitch, missed[2]);
+  add(reading.time_s, gyro_yaw_a, missed[1]);
+  add(reading.time_s, gyro_yaw_b, missed[3]);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    add(reading.time_s, static_cast<Channel>(force_x + i), reading.force_m_s2[k] - said.force_m_s2[k]);
+  }
+  add(reading.time_s, depth, reading.depth_m - said.depth_m);
+
+  const auto& rate = now.predicted.rate_rad_s;
+  gyro_error_rad_s_ = {said.gyro_rad_s[0] - rate[0], said.gyro_rad_s[2] - rate[1],
+                       (said.gyro_rad_s[1] + said.gyro_rad_s[3]) / 2 - rate[2]};
+  body_.velocity[3] += kRateGain * missed[0];
+  body_.velocity[4] += kRateGain * missed[2];
+  body_.velocity[5] += kRateGain * (missed[1] + missed[3]) / 2;
+  body_.position_m.z() += kDepthGain * (reading.depth_m - said.depth_m);
+}
+
+void ReplayRun::feel(double time_s, const sim::State& state) {
+  const sim::Instant now = instant(time_s, state);
+  sim::Tilt seen{state.euler_rad[0], state.euler_rad[1]};
+  effects_.tilt_seen(now, seen);
+  const Vector3 settled = fluid_.at(time_s, {seen.roll_rad, seen.pitch_rad, 0}, kFluidLag_s);
+  tilt_ = {settled[0], settled[1]};
+  Vector3 earth_uT = state.field_world_uT;
+  effects_.earth_field(now, earth_uT);
+  field_uT_ = sim::transpose(sim::R_world_from_body(state.euler_rad)) * earth_uT;
+  effects_.body_field(now, field_uT_);
+}
+
+void ReplayRun::take_word(const CompassReading& reading, const sim::State& state) {
+  feel(reading.time_s, state);
+  sim::Tilt said = tilt_;
+  effects_.tilt_said(instant(reading.time_s, state), said);
+  const double heading_missed =
+      wrapped(reading.heading_rad.value_or(heading_of(reading.field_uT, reading.roll_rad, reading.pitch_rad)) -
+              heading_of(field_uT_, said.roll_rad, said.pitch_rad));
+  const double roll_missed = reading.roll_rad - said.roll_rad, pitch_missed = reading.pitch_rad - said.pitch_rad;
+  const double time_s = reading.time_s + in_.compass_shift_s;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    add(time_s, static_cast<Channel>(field_x + i), reading.field_uT[k] - field_uT_[k]);
+  }
+  add(time_s, tilt_roll, roll_missed);
+  add(time_s, tilt_pitch, pitch_missed);
+  add(time_s, heading, heading_missed);
+  body_.euler_rad +=
+      Eigen::Vector3d{kTiltGain * roll_missed, kTiltGain * pitch_missed, kHeadingGain * heading_missed};
+}
+
+void ReplayRun::take_words(double until_s) {
+  const auto& words = in_.mission.compass;
+  for (; next_word_ < words.size() && words[next_word_].time_s <= until_s; ++next_word_) {
+    electronics_C_ = in_.electronics_C[next_word_];
+    take_word(words[next_word_], past(words[next_word_].time_s));
+  }
+}
+
+void ReplayRun::take_fixes(double until_s) {
+  const auto& fixes = in_.mission.fixes;
+  for (; next_fix_ < fixes.size() && fixes[next_fix_].time_s <= until_s; ++next_fix_) take_fix(next_fix_);
+}
+
+void ReplayRun::take_fix(std::size_t index) {
+  const FixReading& fix = in_.mission.fixes[index];
+  const double time_s = fix.time_s - effects_.delays(fix.time_s).gps_s;
+  const sim::State state = past(time_s);
+  sim::AntennaMotion antenna{state.position_m, sim::R_world_from_body(state.euler_rad) * state.velocity_body_m_s};
+  for (std::size_t i = 0; i < 2; ++i) {
+    antenna.position_m[i] += offset_m_[i];
+    antenna.velocity_m_s[i] += state.current_m_s[i];
+  }
+  effects_.antenna(instant(time_s, state), antenna);
+
+  // The first fixes after surfacing come from few satellites (docs/simulator.md).
+  const double degraded = 1 + std::exp2(1 - fix.number);
+  const double fix_variance_m2 = kFixVariance_m2 * degraded * degraded;
+  const auto row = static_cast<Eigen::Index>(index);
+  const double since_s = last_fix_s_ ? fix.time_s - *last_fix_s_ : 0;
+  std::array<double, 2> missed_m{};
+  for (std::size_t i = 0; i < 2; ++i) missed_m[i] = fix.position_m[i] - antenna.position_m[i];
+  if (!last_fix_s_) {
+    for (std::size_t i = 0; i < 2; ++i) offset_m_[i] += missed_m[i];
+    variance_m2_ = fix_variance_m2;
+  } else {
+    variance_m2_ += kDriftVariance_m2_s * since_s;
+    const double together_m2 = variance_m2_ + fix_variance_m2;
+    out_.fix_scale_m[row] = std::sqrt(together_m2);
+    if (since_s > kSubmerged_s) {
+      out_.resurfacings.push_back(
+          {fix.time_s, distance_m_ - distance_at_fix_m_, std::hypot(missed_m[0], missed_m[1])});
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      out_.fixes(row, static_cast<Eigen::Index>(fix_north + static_cast<int>(i))) =
+          missed_m[i] / out_.fix_scale_m[row];
+      offset_m_[i] += variance_m2_ / together_m2 * missed_m[i];
+    }
+    variance_m2_ *= fix_variance_m2 / together_m2;
+  }
+  if (fix.velocity_m_s) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      out_.fixes(row, static_cast<Eigen::Index>(velocity_north + static_cast<int>(i))) =
+          ((*fix.velocity_m_s)[i] - antenna.velocity_m_s[i]) / degraded;
+    }
+  }
+  last_fix_s_ = fix.time_s;
+  distance_at_fix_m_ = distance_m_;
+}
+
+void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) const {
+  const auto row = static_cast<Eigen::Index>(std::floor((reading.time_s - in_.begin_s) / kInterval_s));
+  if (reading.time_s < in_.begin_s || row < static_cast<Eigen::Index>(course.time_s.size()) ||
+      row >= in_.intervals) {
+    return;
+  }
+  const sim::State& state = moments_.back().predicted;
+  const auto& fins = state.fins_rad;
+  while (static_cast<Eigen::Index>(course.time_s.size()) <= row) {
+    course.time_s.push_back(in_.begin_s + (static_cast<double>(course.time_s.size()) + 0.5) * kInterval_s);
+    course.heading_rad.push_back(state.euler_rad[2]);
+    course.roll_rad.push_back(state.euler_rad[0]);
+    course.pitch_rad.push_back(state.euler_rad[1]);
+    course.yaw_rate_rad_s.push_back(state.rate_rad_s[2]);
+    course.pitch_rate_rad_s.push_back(state.rate_rad_s[1]);
+    course.depth_m.push_back(state.position_m[2]);
+    course.surge_m_s.push_back(state.velocity_body_m_s[0]);
+    course.current_A.push_back(state.motor_current_A);
+    course.warmth_C.push_back(electronics_C_ - 15);
+    // The mixing of the card's interface document, section 4, undone.
+    course.rudder_rad.push_back((-2 * fins[0] + fins[1] + fins[2]) / 3);
+    course.elevator_rad.push_back((fins[1] - fins[2]) / std::numbers::sqrt3);
+    course.shaft_rps.push_back(state.rpm / 60);
+  }
+}
+
+Innovations ReplayRun::innovations(Course10Hz* course) {
+  for (const CardReading& reading : in_.mission.card) {
+    if (reading.time_s < in_.begin_s) continue;
+    if (moments_.empty() || reading.time_s - moments_.back().time_s > kRestart_s) {
+      begin(reading);
+    } else {
+      carry(reading);
+    }
+    Moment moment;
+    moment.time_s = reading.time_s;
+    complete(moment.predicted, reading.time_s);
+    moments_.push_back(moment);
+    take_words(reading.time_s);
+    take_fixes(reading.time_s);
+    take_card(reading);
+    if (effects_.size() > 0) feel(reading.time_s, moment.predicted);
+    moments_.back().corrected = moment.predicted;
+    moments_.back().corrected.euler_rad = array_of(body_.euler_rad);
+    moments_.back().corrected.position_m = array_of(body_.position_m);
+    moments_.back().corrected.rate_rad_s = array_of(body_.velocity.tail<3>());
+    if (course != nullptr) write_course(reading, *course);
+  }
+  for (Eigen::Index j = 0; j < kChannels; ++j) {
+    for (Eigen::Index i = 0; i < in_.intervals; ++i) {
+      const int n = counts_(i, j);
+      out_.grid(i, j) = n > 0 ? out_.grid(i, j) / n : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return std::move(out_);
+}
+
+}  // namespace navcal::gap

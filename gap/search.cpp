@@ -1,0 +1,171 @@
+#include "gap/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "gap/evidence.h"
+
+namespace navcal::gap {
+namespace {
+
+using Set = std::vector<std::size_t>;
+
+constexpr std::size_t kMostEffects = 3;
+/// So many sets of each size are simulated again.
+constexpr std::size_t kLeading = 3;
+/// Against each effect more, beside the choice among all of them: what innovations that are not quite Gaussian
+/// gain by chance.
+constexpr double kCaution = 2;
+constexpr int kIterations = 2;
+
+/// Evidence referred to the nominal vehicle, whatever point it was linearised about.
+class Judge {
+ public:
+  Judge(const Linearised& linear, const Library& library, const Priors& priors)
+      : library_(library),
+        evidence_(linear.gram, linear.score + linear.gram * linear.at, priors.spike, priors.slab),
+        data_(-0.5 * (linear.residual + linear.design * linear.at).squaredNorm()) {}
+
+  /// Log of the joint probability of set and data, apart from a constant.
+  [[nodiscard]] double operator()(const Set& set) const {
+    const double each = std::log(static_cast<double>(library_.size())) + kCaution;
+    return data_ + evidence_.base() + (set.empty() ? 0 : evidence_.gain(members_of(library_, set))) -
+           each * static_cast<double>(set.size());
+  }
+  [[nodiscard]] const Evidence& evidence() const { return evidence_; }
+
+ private:
+  const Library& library_;
+  Evidence evidence_;
+  double data_;
+};
+
+Set with(Set set, std::size_t effect) {
+  set.insert(std::upper_bound(set.begin(), set.end(), effect), effect);
+  return set;
+}
+
+Set without(Set set, std::size_t effect) {
+  std::erase(set, effect);
+  return set;
+}
+
+/// Sets that a search knows, each with the best word on it: that of its own linearisation, or the first that was
+/// had.
+class Found {
+ public:
+  void guess(const Set& set, double log_odds) { scores_.try_emplace(set, log_odds); }
+  void settle(const Set& set, double log_odds) { scores_[set] = log_odds; }
+  [[nodiscard]] std::vector<Set> leading(std::size_t size, std::size_t count) const {
+    std::vector<Set> sets;
+    for (const auto& [set, score] : scores_) {
+      if (set.size() == size) sets.push_back(set);
+    }
+    std::sort(sets.begin(), sets.end(), [&](const Set& a, const Set& b) { return scores_.at(a) > scores_.at(b); });
+    if (sets.size() > count) sets.resize(count);
+    return sets;
+  }
+  [[nodiscard]] const std::map<Set, double>& scores() const { return scores_; }
+
+ private:
+  std::map<Set, double> scores_;
+};
+
+}  // namespace
+
+std::vector<Eigen::Index> members_of(const Library& library, const Set& effects) {
+  std::vector<Eigen::Index> members;
+  for (const std::size_t effect : effects) {
+    for (Eigen::Index k = 0; k < library.count(effect); ++k) members.push_back(library.first(effect) + k);
+  }
+  return members;
+}
+
+namespace {
+
+/// The set, simulated and linearised about its own estimate.
+Explanation explain(const Set& set, const Replay& replay, const Library& library, const Whitening& whitening,
+                    const Linearised& start, const Priors& priors, unsigned threads) {
+  Explanation result;
+  result.effects = set;
+  result.linear = start;
+  const auto members = members_of(library, set);
+  std::vector<Eigen::Index> moved(Library::kBiases);
+  std::iota(moved.begin(), moved.end(), Eigen::Index{0});
+  moved.insert(moved.end(), members.begin(), members.end());
+  for (int i = 0; i < kIterations; ++i) {
+    const Judge judge(result.linear, library, priors);
+    const auto posterior = judge.evidence().posterior(members);
+    Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
+    for (const Eigen::Index j : moved) {
+      const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+      at[j] = std::clamp(posterior.mean[j], unknown.least, unknown.greatest);
+    }
+    result.linear = relinearise(replay, library, whitening, result.linear, at, moved, threads);
+  }
+  const Judge judge(result.linear, library, priors);
+  result.log_odds = judge(set);
+  const auto posterior = judge.evidence().posterior(members);
+  result.mean = posterior.mean;
+  result.std = posterior.covariance.diagonal().cwiseSqrt();
+  return result;
+}
+
+}  // namespace
+
+SearchResult search(const Replay& replay, const Library& library, const Whitening& whitening,
+                    const Linearised& nominal, const Priors& priors, unsigned threads,
+                    const std::function<void(double)>& progress) {
+  Found found;
+  const Judge judge(nominal, library, priors);
+  found.settle({}, judge({}));
+  std::vector<std::size_t> held;
+  for (std::size_t e = 0; e < library.size(); ++e) {
+    if (library.holds(e)) held.push_back(e);
+  }
+  for (const std::size_t a : held) {
+    found.guess({a}, judge({a}));
+    for (const std::size_t b : held) {
+      if (b > a) found.guess({a, b}, judge({a, b}));
+    }
+  }
+
+  SearchResult result;
+  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
+  result.best.log_odds = found.scores().at({});
+  const auto consider = [&](const Set& set) {
+    Explanation tried = explain(set, replay, library, whitening, nominal, priors, threads);
+    found.settle(set, tried.log_odds);
+    const Judge here(tried.linear, library, priors);
+    for (const std::size_t e : held) {
+      if (std::find(set.begin(), set.end(), e) != set.end()) continue;
+      if (set.size() < kMostEffects) found.guess(with(set, e), here(with(set, e)));
+      // One member exchanged: seen from here, where what the others do is known better.
+      for (const std::size_t member : set)
+        found.guess(with(without(set, member), e), here(with(without(set, member), e)));
+    }
+    if (tried.log_odds > result.best.log_odds) result.best = std::move(tried);
+  };
+  for (std::size_t size = 1; size <= kMostEffects; ++size) {
+    for (const Set& set : found.leading(size, kLeading)) consider(set);
+    progress(static_cast<double>(size) / kMostEffects);
+  }
+
+  double total = 0;
+  for (const auto& [set, score] : found.scores()) total += std::exp(score - result.best.log_odds);
+  const double none = found.scores().at({});
+  for (const auto& [set, score] : found.scores()) {
+    const double probability = std::exp(score - result.best.log_odds) / total;
+    if (probability > 1e-4 || set.empty() || set == result.best.effects) {
+      result.candidates.push_back({set, score - none, probability});
+    }
+  }
+  std::sort(result.candidates.begin(), result.candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.log_odds > b.log_odds; });
+  result.best.log_odds -= none;
+  return result;
+}
+
+}  // namespace navcal::gap

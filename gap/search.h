@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "gap/library.h"
+#include "gap/linearised.h"
+#include "gap/spikes.h"
+
+namespace navcal::gap {
+
+/// A set of effects and how probable it is beside the others that were looked at.
+struct Candidate {
+  std::vector<std::size_t> effects;  ///< in order; empty: no effect
+  double log_odds = 0;               ///< against no effect, nats; of sets equally far, by their evidence
+  double probability = 0;
+};
+
+/// A candidate whose replay was taken anew where it says the vehicle is.
+struct Explanation {
+  std::vector<std::size_t> effects;
+  double log_odds = 0;
+  Linearised linear;          ///< about the posterior mean of members and biases
+  Eigen::VectorXd mean, std;  ///< posterior of all unknowns
+};
+
+struct SearchResult {
+  std::vector<Candidate> candidates;  ///< most probable first
+  Explanation best;                   ///< of the first of them
+};
+
+[[nodiscard]] std::vector<Eigen::Index> members_of(const Library& library,
+                                                   const std::vector<std::size_t>& effects);
+
+/// Singles, pairs and triples of effects by their evidence. Leading sets are simulated and linearised again at
+/// their own estimate: what is left of second order would otherwise recruit innocent effects.
+[[nodiscard]] SearchResult search(const Replay& replay, const Library& library, const Whitening& whitening,
+                                  const Linearised& nominal, const Priors& priors, unsigned threads,
+                                  const std::function<void(double)>& progress);
+
+}  // namespace navcal::gap

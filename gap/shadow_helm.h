@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "config/vehicle.h"
+#include "gap/actuator_track.h"
+#include "gap/innovations.h"
+#include "sim/vehicle/helm.h"
+
+namespace navcal::gap {
+
+/// Steers a simulated vehicle as the recorded one was steered: fins and shaft as reported, and as little rudder
+/// and elevator more as keeps its heading and depth near those of the record. Without that, an elevator off by a
+/// tenth of a degree is metres of depth after ten minutes.
+class ShadowHelm final : public sim::Helm {
+ public:
+  ShadowHelm(std::span<const ActuatorTrack::Row> rows, const Course10Hz& course, const config::FinSettings& fins);
+
+  [[nodiscard]] sim::Body start() const override;
+  [[nodiscard]] sim::Actuators actuators_at_start() const override;
+  [[nodiscard]] sim::Actuators next(double time_s, double step_s, const sim::Body& body) override;
+  [[nodiscard]] bool finished() const override { return finished_; }
+
+ private:
+  [[nodiscard]] std::size_t row_at(double time_s) const;
+
+  std::span<const ActuatorTrack::Row> rows_;
+  const Course10Hz& course_;
+  config::FinSettings fins_;
+  double rudder_rad_ = 0, elevator_rad_ = 0;  ///< more than was reported, after the servos' lag
+  bool finished_ = false;
+};
+
+}  // namespace navcal::gap

@@ -1,0 +1,98 @@
+#include "gap/verdict.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kProbable = 0.7;
+constexpr double kClosed = 0.9;
+/// Typical strengths beyond which an effect rather stands for something else.
+constexpr double kLargest = 5;
+constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
+/// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
+constexpr double kLeft = 1e-4;
+
+std::string names(const Library& library, const std::vector<std::size_t>& effects) {
+  std::vector<std::string_view> all;
+  for (const std::size_t effect : effects) all.push_back(library[effect].name);
+  return fmt::format("{}", fmt::join(all, " + "));
+}
+
+double strength(const Library& library, std::size_t effect, const Eigen::VectorXd& mean) {
+  double square = 0, largest = 0;
+  for (Eigen::Index k = 0; k < library.count(effect); ++k) {
+    const Eigen::Index j = library.first(effect) + k;
+    const double part = mean[j] / library.unknowns()[static_cast<std::size_t>(j)].typical;
+    square += part * part;
+    largest = std::max(largest, std::abs(part));
+  }
+  return library[effect].vector > 1 ? std::sqrt(square) : largest;
+}
+
+void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(grounds.leftover.size(), 3); ++i) {
+    const WhereEntry& left = grounds.leftover[i];
+    if (left.p_value > kLeft) continue;
+    reasons.push_back(fmt::format("{} still follows {} by {:.2g} {}; vehicles without a gap show {:.2g}",
+                                  left.channel, left.regime, left.gap, left.unit, left.floor));
+  }
+}
+
+}  // namespace
+
+Judgement judge(const Grounds& grounds) {
+  const auto& best = grounds.found.best;
+  Judgement judgement;
+  auto& reasons = judgement.reasons;
+  if (best.effects.empty()) {
+    add_leftover(grounds, reasons);
+    judgement.verdict = reasons.empty() ? Verdict::no_gap : Verdict::unknown;
+    return judgement;
+  }
+  const std::string set = names(grounds.library, best.effects);
+  const Candidate& first = grounds.found.candidates.front();
+  if (first.probability < kProbable) {
+    std::string others;
+    for (std::size_t i = 1; i < std::min<std::size_t>(grounds.found.candidates.size(), 3); ++i) {
+      const Candidate& other = grounds.found.candidates[i];
+      others += fmt::format("{}{} ({:.2f})", others.empty() ? "" : ", ",
+                            other.effects.empty() ? "no effect at all" : names(grounds.library, other.effects),
+                            other.probability);
+    }
+    reasons.push_back(fmt::format("{} is the best candidate, but only with probability {:.2f}; others: {}", set,
+                                  first.probability, others));
+  }
+  const double altogether = std::accumulate(grounds.held_out_nats.begin(), grounds.held_out_nats.end(), 0.0);
+  const bool worse = std::any_of(grounds.held_out_nats.begin(), grounds.held_out_nats.end(),
+                                 [](double nats) { return nats < kLoss_nats; });
+  if (worse || altogether < kGainAltogether_nats) {
+    reasons.push_back(
+        fmt::format("{} explains this mission, but {} fit no better with it (log likelihood {:+.1f})", set,
+                    grounds.blocks ? "blocks of it that were left out" : "the missions held out", altogether));
+  }
+  if (grounds.closure.clear && grounds.closure.upper < kClosed) {
+    reasons.push_back(fmt::format("with {} only {:.0f} % of the gap goes away (95 %: {:.0f} to {:.0f} %)", set,
+                                  100 * grounds.closure.closed, 100 * grounds.closure.lower,
+                                  100 * grounds.closure.upper));
+  }
+  for (const std::size_t effect : best.effects) {
+    const double size = strength(grounds.library, effect, best.mean);
+    if (size > kLargest) {
+      reasons.push_back(
+          fmt::format("{} would have to be {:.1f} times as strong as usual, which speaks for something "
+                      "else that looks like it",
+                      grounds.library[effect].name, size));
+    }
+  }
+  add_leftover(grounds, reasons);
+  judgement.verdict = reasons.empty() ? Verdict::explained : Verdict::unknown;
+  return judgement;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "gap/diagnosis.h"
+#include "gap/innovations.h"
+#include "gap/regimes.h"
+
+namespace navcal::gap {
+
+/// Every channel by every regime; p values hold over all of them together (Bonferroni), strongest excess first.
+[[nodiscard]] std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeStatistics& nulls);
+/// Those that nulls would hardly show.
+[[nodiscard]] std::vector<WhereEntry> clear_of_nulls(const std::vector<WhereEntry>& map);
+
+/// Levels of channels that changed for good in mid-mission.
+[[nodiscard]] std::vector<ChangePoint> change_points(const Innovations& innovations, const Course10Hz& course,
+                                                     const std::vector<double>& fix_times_s,
+                                                     const RegimeStatistics& nulls);
+
+/// For the pictures.
+[[nodiscard]] std::vector<Course> courses(const Innovations& before, const Innovations& after,
+                                          const Course10Hz& course, const std::vector<double>& fix_times_s);
+[[nodiscard]] Scatter scatter(const WhereEntry& where, const Innovations& before, const Innovations& after,
+                              const Course10Hz& course, const std::vector<double>& fix_times_s);
+
+}  // namespace navcal::gap
