@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,9 +11,9 @@
 #include "cli/calibrate_text.h"
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/result_file.h"
 #include "config/load.h"
 #include "record/calibration_json.h"
-#include "record/whole_file.h"
 
 namespace navcal::cli {
 namespace {
@@ -24,20 +23,6 @@ struct Options {
   std::string config, report;
   bool json = false;
 };
-
-/// Before the work is done rather than after it.
-void expect_folder_of(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  if (::access(folder.c_str(), W_OK) != 0) {
-    throw Failure(Exit::failed, file.string() + ": " + std::system_category().message(errno));
-  }
-}
-
-void write_page(const std::filesystem::path& path, const std::string& page) {
-  record::WholeFile file(path);
-  file.write(page);
-  file.commit();
-}
 
 void calibrate(const Options& options) {
   try {
@@ -63,7 +48,7 @@ void calibrate(const Options& options) {
     output.flush();
     if (history) {
       const PageSource source{options.files, options.config, run.settings(), run.duration_s(), run.remarks()};
-      write_page(options.report, calibrate_page(report, *history, source));
+      write_result(options.report, calibrate_page(report, *history, source));
     }
   } catch (const record::BadRecording& error) {
     throw Failure(Exit::bad_input, error.what());

@@ -7,12 +7,9 @@
 #include "calib/report.h"
 #include "cli/calibrate_history.h"
 #include "cli/calibrate_residuals.h"
+#include "cli/html_page.h"
 
 namespace navcal::cli {
-
-struct Figure {
-  std::string title, svg_html, caption;
-};
 
 /// Deviation curve with its band and what was measured of it; nullopt without an estimate.
 [[nodiscard]] std::optional<Figure> deviation_figure(const calib::Report& report,

@@ -10,6 +10,7 @@
 #include "cli/calibrate_figures.h"
 #include "cli/calibrate_words.h"
 #include "cli/html_page.h"
+#include "cli/shown_number.h"
 
 namespace navcal::cli {
 namespace {
@@ -50,12 +51,6 @@ void append_verdicts(HtmlPage& page, const calib::Report& report) {
   }
 }
 
-void append_figures(HtmlPage& page, const std::vector<Figure>& figures) {
-  page.begin_figures();
-  for (const Figure& figure : figures) page.figure(figure.title, figure.svg_html, figure.caption);
-  page.end_figures();
-}
-
 void append_heading(HtmlPage& page, const calib::Report& report, const CalibrateHistory& history) {
   calib::Correction estimates = accepted_estimates(report);
   // The curve is shown before it is accepted, too, once there is something to see; the gyro must be.
@@ -69,7 +64,7 @@ void append_heading(HtmlPage& page, const calib::Report& report, const Calibrate
   if (residuals.empty()) {
     page.paragraph("There is nothing to hold the heading against: that takes a calibrated gyro, and turns.");
   }
-  append_figures(page, figures);
+  page.figures(figures);
 }
 
 void append_estimates(HtmlPage& page, const calib::Report& report) {
@@ -151,11 +146,11 @@ std::string calibrate_page(const calib::Report& report, const CalibrateHistory& 
     const auto field = field_figures(report, history.samples());
     if (!field.empty()) {
       page.section("Magnetometer");
-      append_figures(page, field);
+      page.figures(field);
     }
     if (const auto figures = convergence_figures(history.estimates()); !figures.empty()) {
       page.section("How the estimates came about");
-      append_figures(page, figures);
+      page.figures(figures);
     }
     append_estimates(page, report);
   }

@@ -9,12 +9,13 @@
 
 #include "calib/coverage.h"
 #include "cli/calibrate_words.h"
+#include "cli/shown_number.h"
 #include "cli/svg_rose.h"
+#include "cli/wrapped_text.h"
 
 namespace navcal::cli {
 namespace {
 
-constexpr std::size_t kWidth = 110;  ///< of a line
 constexpr std::size_t kTitle = 21, kVerdict = 10;
 
 template <class... Arguments>
@@ -22,44 +23,16 @@ void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&.
   fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
 }
 
-/// Pieces in lines of kWidth, each but the first indented to the column of the first.
-void append_wrapped(std::string& out, const std::vector<std::string>& pieces, std::string_view between) {
-  std::size_t column = kTitle + kVerdict;
-  bool begins = true;
-  for (const std::string& piece : pieces) {
-    if (!begins && column + between.size() + piece.size() > kWidth) {
-      out.append("\n").append(kTitle + kVerdict, ' ');
-      column = kTitle + kVerdict;
-      begins = true;
-    }
-    if (!begins) out += between;
-    out += piece;
-    column += piece.size() + (begins ? 0 : between.size());
-    begins = false;
-  }
-  out += '\n';
-}
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    if (end > begin) words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
 void append_calibrator(std::string& out, const calib::CalibratorReport& report) {
   std::vector<std::string> pieces;
   for (const ShownQuantity& quantity : shown(report)) pieces.push_back(text_of(quantity, "+-"));
   add(out, "{:<{}}{:<{}}", title_of(report.calibrator), kTitle, verdict_of(report), kVerdict);
   const bool estimated = !pieces.empty();
-  if (estimated) append_wrapped(out, pieces, ",  ");
+  if (estimated) append_wrapped(out, kTitle + kVerdict, pieces, ",  ");
   const auto append_line = [&](const std::string& text) {
     if (text.empty()) return;
     if (estimated) out.append(kTitle + kVerdict, ' ');
-    append_wrapped(out, words_of(text), " ");
+    append_wrapped(out, kTitle + kVerdict, words_of(text), " ");
   };
   const std::string objection = objection_of(report), held_out = held_out_of(report, "->");
   append_line(objection);

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "cli/shown_number.h"
+
 namespace navcal::cli {
 namespace {
 
@@ -17,7 +19,6 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::array<std::string_view, calib::kCalibrators.size()> kTitles{
     "Gyro A",         "Gyro B",         "Compass deviation", "Magnetometer",       "Compass by GPS",
     "Eight headings", "Misalignment A", "Delay of compass",  "Delay of GPS course"};
-constexpr int kLeastDecimals = 0, kMostDecimals = 6;
 
 /// How a quantity is shown: what its name ends with, by how much it is multiplied, the unit, and the error beyond
 /// which nothing is known of it.
@@ -34,14 +35,6 @@ constexpr std::array kUnits{Unit{"_rad_s", kDegrees, "deg/s", 100},
                             Unit{"_m_s", 1, "m/s", 100},
                             Unit{"delay_s", 1000, "ms", 10000},
                             Unit{"_s", 1, "s", 100}};
-
-/// Two digits of the error, or four of the value where the error is not known.
-int decimals_for(double value, double error) {
-  const bool known = std::isfinite(error) && error > 0;
-  const double guide = known ? error : std::abs(value) / 100;
-  if (!(guide > 0)) return 3;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(guide))), kLeastDecimals, kMostDecimals);
-}
 
 /// "bias_rad_s" becomes "bias"; "delay_s" keeps its noun.
 std::string name_without(std::string_view name, std::string_view ending) {
@@ -133,13 +126,6 @@ std::string left_out_of(const calib::GateCounts& gate, calib::Stream stream) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[i], reason);
   }
   return text;
-}
-
-std::string duration_text(double seconds) {
-  const auto whole = static_cast<long>(std::lround(std::max(seconds, 0.0)));
-  if (whole < 60) return fmt::format("{:.1f} s", seconds);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
 calib::Correction accepted_estimates(const calib::Report& report) {

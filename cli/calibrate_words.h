@@ -34,8 +34,6 @@ struct ShownQuantity {
 
 /// "12 repeated, 3 frozen" of one instrument; empty when nothing was left out.
 [[nodiscard]] std::string left_out_of(const calib::GateCounts& gate, calib::Stream stream);
-/// "10 min 2 s".
-[[nodiscard]] std::string duration_text(double seconds);
 
 /// The newest estimates of those that are accepted.
 [[nodiscard]] calib::Correction accepted_estimates(const calib::Report& report);

@@ -24,6 +24,7 @@ class Failure : public std::runtime_error {
 void add_calibrate(CLI::App& app);
 void add_decode(CLI::App& app);
 void add_emulate(CLI::App& app);
+void add_gap(CLI::App& app);
 void add_log(CLI::App& app);
 void add_play(CLI::App& app);
 void add_ports(CLI::App& app);

@@ -6,7 +6,9 @@
 int main(int argc, char** argv) {
   using navcal::cli::Exit;
   CLI::App app{
-      "navcal: watch, decode, replay, log, simulate and emulate the instruments of a small underwater vehicle",
+      "navcal: watch, decode, replay, log, simulate and emulate the instruments of a small underwater vehicle, "
+      "and "
+      "say where it departs from its model",
       "navcal"};
   app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
   app.require_subcommand(1);
@@ -15,6 +17,7 @@ int main(int argc, char** argv) {
   navcal::cli::add_calibrate(app);
   navcal::cli::add_decode(app);
   navcal::cli::add_emulate(app);
+  navcal::cli::add_gap(app);
   navcal::cli::add_log(app);
   navcal::cli::add_play(app);
   navcal::cli::add_ports(app);

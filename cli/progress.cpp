@@ -15,9 +15,9 @@ constexpr double kMegabyte = 1e6;
 
 }  // namespace
 
-Progress::Progress(std::string job)
+Progress::Progress(std::string job, Answer answer)
     : job_(std::move(job)),
-      enabled_(::isatty(STDERR_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 0),
+      enabled_(::isatty(STDERR_FILENO) == 1 && (answer == Answer::at_the_end || ::isatty(STDOUT_FILENO) == 0)),
       next_(std::chrono::steady_clock::now() + kFirst) {}
 
 Progress::~Progress() {
@@ -26,6 +26,10 @@ Progress::~Progress() {
 
 void Progress::show(double share) {
   if (due()) print(fmt::format("{:.0f} %", 100 * share));
+}
+
+void Progress::show(std::string_view part, double share) {
+  if (due()) print(fmt::format("{}, {:.0f} %", part, 100 * share));
 }
 
 void Progress::show_bytes(std::uint64_t done, std::optional<std::uint64_t> total) {
@@ -47,7 +51,7 @@ bool Progress::due() {
 
 void Progress::print(std::string_view text) {
   shown_ = true;
-  fmt::print(stderr, "\rnavcal {}: {}", job_, text);
+  fmt::print(stderr, "\rnavcal {}: {}\x1b[K", job_, text);
   std::fflush(stderr);
 }
 

@@ -8,17 +8,20 @@
 
 namespace navcal::cli {
 
-/// How far a long job has come, on a terminal's standard error; silent when there is none, when standard output is
-/// the same terminal, and for jobs of less than a second.
+/// How far a long job has come, on a terminal's standard error; silent when there is none, for jobs of less than a
+/// second, and when standard output is a terminal and is written to meanwhile.
 class Progress {
  public:
-  explicit Progress(std::string job);
+  enum class Answer { meanwhile, at_the_end };
+  explicit Progress(std::string job, Answer answer = Answer::meanwhile);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// 0 to 1 of the whole.
   void show(double share);
+  /// Of a job in parts, with the part that is being done.
+  void show(std::string_view part, double share);
   /// Of an input whose length may not be known.
   void show_bytes(std::uint64_t done, std::optional<std::uint64_t> total);
 

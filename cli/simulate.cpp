@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/result_file.h"
 #include "cli/simulate_effects.h"
 #include "cli/simulate_motion.h"
 #include "cli/simulate_page.h"
 #include "cli/simulate_run.h"
-#include "record/whole_file.h"
 #include "sim/effects/choice.h"
 
 namespace navcal::cli {
@@ -28,9 +28,7 @@ void run(const SimulateArguments& arguments) {
   if (!arguments.report.empty()) history.emplace(simulated_ports(), run.duration_s);
   write_simulation(arguments, run, effects, history ? &*history : nullptr);
   if (history) {
-    record::WholeFile page(arguments.report);
-    page.write(simulate_page(*history, arguments, run, effects));
-    page.commit();
+    write_result(arguments.report, simulate_page(*history, arguments, run, effects));
   }
 }
 

@@ -43,7 +43,7 @@ std::vector<Point> fixes_of(const SimulatedSeries& series) {
 }
 
 /// A metre is as long to the north as to the east.
-SimulatedFigure track(const SimulatedSeries& series) {
+Figure track(const SimulatedSeries& series) {
   constexpr double kSide = 460;
   std::vector<Point> way;
   std::vector<double> easts, norths;
@@ -66,10 +66,10 @@ SimulatedFigure track(const SimulatedSeries& series) {
 
 }  // namespace
 
-std::vector<SimulatedFigure> motion_figures(const SimulatedSeries& series) {
+std::vector<Figure> motion_figures(const SimulatedSeries& series) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   const auto& states = series.states;
-  std::vector<SimulatedFigure> figures{track(series)};
+  std::vector<Figure> figures{track(series)};
   figures.push_back(
       {"Heading",
        plot()
@@ -102,7 +102,7 @@ std::vector<SimulatedFigure> motion_figures(const SimulatedSeries& series) {
   return figures;
 }
 
-std::vector<SimulatedFigure> instrument_figures(const SimulatedSeries& series) {
+std::vector<Figure> instrument_figures(const SimulatedSeries& series) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   constexpr std::array<const char*, 3> kAxes{"forward", "starboard", "down"};
   auto field = plot(), force = plot(), rates = plot(), tilt = plot();

@@ -11,12 +11,6 @@
 namespace navcal::cli {
 namespace {
 
-void append_figures(HtmlPage& page, const std::vector<SimulatedFigure>& figures) {
-  page.begin_figures();
-  for (const auto& figure : figures) page.figure(figure.title, figure.svg_html, figure.caption);
-  page.end_figures();
-}
-
 std::string interval_text(const sim::Interval& when) {
   if (!std::isfinite(when.from_s) && !std::isfinite(when.until_s)) return "throughout";
   if (!std::isfinite(when.until_s)) return fmt::format("from {:g} s", when.from_s);
@@ -62,9 +56,9 @@ std::string simulate_page(const SimulateHistory& history, const SimulateArgument
                           const SimulatedRun& run, const sim::EffectSet& effects) {
   HtmlPage page("Simulation: " + arguments.capture.filename().string());
   page.section("Motion");
-  append_figures(page, motion_figures(history.series()));
+  page.figures(motion_figures(history.series()));
   page.section("Instruments");
-  append_figures(page, instrument_figures(history.series()));
+  page.figures(instrument_figures(history.series()));
   append_effects(page, effects);
   append_source(page, arguments, run);
   return std::move(page).finish();

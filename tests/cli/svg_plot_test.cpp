@@ -109,9 +109,8 @@ TEST(HtmlPage, AnyTextIsWellFormed) {
   page.fact(any, any, any);
   page.section(any);
   page.paragraph(any);
-  page.begin_figures();
-  page.figure(any, plot().svg(), any);
-  page.end_figures();
+  page.figures({{any, plot().svg(), any}});
+  page.folded_figures(any, {{any, plot().svg(), any}});
   page.table({any}, {{any}, {any}});
   const std::string html = std::move(page).finish();
   EXPECT_EQ(flaw_in(html), "");

@@ -1,0 +1,111 @@
+#include "cli/gap_json.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace navcal::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Element, class Convert>
+Json list_of(const std::vector<Element>& elements, Convert convert) {
+  Json list = Json::array();
+  for (const Element& element : elements) list.push_back(convert(element));
+  return list;
+}
+
+Json json_of(const gap::WhereEntry& where) {
+  return {{"channel", where.channel}, {"regime", where.regime}, {"gap", where.gap},
+          {"unit", where.unit},       {"floor", where.floor},   {"p_value", where.p_value}};
+}
+
+Json json_of(const gap::Confusion& confusion) {
+  return {{"name", confusion.name},
+          {"tie_breaker", confusion.tie_breaker},
+          {"separation_nats", confusion.separation_nats}};
+}
+
+Json json_of(const gap::EffectFinding& effect) {
+  Json parameters = Json::object(), errors = Json::object();
+  for (const auto& parameter : effect.parameters) {
+    parameters[parameter.name] = parameter.value;
+    errors[parameter.name] = parameter.std_error;
+  }
+  return {{"name", effect.name},
+          {"probability", effect.probability},
+          {"parameters", std::move(parameters)},
+          {"std_errors", std::move(errors)},
+          {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}};
+}
+
+Json json_of(const gap::Closure& closure, const std::string& unit) {
+  Json closed, interval;
+  if (closure.closed) closed = *closure.closed;
+  if (closure.closed_ci) interval = *closure.closed_ci;
+  return {{"before", closure.before},    {"after", closure.after},           {"floor", closure.floor},
+          {"closed", std::move(closed)}, {"closed_ci", std::move(interval)}, {"unit", unit}};
+}
+
+Json before_and_after(const std::optional<std::array<double, 2>>& values) {
+  if (!values) return nullptr;
+  return {{"before", values->front()}, {"after", values->back()}};
+}
+
+Json json_of(const gap::Gap& gap) {
+  Json json = json_of(gap.pooled, "noise power");
+  json["channels"] = list_of(gap.channels, [](const gap::ChannelClosure& channel) {
+    Json one = Json::object();
+    one["channel"] = channel.channel;
+    one.update(json_of(channel.closure, channel.unit));
+    return one;
+  });
+  json["held_out"] = gap.held_out;
+  json["heading_error_rad"] = before_and_after(gap.heading_error_rad);
+  json["dead_reckoning_m_per_100m"] = before_and_after(gap.dead_reckoning_m_per_100m);
+  return json;
+}
+
+Json json_of(const gap::ChangePoint& change) {
+  return {{"channel", change.channel},
+          {"time_s", change.time_s},
+          {"before", change.before},
+          {"after", change.after},
+          {"unit", change.unit}};
+}
+
+Json json_of(const gap::BankFacts& bank) {
+  return {{"missions", bank.missions},
+          {"seed", bank.seed},
+          {"from_cache", bank.from_cache},
+          {"seconds", bank.seconds}};
+}
+
+}  // namespace
+
+std::string gap_json(const gap::Diagnosis& diagnosis) {
+  const auto convert = [](const auto& element) { return json_of(element); };
+  const auto& bias = diagnosis.gyro_bias_rad_s;
+  const Json json{
+      {"verdict", gap::name_of(diagnosis.verdict)},
+      {"sentence", diagnosis.sentence},
+      {"where", list_of(diagnosis.where, convert)},
+      {"effects", list_of(diagnosis.effects, convert)},
+      {"gap", json_of(diagnosis.gap)},
+      {"unexplained", diagnosis.unexplained},
+      {"candidates", list_of(diagnosis.candidates, convert)},
+      {"next", diagnosis.next},
+      {"remarks", diagnosis.remarks},
+      {"gyro_bias", {{"ax_rad_s", bias[0]}, {"az_rad_s", bias[1]}, {"by_rad_s", bias[2]}, {"bz_rad_s", bias[3]}}},
+      {"changes", list_of(diagnosis.changes, convert)},
+      {"bank", json_of(diagnosis.bank)},
+      {"duration_s", diagnosis.duration_s},
+      {"seconds", diagnosis.seconds}};
+  // A file's name in a remark may be no UTF-8.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace navcal::cli {
+
+/// Of a line of text for a terminal.
+inline constexpr std::size_t kLineWidth = 110;
+
+/// Pieces in lines of kLineWidth; the first stands where `out` ends, which is column `indent`, and further lines
+/// begin there.
+void append_wrapped(std::string& out, std::size_t indent, const std::vector<std::string>& pieces,
+                    std::string_view between);
+
+/// What stands between spaces.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view text);
+
+}  // namespace navcal::cli

@@ -1,0 +1,124 @@
+// The command around the diagnosis, which is made up here.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "gap/request.h"
+#include "tests/cli/command_outcome.h"
+#include "tests/cli/gap_samples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+std::optional<navcal::gap::Request> asked;
+
+}  // namespace
+
+namespace navcal::gap {
+
+Diagnosis diagnose(const Request& request, const Progress& progress) {
+  asked = request;
+  progress("bank", 0.5);
+  if (request.mission == "bad.cap") throw record::BadRecording("bad.cap:3: no number");
+  return cli::test::explained_gap();
+}
+
+}  // namespace navcal::gap
+
+namespace navcal::cli::test {
+namespace {
+
+void add_gap_with_trial(CLI::App& app) {
+  add_gap(app);
+  app.get_subcommand("gap")->add_subcommand("trial", "")->callback([] { std::fputs("trial", stdout); });
+}
+
+class GapCommand : public testing::Test {
+ protected:
+  GapCommand() { asked.reset(); }
+  static Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "gap");
+    return run_command(add_gap_with_trial, std::move(arguments));
+  }
+
+  navcal::test::TemporaryFolder folder_;
+};
+
+TEST_F(GapCommand, AsksForWhatWasSaid) {
+  const Outcome outcome = run({"--holdout", "b.cap", "--exclude", "hard_iron", "a.cap", "--holdout", "c.cap",
+                               "--exclude", "gyro_scale", "--bank", "30", "--seed", "7", "--cache", "here"});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  ASSERT_TRUE(asked);
+  EXPECT_EQ(asked->mission, "a.cap");
+  EXPECT_EQ(asked->holdouts, (std::vector<std::filesystem::path>{"b.cap", "c.cap"}));
+  EXPECT_EQ(asked->excluded, (std::vector<std::string>{"hard_iron", "gyro_scale"}));
+  EXPECT_EQ(asked->bank_missions, 30);
+  EXPECT_EQ(asked->bank_seed, 7U);
+  EXPECT_EQ(asked->cache, "here");
+  EXPECT_EQ(outcome.output.find("explained"), 0U);
+}
+
+TEST_F(GapCommand, ItsCacheIsWhereCachesAre) {
+  ::setenv("HOME", "/home/someone", 1);
+  ::setenv("XDG_CACHE_HOME", "/caches", 1);
+  run({"a.cap"});
+  EXPECT_EQ(asked->cache, "/caches/navcal");
+  ::setenv("XDG_CACHE_HOME", "not/absolute", 1);
+  run({"a.cap"});
+  EXPECT_EQ(asked->cache, "/home/someone/.cache/navcal");
+  ::unsetenv("XDG_CACHE_HOME");
+  ::unsetenv("HOME");
+  run({"a.cap"});
+  EXPECT_EQ(asked->cache, "");
+}
+
+TEST_F(GapCommand, WritesWhatIsWanted) {
+  const auto file = [&](const char* name) { return (folder_ / name).string(); };
+  const Outcome outcome =
+      run({"a.cap", "--json", file("a.json"), "--report", file("a.html"), "--effects-out", file("a.toml")});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  EXPECT_EQ(nlohmann::json::parse(navcal::test::read_file(file("a.json")))["verdict"], "explained");
+  EXPECT_NE(navcal::test::read_file(file("a.html")).find("</html>"), std::string::npos);
+  EXPECT_NE(navcal::test::read_file(file("a.toml")).find("[motor_field]"), std::string::npos);
+  EXPECT_EQ(outcome.output.find("explained"), 0U) << "text comes with it";
+}
+
+TEST_F(GapCommand, JsonOnStandardOutputIsAlone) {
+  const Outcome outcome = run({"a.cap", "--json", "-"});
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["verdict"], "explained");
+}
+
+TEST_F(GapCommand, WrongUsageIsToldBeforeTheWork) {
+  EXPECT_EQ(run({}).status, 2);
+  EXPECT_EQ(run({"--bank", "1", "a.cap"}).status, 2);
+  const Outcome unknown = run({"--exclude", "motorfield", "a.cap"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.message.find("did you mean motor_field"), std::string::npos) << unknown.message;
+  EXPECT_EQ(run({"--report", (folder_ / "absent" / "a.html").string(), "a.cap"}).status, 1);
+  EXPECT_FALSE(asked);
+}
+
+TEST_F(GapCommand, BadInputNamesFileAndPlace) {
+  const Outcome recording = run({"bad.cap"});
+  EXPECT_EQ(recording.status, 3);
+  EXPECT_EQ(recording.message, "bad.cap:3: no number");
+  const auto vehicle = (folder_ / "vehicle.toml").string();
+  std::ofstream(vehicle) << "nothing.like_this = 1\n";
+  const Outcome outcome = run({"--vehicle", vehicle, "a.cap"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.message.find(vehicle + ":1"), 0U) << outcome.message;
+}
+
+TEST_F(GapCommand, ARecordingMayBeNamedLikeTheTrial) {
+  EXPECT_EQ(run({"trial"}).output, "trial");
+  EXPECT_FALSE(asked);
+  run({"./trial"});
+  ASSERT_TRUE(asked);
+  EXPECT_EQ(asked->mission, "./trial");
+}
+
+}  // namespace
+}  // namespace navcal::cli::test

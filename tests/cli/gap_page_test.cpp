@@ -1,0 +1,76 @@
+#include "cli/gap_page.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/gap_samples.h"
+#include "tests/cli/markup.h"
+
+namespace navcal::cli {
+namespace {
+
+using test::count;
+using test::flaw_in;
+using test::gap_source;
+
+TEST(GapPage, IsWholeWhateverWasFound) {
+  for (const auto& diagnosis :
+       {gap::Diagnosis{}, test::explained_gap(), test::unknown_gap(), test::no_gap(), test::hostile_gap()}) {
+    const std::string page = gap_page(diagnosis, gap_source());
+    EXPECT_EQ(flaw_in(page), "");
+    EXPECT_LT(page.size(), 500'000U);
+    for (const char* bad : {"nan", "inf ", "inf<", "inf;", "http", "<script", "url("}) {
+      EXPECT_EQ(page.find(bad), std::string::npos) << bad;
+    }
+  }
+}
+
+TEST(GapPage, AFilesNameIsOnlyAName) {
+  const std::string name = "<script>alert(1)</script>&\"'\xff.cap";
+  const std::string page = gap_page(test::explained_gap(), {name, {name}, name, {name}, name});
+  EXPECT_EQ(flaw_in(page), "");
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+}
+
+TEST(GapPage, ShowsWhereWhatAndHowMuch) {
+  const std::string page = gap_page(test::explained_gap(), gap_source());
+  for (const char* said :
+       {"Gap between model and a.cap", "class=\"good\">explained", "to do", "What causes it", "motor_field",
+        "0.8031\u00a0\u00b1\u00a00.0042\u00a0uT/A", "98 % (95 to 101 %)", "on 2 recordings held out",
+        "may as well be fin_gain", "compass.field against motor current", "The other channels", "adc_droop",
+        "dives/a.cap", "c.cap", "navcal simulate --mission survey --effects found.toml",
+        "navcal " NAVCAL_VERSION}) {
+    EXPECT_NE(page.find(said), std::string::npos) << said;
+  }
+  EXPECT_EQ(count(page, "<td class=\"heat4 clear\""), 1);
+  EXPECT_EQ(count(page, "class=\"whisker\""), 4) << "altogether and three channels";
+  EXPECT_EQ(count(page, "fill worse"), 1) << "the channel that grew worse";
+}
+
+TEST(GapPage, AnUnknownGapNamesNoCause) {
+  const std::string page = gap_page(test::unknown_gap(), gap_source());
+  EXPECT_NE(page.find("class=\"bad\">unknown"), std::string::npos);
+  EXPECT_NE(page.find("No cause is named"), std::string::npos);
+  EXPECT_NE(page.find("What is left over"), std::string::npos);
+  EXPECT_EQ(page.find("How much of the gap closes"), std::string::npos);
+}
+
+TEST(GapPage, WithoutAGapThereIsNoTalkOfCauses) {
+  const std::string page = gap_page(test::no_gap(), gap_source());
+  EXPECT_NE(page.find("class=\"good\">no gap"), std::string::npos);
+  EXPECT_NE(page.find("Nowhere"), std::string::npos);
+  EXPECT_EQ(page.find("What causes it"), std::string::npos);
+  EXPECT_EQ(count(page, " clear\" title"), 0);
+}
+
+TEST(GapPage, BarsStayWithinTheirRange) {
+  const std::string page = gap_page(test::hostile_gap(), gap_source());
+  for (auto at = page.find("width:", page.find("<main>")); at != std::string::npos;
+       at = page.find("width:", at + 1)) {
+    const double width = std::stod(page.substr(at + 6, 20));
+    EXPECT_GE(width, 0);
+    EXPECT_LE(width, 100);
+  }
+}
+
+}  // namespace
+}  // namespace navcal::cli
