@@ -1,0 +1,165 @@
+#include "cli/gap_trial.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/gap_trial_report.h"
+#include "cli/gap_trial_run.h"
+#include "cli/gap_trial_words.h"
+#include "cli/interruptible.h"
+#include "cli/progress.h"
+#include "record/whole_file.h"
+
+namespace navcal::cli {
+namespace {
+
+struct Options {
+  int cases = 0, minutes = 10, timeout_s = 600;
+  std::uint64_t seed = 1;
+  std::vector<std::string> arms;
+  std::vector<int> only;
+  std::string json;
+  std::filesystem::path report;
+  TrialAsking asking;
+};
+
+/// Opened before the first case is asked: hours later is too late to learn that a file cannot be written.
+class Outputs {
+ public:
+  explicit Outputs(const Options& options) : options_(options) {
+    if (!options.json.empty() && options.json != "-") json_.emplace(options.json);
+    if (!options.report.empty()) page_.emplace(options.report);
+    if (!options.asking.keep.empty()) std::filesystem::create_directories(options.asking.keep);
+  }
+  /// What is for people; JSON may have standard output for itself.
+  [[nodiscard]] std::FILE* talk() const { return options_.json == "-" ? stderr : stdout; }
+
+  void write(const TrialReport& report) {
+    fmt::print(talk(), "{}", trial_text(report));
+    if (options_.json == "-") fmt::print("{}", trial_json(report));
+    if (json_) write_whole(*json_, trial_json(report));
+    if (page_) write_whole(*page_, trial_page(report));
+    if (options_.asking.keep.empty()) return;
+    for (const TrialResult& result : report.results) {
+      record::WholeFile truth(options_.asking.keep / fmt::format("{:04}", result.drawn.number) / "truth.json");
+      write_whole(truth, result.seal.truth + '\n');
+    }
+  }
+
+ private:
+  static void write_whole(record::WholeFile& file, const std::string& text) {
+    file.write(text);
+    file.commit();
+  }
+  const Options& options_;
+  std::optional<record::WholeFile> json_, page_;
+};
+
+std::vector<TrialCase> cases_of(const Options& options) {
+  std::vector<int> numbers = options.only;
+  if (numbers.empty()) {
+    try {
+      numbers = case_numbers(trial_arms_named(options.arms), options.cases);
+    } catch (const std::invalid_argument& error) {
+      throw Failure(Exit::usage, std::string("--arms: ") + error.what());
+    }
+  }
+  std::vector<TrialCase> cases;
+  for (const int number : numbers) cases.push_back(drawn_case(options.seed, number, options.minutes));
+  return cases;
+}
+
+TrialReport report_on(const Options& options, std::size_t asked_for, TrialRun run) {
+  TrialReport report{
+      options.seed, options.minutes, asked_for, std::move(run.ended_early), std::move(run.results), {}, {}};
+  report.scores = trial_scores(report.results);
+  report.confusion = trial_confusion(report.results);
+  return report;
+}
+
+void run(Options options) {
+  if ((options.cases > 0) == !options.only.empty())
+    throw Failure(Exit::usage, "either --cases N or --only CASE says which cases are asked");
+  options.asking.timeout = std::chrono::seconds(options.timeout_s);
+  const Interruptible interruptible;
+  const std::vector<TrialCase> cases = cases_of(options);
+  Outputs outputs(options);
+  std::FILE* const out = outputs.talk();
+
+  fmt::print(out, "Sealed: SHA-256 of the truth of each case and a salt; both follow after the last answer.\n");
+  std::vector<Seal> seals;
+  for (const TrialCase& drawn : cases) {
+    seals.push_back(sealed(truth_text(drawn, options.seed)));
+    fmt::print(out, "case {:4} {}\n", drawn.number, seals.back().digest);
+  }
+  std::fflush(out);
+
+  TrialRun answered;
+  {
+    Progress progress("gap trial");
+    std::size_t done = 0;
+    answered = ask_all(cases, seals, options.asking, [&](const TrialResult& result) {
+      fmt::print(out, "case {:4} answered in {:.1f} s: {}\n", result.drawn.number, result.seconds,
+                 answer_words(result));
+      std::fflush(out);
+      progress.show(static_cast<double>(++done) / static_cast<double>(cases.size()));
+    });
+  }
+  const TrialReport report = report_on(options, cases.size(), std::move(answered));
+  outputs.write(report);
+  if (!report.ended_early.empty()) {
+    throw Failure(Exit::failed, fmt::format("{}: {} of {} cases are scored", report.ended_early,
+                                            report.results.size(), report.asked_for));
+  }
+}
+
+}  // namespace
+
+void add_gap_trial(CLI::App& gap) {
+  auto* command = gap.add_subcommand("trial", "checks the diagnosis on effects that are withheld from it");
+  const auto options = std::make_shared<Options>();
+  auto& asking = options->asking;
+  command->add_option("--cases", options->cases, "so many; each has three missions of one vehicle")
+      ->check(CLI::Range(1, 100000))
+      ->option_text("N");
+  command->add_option("--seed", options->seed, "of effects, strengths, vehicles and noise")->capture_default_str();
+  command->add_option("--minutes", options->minutes, "of a mission, where the arm has no length of its own")
+      ->check(CLI::IsMember({3, 10}))
+      ->capture_default_str();
+  command->add_option("--arms", options->arms, "only these: nulls, singles, pairs, triples, short, removed, ...")
+      ->delimiter(',')
+      ->option_text("LIST");
+  command->add_option("--only", options->only, "only these cases, by number")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->option_text("CASE");
+  command->add_option("--jobs", asking.jobs, "cases at a time; a diagnosis uses all cores by itself")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_option("--bank", asking.bank_missions, "null missions of the diagnosis, if not its own choice")
+      ->check(CLI::Range(1, 100000))
+      ->option_text("N");
+  command->add_option("--timeout", options->timeout_s, "seconds that a diagnosis may take")
+      ->check(CLI::Range(1, 86400))
+      ->capture_default_str();
+  command->add_option("--json", options->json, "all cases, truths and scores; - is standard output")
+      ->option_text("FILE|-");
+  command->add_option("--report", options->report, "page with scores and pictures; needs no other file")
+      ->option_text("FILE.html");
+  command->add_option("--keep", asking.keep, "keeps recordings and answers there, a folder for each case")
+      ->option_text("DIR");
+  command->add_option("--program", asking.program, "the diagnosing program")->group("");
+  command->footer(
+      "Effects are drawn, and recordings made by a simulator that the diagnosis does not know; it is run as a "
+      "process of its own, which is told file names only. A case keeps its number and its truth in a trial of any "
+      "length: 32 to a round, a third of them without an effect.\n\n"
+      "Example: navcal gap trial --cases 544 --seed 7 --json trial.json --report trial.html");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+
+#include "cli/gap_trial_arms.h"
+#include "trial/mission.h"
+
+namespace navcal::cli {
+
+/// A to be diagnosed, B and C to be held out: the same for every case of a kind, so that nothing in them tells of
+/// the case. The usual ones (10 or 3 minutes) are meant to excite what the specification's column "what breaks the
+/// tie" asks for: turns both ways at several rates and speeds, tilt of both signs, steps of speed at one heading,
+/// two depths, doublets of fins, reciprocal legs at the surface with fixes. The poor ones are a straight line
+/// each.
+[[nodiscard]] std::array<trial::Mission, 3> trial_missions(MissionKind kind, int minutes);
+
+}  // namespace navcal::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace navcal::cli {
+
+/// SHA-256 in hexadecimal, small letters.
+[[nodiscard]] std::string sha256_of(std::string_view text);
+
+/// A truth that is fixed before anybody answers: the digest is published first, truth and salt after the last
+/// answer, and then everybody can reckon that digest = SHA-256(truth salt), the two texts one after the other.
+/// Without the salt the few possible truths could be tried one by one.
+struct Seal {
+  std::string truth;
+  std::string salt;  ///< 32 random bytes of the kernel, in hexadecimal
+  std::string digest;
+};
+
+[[nodiscard]] Seal sealed(std::string truth);
+
+}  // namespace navcal::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace navcal::cli {
+
+/// What one effect is easily taken for, and where it shows. Reckoned from first principles, not from what any
+/// diagnosis said.
+struct TrialSignature {
+  std::string_view effect;
+  /// Library effects that leave nearly the same traces: the column "confounded with" of the specification, and
+  /// the twins that were found since. Where the effect is missing from the library, they are its class.
+  std::vector<std::string_view> twins;
+  /// Channels in which it may well be the strongest excess: where it enters, and where what it enters leads to (a
+  /// wrong rate turns the predicted attitude, and with it heading, tilt and field).
+  std::vector<std::string_view> channels;
+};
+
+/// Of all effects, those of the library and the foreign ones.
+[[nodiscard]] std::span<const TrialSignature> trial_signatures();
+/// nullptr when there is none of this name.
+[[nodiscard]] const TrialSignature* signature_of(std::string_view effect);
+
+struct TrialTwins {
+  std::string_view first, second;
+};
+/// Each two library effects that are easily taken for one another, once.
+[[nodiscard]] std::vector<TrialTwins> confounded_pairs();
+
+}  // namespace navcal::cli
