@@ -14,6 +14,7 @@
 #include "cli/gap_json.h"
 #include "cli/gap_page.h"
 #include "cli/gap_text.h"
+#include "cli/gap_trial.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/result_file.h"
@@ -135,6 +136,7 @@ void add_gap(CLI::App& app) {
   command->footer(
       "A gap of which nothing in the library is the cause is an answer, too: the exit status is 0.\n\n"
       "Example: navcal gap --holdout b.cap --holdout c.cap --report a.html a.cap");
+  add_gap_trial(*command);
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;
     if (options->source.mission.empty()) throw CLI::RequiredError("FILE");

@@ -83,7 +83,6 @@ TrialCase drawn_case(std::uint64_t seed, int number, int minutes) {
   for (std::uint64_t& mission_seed : drawn.mission_seeds) mission_seed = dice.bits();
   const double tolerance = drawn.arm == TrialArm::nulls_6 ? kLooseTolerance : kTolerance;
   trial::loosen(tolerance, drawn.vehicle.departures, dice);
-  trial::loosen(tolerance, drawn.vehicle.hull, dice);
   for (const trial::EffectKind* kind : chosen_kinds(seed, drawn.arm, ordinal_in_arm(number), dice)) {
     drawn.effects.push_back(trial::drawn(*kind, facts.strength, dice));
     trial::add(drawn.effects.back(), drawn.vehicle.departures);

@@ -14,7 +14,7 @@ namespace {
 
 using Ink = SvgPlot::Ink;
 
-std::vector<TrialFigure> power_figure(const std::vector<TrialPower>& power) {
+std::vector<Figure> power_figure(const std::vector<TrialPower>& power) {
   std::vector<Point> lower, upper, shares;
   for (const auto& [strength, hits, cases] : power) {
     if (cases == 0) continue;
@@ -34,7 +34,7 @@ std::vector<TrialFigure> power_figure(const std::vector<TrialPower>& power) {
            "Share of single effects that were named, and no other, by strength."}};
 }
 
-std::vector<TrialFigure> calibration_figure(const TrialScores& scores) {
+std::vector<Figure> calibration_figure(const TrialScores& scores) {
   std::vector<Point> points;
   SvgPlot plot("Calibration", {"probability given, %", {0, 103}}, {"right, %", {0, 103}}, {440, 400});
   const std::array<Point, 2> ideal{{{0, 0}, {100, 100}}};
@@ -56,7 +56,7 @@ std::vector<TrialFigure> calibration_figure(const TrialScores& scores) {
                        calibration_error(scores.calibration))}};
 }
 
-std::vector<TrialFigure> closure_figure(const std::vector<double>& closures) {
+std::vector<Figure> closure_figure(const std::vector<double>& closures) {
   if (closures.empty()) return {};
   constexpr double kLeast = 0.7, kMost = 1.2, kWidth = 0.02;
   constexpr int kBins = 25;
@@ -83,14 +83,14 @@ std::vector<TrialFigure> closure_figure(const std::vector<double>& closures) {
 
 }  // namespace
 
-std::vector<TrialFigure> trial_figures(const TrialScores& scores) {
-  std::vector<TrialFigure> figures = power_figure(scores.power);
+std::vector<Figure> trial_figures(const TrialScores& scores) {
+  std::vector<Figure> figures = power_figure(scores.power);
   for (auto& more : {calibration_figure(scores), closure_figure(scores.closures)})
     figures.insert(figures.end(), more.begin(), more.end());
   return figures;
 }
 
-std::vector<TrialFigure> confusion_figure(const TrialConfusion& confusion) {
+std::vector<Figure> confusion_figure(const TrialConfusion& confusion) {
   if (confusion.truths.empty()) return {};
   SvgMatrix matrix{confusion.truths, confusion.answers, confusion.counts, {}};
   for (const std::string& truth : confusion.truths) {

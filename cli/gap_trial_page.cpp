@@ -8,12 +8,6 @@
 namespace navcal::cli {
 namespace {
 
-void append_figures(HtmlPage& page, const std::vector<TrialFigure>& figures) {
-  page.begin_figures();
-  for (const TrialFigure& figure : figures) page.figure(figure.title, figure.svg_html, figure.caption);
-  page.end_figures();
-}
-
 void append_verdict(HtmlPage& page, const TrialReport& report) {
   bool missed = false;
   for (const TrialScore& score : report.scores.scores) {
@@ -91,12 +85,12 @@ std::string trial_page(const TrialReport& report) {
   append_scores(page, report.scores);
   if (const auto figures = trial_figures(report.scores); !figures.empty()) {
     page.section("How small a gap is named, how far to trust it, how far it closes");
-    append_figures(page, figures);
+    page.figures(figures);
   }
   append_arms(page, report.scores);
   if (const auto figures = confusion_figure(report.confusion); !figures.empty()) {
     page.section("Confusion");
-    append_figures(page, figures);
+    page.figures(figures);
   }
   append_cases(page, report, "Mistakes", is_mistake);
   append_cases(page, report, "Not named, at half the typical strength or more", is_miss);
