@@ -37,7 +37,7 @@ p { margin:6px 0 10px; max-width:85ch; }
   color:var(--soft); background:var(--card); border:1px solid var(--line); }
 .fact b.good { color:var(--good); background:var(--good-back); border-color:transparent; }
 .fact b.bad { color:var(--bad); background:var(--bad-back); border-color:transparent; }
-h1, p, .fact span { overflow-wrap:anywhere; }
+h1, h3, p, .fact span, .detail { overflow-wrap:anywhere; }
 .fact span { min-width:0; }
 .figures { display:grid; grid-template-columns:repeat(auto-fit, minmax(min(100%, 480px), 1fr)); gap:18px; }
 figure { margin:0; padding:14px 16px 10px; background:var(--card); border:1px solid var(--line); border-radius:8px; }
