@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace navcal::gap {
@@ -16,37 +17,62 @@ constexpr double kMoved_rad = 5 * kReportNoise_rad;
 constexpr double kGap_s = 0.25;
 constexpr double kCurrentMean_s = 4;
 
-/// One servo between two reports: from `from_rad` to `to_rad`, under the command before until `step_s` after the
-/// first report, then towards `command_rad`.
+/// One servo between two reports of `interval_s`.
 struct Piece {
-  double from_rad = 0, before_rad = 0, step_s = 0, command_rad = 0;
+  enum class Kind : std::uint8_t {
+    smooth,   ///< under commands that change all the time
+    steady,   ///< on its way to one command
+    stepped,  ///< under one command until `step_s` after the first report, then on its way to another
+  };
+  Kind kind = Kind::smooth;
+  double from_rad = 0, to_rad = 0, interval_s = 0;
+  double slope_from_rad_s = 0, slope_to_rad_s = 0;
+  double before_rad = 0, step_s = 0, command_rad = 0;
 
   [[nodiscard]] double at(double since_s, double lag_s) const {
-    const double steady = before_rad + (from_rad - before_rad) * std::exp(-std::min(since_s, step_s) / lag_s);
-    if (since_s <= step_s) return steady;
-    return command_rad + (steady - command_rad) * std::exp(-(since_s - step_s) / lag_s);
+    if (kind == Kind::smooth) {
+      // Hermite's cubic: an exponential would go too early from one report to the next, by 5 ms in the mean.
+      const double x = since_s / interval_s, y = 1 - x;
+      return from_rad * y * y * (1 + 2 * x) + to_rad * x * x * (1 + 2 * y) +
+             interval_s * x * y * (slope_from_rad_s * y - slope_to_rad_s * x);
+    }
+    const double step = kind == Kind::steady ? 0 : step_s;
+    const double carried = before_rad + (from_rad - before_rad) * std::exp(-std::min(since_s, step) / lag_s);
+    if (since_s <= step) return carried;
+    return command_rad + (carried - command_rad) * std::exp(-(since_s - step) / lag_s);
   }
 };
 
 /// Of reports a (before), b, c, d at equal intervals; the piece goes from b to c.
 Piece piece_between(double a, double b, double c, double d, double interval_s, double lag_s) {
+  Piece piece;
+  piece.from_rad = b;
+  piece.to_rad = c;
+  piece.interval_s = interval_s;
+  piece.slope_from_rad_s = (c - a) / (2 * interval_s);
+  piece.slope_to_rad_s = (d - b) / (2 * interval_s);
   const double kept = std::exp(-interval_s / lag_s);
   const auto towards = [&](double from, double to) { return (to - kept * from) / (1 - kept); };
-  const double before = towards(a, b);  // command until b
-  const double carried = before + (b - before) * kept;
-  // Under the command before, c would be `carried`; and what the reports' noise leaves of that is no step.
-  if (std::abs(c - carried) < kMoved_rad * 1.5) return {b, towards(b, c), interval_s, 0};
-  const double command = towards(c, d);
-  // When did the command step, if it stood at `before` until then and at `command` from then on?
-  // carried' = before + (b - before) e^(-s/T); c - command = (carried' - command) e^(-(h - s)/T)
-  //   =>  (c - command) e^(h/T) = (before - command) e^(s/T) + b - before
-  const double span = before - command;
-  if (std::abs(span) > kMoved_rad) {
-    const double grown = ((c - command) / kept - (b - before)) / span;
-    const double step_s = grown > 0 ? lag_s * std::log(grown) : -1;
-    if (step_s > 0 && step_s < interval_s) return {b, before, step_s, command};
+  const double before = towards(a, b), during = towards(b, c), after = towards(c, d);
+  if (std::abs(c - b) > kMoved_rad && std::abs(during - after) < kMoved_rad) {
+    piece.kind = Piece::Kind::steady;
+    piece.command_rad = during;
+    return piece;
   }
-  return {b, towards(b, c), interval_s, 0};
+  // Under the command before, c would be `carried`; what the reports' noise leaves of that is no step.
+  const double carried = before + (b - before) * kept;
+  if (std::abs(c - carried) < 1.5 * kMoved_rad || std::abs(before - after) < kMoved_rad) return piece;
+  // When did the command step, if it stood at `before` until then and at `after` from then on?
+  // carried' = before + (b - before) e^(-s/T); c - after = (carried' - after) e^(-(h - s)/T)
+  //   =>  (c - after) e^(h/T) = (before - after) e^(s/T) + b - before
+  const double grown = ((c - after) / kept - (b - before)) / (before - after);
+  const double step_s = grown > 0 ? lag_s * std::log(grown) : -1;
+  if (step_s <= 0 || step_s >= interval_s) return piece;
+  piece.kind = Piece::Kind::stepped;
+  piece.before_rad = before;
+  piece.step_s = step_s;
+  piece.command_rad = after;
+  return piece;
 }
 
 /// A report between neighbours that lie on one line with it is their mean: a steady fin's noise goes down.
