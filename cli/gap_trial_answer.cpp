@@ -42,6 +42,10 @@ TrialFinding finding_of(const json& object, std::vector<std::string>& twins) {
 std::vector<TrialFinding> findings_of(const json& list, std::vector<std::string>& twins) {
   std::vector<TrialFinding> findings;
   for (const json& object : list) findings.push_back(finding_of(object, twins));
+  for (auto finding = findings.begin(); finding != findings.end(); ++finding) {
+    const auto same = [&](const TrialFinding& other) { return other.name == finding->name; };
+    if (std::any_of(findings.begin(), finding, same)) fail(finding->name + " is named twice");
+  }
   std::stable_sort(findings.begin(), findings.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
   return findings;

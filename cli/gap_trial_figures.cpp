@@ -96,9 +96,10 @@ std::vector<Figure> confusion_figure(const TrialConfusion& confusion) {
   for (const std::string& truth : confusion.truths) {
     matrix.agreeing.emplace_back();
     for (const std::string& answer : confusion.answers) {
-      const bool called_unknown = answer == "unknown" && (truth.ends_with("the library"));
-      matrix.agreeing.back().push_back(truth == answer || called_unknown ||
-                                       (truth == "no effect" && answer == "no gap"));
+      const bool nothing_to_name = truth.ends_with("the library") || truth == "6 % off everywhere";
+      const bool nothing_there = truth == "no effect" || truth == "6 % off everywhere";
+      matrix.agreeing.back().push_back(truth == answer || (nothing_to_name && answer == "unknown") ||
+                                       (nothing_there && answer == "no gap"));
     }
   }
   return {{"What was there (rows) against what was answered (columns)", matrix.svg("Confusion matrix"),

@@ -12,7 +12,8 @@ std::string quantity(double value, const std::string& unit) {
 
 /// A target as people write it.
 std::string goal(double value, const std::string& unit) {
-  return unit == "%" ? fmt::format("{:.3g} %", 100 * value) : fmt::format("{:g} {}", value, unit);
+  if (unit == "%") return fmt::format("{:.3g} %", 100 * value);
+  return unit.empty() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, unit);
 }
 
 }  // namespace

@@ -61,6 +61,9 @@ TEST(GapTrialAnswer, WhatIsMalformedIsRefusedWithTheReason) {
            {R"({"verdict":"explained","where":[],"effects":[],"gap":{}})", "explained, yet no effect is named"},
            {R"({"verdict":"no-gap","where":[],"effects":[{"name":"fin_lag","probability":1}],"gap":{}})",
             "no-gap, yet fin_lag is named"},
+           {R"({"verdict":"explained","where":[],"effects":[{"name":"fin_lag","probability":1},)"
+            R"({"name":"fin_lag","probability":1}],"gap":{}})",
+            "fin_lag is named twice"},
            {R"({"verdict":"explained","where":[],"effects":[{"name":"fin_lag","probability":1.5}],"gap":{}})",
             "probability of fin_lag does not lie between 0 and 1"},
            {R"({"verdict":"explained","where":[],"effects":[{"name":"fin_lag","probability":"1"}],"gap":{}})",
