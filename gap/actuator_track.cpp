@@ -90,6 +90,61 @@ std::vector<double> smoothed(const std::vector<double>& raw) {
   return smooth;
 }
 
+/// Each report by a line through those near it in time and in angle: steady fins and slow moves lose their noise,
+/// steps stay.
+std::vector<double> without_noise(const std::vector<double>& raw) {
+  constexpr int kReach = 6;
+  constexpr double kNear = 3;  // reports
+  constexpr double kAlike_rad = 5 * kReportNoise_rad;
+  const auto count = static_cast<int>(raw.size());
+  std::vector<double> clean(raw.size());
+  for (int i = 0; i < count; ++i) {
+    double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
+    const double here = raw[static_cast<std::size_t>(i)];
+    for (int j = std::max(0, i - kReach); j <= std::min(count - 1, i + kReach); ++j) {
+      const double x = j - i, y = raw[static_cast<std::size_t>(j)] - here;
+      const double weight = std::exp(-0.5 * (x * x / (kNear * kNear) + y * y / (kAlike_rad * kAlike_rad)));
+      w += weight;
+      wx += weight * x;
+      wxx += weight * x * x;
+      wy += weight * y;
+      wxy += weight * x * y;
+    }
+    const double determinant = w * wxx - wx * wx;
+    clean[static_cast<std::size_t>(i)] =
+        here + (determinant > 1e-9 ? (wxx * wy - wx * wxy) / determinant : wy / w);
+  }
+  return clean;
+}
+
+/// Angles at the times of rows, of one servo whose reports say `angle`.
+std::vector<double> between_reports(std::span<const MotorReading> readings, const std::vector<double>& angle,
+                                    double servo_lag_s, std::size_t rows) {
+  std::vector<double> result(rows);
+  std::size_t at = 0, made_for = readings.size();
+  Piece piece;
+  bool lagging = false;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double time_s = static_cast<double>(k) * ActuatorTrack::kStep_s;
+    while (at + 1 < readings.size() && readings[at + 1].time_s <= time_s) ++at;
+    result[k] = angle[at];
+    if (at + 1 >= readings.size() || time_s <= readings[at].time_s) continue;
+    const double interval_s = readings[at + 1].time_s - readings[at].time_s;
+    if (made_for != at) {
+      made_for = at;
+      const std::size_t last = std::min(at + 2, readings.size() - 1);
+      lagging = at > 0 && interval_s < kGap_s && readings[at].time_s - readings[at - 1].time_s < kGap_s &&
+                last > at + 1 && readings[last].time_s - readings[at + 1].time_s < kGap_s;
+      if (lagging)
+        piece = piece_between(angle[at - 1], angle[at], angle[at + 1], angle[last], interval_s, servo_lag_s);
+    }
+    const double since_s = time_s - readings[at].time_s;
+    result[k] =
+        lagging ? piece.at(since_s, servo_lag_s) : angle[at] + (angle[at + 1] - angle[at]) * since_s / interval_s;
+  }
+  return result;
+}
+
 }  // namespace
 
 ActuatorTrack::ActuatorTrack(std::span<const MotorReading> readings, double servo_lag_s, double duration_s)
@@ -98,31 +153,11 @@ ActuatorTrack::ActuatorTrack(std::span<const MotorReading> readings, double serv
     std::vector<double> raw;
     raw.reserve(readings.size());
     for (const auto& reading : readings) raw.push_back(reading.fins_rad[fin]);
-    const auto angle = smoothed(raw);
-    std::size_t at = 0;
-    Piece piece;
-    bool lagging = false;
-    std::size_t made_for = readings.size();
+    const auto reported = between_reports(readings, smoothed(raw), servo_lag_s, rows_.size());
+    const auto clean = between_reports(readings, without_noise(raw), servo_lag_s, rows_.size());
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const double time_s = static_cast<double>(k) * kStep_s;
-      while (at + 1 < readings.size() && readings[at + 1].time_s <= time_s) ++at;
-      double value = angle[at];
-      if (at + 1 < readings.size() && time_s > readings[at].time_s) {
-        const double interval_s = readings[at + 1].time_s - readings[at].time_s;
-        if (made_for != at) {
-          made_for = at;
-          const std::size_t last = std::min(at + 2, readings.size() - 1);
-          lagging = at > 0 && interval_s < kGap_s && readings[at].time_s - readings[at - 1].time_s < kGap_s &&
-                    last > at + 1 && readings[last].time_s - readings[at + 1].time_s < kGap_s;
-          if (lagging) {
-            piece = piece_between(angle[at - 1], angle[at], angle[at + 1], angle[last], interval_s, servo_lag_s);
-          }
-        }
-        const double since_s = time_s - readings[at].time_s;
-        value = lagging ? piece.at(since_s, servo_lag_s)
-                        : angle[at] + (angle[at + 1] - angle[at]) * since_s / interval_s;
-      }
-      rows_[k].fins_rad[fin] = value;
+      rows_[k].fins_rad[fin] = reported[k];
+      rows_[k].clean_fins_rad[fin] = clean[k];
     }
   }
   std::size_t at = 0;

@@ -17,7 +17,8 @@ class ActuatorTrack {
   static constexpr double kStep_s = 0.01;
 
   struct Row {
-    Vector3 fins_rad{};  ///< of the servos' shafts
+    Vector3 fins_rad{};        ///< of the servos' shafts
+    Vector3 clean_fins_rad{};  ///< the same without the reports' noise, and without what moves as little as that
     double shaft_rps = 0;
   };
 

@@ -12,6 +12,8 @@ namespace navcal::gap {
 namespace {
 
 constexpr double kBias_rad_s = 0.3 * std::numbers::pi / 180;  // the usual one at power-on
+constexpr std::string_view kLag = "tau_s";
+constexpr double kLagStep = 0.1;
 constexpr std::array<std::string_view, 4> kBiasNames{"bias_ax", "bias_az", "bias_by", "bias_bz"};
 
 }  // namespace
@@ -36,6 +38,10 @@ Library::Library(std::span<const std::string> excluded) {
     }
     effects_.push_back(std::move(effect));
   }
+}
+
+bool Library::is_curved(std::size_t effect) const {
+  return unknowns_[static_cast<std::size_t>(first(effect))].name == kLag;
 }
 
 std::vector<Eigen::Index> Library::moving() const {

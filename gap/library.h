@@ -38,6 +38,8 @@ class Library {
   }
   /// Whether it may be a cause.
   [[nodiscard]] bool holds(std::size_t effect) const { return held_[effect]; }
+  /// Whether a linearisation about zero says little of its typical strength.
+  [[nodiscard]] bool is_curved(std::size_t effect) const;
   /// Biases, and the unknowns of all effects that may be a cause.
   [[nodiscard]] std::vector<Eigen::Index> moving() const;
   [[nodiscard]] std::span<const Unknown> unknowns() const { return unknowns_; }

@@ -75,12 +75,16 @@ void ReplayRun::link_fins() {
   linked_fins_rad_.reserve(in_.actuators.size());
   integrals_.reserve(in_.actuators.size());
   for (std::size_t k = 0; k < in_.actuators.size(); ++k) {
-    Vector3 fins_rad = in_.actuators[k].fins_rad;
+    // What an effect changes is taken from fins without noise: the derivative of a report's noise would else be a
+    // part of what a lag does, and a lag would be found too small.
+    const auto& [reported_rad, clean_rad, shaft_rps] = in_.actuators[k];
+    Vector3 fins_rad = clean_rad;
     effects_.link_fins(static_cast<double>(k) * kStep_s, kStep_s, fins_rad);
+    for (std::size_t i = 0; i < 3; ++i) fins_rad[i] += reported_rad[i] - clean_rad[i];
     linked_fins_rad_.push_back(fins_rad);
     if (k > 0) {
       sum.fins_rad += kStep_s / 2 * (vector_of(linked_fins_rad_[k - 1]) + vector_of(fins_rad));
-      sum.shaft_rps += kStep_s / 2 * (in_.actuators[k - 1].shaft_rps + in_.actuators[k].shaft_rps);
+      sum.shaft_rps += kStep_s / 2 * (in_.actuators[k - 1].shaft_rps + shaft_rps);
     }
     integrals_.push_back(sum);
   }

@@ -18,7 +18,7 @@ constexpr std::size_t kLeading = 3;
 /// Against each effect more, beside the choice among all of them: what innovations that are not quite Gaussian
 /// gain by chance.
 constexpr double kCaution = 2;
-constexpr int kIterations = 2;
+constexpr int kIterations = 3;
 
 /// Evidence referred to the nominal vehicle, whatever point it was linearised about.
 class Judge {
@@ -148,8 +148,13 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
     }
     if (tried.log_odds > result.best.log_odds) result.best = std::move(tried);
   };
+  for (const std::size_t effect : held) {
+    if (library.is_curved(effect)) consider({effect});
+  }
   for (std::size_t size = 1; size <= kMostEffects; ++size) {
-    for (const Set& set : found.leading(size, kLeading)) consider(set);
+    for (const Set& set : found.leading(size, kLeading)) {
+      if (size > 1 || !library.is_curved(set.front())) consider(set);
+    }
     progress(static_cast<double>(size) / kMostEffects);
   }
 

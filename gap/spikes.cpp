@@ -12,6 +12,8 @@ namespace {
 constexpr double kLeast = 0.03;
 /// Of what was excluded: as good as nothing.
 constexpr double kNever = 1e-9;
+/// Reports of the fins ten times a second do not tell finer when something happened.
+constexpr double kLeastLag_s = 0.005;
 constexpr int kIterations = 40;
 constexpr double kBias_rad_s = 3 * std::numbers::pi / 180;
 
@@ -27,6 +29,7 @@ Priors learnt_priors(const Library& library, const Eigen::MatrixXd& gram, const 
   least.tail(least.size() - Library::kBiases) *= kLeast;
   for (Eigen::Index j = Library::kBiases; j < least.size(); ++j) {
     const std::size_t effect = library.unknowns()[static_cast<std::size_t>(j)].effect;
+    if (library.is_curved(effect)) least[j] = std::max(least[j], kLeastLag_s);
     if (!library.holds(effect)) priors.slab[j] = least[j] = kNever * priors.slab[j];
   }
   priors.spike = least;

@@ -10,6 +10,7 @@
 namespace navcal::gap {
 namespace {
 
+constexpr std::size_t kMostReasons = 4;
 constexpr double kProbable = 0.7;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
@@ -17,6 +18,8 @@ constexpr double kLargest = 5;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
 /// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
 constexpr double kLeft = 1e-4;
+/// And it is so much larger than the nulls' own: an instrument a little noisier than nominal is no gap.
+constexpr double kLouder = 1.3;
 
 std::string names(const Library& library, const std::vector<std::size_t>& effects) {
   std::vector<std::string_view> all;
@@ -36,9 +39,9 @@ double strength(const Library& library, std::size_t effect, const Eigen::VectorX
 }
 
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
-  for (std::size_t i = 0; i < std::min<std::size_t>(grounds.leftover.size(), 3); ++i) {
-    const WhereEntry& left = grounds.leftover[i];
-    if (left.p_value > kLeft) continue;
+  for (const WhereEntry& left : grounds.leftover) {
+    if (reasons.size() >= kMostReasons) break;
+    if (left.p_value > kLeft || left.gap < kLouder * left.floor) continue;
     reasons.push_back(fmt::format("{} still follows {} by {:.2g} {}; vehicles without a gap show {:.2g}",
                                   left.channel, left.regime, left.gap, left.unit, left.floor));
   }
