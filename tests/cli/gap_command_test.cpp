@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cli/gap_trial.h"
 #include "gap/request.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/cli/gap_samples.h"
@@ -28,20 +29,23 @@ Diagnosis diagnose(const Request& request, const Progress& progress) {
 
 }  // namespace navcal::gap
 
+namespace navcal::cli {
+
+void add_gap_trial(CLI::App& gap) {
+  gap.add_subcommand("trial", "")->callback([] { std::fputs("trial", stdout); });
+}
+
+}  // namespace navcal::cli
+
 namespace navcal::cli::test {
 namespace {
-
-void add_gap_with_trial(CLI::App& app) {
-  add_gap(app);
-  app.get_subcommand("gap")->add_subcommand("trial", "")->callback([] { std::fputs("trial", stdout); });
-}
 
 class GapCommand : public testing::Test {
  protected:
   GapCommand() { asked.reset(); }
   static Outcome run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "gap");
-    return run_command(add_gap_with_trial, std::move(arguments));
+    return run_command(add_gap, std::move(arguments));
   }
 
   navcal::test::TemporaryFolder folder_;

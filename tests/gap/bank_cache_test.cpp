@@ -1,0 +1,93 @@
+#include "gap/bank_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/gap/simulated_mission.h"
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::gap {
+namespace {
+
+/// A bank of the right shapes that nobody simulated.
+NullBank made_up(const Library& library) {
+  NullBank bank;
+  bank.missions = 20;
+  bank.seed = 1;
+  bank.seconds = 3;
+  bank.whitening = Whitening::nominal();
+  const auto n = static_cast<Eigen::Index>(library.unknowns().size());
+  bank.gram = Eigen::MatrixXd::Identity(n, n);
+  bank.scores = Eigen::MatrixXd::Random(n, 20);
+  bank.powers.assign(20, 1.0625);
+  bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(2, 3);
+  return bank;
+}
+
+class BankCacheTest : public testing::Test {
+ protected:
+  BankCacheTest() : mission_(test::simulated_mission("identification", "", 60, 1)), replay_(mission_, {}) {
+    (void)replay_.run({}, &course_);
+  }
+  navcal::test::TemporaryFolder folder_;
+  Library library_{{}};
+  Mission mission_;
+  Replay replay_;
+  Course10Hz course_;
+};
+
+TEST_F(BankCacheTest, GivesBackWhatItWasGiven) {
+  const BankCache cache(folder_ / "banks", {}, library_);
+  EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
+  const NullBank bank = made_up(library_);
+  cache.keep(replay_, course_, bank);
+  const auto found = cache.find(replay_, course_, {20, 1, 1});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->scores, bank.scores);
+  EXPECT_EQ(found->powers, bank.powers);
+  EXPECT_EQ(found->whitening.grid_factor, bank.whitening.grid_factor);
+}
+
+TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
+  const BankCache cache(folder_.path(), {}, library_);
+  cache.keep(replay_, course_, made_up(library_));
+  EXPECT_FALSE(cache.find(replay_, course_, {20, 2, 1}));
+  EXPECT_FALSE(cache.find(replay_, course_, {100, 1, 1}));
+  config::VehicleSettings heavier;
+  heavier.hull.mass_kg *= 1.1;
+  EXPECT_FALSE(BankCache(folder_.path(), heavier, library_).find(replay_, course_, {20, 1, 1}));
+  const Mission other = test::simulated_mission("thesis1", "", 60, 1);
+  const Replay replay(other, {});
+  Course10Hz course;
+  (void)replay.run({}, &course);
+  EXPECT_FALSE(cache.find(replay, course, {20, 1, 1}));
+}
+
+TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
+  const BankCache cache(folder_.path(), {}, library_);
+  cache.keep(replay_, course_, made_up(library_));
+  const Mission again = test::simulated_mission("identification", "[hard_iron]\nx_uT = 2\n", 60, 9);
+  const Replay replay(again, {});
+  Course10Hz course;
+  (void)replay.run({}, &course);
+  EXPECT_TRUE(cache.find(replay, course, {20, 1, 1}));
+}
+
+TEST_F(BankCacheTest, FilesThatAreNoBanksArePassedOver) {
+  const BankCache cache(folder_.path(), {}, library_);
+  cache.keep(replay_, course_, made_up(library_));
+  std::filesystem::path bank;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.path())) bank = file.path();
+  std::ifstream stream(bank);
+  const std::string whole((std::istreambuf_iterator<char>(stream)), {});
+  std::filesystem::remove(bank);
+  for (const std::string& text : {std::string(), std::string("{"), std::string("[]"), std::string("{\"model\":3}"),
+                                  whole.substr(0, whole.size() / 2), std::string(100, '\0')}) {
+    std::ofstream(folder_ / "null-bank-bad.json") << text;
+    EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
+  }
+}
+
+}  // namespace
+}  // namespace navcal::gap

@@ -1,0 +1,76 @@
+// Whole diagnoses of short missions against small banks: that names, numbers and refusals come out; how often they
+// are right is for `navcal gap trial` to say.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "gap/request.h"
+#include "tests/gap/simulated_mission.h"
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::gap {
+namespace {
+
+class Diagnose : public testing::Test {
+ protected:
+  Diagnosis diagnosis(const std::filesystem::path& mission, std::vector<std::filesystem::path> holdouts,
+                      std::vector<std::string> excluded = {}) {
+    Request request;
+    request.mission = mission;
+    request.holdouts = std::move(holdouts);
+    request.excluded = std::move(excluded);
+    request.cache = folder_ / "banks";
+    request.bank_missions = 30;
+    return diagnose(request, [](std::string_view, double) {});
+  }
+  std::filesystem::path recorded(const std::string& name, std::string_view effects, double seconds,
+                                 std::uint64_t seed) {
+    test::write_mission(folder_ / name, "identification", effects, seconds, seed);
+    return folder_ / name;
+  }
+  navcal::test::TemporaryFolder folder_;
+};
+
+TEST_F(Diagnose, NamesAnEffectOfWhichItIsToldNothing) {
+  constexpr std::string_view kEffect = "[motor_field]\nx_uT_per_A = 0.8\ny_uT_per_A = -0.6\n";
+  const auto a = recorded("a.cap", kEffect, 200, 1), b = recorded("b.cap", kEffect, 200, 2);
+  const Diagnosis found = diagnosis(a, {b});
+  EXPECT_EQ(found.verdict, Verdict::explained) << found.sentence;
+  ASSERT_EQ(found.effects.size(), 1U);
+  EXPECT_EQ(found.effects.front().name, "motor_field");
+  EXPECT_GT(found.effects.front().probability, 0.9);
+  const auto& x = found.effects.front().parameters.front();
+  EXPECT_EQ(x.name, "x_uT_per_A");
+  EXPECT_NEAR(x.value, 0.8, 0.1);
+  ASSERT_FALSE(found.where.empty());
+  EXPECT_EQ(found.where.front().channel.substr(0, 7), "compass");
+  ASSERT_TRUE(found.gap.pooled.closed);
+  EXPECT_GT(*found.gap.pooled.closed, 0.9);
+  EXPECT_TRUE(found.gap.held_out);
+
+  const Diagnosis without = diagnosis(a, {b}, {"motor_field"});
+  for (const EffectFinding& effect : without.candidates) EXPECT_NE(effect.name, "motor_field");
+  EXPECT_TRUE(without.bank.from_cache);
+}
+
+TEST_F(Diagnose, FindsNoGapInANominalMission) {
+  const Diagnosis found = diagnosis(recorded("a.cap", "", 200, 3), {recorded("b.cap", "", 200, 4)});
+  EXPECT_EQ(found.verdict, Verdict::no_gap) << found.sentence;
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_FALSE(found.gap.pooled.closed);
+}
+
+TEST_F(Diagnose, SaysOfWhatNothingCanBeSaid) {
+  const Diagnosis brief = diagnosis(recorded("brief.cap", "", 15, 5), {});
+  EXPECT_EQ(brief.verdict, Verdict::unknown);
+  EXPECT_TRUE(brief.effects.empty());
+  EXPECT_FALSE(brief.remarks.empty());
+
+  std::ofstream(folder_ / "empty.cap").flush();
+  EXPECT_THROW((void)diagnosis(folder_ / "empty.cap", {}), record::BadRecording);
+  EXPECT_THROW((void)diagnosis(folder_ / "none.cap", {}), record::BadRecording);
+}
+
+}  // namespace
+}  // namespace navcal::gap

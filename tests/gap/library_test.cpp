@@ -1,0 +1,59 @@
+#include "gap/library.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace navcal::gap {
+namespace {
+
+TEST(Library, HoldsEveryEffectThatCanBeACause) {
+  const Library library({});
+  EXPECT_EQ(library.size(), 34U);
+  Eigen::Index next = Library::kBiases;
+  for (std::size_t e = 0; e < library.size(); ++e) {
+    EXPECT_EQ(library.first(e), next) << library[e].name;
+    next += library.count(e);
+    EXPECT_TRUE(library.holds(e));
+  }
+  EXPECT_EQ(static_cast<Eigen::Index>(library.unknowns().size()), next);
+  EXPECT_EQ(static_cast<Eigen::Index>(library.moving().size()), next);
+}
+
+TEST(Library, WhatIsExcludedKeepsItsPlaceAndDoesNotMove) {
+  const std::vector<std::string> excluded{"hard_iron"};
+  const Library all({}), less(excluded);
+  ASSERT_EQ(all.unknowns().size(), less.unknowns().size());
+  EXPECT_EQ(less.moving().size() + 3, all.moving().size());
+  for (std::size_t e = 0; e < less.size(); ++e) EXPECT_EQ(less.holds(e), less[e].name != "hard_iron");
+}
+
+TEST(Library, ANameThatIsNoneIsToldWithTheKnown) {
+  const std::vector<std::string> excluded{"hard_irn"};
+  try {
+    const Library library(excluded);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("hard_iron"), std::string::npos);
+  }
+}
+
+TEST(Library, AModelHoldsWhatIsNotZeroWithinItsBounds) {
+  const Library library({});
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+  EXPECT_EQ(library.model(values).effects.size(), 0U);
+  for (std::size_t e = 0; e < library.size(); ++e) {
+    if (library[e].name == "fin_lag") values[library.first(e)] = -3;
+    if (library[e].name == "hard_iron") values[library.first(e) + 1] = 2;
+  }
+  values[2] = 0.01;
+  const Model model = library.model(values);
+  ASSERT_EQ(model.effects.size(), 2U);
+  EXPECT_EQ(model.bias_rad_s[2], 0.01);
+  EXPECT_EQ(model.effects[0].parameters()[0], 0);
+  EXPECT_EQ(model.effects[1].parameters()[1], 2);
+}
+
+}  // namespace
+}  // namespace navcal::gap

@@ -1,0 +1,84 @@
+#include "gap/regimes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "gap/where.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr std::size_t kRows = 4000;
+
+Course10Hz circling() {
+  Course10Hz course;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const double t = 0.1 * static_cast<double>(i);
+    course.time_s.push_back(t);
+    course.heading_rad.push_back(0.11 * t);
+    course.current_A.push_back(1 + 0.5 * std::sin(0.03 * t));
+    for (auto* const column :
+         {&course.roll_rad, &course.pitch_rad, &course.yaw_rate_rad_s, &course.pitch_rate_rad_s, &course.depth_m,
+          &course.surge_m_s, &course.warmth_C, &course.rudder_rad, &course.elevator_rad, &course.shaft_rps}) {
+      column->push_back(1);
+    }
+  }
+  return course;
+}
+
+Innovations noise(std::uint64_t seed) {
+  std::mt19937_64 dice(seed);
+  std::normal_distribution<double> normal;
+  Innovations made;
+  made.grid = Eigen::MatrixXd::NullaryExpr(kRows, kChannels, [&] { return 0.1 * normal(dice); });
+  return made;
+}
+
+RegimeStatistics nulls(const Course10Hz& course) {
+  std::vector<Eigen::MatrixXd> all;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) all.push_back(followed(noise(seed), course, {}));
+  return RegimeStatistics(all);
+}
+
+TEST(Where, NoiseIsNowhere) {
+  const Course10Hz course = circling();
+  const auto statistics = nulls(course);
+  int found = 0;
+  for (std::uint64_t seed = 100; seed < 120; ++seed) {
+    found += static_cast<int>(clear_of_nulls(where_map(followed(noise(seed), course, {}), statistics)).size());
+  }
+  EXPECT_LE(found, 1);
+}
+
+TEST(Where, WhatFollowsTheCurrentIsFoundThere) {
+  const Course10Hz course = circling();
+  Innovations made = noise(200);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    made.grid(static_cast<Eigen::Index>(i), field_y) += 0.2 * course.current_A[i];
+  }
+  const auto map = where_map(followed(made, course, {}), nulls(course));
+  EXPECT_EQ(map.front().channel, "compass.field");
+  const auto clear = clear_of_nulls(map);
+  const bool current = std::any_of(clear.begin(), clear.end(), [](const WhereEntry& entry) {
+    return entry.channel == "compass.field" && entry.regime == "motor_current" && entry.unit == "uT" &&
+           std::abs(entry.gap - 0.2 * 0.5 / std::sqrt(2.0)) < 0.02;
+  });
+  EXPECT_TRUE(current);
+  for (const WhereEntry& entry : clear) EXPECT_EQ(entry.channel, "compass.field");
+}
+
+TEST(Where, AStepInMidMissionIsAChange) {
+  const Course10Hz course = circling();
+  Innovations made = noise(300);
+  for (std::size_t i = kRows / 2; i < kRows; ++i) made.grid(static_cast<Eigen::Index>(i), depth) += 0.5;
+  const auto changes = change_points(made, course, {}, nulls(course));
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes.front().channel, "imu.depth");
+  EXPECT_NEAR(changes.front().time_s, 200, 15);
+  EXPECT_TRUE(change_points(noise(301), course, {}, nulls(course)).empty());
+}
+
+}  // namespace
+}  // namespace navcal::gap

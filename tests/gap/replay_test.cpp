@@ -1,0 +1,89 @@
+#include "gap/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gap/biases.h"
+#include "gap/library.h"
+#include "tests/gap/simulated_mission.h"
+
+namespace navcal::gap {
+namespace {
+
+using test::simulated_mission;
+
+double rms(const Innovations& innovations, Channel channel, Eigen::Index from = 300) {
+  double square = 0;
+  int count = 0;
+  for (Eigen::Index i = from; i < innovations.grid.rows(); ++i) {
+    const double value = innovations.grid(i, channel);
+    if (!std::isfinite(value)) continue;
+    square += value * value;
+    ++count;
+  }
+  return std::sqrt(square / count);
+}
+
+Innovations replayed(const Mission& mission, const char* effect = nullptr, double value = 0) {
+  const Replay replay(mission, {});
+  const Library library({});
+  Eigen::VectorXd values = with_biases_found(replay, library, 1);
+  for (std::size_t e = 0; e < library.size(); ++e) {
+    if (effect != nullptr && library[e].name == effect) values[library.first(e)] = value;
+  }
+  return replay.run(library.model(values));
+}
+
+TEST(Replay, ANominalMissionLeavesTheInstrumentsNoise) {
+  const Innovations left = replayed(simulated_mission("identification", "", 150, 3));
+  constexpr double kDegree = 0.017453292519943295;
+  EXPECT_NEAR(rms(left, field_x), 0.15, 0.05);
+  EXPECT_NEAR(rms(left, tilt_pitch), 0.1 * kDegree, 0.05 * kDegree);
+  EXPECT_LT(rms(left, gyro_yaw_a), 0.3 * kDegree);
+  EXPECT_LT(rms(left, force_y), 0.03);
+  EXPECT_LT(rms(left, depth), 0.03);
+}
+
+TEST(Replay, AnEffectLeavesItsMarkUntilItIsInTheModel) {
+  const Mission mission = simulated_mission("identification", "[hard_iron]\nx_uT = 3\n", 150, 3);
+  const double before = rms(replayed(mission), field_x);
+  const double after = rms(replayed(mission, "hard_iron", 3), field_x);
+  EXPECT_GT(before, 0.5);
+  EXPECT_LT(after, 0.25);
+}
+
+TEST(Replay, ASecondRunGivesTheSameToTheBit) {
+  const Mission mission = simulated_mission("identification", "", 60, 4);
+  const Replay replay(mission, {});
+  const Innovations a = replay.run({}), b = replay.run({});
+  for (Eigen::Index i = 0; i < a.grid.size(); ++i) {
+    EXPECT_TRUE(a.grid(i) == b.grid(i) || (std::isnan(a.grid(i)) && std::isnan(b.grid(i))));
+  }
+}
+
+TEST(Replay, GapsAndRestartsAreGoneOver) {
+  Mission mission = simulated_mission("identification", "", 150, 5);
+  std::erase_if(mission.card, [](const CardReading& r) { return r.time_s > 60 && r.time_s < 61; });
+  std::erase_if(mission.card, [](const CardReading& r) { return r.time_s > 90 && r.time_s < 100; });
+  std::erase_if(mission.compass, [](const CompassReading& r) { return r.time_s > 70 && r.time_s < 80; });
+  std::erase_if(mission.motor, [](const MotorReading& r) { return r.time_s > 110 && r.time_s < 112; });
+  const Innovations left = replayed(mission);
+  for (Eigen::Index j = 0; j < kChannels; ++j) {
+    for (Eigen::Index i = 0; i < left.grid.rows(); ++i) {
+      EXPECT_TRUE(std::isnan(left.grid(i, j)) || std::abs(left.grid(i, j)) < 100);
+    }
+  }
+  EXPECT_TRUE(std::isnan(left.grid(955, gyro_yaw_a)));
+}
+
+TEST(Replay, AMissionWithoutFixesHasTheOtherChannels) {
+  Mission mission = simulated_mission("identification", "", 60, 6);
+  mission.fixes.clear();
+  const Innovations left = replayed(mission);
+  EXPECT_EQ(left.fixes.rows(), 0);
+  EXPECT_TRUE(std::isfinite(left.grid(400, field_x)));
+}
+
+}  // namespace
+}  // namespace navcal::gap

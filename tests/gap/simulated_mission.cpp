@@ -1,0 +1,63 @@
+#include "tests/gap/simulated_mission.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "config/load.h"
+#include "config/mission_file.h"
+#include "record/capture_writer.h"
+#include "record/whole_file.h"
+#include "sim/effects/document.h"
+#include "sim/recording.h"
+#include "sim/vehicle/mission_helm.h"
+#include "sim/vehicle/simulated_motion.h"
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::gap::test {
+namespace {
+
+constexpr std::int64_t kBegin_ns = 1'767'225'600'000'000'000;
+
+}  // namespace
+
+void write_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
+                   double seconds, std::uint64_t seed) {
+  using protocols::Protocol;
+  sim::EffectSet set(kBegin_ns);
+  std::vector<config::Problem> problems;
+  sim::add_effects(effects, set, problems);
+  if (!problems.empty()) throw std::invalid_argument("effects of a test");
+  set.reseed(seed);
+  const config::VehicleSettings vehicle;
+  const sim::SimulatedMotion motion(
+      vehicle, std::make_unique<sim::MissionHelm>(vehicle, config::load_mission(std::string(mission))),
+      {kBegin_ns, &set, 20});
+  sim::Recording::Options options;
+  options.begin_ns = kBegin_ns;
+  options.seed = seed;
+  options.effects = &set;
+  sim::Recording instruments(options, motion);
+  record::CaptureWriter writer({config::default_port("compass", Protocol::tcm2, 38400),
+                                config::default_port("imu", Protocol::imu_card, 57600),
+                                config::default_port("gps", Protocol::oncore, 9600),
+                                config::default_port("motor", Protocol::motor_card, 19200)});
+  std::string text;
+  writer.begin(text);
+  std::vector<sim::LineRead> reads;
+  instruments.advance(kBegin_ns + std::llround(seconds * 1e9), reads);
+  for (const sim::LineRead& read : reads) {
+    const auto direction = read.sent ? record::Direction::sent : record::Direction::received;
+    writer.bytes(text, static_cast<std::uint16_t>(read.of), direction, read.time_ns, read.bytes);
+  }
+  record::WholeFile whole(file);
+  whole.write(text);
+  whole.commit();
+}
+
+Mission simulated_mission(std::string_view mission, std::string_view effects, double seconds, std::uint64_t seed) {
+  const navcal::test::TemporaryFolder folder;
+  write_mission(folder / "mission.cap", mission, effects, seconds, seed);
+  return load_mission(folder / "mission.cap", [](double) {});
+}
+
+}  // namespace navcal::gap::test
