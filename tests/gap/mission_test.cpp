@@ -34,7 +34,7 @@ TEST(Mission, SaysWhatItLacks) {
   mission = whole;
   mission.motor.clear();
   EXPECT_NE(mission.shortcoming().find("motor card"), std::string::npos);
-  EXPECT_NE(simulated_mission("identification", "", 10, 1).shortcoming().find("10"), std::string::npos);
+  EXPECT_NE(simulated_mission("identification", "", 10, 1).shortcoming().find("lasts 9."), std::string::npos);
   EXPECT_NE(Mission{}.shortcoming(), "");
 }
 

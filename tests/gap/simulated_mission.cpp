@@ -1,5 +1,6 @@
 #include "tests/gap/simulated_mission.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -44,7 +45,10 @@ void write_mission(const std::filesystem::path& file, std::string_view mission, 
   std::string text;
   writer.begin(text);
   std::vector<sim::LineRead> reads;
-  instruments.advance(kBegin_ns + std::llround(seconds * 1e9), reads);
+  // In short steps: the motion remembers its last seconds only.
+  for (double until_s = 0; until_s < seconds; until_s += 1) {
+    instruments.advance(kBegin_ns + std::llround(std::min(until_s + 1, seconds) * 1e9), reads);
+  }
   for (const sim::LineRead& read : reads) {
     const auto direction = read.sent ? record::Direction::sent : record::Direction::received;
     writer.bytes(text, static_cast<std::uint16_t>(read.of), direction, read.time_ns, read.bytes);
