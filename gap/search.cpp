@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "gap/evidence.h"
+#include "gap/parallel.h"
 
 namespace navcal::gap {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::size_t kLeading = 3;
 /// Against each effect more, beside the choice among all of them: what innovations that are not quite Gaussian
 /// gain by chance.
 constexpr double kCaution = 2;
-constexpr int kIterations = 3;
+constexpr int kIterations = 2, kCurvedIterations = 3;
 
 /// Evidence referred to the nominal vehicle, whatever point it was linearised about.
 class Judge {
@@ -87,7 +88,7 @@ namespace {
 
 /// The set, simulated and linearised about its own estimate.
 Explanation explain(const Set& set, const Replay& replay, const Library& library, const Whitening& whitening,
-                    const Linearised& start, const Priors& priors, unsigned threads) {
+                    const Linearised& start, const Priors& priors) {
   Explanation result;
   result.effects = set;
   result.linear = start;
@@ -95,7 +96,8 @@ Explanation explain(const Set& set, const Replay& replay, const Library& library
   std::vector<Eigen::Index> moved(Library::kBiases);
   std::iota(moved.begin(), moved.end(), Eigen::Index{0});
   moved.insert(moved.end(), members.begin(), members.end());
-  for (int i = 0; i < kIterations; ++i) {
+  const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
+  for (int i = 0; i < (curved ? kCurvedIterations : kIterations); ++i) {
     const Judge judge(result.linear, library, priors);
     const auto posterior = judge.evidence().posterior(members);
     Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
@@ -103,7 +105,7 @@ Explanation explain(const Set& set, const Replay& replay, const Library& library
       const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
       at[j] = std::clamp(posterior.mean[j], unknown.least, unknown.greatest);
     }
-    result.linear = relinearise(replay, library, whitening, result.linear, at, moved, threads);
+    result.linear = relinearise(replay, library, whitening, result.linear, at, members, 1);
   }
   const Judge judge(result.linear, library, priors);
   result.log_odds = judge(set);
@@ -133,27 +135,36 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   }
 
   SearchResult result;
-  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
+  result.best = explain({}, replay, library, whitening, nominal, priors);
   result.best.log_odds = found.scores().at({});
-  const auto consider = [&](const Set& set) {
-    Explanation tried = explain(set, replay, library, whitening, nominal, priors, threads);
+  const auto take = [&](Explanation tried) {
+    const Set& set = tried.effects;
     found.settle(set, tried.log_odds);
     const Judge here(tried.linear, library, priors);
     for (const std::size_t e : held) {
       if (std::find(set.begin(), set.end(), e) != set.end()) continue;
       if (set.size() < kMostEffects) found.guess(with(set, e), here(with(set, e)));
       // One member exchanged: seen from here, where what the others do is known better.
-      for (const std::size_t member : set)
-        found.guess(with(without(set, member), e), here(with(without(set, member), e)));
+      for (const std::size_t member : set) {
+        const Set exchanged = with(without(set, member), e);
+        found.guess(exchanged, here(exchanged));
+      }
     }
     if (tried.log_odds > result.best.log_odds) result.best = std::move(tried);
   };
-  for (const std::size_t effect : held) {
-    if (library.is_curved(effect)) consider({effect});
-  }
   for (std::size_t size = 1; size <= kMostEffects; ++size) {
-    for (const Set& set : found.leading(size, kLeading)) {
-      if (size > 1 || !library.is_curved(set.front())) consider(set);
+    std::vector<Set> sets = found.leading(size, kLeading);
+    for (const std::size_t effect : held) {
+      const bool there = std::find(sets.begin(), sets.end(), Set{effect}) != sets.end();
+      if (size == 1 && library.is_curved(effect) && !there) sets.push_back({effect});
+    }
+    // As many at a time as there are threads: each holds a design of its own.
+    for (std::size_t from = 0; from < sets.size(); from += threads) {
+      std::vector<Explanation> tried(std::min<std::size_t>(threads, sets.size() - from));
+      in_parallel(threads, tried.size(), [&](std::size_t i) {
+        tried[i] = explain(sets[from + i], replay, library, whitening, nominal, priors);
+      });
+      for (Explanation& one : tried) take(std::move(one));
     }
     progress(static_cast<double>(size) / kMostEffects);
   }
