@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <set>
 
 #include "gap/evidence.h"
 #include "gap/parallel.h"
@@ -16,6 +18,7 @@ using Set = std::vector<std::size_t>;
 constexpr std::size_t kMostEffects = 3;
 /// So many sets of each size are simulated again.
 constexpr std::size_t kLeading = 3;
+constexpr std::size_t kSecondThoughts = 6;
 /// Against each effect more, beside the choice among all of them: what innovations that are not quite Gaussian
 /// gain by chance.
 constexpr double kCaution = 2;
@@ -58,7 +61,17 @@ Set without(Set set, std::size_t effect) {
 class Found {
  public:
   void guess(const Set& set, double log_odds) { scores_.try_emplace(set, log_odds); }
-  void settle(const Set& set, double log_odds) { scores_[set] = log_odds; }
+  void settle(const Set& set, double log_odds) {
+    scores_[set] = log_odds;
+    settled_.insert(set);
+  }
+  /// The most probable of all, if nobody has simulated it yet.
+  [[nodiscard]] std::optional<Set> unsettled_leader() const {
+    const auto leader = std::max_element(scores_.begin(), scores_.end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (leader == scores_.end() || settled_.contains(leader->first)) return std::nullopt;
+    return leader->first;
+  }
   [[nodiscard]] std::vector<Set> leading(std::size_t size, std::size_t count) const {
     std::vector<Set> sets;
     for (const auto& [set, score] : scores_) {
@@ -72,6 +85,7 @@ class Found {
 
  private:
   std::map<Set, double> scores_;
+  std::set<Set> settled_;
 };
 
 }  // namespace
@@ -167,6 +181,13 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
       for (Explanation& one : tried) take(std::move(one));
     }
     progress(static_cast<double>(size) / kMostEffects);
+  }
+
+  // What was seen only from another set's place is not answered before it was simulated itself.
+  for (std::size_t i = 0; i < kSecondThoughts; ++i) {
+    const auto leader = found.unsettled_leader();
+    if (!leader) break;
+    take(explain(*leader, replay, library, whitening, nominal, priors));
   }
 
   double total = 0;

@@ -59,17 +59,21 @@ Judgement judge(const Grounds& grounds) {
     return judgement;
   }
   const std::string set = names(grounds.library, best.effects);
-  const Candidate& first = grounds.found.candidates.front();
-  if (first.probability < kProbable) {
+  const auto& candidates = grounds.found.candidates;
+  const auto first = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& candidate) { return candidate.effects == best.effects; });
+  const double probability = first != candidates.end() ? first->probability : 0;
+  if (probability < kProbable) {
     std::string others;
-    for (std::size_t i = 1; i < std::min<std::size_t>(grounds.found.candidates.size(), 3); ++i) {
-      const Candidate& other = grounds.found.candidates[i];
+    for (std::size_t i = 0; i < std::min<std::size_t>(candidates.size(), 3); ++i) {
+      const Candidate& other = candidates[i];
+      if (other.effects == best.effects) continue;
       others += fmt::format("{}{} ({:.2f})", others.empty() ? "" : ", ",
                             other.effects.empty() ? "no effect at all" : names(grounds.library, other.effects),
                             other.probability);
     }
     reasons.push_back(fmt::format("{} is the best candidate, but only with probability {:.2f}; others: {}", set,
-                                  first.probability, others));
+                                  probability, others));
   }
   const double altogether = std::accumulate(grounds.held_out_nats.begin(), grounds.held_out_nats.end(), 0.0);
   const bool worse = std::any_of(grounds.held_out_nats.begin(), grounds.held_out_nats.end(),

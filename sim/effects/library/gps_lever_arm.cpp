@@ -3,20 +3,20 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kParameters{
-    {{"x_m", 0.45, -10, 10}, {"y_m", 0.45, -10, 10}, {"z_m", 0.45, -10, 10}}};
+constexpr std::array<EffectParameter, 2> kParameters{{{"x_m", 0.45, -10, 10}, {"y_m", 0.45, -10, 10}}};
 
 constexpr EffectDescription kDescription{
-    .name = "gps_lever_arm", .equation = "p += R l, v += R (w x l)", .parameters = kParameters, .vector = 3};
+    .name = "gps_lever_arm", .equation = "p += R l, v += R (w x l)", .parameters = kParameters, .vector = 2};
 
-/// The antenna is off the origin by l, in body axes.
-class GpsLeverArm final : public EffectOf<GpsLeverArm, 3> {
+/// The antenna is off the origin by l = (x, y, 0), in body axes.
+class GpsLeverArm final : public EffectOf<GpsLeverArm, 2> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
   void antenna(const Instant& now, AntennaMotion& motion) override {
     const Matrix3 R = R_world_from_body(now.state.euler_rad);
-    add_scaled(motion.position_m, 1, R * vector());
-    add_scaled(motion.velocity_m_s, 1, R * cross(now.state.rate_rad_s, vector()));
+    const Vector3 arm_m{p_[0], p_[1], 0};
+    add_scaled(motion.position_m, 1, R * arm_m);
+    add_scaled(motion.velocity_m_s, 1, R * cross(now.state.rate_rad_s, arm_m));
   }
 };
 

@@ -100,7 +100,7 @@ TEST(ReceiverEffects, LeverArmTurnsWithTheVehicle) {
   state.euler_rad = {0, 0, std::numbers::pi / 2};
   state.rate_rad_s = {0, 0, 0.5};
   AntennaMotion antenna{{10, 20, 0}, {1, 0, 0}};
-  effect_with("gps_lever_arm", {2, 0, 0})->antenna({0, state, 15}, antenna);
+  effect_with("gps_lever_arm", {2, 0})->antenna({0, state, 15}, antenna);
   EXPECT_NEAR(antenna.position_m[0], 10, 1e-12);
   EXPECT_NEAR(antenna.position_m[1], 22, 1e-12);
   EXPECT_NEAR(antenna.velocity_m_s[0], 1 - 0.5 * 2, 1e-12) << "w x l is to starboard: south when heading east";
