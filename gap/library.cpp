@@ -33,8 +33,11 @@ Library::Library(std::span<const std::string> excluded) {
     first_.push_back(static_cast<Eigen::Index>(unknowns_.size()));
     for (std::size_t i = 0; i < description.parameters.size(); ++i) {
       const auto& parameter = description.parameters[i];
-      unknowns_.push_back({effects_.size(), i, parameter.name, parameter.typical, description.step,
-                           parameter.least, parameter.greatest});
+      // Of a lag the tangent: a long secant is another shape, and what a vehicle within tolerance lags would pass
+      // for something else. How a lag of typical size looks is found by linearising again (gap/search.h).
+      const double step = parameter.name == kLag ? kLagStep : description.step;
+      unknowns_.push_back(
+          {effects_.size(), i, parameter.name, parameter.typical, step, parameter.least, parameter.greatest});
     }
     effects_.push_back(std::move(effect));
   }
