@@ -21,7 +21,7 @@ constexpr std::size_t kLeading = 3;
 constexpr std::size_t kSecondThoughts = 6;
 /// Against each effect more, beside the choice among all of them: what innovations that are not quite Gaussian
 /// gain by chance.
-constexpr double kCaution = 2;
+constexpr double kCaution = 5;
 constexpr int kIterations = 2, kCurvedIterations = 3;
 
 /// Evidence referred to the nominal vehicle, whatever point it was linearised about.

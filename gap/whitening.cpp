@@ -149,6 +149,7 @@ Eigen::VectorXd Whitening::operator()(const Innovations& innovations, const Layo
       filtered(innovations.grid.leftCols(kEvidenceChannels), grid_filter, grid_begins(layout)).transpose();
   Eigen::MatrixXd fixes = filtered(innovations.fixes, fix_filter, fix_begins(layout)).transpose();
   const auto whiten = [](Eigen::MatrixXd& errors, const Eigen::MatrixXd& lower) {
+    if (errors.size() == 0) return;  // a mission without fixes
     const Eigen::ArrayXXd present = (errors.array() != 0).cast<double>();
     lower.triangularView<Eigen::Lower>().solveInPlace(errors);
     errors.array() *= present;
