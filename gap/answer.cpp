@@ -106,7 +106,7 @@ void write_gap(const std::vector<Comparison>& compared, const PooledClosure& clo
                        std::string(channel.unit),
                        {std::sqrt(before / n), std::sqrt(after / n), std::sqrt(floor / n), {}, {}}};
     // Of the power: root mean squares do not add.
-    if (before > 1.5 * floor) one.closure.closed = 1 - (after - floor) / (before - floor);
+    if (floor > 0 && before > 1.5 * floor) one.closure.closed = 1 - (after - floor) / (before - floor);
     gap.channels.push_back(std::move(one));
   }
   for (const Comparison& each : compared) {

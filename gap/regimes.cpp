@@ -111,9 +111,9 @@ const std::vector<ReportedChannel>& reported_channels() {
 
 const std::vector<std::string_view>& regimes() {
   static const std::vector<std::string_view> kAll{
-      "constant",      "heading_once", "heading_twice", "turn_rate", "turn_rate_size", "roll",    "pitch",
-      "motor_current", "temperature",  "time",          "depth",     "speed",          "surface", "rudder",
-      "elevator",      "slow",         "fast"};
+      "constant", "heading_once",  "heading_twice", "turn_rate", "turn_rate_size", "roll",
+      "pitch",    "motor_current", "temperature",   "time",      "depth",          "speed",
+      "surface",  "rudder",        "elevator",      "slow",      "fast",           "overall"};
   return kAll;
 }
 

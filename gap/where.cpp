@@ -90,7 +90,7 @@ std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeS
   for (Eigen::Index c = 0; c < followed.rows(); ++c) {
     const auto& channel = reported_channels()[static_cast<std::size_t>(c)];
     for (Eigen::Index k = 0; k < followed.cols(); ++k) {
-      if (!(nulls.mean_square(c, k) > 0)) continue;
+      if (k == overall_regime() || !(nulls.mean_square(c, k) > 0)) continue;
       const double value = followed(c, k);
       WhereEntry entry{
           std::string(channel.name), std::string(regimes()[static_cast<std::size_t>(k)]), value, nulls.floor(c, k),

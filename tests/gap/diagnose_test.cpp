@@ -48,6 +48,10 @@ TEST_F(Diagnose, NamesAnEffectOfWhichItIsToldNothing) {
   ASSERT_TRUE(found.gap.pooled.closed);
   EXPECT_GT(*found.gap.pooled.closed, 0.9);
   EXPECT_TRUE(found.gap.held_out);
+  for (const ChannelClosure& channel : found.gap.channels) {
+    EXPECT_GE(channel.closure.floor, 0) << channel.channel;  // 0: too few fixes in so short a mission
+    EXPECT_LT(channel.closure.floor, 3 * channel.closure.before) << channel.channel;
+  }
 
   const Diagnosis without = diagnosis(a, {b}, {"motor_field"});
   for (const EffectFinding& effect : without.candidates) EXPECT_NE(effect.name, "motor_field");

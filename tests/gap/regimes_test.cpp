@@ -42,6 +42,14 @@ RegimeStatistics nulls(const Course10Hz& course) {
   return RegimeStatistics(all);
 }
 
+TEST(Regimes, TheWholeOfAChannelIsTheLastOfThem) {
+  EXPECT_EQ(regimes().at(static_cast<std::size_t>(overall_regime())), "overall");
+  EXPECT_EQ(static_cast<Eigen::Index>(regimes().size()), overall_regime() + 1);
+  const Eigen::MatrixXd shown = followed(noise(1), circling(), {});
+  ASSERT_EQ(shown.cols(), overall_regime() + 1);
+  EXPECT_NEAR(shown(0, overall_regime()), 0.1 * 180 / 3.14159265, 0.2);  // the heading, in degrees
+}
+
 TEST(Where, NoiseIsNowhere) {
   const Course10Hz course = circling();
   const auto statistics = nulls(course);
