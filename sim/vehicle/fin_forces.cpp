@@ -28,7 +28,7 @@ Vector6 FinForces::operator()(const Vector6& velocity, const Eigen::Vector3d& an
     // The velocity of a point along n is what a force along n at that point takes power from.
     const double along = fin.of_axis.dot(velocity);
     const double across = fin.of_normal.dot(velocity);
-    const double inflow_rad = std::atan2(across, std::max(std::abs(along), kLeastFlow_m_s));
+    const double inflow_rad = std::atan(across / std::max(std::abs(along), kLeastFlow_m_s));
     const double alpha = std::clamp(angles_rad[static_cast<Eigen::Index>(i)] - inflow_rad, -settings_.stall_rad,
                                     settings_.stall_rad);
     const double pressure_N = pressure_kg_m_ * (along * along + across * across);

@@ -1,5 +1,6 @@
 #include "sim/vehicle/hull_forces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,11 +13,11 @@ HullForces::HullForces(const config::HullSettings& hull, const config::WaterSett
                  hull.lift_slope_per_rad),
       lift_at_m_(hull.lift_at_m) {
   const double half_m = hull.length_m / 2;
-  const double dx_m = hull.length_m / (kStrips + 1);
-  for (std::size_t i = 0; i < kStrips; ++i) {
-    const double x_m = static_cast<double>(i + 1) * dx_m - half_m;
-    const double width_m = hull.diameter_m * std::sqrt(1 - std::pow(x_m / half_m, 8));
-    strips_[i] = {x_m, 0.5 * water.density_kg_m3 * hull.cross_flow_drag * width_m * dx_m};
+  const double dx_m = hull.length_m / kStrips;
+  for (Eigen::Index i = 0; i < kStrips; ++i) {
+    x_m_[i] = static_cast<double>(i + 1) * dx_m - half_m;
+    const double width_m = hull.diameter_m * std::sqrt(std::max(0.0, 1 - std::pow(x_m_[i] / half_m, 8)));
+    drag_kg_m_[i] = 0.5 * water.density_kg_m3 * hull.cross_flow_drag * width_m * dx_m;
   }
 }
 
@@ -26,15 +27,14 @@ Vector6 HullForces::operator()(const Vector6& velocity) const {
   double Z = -lift_kg_m_ * std::abs(u) * w;
   double M = -lift_at_m_ * Z;
   double N = lift_at_m_ * Y;
-  for (const Strip& strip : strips_) {
-    const double vl = v + strip.x_m * r;
-    const double wl = w - strip.x_m * q;
-    const double drag = -strip.drag_kg_m * std::sqrt(vl * vl + wl * wl);
-    Y += drag * vl;
-    Z += drag * wl;
-    N += strip.x_m * drag * vl;
-    M -= strip.x_m * drag * wl;
-  }
+  const Strips vl = v + r * x_m_;
+  const Strips wl = w - q * x_m_;
+  const Strips drag = drag_kg_m_ * (vl.square() + wl.square()).sqrt();
+  const Strips across = drag * vl, down = drag * wl;
+  Y -= across.sum();
+  Z -= down.sum();
+  N -= (x_m_ * across).sum();
+  M += (x_m_ * down).sum();
   Vector6 force;
   force << -axial_kg_m_ * std::abs(u) * u, Y, Z, 0, M, N;
   return force;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 
 #include "config/vehicle.h"
 #include "sim/vehicle/body.h"
@@ -20,17 +20,15 @@ class HullForces {
   [[nodiscard]] Vector6 operator()(const Vector6& velocity) const;
 
  private:
-  struct Strip {
-    double x_m;
-    double drag_kg_m;  ///< 1/2 rho Cdc d dx
-  };
-  /// 21 stations, evenly from stern to bow; the two at the ends have no width.
-  static constexpr std::size_t kStrips = 19;
+  /// 21 stations, evenly from stern to bow; the two at the ends have no width, and one of them stands here so that
+  /// the processor can take the strips two at a time.
+  static constexpr Eigen::Index kStrips = 20;
+  using Strips = Eigen::Array<double, kStrips, 1>;
 
   double axial_kg_m_;
   double lift_kg_m_;
   double lift_at_m_;
-  std::array<Strip, kStrips> strips_{};
+  Strips x_m_, drag_kg_m_;  ///< of each strip: where it is, and 1/2 rho Cdc d dx
 };
 
 }  // namespace navcal::sim
