@@ -12,6 +12,7 @@
 #include "cli/simulate_page.h"
 #include "cli/simulate_run.h"
 #include "sim/effects/choice.h"
+#include "sim/recording.h"
 
 namespace navcal::cli {
 namespace {
@@ -25,7 +26,7 @@ void run(const SimulateArguments& arguments) {
   sim::EffectSet effects = simulate_effects(arguments);
   const SimulatedRun run = simulate_motion(arguments, effects);
   std::optional<SimulateHistory> history;
-  if (!arguments.report.empty()) history.emplace(simulated_ports(), run.duration_s);
+  if (!arguments.report.empty()) history.emplace(sim::recording_ports(), run.duration_s);
   write_simulation(arguments, run, effects, history ? &*history : nullptr);
   if (history) {
     write_result(arguments.report, simulate_page(*history, arguments, run, effects));

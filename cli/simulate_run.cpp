@@ -9,7 +9,6 @@
 #include "cli/commands.h"
 #include "cli/interruptible.h"
 #include "cli/progress.h"
-#include "config/load.h"
 #include "record/capture_writer.h"
 #include "record/whole_file.h"
 #include "sim/recording.h"
@@ -23,14 +22,6 @@ constexpr std::int64_t kTruthStep_ns = 10'000'000;
 
 }  // namespace
 
-std::vector<config::PortSettings> simulated_ports() {
-  using protocols::Protocol;
-  return {config::default_port("compass", Protocol::tcm2, 38400),
-          config::default_port("imu", Protocol::imu_card, 57600),
-          config::default_port("gps", Protocol::oncore, 9600),
-          config::default_port("motor", Protocol::motor_card, 19200)};
-}
-
 void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
                       SimulateHistory* history) {
   const Interruptible interruptible;
@@ -39,7 +30,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   std::optional<record::WholeFile> truth;
   if (!arguments.truth.empty()) truth.emplace(arguments.truth);
 
-  record::CaptureWriter writer(simulated_ports());
+  record::CaptureWriter writer(sim::recording_ports());
   std::string text, rows;
   writer.begin(text);
   if (truth) sim::begin_truth(rows);

@@ -1,17 +1,11 @@
 #pragma once
 
-#include <vector>
-
 #include "cli/simulate_arguments.h"
 #include "cli/simulate_history.h"
 #include "cli/simulate_motion.h"
-#include "config/settings.h"
 #include "sim/effects/effect_set.h"
 
 namespace navcal::cli {
-
-/// The ports of a simulated capture, in the order of sim::Instrument.
-[[nodiscard]] std::vector<config::PortSettings> simulated_ports();
 
 /// Writes the capture, and the truth if it is wanted: both whole or not at all. `history` may be null. Throws
 /// Failure, std::system_error.

@@ -8,18 +8,15 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "gap/bank_file.h"
 #include "record/checksum.h"
 #include "record/whole_file.h"
 
 namespace navcal::gap {
 namespace {
 
-using nlohmann::json;
-
-constexpr int kFormat = 2;
 constexpr std::string_view kPrefix = "null-bank-";
 constexpr double kWindow_s = 10;
 
@@ -55,57 +52,11 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(square / static_cast<double>(shorter));
 }
 
-json numbers(const Eigen::MatrixXd& matrix) {
-  std::vector<double> values(matrix.data(), matrix.data() + matrix.size());
-  return {{"rows", matrix.rows()}, {"cols", matrix.cols()}, {"values", std::move(values)}};
-}
-
-Eigen::MatrixXd matrix(const json& from) {
-  const auto rows = from.at("rows").get<Eigen::Index>(), cols = from.at("cols").get<Eigen::Index>();
-  const auto values = from.at("values").get<std::vector<double>>();
-  if (rows < 0 || cols < 0 || static_cast<Eigen::Index>(values.size()) != rows * cols) {
-    throw std::invalid_argument("a matrix of another size than it says");
-  }
-  return Eigen::Map<const Eigen::MatrixXd>(values.data(), rows, cols);
-}
-
-json bank_json(const NullBank& bank) {
-  return {{"missions", bank.missions},
-          {"seed", bank.seed},
-          {"seconds", bank.seconds},
-          {"grid_filter", numbers(bank.whitening.grid_filter)},
-          {"fix_filter", numbers(bank.whitening.fix_filter)},
-          {"grid_factor", numbers(bank.whitening.grid_factor)},
-          {"fix_factor", numbers(bank.whitening.fix_factor)},
-          {"gram", numbers(bank.gram)},
-          {"scores", numbers(bank.scores)},
-          {"powers", bank.powers},
-          {"followed_mean", numbers(bank.followed.mean_square)},
-          {"followed_variance", numbers(bank.followed.variance)}};
-}
-
-NullBank bank_from(const json& from) {
-  NullBank bank;
-  bank.missions = from.at("missions");
-  bank.seed = from.at("seed");
-  bank.seconds = from.at("seconds");
-  bank.whitening.grid_filter = matrix(from.at("grid_filter"));
-  bank.whitening.fix_filter = matrix(from.at("fix_filter"));
-  bank.whitening.grid_factor = matrix(from.at("grid_factor"));
-  bank.whitening.fix_factor = matrix(from.at("fix_factor"));
-  bank.gram = matrix(from.at("gram"));
-  bank.scores = matrix(from.at("scores"));
-  bank.powers = from.at("powers").get<std::vector<double>>();
-  bank.followed.mean_square = matrix(from.at("followed_mean"));
-  bank.followed.variance = matrix(from.at("followed_variance"));
-  return bank;
-}
-
 }  // namespace
 
 BankCache::BankCache(std::filesystem::path folder, const config::VehicleSettings& vehicle, const Library& library)
-    : folder_(std::move(folder)) {
-  model_ = fmt::format("{} {}", kFormat, NAVCAL_VERSION);
+    : folder_(std::move(folder)), unknowns_(static_cast<Eigen::Index>(library.unknowns().size())) {
+  model_ = NAVCAL_VERSION;
   static_assert(std::is_trivially_copyable_v<config::VehicleSettings>);
   std::array<char, sizeof(config::VehicleSettings)> bytes{};
   std::memcpy(bytes.data(), &vehicle, bytes.size());
@@ -125,20 +76,14 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& 
   double best_distance = 1;
   for (const auto& file : std::filesystem::directory_iterator(folder_, ignored)) {
     if (!file.path().filename().string().starts_with(kPrefix)) continue;
-    try {
-      std::ifstream stream(file.path());
-      const json bank = json::parse(stream);
-      if (bank.at("model") != model_ || bank.at("bank").at("missions") < options.missions * 9 / 10 ||
-          bank.at("bank").at("seed") != options.seed) {
-        continue;
-      }
-      const double apart = distance(wanted, bank.at("fingerprint").get<std::vector<double>>());
-      if (apart >= best_distance) continue;
-      best = bank_from(bank.at("bank"));
-      best_distance = apart;
-    } catch (const std::exception&) {
-      // Not a bank, or half of one: one is made anew.
-    }
+    std::ifstream stream(file.path());
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    auto kept = read_bank(text, model_, unknowns_);
+    if (!kept || kept->bank.missions < options.missions * 9 / 10 || kept->bank.seed != options.seed) continue;
+    const double apart = distance(wanted, kept->fingerprint);
+    if (!(apart < best_distance)) continue;
+    best = std::move(kept->bank);
+    best_distance = apart;
   }
   return best;
 }
@@ -146,8 +91,7 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& 
 void BankCache::keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const {
   if (folder_.empty()) return;
   std::filesystem::create_directories(folder_);
-  const json all{{"model", model_}, {"fingerprint", fingerprint(replay, course)}, {"bank", bank_json(bank)}};
-  const std::string text = all.dump();
+  const std::string text = bank_text({fingerprint(replay, course), bank}, model_);
   record::WholeFile file(folder_ / fmt::format("{}{:08x}.json", kPrefix, record::crc32c(text)));
   file.write(text);
   file.commit();

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "config/vehicle.h"
 #include "gap/innovations.h"
@@ -27,6 +28,7 @@ class BankCache {
  private:
   std::filesystem::path folder_;
   std::string model_;  ///< what else must be the same
+  Eigen::Index unknowns_ = 0;
 };
 
 }  // namespace navcal::gap

@@ -2,8 +2,15 @@
 
 #include "gap/library.h"
 #include "gap/replay.h"
+#include "gap/whitening.h"
 
 namespace navcal::gap {
+
+/// These values of all unknowns with the gyros' biases that fit them, by one step of least squares: the replay is
+/// nearly linear in them.
+[[nodiscard]] Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library,
+                                                 const Whitening& whitening, Eigen::VectorXd values,
+                                                 unsigned threads);
 
 /// The values of all unknowns at which a diagnosis begins: the gyros' biases by least squares, no effects.
 [[nodiscard]] Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, unsigned threads);

@@ -1,12 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numbers>
 #include <thread>
 
-#include "gap/advice.h"
 #include "gap/answer.h"
 #include "gap/bank_cache.h"
 #include "gap/biases.h"
@@ -107,7 +102,7 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   // Members alone go into the missions held out; all that was found, small as it is, is taken out of what is left.
   Eigen::VectorXd members = Eigen::VectorXd::Zero(found.best.mean.size());
   for (const Eigen::Index j : members_of(library_, found.best.effects)) members[j] = found.best.mean[j];
-  const Comparison here = compare(*a.replay, library_, a.bank, members, threads_);
+  const Comparison here = compare(*a.replay, library_, a.bank, a.at, members, threads_);
   const Eigen::MatrixXd was = followed(here.nominal, a.course, here.fix_times_s);
   const Innovations rest = a.replay->run(library_.model(found.best.mean));
   const Eigen::MatrixXd is = followed(rest, here.course, here.fix_times_s);
@@ -119,7 +114,8 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   std::vector<double> nats;
   for (std::size_t i = 0; i < holdouts.size(); ++i) {
     progress_("missions held out", static_cast<double>(i) / static_cast<double>(holdouts.size()));
-    compared.push_back(compare(*holdouts[i]->replay, library_, holdouts[i]->bank, members, threads_));
+    compared.push_back(
+        compare(*holdouts[i]->replay, library_, holdouts[i]->bank, holdouts[i]->at, members, threads_));
     nats.push_back(compared.back().gain_nats());
   }
   const bool blocks = compared.empty();

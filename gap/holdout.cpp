@@ -1,10 +1,9 @@
 #include "gap/holdout.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "gap/biases.h"
 
@@ -24,16 +23,10 @@ struct Fitted {
 
 Fitted fitted(const Replay& replay, const Library& library, const Whitening& whitening, Eigen::VectorXd values,
               unsigned threads, Course10Hz* course) {
-  const Layout layout = layout_of(replay);
-  constexpr std::array<Eigen::Index, Library::kBiases> kColumns{0, 1, 2, 3};
-  const Linearised linear =
-      relinearise(replay, library, whitening, {values, {}, {}, {}, {}}, values, kColumns, threads);
-  Eigen::Matrix4d gram = linear.gram.topLeftCorner<Library::kBiases, Library::kBiases>();
-  gram.diagonal().array() += 1e-9 * gram.trace() + 1e-12;
-  values.head<Library::kBiases>() += gram.llt().solve(linear.score.head<Library::kBiases>());
+  values = with_biases_fitted(replay, library, whitening, std::move(values), threads);
   Fitted result;
   result.innovations = replay.run(library.model(values), course);
-  result.white = whitening(result.innovations, layout);
+  result.white = whitening(result.innovations, layout_of(replay));
   return result;
 }
 
@@ -55,9 +48,8 @@ std::vector<double> blocks(const Eigen::VectorXd& white, const Layout& layout) {
 }  // namespace
 
 Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
-                   const Eigen::VectorXd& effects, unsigned threads) {
+                   const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects, unsigned threads) {
   const Layout layout = layout_of(replay);
-  Eigen::VectorXd nominal = with_biases_found(replay, library, threads);
   Eigen::VectorXd improved = effects;
   improved.head<Library::kBiases>() = nominal.head<Library::kBiases>();
   Comparison result;
@@ -70,7 +62,7 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
   result.after_blocks = blocks(after.white, layout);
   result.nominal = std::move(before.innovations);
   result.improved = std::move(after.innovations);
-  for (const FixReading& fix : replay.mission().fixes) result.fix_times_s.push_back(fix.time_s);
+  result.fix_times_s = replay.mission().fix_times_s();
   result.channel_floor = bank.followed.mean_square.col(overall_regime()).cwiseSqrt();
   double square = 0;
   for (const double power : bank.powers) result.floor += power / static_cast<double>(bank.powers.size());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "gap/library.h"
@@ -25,8 +24,9 @@ struct Comparison {
   [[nodiscard]] double gain_nats() const { return 0.5 * (before - after) * measurements; }
 };
 
+/// `nominal`: the values of all unknowns without effects, by with_biases_found().
 [[nodiscard]] Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
-                                 const Eigen::VectorXd& effects, unsigned threads);
+                                 const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects, unsigned threads);
 
 /// Of several missions together: 1 - (after - floor) / (before - floor), with its 95 % interval by a bootstrap of
 /// the blocks and of what is known of the floors.

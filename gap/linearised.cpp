@@ -20,7 +20,7 @@ Eigen::VectorXd column(const Replay& replay, const Library& library, const White
 }  // namespace
 
 Layout layout_of(const Replay& replay) {
-  Layout layout{replay.intervals(), 0, {}};
+  Layout layout{replay.intervals(), {}};
   for (const FixReading& fix : replay.mission().fixes) layout.fix_numbers.push_back(fix.number);
   return layout;
 }

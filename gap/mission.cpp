@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "pipeline/local_plane.h"
 #include "record/recording.h"
@@ -33,6 +32,12 @@ void set_in_order(std::vector<Reading>& readings, const std::vector<std::int64_t
 }
 
 }  // namespace
+
+std::vector<double> Mission::fix_times_s() const {
+  std::vector<double> times_s;
+  for (const FixReading& fix : fixes) times_s.push_back(fix.time_s);
+  return times_s;
+}
 
 std::string Mission::shortcoming() const {
   if (card.empty()) return "no inertial card in the recording: nothing carries the motion from sample to sample";

@@ -57,6 +57,7 @@ struct Mission {
   double duration_s = 0;
   std::vector<std::string> remarks;
 
+  [[nodiscard]] std::vector<double> fix_times_s() const;
   /// Why nothing can be said from it ("no inertial card: ..."); empty: something can.
   [[nodiscard]] std::string shortcoming() const;
 };

@@ -27,12 +27,6 @@ struct Null {
   std::optional<Innovations> noise;  ///< by its own true parameters
 };
 
-std::vector<double> fix_times(const Mission& mission) {
-  std::vector<double> times_s;
-  for (const FixReading& fix : mission.fixes) times_s.push_back(fix.time_s);
-  return times_s;
-}
-
 /// Of the shape of another mission that was steered alike: cut off, or filled with what was not measured.
 Innovations fitted_into(const Innovations& innovations, const Layout& layout) {
   const auto shaped = [](const Eigen::MatrixXd& from, Eigen::Index rows) {
@@ -68,7 +62,7 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
       const Replay replay(mission, vehicle);
       Null null;
       null.layout = layout_of(replay);
-      null.fix_times_s = fix_times(mission);
+      null.fix_times_s = mission.fix_times_s();
       null.nominal = replay.run(Model{}, &null.course);
       if (i < kWhiteningMissions) null.noise = replay.run(truth);
       nulls[i] = std::move(null);

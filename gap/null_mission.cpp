@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/load.h"
 #include "gap/shadow_helm.h"
 #include "sim/effects/effect_table.h"
 #include "sim/noise.h"
@@ -20,12 +19,8 @@ constexpr std::int64_t kSomeSecond_ns = 1'767'225'600 * kSecond_ns;
 constexpr int kPoorFixes = 8;
 
 config::Settings simulated_settings() {
-  using protocols::Protocol;
   config::Settings settings;
-  settings.ports = {config::default_port("compass", Protocol::tcm2, 38400),
-                    config::default_port("imu", Protocol::imu_card, 57600),
-                    config::default_port("gps", Protocol::oncore, 9600),
-                    config::default_port("motor", Protocol::motor_card, 19200)};
+  settings.ports = sim::recording_ports();
   return samples_only(settings);
 }
 

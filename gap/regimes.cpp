@@ -274,7 +274,10 @@ double RegimeStatistics::p_value(Eigen::Index channel, Eigen::Index regime, doub
   constexpr double kHeavier = 1.5;
   const double spread = kHeavier * variance(channel, regime);
   if (!(mean > 0) || !(spread > 0) || !(value > 0)) return 1;
-  const boost::math::gamma_distribution<double> gamma(mean * mean / spread, spread / mean);
+  // Nulls that hardly differ leave a distribution so narrow that its tail cannot be reckoned; nor does it matter.
+  constexpr double kNarrowest = 1e6;
+  const double shape = std::min(mean * mean / spread, kNarrowest);
+  const boost::math::gamma_distribution<double> gamma(shape, mean / shape);
   return boost::math::cdf(boost::math::complement(gamma, value * value));
 }
 

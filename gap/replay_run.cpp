@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "calib/correction.h"
+#include "nav/angles.h"
 #include "sim/rotation.h"
 
 namespace navcal::gap {
@@ -25,35 +27,18 @@ constexpr double kSubmerged_s = 10;
 Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
-
 Eigen::Vector3d euler_rates(const Eigen::Vector3d& euler_rad, const Eigen::Vector3d& rate_rad_s) {
   const double cf = std::cos(euler_rad[0]), sf = std::sin(euler_rad[0]);
   const double yaw = (sf * rate_rad_s[1] + cf * rate_rad_s[2]) / std::cos(euler_rad[1]);
   return {rate_rad_s[0] + std::sin(euler_rad[1]) * yaw, cf * rate_rad_s[1] - sf * rate_rad_s[2], yaw};
 }
 
-/// Of a field levelled by a tilt, clockwise from magnetic north (Mach 2003, eq. 2.2).
-double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
-  const double sf = std::sin(roll_rad), cf = std::cos(roll_rad), st = std::sin(pitch_rad),
-               ct = std::cos(pitch_rad);
-  return std::atan2(field[2] * sf - field[1] * cf, field[0] * ct + field[1] * sf * st + field[2] * cf * st);
-}
+/// About x, y and z of what the four gyros say; both about z count alike.
+Vector3 about_axes(const std::array<double, 4>& gyros) { return {gyros[0], gyros[2], (gyros[1] + gyros[3]) / 2}; }
 
-sim::State between(const sim::State& a, const sim::State& b, double part) {
-  const auto mean = [part](const Vector3& from, const Vector3& to) {
-    Vector3 result{};
-    for (std::size_t i = 0; i < 3; ++i) result[i] = from[i] + part * (to[i] - from[i]);
-    return result;
-  };
-  sim::State state = a;
-  state.position_m = mean(a.position_m, b.position_m);
-  state.euler_rad = mean(a.euler_rad, b.euler_rad);
-  state.velocity_body_m_s = mean(a.velocity_body_m_s, b.velocity_body_m_s);
-  state.rate_rad_s = mean(a.rate_rad_s, b.rate_rad_s);
-  state.specific_force_m_s2 = mean(a.specific_force_m_s2, b.specific_force_m_s2);
-  state.motor_current_A = a.motor_current_A + part * (b.motor_current_A - a.motor_current_A);
-  return state;
+/// Magnetic, of the compass's own field and tilt.
+double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
+  return calib::levelled_heading(vector_of(field), roll_rad, pitch_rad);
 }
 
 }  // namespace
@@ -113,9 +98,13 @@ sim::Instant ReplayRun::instant(double time_s, const sim::State& state) const {
   return {time_s, state, electronics_C_};
 }
 
-void ReplayRun::complete(sim::State& state, double time_s) {
-  const auto row = static_cast<std::size_t>(
+std::size_t ReplayRun::row_at(double time_s) const {
+  return static_cast<std::size_t>(
       std::clamp(time_s / ActuatorTrack::kStep_s, 0.0, static_cast<double>(in_.actuators.size() - 1)));
+}
+
+void ReplayRun::complete(sim::State& state, double time_s) {
+  const std::size_t row = row_at(time_s);
   const sim::Controls now{vector_of(linked_fins_rad_[row]), in_.actuators[row].shaft_rps};
   const auto acceleration = in_.vehicle.acceleration(body_, now, influences_);
   state.position_m = array_of(body_.position_m);
@@ -141,14 +130,10 @@ void ReplayRun::begin(const CardReading& reading) {
   body_ = {};
   body_.euler_rad = {word.roll_rad, word.pitch_rad, heading_rad + variation_rad};
   body_.position_m.z() = reading.depth_m;
-  const auto row = static_cast<std::size_t>(
-      std::clamp(reading.time_s / ActuatorTrack::kStep_s, 0.0, static_cast<double>(in_.actuators.size() - 1)));
   constexpr double kAdvance_m = 0.087;  // a turn of the shaft, at a steady speed
-  body_.velocity[0] = kAdvance_m * in_.actuators[row].shaft_rps;
-  for (std::size_t i = 0; i < 3; ++i) gyro_said_rad_s_[i] = 0;
-  gyro_said_rad_s_ = {reading.gyro_rad_s[0], reading.gyro_rad_s[2],
-                      (reading.gyro_rad_s[1] + reading.gyro_rad_s[3]) / 2};
-  gyro_error_rad_s_ = {bias_rad_s_[0], bias_rad_s_[2], (bias_rad_s_[1] + bias_rad_s_[3]) / 2};
+  body_.velocity[0] = kAdvance_m * in_.actuators[row_at(reading.time_s)].shaft_rps;
+  gyro_said_rad_s_ = about_axes(reading.gyro_rad_s);
+  gyro_error_rad_s_ = about_axes(bias_rad_s_);
   body_.velocity.tail<3>() = vector_of(gyro_said_rad_s_) - vector_of(gyro_error_rad_s_);
   if (!in_.electronics_C.empty())
     electronics_C_ = in_.electronics_C[std::min(next_word_, in_.electronics_C.size() - 1)];
@@ -172,7 +157,7 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
 void ReplayRun::carry(const CardReading& to) {
   const double from_s = moments_.back().time_s;
   const double span_s = to.time_s - from_s;
-  const Vector3 said{to.gyro_rad_s[0], to.gyro_rad_s[2], (to.gyro_rad_s[1] + to.gyro_rad_s[3]) / 2};
+  const Vector3 said = about_axes(to.gyro_rad_s);
   Vector3 rate{};
   for (std::size_t i = 0; i < 3; ++i) rate[i] = (gyro_said_rad_s_[i] + said[i]) / 2 - gyro_error_rad_s_[i];
   gyro_said_rad_s_ = said;
@@ -190,8 +175,8 @@ sim::State ReplayRun::past(double time_s) const {
   if (later == moments_.begin()) return moments_.front().predicted;
   if (later == moments_.end()) return moments_.back().predicted;
   const Moment& earlier = *std::prev(later);
-  return between(earlier.corrected, later->predicted,
-                 (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
+  return sim::between(earlier.corrected, later->predicted,
+                      (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
 }
 
 ReplayRun::Instruments ReplayRun::card(double time_s, const sim::State& state) {
@@ -266,9 +251,9 @@ void ReplayRun::take_word(const CompassReading& reading, const sim::State& state
   feel(reading.time_s, state);
   sim::Tilt said = tilt_;
   effects_.tilt_said(instant(reading.time_s, state), said);
-  const double heading_missed =
-      wrapped(reading.heading_rad.value_or(heading_of(reading.field_uT, reading.roll_rad, reading.pitch_rad)) -
-              heading_of(field_uT_, said.roll_rad, said.pitch_rad));
+  const double heading_missed = nav::wrapped(
+      reading.heading_rad.value_or(heading_of(reading.field_uT, reading.roll_rad, reading.pitch_rad)) -
+      heading_of(field_uT_, said.roll_rad, said.pitch_rad));
   const double roll_missed = reading.roll_rad - said.roll_rad, pitch_missed = reading.pitch_rad - said.pitch_rad;
   const double time_s = reading.time_s + in_.compass_shift_s;
   for (Eigen::Index i = 0; i < 3; ++i) {

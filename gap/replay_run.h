@@ -40,6 +40,7 @@ class ReplayRun {
     sim::State corrected;  ///< after
   };
 
+  [[nodiscard]] std::size_t row_at(double time_s) const;
   void begin(const CardReading& reading);
   void link_fins();
   /// Means of the linked fins and the shaft over a time, by their integrals.

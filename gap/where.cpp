@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <string_view>
 
 namespace navcal::gap {
@@ -61,7 +61,7 @@ struct Driver {
   double per_si;
   const std::vector<double> Course10Hz::*values;
 };
-constexpr double kDegrees = 57.295779513082320877;
+constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr Driver kDrivers[] = {
     {"heading_once", "heading", "deg", kDegrees, &Course10Hz::heading_rad},
     {"heading_twice", "heading", "deg", kDegrees, &Course10Hz::heading_rad},

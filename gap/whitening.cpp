@@ -163,11 +163,6 @@ Eigen::VectorXd Whitening::operator()(const Innovations& innovations, const Layo
   return all;
 }
 
-Eigen::Index Whitening::channel_of(Eigen::Index row, const Layout& layout) {
-  const Eigen::Index grid = layout.intervals * kEvidenceChannels;
-  return row < grid ? row % kEvidenceChannels : kEvidenceChannels + (row - grid) % kFixChannels;
-}
-
 Eigen::Index Whitening::count(const Eigen::VectorXd& white) { return (white.array() != 0).count(); }
 
 }  // namespace navcal::gap

@@ -11,7 +11,6 @@ namespace navcal::gap {
 /// What a mission's innovations look like apart from their numbers.
 struct Layout {
   Eigen::Index intervals = 0;
-  double begin_s = 0;
   std::vector<int> fix_numbers;  ///< since surfacing, of each fix
 };
 
@@ -33,8 +32,6 @@ class Whitening {
   /// All channels of all intervals, then those of all fixes. What was not measured, and the time in which the
   /// estimator settles, are zero.
   [[nodiscard]] Eigen::VectorXd operator()(const Innovations& innovations, const Layout& layout) const;
-  /// Which channel a row of the answer is: Channel on the grid, kEvidenceChannels + FixChannel at fixes.
-  [[nodiscard]] static Eigen::Index channel_of(Eigen::Index row, const Layout& layout);
   /// How many numbers of an answer are measurements.
   [[nodiscard]] static Eigen::Index count(const Eigen::VectorXd& white);
 

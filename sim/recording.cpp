@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "config/load.h"
 #include "protocols/oncore_command.h"
 #include "sim/imu_card.h"
 #include "sim/motor_card.h"
@@ -45,6 +46,14 @@ MotorCard::Options motor_options(bool noise) {
 }
 
 }  // namespace
+
+std::vector<config::PortSettings> recording_ports() {
+  using protocols::Protocol;
+  return {config::default_port("compass", Protocol::tcm2, 38400),
+          config::default_port("imu", Protocol::imu_card, 57600),
+          config::default_port("gps", Protocol::oncore, 9600),
+          config::default_port("motor", Protocol::motor_card, 19200)};
+}
 
 Recording::Recording(const Options& options, const Motion& motion)
     : effects_(options.effects != nullptr ? *options.effects : none_) {

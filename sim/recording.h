@@ -4,10 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "config/settings.h"
 #include "sim/host_line.h"
 #include "sim/state.h"
 
 namespace navcal::sim {
+
+/// The ports of a recording, in the order of Instrument.
+[[nodiscard]] std::vector<config::PortSettings> recording_ports();
 
 /// The four instruments from power-on, each on its line, as a host records them. Nothing has to be said to them:
 /// the compass is set up to send all it has, and the receiver is asked for its position every second in the first

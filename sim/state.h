@@ -28,6 +28,9 @@ struct State {
   double water_temperature_C = 15;
 };
 
+/// Between two instants near each other, linearly; what only changes in jumps is that of `a`.
+[[nodiscard]] State between(const State& a, const State& b, double part);
+
 /// Where the vehicle is, at any time and in any order; the devices know nothing else of it.
 class Motion {
  public:

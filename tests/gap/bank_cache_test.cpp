@@ -4,26 +4,12 @@
 
 #include <fstream>
 
+#include "tests/gap/made_up_bank.h"
 #include "tests/gap/simulated_mission.h"
 #include "tests/support/temporary_folder.h"
 
 namespace navcal::gap {
 namespace {
-
-/// A bank of the right shapes that nobody simulated.
-NullBank made_up(const Library& library) {
-  NullBank bank;
-  bank.missions = 20;
-  bank.seed = 1;
-  bank.seconds = 3;
-  bank.whitening = Whitening::nominal();
-  const auto n = static_cast<Eigen::Index>(library.unknowns().size());
-  bank.gram = Eigen::MatrixXd::Identity(n, n);
-  bank.scores = Eigen::MatrixXd::Random(n, 20);
-  bank.powers.assign(20, 1.0625);
-  bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(2, 3);
-  return bank;
-}
 
 class BankCacheTest : public testing::Test {
  protected:
@@ -40,7 +26,7 @@ class BankCacheTest : public testing::Test {
 TEST_F(BankCacheTest, GivesBackWhatItWasGiven) {
   const BankCache cache(folder_ / "banks", {}, library_);
   EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
-  const NullBank bank = made_up(library_);
+  const NullBank bank = test::made_up_bank(library_);
   cache.keep(replay_, course_, bank);
   const auto found = cache.find(replay_, course_, {20, 1, 1});
   ASSERT_TRUE(found);
@@ -51,7 +37,7 @@ TEST_F(BankCacheTest, GivesBackWhatItWasGiven) {
 
 TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, made_up(library_));
+  cache.keep(replay_, course_, test::made_up_bank(library_));
   EXPECT_FALSE(cache.find(replay_, course_, {20, 2, 1}));
   EXPECT_FALSE(cache.find(replay_, course_, {100, 1, 1}));
   config::VehicleSettings heavier;
@@ -66,7 +52,7 @@ TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
 
 TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, made_up(library_));
+  cache.keep(replay_, course_, test::made_up_bank(library_));
   const Mission again = test::simulated_mission("identification", "[hard_iron]\nx_uT = 2\n", 60, 9);
   const Replay replay(again, {});
   Course10Hz course;
@@ -76,7 +62,7 @@ TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
 
 TEST_F(BankCacheTest, FilesThatAreNoBanksArePassedOver) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, made_up(library_));
+  cache.keep(replay_, course_, test::made_up_bank(library_));
   std::filesystem::path bank;
   for (const auto& file : std::filesystem::directory_iterator(folder_.path())) bank = file.path();
   std::ifstream stream(bank);

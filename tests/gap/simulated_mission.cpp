@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "config/load.h"
 #include "config/mission_file.h"
 #include "record/capture_writer.h"
 #include "record/whole_file.h"
@@ -23,7 +22,6 @@ constexpr std::int64_t kBegin_ns = 1'767'225'600'000'000'000;
 
 void write_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
                    double seconds, std::uint64_t seed) {
-  using protocols::Protocol;
   sim::EffectSet set(kBegin_ns);
   std::vector<config::Problem> problems;
   sim::add_effects(effects, set, problems);
@@ -38,10 +36,7 @@ void write_mission(const std::filesystem::path& file, std::string_view mission, 
   options.seed = seed;
   options.effects = &set;
   sim::Recording instruments(options, motion);
-  record::CaptureWriter writer({config::default_port("compass", Protocol::tcm2, 38400),
-                                config::default_port("imu", Protocol::imu_card, 57600),
-                                config::default_port("gps", Protocol::oncore, 9600),
-                                config::default_port("motor", Protocol::motor_card, 19200)});
+  record::CaptureWriter writer(sim::recording_ports());
   std::string text;
   writer.begin(text);
   std::vector<sim::LineRead> reads;

@@ -1,0 +1,61 @@
+// Any bytes as a null bank's file, or a good one in which some are changed: nothing, or a bank that can be used.
+#include "gap/bank_file.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "gap/regimes.h"
+#include "tests/fuzz/source.h"
+
+namespace {
+
+using namespace navcal::gap;
+
+constexpr Eigen::Index kUnknowns = 5;
+
+std::string good_text() {
+  NullBank bank;
+  bank.missions = 3;
+  bank.seed = 1;
+  bank.seconds = 2.5;
+  bank.whitening = Whitening::nominal();
+  bank.whitening.grid_filter = Eigen::MatrixXd::Constant(2, kEvidenceChannels, 0.25);
+  bank.gram = Eigen::MatrixXd::Identity(kUnknowns, kUnknowns);
+  bank.scores = Eigen::MatrixXd::Ones(kUnknowns, bank.missions);
+  bank.powers.assign(3, 1.0625);
+  bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(
+      static_cast<Eigen::Index>(reported_channels().size()), static_cast<Eigen::Index>(regimes().size()));
+  return bank_text({{1, 2, 3}, bank}, "model");
+}
+
+void use(const NullBank& bank) {
+  Innovations innovations;
+  innovations.grid = Eigen::MatrixXd::Ones(300, kChannels);
+  innovations.fixes = Eigen::MatrixXd::Ones(2, kFixChannels);
+  const Eigen::VectorXd white = bank.whitening(innovations, {300, {0, 1}});
+  if (white.size() != 300 * kEvidenceChannels + 2 * kFixChannels) std::abort();
+  if ((bank.gram * bank.scores).cols() != static_cast<Eigen::Index>(bank.powers.size())) std::abort();
+  for (Eigen::Index c = 0; c < bank.followed.mean_square.rows(); ++c) {
+    for (Eigen::Index k = 0; k < bank.followed.mean_square.cols(); ++k) {
+      const double p = bank.followed.p_value(c, k, 1);
+      if (!(p >= 0 && p <= 1)) std::abort();
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::string kGood = good_text();
+  if (const auto kept = read_bank({reinterpret_cast<const char*>(data), size}, "model", kUnknowns))
+    use(kept->bank);
+
+  navcal::fuzz::Source source({data, size});
+  std::string text = kGood;
+  for (int changes = source.take<std::uint8_t>() % 8; changes > 0; --changes) {
+    text[source.take<std::uint32_t>() % text.size()] = static_cast<char>(source.take<std::uint8_t>());
+  }
+  if (const auto kept = read_bank(text, "model", kUnknowns)) use(kept->bank);
+  return 0;
+}

@@ -1,0 +1,22 @@
+#include "tests/gap/made_up_bank.h"
+
+#include "gap/regimes.h"
+
+namespace navcal::gap::test {
+
+NullBank made_up_bank(const Library& library) {
+  NullBank bank;
+  bank.missions = 20;
+  bank.seed = 1;
+  bank.seconds = 3;
+  bank.whitening = Whitening::nominal();
+  const auto n = static_cast<Eigen::Index>(library.unknowns().size());
+  bank.gram = Eigen::MatrixXd::Identity(n, n);
+  bank.scores = Eigen::MatrixXd::Random(n, 20);
+  bank.powers.assign(20, 1.0625);
+  bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(
+      static_cast<Eigen::Index>(reported_channels().size()), static_cast<Eigen::Index>(regimes().size()));
+  return bank;
+}
+
+}  // namespace navcal::gap::test
