@@ -139,22 +139,37 @@ struct Tally : trial::Sink {
   std::array<double, 2> turned{}, pitch_rad{};
 };
 
-TEST(GapTrialMissions, TheUsualOnesTurnBothWaysPitchBothWaysAndFindFixes) {
-  for (const auto& [kind, minutes, turns, least_fixes_s] :
-       {std::tuple{MissionKind::usual, 10, 5.0, 120.0}, {MissionKind::brief, 3, 1.0, 50.0}}) {
-    for (const trial::Mission& mission : trial_missions(kind, minutes)) {
-      Tally tally;
-      EXPECT_EQ(mission.duration_s, 60.0 * minutes);
-      EXPECT_LT(mission.orders.back().from_s, mission.duration_s);
-      ASSERT_FALSE(trial::run(mission, {}, 1, tally));
-      for (const double turned : tally.turned) EXPECT_GT(turned, turns * 2 * M_PI);
-      EXPECT_LT(tally.pitch_rad[0], -0.35);
-      EXPECT_GT(tally.pitch_rad[1], 0.35);
-      EXPECT_GT(tally.deepest_m, 2);
-      EXPECT_GT(tally.fixes_s, least_fixes_s);
-    }
-  }
+struct Excitation {
+  MissionKind kind;
+  int minutes;
+  std::size_t number;
+  double least_turns, least_fixes_s;
+};
+class GapTrialExcitation : public testing::TestWithParam<Excitation> {};
+
+TEST_P(GapTrialExcitation, TurnsBothWaysPitchesBothWaysAndFindsFixes) {
+  const Excitation& wanted = GetParam();
+  const trial::Mission mission = trial_missions(wanted.kind, wanted.minutes).at(wanted.number);
+  Tally tally;
+  EXPECT_EQ(mission.duration_s, 60.0 * wanted.minutes);
+  EXPECT_LT(mission.orders.back().from_s, mission.duration_s);
+  ASSERT_FALSE(trial::run(mission, {}, 1, tally));
+  for (const double turned : tally.turned) EXPECT_GT(turned, wanted.least_turns * 2 * M_PI);
+  EXPECT_LT(tally.pitch_rad[0], -0.35);
+  EXPECT_GT(tally.pitch_rad[1], 0.35);
+  EXPECT_GT(tally.deepest_m, 2);
+  EXPECT_GT(tally.fixes_s, wanted.least_fixes_s);
 }
+
+// A mission each, so that none takes long under sanitizers.
+INSTANTIATE_TEST_SUITE_P(Usual, GapTrialExcitation,
+                         testing::Values(Excitation{MissionKind::usual, 10, 0, 5, 120},
+                                         Excitation{MissionKind::usual, 10, 1, 5, 120},
+                                         Excitation{MissionKind::usual, 10, 2, 5, 120}));
+INSTANTIATE_TEST_SUITE_P(Brief, GapTrialExcitation,
+                         testing::Values(Excitation{MissionKind::brief, 3, 0, 1, 50},
+                                         Excitation{MissionKind::brief, 3, 1, 1, 50},
+                                         Excitation{MissionKind::brief, 3, 2, 1, 50}));
 
 TEST(GapTrialMissions, ThePoorOnesAreStraightAndNoTwoMissionsOfAKindAreAlike) {
   for (const trial::Mission& mission : trial_missions(MissionKind::poor, 10)) {
