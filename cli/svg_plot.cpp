@@ -56,8 +56,10 @@ Range range_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t few = values.size() / 300;
   Range range{values[few], values[values.size() - 1 - few]};
-  const double least_length = std::max(1e-6, 1e-6 * std::abs(range.least));
-  const double margin = std::max(0.06 * range.length(), least_length);
+  // What does not vary is drawn as such, not with ticks that differ in the seventh place.
+  const double size = std::abs(range.least);
+  const bool constant = range.length() <= 1e-6 * size;
+  const double margin = constant ? (size > 0 ? 0.01 * size : 1) : 0.06 * range.length();
   return {range.least - margin, range.most + margin};
 }
 

@@ -44,6 +44,18 @@ TEST(SvgPlot, PointsOutsideAreLeftOut) {
   EXPECT_EQ(count(some.svg(), "h0"), 2);
 }
 
+TEST(SvgPlot, WhatDoesNotVaryIsShownOnARoundScale) {
+  for (const double value : {780.0, -3e-5, 0.0}) {
+    const Range range = range_of({value, value, value});
+    EXPECT_LT(range.least, value);
+    EXPECT_GT(range.most, value);
+    EXPECT_GE(range.length(), 0.01 * std::abs(value));
+  }
+  const Range varied = range_of({1, 2, 3});
+  EXPECT_LT(varied.least, 1);
+  EXPECT_GT(varied.length(), 2);
+}
+
 TEST(SvgPlot, NothingToDrawLeavesNoTraceInTheLegend) {
   SvgPlot some = plot();
   some.points(SvgPlot::Ink::before, "dots", {});

@@ -22,14 +22,17 @@ namespace {
 
 /// Sample variance over what it should be: chi-square over its degrees of freedom, here within five of its
 /// standard deviations, which no seed passes by chance and a sigma wrong by a tenth does not.
-void expect_sigma(const std::vector<double>& values, double sigma, double resolution, const std::string& what) {
+void expect_variance(const std::vector<double>& values, double expected, const std::string& what) {
   double mean = 0, square = 0;
   const auto count = static_cast<double>(values.size());
   for (const double value : values) mean += value / count;
   for (const double value : values) square += (value - mean) * (value - mean) / (count - 1);
-  // Rounding to a step adds the variance of what it cuts off.
-  const double expected = sigma * sigma + resolution * resolution / 12;
   EXPECT_NEAR(square / expected, 1, 5 * std::sqrt(2 / (count - 1))) << what;
+}
+
+void expect_sigma(const std::vector<double>& values, double sigma, double resolution, const std::string& what) {
+  // Rounding to a step adds the variance of what it cuts off.
+  expect_variance(values, sigma * sigma + resolution * resolution / 12, what);
   for (const double value : values) {
     ASSERT_NEAR(std::remainder(value, resolution), 0, 1e-6 * std::max(1.0, std::abs(value))) << what;
   }
@@ -103,6 +106,55 @@ TEST(InstrumentSpecification, MotorCardNoise) {
   }
   expect_sigma(fin, 0.1, 0.1, "fin");
   expect_sigma(current, 0.02, 0.01, "current");
+}
+
+TEST(InstrumentSpecification, EachPowerOnGivesTheGyrosAnotherBias) {
+  const Still motion;
+  std::array<std::vector<double>, 4> biases_deg_s;
+  constexpr int kPowerOns = 1000, kSamples = 20;
+  for (int i = 0; i < kPowerOns; ++i) {
+    ImuCard::Options options;
+    options.seed = static_cast<std::uint64_t>(i) + 1;
+    ImuCard card(options, motion);
+    card.power_on(kStart_ns);
+    std::array<double, 4> sum{};
+    int taken = 0;
+    for (const auto& frame : run_to(card, kStart_ns + 2 * kSecond_ns)) {
+      if (taken == kSamples) break;
+      const auto record = protocols::imu_card::decode_record(frame.bytes);
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += record->raw[k] / 16.0 / 10;  // 10 mV for a degree a second
+      ++taken;
+    }
+    ASSERT_EQ(taken, kSamples);
+    for (std::size_t k = 0; k < 4; ++k) biases_deg_s[k].push_back(sum[k] / kSamples);
+  }
+  for (const auto& biases : biases_deg_s)
+    expect_variance(biases, 0.3 * 0.3 + 0.1 * 0.1 / kSamples, "turn-on bias");
+}
+
+TEST(InstrumentSpecification, SettledFixesHaveTheirNoiseInPositionAndVelocity) {
+  Still motion;
+  motion.state.velocity_body_m_s = {1.2, 0, 0};
+  motion.state.euler_rad = {0, 0, 0.7};
+  GpsReceiver receiver({}, motion, 5);
+  receiver.power_on(kStart_ns);
+  const Origin origin;
+  const Vector3 one_m = geodetic(origin, {1, 1, 0});
+  std::vector<double> north_m, east_m, north_m_s, east_m_s;
+  constexpr int kToSettle = 60;
+  for (int second = 1; second <= kToSettle + 2000; ++second) {
+    const GpsReading reading = receiver.measure(kStart_ns + second * kSecond_ns);
+    if (second <= kToSettle) continue;
+    north_m.push_back((reading.latitude_deg - origin.latitude_deg) / (one_m[0] - origin.latitude_deg));
+    east_m.push_back((reading.longitude_deg - origin.longitude_deg) / (one_m[1] - origin.longitude_deg));
+    const double course = reading.course_deg * std::numbers::pi / 180;
+    north_m_s.push_back(reading.speed_m_s * std::cos(course));
+    east_m_s.push_back(reading.speed_m_s * std::sin(course));
+  }
+  expect_variance(north_m, 1, "north");
+  expect_variance(east_m, 1, "east");
+  expect_variance(north_m_s, 0.01, "velocity north");
+  expect_variance(east_m_s, 0.01, "velocity east");
 }
 
 TEST(InstrumentSpecification, FirstFixesAreDegradedAndSaySo) {
