@@ -24,32 +24,6 @@ config::Settings simulated_settings() {
   return samples_only(settings);
 }
 
-/// The simulator holds over a step where the servos are at its end: half a step early. What is here the angle in
-/// the middle of a step makes the vehicle answer to the reports as in continuous time.
-class MiddleOfStep final : public sim::Effect {
- public:
-  [[nodiscard]] const sim::EffectDescription& description() const override {
-    static constexpr sim::EffectDescription kDescription{
-        .name = "middle_of_step", .equation = "d = (d + d of the last step)/2", .parameters = {}, .order = -1};
-    return kDescription;
-  }
-  [[nodiscard]] std::unique_ptr<sim::Effect> clone() const override {
-    return std::make_unique<MiddleOfStep>(*this);
-  }
-  [[nodiscard]] std::span<const double> parameters() const override { return {}; }
-  void set_parameters(std::span<const double>) override {}
-  void link_fins(double /*step_s*/, Vector3& fins_rad) override {
-    const Vector3 now = fins_rad;
-    if (last_rad_) {
-      for (std::size_t i = 0; i < 3; ++i) fins_rad[i] = (now[i] + (*last_rad_)[i]) / 2;
-    }
-    last_rad_ = now;
-  }
-
- private:
-  std::optional<Vector3> last_rad_;
-};
-
 /// The noise of the first fixes of each surfacing, as the nominal receiver has it.
 void add_surfacings(const Mission& recorded, sim::EffectSet& effects) {
   for (const FixReading& fix : recorded.fixes) {
@@ -85,7 +59,6 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
 
   sim::EffectSet effects(begin_ns);
   for (std::size_t i = 0; i < mismatch.size(); ++i) effects.add(mismatch[i].clone());
-  effects.add(std::make_unique<MiddleOfStep>());
   add_surfacings(recorded.mission(), effects);
   effects.reseed(seed);
   const sim::SimulatedMotion motion(

@@ -17,6 +17,8 @@ class DriveHelm final : public Helm {
   [[nodiscard]] Body start() const override;
   [[nodiscard]] Actuators actuators_at_start() const override;
   [[nodiscard]] Actuators next(double time_s, double step_s, const Body& body) override;
+  /// So were the reference paths made.
+  [[nodiscard]] bool holds_over_steps() const override { return true; }
   [[nodiscard]] bool finished() const override { return finished_; }
 
  private:

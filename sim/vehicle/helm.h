@@ -21,6 +21,9 @@ class Helm {
   [[nodiscard]] virtual Actuators actuators_at_start() const = 0;
   /// Where the actuators are at time_s + step_s, for a vehicle that is at `body` at time_s.
   [[nodiscard]] virtual Actuators next(double time_s, double step_s, const Body& body) = 0;
+  /// Over a step the vehicle feels the means of both ends, as if the actuators moved on between them. true: the
+  /// fins as they are at its end and the shaft as it is at its beginning.
+  [[nodiscard]] virtual bool holds_over_steps() const { return false; }
   /// Its orders have ended (once; it goes on all the same, or begins again).
   [[nodiscard]] virtual bool finished() const = 0;
 };

@@ -51,6 +51,12 @@ void SimulatedMotion::take_step() const {
     options_.influencer->link_fins(time_s + kStep_s, kStep_s, fins_rad);
     held.fins_rad = {fins_rad[0], fins_rad[1], fins_rad[2]};
   }
+  const Eigen::Vector3d linked_rad = held.fins_rad;
+  if (!helm_->holds_over_steps()) {
+    held.fins_rad = (linked_rad_.value_or(linked_rad) + linked_rad) / 2;
+    held.shaft_rps = (actuators_.shaft_rps + next.shaft_rps) / 2;
+  }
+  linked_rad_ = linked_rad;
   const Vehicle::Step step = vehicle_.step(body_, held, influences, kStep_s);
   states_.push_back(state_of(step.acceleration, influences));
   if (static_cast<double>(states_.size()) * kStep_s > options_.history_s && states_.size() > 2)

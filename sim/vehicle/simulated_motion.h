@@ -22,8 +22,7 @@ struct MotionOptions {
 };
 
 /// A vehicle under way: taken ahead in steps of 0.01 s as far as it is asked for, states between steps in a
-/// straight line. Over a step the fins are held where they are at its end, the shaft speed as it is at its
-/// beginning. After its helm's orders have ended it goes on as the helm does. Not for several threads at once.
+/// straight line. After its helm's orders have ended it goes on as the helm does. Not for several threads at once.
 class SimulatedMotion final : public Motion {
  public:
   static constexpr std::int64_t kStep_ns = 10'000'000;
@@ -48,8 +47,9 @@ class SimulatedMotion final : public Motion {
   mutable std::unique_ptr<Helm> helm_;
   mutable Body body_;
   mutable Actuators actuators_;
-  mutable std::int64_t steps_ = 0;    ///< taken
-  mutable std::deque<State> states_;  ///< at the beginnings of the newest of them
+  mutable std::optional<Eigen::Vector3d> linked_rad_;  ///< the fins themselves, behind their linkage
+  mutable std::int64_t steps_ = 0;                     ///< taken
+  mutable std::deque<State> states_;                   ///< at the beginnings of the newest of them
   mutable std::optional<double> ended_s_;
 };
 

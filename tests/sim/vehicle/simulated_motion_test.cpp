@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/rotation.h"
+#include "sim/vehicle/autopilot.h"
 #include "tests/sim/vehicle/runs.h"
 
 namespace navcal::sim::testing {
@@ -47,6 +48,31 @@ TEST(SimulatedMotion, WhatItSaysOfMotionFitsTogether) {
       ASSERT_NEAR(force[i], now.specific_force_m_s2[i], 0.03) << t;
     }
   }
+}
+
+/// A rudder that moves evenly.
+struct RampHelm final : Helm {
+  static Eigen::Vector3d fins_rad(double time_s) { return mixed_fins(0.2 * time_s, 0); }
+  [[nodiscard]] Body start() const override { return under_way(1.1); }
+  [[nodiscard]] Actuators actuators_at_start() const override { return {fins_rad(0), 13, 13}; }
+  [[nodiscard]] Actuators next(double time_s, double step_s, const Body&) override {
+    return {fins_rad(time_s + step_s), 13, 13};
+  }
+  [[nodiscard]] bool finished() const override { return false; }
+};
+
+TEST(SimulatedMotion, FinsThatMoveAreFeltWhenTheyMoveAndNotHalfAStepEarlier) {
+  const SimulatedMotion motion({}, std::make_unique<RampHelm>(), {});
+  const Vehicle vehicle{config::VehicleSettings{}};
+  constexpr double kFine_s = 1e-4, kUntil_s = 1;
+  Body body = under_way(1.1);
+  for (int i = 0; i < std::lround(kUntil_s / kFine_s); ++i) {
+    body = vehicle.step(body, {RampHelm::fins_rad((i + 0.5) * kFine_s), 13}, {}, kFine_s).body;
+  }
+  const double rate_rad_s = motion.at(at_s(kUntil_s)).rate_rad_s[2];
+  const double rising_rad_s2 = (rate_rad_s - motion.at(at_s(kUntil_s - 0.1)).rate_rad_s[2]) / 0.1;
+  EXPECT_GT(std::abs(rising_rad_s2), 0.1);
+  EXPECT_NEAR(rate_rad_s, body.velocity[5], 1e-4 * std::abs(rising_rad_s2));  // a tenth of a millisecond
 }
 
 TEST(SimulatedMotion, BeginsWhenItIsToldAndIsStillBefore) {
