@@ -116,7 +116,11 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
     progress_("missions held out", static_cast<double>(i) / static_cast<double>(holdouts.size()));
     compared.push_back(
         compare(*holdouts[i]->replay, library_, holdouts[i]->bank, holdouts[i]->at, members, threads_));
-    nats.push_back(compared.back().gain_nats());
+    if (found.best.effects.empty()) continue;
+    // Vehicles are the same in all missions, tolerances too: what is compared is how well this mission foretells
+    // the other with and without the effects, all that it says of the tolerances included.
+    nats.push_back(gain_nats(*holdouts[i]->replay, library_, holdouts[i]->bank.whitening,
+                             found.mean_without_effects, found.best.mean, threads_));
   }
   const bool blocks = compared.empty();
   if (blocks) {

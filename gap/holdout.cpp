@@ -71,6 +71,14 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
   return result;
 }
 
+double gain_nats(const Replay& replay, const Library& library, const Whitening& whitening,
+                 const Eigen::VectorXd& without, const Eigen::VectorXd& with, unsigned threads) {
+  const auto square = [&](const Eigen::VectorXd& values) {
+    return fitted(replay, library, whitening, values, threads, nullptr).white.squaredNorm();
+  };
+  return 0.5 * (square(without) - square(with));
+}
+
 PooledClosure pooled_closure(const std::vector<Comparison>& comparisons) {
   PooledClosure pooled;
   double measurements = 0, floor_variance = 0;

@@ -20,13 +20,16 @@ struct Comparison {
   Course10Hz course;  ///< of the improved replay
   std::vector<double> fix_times_s;
   Eigen::VectorXd channel_floor;  ///< root mean square of each reported channel among the nulls
-  /// By how much the log likelihood grew, nats.
-  [[nodiscard]] double gain_nats() const { return 0.5 * (before - after) * measurements; }
 };
 
 /// `nominal`: the values of all unknowns without effects, by with_biases_found().
 [[nodiscard]] Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
                                  const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects, unsigned threads);
+
+/// By how much a mission's log likelihood is greater with one set of values of all unknowns than with another,
+/// nats; the gyros' biases are fitted anew for each.
+[[nodiscard]] double gain_nats(const Replay& replay, const Library& library, const Whitening& whitening,
+                               const Eigen::VectorXd& without, const Eigen::VectorXd& with, unsigned threads);
 
 /// Of several missions together: 1 - (after - floor) / (before - floor), with its 95 % interval by a bootstrap of
 /// the blocks and of what is known of the floors.

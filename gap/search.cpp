@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -23,6 +24,10 @@ constexpr std::size_t kSecondThoughts = 6;
 /// gain by chance.
 constexpr double kCaution = 5;
 constexpr int kIterations = 2, kCurvedIterations = 3;
+/// A leading set and its neighbours are judged where all columns are taken about its own estimate: from columns of
+/// the nominal vehicle those that are not in the set look unlike themselves, and one of them gains by being let
+/// in.
+constexpr int kRefinements = 3;
 
 /// Evidence referred to the nominal vehicle, whatever point it was linearised about.
 class Judge {
@@ -38,7 +43,6 @@ class Judge {
     return data_ + evidence_.base() + (set.empty() ? 0 : evidence_.gain(members_of(library_, set))) -
            each * static_cast<double>(set.size());
   }
-  [[nodiscard]] const Evidence& evidence() const { return evidence_; }
 
  private:
   const Library& library_;
@@ -56,6 +60,13 @@ Set without(Set set, std::size_t effect) {
   return set;
 }
 
+/// Whether one set becomes the other by adding, leaving out or exchanging one effect.
+bool are_neighbours(const Set& a, const Set& b) {
+  Set apart;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(apart));
+  return apart.size() == 1 || (apart.size() == 2 && a.size() == b.size());
+}
+
 /// Sets that a search knows, each with the best word on it: that of its own linearisation, or the first that was
 /// had.
 class Found {
@@ -65,13 +76,14 @@ class Found {
     scores_[set] = log_odds;
     settled_.insert(set);
   }
-  /// The most probable of all, if nobody has simulated it yet.
-  [[nodiscard]] std::optional<Set> unsettled_leader() const {
-    const auto leader = std::max_element(scores_.begin(), scores_.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (leader == scores_.end() || settled_.contains(leader->first)) return std::nullopt;
-    return leader->first;
+  /// The most probable of all; there is at least one.
+  [[nodiscard]] const Set& leader() const {
+    return std::max_element(scores_.begin(), scores_.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
   }
+  /// Whether it was simulated, or seen from where nothing is older than what it is compared with.
+  [[nodiscard]] bool is_settled(const Set& set) const { return settled_.contains(set); }
   [[nodiscard]] std::vector<Set> leading(std::size_t size, std::size_t count) const {
     std::vector<Set> sets;
     for (const auto& [set, score] : scores_) {
@@ -100,6 +112,27 @@ std::vector<Eigen::Index> members_of(const Library& library, const Set& effects)
 
 namespace {
 
+/// Of all unknowns; those that cannot be negative, lags above all, and would be stay at zero, and the others are
+/// as they are then: what is answered must be a vehicle that can be simulated.
+Evidence::Posterior possible_posterior(const Linearised& linear, const Library& library, const Priors& priors,
+                                       const std::vector<Eigen::Index>& members) {
+  constexpr double kNothing = 1e-6;
+  constexpr int kRounds = 5;
+  const Eigen::VectorXd score = linear.score + linear.gram * linear.at;
+  Priors allowed = priors;
+  for (int round = 1;; ++round) {
+    auto posterior = Evidence(linear.gram, score, allowed.spike, allowed.slab).posterior(members);
+    bool possible = true;
+    for (Eigen::Index j = Library::kBiases; j < posterior.mean.size(); ++j) {
+      if (library.unknowns()[static_cast<std::size_t>(j)].least < 0 || posterior.mean[j] >= 0) continue;
+      if (allowed.slab[j] < priors.slab[j]) continue;
+      allowed.spike[j] = allowed.slab[j] = kNothing * priors.spike[j];
+      possible = false;
+    }
+    if (possible || round == kRounds) return posterior;
+  }
+}
+
 /// The set, simulated and linearised about its own estimate.
 Explanation explain(const Set& set, const Replay& replay, const Library& library, const Whitening& whitening,
                     const Linearised& start, const Priors& priors) {
@@ -112,8 +145,7 @@ Explanation explain(const Set& set, const Replay& replay, const Library& library
   moved.insert(moved.end(), members.begin(), members.end());
   const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
   for (int i = 0; i < (curved ? kCurvedIterations : kIterations); ++i) {
-    const Judge judge(result.linear, library, priors);
-    const auto posterior = judge.evidence().posterior(members);
+    const auto posterior = possible_posterior(result.linear, library, priors, members);
     Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
     for (const Eigen::Index j : moved) {
       const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
@@ -121,9 +153,8 @@ Explanation explain(const Set& set, const Replay& replay, const Library& library
     }
     result.linear = relinearise(replay, library, whitening, result.linear, at, members, 1);
   }
-  const Judge judge(result.linear, library, priors);
-  result.log_odds = judge(set);
-  const auto posterior = judge.evidence().posterior(members);
+  result.log_odds = Judge(result.linear, library, priors)(set);
+  const auto posterior = possible_posterior(result.linear, library, priors, members);
   result.mean = posterior.mean;
   result.std = posterior.covariance.diagonal().cwiseSqrt();
   return result;
@@ -151,6 +182,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   SearchResult result;
   result.best = explain({}, replay, library, whitening, nominal, priors);
   result.best.log_odds = found.scores().at({});
+  result.mean_without_effects = result.best.mean;
   const auto take = [&](Explanation tried) {
     const Set& set = tried.effects;
     found.settle(set, tried.log_odds);
@@ -185,10 +217,24 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
 
   // What was seen only from another set's place is not answered before it was simulated itself.
   for (std::size_t i = 0; i < kSecondThoughts; ++i) {
-    const auto leader = found.unsettled_leader();
-    if (!leader) break;
-    take(explain(*leader, replay, library, whitening, nominal, priors));
+    const Set leader = found.leader();
+    if (found.is_settled(leader)) break;
+    take(explain(leader, replay, library, whitening, nominal, priors));
   }
+  for (int i = 0; i < kRefinements && !result.best.effects.empty(); ++i) {
+    const Linearised fresh = relinearise(replay, library, whitening, result.best.linear, result.best.linear.at,
+                                         library.moving(), threads);
+    const Judge here(fresh, library, priors);
+    found.settle(result.best.effects, here(result.best.effects));
+    for (const auto& [set, score] : std::map(found.scores())) {
+      if (!set.empty() && are_neighbours(set, result.best.effects)) found.settle(set, here(set));
+    }
+    const Set leader = found.leader();
+    const bool stays = leader == result.best.effects;
+    result.best = explain(leader, replay, library, whitening, fresh, priors);
+    if (stays) break;
+  }
+  result.best.log_odds = found.scores().at(result.best.effects);
 
   double total = 0;
   for (const auto& [set, score] : found.scores()) total += std::exp(score - result.best.log_odds);

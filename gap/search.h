@@ -26,8 +26,9 @@ struct Explanation {
 };
 
 struct SearchResult {
-  std::vector<Candidate> candidates;  ///< most probable first
-  Explanation best;                   ///< of the first of them
+  std::vector<Candidate> candidates;     ///< most probable first
+  Explanation best;                      ///< of the first of them
+  Eigen::VectorXd mean_without_effects;  ///< posterior of all unknowns where all are within tolerance
 };
 
 [[nodiscard]] std::vector<Eigen::Index> members_of(const Library& library,

@@ -58,6 +58,19 @@ TEST_F(Diagnose, NamesAnEffectOfWhichItIsToldNothing) {
   EXPECT_TRUE(without.bank.from_cache);
 }
 
+// A small lag of one instrument and the vehicle's quicker answer to its fins nearly cancel; once such a pair was
+// let in beside what was there.
+TEST_F(Diagnose, NamesTwoEffectsAndNoInnocentCompanion) {
+  constexpr std::string_view kEffects = "[fin_offset]\nangle_deg = -1\n[tilt_slosh]\ngain = 0.3\n";
+  const Diagnosis found = diagnosis(recorded("a.cap", kEffects, 200, 6), {recorded("b.cap", kEffects, 200, 7)});
+  EXPECT_EQ(found.verdict, Verdict::explained) << found.sentence;
+  ASSERT_EQ(found.effects.size(), 2U) << found.sentence;
+  EXPECT_EQ(found.effects[0].name, "fin_offset");
+  EXPECT_EQ(found.effects[1].name, "tilt_slosh");
+  EXPECT_NEAR(found.effects[0].parameters.front().value, -1, 0.05);
+  EXPECT_NEAR(found.effects[1].parameters.front().value, 0.3, 0.03);
+}
+
 TEST_F(Diagnose, FindsNoGapInANominalMission) {
   const Diagnosis found = diagnosis(recorded("a.cap", "", 200, 3), {recorded("b.cap", "", 200, 4)});
   EXPECT_EQ(found.verdict, Verdict::no_gap) << found.sentence;
