@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ostream>
 #include <set>
 
 #include "cli/gap_trial_missions.h"
@@ -145,6 +146,9 @@ struct Excitation {
   std::size_t number;
   double least_turns, least_fixes_s;
 };
+void PrintTo(const Excitation& wanted, std::ostream* out) {
+  *out << wanted.minutes << " minutes, mission " << wanted.number;
+}
 class GapTrialExcitation : public testing::TestWithParam<Excitation> {};
 
 TEST_P(GapTrialExcitation, TurnsBothWaysPitchesBothWaysAndFindsFixes) {
