@@ -22,8 +22,7 @@ Eigen::MatrixXd matrix(const json& from) {
   const auto values = from.at("values").get<std::vector<double>>();
   // By division: the product of what a damaged file says may be no number.
   const auto size = static_cast<Eigen::Index>(values.size());
-  if (rows < 0 || cols < 0 ||
-      (size == 0 ? rows > 0 && cols > 0 : cols == 0 || size % cols != 0 || size / cols != rows)) {
+  if (rows < 0 || cols < 0 || (cols == 0 ? size != 0 : size % cols != 0 || size / cols != rows)) {
     throw std::invalid_argument("a matrix of another size than it says");
   }
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), rows, cols);

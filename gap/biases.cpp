@@ -1,6 +1,5 @@
 #include "gap/biases.h"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <utility>
 
@@ -8,14 +7,18 @@
 
 namespace navcal::gap {
 
+Eigen::LLT<Eigen::Matrix4d> bias_factor(const Eigen::MatrixXd& gram) {
+  Eigen::Matrix4d biases = gram.topLeftCorner<Library::kBiases, Library::kBiases>();
+  biases.diagonal().array() += 1e-9 * biases.trace() + 1e-12;
+  return biases.llt();
+}
+
 Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library, const Whitening& whitening,
                                    Eigen::VectorXd values, unsigned threads) {
   constexpr std::array<Eigen::Index, Library::kBiases> kColumns{0, 1, 2, 3};
   const Linearised linear =
       relinearise(replay, library, whitening, {values, {}, {}, {}, {}}, values, kColumns, threads);
-  Eigen::Matrix4d gram = linear.gram.topLeftCorner<Library::kBiases, Library::kBiases>();
-  gram.diagonal().array() += 1e-9 * gram.trace() + 1e-12;
-  values.head<Library::kBiases>() += gram.llt().solve(linear.score.head<Library::kBiases>());
+  values.head<Library::kBiases>() += bias_factor(linear.gram).solve(linear.score.head<Library::kBiases>());
   return values;
 }
 

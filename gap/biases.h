@@ -1,10 +1,16 @@
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "gap/library.h"
 #include "gap/replay.h"
 #include "gap/whitening.h"
 
 namespace navcal::gap {
+
+/// Solves for the gyros' biases by least squares, `gram` being that of all unknowns; where a mission shows nothing
+/// of one, that one is zero.
+[[nodiscard]] Eigen::LLT<Eigen::Matrix4d> bias_factor(const Eigen::MatrixXd& gram);
 
 /// These values of all unknowns with the gyros' biases that fit them, by one step of least squares: the replay is
 /// nearly linear in them.

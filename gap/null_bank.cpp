@@ -1,6 +1,5 @@
 #include "gap/null_bank.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "gap/biases.h"
 #include "gap/null_mission.h"
 #include "gap/parallel.h"
 #include "sim/vehicle/vehicle.h"
@@ -90,16 +90,14 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
   const Layout layout = layout_of(recorded);
   bank.gram = linear.gram;
   bank.scores.resize(linear.gram.rows(), static_cast<Eigen::Index>(nulls.size()));
-  Eigen::MatrixXd biases = linear.gram.topLeftCorner(Library::kBiases, Library::kBiases);
-  biases.diagonal().array() += 1e-12 + 1e-9 * biases.trace();
-  const Eigen::LLT<Eigen::MatrixXd> bias_gram(biases);
+  const auto biases = bias_factor(linear.gram);
   std::vector<Eigen::MatrixXd> followed_by_nulls;
   for (std::size_t i = 0; i < nulls.size(); ++i) {
     const Null& null = *nulls[i];
     const Eigen::VectorXd white = bank.whitening(fitted_into(null.nominal, layout), layout);
     const auto column = static_cast<Eigen::Index>(i);
     bank.scores.col(column) = linear.design.transpose() * white;
-    const Eigen::VectorXd bias = bias_gram.solve(bank.scores.col(column).head(Library::kBiases));
+    const Eigen::VectorXd bias = biases.solve(bank.scores.col(column).head<Library::kBiases>());
     const Eigen::VectorXd left = white - linear.design.leftCols(Library::kBiases) * bias;
     bank.powers.push_back(left.squaredNorm() / static_cast<double>(Whitening::count(left)));
     followed_by_nulls.push_back(followed(null.nominal, null.course, null.fix_times_s));

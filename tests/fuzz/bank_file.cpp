@@ -7,6 +7,7 @@
 
 #include "gap/regimes.h"
 #include "tests/fuzz/source.h"
+#include "tests/gap/made_up_bank.h"
 
 namespace {
 
@@ -15,17 +16,8 @@ using namespace navcal::gap;
 constexpr Eigen::Index kUnknowns = 5;
 
 std::string good_text() {
-  NullBank bank;
-  bank.missions = 3;
-  bank.seed = 1;
-  bank.seconds = 2.5;
-  bank.whitening = Whitening::nominal();
+  NullBank bank = test::made_up_bank(kUnknowns);
   bank.whitening.grid_filter = Eigen::MatrixXd::Constant(2, kEvidenceChannels, 0.25);
-  bank.gram = Eigen::MatrixXd::Identity(kUnknowns, kUnknowns);
-  bank.scores = Eigen::MatrixXd::Ones(kUnknowns, bank.missions);
-  bank.powers.assign(3, 1.0625);
-  bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(
-      static_cast<Eigen::Index>(reported_channels().size()), static_cast<Eigen::Index>(regimes().size()));
   return bank_text({{1, 2, 3}, bank}, "model");
 }
 

@@ -18,6 +18,7 @@ class BankCacheTest : public testing::Test {
   }
   navcal::test::TemporaryFolder folder_;
   Library library_{{}};
+  NullBank bank_ = test::made_up_bank(static_cast<Eigen::Index>(library_.unknowns().size()));
   Mission mission_;
   Replay replay_;
   Course10Hz course_;
@@ -26,18 +27,17 @@ class BankCacheTest : public testing::Test {
 TEST_F(BankCacheTest, GivesBackWhatItWasGiven) {
   const BankCache cache(folder_ / "banks", {}, library_);
   EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
-  const NullBank bank = test::made_up_bank(library_);
-  cache.keep(replay_, course_, bank);
+  cache.keep(replay_, course_, bank_);
   const auto found = cache.find(replay_, course_, {20, 1, 1});
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->scores, bank.scores);
-  EXPECT_EQ(found->powers, bank.powers);
-  EXPECT_EQ(found->whitening.grid_factor, bank.whitening.grid_factor);
+  EXPECT_EQ(found->scores, bank_.scores);
+  EXPECT_EQ(found->powers, bank_.powers);
+  EXPECT_EQ(found->whitening.grid_factor, bank_.whitening.grid_factor);
 }
 
 TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, test::made_up_bank(library_));
+  cache.keep(replay_, course_, bank_);
   EXPECT_FALSE(cache.find(replay_, course_, {20, 2, 1}));
   EXPECT_FALSE(cache.find(replay_, course_, {100, 1, 1}));
   config::VehicleSettings heavier;
@@ -52,7 +52,7 @@ TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
 
 TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, test::made_up_bank(library_));
+  cache.keep(replay_, course_, bank_);
   const Mission again = test::simulated_mission("identification", "[hard_iron]\nx_uT = 2\n", 60, 9);
   const Replay replay(again, {});
   Course10Hz course;
@@ -62,7 +62,7 @@ TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
 
 TEST_F(BankCacheTest, FilesThatAreNoBanksArePassedOver) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, test::made_up_bank(library_));
+  cache.keep(replay_, course_, bank_);
   std::filesystem::path bank;
   for (const auto& file : std::filesystem::directory_iterator(folder_.path())) bank = file.path();
   std::ifstream stream(bank);

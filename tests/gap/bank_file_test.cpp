@@ -16,7 +16,7 @@ class BankFile : public testing::Test {
   }
   Library library_{{}};
   Eigen::Index unknowns_ = static_cast<Eigen::Index>(library_.unknowns().size());
-  NullBank bank_ = test::made_up_bank(library_);
+  NullBank bank_ = test::made_up_bank(unknowns_);
 };
 
 TEST_F(BankFile, GivesBackEveryNumber) {

@@ -4,15 +4,14 @@
 
 namespace navcal::gap::test {
 
-NullBank made_up_bank(const Library& library) {
+NullBank made_up_bank(Eigen::Index unknowns) {
   NullBank bank;
   bank.missions = 20;
   bank.seed = 1;
   bank.seconds = 3;
   bank.whitening = Whitening::nominal();
-  const auto n = static_cast<Eigen::Index>(library.unknowns().size());
-  bank.gram = Eigen::MatrixXd::Identity(n, n);
-  bank.scores = Eigen::MatrixXd::Random(n, 20);
+  bank.gram = Eigen::MatrixXd::Identity(unknowns, unknowns);
+  bank.scores = Eigen::MatrixXd::Random(unknowns, 20);
   bank.powers.assign(20, 1.0625);
   bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(
       static_cast<Eigen::Index>(reported_channels().size()), static_cast<Eigen::Index>(regimes().size()));
