@@ -24,7 +24,9 @@ class Compass {
     }
     return false;
   }
-  /// Everything that it was told, CR shown as a blank.
+  /// Everything that it was told, each command closed by a blank. One that follows itself stands once: navcald
+  /// repeats what is not answered in time, and a loaded machine may not be in time (the exact dialogue is
+  /// tests/instruments/tcm2_calibration_test.cpp's).
   [[nodiscard]] const std::string& heard() const { return heard_; }
 
  private:
@@ -34,7 +36,8 @@ class Compass {
     for (auto end = received_.find('\r'); end != std::string::npos; end = received_.find('\r')) {
       const std::string command = received_.substr(0, end);
       received_.erase(0, end + 1);
-      heard_ += command + ' ';
+      if (command != last_) heard_ += command + ' ';
+      last_ = command;
       going_ = command == "go" || (going_ && command != "h");
       line_.write(command == "cc" ? "H0V0M0.00\r\n" : command == "mpcal=d" ? "H9V3M1.20\r\n" : ":\r\n");
       found = found || command == wanted;
@@ -50,7 +53,7 @@ class Compass {
   }
 
   const FakeLine& line_;
-  std::string received_, heard_;
+  std::string received_, heard_, last_;
   bool going_ = true;
   double heading_deg_ = 0;
 };
@@ -81,12 +84,13 @@ TEST_F(Tcm2Process, ItsScoreStandsBesideOurs) {
   EXPECT_EQ(ask("calibration.start")["ok"], true);
   ASSERT_TRUE(compass.serve_until("mpcal=d")) << compass.heard();
   ASSERT_TRUE(compass.serve_until("go")) << compass.heard();
-  EXPECT_EQ(compass.heard(), "h h cc mpcal=e go h h mpcal=d go ");
+  // The score is known before the compass is back in service, and a report may fall between the two.
   json tcm2 = reported();
-  for (int i = 0; i < 100 && tcm2.value("score", json()).is_null(); ++i) {
+  for (int i = 0; i < 300 && tcm2["state"] != "score H9V3M1.20"; ++i) {
     compass.serve_until("nothing", 20);
     tcm2 = reported();
   }
+  EXPECT_EQ(compass.heard(), "h cc mpcal=e go h mpcal=d go ");
   EXPECT_EQ(tcm2["state"], "score H9V3M1.20");
   EXPECT_EQ(tcm2["score"], (json{{"horizontal", 9}, {"vertical", 3}, {"magnitude", 1.2}}));
 }
