@@ -16,9 +16,9 @@ Eigen::LLT<Eigen::Matrix4d> bias_factor(const Eigen::MatrixXd& gram) {
 Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library, const Whitening& whitening,
                                    Eigen::VectorXd values, unsigned threads) {
   constexpr std::array<Eigen::Index, Library::kBiases> kColumns{0, 1, 2, 3};
-  const Linearised linear =
-      relinearise(replay, library, whitening, {values, {}, {}, {}, {}}, values, kColumns, threads);
-  values.head<Library::kBiases>() += bias_factor(linear.gram).solve(linear.score.head<Library::kBiases>());
+  const Eigen::VectorXd residual = residual_at(replay, library, whitening, values);
+  const Eigen::MatrixXd design = design_at(replay, library, whitening, values, residual, kColumns, threads);
+  values.head<Library::kBiases>() += bias_factor(design.transpose() * design).solve(design.transpose() * residual);
   return values;
 }
 

@@ -7,6 +7,7 @@
 #include "gap/biases.h"
 #include "gap/blocks.h"
 #include "gap/holdout.h"
+#include "gap/parallel.h"
 #include "gap/request.h"
 #include "gap/search.h"
 #include "gap/verdict.h"
@@ -102,7 +103,24 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   // Members alone go into the missions held out; all that was found, small as it is, is taken out of what is left.
   Eigen::VectorXd members = Eigen::VectorXd::Zero(found.best.mean.size());
   for (const Eigen::Index j : members_of(library_, found.best.effects)) members[j] = found.best.mean[j];
-  const Comparison here = compare(*a.replay, library_, a.bank, a.at, members, threads_);
+  progress_("missions held out", 0);
+  Comparison here;
+  std::vector<Comparison> compared(holdouts.size());
+  std::vector<double> nats(found.best.effects.empty() ? 0 : holdouts.size());
+  in_parallel(threads_, holdouts.size() + 1, [&](std::size_t i) {
+    if (i == holdouts.size()) {
+      here = compare(*a.replay, library_, a.bank, a.at, members);
+      return;
+    }
+    const Prepared& other = *holdouts[i];
+    compared[i] = compare(*other.replay, library_, other.bank, other.at, members);
+    // Vehicles are the same in all missions, tolerances too: what is compared is how well this mission foretells
+    // the other with and without the effects, all that it says of the tolerances included.
+    if (!nats.empty()) {
+      nats[i] =
+          gain_nats(*other.replay, library_, other.bank.whitening, found.mean_without_effects, found.best.mean);
+    }
+  });
   const Eigen::MatrixXd was = followed(here.nominal, a.course, here.fix_times_s);
   const Innovations rest = a.replay->run(library_.model(found.best.mean));
   const Eigen::MatrixXd is = followed(rest, here.course, here.fix_times_s);
@@ -110,18 +128,6 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   answer.where = clear_of_nulls(answer.map);
   const auto leftover = clear_of_nulls(where_map(is, a.bank.followed));
 
-  std::vector<Comparison> compared;
-  std::vector<double> nats;
-  for (std::size_t i = 0; i < holdouts.size(); ++i) {
-    progress_("missions held out", static_cast<double>(i) / static_cast<double>(holdouts.size()));
-    compared.push_back(
-        compare(*holdouts[i]->replay, library_, holdouts[i]->bank, holdouts[i]->at, members, threads_));
-    if (found.best.effects.empty()) continue;
-    // Vehicles are the same in all missions, tolerances too: what is compared is how well this mission foretells
-    // the other with and without the effects, all that it says of the tolerances included.
-    nats.push_back(gain_nats(*holdouts[i]->replay, library_, holdouts[i]->bank.whitening,
-                             found.mean_without_effects, found.best.mean, threads_));
-  }
   const bool blocks = compared.empty();
   if (blocks) {
     nats = gains_of_blocks(found.best, library_, priors, layout_of(*a.replay));

@@ -22,8 +22,8 @@ struct Fitted {
 };
 
 Fitted fitted(const Replay& replay, const Library& library, const Whitening& whitening, Eigen::VectorXd values,
-              unsigned threads, Course10Hz* course) {
-  values = with_biases_fitted(replay, library, whitening, std::move(values), threads);
+              Course10Hz* course) {
+  values = with_biases_fitted(replay, library, whitening, std::move(values), 1);
   Fitted result;
   result.innovations = replay.run(library.model(values), course);
   result.white = whitening(result.innovations, layout_of(replay));
@@ -48,13 +48,13 @@ std::vector<double> blocks(const Eigen::VectorXd& white, const Layout& layout) {
 }  // namespace
 
 Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
-                   const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects, unsigned threads) {
+                   const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects) {
   const Layout layout = layout_of(replay);
   Eigen::VectorXd improved = effects;
   improved.head<Library::kBiases>() = nominal.head<Library::kBiases>();
   Comparison result;
-  Fitted before = fitted(replay, library, bank.whitening, nominal, threads, nullptr);
-  Fitted after = fitted(replay, library, bank.whitening, improved, threads, &result.course);
+  Fitted before = fitted(replay, library, bank.whitening, nominal, nullptr);
+  Fitted after = fitted(replay, library, bank.whitening, improved, &result.course);
   result.measurements = static_cast<double>(Whitening::count(before.white));
   result.before = before.white.squaredNorm() / result.measurements;
   result.after = after.white.squaredNorm() / result.measurements;
@@ -72,9 +72,9 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
 }
 
 double gain_nats(const Replay& replay, const Library& library, const Whitening& whitening,
-                 const Eigen::VectorXd& without, const Eigen::VectorXd& with, unsigned threads) {
+                 const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
   const auto square = [&](const Eigen::VectorXd& values) {
-    return fitted(replay, library, whitening, values, threads, nullptr).white.squaredNorm();
+    return fitted(replay, library, whitening, values, nullptr).white.squaredNorm();
   };
   return 0.5 * (square(without) - square(with));
 }

@@ -24,12 +24,12 @@ struct Comparison {
 
 /// `nominal`: the values of all unknowns without effects, by with_biases_found().
 [[nodiscard]] Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
-                                 const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects, unsigned threads);
+                                 const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects);
 
 /// By how much a mission's log likelihood is greater with one set of values of all unknowns than with another,
 /// nats; the gyros' biases are fitted anew for each.
 [[nodiscard]] double gain_nats(const Replay& replay, const Library& library, const Whitening& whitening,
-                               const Eigen::VectorXd& without, const Eigen::VectorXd& with, unsigned threads);
+                               const Eigen::VectorXd& without, const Eigen::VectorXd& with);
 
 /// Of several missions together: 1 - (after - floor) / (before - floor), with its 95 % interval by a bootstrap of
 /// the blocks and of what is known of the floors.

@@ -24,12 +24,22 @@ struct Linearised {
 
 [[nodiscard]] Layout layout_of(const Replay& replay);
 
+/// The whitened innovations by these values of all unknowns.
+[[nodiscard]] Eigen::VectorXd residual_at(const Replay& replay, const Library& library, const Whitening& whitening,
+                                          const Eigen::VectorXd& values);
+/// -d residual / d unknown for some unknowns, a column each, where `residual` is that at `at`.
+[[nodiscard]] Eigen::MatrixXd design_at(const Replay& replay, const Library& library, const Whitening& whitening,
+                                        const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
+                                        std::span<const Eigen::Index> columns, unsigned threads);
+
 /// All columns anew.
 [[nodiscard]] Linearised linearise(const Replay& replay, const Library& library, const Whitening& whitening,
                                    const Eigen::VectorXd& at, unsigned threads);
-/// About another point; only `columns` are taken anew, the others from `from`.
+/// About another point; only `columns` are taken anew, the others are those of `from`.
 [[nodiscard]] Linearised relinearise(const Replay& replay, const Library& library, const Whitening& whitening,
-                                     const Linearised& from, const Eigen::VectorXd& at,
+                                     Linearised from, const Eigen::VectorXd& at,
                                      std::span<const Eigen::Index> columns, unsigned threads);
+/// The residual that the straight line has at zero.
+[[nodiscard]] Eigen::VectorXd residual_at_zero(const Linearised& linear);
 
 }  // namespace navcal::gap

@@ -22,6 +22,8 @@ constexpr double kFluidLag_s = 0.3;
 /// A card silent for longer has been off: the estimator begins anew.
 constexpr double kRestart_s = 5;
 constexpr double kLongestStep_s = 0.06;
+/// How much of the past is kept: a GPS may be late by ten seconds (sim/effects/library/gps_latency.cpp).
+constexpr double kRemembered_s = 12;
 constexpr double kSubmerged_s = 10;
 
 Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
@@ -46,9 +48,8 @@ double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
 ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
     : in_(input), effects_(model.effects), bias_rad_s_(model.bias_rad_s) {
   link_fins();
-  moments_.reserve(in_.mission.card.size());
-  out_.grid = Eigen::MatrixXd::Zero(in_.intervals, kChannels);
-  counts_ = Eigen::MatrixXi::Zero(in_.intervals, kChannels);
+  sums_.setZero(in_.intervals, kChannels);
+  counts_.setZero(in_.intervals, kChannels);
   const auto fixes = static_cast<Eigen::Index>(in_.mission.fixes.size());
   out_.fixes = Eigen::MatrixXd::Constant(fixes, kFixChannels, std::numeric_limits<double>::quiet_NaN());
   out_.fix_scale_m = Eigen::VectorXd::Ones(fixes);
@@ -148,7 +149,7 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
   effects_.influence(from_s, influences_);
   const Eigen::Vector3d euler = body_.euler_rad;
   const Eigen::Vector3d rate = vector_of(gyro_rad_s);
-  body_ = in_.vehicle.step(body_, controls(from_s, until_s), influences_, step_s).body;
+  body_ = in_.vehicle.midpoint_step(body_, controls(from_s, until_s), influences_, step_s);
   const Eigen::Vector3d middle = euler + step_s / 2 * euler_rates(euler, rate);
   body_.euler_rad = euler + step_s * euler_rates(middle, rate);
   distance_m_ += step_s * body_.velocity.head<3>().norm();
@@ -203,28 +204,34 @@ ReplayRun::Instruments ReplayRun::card(double time_s, const sim::State& state) {
   return said;
 }
 
-void ReplayRun::add(double time_s, Channel channel, double innovation) {
-  const auto row = static_cast<Eigen::Index>(std::floor((time_s - in_.begin_s) / kInterval_s));
-  if (time_s < in_.begin_s || row >= in_.intervals || !std::isfinite(innovation)) return;
-  out_.grid(row, channel) += innovation;
-  ++counts_(row, channel);
+std::optional<Eigen::Index> ReplayRun::interval_of(double time_s) const {
+  if (time_s < in_.begin_s) return std::nullopt;
+  const auto row = static_cast<Eigen::Index>((time_s - in_.begin_s) / kInterval_s);
+  return row < in_.intervals ? std::optional(row) : std::nullopt;
+}
+
+void ReplayRun::add(std::optional<Eigen::Index> interval, Channel channel, double innovation) {
+  if (!interval || !std::isfinite(innovation)) return;
+  sums_(*interval, channel) += innovation;
+  ++counts_(*interval, channel);
 }
 
 void ReplayRun::take_card(const CardReading& reading) {
   const double delay_s = effects_.delays(reading.time_s).card_s;
   const Moment& now = moments_.back();
   const Instruments said = card(reading.time_s, delay_s > 0 ? past(reading.time_s - delay_s) : now.predicted);
+  const auto interval = interval_of(reading.time_s);
   std::array<double, 4> missed{};
   for (std::size_t i = 0; i < 4; ++i) missed[i] = reading.gyro_rad_s[i] - said.gyro_rad_s[i];
-  add(reading.time_s, gyro_roll, missed[0]);
-  add(reading.time_s, gyro_pitch, missed[2]);
-  add(reading.time_s, gyro_yaw_a, missed[1]);
-  add(reading.time_s, gyro_yaw_b, missed[3]);
+  add(interval, gyro_roll, missed[0]);
+  add(interval, gyro_pitch, missed[2]);
+  add(interval, gyro_yaw_a, missed[1]);
+  add(interval, gyro_yaw_b, missed[3]);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    add(reading.time_s, static_cast<Channel>(force_x + i), reading.force_m_s2[k] - said.force_m_s2[k]);
+    add(interval, static_cast<Channel>(force_x + i), reading.force_m_s2[k] - said.force_m_s2[k]);
   }
-  add(reading.time_s, depth, reading.depth_m - said.depth_m);
+  add(interval, depth, reading.depth_m - said.depth_m);
 
   const auto& rate = now.predicted.rate_rad_s;
   gyro_error_rad_s_ = {said.gyro_rad_s[0] - rate[0], said.gyro_rad_s[2] - rate[1],
@@ -255,14 +262,14 @@ void ReplayRun::take_word(const CompassReading& reading, const sim::State& state
       reading.heading_rad.value_or(heading_of(reading.field_uT, reading.roll_rad, reading.pitch_rad)) -
       heading_of(field_uT_, said.roll_rad, said.pitch_rad));
   const double roll_missed = reading.roll_rad - said.roll_rad, pitch_missed = reading.pitch_rad - said.pitch_rad;
-  const double time_s = reading.time_s + in_.compass_shift_s;
+  const auto interval = interval_of(reading.time_s + in_.compass_shift_s);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    add(time_s, static_cast<Channel>(field_x + i), reading.field_uT[k] - field_uT_[k]);
+    add(interval, static_cast<Channel>(field_x + i), reading.field_uT[k] - field_uT_[k]);
   }
-  add(time_s, tilt_roll, roll_missed);
-  add(time_s, tilt_pitch, pitch_missed);
-  add(time_s, heading, heading_missed);
+  add(interval, tilt_roll, roll_missed);
+  add(interval, tilt_pitch, pitch_missed);
+  add(interval, heading, heading_missed);
   body_.euler_rad +=
       Eigen::Vector3d{kTiltGain * roll_missed, kTiltGain * pitch_missed, kHeadingGain * heading_missed};
 }
@@ -327,14 +334,11 @@ void ReplayRun::take_fix(std::size_t index) {
 }
 
 void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) const {
-  const auto row = static_cast<Eigen::Index>(std::floor((reading.time_s - in_.begin_s) / kInterval_s));
-  if (reading.time_s < in_.begin_s || row < static_cast<Eigen::Index>(course.time_s.size()) ||
-      row >= in_.intervals) {
-    return;
-  }
+  const auto interval = interval_of(reading.time_s);
+  if (!interval || *interval < static_cast<Eigen::Index>(course.time_s.size())) return;
   const sim::State& state = moments_.back().predicted;
   const auto& fins = state.fins_rad;
-  while (static_cast<Eigen::Index>(course.time_s.size()) <= row) {
+  while (static_cast<Eigen::Index>(course.time_s.size()) <= *interval) {
     course.time_s.push_back(in_.begin_s + (static_cast<double>(course.time_s.size()) + 0.5) * kInterval_s);
     course.heading_rad.push_back(state.euler_rad[2]);
     course.roll_rad.push_back(state.euler_rad[0]);
@@ -364,6 +368,7 @@ Innovations ReplayRun::innovations(Course10Hz* course) {
     moment.time_s = reading.time_s;
     complete(moment.predicted, reading.time_s);
     moments_.push_back(moment);
+    while (moments_.front().time_s < reading.time_s - kRemembered_s) moments_.pop_front();
     take_words(reading.time_s);
     take_fixes(reading.time_s);
     take_card(reading);
@@ -374,12 +379,8 @@ Innovations ReplayRun::innovations(Course10Hz* course) {
     moments_.back().corrected.rate_rad_s = array_of(body_.velocity.tail<3>());
     if (course != nullptr) write_course(reading, *course);
   }
-  for (Eigen::Index j = 0; j < kChannels; ++j) {
-    for (Eigen::Index i = 0; i < in_.intervals; ++i) {
-      const int n = counts_(i, j);
-      out_.grid(i, j) = n > 0 ? out_.grid(i, j) / n : std::numeric_limits<double>::quiet_NaN();
-    }
-  }
+  // Nothing measured: 0 / 0.
+  out_.grid = (sums_.array() / counts_.cast<double>().array()).matrix();
   return std::move(out_);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,7 +59,9 @@ class ReplayRun {
   void take_fixes(double until_s);
   void take_fix(std::size_t index);
   void write_course(const CardReading& reading, Course10Hz& course) const;
-  void add(double time_s, Channel channel, double innovation);
+  /// Of the grid; none before the first and after the last.
+  [[nodiscard]] std::optional<Eigen::Index> interval_of(double time_s) const;
+  void add(std::optional<Eigen::Index> interval, Channel channel, double innovation);
 
   ReplayInput in_;
   sim::EffectSet effects_;
@@ -69,7 +72,7 @@ class ReplayRun {
   sim::Body body_;              ///< the estimate
   Vector3 gyro_error_rad_s_{};  ///< predicted, of the rates about x, y, z
   Vector3 gyro_said_rad_s_{};   ///< at the last frame
-  std::vector<Moment> moments_;
+  std::deque<Moment> moments_;  ///< the newest last
   sim::LowPass fluid_;
   sim::Tilt tilt_;
   Vector3 field_uT_{};
@@ -80,7 +83,9 @@ class ReplayRun {
   std::optional<double> last_fix_s_;
   double distance_m_ = 0, distance_at_fix_m_ = 0;
   Innovations out_;
-  Eigen::MatrixXi counts_;
+  // A reading goes to all channels of its interval.
+  Eigen::Matrix<double, Eigen::Dynamic, kChannels, Eigen::RowMajor> sums_;
+  Eigen::Matrix<int, Eigen::Dynamic, kChannels, Eigen::RowMajor> counts_;
 };
 
 }  // namespace navcal::gap

@@ -26,7 +26,9 @@ constexpr int kIterations = 2, kCurvedIterations = 3;
 /// A leading set and its neighbours are judged where all columns are taken about its own estimate: from columns of
 /// the nominal vehicle those that are not in the set look unlike themselves, and one of them gains by being let
 /// in.
-constexpr int kRefinements = 3;
+constexpr int kRefinements = 4;
+/// Columns serve as far from where they were taken, in typical values: within tolerances nothing curves.
+constexpr double kNear = 0.25;
 
 /// Evidence referred to the nominal vehicle, whatever point it was linearised about.
 class Judge {
@@ -34,7 +36,7 @@ class Judge {
   Judge(const Linearised& linear, const Library& library, const Priors& priors)
       : library_(library),
         evidence_(linear.gram, linear.score + linear.gram * linear.at, priors.spike, priors.slab),
-        data_(-0.5 * (linear.residual + linear.design * linear.at).squaredNorm()) {}
+        data_(-0.5 * residual_at_zero(linear).squaredNorm()) {}
 
   /// Log of the joint probability of set and data, apart from a constant.
   [[nodiscard]] double operator()(const Set& set) const {
@@ -132,31 +134,45 @@ Evidence::Posterior possible_posterior(const Linearised& linear, const Library& 
   }
 }
 
-/// The set, simulated and linearised about its own estimate.
-Explanation explain(const Set& set, const Replay& replay, const Library& library, const Whitening& whitening,
-                    const Linearised& start, const Priors& priors) {
+/// What a linearisation about a set's own estimate says of it.
+Explanation concluded(const Set& set, Linearised linear, const Library& library, const Priors& priors) {
   Explanation result;
   result.effects = set;
-  result.linear = start;
+  result.linear = std::move(linear);
+  result.log_odds = Judge(result.linear, library, priors)(set);
+  const auto posterior = possible_posterior(result.linear, library, priors, members_of(library, set));
+  result.mean = posterior.mean;
+  result.std = posterior.covariance.diagonal().cwiseSqrt();
+  return result;
+}
+
+/// The set, simulated and linearised about its own estimate.
+Explanation explain(const Set& set, const Replay& replay, const Library& library, const Whitening& whitening,
+                    Linearised start, const Priors& priors, unsigned threads) {
+  Linearised linear = std::move(start);
   const auto members = members_of(library, set);
   std::vector<Eigen::Index> moved(Library::kBiases);
   std::iota(moved.begin(), moved.end(), Eigen::Index{0});
   moved.insert(moved.end(), members.begin(), members.end());
   const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
   for (int i = 0; i < (curved ? kCurvedIterations : kIterations); ++i) {
-    const auto posterior = possible_posterior(result.linear, library, priors, members);
+    const auto posterior = possible_posterior(linear, library, priors, members);
     Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
     for (const Eigen::Index j : moved) {
       const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
       at[j] = std::clamp(posterior.mean[j], unknown.least, unknown.greatest);
     }
-    result.linear = relinearise(replay, library, whitening, result.linear, at, members, 1);
+    linear = relinearise(replay, library, whitening, std::move(linear), at, members, threads);
   }
-  result.log_odds = Judge(result.linear, library, priors)(set);
-  const auto posterior = possible_posterior(result.linear, library, priors, members);
-  result.mean = posterior.mean;
-  result.std = posterior.covariance.diagonal().cwiseSqrt();
-  return result;
+  return concluded(set, std::move(linear), library, priors);
+}
+
+/// Whether columns that were taken about one point serve at the other.
+bool are_near(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Library& library) {
+  for (Eigen::Index j = Library::kBiases; j < a.size(); ++j) {
+    if (std::abs(a[j] - b[j]) > kNear * library.unknowns()[static_cast<std::size_t>(j)].typical) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -179,7 +195,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   }
 
   SearchResult result;
-  result.best = explain({}, replay, library, whitening, nominal, priors);
+  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
   result.best.log_odds = found.scores().at({});
   result.mean_without_effects = result.best.mean;
   const auto take = [&](Explanation tried) {
@@ -207,7 +223,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
     for (std::size_t from = 0; from < sets.size(); from += threads) {
       std::vector<Explanation> tried(std::min<std::size_t>(threads, sets.size() - from));
       in_parallel(threads, tried.size(), [&](std::size_t i) {
-        tried[i] = explain(sets[from + i], replay, library, whitening, nominal, priors);
+        tried[i] = explain(sets[from + i], replay, library, whitening, nominal, priors, 1);
       });
       for (Explanation& one : tried) take(std::move(one));
     }
@@ -218,20 +234,25 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   for (std::size_t i = 0; i < kSecondThoughts; ++i) {
     const Set leader = found.leader();
     if (found.is_settled(leader)) break;
-    take(explain(leader, replay, library, whitening, nominal, priors));
+    take(explain(leader, replay, library, whitening, nominal, priors, threads));
   }
+  Eigen::VectorXd fresh_at = nominal.at;
   for (int i = 0; i < kRefinements && !result.best.effects.empty(); ++i) {
-    const Linearised fresh = relinearise(replay, library, whitening, result.best.linear, result.best.linear.at,
-                                         library.moving(), threads);
-    const Judge here(fresh, library, priors);
-    found.settle(result.best.effects, here(result.best.effects));
+    if (const Eigen::VectorXd at = result.best.linear.at; !are_near(at, fresh_at, library)) {
+      result.best = concluded(
+          result.best.effects,
+          relinearise(replay, library, whitening, std::move(result.best.linear), at, library.moving(), threads),
+          library, priors);
+      fresh_at = at;
+    }
+    const Judge here(result.best.linear, library, priors);
+    found.settle(result.best.effects, result.best.log_odds);
     for (const auto& [set, score] : std::map(found.scores())) {
       if (!set.empty() && are_neighbours(set, result.best.effects)) found.settle(set, here(set));
     }
     const Set leader = found.leader();
-    const bool stays = leader == result.best.effects;
-    result.best = explain(leader, replay, library, whitening, fresh, priors);
-    if (stays) break;
+    if (leader == result.best.effects) break;
+    result.best = explain(leader, replay, library, whitening, std::move(result.best.linear), priors, threads);
   }
   result.best.log_odds = found.scores().at(result.best.effects);
 

@@ -44,7 +44,9 @@ using Matrix3 = std::array<Vector3, 3>;
 [[nodiscard]] inline Vector3 specific_force(const Vector3& euler_rad, const Vector3& velocity, const Vector3& rate,
                                             const Vector3& velocity_change_m_s2) {
   const Vector3 turning = cross(rate, velocity);
-  const Vector3 gravity = transpose(R_world_from_body(euler_rad)) * Vector3{0, 0, kGravity_m_s2};
+  const double st = std::sin(euler_rad[1]), ct = std::cos(euler_rad[1]);
+  const Vector3 gravity{-st * kGravity_m_s2, ct * std::sin(euler_rad[0]) * kGravity_m_s2,
+                        ct * std::cos(euler_rad[0]) * kGravity_m_s2};
   Vector3 force{};
   for (std::size_t i = 0; i < 3; ++i) force[i] = velocity_change_m_s2[i] + turning[i] - gravity[i];
   return force;

@@ -68,18 +68,20 @@ Vehicle::Change Vehicle::change(const Body& body, const Controls& held, const In
 
 Vehicle::Step Vehicle::step(const Body& body, const Controls& held, const Influences& influences,
                             double step_s) const {
-  const auto moved = [&](const Change& by, double time_s) {
-    return Body{body.position_m + time_s * by.position_m_s, body.euler_rad + time_s * by.euler_rad_s,
-                body.velocity + time_s * by.velocity};
-  };
   const Change k1 = change(body, held, influences);
-  const Change k2 = change(moved(k1, step_s / 2), held, influences);
-  const Change k3 = change(moved(k2, step_s / 2), held, influences);
-  const Change k4 = change(moved(k3, step_s), held, influences);
+  const Change k2 = change(moved(body, k1, step_s / 2), held, influences);
+  const Change k3 = change(moved(body, k2, step_s / 2), held, influences);
+  const Change k4 = change(moved(body, k3, step_s), held, influences);
   const Change mean{(k1.position_m_s + 2 * k2.position_m_s + 2 * k3.position_m_s + k4.position_m_s) / 6,
                     (k1.euler_rad_s + 2 * k2.euler_rad_s + 2 * k3.euler_rad_s + k4.euler_rad_s) / 6,
                     (k1.velocity + 2 * k2.velocity + 2 * k3.velocity + k4.velocity) / 6};
-  return {moved(mean, step_s), k1.velocity};
+  return {moved(body, mean, step_s), k1.velocity};
+}
+
+Body Vehicle::midpoint_step(const Body& body, const Controls& held, const Influences& influences,
+                            double step_s) const {
+  const Body middle = moved(body, change(body, held, influences), step_s / 2);
+  return moved(body, change(middle, held, influences), step_s);
 }
 
 void check_stable(const Body& body, double time_s) {

@@ -40,6 +40,10 @@ class Vehicle {
   /// One step of the classical Runge-Kutta method of fourth order.
   [[nodiscard]] Step step(const Body& body, const Controls& held, const Influences& influences,
                           double step_s) const;
+  /// The body after one step of the midpoint rule, of second order: for an estimator, whose next reading corrects
+  /// more than what this leaves out.
+  [[nodiscard]] Body midpoint_step(const Body& body, const Controls& held, const Influences& influences,
+                                   double step_s) const;
   /// nu' at this instant.
   [[nodiscard]] Vector6 acceleration(const Body& body, const Controls& held, const Influences& influences) const {
     return change(body, held, influences).velocity;
@@ -52,6 +56,10 @@ class Vehicle {
     Vector6 velocity;
   };
   [[nodiscard]] Change change(const Body& body, const Controls& held, const Influences& influences) const;
+  [[nodiscard]] static Body moved(const Body& body, const Change& by, double time_s) {
+    return {body.position_m + time_s * by.position_m_s, body.euler_rad + time_s * by.euler_rad_s,
+            body.velocity + time_s * by.velocity};
+  }
 
   Matrix6 mass_;
   Matrix6 mass_inverse_;
