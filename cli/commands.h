@@ -6,7 +6,7 @@
 
 namespace navcal::cli {
 
-/// Exit statuses of every command (CLI.md).
+/// Exit statuses of every command (docs/cli.md).
 enum class Exit : int { success = 0, failed = 1, usage = 2, bad_input = 3 };
 
 /// Ends a command: the message goes to standard error, the status to the shell.

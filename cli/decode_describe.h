@@ -9,8 +9,8 @@
 
 namespace navcal::cli {
 
-/// Writes the decoded fields of one frame, with the keys of CLI.md. `pivot`: dates before it are moved up by whole
-/// epochs of 1024 weeks; nullopt: dates as sent.
+/// Writes the decoded fields of one frame, with the keys of docs/cli.md. `pivot`: dates before it are moved up by
+/// whole epochs of 1024 weeks; nullopt: dates as sent.
 using Describe = void (*)(FieldWriter& fields, const protocols::Frame& frame,
                           const std::optional<protocols::Date>& pivot);
 

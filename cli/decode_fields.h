@@ -12,8 +12,8 @@
 
 namespace navcal::cli {
 
-/// Writes what was decoded, field by field: as a JSON object a line (CLI.md, `decode`), where what is absent is
-/// null, or as a line for people, where it is left out.
+/// Writes what was decoded, field by field: as a JSON object a line (docs/cli.md, `decode`), where what is absent
+/// is null, or as a line for people, where it is left out.
 class FieldWriter {
  public:
   enum class Format : std::uint8_t { json, text };

@@ -18,7 +18,7 @@ struct DecodeSummary {
   [[nodiscard]] std::uint64_t skipped_bytes() const { return counters.skipped_bytes - incomplete_bytes; }
 };
 
-/// The SUMMARY line of CLI.md.
+/// The SUMMARY line of docs/cli.md.
 void write_json(Output& output, const DecodeSummary& summary);
 /// The same for people.
 void write_text(Output& output, const DecodeSummary& summary);

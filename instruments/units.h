@@ -7,7 +7,7 @@
 namespace navcal::instruments {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180;
-/// The g of the accelerometers' scale (VEHICLE.md section 1).
+/// The g of the accelerometers' scale (docs/simulator.md).
 inline constexpr double kGravity_m_s2 = 9.81;
 
 [[nodiscard]] constexpr double radians_of(double angle, config::AngleUnit unit) {

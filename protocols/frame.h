@@ -50,7 +50,7 @@ struct Counters {
 
 enum class Protocol : std::uint8_t { tcm2, imu_card, oncore, motor_card, nmea };
 
-/// "tcm2", "imu-card", "oncore", "motor-card", "nmea" (CLI.md, ICD.md section 5).
+/// "tcm2", "imu-card", "oncore", "motor-card", "nmea" (docs/cli.md, ICD section 5).
 [[nodiscard]] std::string_view name_of(Protocol protocol);
 [[nodiscard]] std::optional<Protocol> protocol_named(std::string_view name);
 

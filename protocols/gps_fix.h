@@ -16,7 +16,7 @@ enum class Fix : std::uint8_t {
   bad_geometry,  ///< satellites stand too badly for a position
 };
 
-/// "none", "2d", "3d", "propagated", "hold", "acquiring", "bad_geometry" (CLI.md).
+/// "none", "2d", "3d", "propagated", "hold", "acquiring", "bad_geometry" (docs/cli.md).
 [[nodiscard]] constexpr std::string_view name_of(Fix fix) {
   switch (fix) {
     case Fix::none:

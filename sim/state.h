@@ -11,7 +11,7 @@ inline constexpr double kGravity_m_s2 = 9.81;
 
 [[nodiscard]] inline double water_temperature_C(double depth_m) { return 15 - 0.25 * depth_m; }
 
-/// What the instruments could measure at one instant (VEHICLE.md sections 1 and 2). Body axes x forward,
+/// What the instruments could measure at one instant (docs/simulator.md). Body axes x forward,
 /// y starboard, z down; world axes north, east, down.
 struct State {
   Vector3 position_m{};  ///< north, east, down

@@ -21,7 +21,7 @@ using namespace calib::test;
 
 namespace {
 
-/// Printed in THESIS.md 11.4, paths 1 to 8.
+/// Best figures that were known of paths 1 to 8, and goals.
 struct Printed {
   std::array<double, 8> best, goal;
 };

@@ -12,7 +12,7 @@
 #include "calib/thesis/gyro_least_squares.h"
 #include "tests/calib/thesis_paths.h"
 
-/// The thesis's algorithms give on our paths what THESIS.md says they give.
+/// The algorithms of the thesis (Mach 2003) give on our paths what another implementation of them gave.
 namespace navcal::calib::thesis {
 namespace {
 
