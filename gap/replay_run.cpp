@@ -14,11 +14,9 @@ using sim::operator*;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // The estimator's gains, found by a study of this vehicle: a reading or a frame each.
 constexpr double kHeadingGain = 0.02, kTiltGain = 0.05, kRateGain = 0.15, kDepthGain = 0.03;
 constexpr double kFixVariance_m2 = 1, kDriftVariance_m2_s = 0.02;
-constexpr double kFluidLag_s = 0.3;
 /// A card silent for longer has been off: the estimator begins anew.
 constexpr double kRestart_s = 5;
 constexpr double kLongestStep_s = 0.06;
@@ -46,8 +44,11 @@ double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
 }  // namespace
 
 ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
-    : in_(input), effects_(model.effects), bias_rad_s_(model.bias_rad_s) {
-  link_fins();
+    : in_(input),
+      effects_(model.effects),
+      actuators_(input.actuators, effects_),
+      instruments_(effects_, model.bias_rad_s),
+      gyro_error_at_rest_rad_s_(about_axes(model.bias_rad_s)) {
   sums_.setZero(in_.intervals, kChannels);
   counts_.setZero(in_.intervals, kChannels);
   const auto fixes = static_cast<Eigen::Index>(in_.mission.fixes.size());
@@ -55,58 +56,9 @@ ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
   out_.fix_scale_m = Eigen::VectorXd::Ones(fixes);
 }
 
-void ReplayRun::link_fins() {
-  constexpr double kStep_s = ActuatorTrack::kStep_s;
-  sim::Controls sum;
-  linked_fins_rad_.reserve(in_.actuators.size());
-  integrals_.reserve(in_.actuators.size());
-  for (std::size_t k = 0; k < in_.actuators.size(); ++k) {
-    // What an effect changes is taken from fins without noise: the derivative of a report's noise would else be a
-    // part of what a lag does, and a lag would be found too small.
-    const auto& [reported_rad, clean_rad, shaft_rps] = in_.actuators[k];
-    Vector3 fins_rad = clean_rad;
-    effects_.link_fins(static_cast<double>(k) * kStep_s, kStep_s, fins_rad);
-    for (std::size_t i = 0; i < 3; ++i) fins_rad[i] += reported_rad[i] - clean_rad[i];
-    linked_fins_rad_.push_back(fins_rad);
-    if (k > 0) {
-      sum.fins_rad += kStep_s / 2 * (vector_of(linked_fins_rad_[k - 1]) + vector_of(fins_rad));
-      sum.shaft_rps += kStep_s / 2 * (in_.actuators[k - 1].shaft_rps + shaft_rps);
-    }
-    integrals_.push_back(sum);
-  }
-}
-
-sim::Controls ReplayRun::controls(double from_s, double until_s) const {
-  const double last = static_cast<double>(integrals_.size() - 1);
-  const auto at = [&](double time_s) {
-    const double place = std::clamp(time_s / ActuatorTrack::kStep_s, 0.0, last);
-    const auto k = std::min(static_cast<std::size_t>(place), integrals_.size() - 2);
-    const double part = place - static_cast<double>(k);
-    const auto &a = integrals_[k], &b = integrals_[k + 1];
-    return sim::Controls{a.fins_rad + part * (b.fins_rad - a.fins_rad),
-                         a.shaft_rps + part * (b.shaft_rps - a.shaft_rps)};
-  };
-  const double least_s = 1e-3;
-  if (until_s - from_s < least_s) until_s = from_s + least_s;
-  if (until_s >= last * ActuatorTrack::kStep_s) {
-    return {vector_of(linked_fins_rad_.back()), in_.actuators.back().shaft_rps};
-  }
-  const auto a = at(from_s), b = at(until_s);
-  return {(b.fins_rad - a.fins_rad) / (until_s - from_s), (b.shaft_rps - a.shaft_rps) / (until_s - from_s)};
-}
-
-sim::Instant ReplayRun::instant(double time_s, const sim::State& state) const {
-  return {time_s, state, electronics_C_};
-}
-
-std::size_t ReplayRun::row_at(double time_s) const {
-  return static_cast<std::size_t>(
-      std::clamp(time_s / ActuatorTrack::kStep_s, 0.0, static_cast<double>(in_.actuators.size() - 1)));
-}
-
 void ReplayRun::complete(sim::State& state, double time_s) {
-  const std::size_t row = row_at(time_s);
-  const sim::Controls now{vector_of(linked_fins_rad_[row]), in_.actuators[row].shaft_rps};
+  const std::size_t row = actuators_.row_at(time_s);
+  const sim::Controls now = actuators_.of_row(row);
   const auto acceleration = in_.vehicle.acceleration(body_, now, influences_);
   state.position_m = array_of(body_.position_m);
   state.euler_rad = array_of(body_.euler_rad);
@@ -132,13 +84,14 @@ void ReplayRun::begin(const CardReading& reading) {
   body_.euler_rad = {word.roll_rad, word.pitch_rad, heading_rad + variation_rad};
   body_.position_m.z() = reading.depth_m;
   constexpr double kAdvance_m = 0.087;  // a turn of the shaft, at a steady speed
-  body_.velocity[0] = kAdvance_m * in_.actuators[row_at(reading.time_s)].shaft_rps;
+  body_.velocity[0] = kAdvance_m * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
   gyro_said_rad_s_ = about_axes(reading.gyro_rad_s);
-  gyro_error_rad_s_ = about_axes(bias_rad_s_);
+  gyro_error_rad_s_ = gyro_error_at_rest_rad_s_;
   body_.velocity.tail<3>() = vector_of(gyro_said_rad_s_) - vector_of(gyro_error_rad_s_);
-  if (!in_.electronics_C.empty())
-    electronics_C_ = in_.electronics_C[std::min(next_word_, in_.electronics_C.size() - 1)];
-  fluid_ = {};
+  if (!in_.electronics_C.empty()) {
+    instruments_.set_electronics(in_.electronics_C[std::min(next_word_, in_.electronics_C.size() - 1)]);
+  }
+  instruments_.restart();
   last_fix_s_.reset();
   variance_m2_ = 0;
 }
@@ -149,7 +102,7 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
   effects_.influence(from_s, influences_);
   const Eigen::Vector3d euler = body_.euler_rad;
   const Eigen::Vector3d rate = vector_of(gyro_rad_s);
-  body_ = in_.vehicle.midpoint_step(body_, controls(from_s, until_s), influences_, step_s);
+  body_ = in_.vehicle.midpoint_step(body_, actuators_.mean(from_s, until_s), influences_, step_s);
   const Eigen::Vector3d middle = euler + step_s / 2 * euler_rates(euler, rate);
   body_.euler_rad = euler + step_s * euler_rates(middle, rate);
   distance_m_ += step_s * body_.velocity.head<3>().norm();
@@ -180,30 +133,6 @@ sim::State ReplayRun::past(double time_s) const {
                       (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
 }
 
-ReplayRun::Instruments ReplayRun::card(double time_s, const sim::State& state) {
-  const sim::Instant now = instant(time_s, state);
-  Instruments said;
-  for (std::size_t i = 0; i < 4; ++i) said.gyro_rad_s[i] = state.rate_rad_s[sim::kGyroAxes[i]];
-  said.force_m_s2 = state.specific_force_m_s2;
-  said.depth_m = state.position_m[2];
-  effects_.gyros(now, said.gyro_rad_s);
-  effects_.accelerometers(now, said.force_m_s2);
-  effects_.depth(now, said.depth_m);
-  for (std::size_t i = 0; i < 4; ++i) said.gyro_rad_s[i] += bias_rad_s_[i];
-  if (effects_.size() == 0) return said;
-
-  static const config::ImuCardSettings kCard;
-  sim::CardVoltages_mV voltages{};
-  const auto unit = [](std::size_t i) { return i < 4 ? kDegree : i < 7 ? sim::kGravity_m_s2 : 1.0; };
-  const auto signal = [&](std::size_t i) -> double& {
-    return i < 4 ? said.gyro_rad_s[i] : i < 7 ? said.force_m_s2[i - 4] : said.depth_m;
-  };
-  for (std::size_t i = 0; i < 8; ++i) voltages[i] = kCard.zero_mV[i] + kCard.scale[i] * signal(i) / unit(i);
-  effects_.card_voltages(now, voltages);
-  for (std::size_t i = 0; i < 8; ++i) signal(i) = (voltages[i] - kCard.zero_mV[i]) / kCard.scale[i] * unit(i);
-  return said;
-}
-
 std::optional<Eigen::Index> ReplayRun::interval_of(double time_s) const {
   if (time_s < in_.begin_s) return std::nullopt;
   const auto row = static_cast<Eigen::Index>((time_s - in_.begin_s) / kInterval_s);
@@ -219,7 +148,8 @@ void ReplayRun::add(std::optional<Eigen::Index> interval, Channel channel, doubl
 void ReplayRun::take_card(const CardReading& reading) {
   const double delay_s = effects_.delays(reading.time_s).card_s;
   const Moment& now = moments_.back();
-  const Instruments said = card(reading.time_s, delay_s > 0 ? past(reading.time_s - delay_s) : now.predicted);
+  const auto said =
+      instruments_.card(reading.time_s, delay_s > 0 ? past(reading.time_s - delay_s) : now.predicted);
   const auto interval = interval_of(reading.time_s);
   std::array<double, 4> missed{};
   for (std::size_t i = 0; i < 4; ++i) missed[i] = reading.gyro_rad_s[i] - said.gyro_rad_s[i];
@@ -242,30 +172,17 @@ void ReplayRun::take_card(const CardReading& reading) {
   body_.position_m.z() += kDepthGain * (reading.depth_m - said.depth_m);
 }
 
-void ReplayRun::feel(double time_s, const sim::State& state) {
-  const sim::Instant now = instant(time_s, state);
-  sim::Tilt seen{state.euler_rad[0], state.euler_rad[1]};
-  effects_.tilt_seen(now, seen);
-  const Vector3 settled = fluid_.at(time_s, {seen.roll_rad, seen.pitch_rad, 0}, kFluidLag_s);
-  tilt_ = {settled[0], settled[1]};
-  Vector3 earth_uT = state.field_world_uT;
-  effects_.earth_field(now, earth_uT);
-  field_uT_ = sim::transpose(sim::R_world_from_body(state.euler_rad)) * earth_uT;
-  effects_.body_field(now, field_uT_);
-}
-
 void ReplayRun::take_word(const CompassReading& reading, const sim::State& state) {
-  feel(reading.time_s, state);
-  sim::Tilt said = tilt_;
-  effects_.tilt_said(instant(reading.time_s, state), said);
+  const auto said = instruments_.word(reading.time_s, state);
   const double heading_missed = nav::wrapped(
       reading.heading_rad.value_or(heading_of(reading.field_uT, reading.roll_rad, reading.pitch_rad)) -
-      heading_of(field_uT_, said.roll_rad, said.pitch_rad));
-  const double roll_missed = reading.roll_rad - said.roll_rad, pitch_missed = reading.pitch_rad - said.pitch_rad;
+      heading_of(said.field_uT, said.tilt.roll_rad, said.tilt.pitch_rad));
+  const double roll_missed = reading.roll_rad - said.tilt.roll_rad;
+  const double pitch_missed = reading.pitch_rad - said.tilt.pitch_rad;
   const auto interval = interval_of(reading.time_s + in_.compass_shift_s);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    add(interval, static_cast<Channel>(field_x + i), reading.field_uT[k] - field_uT_[k]);
+    add(interval, static_cast<Channel>(field_x + i), reading.field_uT[k] - said.field_uT[k]);
   }
   add(interval, tilt_roll, roll_missed);
   add(interval, tilt_pitch, pitch_missed);
@@ -277,7 +194,7 @@ void ReplayRun::take_word(const CompassReading& reading, const sim::State& state
 void ReplayRun::take_words(double until_s) {
   const auto& words = in_.mission.compass;
   for (; next_word_ < words.size() && words[next_word_].time_s <= until_s; ++next_word_) {
-    electronics_C_ = in_.electronics_C[next_word_];
+    instruments_.set_electronics(in_.electronics_C[next_word_]);
     take_word(words[next_word_], past(words[next_word_].time_s));
   }
 }
@@ -290,13 +207,7 @@ void ReplayRun::take_fixes(double until_s) {
 void ReplayRun::take_fix(std::size_t index) {
   const FixReading& fix = in_.mission.fixes[index];
   const double time_s = fix.time_s - effects_.delays(fix.time_s).gps_s;
-  const sim::State state = past(time_s);
-  sim::AntennaMotion antenna{state.position_m, sim::R_world_from_body(state.euler_rad) * state.velocity_body_m_s};
-  for (std::size_t i = 0; i < 2; ++i) {
-    antenna.position_m[i] += offset_m_[i];
-    antenna.velocity_m_s[i] += state.current_m_s[i];
-  }
-  effects_.antenna(instant(time_s, state), antenna);
+  const auto antenna = instruments_.antenna(time_s, past(time_s), offset_m_);
 
   // The first fixes after surfacing come from few satellites (docs/simulator.md).
   const double degraded = 1 + std::exp2(1 - fix.number);
@@ -348,7 +259,7 @@ void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) con
     course.depth_m.push_back(state.position_m[2]);
     course.surge_m_s.push_back(state.velocity_body_m_s[0]);
     course.current_A.push_back(state.motor_current_A);
-    course.warmth_C.push_back(electronics_C_ - 15);
+    course.warmth_C.push_back(instruments_.electronics_C() - 15);
     // The mixing of the card's interface document, section 4, undone.
     course.rudder_rad.push_back((-2 * fins[0] + fins[1] + fins[2]) / 3);
     course.elevator_rad.push_back((fins[1] - fins[2]) / std::numbers::sqrt3);
@@ -372,7 +283,7 @@ Innovations ReplayRun::innovations(Course10Hz* course) {
     take_words(reading.time_s);
     take_fixes(reading.time_s);
     take_card(reading);
-    if (effects_.size() > 0) feel(reading.time_s, moment.predicted);
+    if (effects_.size() > 0) instruments_.feel(reading.time_s, moment.predicted);
     moments_.back().corrected = moment.predicted;
     moments_.back().corrected.euler_rad = array_of(body_.euler_rad);
     moments_.back().corrected.position_m = array_of(body_.position_m);

@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "gap/linked_actuators.h"
+#include "gap/predicted_instruments.h"
 #include "gap/replay.h"
-#include "sim/effects/low_pass.h"
 
 namespace navcal::gap {
 
@@ -26,36 +27,26 @@ struct ReplayInput {
 class ReplayRun {
  public:
   ReplayRun(const ReplayInput& input, const Model& model);
+  ReplayRun(const ReplayRun&) = delete;
+  ReplayRun& operator=(const ReplayRun&) = delete;
 
   [[nodiscard]] Innovations innovations(Course10Hz* course);
 
  private:
-  struct Instruments {
-    std::array<double, 4> gyro_rad_s{};
-    Vector3 force_m_s2{};
-    double depth_m = 0;
-  };
   struct Moment {
     double time_s = 0;
     sim::State predicted;  ///< before the readings of this moment were used
     sim::State corrected;  ///< after
   };
 
-  [[nodiscard]] std::size_t row_at(double time_s) const;
   void begin(const CardReading& reading);
-  void link_fins();
-  /// Means of the linked fins and the shaft over a time, by their integrals.
-  [[nodiscard]] sim::Controls controls(double from_s, double until_s) const;
   void carry(const CardReading& to);
   void step(double from_s, double until_s, const Vector3& gyro_rad_s);
   void complete(sim::State& state, double time_s);
-  [[nodiscard]] sim::Instant instant(double time_s, const sim::State& state) const;
   [[nodiscard]] sim::State past(double time_s) const;
-  [[nodiscard]] Instruments card(double time_s, const sim::State& state);
   void take_card(const CardReading& reading);
   void take_words(double until_s);
   void take_word(const CompassReading& reading, const sim::State& state);
-  void feel(double time_s, const sim::State& state);
   void take_fixes(double until_s);
   void take_fix(std::size_t index);
   void write_course(const CardReading& reading, Course10Hz& course) const;
@@ -65,18 +56,14 @@ class ReplayRun {
 
   ReplayInput in_;
   sim::EffectSet effects_;
-  GyroBias bias_rad_s_;
-  std::vector<sim::Controls> integrals_;  ///< of fins and shaft from the beginning, at the times of in_.actuators
-  std::vector<Vector3> linked_fins_rad_;
+  LinkedActuators actuators_;
+  PredictedInstruments instruments_;
+  Vector3 gyro_error_at_rest_rad_s_;
   sim::Influences influences_;
   sim::Body body_;              ///< the estimate
   Vector3 gyro_error_rad_s_{};  ///< predicted, of the rates about x, y, z
   Vector3 gyro_said_rad_s_{};   ///< at the last frame
   std::deque<Moment> moments_;  ///< the newest last
-  sim::LowPass fluid_;
-  sim::Tilt tilt_;
-  Vector3 field_uT_{};
-  double electronics_C_ = 15;
   std::size_t next_word_ = 0, next_fix_ = 0;
   std::array<double, 2> offset_m_{};  ///< by which fixes moved the estimate
   double variance_m2_ = 0;
