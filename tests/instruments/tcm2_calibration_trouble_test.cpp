@@ -133,5 +133,39 @@ TEST(Tcm2CalibrationTrouble, WordsThatStopWithoutABanner) {
   EXPECT_EQ(bench.transcript(), "h h cc mpcal=e go h h mpcal=d mpcal=d mpcal=d go go go ");
 }
 
+TEST(Tcm2CalibrationTrouble, ADeviceThatIsUnpluggedEndsItAtAnyTimeAndItCanBeginAnew) {
+  for (const std::int64_t at_ms : {0, 50, 300, 450, 900, 5'000, 19'000, 20'500, 20'900}) {
+    Tcm2CalibrationBench bench(36);
+    bench.dialogue.begin(bench.now_ns);
+    bench.run_for(at_ms * kMs);
+    if (!bench.dialogue.busy()) continue;
+    const bool had_score = bench.dialogue.score().has_value();
+    const auto commands = bench.sent.size();
+    bench.dialogue.abandon("the compass went away");
+    EXPECT_FALSE(bench.dialogue.busy()) << at_ms;
+    EXPECT_EQ(bench.dialogue.state() == "failed: the compass went away", !had_score) << at_ms;
+    bench.run_for(10 * kSecond);
+    EXPECT_EQ(bench.sent.size(), commands) << "nobody is there to be told, " << at_ms;
+
+    bench.power_cycle();
+    bench.run_for(2 * kSecond);  // its banner
+    bench.dialogue.begin(bench.now_ns);
+    bench.run_for(60 * kSecond);
+    ASSERT_TRUE(bench.dialogue.score()) << at_ms << ": " << bench.dialogue.state();
+    EXPECT_TRUE(bench.words_flow()) << at_ms;
+  }
+}
+
+TEST(Tcm2CalibrationTrouble, UnpluggedWhenNothingIsUnderWayItStaysAsItWas) {
+  Tcm2CalibrationBench bench(36);
+  bench.dialogue.abandon("the compass went away");
+  EXPECT_EQ(bench.dialogue.state(), "not begun");
+  bench.dialogue.begin(bench.now_ns);
+  bench.run_for(60 * kSecond);
+  const std::string state = bench.dialogue.state();
+  bench.dialogue.abandon("the compass went away");
+  EXPECT_EQ(bench.dialogue.state(), state);
+}
+
 }  // namespace
 }  // namespace navcal::instruments::test
