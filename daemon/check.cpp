@@ -55,6 +55,12 @@ std::string describe(const config::Settings& settings) {
     line(fmt::runtime("log: off"));
   }
   append_calibration(out, settings);
+  if (settings.navigation.enabled) {
+    line(fmt::runtime("navigation: attitude, depth and position between fixes, every {} s"),
+         settings.navigation.interval_s);
+  } else {
+    line(fmt::runtime("navigation: off"));
+  }
   line(fmt::runtime("status: TCP {} port {}, at most {} clients"), settings.status.address, settings.status.port,
        settings.status.max_clients);
   line(fmt::runtime("control: {} with permissions {:04o}"), settings.control.socket.string(),
