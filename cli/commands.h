@@ -23,6 +23,7 @@ class Failure : public std::runtime_error {
 // runs the command and throws Failure when it cannot.
 void add_calibrate(CLI::App& app);
 void add_decode(CLI::App& app);
+void add_doctor(CLI::App& app);
 void add_emulate(CLI::App& app);
 void add_gap(CLI::App& app);
 void add_log(CLI::App& app);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
 
   navcal::cli::add_calibrate(app);
   navcal::cli::add_decode(app);
+  navcal::cli::add_doctor(app);
   navcal::cli::add_emulate(app);
   navcal::cli::add_gap(app);
   navcal::cli::add_log(app);

@@ -26,25 +26,24 @@ bool has_open(const fs::path& process, const fs::path& device) {
 
 bool lock_device(int fd) { return ::flock(fd, LOCK_EX | LOCK_NB) == 0; }
 
-std::string holders_of(const std::string& device) {
+std::string visible_holders_of(const std::string& device) {
   std::string holders;
   std::error_code error;
-  bool ourselves = false;
   for (fs::directory_iterator entry("/proc", error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename();
     int pid = 0;
     if (std::from_chars(name.data(), name.data() + name.size(), pid).ptr != name.data() + name.size()) continue;
-    if (!has_open(entry->path(), device)) continue;
-    if (pid == ::getpid()) {
-      ourselves = true;
-      continue;
-    }
+    if (pid == ::getpid() || !has_open(entry->path(), device)) continue;
     std::string command;
     std::getline(std::ifstream(entry->path() / "comm"), command);
     holders += fmt::format("{}{} (process {})", holders.empty() ? "" : ", ", command, pid);
   }
-  if (!holders.empty()) return holders;
-  return ourselves ? "this process" : "another user's process";
+  return holders;
+}
+
+std::string holders_of(const std::string& device) {
+  if (const std::string holders = visible_holders_of(device); !holders.empty()) return holders;
+  return has_open("/proc/self", device) ? "this process" : "another user's process";
 }
 
 }  // namespace navcal::ports

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/doctor_checks.h"
+#include "cli/doctor_report.h"
+#include "config/load.h"
+
+namespace navcal::cli {
+namespace {
+
+struct Arguments {
+  std::string configuration = "/etc/navcal/navcald.toml";
+  bool json = false;
+};
+
+/// Nothing but what is wrong with it, when it cannot be read.
+std::optional<config::Settings> read_configuration(const std::string& file, Findings& findings) {
+  try {
+    auto settings = config::load(file);
+    findings.push_back(good("configuration", fmt::format("{}: {} ports", file, settings.ports.size())));
+    return settings;
+  } catch (const config::Error& error) {
+    for (const std::string& problem : error.problems()) {
+      findings.push_back(fault("configuration", problem, "sudoedit " + file));
+    }
+  }
+  return std::nullopt;
+}
+
+void run(const Arguments& arguments) {
+  const Account account = service_account();
+  Findings findings;
+  const auto read = read_configuration(arguments.configuration, findings);
+  const config::Settings settings = read.value_or(config::Settings{});
+  for (const auto& port : settings.ports) findings.push_back(check_port(port, account));
+  findings.push_back(check_status_port(settings.status));
+  if (read) findings.push_back(check_log_folder(settings.log, account));
+  findings.push_back(check_clock());
+  findings.push_back(check_limits(settings));
+
+  if (arguments.json) {
+    fmt::print("{}", doctor_json(findings, account.name, arguments.configuration));
+  } else {
+    fmt::print("{}", doctor_text(findings));
+  }
+  if (const auto faults = count_of(findings, Finding::Severity::fault); faults > 0) {
+    throw Failure(Exit::failed, fmt::format("{} {} between you and good data", faults,
+                                            faults == 1 ? "fault stands" : "faults stand"));
+  }
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app) {
+  auto* command = app.add_subcommand("doctor", "what stands between you and good data, and how to mend it");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("--config", arguments->configuration, "the daemon's configuration")
+      ->type_name("FILE")
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "one object, with all that was looked at");
+  command->footer(
+      "Looks at the configuration, at each port (there, permitted, held by another program, latency of its "
+      "adapter),\n"
+      "the status socket, the log folder with its speed, the clock and limits. By root it is judged for the "
+      "service's\n"
+      "user. The exit status is 1 when there is a fault; warnings leave it 0.\n\n"
+      "Example: sudo navcal doctor");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace navcal::cli

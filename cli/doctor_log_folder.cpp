@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/doctor_checks.h"
+#include "record/disk.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr double kMegabyte = 1e6;
+
+/// Seconds from a record to its being safe, the longest of a few tries; less than 0 when it cannot be tried.
+double slowest_sync_s(const std::filesystem::path& folder) {
+  constexpr std::size_t kRecord = 16'384;  // some seconds of a vehicle's data
+  constexpr int kTries = 8;
+  record::Disk& disk = record::real_disk();
+  const auto file = folder / fmt::format(".navcal-doctor-{}", ::getpid());
+  std::error_code error;
+  double slowest_s = -1;
+  {
+    const auto opened = disk.create(file, error);
+    if (!opened) return -1;
+    const std::string record(kRecord, '\xa5');
+    for (int i = 0; i < kTries && !error; ++i) {
+      const auto began = std::chrono::steady_clock::now();
+      error = opened->write_at(static_cast<std::uint64_t>(i) * kRecord, record);
+      if (!error) error = opened->sync();
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+      slowest_s = std::max(slowest_s, took.count());
+    }
+  }
+  (void)disk.remove(file);
+  return error ? -1 : slowest_s;
+}
+
+}  // namespace
+
+Finding check_log_folder(const config::LogSettings& settings, const Account& account) {
+  const std::string topic = "log";
+  if (!settings.enabled) return good(topic, "off");
+  const std::string folder = settings.directory.string();
+  std::error_code error;
+  if (!std::filesystem::is_directory(settings.directory, error)) {
+    return fault(topic, folder + " is not there",
+                 fmt::format("sudo install -d -m 750 -o {} {}", account.name, folder));
+  }
+  if (!may_read_and_write(account, settings.directory)) {
+    return fault(topic, fmt::format("{}: {} may not write there", folder, account.name),
+                 fmt::format("sudo chown {} {}", account.name, folder));
+  }
+  const auto free_bytes = record::real_disk().free_bytes(settings.directory, error);
+  if (error) return fault(topic, folder + ": " + error.message(), "look at `df -h " + folder + "`");
+  const double free_MB = static_cast<double>(free_bytes) / kMegabyte;
+  if (free_bytes < settings.free_floor_bytes + settings.rotate_bytes) {
+    return warning(topic,
+                   fmt::format("{}: {:.0f} MB are free; a file of the log takes {:.0f} MB, and {:.0f} MB are kept "
+                               "free by deleting the oldest",
+                               folder, free_MB, static_cast<double>(settings.rotate_bytes) / kMegabyte,
+                               static_cast<double>(settings.free_floor_bytes) / kMegabyte),
+                   "copy logs away, or lower log.rotate_MB and log.free_floor_MB");
+  }
+  const double sync_s = slowest_sync_s(settings.directory);
+  if (sync_s < 0) {
+    // Another user's folder, in which the service may write and we may not.
+    return good(topic, fmt::format("{}, {:.0f} MB free; its speed can be measured by {} only", folder, free_MB,
+                                   account.name));
+  }
+  const std::string speed =
+      fmt::format("{}, {:.0f} MB free, a record is safe after {:.3g} ms at most", folder, free_MB, sync_s * 1e3);
+  if (sync_s > settings.sync_interval_s) {
+    return warning(topic, speed,
+                   fmt::format("slower than log.sync_interval_s = {}: a power cut costs more; use a faster medium",
+                               settings.sync_interval_s));
+  }
+  return good(topic, speed);
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,74 @@
+#include "cli/doctor_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace navcal::cli {
+namespace {
+
+const char* word_of(Finding::Severity severity) {
+  switch (severity) {
+    case Finding::Severity::good:
+      return "ok";
+    case Finding::Severity::warning:
+      return "warning";
+    case Finding::Severity::fault:
+      break;
+  }
+  return "fault";
+}
+
+std::string number_of(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::size_t count_of(const Findings& findings, Finding::Severity severity) {
+  return static_cast<std::size_t>(std::count_if(
+      findings.begin(), findings.end(), [&](const Finding& finding) { return finding.severity == severity; }));
+}
+
+std::string doctor_text(const Findings& findings) {
+  std::size_t width = 0;
+  for (const Finding& finding : findings) width = std::max(width, finding.topic.size());
+  std::string out;
+  const auto append = [&](auto&&... arguments) {
+    fmt::format_to(std::back_inserter(out), std::forward<decltype(arguments)>(arguments)...);
+  };
+  for (const Finding& finding : findings) {
+    append(fmt::runtime("{:<8} {:<{}}  {}\n"), word_of(finding.severity), finding.topic, width, finding.found);
+    if (!finding.mend.empty()) append(fmt::runtime("{:{}}  -> {}\n"), "", width + 9, finding.mend);
+  }
+  const auto faults = count_of(findings, Finding::Severity::fault);
+  const auto warnings = count_of(findings, Finding::Severity::warning);
+  if (faults + warnings == 0) {
+    out += "Nothing stands in the way.\n";
+  } else {
+    append(fmt::runtime("{}, {}.\n"), number_of(faults, "fault"), number_of(warnings, "warning"));
+  }
+  return out;
+}
+
+std::string doctor_json(const Findings& findings, const std::string& account, const std::string& configuration) {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (const Finding& finding : findings) {
+    list.push_back({{"severity", word_of(finding.severity)},
+                    {"topic", finding.topic},
+                    {"found", finding.found},
+                    {"mend", finding.mend.empty() ? Json(nullptr) : Json(finding.mend)}});
+  }
+  const Json all{{"class", "DOCTOR"},
+                 {"account", account},
+                 {"configuration", configuration},
+                 {"findings", list},
+                 {"faults", count_of(findings, Finding::Severity::fault)},
+                 {"warnings", count_of(findings, Finding::Severity::warning)}};
+  return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace navcal::cli
