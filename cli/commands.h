@@ -22,6 +22,7 @@ class Failure : public std::runtime_error {
 // One file per subcommand; each adds itself to the application with its options, help and example. The callback
 // runs the command and throws Failure when it cannot.
 void add_calibrate(CLI::App& app);
+void add_completion(CLI::App& app);
 void add_decode(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_emulate(CLI::App& app);

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   app.footer("Each command explains itself: navcal decode --help");
 
   navcal::cli::add_calibrate(app);
+  navcal::cli::add_completion(app);
   navcal::cli::add_decode(app);
   navcal::cli::add_doctor(app);
   navcal::cli::add_emulate(app);

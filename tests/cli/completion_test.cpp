@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
+// What a bash that has read the script offers, asked as bash asks.
+namespace navcal::cli {
+namespace {
+
+class Completion : public testing::Test {
+ protected:
+  /// `typed`: the words before the cursor; the last may be begun or empty.
+  [[nodiscard]] std::string offered(const std::string& typed, const std::string& shell = "bash") const {
+    const auto script = folder_ / "script";
+    std::ofstream(script) << "source <('" NAVCAL_PROGRAM "' completion " << shell << ")\n"
+                          << "COMP_WORDS=(" << typed << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
+                          << "_navcal\necho \"${COMPREPLY[*]}\"\n";
+    const std::string command = "cd " + folder_.path().string() + " && bash " + script.string() + " > out 2> err";
+    const int status = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << test::read_file(folder_ / "err");
+    const std::string text = test::read_file(folder_ / "out");
+    return text.substr(0, text.find('\n'));
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Completion, CommandsAndTheirCommands) {
+  EXPECT_EQ(offered("navcal dec"), "decode");
+  EXPECT_EQ(offered("navcal do"), "doctor");
+  EXPECT_EQ(offered("navcal log ''"), "info finish export");
+  EXPECT_EQ(offered("navcal log ex"), "export");
+  EXPECT_NE(offered("navcal ''").find("watch"), std::string::npos);
+}
+
+TEST_F(Completion, OptionsOfTheCommandAndNoOther) {
+  EXPECT_EQ(offered("navcal decode --js"), "--json");
+  EXPECT_EQ(offered("navcal decode --proto"), "--protocol");
+  EXPECT_EQ(offered("navcal gap trial --cas"), "--cases");
+  EXPECT_EQ(offered("navcal gap --cas"), "");
+  EXPECT_EQ(offered("navcal --vers"), "--version");
+}
+
+TEST_F(Completion, FilesWhereAValueOrAFileIsWanted) {
+  std::ofstream(folder_ / "mission.cap") << "";
+  EXPECT_EQ(offered("navcal replay miss"), "mission.cap");
+  EXPECT_EQ(offered("navcal gap --report miss"), "mission.cap");
+  EXPECT_EQ(offered("navcal gap --report x miss"), "mission.cap") << "after the value";
+}
+
+TEST_F(Completion, AShellThatIsNoneIsWrongUsage) {
+  EXPECT_NE(std::system("'" NAVCAL_PROGRAM "' completion fish > /dev/null 2>&1"), 0);
+}
+
+}  // namespace
+}  // namespace navcal::cli
