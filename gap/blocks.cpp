@@ -27,13 +27,15 @@ std::vector<double> gains_of_blocks(const Explanation& explanation, const Librar
   for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
   const Eigen::VectorXd data = linear.residual + linear.design * linear.at;
   const auto members = members_of(library, explanation.effects);
+  const Priors others = without_members(priors, library, explanation.effects);
   std::vector<double> gains;
   for (const bool learn_from_even : {true, false}) {
     const Eigen::VectorXd learn = learn_from_even ? mask : Eigen::VectorXd((1 - mask.array()).matrix());
     const Eigen::MatrixXd design = learn.asDiagonal() * linear.design;
-    const Evidence evidence(design.transpose() * linear.design, design.transpose() * data, priors.spike,
-                            priors.slab);
-    const Eigen::VectorXd without = evidence.base_posterior().mean, with = evidence.posterior(members).mean;
+    const Eigen::MatrixXd gram = design.transpose() * linear.design;
+    const Eigen::VectorXd score = design.transpose() * data;
+    const Eigen::VectorXd without = Evidence(gram, score, others.spike, others.slab).base_posterior().mean;
+    const Eigen::VectorXd with = Evidence(gram, score, priors.spike, priors.slab).posterior(members).mean;
     const Eigen::VectorXd judged = (1 - learn.array()).matrix();
     const auto misfit = [&](const Eigen::VectorXd& values) {
       return judged.cwiseProduct(data - linear.design * values).squaredNorm();

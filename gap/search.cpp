@@ -27,6 +27,8 @@ constexpr int kIterations = 2, kCurvedIterations = 3;
 /// the nominal vehicle those that are not in the set look unlike themselves, and one of them gains by being let
 /// in.
 constexpr int kRefinements = 4;
+/// Prior of what is to be zero, against what tolerance allows it.
+constexpr double kNothing = 1e-6;
 /// Columns serve as far from where they were taken, in typical values: within tolerances nothing curves.
 constexpr double kNear = 0.25;
 
@@ -117,7 +119,6 @@ namespace {
 /// as they are then: what is answered must be a vehicle that can be simulated.
 Evidence::Posterior possible_posterior(const Linearised& linear, const Library& library, const Priors& priors,
                                        const std::vector<Eigen::Index>& members) {
-  constexpr double kNothing = 1e-6;
   constexpr int kRounds = 5;
   const Eigen::VectorXd score = linear.score + linear.gram * linear.at;
   Priors allowed = priors;
@@ -133,6 +134,15 @@ Evidence::Posterior possible_posterior(const Linearised& linear, const Library& 
     if (possible || round == kRounds) return posterior;
   }
 }
+
+}  // namespace
+
+Priors without_members(Priors priors, const Library& library, const Set& effects) {
+  for (const Eigen::Index j : members_of(library, effects)) priors.spike[j] *= kNothing;
+  return priors;
+}
+
+namespace {
 
 /// What a linearisation about a set's own estimate says of it.
 Explanation concluded(const Set& set, Linearised linear, const Library& library, const Priors& priors) {
@@ -197,7 +207,6 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   SearchResult result;
   result.best = explain({}, replay, library, whitening, nominal, priors, threads);
   result.best.log_odds = found.scores().at({});
-  result.mean_without_effects = result.best.mean;
   const auto take = [&](Explanation tried) {
     const Set& set = tried.effects;
     found.settle(set, tried.log_odds);
@@ -255,6 +264,8 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
     result.best = explain(leader, replay, library, whitening, std::move(result.best.linear), priors, threads);
   }
   result.best.log_odds = found.scores().at(result.best.effects);
+  const Priors others = without_members(priors, library, result.best.effects);
+  result.mean_without_effects = possible_posterior(nominal, library, others, {}).mean;
 
   double total = 0;
   for (const auto& [set, score] : found.scores()) total += std::exp(score - result.best.log_odds);

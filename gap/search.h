@@ -26,13 +26,19 @@ struct Explanation {
 };
 
 struct SearchResult {
-  std::vector<Candidate> candidates;     ///< most probable first
-  Explanation best;                      ///< of the first of them
-  Eigen::VectorXd mean_without_effects;  ///< posterior of all unknowns where all are within tolerance
+  std::vector<Candidate> candidates;  ///< most probable first
+  Explanation best;                   ///< of the first of them
+  /// Posterior of all unknowns where the best set's are zero and the others within tolerance. Were its own within
+  /// tolerance, too, strong data would make them what they are in spite of it.
+  Eigen::VectorXd mean_without_effects;
 };
 
 [[nodiscard]] std::vector<Eigen::Index> members_of(const Library& library,
                                                    const std::vector<std::size_t>& effects);
+
+/// Priors by which none of these effects is there at all.
+[[nodiscard]] Priors without_members(Priors priors, const Library& library,
+                                     const std::vector<std::size_t>& effects);
 
 /// Singles, pairs and triples of effects by their evidence. Leading sets are simulated and linearised again at
 /// their own estimate: what is left of second order would otherwise recruit innocent effects.
