@@ -19,7 +19,7 @@ struct Arguments {
 std::optional<config::Settings> read_configuration(const std::string& file, Findings& findings) {
   try {
     auto settings = config::load(file);
-    findings.push_back(good("configuration", fmt::format("{}: {} ports", file, settings.ports.size())));
+    findings.push_back(good("configuration", fmt::format("{}, ports: {}", file, settings.ports.size())));
     return settings;
   } catch (const config::Error& error) {
     for (const std::string& problem : error.problems()) {

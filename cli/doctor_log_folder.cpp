@@ -12,17 +12,16 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-/// Seconds from a record to its being safe, the longest of a few tries; less than 0 when it cannot be tried.
-double slowest_sync_s(const std::filesystem::path& folder) {
+/// Seconds from a record to its being safe, the longest of a few tries.
+double slowest_sync_s(const std::filesystem::path& folder, std::error_code& error) {
   constexpr std::size_t kRecord = 16'384;  // some seconds of a vehicle's data
   constexpr int kTries = 8;
   record::Disk& disk = record::real_disk();
   const auto file = folder / fmt::format(".navcal-doctor-{}", ::getpid());
-  std::error_code error;
-  double slowest_s = -1;
+  double slowest_s = 0;
   {
     const auto opened = disk.create(file, error);
-    if (!opened) return -1;
+    if (!opened) return slowest_s;
     const std::string record(kRecord, '\xa5');
     for (int i = 0; i < kTries && !error; ++i) {
       const auto began = std::chrono::steady_clock::now();
@@ -33,7 +32,7 @@ double slowest_sync_s(const std::filesystem::path& folder) {
     }
   }
   (void)disk.remove(file);
-  return error ? -1 : slowest_s;
+  return slowest_s;
 }
 
 }  // namespace
@@ -62,11 +61,15 @@ Finding check_log_folder(const config::LogSettings& settings, const Account& acc
                                static_cast<double>(settings.free_floor_bytes) / kMegabyte),
                    "copy logs away, or lower log.rotate_MB and log.free_floor_MB");
   }
-  const double sync_s = slowest_sync_s(settings.directory);
-  if (sync_s < 0) {
+  const double sync_s = slowest_sync_s(settings.directory, error);
+  if (error == std::errc::permission_denied) {
     // Another user's folder, in which the service may write and we may not.
     return good(topic, fmt::format("{}, {:.0f} MB free; its speed can be measured by {} only", folder, free_MB,
                                    account.name));
+  }
+  if (error) {
+    return fault(topic, fmt::format("{}: a record cannot be written: {}", folder, error.message()),
+                 "look at `df -h " + folder + "` and at `dmesg`");
   }
   const std::string speed =
       fmt::format("{}, {:.0f} MB free, a record is safe after {:.3g} ms at most", folder, free_MB, sync_s * 1e3);
