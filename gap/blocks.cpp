@@ -25,7 +25,7 @@ std::vector<double> gains_of_blocks(const Explanation& explanation, const Librar
   const Eigen::Index rows = linear.residual.size();
   Eigen::VectorXd mask(rows);
   for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
-  const Eigen::VectorXd data = linear.residual + linear.design * linear.at;
+  const Eigen::VectorXd data = residual_at_zero(linear);
   const auto members = members_of(library, explanation.effects);
   const Priors others = without_members(priors, library, explanation.effects);
   std::vector<double> gains;

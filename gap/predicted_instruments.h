@@ -25,7 +25,7 @@ class PredictedInstruments {
   PredictedInstruments(sim::EffectSet& effects, const GyroBias& bias_rad_s)
       : effects_(effects), bias_rad_s_(bias_rad_s) {}
 
-  /// The card begins anew, and the fluid of the tilt sensor is at rest.
+  /// The fluid of the tilt sensor forgets where it was: the next attitude is its first.
   void restart() { fluid_ = {}; }
   void set_electronics(double temperature_C) { electronics_C_ = temperature_C; }
   [[nodiscard]] double electronics_C() const { return electronics_C_; }
