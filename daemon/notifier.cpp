@@ -1,22 +1,21 @@
 #include "daemon/notifier.h"
 
-#include <systemd/sd-daemon.h>
+#include "daemon/service_manager.h"
 
 namespace navcal::daemon {
 
 Notifier::Notifier(boost::asio::any_io_executor executor) : timer_(std::move(executor)) {
-  std::uint64_t limit_us = 0;
   // A third of what systemd allows: one late feeding is not yet a death sentence.
-  if (sd_watchdog_enabled(0, &limit_us) > 0) interval_ = std::chrono::microseconds(limit_us / 3);
+  interval_ = watchdog_limit() / 3;
 }
 
 void Notifier::ready() {
-  sd_notify(0, "READY=1");
+  notify_manager("READY=1", IfBusy::wait);
   if (interval_.count() > 0) feed_watchdog();
 }
 
 void Notifier::feed_watchdog() {
-  sd_notify(0, "WATCHDOG=1");
+  notify_manager("WATCHDOG=1");
   timer_.expires_after(interval_);
   timer_.async_wait([this](boost::system::error_code error) {
     if (!error) feed_watchdog();
@@ -26,12 +25,12 @@ void Notifier::feed_watchdog() {
 void Notifier::status(std::string_view text) {
   if (text == last_status_) return;
   last_status_ = text;
-  sd_notifyf(0, "STATUS=%s", last_status_.c_str());
+  notify_manager("STATUS=" + last_status_);
 }
 
 void Notifier::stopping() {
   timer_.cancel();
-  sd_notify(0, "STOPPING=1");
+  notify_manager("STOPPING=1", IfBusy::wait);
 }
 
 }  // namespace navcal::daemon
