@@ -106,7 +106,7 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   progress_("missions held out", 0);
   Comparison here;
   std::vector<Comparison> compared(holdouts.size());
-  std::vector<double> nats(found.best.effects.empty() ? 0 : holdouts.size());
+  std::vector<Foretold> foretellings(found.best.effects.empty() ? 0 : holdouts.size());
   in_parallel(threads_, holdouts.size() + 1, [&](std::size_t i) {
     if (i == holdouts.size()) {
       here = compare(*a.replay, library_, a.bank, a.at, members);
@@ -116,9 +116,9 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
     compared[i] = compare(*other.replay, library_, other.bank, other.at, members);
     // Vehicles are the same in all missions, tolerances too: what is compared is how well this mission foretells
     // the other with and without the effects, all that it says of the tolerances included.
-    if (!nats.empty()) {
-      nats[i] =
-          gain_nats(*other.replay, library_, other.bank.whitening, found.mean_without_effects, found.best.mean);
+    if (!foretellings.empty()) {
+      foretellings[i] =
+          foretold(*other.replay, library_, other.bank.whitening, found.mean_without_effects, found.best.mean);
     }
   });
   const Eigen::MatrixXd was = followed(here.nominal, a.course, here.fix_times_s);
@@ -129,12 +129,22 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   const auto leftover = clear_of_nulls(where_map(is, a.bank.followed));
 
   const bool blocks = compared.empty();
+  std::vector<double> nats;
+  PooledClosure closure_by_all;
   if (blocks) {
     nats = gains_of_blocks(found.best, library_, priors, layout_of(*a.replay));
     compared.push_back(here);
+  } else if (!foretellings.empty()) {
+    std::vector<Power> by_all;
+    for (Foretold& each : foretellings) {
+      nats.push_back(each.gain_nats);
+      by_all.push_back(std::move(each.power));
+    }
+    closure_by_all = pooled_closure(compared, by_all);
   }
   const PooledClosure closure = pooled_closure(compared);
-  const Judgement judgement = judge({found, library_, answer.where, leftover, nats, closure, blocks});
+  const Judgement judgement =
+      judge({found, library_, answer.where, leftover, nats, closure, closure_by_all, blocks});
 
   answer.verdict = judgement.verdict;
   answer.unexplained = judgement.reasons;

@@ -24,7 +24,7 @@ Evidence::Posterior Evidence::solve(const Eigen::VectorXd& prior, double* log_ev
   return {prior.cwiseProduct(solved), prior.asDiagonal() * inverse * prior.asDiagonal()};
 }
 
-double Evidence::gain(std::span<const Eigen::Index> members) const {
+double Evidence::gain(std::span<const Eigen::Index> members, const Eigen::VectorXd& slabs) const {
   // p(r | slab) / p(r | spike) = E[ N(theta; 0, slab) / N(theta; 0, spike) ] over the base's posterior of them:
   // with more = slab^-2 - spike^-2 (negative), mean m and covariance V of that posterior,
   //   = (prod spike / slab) |1 + V more|^-1/2 exp(-1/2 m^T more (1 + V more)^-1 m).
@@ -35,8 +35,8 @@ double Evidence::gain(std::span<const Eigen::Index> members) const {
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index a = members[static_cast<std::size_t>(i)];
     mean[i] = posterior_.mean[a];
-    more[i] = 1 / (slab_[a] * slab_[a]) - 1 / (spike_[a] * spike_[a]);
-    log_ratio += std::log(spike_[a] / slab_[a]);
+    more[i] = 1 / (slabs[i] * slabs[i]) - 1 / (spike_[a] * spike_[a]);
+    log_ratio += std::log(spike_[a] / slabs[i]);
     for (Eigen::Index j = 0; j < n; ++j) {
       covariance(i, j) = posterior_.covariance(a, members[static_cast<std::size_t>(j)]);
     }

@@ -17,8 +17,8 @@ class Evidence {
 
   /// Log of marginal likelihood, apart from what depends on r alone, of the base.
   [[nodiscard]] double base() const { return base_; }
-  /// By how much it grows when these unknowns get their slab.
-  [[nodiscard]] double gain(std::span<const Eigen::Index> members) const;
+  /// By how much it grows when these unknowns get slabs of these standard deviations.
+  [[nodiscard]] double gain(std::span<const Eigen::Index> members, const Eigen::VectorXd& slabs) const;
   /// Posterior of all unknowns.
   struct Posterior {
     Eigen::VectorXd mean;

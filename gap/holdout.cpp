@@ -45,6 +45,10 @@ std::vector<double> blocks(const Eigen::VectorXd& white, const Layout& layout) {
   return sums;
 }
 
+Power power_of(const Eigen::VectorXd& white, const Layout& layout) {
+  return {white.squaredNorm() / static_cast<double>(Whitening::count(white)), blocks(white, layout)};
+}
+
 }  // namespace
 
 Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
@@ -56,10 +60,8 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
   Fitted before = fitted(replay, library, bank.whitening, nominal, nullptr);
   Fitted after = fitted(replay, library, bank.whitening, improved, &result.course);
   result.measurements = static_cast<double>(Whitening::count(before.white));
-  result.before = before.white.squaredNorm() / result.measurements;
-  result.after = after.white.squaredNorm() / result.measurements;
-  result.before_blocks = blocks(before.white, layout);
-  result.after_blocks = blocks(after.white, layout);
+  result.before = power_of(before.white, layout);
+  result.after = power_of(after.white, layout);
   result.nominal = std::move(before.innovations);
   result.improved = std::move(after.innovations);
   result.fix_times_s = replay.mission().fix_times_s();
@@ -71,23 +73,29 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
   return result;
 }
 
-double gain_nats(const Replay& replay, const Library& library, const Whitening& whitening,
-                 const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
-  const auto square = [&](const Eigen::VectorXd& values) {
-    return fitted(replay, library, whitening, values, nullptr).white.squaredNorm();
-  };
-  return 0.5 * (square(without) - square(with));
+Foretold foretold(const Replay& replay, const Library& library, const Whitening& whitening,
+                  const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
+  const Eigen::VectorXd poorer = fitted(replay, library, whitening, without, nullptr).white;
+  const Eigen::VectorXd better = fitted(replay, library, whitening, with, nullptr).white;
+  return {0.5 * (poorer.squaredNorm() - better.squaredNorm()), power_of(better, layout_of(replay))};
 }
 
 PooledClosure pooled_closure(const std::vector<Comparison>& comparisons) {
+  std::vector<Power> after;
+  for (const Comparison& each : comparisons) after.push_back(each.after);
+  return pooled_closure(comparisons, after);
+}
+
+PooledClosure pooled_closure(const std::vector<Comparison>& comparisons, const std::vector<Power>& after) {
   PooledClosure pooled;
   double measurements = 0, floor_variance = 0;
   for (const Comparison& each : comparisons) measurements += each.measurements;
   if (!(measurements > 0)) return pooled;
-  for (const Comparison& each : comparisons) {
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    const Comparison& each = comparisons[i];
     const double weight = each.measurements / measurements;
-    pooled.before += weight * each.before;
-    pooled.after += weight * each.after;
+    pooled.before += weight * each.before.mean_square;
+    pooled.after += weight * after[i].mean_square;
     pooled.floor += weight * each.floor;
     floor_variance += weight * weight * each.floor_std * each.floor_std;
   }
@@ -100,19 +108,20 @@ PooledClosure pooled_closure(const std::vector<Comparison>& comparisons) {
   std::normal_distribution<double> normal;
   std::vector<double> closures;
   for (int n = 0; n < kResamples; ++n) {
-    double before = 0, after = 0;
-    for (const Comparison& each : comparisons) {
-      std::uniform_int_distribution<std::size_t> pick(0, each.before_blocks.size() - 1);
-      for (std::size_t i = 0; i < each.before_blocks.size(); ++i) {
+    double was = 0, is = 0;
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+      const auto& blocks = comparisons[i].before.blocks;
+      std::uniform_int_distribution<std::size_t> pick(0, blocks.size() - 1);
+      for (std::size_t k = 0; k < blocks.size(); ++k) {
         const std::size_t block = pick(dice);
-        before += each.before_blocks[block];
-        after += each.after_blocks[block];
+        was += blocks[block];
+        is += after[i].blocks[block];
       }
     }
     // The floor's spread holds that of the noise, which before and after share.
     const double floor = pooled.floor + floor_std * normal(dice);
-    const double gap = before / measurements - floor;
-    if (gap > 0) closures.push_back(1 - (after / measurements - floor) / gap);
+    const double gap = was / measurements - floor;
+    if (gap > 0) closures.push_back(1 - (is / measurements - floor) / gap);
   }
   if (closures.size() < kResamples / 2) {
     pooled.clear = false;

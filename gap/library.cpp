@@ -14,6 +14,9 @@ namespace {
 constexpr double kBias_rad_s = 0.3 * std::numbers::pi / 180;  // the usual one at power-on
 constexpr std::string_view kLag = "tau_s";
 constexpr double kLagStep = 0.1;
+/// A play is felt only where it is wider than the fins' moves, so about nothing its step is long; once it is
+/// there, a long step on leads past the least of what is left.
+constexpr double kOnwardStep = 0.1;
 constexpr std::array<std::string_view, 4> kBiasNames{"bias_ax", "bias_az", "bias_by", "bias_bz"};
 
 }  // namespace
@@ -23,7 +26,7 @@ Library::Library(std::span<const std::string> excluded) {
     if (sim::make_effect(name) == nullptr) throw std::invalid_argument(sim::unknown_effect(name));
   }
   for (std::size_t i = 0; i < kBiasNames.size(); ++i) {
-    unknowns_.push_back({kNuisance, i, kBiasNames[i], kBias_rad_s, 1, -1, 1});
+    unknowns_.push_back({kNuisance, i, kBiasNames[i], kBias_rad_s, 1, 1, -1, 1});
   }
   for (const auto& entry : sim::effect_table()) {
     auto effect = entry.make();
@@ -36,16 +39,19 @@ Library::Library(std::span<const std::string> excluded) {
       // Of a lag the tangent: a long secant is another shape, and what a vehicle within tolerance lags would pass
       // for something else. How a lag of typical size looks is found by linearising again (gap/search.h).
       const double step = parameter.name == kLag ? kLagStep : description.step;
-      unknowns_.push_back(
-          {effects_.size(), i, parameter.name, parameter.typical, step, parameter.least, parameter.greatest});
+      const double onward = description.one_sided ? kOnwardStep : step;
+      unknowns_.push_back({effects_.size(), i, parameter.name, parameter.typical, step, onward, parameter.least,
+                           parameter.greatest});
     }
     effects_.push_back(std::move(effect));
   }
 }
 
-bool Library::is_curved(std::size_t effect) const {
+bool Library::is_lag(std::size_t effect) const {
   return unknowns_[static_cast<std::size_t>(first(effect))].name == kLag;
 }
+
+bool Library::is_curved(std::size_t effect) const { return (*this)[effect].one_sided; }
 
 std::vector<Eigen::Index> Library::moving() const {
   std::vector<Eigen::Index> columns;

@@ -18,7 +18,8 @@ struct Unknown {
   std::size_t index = 0;   ///< among the effect's parameters, or of the gyro
   std::string_view name;
   double typical = 1;
-  double step = 0.2;  ///< of the finite difference, in typical values
+  double step = 0.2;    ///< of the finite difference about nothing, in typical values
+  double onward = 0.2;  ///< the same where the effect is there already
   double least = 0, greatest = 0;
 };
 
@@ -38,6 +39,8 @@ class Library {
   }
   /// Whether it may be a cause.
   [[nodiscard]] bool holds(std::size_t effect) const { return held_[effect]; }
+  /// Whether it delays something.
+  [[nodiscard]] bool is_lag(std::size_t effect) const;
   /// Whether a linearisation about zero says little of its typical strength.
   [[nodiscard]] bool is_curved(std::size_t effect) const;
   /// Biases, and the unknowns of all effects that may be a cause.

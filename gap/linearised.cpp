@@ -12,7 +12,8 @@ namespace {
 Eigen::VectorXd column(const Replay& replay, const Library& library, const Whitening& whitening,
                        const Eigen::VectorXd& at, const Eigen::VectorXd& residual, Eigen::Index j) {
   const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
-  double step = unknown.step * unknown.typical;
+  const bool there = at[j] > unknown.onward * unknown.typical;
+  double step = (there ? unknown.onward : unknown.step) * unknown.typical;
   if (at[j] + step > unknown.greatest) step = -step;
   Eigen::VectorXd values = at;
   values[j] += step;

@@ -1,8 +1,10 @@
 #include "gap/search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -19,10 +21,18 @@ constexpr std::size_t kMostEffects = 3;
 /// So many sets of each size are simulated again.
 constexpr std::size_t kLeading = 3;
 constexpr std::size_t kSecondThoughts = 6;
-/// Against each effect more, beside the choice among all of them: what innovations that are not quite Gaussian
-/// gain by chance.
-constexpr double kCaution = 5;
-constexpr int kIterations = 2, kCurvedIterations = 3;
+/// Against the first effect, beside the choice among all of them: what innovations that are not quite Gaussian
+/// gain by chance. Against each further one: what the signatures of those before leave, since they are not quite
+/// exact.
+constexpr double kCaution = 3, kFurtherCaution = 8;
+/// An effect that is there may be weak or strong, as likely the one as the other: with one wide prior for all,
+/// many parameters of a weak one would cost more than they explain.
+constexpr std::array<double, 3> kStrengths{0.2, 0.6, 2};
+constexpr int kIterations = 2, kCurvedIterations = 5;
+/// An estimate that moves by less, in standard errors, has arrived.
+constexpr double kArrived = 0.2;
+/// A step by which a set loses so much evidence led along a line that bends, and is taken back.
+constexpr double kWorse_nats = 1;
 /// A leading set and its neighbours are judged where all columns are taken about its own estimate: from columns of
 /// the nominal vehicle those that are not in the set look unlike themselves, and one of them gains by being let
 /// in.
@@ -42,12 +52,40 @@ class Judge {
 
   /// Log of the joint probability of set and data, apart from a constant.
   [[nodiscard]] double operator()(const Set& set) const {
-    const double each = std::log(static_cast<double>(library_.size())) + kCaution;
-    return data_ + evidence_.base() + (set.empty() ? 0 : evidence_.gain(members_of(library_, set))) -
-           each * static_cast<double>(set.size());
+    if (set.empty()) return data_ + evidence_.base();
+    const auto count = static_cast<double>(set.size());
+    const double against =
+        count * std::log(static_cast<double>(library_.size())) + kCaution + (count - 1) * kFurtherCaution;
+    return data_ + evidence_.base() + gain(set) - against;
   }
 
  private:
+  /// Over all combinations of the members' strengths.
+  [[nodiscard]] double gain(const Set& set) const {
+    const auto members = members_of(library_, set);
+    Eigen::VectorXd slabs(static_cast<Eigen::Index>(members.size()));
+    std::size_t combinations = 1;
+    for (std::size_t i = 0; i < set.size(); ++i) combinations *= kStrengths.size();
+    std::vector<double> gains(combinations);
+    for (std::size_t n = 0; n < combinations; ++n) {
+      Eigen::Index at = 0;
+      std::size_t rest = n;
+      for (const std::size_t effect : set) {
+        for (Eigen::Index k = 0; k < library_.count(effect); ++k) {
+          slabs[at] = kStrengths[rest % kStrengths.size()] *
+                      library_.unknowns()[static_cast<std::size_t>(library_.first(effect) + k)].typical;
+          ++at;
+        }
+        rest /= kStrengths.size();
+      }
+      gains[n] = evidence_.gain(members, slabs);
+    }
+    const double greatest = *std::max_element(gains.begin(), gains.end());
+    double sum = 0;
+    for (const double one : gains) sum += std::exp(one - greatest);
+    return greatest + std::log(sum / static_cast<double>(combinations));
+  }
+
   const Library& library_;
   Evidence evidence_;
   double data_;
@@ -152,8 +190,21 @@ Explanation concluded(const Set& set, Linearised linear, const Library& library,
   result.log_odds = Judge(result.linear, library, priors)(set);
   const auto posterior = possible_posterior(result.linear, library, priors, members_of(library, set));
   result.mean = posterior.mean;
-  result.std = posterior.covariance.diagonal().cwiseSqrt();
+  const Eigen::VectorXd left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
+  const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));
+  result.std = (noise * posterior.covariance.diagonal() + priors.model_error.cwiseAbs2()).cwiseSqrt();
   return result;
+}
+
+/// Where the set's own estimate says the vehicle is, in the bounds of its parameters; non-members are at zero.
+Eigen::VectorXd place_of(const Evidence::Posterior& posterior, const Library& library,
+                         const std::vector<Eigen::Index>& moved) {
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
+  for (const Eigen::Index j : moved) {
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+    at[j] = std::clamp(posterior.mean[j], unknown.least, unknown.greatest);
+  }
+  return at;
 }
 
 /// The set, simulated and linearised about its own estimate.
@@ -165,14 +216,26 @@ Explanation explain(const Set& set, const Replay& replay, const Library& library
   std::iota(moved.begin(), moved.end(), Eigen::Index{0});
   moved.insert(moved.end(), members.begin(), members.end());
   const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
+  Eigen::VectorXd best_at;
+  double best = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < (curved ? kCurvedIterations : kIterations); ++i) {
     const auto posterior = possible_posterior(linear, library, priors, members);
-    Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
-    for (const Eigen::Index j : moved) {
-      const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
-      at[j] = std::clamp(posterior.mean[j], unknown.least, unknown.greatest);
-    }
+    const Eigen::VectorXd at = place_of(posterior, library, moved);
+    const Eigen::VectorXd step = (at - linear.at).cwiseAbs();
+    const auto has_arrived = [&](Eigen::Index j) {
+      return step[j] <= kArrived * std::sqrt(posterior.covariance(j, j));
+    };
+    if (i >= kIterations && std::all_of(moved.begin(), moved.end(), has_arrived)) break;
     linear = relinearise(replay, library, whitening, std::move(linear), at, members, threads);
+    if (!curved) continue;
+    const double here = Judge(linear, library, priors)(set);
+    if (here > best) {
+      best = here;
+      best_at = at;
+    } else if (here < best - kWorse_nats) {
+      linear = relinearise(replay, library, whitening, std::move(linear), best_at, members, threads);
+      break;
+    }
   }
   return concluded(set, std::move(linear), library, priors);
 }

@@ -21,8 +21,10 @@ struct Candidate {
 struct Explanation {
   std::vector<std::size_t> effects;
   double log_odds = 0;
-  Linearised linear;          ///< about the posterior mean of members and biases
-  Eigen::VectorXd mean, std;  ///< posterior of all unknowns
+  Linearised linear;  ///< about the posterior mean of members and biases
+  /// Posterior of all unknowns; the standard deviations hold what the model is known to be wrong by, and grow with
+  /// noise that is more than nominal.
+  Eigen::VectorXd mean, std;
 };
 
 struct SearchResult {

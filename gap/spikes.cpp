@@ -5,17 +5,35 @@
 #include <numbers>
 
 #include "gap/evidence.h"
+#include "gap/null_mission.h"
 
 namespace navcal::gap {
 namespace {
 
-constexpr double kLeast = 0.03;
 /// Of what was excluded: as good as nothing.
 constexpr double kNever = 1e-9;
 /// Reports of the fins ten times a second do not tell finer when something happened.
 constexpr double kLeastLag_s = 0.005;
-constexpr int kIterations = 40;
+/// Where expectation and maximisation begins, in typical values.
+constexpr double kFirstGuess = 0.03;
+constexpr int kIterations = 60;
 constexpr double kBias_rad_s = 3 * std::numbers::pi / 180;
+
+/// Standard deviations under which these missions are most probable.
+Eigen::VectorXd scatter_among(const Library& library, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& scores,
+                              const Eigen::VectorXd& slab) {
+  Eigen::VectorXd scatter = slab;
+  scatter.tail(scatter.size() - Library::kBiases) *= kFirstGuess;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Eigen::MatrixXd covariance = Evidence(gram, scores.col(0), scatter, slab).base_posterior().covariance;
+    const Eigen::VectorXd square =
+        (covariance * scores).rowwise().squaredNorm() / static_cast<double>(scores.cols()) + covariance.diagonal();
+    for (Eigen::Index j = Library::kBiases; j < square.size(); ++j) {
+      if (library.holds(library.unknowns()[static_cast<std::size_t>(j)].effect)) scatter[j] = std::sqrt(square[j]);
+    }
+  }
+  return scatter;
+}
 
 }  // namespace
 
@@ -23,26 +41,21 @@ Priors learnt_priors(const Library& library, const Eigen::MatrixXd& gram, const 
   Priors priors;
   priors.slab.resize(gram.rows());
   for (Eigen::Index j = 0; j < gram.rows(); ++j) {
-    priors.slab[j] = j < Library::kBiases ? kBias_rad_s : library.unknowns()[static_cast<std::size_t>(j)].typical;
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+    priors.slab[j] = j < Library::kBiases ? kBias_rad_s : unknown.typical;
+    if (j >= Library::kBiases && !library.holds(unknown.effect)) priors.slab[j] *= kNever;
   }
-  Eigen::VectorXd least = priors.slab;
-  least.tail(least.size() - Library::kBiases) *= kLeast;
-  for (Eigen::Index j = Library::kBiases; j < least.size(); ++j) {
+  const Eigen::VectorXd scatter =
+      scores.cols() > 0 ? scatter_among(library, gram, scores, priors.slab) : kTolerance * priors.slab;
+  priors.spike = priors.slab;
+  priors.model_error.setZero(priors.slab.size());
+  for (Eigen::Index j = Library::kBiases; j < priors.slab.size(); ++j) {
     const std::size_t effect = library.unknowns()[static_cast<std::size_t>(j)].effect;
-    if (library.is_curved(effect)) least[j] = std::max(least[j], kLeastLag_s);
-    if (!library.holds(effect)) priors.slab[j] = least[j] = kNever * priors.slab[j];
-  }
-  priors.spike = least;
-  if (scores.cols() == 0) return priors;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Eigen::MatrixXd covariance =
-        Evidence(gram, scores.col(0), priors.spike, priors.slab).base_posterior().covariance;
-    const Eigen::VectorXd square =
-        (covariance * scores).rowwise().squaredNorm() / static_cast<double>(scores.cols()) + covariance.diagonal();
-    for (Eigen::Index j = Library::kBiases; j < square.size(); ++j) {
-      const bool held = library.holds(library.unknowns()[static_cast<std::size_t>(j)].effect);
-      if (held) priors.spike[j] = std::max(least[j], std::sqrt(square[j]));
-    }
+    if (!library.holds(effect)) continue;
+    const double tolerance = kTolerance * priors.slab[j];
+    priors.model_error[j] = std::sqrt(std::max(0.0, scatter[j] * scatter[j] - tolerance * tolerance));
+    if (library.is_lag(effect)) priors.model_error[j] = std::max(priors.model_error[j], kLeastLag_s);
+    priors.spike[j] = std::max({tolerance, scatter[j], priors.model_error[j]});
   }
   return priors;
 }

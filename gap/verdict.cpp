@@ -15,6 +15,8 @@ constexpr double kProbable = 0.7;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
 constexpr double kLargest = 5;
+/// Typical strengths beyond which no tolerance reaches.
+constexpr double kBeyondTolerance = 0.08;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
 /// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
 constexpr double kLeft = 1e-4;
@@ -36,6 +38,18 @@ double strength(const Library& library, std::size_t effect, const Eigen::VectorX
     largest = std::max(largest, std::abs(part));
   }
   return library[effect].vector > 1 ? std::sqrt(square) : largest;
+}
+
+/// Whether nothing is left that speaks for something outside the library. What is left beside the effects may be
+/// this vehicle's tolerances, if those found on the first mission explain it on the others; but then the effects
+/// must be more than tolerances themselves.
+bool closes(const Grounds& grounds) {
+  if (!grounds.closure.clear || grounds.closure.upper >= kClosed) return true;
+  const auto& best = grounds.found.best;
+  const bool more_than_tolerances = std::all_of(best.effects.begin(), best.effects.end(), [&](std::size_t effect) {
+    return strength(grounds.library, effect, best.mean) > kBeyondTolerance;
+  });
+  return more_than_tolerances && grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
 }
 
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
@@ -83,7 +97,7 @@ Judgement judge(const Grounds& grounds) {
         fmt::format("{} explains this mission, but {} fit no better with it (log likelihood {:+.1f})", set,
                     grounds.blocks ? "blocks of it that were left out" : "the missions held out", altogether));
   }
-  if (grounds.closure.clear && grounds.closure.upper < kClosed) {
+  if (!closes(grounds)) {
     reasons.push_back(fmt::format("with {} only {:.0f} % of the gap goes away (95 %: {:.0f} to {:.0f} %)", set,
                                   100 * grounds.closure.closed, 100 * grounds.closure.lower,
                                   100 * grounds.closure.upper));

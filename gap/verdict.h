@@ -17,8 +17,9 @@ struct Grounds {
   const std::vector<WhereEntry>& where;     ///< clear of nulls, before
   const std::vector<WhereEntry>& leftover;  ///< clear of nulls, after all that was found is in the model
   std::vector<double> held_out_nats;        ///< gains of missions that were held out, or of blocks
-  PooledClosure closure;
-  bool blocks = false;  ///< blocks of the same mission instead of others
+  PooledClosure closure;                    ///< by the effects alone
+  PooledClosure closure_by_all;             ///< with the tolerances that go with them; of blocks, not clear
+  bool blocks = false;                      ///< blocks of the same mission instead of others
 };
 
 struct Judgement {

@@ -43,9 +43,15 @@ TEST(Evidence, IsTheLikelihoodOfTheDataUnderThePrior) {
     const Evidence evidence = evidence_of(p);
     EXPECT_NEAR(evidence.base(), log_likelihood(p, p.spike), 1e-9);
     for (const std::vector<Eigen::Index>& members : {std::vector<Eigen::Index>{2}, {0, 4}, {1, 2, 3}, {}}) {
-      Eigen::VectorXd prior = p.spike;
-      for (const Eigen::Index j : members) prior[j] = p.slab[j];
-      EXPECT_NEAR(evidence.base() + evidence.gain(members), log_likelihood(p, prior), 1e-9);
+      for (const double strength : {0.2, 1.0, 2.0}) {
+        Eigen::VectorXd prior = p.spike;
+        Eigen::VectorXd slabs(static_cast<Eigen::Index>(members.size()));
+        for (Eigen::Index i = 0; i < slabs.size(); ++i) {
+          const Eigen::Index j = members[static_cast<std::size_t>(i)];
+          prior[j] = slabs[i] = strength * p.slab[j];
+        }
+        EXPECT_NEAR(evidence.base() + evidence.gain(members, slabs), log_likelihood(p, prior), 1e-9);
+      }
     }
   }
 }

@@ -21,6 +21,22 @@ TEST(Library, HoldsEveryEffectThatCanBeACause) {
   EXPECT_EQ(static_cast<Eigen::Index>(library.moving().size()), next);
 }
 
+// A play's step is long where there is none yet, and short where it is: with the long one a search led away from
+// the play that was there.
+TEST(Library, WhatBendsIsStepped) {
+  const Library library({});
+  for (std::size_t e = 0; e < library.size(); ++e) {
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(library.first(e))];
+    EXPECT_TRUE(!library.is_lag(e) || library.is_curved(e)) << library[e].name;
+    EXPECT_LE(unknown.onward, unknown.step) << library[e].name;
+    if (library[e].name != "fin_backlash") continue;
+    EXPECT_TRUE(library.is_curved(e));
+    EXPECT_FALSE(library.is_lag(e));
+    EXPECT_LT(unknown.onward, 0.2);
+    EXPECT_GT(unknown.step, 0.5);
+  }
+}
+
 TEST(Library, WhatIsExcludedKeepsItsPlaceAndDoesNotMove) {
   const std::vector<std::string> excluded{"hard_iron"};
   const Library all({}), less(excluded);

@@ -1,0 +1,51 @@
+#include "gap/verdict.h"
+
+#include <gtest/gtest.h>
+
+namespace navcal::gap {
+namespace {
+
+/// A single that wins clearly, leaves nothing, and improves what was held out.
+class Case {
+ public:
+  explicit Case(double strength) {
+    found_.best.effects = {7};
+    found_.best.mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library_.unknowns().size()));
+    const Eigen::Index j = library_.first(7);
+    found_.best.mean[j] = strength * library_.unknowns()[static_cast<std::size_t>(j)].typical;
+    found_.candidates = {{{7}, 100, 0.99}, {{}, 0, 0.01}};
+  }
+
+  [[nodiscard]] Verdict verdict(double closed_upper, double closed_by_all_upper) const {
+    const PooledClosure alone{2, 1.5, 1, true, closed_upper - 0.1, closed_upper - 0.2, closed_upper};
+    const PooledClosure by_all{
+        2, 1, 1, true, closed_by_all_upper - 0.1, closed_by_all_upper - 0.2, closed_by_all_upper};
+    return judge({found_, library_, nothing_, nothing_, {20, 20}, alone, by_all, false}).verdict;
+  }
+
+ private:
+  Library library_{{}};
+  SearchResult found_;
+  std::vector<WhereEntry> nothing_;
+};
+
+TEST(Verdict, AnEffectThatClosesTheGapExplainsIt) {
+  EXPECT_EQ(Case(1).verdict(0.99, 0.99), Verdict::explained);
+  EXPECT_EQ(Case(0.05).verdict(0.99, 0.99), Verdict::explained);
+}
+
+TEST(Verdict, WhatIsLeftMayBeTolerancesIfThoseFoundForetellIt) {
+  EXPECT_EQ(Case(1).verdict(0.3, 0.99), Verdict::explained);
+  EXPECT_EQ(Case(1).verdict(0.3, 0.6), Verdict::unknown) << "something outside the library is at work";
+}
+
+TEST(Verdict, ATolerancedEffectIsNoCauseOfAGapThatItDoesNotClose) {
+  EXPECT_EQ(Case(0.05).verdict(0.3, 0.99), Verdict::unknown);
+}
+
+TEST(Verdict, OneFarStrongerThanUsualStandsForSomethingElse) {
+  EXPECT_EQ(Case(6).verdict(0.99, 0.99), Verdict::unknown);
+}
+
+}  // namespace
+}  // namespace navcal::gap
