@@ -94,7 +94,7 @@ std::vector<double> smoothed(const std::vector<double>& raw) {
 /// steps stay.
 std::vector<double> without_noise(const std::vector<double>& raw) {
   constexpr int kReach = 6;
-  constexpr double kNear = 3;  // reports
+  constexpr double kNear = 1.5;  // reports
   constexpr double kAlike_rad = 5 * kReportNoise_rad;
   const auto count = static_cast<int>(raw.size());
   std::vector<double> clean(raw.size());

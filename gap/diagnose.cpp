@@ -26,6 +26,18 @@ struct Prepared {
   bool from_cache = false;
 };
 
+/// What is left with all that was found in the model, as far as that can be nothing.
+Innovations rest_of(const Replay& replay, const Library& library, const Explanation& best) {
+  Innovations rest = replay.run(library.model(best.mean));
+  const auto& set = best.effects;
+  // Rolling comes from the small sum of three fins' angles. Where each stands in its play is told by the turning
+  // points of its servo between two reports, and what is wrong there by a tenth of a degree rolls the vehicle.
+  if (std::any_of(set.begin(), set.end(), [&](std::size_t effect) { return library.is_play(effect); })) {
+    rest.grid.col(gyro_roll).setZero();
+  }
+  return rest;
+}
+
 class Diagnosing {
  public:
   Diagnosing(const Request& request, const Progress& progress)
@@ -122,8 +134,7 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
     }
   });
   const Eigen::MatrixXd was = followed(here.nominal, a.course, here.fix_times_s);
-  const Innovations rest = a.replay->run(library_.model(found.best.mean));
-  const Eigen::MatrixXd is = followed(rest, here.course, here.fix_times_s);
+  const Eigen::MatrixXd is = followed(rest_of(*a.replay, library_, found.best), here.course, here.fix_times_s);
   answer.map = where_map(was, a.bank.followed);
   answer.where = clear_of_nulls(answer.map);
   const auto leftover = clear_of_nulls(where_map(is, a.bank.followed));

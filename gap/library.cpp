@@ -12,7 +12,7 @@ namespace navcal::gap {
 namespace {
 
 constexpr double kBias_rad_s = 0.3 * std::numbers::pi / 180;  // the usual one at power-on
-constexpr std::string_view kLag = "tau_s";
+constexpr std::string_view kLag = "tau_s", kPlay = "width_deg";
 constexpr double kLagStep = 0.1;
 /// A play is felt only where it is wider than the fins' moves, so about nothing its step is long; once it is
 /// there, a long step on leads past the least of what is left.
@@ -49,6 +49,10 @@ Library::Library(std::span<const std::string> excluded) {
 
 bool Library::is_lag(std::size_t effect) const {
   return unknowns_[static_cast<std::size_t>(first(effect))].name == kLag;
+}
+
+bool Library::is_play(std::size_t effect) const {
+  return unknowns_[static_cast<std::size_t>(first(effect))].name == kPlay;
 }
 
 bool Library::is_curved(std::size_t effect) const { return (*this)[effect].one_sided; }

@@ -41,6 +41,8 @@ class Library {
   [[nodiscard]] bool holds(std::size_t effect) const { return held_[effect]; }
   /// Whether it delays something.
   [[nodiscard]] bool is_lag(std::size_t effect) const;
+  /// Whether it lets the fins stand anywhere within a width.
+  [[nodiscard]] bool is_play(std::size_t effect) const;
   /// Whether a linearisation about zero says little of its typical strength.
   [[nodiscard]] bool is_curved(std::size_t effect) const;
   /// Biases, and the unknowns of all effects that may be a cause.

@@ -15,8 +15,8 @@ constexpr double kProbable = 0.7;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
 constexpr double kLargest = 5;
-/// Typical strengths beyond which no tolerance reaches.
-constexpr double kBeyondTolerance = 0.08;
+/// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
+constexpr double kBeyondTolerance = 0.2;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
 /// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
 constexpr double kLeft = 1e-4;

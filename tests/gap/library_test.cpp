@@ -30,7 +30,7 @@ TEST(Library, WhatBendsIsStepped) {
     EXPECT_TRUE(!library.is_lag(e) || library.is_curved(e)) << library[e].name;
     EXPECT_LE(unknown.onward, unknown.step) << library[e].name;
     if (library[e].name != "fin_backlash") continue;
-    EXPECT_TRUE(library.is_curved(e));
+    EXPECT_TRUE(library.is_curved(e) && library.is_play(e));
     EXPECT_FALSE(library.is_lag(e));
     EXPECT_LT(unknown.onward, 0.2);
     EXPECT_GT(unknown.step, 0.5);

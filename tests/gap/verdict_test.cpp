@@ -41,6 +41,7 @@ TEST(Verdict, WhatIsLeftMayBeTolerancesIfThoseFoundForetellIt) {
 
 TEST(Verdict, ATolerancedEffectIsNoCauseOfAGapThatItDoesNotClose) {
   EXPECT_EQ(Case(0.05).verdict(0.3, 0.99), Verdict::unknown);
+  EXPECT_EQ(Case(0.15).verdict(0.3, 0.99), Verdict::unknown);
 }
 
 TEST(Verdict, OneFarStrongerThanUsualStandsForSomethingElse) {
