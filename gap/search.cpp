@@ -113,8 +113,16 @@ bool are_neighbours(const Set& a, const Set& b) {
 class Found {
  public:
   void guess(const Set& set, double log_odds) { scores_.try_emplace(set, log_odds); }
+  /// Seen better from elsewhere; its own linearisation does not make it less.
+  void raise(const Set& set, double log_odds) {
+    const auto least = least_.try_emplace(set, log_odds).first;
+    least->second = std::max(least->second, log_odds);
+    const auto score = scores_.try_emplace(set, log_odds).first;
+    score->second = std::max(score->second, log_odds);
+  }
   void settle(const Set& set, double log_odds) {
-    scores_[set] = log_odds;
+    const auto least = least_.find(set);
+    scores_[set] = least == least_.end() ? log_odds : std::max(log_odds, least->second);
     settled_.insert(set);
   }
   /// The most probable of all; there is at least one.
@@ -137,7 +145,7 @@ class Found {
   [[nodiscard]] const std::map<Set, double>& scores() const { return scores_; }
 
  private:
-  std::map<Set, double> scores_;
+  std::map<Set, double> scores_, least_;
   std::set<Set> settled_;
 };
 
@@ -277,11 +285,17 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
     for (const std::size_t e : held) {
       if (std::find(set.begin(), set.end(), e) != set.end()) continue;
       if (set.size() < kMostEffects) found.guess(with(set, e), here(with(set, e)));
-      // One member exchanged: seen from here, where what the others do is known better.
+      // One member exchanged: seen from here, where what the others do is known better. The little play that a
+      // vehicle within tolerance has looks unlike any long step; it is no merit of the set in which it was stepped
+      // anew.
       for (const std::size_t member : set) {
         const Set exchanged = with(without(set, member), e);
-        found.guess(exchanged, here(exchanged));
+        library.is_play(member) ? found.raise(exchanged, here(exchanged))
+                                : found.guess(exchanged, here(exchanged));
       }
+    }
+    for (const std::size_t member : set) {
+      if (library.is_play(member)) found.raise(without(set, member), here(without(set, member)));
     }
     if (tried.log_odds > result.best.log_odds) result.best = std::move(tried);
   };
@@ -307,6 +321,9 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
     const Set leader = found.leader();
     if (found.is_settled(leader)) break;
     take(explain(leader, replay, library, whitening, nominal, priors, threads));
+  }
+  if (const Set leader = found.leader(); leader != result.best.effects) {
+    result.best = explain(leader, replay, library, whitening, nominal, priors, threads);
   }
   Eigen::VectorXd fresh_at = nominal.at;
   for (int i = 0; i < kRefinements && !result.best.effects.empty(); ++i) {

@@ -15,6 +15,8 @@ constexpr double kProbable = 0.7;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
 constexpr double kLargest = 5;
+/// Typical strengths up to which it is a tolerance.
+constexpr double kSmallest = 0.05;
 /// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
 constexpr double kBeyondTolerance = 0.2;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
@@ -104,6 +106,10 @@ Judgement judge(const Grounds& grounds) {
   }
   for (const std::size_t effect : best.effects) {
     const double size = strength(grounds.library, effect, best.mean);
+    if (size < kSmallest) {
+      reasons.push_back(fmt::format("{} is the best candidate, but no stronger than within tolerance",
+                                    grounds.library[effect].name));
+    }
     if (size > kLargest) {
       reasons.push_back(
           fmt::format("{} would have to be {:.1f} times as strong as usual, which speaks for something "
