@@ -72,6 +72,15 @@ Eigen::MatrixXd without_mean(Eigen::MatrixXd columns) {
   return columns;
 }
 
+/// A fin that only holds the course moves by the noise of what it is steered by, and so follows the innovations
+/// instead of being followed by them: it stands still.
+Eigen::MatrixXd deflected(const std::vector<double>& fin_rad) {
+  constexpr double kLeast_rad = 0.5 * std::numbers::pi / 180;  // root mean square
+  Eigen::MatrixXd moves = without_mean(mapped(fin_rad));
+  if (moves.squaredNorm() < kLeast_rad * kLeast_rad * static_cast<double>(moves.rows())) moves.setZero();
+  return moves;
+}
+
 /// Means of blocks, at each row.
 Eigen::MatrixXd block_means(const Eigen::MatrixXd& values, Eigen::Index length) {
   Eigen::MatrixXd means(values.rows(), values.cols());
@@ -219,9 +228,9 @@ Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
     case surface:
       return one((mapped(course.depth_m).array() < kSurface_m).cast<double>().matrix());
     case rudder:
-      return one(mapped(course.rudder_rad));
+      return deflected(course.rudder_rad);
     case elevator:
-      return one(mapped(course.elevator_rad));
+      return deflected(course.elevator_rad);
     default:
       return {};
   }

@@ -50,6 +50,27 @@ TEST(Regimes, TheWholeOfAChannelIsTheLastOfThem) {
   EXPECT_NEAR(shown(0, overall_regime()), 0.1 * 180 / 3.14159265, 0.2);  // the heading, in degrees
 }
 
+// On a straight course the rudder follows the compass's noise, by which it is steered, and not the noise the
+// rudder.
+TEST(Where, ARudderThatOnlyHoldsTheCourseIsFollowedByNothing) {
+  Course10Hz steered = circling(), not_steered = circling();
+  const Innovations seen = noise(7);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const double wander = 0.002 * std::sin(0.7 * static_cast<double>(i));
+    not_steered.rudder_rad[i] = wander;
+    steered.rudder_rad[i] = 0.02 * seen.grid(static_cast<Eigen::Index>(i), heading);
+  }
+  const auto statistics = nulls(not_steered);
+  for (const WhereEntry& entry : where_map(followed(seen, steered, {}), statistics)) {
+    EXPECT_NE(entry.regime, "rudder") << entry.channel;
+  }
+  for (double& angle : steered.rudder_rad) angle *= 20;
+  for (double& angle : not_steered.rudder_rad) angle *= 20;
+  const auto where = clear_of_nulls(where_map(followed(seen, steered, {}), nulls(not_steered)));
+  ASSERT_FALSE(where.empty());
+  EXPECT_EQ(where.front().regime, "rudder");
+}
+
 TEST(Where, NoiseIsNowhere) {
   const Course10Hz course = circling();
   const auto statistics = nulls(course);
