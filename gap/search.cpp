@@ -183,6 +183,17 @@ Evidence::Posterior possible_posterior(const Linearised& linear, const Library& 
 
 }  // namespace
 
+double strength_of(const Library& library, std::size_t effect, const Eigen::VectorXd& values) {
+  double square = 0, largest = 0;
+  for (Eigen::Index k = 0; k < library.count(effect); ++k) {
+    const Eigen::Index j = library.first(effect) + k;
+    const double part = values[j] / library.unknowns()[static_cast<std::size_t>(j)].typical;
+    square += part * part;
+    largest = std::max(largest, std::abs(part));
+  }
+  return library[effect].vector > 1 ? std::sqrt(square) : largest;
+}
+
 Priors without_members(Priors priors, const Library& library, const Set& effects) {
   for (const Eigen::Index j : members_of(library, effects)) priors.spike[j] *= kNothing;
   return priors;
@@ -346,6 +357,14 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   result.best.log_odds = found.scores().at(result.best.effects);
   const Priors others = without_members(priors, library, result.best.effects);
   result.mean_without_effects = possible_posterior(nominal, library, others, {}).mean;
+
+  const Linearised& there = result.best.linear;
+  const Evidence evidence(there.gram, there.score + there.gram * there.at, priors.spike, priors.slab);
+  for (const std::size_t effect : result.best.effects) {
+    const double strength = strength_of(library, effect, result.best.mean);
+    const Eigen::VectorXd typical = result.best.mean / std::max(strength, 1e-9);
+    result.shown_nats.push_back(evidence.separation(members_of(library, {effect}), typical, {}));
+  }
 
   double total = 0;
   for (const auto& [set, score] : found.scores()) total += std::exp(score - result.best.log_odds);

@@ -33,7 +33,13 @@ struct SearchResult {
   /// Posterior of all unknowns where the best set's are zero and the others within tolerance. Were its own within
   /// tolerance, too, strong data would make them what they are in spite of it.
   Eigen::VectorXd mean_without_effects;
+  /// Of each of the best set's effects: what this mission would tell of it, nats, if it had the direction that was
+  /// found and its typical strength.
+  std::vector<double> shown_nats;
 };
+
+/// Of an effect with these values, in typical strengths: the norm of a vector's components, the largest of others.
+[[nodiscard]] double strength_of(const Library& library, std::size_t effect, const Eigen::VectorXd& values);
 
 [[nodiscard]] std::vector<Eigen::Index> members_of(const Library& library,
                                                    const std::vector<std::size_t>& effects);

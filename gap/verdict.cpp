@@ -15,6 +15,8 @@ constexpr double kProbable = 0.7;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
 constexpr double kLargest = 5;
+/// Less than this does not tell one effect from another.
+constexpr double kShown_nats = 10;
 /// Typical strengths up to which it is a tolerance.
 constexpr double kSmallest = 0.05;
 /// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
@@ -31,17 +33,6 @@ std::string names(const Library& library, const std::vector<std::size_t>& effect
   return fmt::format("{}", fmt::join(all, " + "));
 }
 
-double strength(const Library& library, std::size_t effect, const Eigen::VectorXd& mean) {
-  double square = 0, largest = 0;
-  for (Eigen::Index k = 0; k < library.count(effect); ++k) {
-    const Eigen::Index j = library.first(effect) + k;
-    const double part = mean[j] / library.unknowns()[static_cast<std::size_t>(j)].typical;
-    square += part * part;
-    largest = std::max(largest, std::abs(part));
-  }
-  return library[effect].vector > 1 ? std::sqrt(square) : largest;
-}
-
 /// Whether nothing is left that speaks for something outside the library. What is left beside the effects may be
 /// this vehicle's tolerances, if those found on the first mission explain it on the others; but then the effects
 /// must be more than tolerances themselves.
@@ -49,7 +40,7 @@ bool closes(const Grounds& grounds) {
   if (!grounds.closure.clear || grounds.closure.upper >= kClosed) return true;
   const auto& best = grounds.found.best;
   const bool more_than_tolerances = std::all_of(best.effects.begin(), best.effects.end(), [&](std::size_t effect) {
-    return strength(grounds.library, effect, best.mean) > kBeyondTolerance;
+    return strength_of(grounds.library, effect, best.mean) > kBeyondTolerance;
   });
   return more_than_tolerances && grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
 }
@@ -104,8 +95,13 @@ Judgement judge(const Grounds& grounds) {
                                   100 * grounds.closure.closed, 100 * grounds.closure.lower,
                                   100 * grounds.closure.upper));
   }
-  for (const std::size_t effect : best.effects) {
-    const double size = strength(grounds.library, effect, best.mean);
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    const std::size_t effect = best.effects[i];
+    const double size = strength_of(grounds.library, effect, best.mean);
+    if (grounds.found.shown_nats[i] < kShown_nats) {
+      reasons.push_back(fmt::format("{} hardly shows in this mission: at its usual strength by {:.1f} nats",
+                                    grounds.library[effect].name, grounds.found.shown_nats[i]));
+    }
     if (size < kSmallest) {
       reasons.push_back(fmt::format("{} is the best candidate, but no stronger than within tolerance",
                                     grounds.library[effect].name));

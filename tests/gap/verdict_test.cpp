@@ -8,12 +8,13 @@ namespace {
 /// A single that wins clearly, leaves nothing, and improves what was held out.
 class Case {
  public:
-  explicit Case(double strength) {
+  explicit Case(double strength, double shown_nats = 1000) {
     found_.best.effects = {7};
     found_.best.mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library_.unknowns().size()));
     const Eigen::Index j = library_.first(7);
     found_.best.mean[j] = strength * library_.unknowns()[static_cast<std::size_t>(j)].typical;
     found_.candidates = {{{7}, 100, 0.99}, {{}, 0, 0.01}};
+    found_.shown_nats = {shown_nats};
   }
 
   [[nodiscard]] Verdict verdict(double closed_upper, double closed_by_all_upper) const {
@@ -46,6 +47,12 @@ TEST(Verdict, ATolerancedEffectIsNoCauseOfAGapThatItDoesNotClose) {
 
 // Play of a hundredth of the usual was named with certainty: every vehicle has that, and the data were clear.
 TEST(Verdict, AToleranceIsNoCauseHoweverClearItIs) { EXPECT_EQ(Case(0.03).verdict(0.99, 0.99), Verdict::unknown); }
+
+// On a straight course an effect of many parameters was named that such a mission does not show at all.
+TEST(Verdict, WhatAMissionDoesNotShowIsNotNamedByIt) {
+  EXPECT_EQ(Case(4, 0.5).verdict(0.99, 0.99), Verdict::unknown);
+  EXPECT_EQ(Case(4, 11).verdict(0.99, 0.99), Verdict::explained);
+}
 
 TEST(Verdict, OneFarStrongerThanUsualStandsForSomethingElse) {
   EXPECT_EQ(Case(6).verdict(0.99, 0.99), Verdict::unknown);
