@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/interruptible.h"
+#include "cli/log_import.h"
 #include "cli/progress.h"
 #include "record/export.h"
 #include "record/log_info.h"
@@ -52,10 +55,11 @@ void finish(const std::string& file) {
   fmt::print("{}\n", repair.message());
 }
 
-void export_log(const std::string& file, const std::string& csv, const std::string& capture) {
-  const auto exported = run([&](const record::Progress& progress) {
-    return csv.empty() ? record::export_capture(file, capture, progress) : record::export_csv(file, csv, progress);
-  });
+using Exporter = record::Exported (*)(const std::filesystem::path&, const std::filesystem::path&,
+                                      const record::Progress&);
+
+void export_log(const std::string& file, Exporter exporter, const std::string& to) {
+  const auto exported = run([&](const record::Progress& progress) { return exporter(file, to, progress); });
   tell(exported.remarks);
   for (const auto& path : exported.files) fmt::print("{}\n", path.string());
 }
@@ -64,11 +68,13 @@ void export_log(const std::string& file, const std::string& csv, const std::stri
 
 void add_log(CLI::App& app) {
   struct Options {
-    std::string file, csv, capture;
+    std::string file, to;
+    Exporter exporter = nullptr;
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  auto* const log = app.add_subcommand("log", "what is in a log; give it its index; export it");
+  auto* const log =
+      app.add_subcommand("log", "what is in a log; give it its index; export it; make one of a capture");
   log->require_subcommand(1);
   log->footer("Example: navcal log info navcal-20261121T023000Z-000123.mcap");
 
@@ -84,17 +90,48 @@ void add_log(CLI::App& app) {
   end->footer("Example: navcal log finish dive.mcap");
   end->callback([options] { finish(options->file); });
 
-  auto* const out = log->add_subcommand("export", "topics as CSV files, or the raw bytes as a capture");
+  auto* const in = log->add_subcommand("import", "a log of a capture's bytes, as navcald would have written it");
+  in->add_option("FILE", options->file, "capture (.cap)")->required();
+  in->add_option("-o,--output", options->to, "the log")->option_text("FILE.mcap")->required();
+  in->footer("Example: navcal log import -o survey.mcap survey.cap");
+  in->callback([options] {
+    tell(run(
+        [&](const record::Progress& progress) { return import_capture(options->file, options->to, progress); }));
+  });
+
+  auto* const out = log->add_subcommand("export", "topics as tables, or the raw bytes as a capture");
   out->add_option("FILE", options->file, "log (.mcap); with --cap also a capture")->required();
-  auto* const csv = out->add_option("--csv", options->csv, "folder for one CSV file per topic");
-  auto* const capture = out->add_option("--cap", options->capture, "capture file to write");
-  csv->excludes(capture);
-  out->footer("Example: navcal log export --csv dive/ dive.mcap");
+  /// What it can be exported to.
+  struct Form {
+    const char* name;
+    const char* value;
+    const char* description;
+    Exporter exporter;
+  };
+  static constexpr std::array kForms{
+      Form{"--csv", "DIR", "folder for one CSV file per topic", record::export_csv},
+      Form{"--netcdf", "FILE", "netCDF-4 file by the CF conventions, one group per topic", record::export_netcdf},
+      Form{"--mat", "FILE", "MAT-file for MATLAB and Octave, one structure per topic", record::export_mat},
+      Form{"--cap", "FILE", "capture of the raw bytes", record::export_capture}};
+  std::vector<CLI::Option*> forms;
+  for (const Form& form : kForms) {
+    auto* const option = out->add_option_function<std::string>(
+        form.name,
+        [options, &form](const std::string& to) {
+          options->to = to;
+          options->exporter = form.exporter;
+        },
+        form.description);
+    option->option_text(form.value)->group("Form (one of these)");
+    for (auto* const other : forms) option->excludes(other);
+    forms.push_back(option);
+  }
+  out->footer(
+      "The tables' columns are told in docs/export.md.\n\nExample: navcal log export --csv dive/ dive.mcap\n"
+      "         navcal log export --netcdf dive.nc dive.mcap");
   out->callback([options] {
-    if (options->csv.empty() && options->capture.empty()) {
-      throw CLI::RequiredError("one of --csv DIR and --cap FILE");
-    }
-    export_log(options->file, options->csv, options->capture);
+    if (options->exporter == nullptr) throw CLI::RequiredError("one of --csv, --netcdf, --mat and --cap");
+    export_log(options->file, options->exporter, options->to);
   });
 }
 

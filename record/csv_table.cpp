@@ -1,30 +1,14 @@
 #include "record/csv_table.h"
 
-#include <array>
-
 #include "record/flat_json.h"
 
 namespace navcal::record {
 
-CsvTable::CsvTable(const Topic& topic) {
-  constexpr std::array<std::string_view, 3> kAxes{"_x", "_y", "_z"};
-  constexpr std::array<std::string_view, 3> kFins{"_1", "_2", "_3"};
-  for (const Field& field : topic.fields) {
-    const std::string name(field.name);
-    if (field.kind == FieldKind::vector3) {
-      const auto& endings = field.name.starts_with("fins") ? kFins : kAxes;
-      for (std::size_t i = 0; i < endings.size(); ++i) {
-        columns_.push_back({name + std::string(endings[i]), name + "." + std::to_string(i)});
-      }
-    } else {
-      columns_.push_back({field.unit.empty() ? name : name + "_" + std::string(field.unit), name});
-    }
-  }
-}
+CsvTable::CsvTable(const Topic& topic) : columns_(topic_columns(topic)) {}
 
 std::string CsvTable::header() const {
   std::string out;
-  for (const Column& column : columns_) {
+  for (const TopicColumn& column : columns_) {
     if (!out.empty()) out += ',';
     out += column.title;
   }

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "record/log_topics.h"
+#include "record/topic_columns.h"
 
 namespace navcal::record {
 
@@ -20,11 +20,7 @@ class CsvTable {
   [[nodiscard]] bool append_line(std::string& out, std::string_view json) const;
 
  private:
-  struct Column {
-    std::string title;
-    std::string member;
-  };
-  std::vector<Column> columns_;
+  std::vector<TopicColumn> columns_;
 };
 
 /// Quoted where it must be (RFC 4180).

@@ -27,4 +27,14 @@ Exported export_capture(const std::filesystem::path& recording, const std::files
 Exported export_csv(const std::filesystem::path& log, const std::filesystem::path& folder,
                     const Progress& progress);
 
+/// A log's topics in one netCDF-4 file by the CF conventions, one group each, columns named as in the CSV files:
+/// docs/export.md. The topics are held in memory until they are written. The file appears under its name only
+/// when it is whole. Throws as above.
+Exported export_netcdf(const std::filesystem::path& log, const std::filesystem::path& file,
+                       const Progress& progress);
+
+/// The same as a MAT-file (level 5), one structure of column vectors for each topic. Throws as above; also when a
+/// topic is larger than such a file can hold.
+Exported export_mat(const std::filesystem::path& log, const std::filesystem::path& file, const Progress& progress);
+
 }  // namespace navcal::record

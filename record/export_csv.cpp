@@ -105,15 +105,9 @@ class Exporter {
   Output& output_of(std::uint16_t id, const LogChannel& channel) {
     auto& output = outputs_[id];
     if (output) return *output;
-    const Topic* const topic = json_topic(channel.topic);
-    const bool listed = topic != nullptr && topic->fields.size() > 1;
-    // "/raw/compass" -> raw_compass.csv
-    std::string name = channel.topic.substr(channel.topic.find_first_not_of('/'));
-    for (char& c : name) {
-      if (c == '/') c = '_';
-    }
-    output = std::make_unique<Output>(folder_ / (name + ".csv"), listed ? topic : nullptr);
-    if (listed) {
+    const Topic* const topic = listed_topic(channel.topic);
+    output = std::make_unique<Output>(folder_ / (table_name(channel.topic) + ".csv"), topic);
+    if (topic != nullptr) {
       output->text = output->table->header();
     } else {
       output->text = channel.raw ? "time_s,monotonic_s,direction,bytes_hex\n" : "time_s,json\n";

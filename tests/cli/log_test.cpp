@@ -44,6 +44,29 @@ TEST_F(LogCommand, ExportWritesWhatWasAskedFor) {
   EXPECT_EQ(read(path_ / "a.cap").substr(0, 10), "#capture 1");
   EXPECT_EQ(run({"export", "--csv", (path_ / "csv").string(), file}).status, 0);
   EXPECT_TRUE(std::filesystem::exists(path_ / "csv" / "compass.csv"));
+  EXPECT_EQ(run({"export", "--netcdf", (path_ / "a.nc").string(), file}).output, (path_ / "a.nc\n").string());
+  EXPECT_EQ(read(path_ / "a.nc").substr(1, 3), "HDF");
+  EXPECT_EQ(run({"export", "--mat", (path_ / "a.mat").string(), file}).output, (path_ / "a.mat\n").string());
+  EXPECT_EQ(read(path_ / "a.mat").substr(0, 19), "MATLAB 5.0 MAT-file");
+}
+
+TEST_F(LogCommand, ImportMakesALogThatHoldsTheCapture) {
+  const auto log = write("a.mcap", record::testing::sample_log(20, true).bytes).string();
+  const auto capture = (path_ / "a.cap").string();
+  const auto imported = (path_ / "b.mcap").string();
+  ASSERT_EQ(run({"export", "--cap", capture, log}).status, 0);
+  ASSERT_EQ(run({"import", "-o", imported, capture}).status, 0);
+  ASSERT_EQ(run({"export", "--cap", (path_ / "b.cap").string(), imported}).status, 0);
+  EXPECT_EQ(read(path_ / "b.cap"), read(capture));
+  const auto info = nlohmann::json::parse(run({"info", "--json", imported}).output);
+  EXPECT_EQ(info["finished"], true);
+  EXPECT_EQ(info["ports"].size(), 2U);
+  EXPECT_GT(info["topics"]["/compass"]["messages"], 100);  // the words are real ones, the card's frames are not
+  EXPECT_EQ(run({"import", "-o", imported, log}).status, 3) << "it is a log already";
+  EXPECT_EQ(run({"import", "-o", (path_ / "absent" / "b.mcap").string(), capture}).status, 1);
+  const auto torn = write("torn.cap", "#capture 1\n#port imu imu-card 57600\nx\n").string();
+  EXPECT_EQ(run({"import", "-o", (path_ / "c.mcap").string(), torn}).status, 3);
+  EXPECT_FALSE(std::filesystem::exists(path_ / "c.mcap") || std::filesystem::exists(path_ / "c.mcap.part"));
 }
 
 TEST_F(LogCommand, BadInputNamesFileAndPlace) {
@@ -67,6 +90,8 @@ TEST_F(LogCommand, WrongUsageIsToldApartFromAFailedJob) {
   EXPECT_EQ(run({"info"}).status, 2);
   EXPECT_EQ(run({"export", file}).status, 2);
   EXPECT_EQ(run({"export", "--csv", "x", "--cap", "y", file}).status, 2);
+  EXPECT_EQ(run({"export", "--mat", "x", "--netcdf", "y", file}).status, 2);
+  EXPECT_EQ(run({"import", file}).status, 2);
   EXPECT_EQ(run({"export", "--cap", (path_ / "absent" / "a.cap").string(), file}).status, 1);
 }
 
