@@ -18,6 +18,7 @@ Words words_of(const CLI::App& app) {
   Words words;
   for (const CLI::App* command : app.get_subcommands(nullptr)) words.commands += command->get_name() + ' ';
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;  // not for people
     for (const auto& name : option->get_lnames()) {
       words.options += "--" + name + ' ';
       if (option->get_items_expected_max() > 0) words.with_value += "--" + name + ' ';
@@ -79,9 +80,12 @@ void add_completion(CLI::App& app) {
       "Example: navcal completion bash | sudo tee /usr/share/bash-completion/completions/navcal\n"
       "         echo 'source <(navcal completion zsh)' >> ~/.zshrc");
   command->callback([&app, shell] {
-    // zsh runs what is written for bash.
-    if (*shell == "zsh") fmt::print("autoload -U +X bashcompinit && bashcompinit\n");
+    const bool zsh = *shell == "zsh";
+    // zsh runs what is written for bash. The first line makes it a file for zsh's own folders of completions.
+    if (zsh) fmt::print("#compdef navcal\nautoload -U +X bashcompinit && bashcompinit\n");
     fmt::print("{}", script_of(app));
+    // From there it is read when it is first needed, as a function: that first time wants its answer, too.
+    if (zsh) fmt::print("[[ ${{funcstack[1]-}} == _navcal ]] && _bash_complete -o filenames -F _navcal\n");
   });
 }
 

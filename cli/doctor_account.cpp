@@ -29,9 +29,9 @@ Account account_of(const passwd& entry) {
 Account own_account() {
   Account account{std::to_string(::geteuid()), ::geteuid(), {}};
   if (const passwd* entry = ::getpwuid(account.uid)) account.name = entry->pw_name;
-  const int count = ::getgroups(0, nullptr);
+  account.groups.resize(static_cast<std::size_t>(std::max(::getgroups(0, nullptr), 0)));
+  const int count = ::getgroups(static_cast<int>(account.groups.size()), account.groups.data());
   account.groups.resize(static_cast<std::size_t>(std::max(count, 0)));
-  if (count > 0) (void)::getgroups(count, account.groups.data());
   account.groups.push_back(::getegid());
   return account;
 }

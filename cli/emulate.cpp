@@ -87,7 +87,8 @@ void add_emulate(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "of every noise and bias")->capture_default_str();
   command
       ->add_option("--gps", arguments->gps, "what the receiver knows: ha (and Ea), ea (only), or nmea sentences")
-      ->transform(CLI::CheckedTransformer(receivers));
+      ->transform(CLI::CheckedTransformer(receivers))
+      ->option_text("ea|ha|nmea");  // the library would print the enumeration's values, as characters
   command->add_option("--compass-baud", arguments->compass_baud, "speed of the compass")->capture_default_str();
   command->add_option("--imu-ppm", arguments->imu_ppm, "by how much the card's seconds are too long (by the seed)")
       ->check(CLI::Range(-1e4, 1e4));

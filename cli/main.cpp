@@ -2,6 +2,7 @@
 #include <exception>
 
 #include "cli/commands.h"
+#include "share/manual.h"
 
 int main(int argc, char** argv) {
   using navcal::cli::Exit;
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   navcal::cli::add_replay(app);
   navcal::cli::add_simulate(app);
   navcal::cli::add_watch(app);
+  navcal::share::add_manual(app);
 
   try {
     app.parse(argc, argv);

@@ -11,6 +11,7 @@
 #include "daemon/check.h"
 #include "daemon/daemon.h"
 #include "daemon/start_error.h"
+#include "share/manual.h"
 
 namespace {
 
@@ -35,6 +36,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
       ->allow_extra_args(false);
   app.add_flag("--check", options.check, "only read the configuration and say what it would do");
   app.footer("Example: navcald --config navcald.toml --set port.compass.path=/dev/ttyUSB0 --check");
+  navcal::share::add_manual(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

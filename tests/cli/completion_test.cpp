@@ -31,7 +31,7 @@ class Completion : public testing::Test {
 TEST_F(Completion, CommandsAndTheirCommands) {
   EXPECT_EQ(offered("navcal dec"), "decode");
   EXPECT_EQ(offered("navcal do"), "doctor");
-  EXPECT_EQ(offered("navcal log ''"), "info finish export");
+  EXPECT_EQ(offered("navcal log ''"), "info finish import export");
   EXPECT_EQ(offered("navcal log ex"), "export");
   EXPECT_NE(offered("navcal ''").find("watch"), std::string::npos);
 }
@@ -49,6 +49,25 @@ TEST_F(Completion, FilesWhereAValueOrAFileIsWanted) {
   EXPECT_EQ(offered("navcal replay miss"), "mission.cap");
   EXPECT_EQ(offered("navcal gap --report miss"), "mission.cap");
   EXPECT_EQ(offered("navcal gap --report x miss"), "mission.cap") << "after the value";
+}
+
+// As zsh's own keys ask, in a terminal; from a folder of completions, where it is read when first needed.
+TEST_F(Completion, ZshCompletesAtTheFirstTab) {
+  if (std::system("command -v zsh > /dev/null") != 0) GTEST_SKIP() << "there is no zsh here";
+  const auto path = folder_.path().string();
+  ASSERT_EQ(std::system(("'" NAVCAL_PROGRAM "' completion zsh > '" + path + "/_navcal'").c_str()), 0);
+  std::ofstream(folder_ / "ask") << R"(zmodload zsh/zpty
+zpty z zsh -f -i
+zpty -w z "PS1='REA''DY> '; fpath=($PWD \$fpath); autoload -U compinit; compinit -u -D; bindkey '^I' complete-word"
+zpty -r z out '*READY> *'
+zpty -w -n z $'navcal deco\t --proto\t'
+zpty -r z out '*decode --protocol*'
+print -r -- $out
+)";
+  ASSERT_EQ(std::system(("cd '" + path + "' && timeout 60 zsh -f ask > out 2> err").c_str()), 0)
+      << test::read_file(folder_ / "err") << test::read_file(folder_ / "out");
+  EXPECT_NE(test::read_file(folder_ / "out").find("decode --protocol"), std::string::npos)
+      << test::read_file(folder_ / "out");
 }
 
 TEST_F(Completion, AShellThatIsNoneIsWrongUsage) {
