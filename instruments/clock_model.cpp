@@ -23,6 +23,7 @@ constexpr double kMeasurementFloor_s = 5e-6;  // what a scheduler's wake-up vari
 constexpr double kStampFloor_s = 5e-6;        // what no model of the delays can know of their least value
 constexpr double kGate = 5;                   // sigmas by which a whole block may be late before it is left out
 constexpr int kRejectedBlocksToReset = 4;
+constexpr int kResetsToConfuse = 3;
 constexpr std::uint64_t kObservationsToLock = 8;
 
 /// Expected (median - minimum) of n exponential delays of mean 1: the difference of two order statistics.
@@ -104,8 +105,9 @@ void ClockModel::close_block() {
     cov_ = 0;
     var_period_ = std::max(var_period_, square(kPeriodPrior * nominal_s_));
     rejected_blocks_ = 0;
-    ++resets_;
+    count_reset();
   } else {
+    if (in_block_ == kMaxBlock) resets_without_fit_ = 0;
     learn_jitter();
     correct(residual_s, variance);
     rejected_blocks_ = 0;
@@ -152,9 +154,16 @@ std::int64_t ClockModel::predict_ns(std::int64_t index) const {
 
 double ClockModel::sigma_s() const { return std::sqrt(var_phase_ + square(kStampFloor_s)); }
 
+void ClockModel::count_reset() {
+  ++resets_;
+  ++resets_without_fit_;
+}
+
+bool ClockModel::confused() const { return resets_without_fit_ >= kResetsToConfuse; }
+
 void ClockModel::reset_phase() {
   observations_ = 0;
-  ++resets_;
+  count_reset();
 }
 
 void ClockModel::reset_period(double period_s) {
@@ -162,6 +171,7 @@ void ClockModel::reset_period(double period_s) {
   // Found by averaging a few arrivals: good to some per cent of a period over the frames averaged.
   var_period_ = square(0.01 * period_s);
   reset_phase();
+  resets_without_fit_ = 0;
 }
 
 ClockState ClockModel::state() const {

@@ -40,6 +40,8 @@ class ClockModel {
   [[nodiscard]] double sigma_s() const;  ///< one standard deviation of a prediction for the newest frame
   [[nodiscard]] double period_s() const { return period_s_; }
   [[nodiscard]] bool empty() const { return observations_ == 0; }
+  /// The phase was lost again and again, and nothing has fitted in between: the period itself must be wrong.
+  [[nodiscard]] bool confused() const;
   [[nodiscard]] ClockState state() const;
 
   /// The device paused or began anew: forget the phase, keep the period.
@@ -53,6 +55,7 @@ class ClockModel {
   void begin(std::int64_t index, std::int64_t observed_ns);
   void advance_to(std::int64_t index);
   void close_block();
+  void count_reset();
   void correct(double residual_s, double variance_s2);
   void learn_jitter();
   [[nodiscard]] double doubt() const;
@@ -70,6 +73,7 @@ class ClockModel {
   int in_block_ = 0;
   int block_size_ = 1;
   int rejected_blocks_ = 0;
+  int resets_without_fit_ = 0;
   std::uint64_t observations_ = 0;
   std::uint64_t resets_ = 0;
 };

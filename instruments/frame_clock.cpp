@@ -7,19 +7,30 @@ namespace navcal::instruments {
 namespace {
 
 constexpr double kArrivalStd_s = 1e-3;   // of a stamp by arrival: a loaded kernel's wake-up
-constexpr double kAheadTolerance = 2.0;  // periods a counter may run ahead of time before it is a restart
+constexpr double kAheadTolerance = 0.5;  // periods before its time that a frame may come and the phase be believed
 constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a counted frame means a pause
-constexpr int kTrialFrames = 24;         // frames after which the nominal rate is held against the average
 constexpr double kRateTolerance = 0.1;   // of the nominal rate
+constexpr double kLeastTick = 0.4;       // of the nominal period, once a line may have babbled: less is no tick
+constexpr double kSameTick = 0.25;       // intervals that differ from the median by more are none of one tick
 
 }  // namespace
 
 FrameClock::FrameClock(double rate_Hz, double latency_std_s)
-    : periodic_(rate_Hz > 0), latency_std_s_(latency_std_s), model_(periodic_ ? 1 / rate_Hz : 1.0) {}
+    : periodic_(rate_Hz > 0),
+      nominal_s_(periodic_ ? 1 / rate_Hz : 1.0),
+      latency_std_s_(latency_std_s),
+      model_(nominal_s_) {}
 
 FrameClock::Outcome FrameClock::update(const FrameObservation& frame) {
   if (!periodic_) {
     return {{frame.observed_ns, std::llround(std::hypot(kArrivalStd_s, latency_std_s_) * 1e9)}, false};
+  }
+  if (model_.confused() && !on_trial_) {
+    // A line that babbled, say, has been taken for the device: what is configured counts again, until the next
+    // trial.
+    model_.reset_period(nominal_s_);
+    on_trial_ = may_babble_ = true;
+    trial_frames_ = -1;
   }
   const std::int64_t index = next_index(frame);
   sequence_ = frame.sequence;
@@ -68,7 +79,7 @@ std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_peri
     guessed_lost_ = 0;
     return index_ + 1;
   }
-  if (late_periods < -0.5) {
+  if (late_periods < -kAheadTolerance) {
     // Too early by the model: the frames thought lost were only late. Take them back and find the phase again.
     lost_ -= static_cast<std::uint64_t>(
         std::min(guessed_lost_, static_cast<std::int64_t>(std::llround(-late_periods))));
@@ -85,21 +96,38 @@ std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_peri
 }
 
 void FrameClock::check_period(std::int64_t observed_ns) {
-  if (trial_frames_ < 0) return;  // passed
-  if (trial_frames_++ == 0) {
-    trial_start_ns_ = observed_ns;
-    trial_start_index_ = index_;
+  if (!on_trial_) return;
+  const bool first = trial_frames_ < 0;
+  const double passed_s = static_cast<double>(observed_ns - trial_last_ns_) * 1e-9;
+  if (!first && may_babble_ && passed_s < kLeastTick * nominal_s_) return;
+  if (!first) {
+    // Without a counter the index itself rests on the period in question: there frames are counted as they came.
+    const auto ticks = sequence_ ? static_cast<double>(index_ - trial_last_index_) : 1.0;
+    trial_s_[static_cast<std::size_t>(trial_frames_)] = passed_s / ticks;
   }
-  if (trial_frames_ <= kTrialFrames) return;
-  // Without a counter the index itself rests on the period in question: there frames are counted as they came.
-  const auto frames = sequence_ ? static_cast<double>(index_ - trial_start_index_) : kTrialFrames;
-  const double mean_s = static_cast<double>(observed_ns - trial_start_ns_) * 1e-9 / frames;
-  const double ratio = mean_s / model_.period_s();
-  if (std::abs(ratio - 1) > kRateTolerance && mean_s > 0) {
+  trial_last_ns_ = observed_ns;
+  trial_last_index_ = index_;
+  if (++trial_frames_ == kTrialFrames) judge_period();
+}
+
+void FrameClock::judge_period() {
+  trial_frames_ = 0;
+  auto* const middle = trial_s_.data() + kTrialFrames / 2;
+  std::nth_element(trial_s_.begin(), middle, trial_s_.end());
+  const double median_s = *middle;
+  // The mean is the better estimate, of those that are no lost frame and no pause.
+  double sum_s = 0;
+  int count = 0;
+  for (const double tick_s : trial_s_) {
+    if (std::abs(tick_s - median_s) > kSameTick * median_s) continue;
+    sum_s += tick_s;
+    ++count;
+  }
+  const double mean_s = sum_s / count;
+  if (std::abs(mean_s / model_.period_s() - 1) > kRateTolerance && mean_s > 0) {
     model_.reset_period(mean_s);
-    trial_frames_ = 0;
   } else {
-    trial_frames_ = -1;
+    on_trial_ = false;
   }
 }
 

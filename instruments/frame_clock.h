@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -37,8 +38,12 @@ class FrameClock {
   std::int64_t by_sequence(const FrameObservation& frame, double late_periods);
   std::int64_t by_time(const FrameObservation& frame, double late_periods);
   void check_period(std::int64_t observed_ns);
+  void judge_period();
+
+  static constexpr int kTrialFrames = 24;  ///< after which the rate seen is held against the configured one
 
   bool periodic_;
+  double nominal_s_;
   double latency_std_s_;
   ClockModel model_;
   std::int64_t index_ = 0;
@@ -46,9 +51,12 @@ class FrameClock {
   std::optional<std::uint8_t> sequence_;
   std::uint64_t lost_ = 0, repeated_ = 0;
   // Whether the device really runs at its nominal rate.
-  std::int64_t trial_start_ns_ = 0;
-  std::int64_t trial_start_index_ = 0;
-  int trial_frames_ = 0;
+  std::array<double, kTrialFrames> trial_s_{};  ///< time for one tick, frame by frame
+  std::int64_t trial_last_ns_ = 0;
+  std::int64_t trial_last_index_ = 0;
+  int trial_frames_ = -1;  ///< so many are in `trial_s_`; -1: the first is to come
+  bool on_trial_ = true;
+  bool may_babble_ = false;  ///< the clock was confused before
 };
 
 }  // namespace navcal::instruments
