@@ -14,6 +14,8 @@ constexpr std::size_t kWriteStep_bytes = 1 << 20;
 constexpr std::uint64_t kCheckSpaceEvery_bytes = 4ULL << 20;
 /// A buffer that a stall has blown up is given back.
 constexpr std::size_t kKeepBuffer_bytes = 1 << 20;
+/// Synced ahead of the interval: what is not yet synced is held in memory, too.
+constexpr std::uint64_t kMostUnsynced_bytes = 4ULL << 20;
 constexpr std::uint64_t kMegabyte = 1'000'000;
 constexpr int kAttemptsWhileStopping = 3;
 
@@ -94,6 +96,8 @@ void DiskThread::run() {
     update_state();
   }
   finish_file();
+  if (given_up_bytes_ > 0)
+    note(fmt::format("{} bytes that waited for the disk were never written", given_up_bytes_));
   update_state();
 }
 
@@ -110,18 +114,22 @@ void DiskThread::write(const Batch& batch) {
 void DiskThread::write_part(std::string_view bytes) {
   while (!bytes.empty() && file_) {
     const std::string_view step = bytes.substr(0, kWriteStep_bytes);
-    if (written_since_check_ >= kCheckSpaceEvery_bytes && !make_room()) return;
+    if (written_since_check_ >= kCheckSpaceEvery_bytes && !make_room()) break;
     if (const auto error = file_->append(step)) {
       if (state_after(error) == DiskState::State::full && !remove_old_logs().removed.empty()) continue;
-      if (!retry(state_after(error), error.message())) return;
+      if (!retry(state_after(error), error.message())) break;
       continue;
     }
     recovered();
     written_since_check_ += step.size();
     bytes.remove_prefix(step.size());
-    const std::lock_guard lock(mutex_);
-    being_written_ -= std::min(being_written_, step.size());
+    {
+      const std::lock_guard lock(mutex_);
+      being_written_ -= std::min(being_written_, step.size());
+    }
+    if (file_->bytes() - file_->synced_bytes() >= kMostUnsynced_bytes) sync();
   }
+  given_up_bytes_ += bytes.size();
 }
 
 record::LogFolder::Space DiskThread::remove_old_logs() {
@@ -157,7 +165,12 @@ void DiskThread::change_file(std::int64_t utc_ns) {
 
 void DiskThread::sync() {
   if (!file_ || file_->synced_bytes() == file_->bytes()) return;
-  if (const auto error = file_->sync()) note("sync failed: " + error.message());
+  bool failed = false;
+  while (const auto error = file_->sync()) {
+    failed = true;
+    if (!retry(state_after(error), "cannot be synced: " + error.message())) return;
+  }
+  if (failed) recovered();
 }
 
 void DiskThread::finish_file() {

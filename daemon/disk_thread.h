@@ -119,6 +119,7 @@ class DiskThread {
   const Options options_;
   std::unique_ptr<record::LogFile> file_;  ///< the disk thread's alone
   std::uint64_t written_since_check_ = 0;  ///< of free space
+  std::uint64_t given_up_bytes_ = 0;
   int attempts_while_stopping_ = 0;
 
   mutable std::mutex mutex_;

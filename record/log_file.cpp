@@ -1,6 +1,12 @@
 #include "record/log_file.h"
 
 namespace navcal::record {
+namespace {
+
+/// A buffer that a stall has blown up is given back.
+constexpr std::size_t kKeepCapacity = 1 << 20;
+
+}  // namespace
 
 LogFile::LogFile(std::unique_ptr<DiskFile> file, std::filesystem::path path)
     : file_(std::move(file)), path_(std::move(path)) {}
@@ -21,14 +27,23 @@ std::error_code LogFile::append(std::string_view bytes) {
     reserved_bytes_ += kReserveStep;
   }
   const std::error_code error = file_->write_at(bytes_, bytes);
-  if (!error) bytes_ += bytes.size();
-  return error;
+  if (error) return error;
+  bytes_ += bytes.size();
+  unsynced_ += bytes;
+  return {};
 }
 
 std::error_code LogFile::sync() {
+  if (write_anew_) {
+    if (const auto error = file_->write_at(synced_bytes_, unsynced_)) return error;
+  }
   const std::error_code error = file_->sync();
-  if (!error) synced_bytes_ = bytes_;
-  return error;
+  write_anew_ = static_cast<bool>(error);
+  if (error) return error;
+  synced_bytes_ = bytes_;
+  if (unsynced_.capacity() > kKeepCapacity) unsynced_ = {};
+  unsynced_.clear();
+  return {};
 }
 
 std::error_code LogFile::finish() {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -21,7 +22,9 @@ class LogFile {
 
   /// All or nothing: after an error the file is as before, and the same bytes may be offered again.
   [[nodiscard]] std::error_code append(std::string_view bytes);
-  /// What was appended survives a loss of power once this has returned without error.
+  /// What was appended survives a loss of power once this has returned without error. After an error the kernel
+  /// may have dropped what it could not write and call it clean: all that was appended since the last good sync is
+  /// kept until then, and written anew by the next attempt.
   [[nodiscard]] std::error_code sync();
   /// Gives back the space not used and makes the file read-only, which marks it as finished. The footer
   /// (LogEncoder::finish) was appended before.
@@ -39,6 +42,8 @@ class LogFile {
   std::uint64_t bytes_ = 0;
   std::uint64_t synced_bytes_ = 0;
   std::uint64_t reserved_bytes_ = 0;
+  std::string unsynced_;  ///< from synced_bytes_ to bytes_
+  bool write_anew_ = false;
 };
 
 }  // namespace navcal::record

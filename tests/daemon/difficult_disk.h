@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "record/disk.h"
@@ -14,6 +16,7 @@ class DifficultDisk : public record::Disk {
  public:
   std::atomic<bool> stalled{false};  ///< every write waits until this is over
   std::atomic<bool> full{false};     ///< every write fails for want of space
+  std::atomic<bool> no_sync{false};  ///< every sync fails, and what was written since the last good one is dropped
   std::atomic<std::uint64_t> free{1ULL << 40};
 
   std::unique_ptr<record::DiskFile> create(const std::filesystem::path& file, std::error_code& error) override {
@@ -50,18 +53,33 @@ class DifficultDisk : public record::Disk {
     std::error_code write_at(std::uint64_t offset, std::string_view bytes) override {
       while (disk_.stalled) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (disk_.full) return std::make_error_code(std::errc::no_space_on_device);
-      return real_->write_at(offset, bytes);
+      if (const auto error = real_->write_at(offset, bytes)) return error;
+      end_ = std::max(end_, offset + bytes.size());
+      return {};
     }
     std::error_code reserve(std::uint64_t offset, std::uint64_t length) override {
       return real_->reserve(offset, length);
     }
     std::error_code truncate(std::uint64_t length) override { return real_->truncate(length); }
-    std::error_code sync() override { return real_->sync(); }
+    std::error_code sync() override {
+      if (disk_.no_sync) return drop_unsynced();
+      if (const auto error = real_->sync()) return error;
+      synced_ = end_;
+      return {};
+    }
     std::error_code make_read_only() override { return real_->make_read_only(); }
 
    private:
+    /// As the kernel does: the pages are clean afterwards, and hold what the medium holds.
+    std::error_code drop_unsynced() {
+      const std::string hole(static_cast<std::size_t>(end_ - synced_), '\0');
+      if (const auto error = real_->write_at(synced_, hole)) return error;
+      return std::make_error_code(std::errc::io_error);
+    }
+
     DifficultDisk& disk_;
     std::unique_ptr<record::DiskFile> real_;
+    std::uint64_t end_ = 0, synced_ = 0;
   };
 };
 

@@ -142,12 +142,39 @@ TEST_F(DiskThreadTest, AFullDiskIsRelievedOfItsOldestFinishedLog) {
   EXPECT_EQ(logs(), std::vector<std::string>{"begin\nnew\n"});
 }
 
+TEST_F(DiskThreadTest, ASyncThatFailsIsSaidAndWhatItDroppedIsWrittenAnew) {
+  begin(1 << 20);
+  ASSERT_TRUE(append("before\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().synced_bytes == 13; }));
+  disk_.no_sync = true;
+  ASSERT_TRUE(append("dropped by the kernel\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().state == DiskState::State::failing; }));
+  EXPECT_NE(thread_->state().reason.find("cannot be synced"), std::string::npos);
+  EXPECT_EQ(thread_->state().synced_bytes, 13U);
+  ASSERT_TRUE(append("queued meanwhile\n"));
+  disk_.no_sync = false;
+  ASSERT_TRUE(eventually([&] { return thread_->state().state == DiskState::State::writing; }));
+  thread_->stop();
+  EXPECT_EQ(logs(), std::vector<std::string>{"begin\nbefore\ndropped by the kernel\nqueued meanwhile\n"});
+}
+
+TEST_F(DiskThreadTest, StoppingWhileEverySyncFailsEnds) {
+  begin(1 << 20);
+  disk_.no_sync = true;
+  ASSERT_TRUE(append("never synced\n"));
+  thread_->stop();
+  EXPECT_EQ(thread_->state().state, DiskState::State::failing);
+}
+
 TEST_F(DiskThreadTest, StoppingWithAFullDiskEnds) {
   begin(1 << 20);
   disk_.full = true;
   ASSERT_TRUE(append("never written\n"));
   thread_->stop();
   EXPECT_EQ(thread_->state().state, DiskState::State::full);
+  const auto notices = thread_->take_notices();
+  ASSERT_FALSE(notices.empty());
+  EXPECT_NE(notices.back().find("never written"), std::string::npos);
 }
 
 TEST_F(DiskThreadTest, WhatWasAppendedIsSyncedWithinItsInterval) {
