@@ -90,8 +90,11 @@ class Daemon:
             command = [navcald_binary(), "--config", self.write_config(ptys, log)]
         self.errors = open(os.path.join(self.folder, f"{kind}.err"), "wb")
         self.started_ns = time.monotonic_ns()
+        self.start(command, environment or {})
+
+    def start(self, command, environment):
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=self.errors, stderr=self.errors,
-                                        env={**os.environ, **(environment or {})})
+                                        env={**os.environ, **environment})
 
     def write_config(self, ptys, log):
         os.makedirs(self.log_folder, exist_ok=True)

@@ -6,11 +6,11 @@ import os
 
 import serial_rig as rig
 from faults.arguments import SKIPPED
-from faults import clock_part, faults_part, gpsd_part, kill_part, network_part, storage_part
+from faults import clock_part, faults_part, gpsd_part, kill_part, memory_part, network_part, storage_part
 
 RESULTS = os.environ.get("RELIABILITY_RESULTS") or os.path.join(rig.ROOT, "build", "reliability")
 PARTS = {"faults": faults_part, "clock": clock_part, "kill": kill_part, "storage": storage_part,
-         "network": network_part, "gpsd": gpsd_part}
+         "network": network_part, "gpsd": gpsd_part, "memory": memory_part}
 
 
 def run(a):
