@@ -19,6 +19,9 @@ class SampledCurve {
   using Value = Eigen::Matrix<double, Size, 1>;
   static constexpr std::uint32_t kCapacity = 128;
 
+  /// Eigen leaves its matrices as memory was, and all places are archived: the same state must be the same bytes.
+  SampledCurve() { values_.fill(Value::Zero()); }
+
   void clear() { count_ = 0; }
   [[nodiscard]] std::uint32_t size() const { return count_; }
   [[nodiscard]] double time_s(std::uint32_t i) const { return times_[place(i)]; }
@@ -82,7 +85,7 @@ class SampledCurve {
   }
 
   std::array<double, kCapacity> times_{};
-  std::array<Value, kCapacity> values_{};
+  std::array<Value, kCapacity> values_;
   std::uint32_t first_ = 0;
   std::uint32_t count_ = 0;
 };

@@ -14,9 +14,14 @@ PARTS = {"faults": faults_part, "clock": clock_part, "kill": kill_part, "storage
 
 
 def run(a):
-    result, problems = PARTS[a.part].run(a)
+    return keep(a, PARTS[a.part])
+
+
+def keep(a, part):
+    """Runs a part and keeps its result; returns its problems."""
+    result, problems = part.run(a)
     result |= {"problems": problems, "date": datetime.date.today().isoformat(), "seed": a.seed,
-               "command": PARTS[a.part].command(a), "machine": json.loads(rig.machine())}
+               "command": part.command(a), "machine": json.loads(rig.machine())}
     os.makedirs(RESULTS, exist_ok=True)
     path = os.path.join(RESULTS, a.part + (".short" if a.short else "") + ".json")
     with open(path, "w") as f:
@@ -41,9 +46,10 @@ def run_all(a):
     return problems
 
 
-def results():
+def results(names):
+    """What is there of them, in that order."""
     found = {}
-    for name in PARTS:
+    for name in names:
         path = os.path.join(RESULTS, name + ".json")
         if os.path.exists(path):
             with open(path) as f:

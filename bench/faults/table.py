@@ -107,15 +107,25 @@ def memory(r):
         f"{m['at_end']} KiB at the end."])
 
 
+def power_cut(r):
+    w, service = r["loss_window_s"], r["service"]
+    return "\n".join([
+        f"- {r['cuts']} cuts. Loss window {w['median']} s in the median, {w['max']} s at most, sync interval {r['sync_interval_s']} s; "
+        f"{r['torn_tails']} torn tails, {r['unreadable']} of {r['logs']} logs unreadable after the next boot, {r['fsck_bad']} file "
+        f"systems not clean after their journal; boot {r['boot_s']} s.",
+        f"- The service: {service['booted']}; status \"{service['status']}\"; hung daemon: {service['watchdog']}, then "
+        f"{service['again']}; calls forbidden by the filter: {service['seccomp']}."])
+
+
 SECTIONS = {"faults": ("Faults at the lines", faults), "clock": ("Steps of the system clock", clock),
             "kill": ("SIGKILL while logging", kill), "storage": ("Disks", storage), "network": ("The sockets under attack", network),
             "gpsd": ("The same faults, navcald and gpsd", gpsd),
-            "memory": ("Memory and time", memory)}
+            "memory": ("Memory and time", memory), "power_cut": ("Power cuts under systemd", power_cut)}
 
 
 def text():
     parts_of_page = []
-    for name, r in parts.results().items():
+    for name, r in parts.results(SECTIONS).items():
         title, write_section = SECTIONS[name]
         made = f"`{r['command']}`, {r['date']}, {r['machine']['cpus']} cores, load {r['machine']['load']} besides."
         found = "".join(f"\n\n**{p}**" for p in r["problems"])

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <new>
+
+#include "calib/sampled_curve.h"
+#include "calib/turn_integrator.h"
 
 namespace navcal::calib {
 namespace {
@@ -96,6 +101,24 @@ TEST(Archive, AnAbsurdLengthAsksForNoMemory) {
   archive(list);
   EXPECT_FALSE(archive.ok());
   EXPECT_TRUE(list.empty());
+}
+
+/// The state of an object that was made where memory held `fill`.
+template <class T, class... Arguments>
+std::string state_over(unsigned char fill, const Arguments&... arguments) {
+  alignas(T) std::array<unsigned char, sizeof(T)> memory;
+  memory.fill(fill);
+  T* const object = new (memory.data()) T(arguments...);
+  Archive archive;
+  object->archive(archive);
+  object->~T();
+  return archive.bytes();
+}
+
+TEST(Archive, TheStateIsTheObjectsAndNotWhatMemoryHeldBefore) {
+  EXPECT_EQ(state_over<SampledCurve<4>>(0xA5), state_over<SampledCurve<4>>(0x5A));
+  const TurnIntegrator::Parameters parameters;
+  EXPECT_EQ(state_over<TurnIntegrator>(0xA5, parameters), state_over<TurnIntegrator>(0x5A, parameters));
 }
 
 }  // namespace
