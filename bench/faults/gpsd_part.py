@@ -11,6 +11,7 @@ from faults import arguments, process
 
 NS = rig.NS
 RATE_HZ = 50
+FAST_HZ = 800         # fills the buffers of a client that does not read
 RETURN_LIMIT_S = 20   # navcald looks five times a second; gpsd was seen not to come back in 90 s
 GONE_S = (0.05, 1.0)
 KINDS = ("navcald", "gpsd")
@@ -128,7 +129,7 @@ def stalled_client(kind, seconds):
         client = rig.Client(daemon.connect())
         k, _ = rig.warm_up(line.pty, client)
         slow = daemon.connect(receive_buffer=4096)
-        sent, _ = rig.feed(line.pty, client, 4 * RATE_HZ, int(4 * RATE_HZ * seconds), k, tail_s=2)
+        sent, _ = rig.feed(line.pty, client, FAST_HZ, int(FAST_HZ * seconds), k, tail_s=2)
         slow.close()
         os.close(line.pty.master)
     heard = sorted(client.seen[key] for key in sent if key in client.seen)

@@ -82,18 +82,24 @@ def valgrind(a):
     return {"frames": frames, "status": status, "said": said[:40]}
 
 
-def allocations(a):
+class Quiet(VehicleDaemon):
+    """Without the reports that come by the clock: what is left is the frames' own."""
+
+    settings = {"status.health_interval_s": "3600"}
+
+
+def allocations(a, kind):
     counts = os.path.join(tempfile.mkdtemp(prefix="navcal-reliability-"), "allocations")
-    with Vehicle(a.seed, environment={"LD_PRELOAD": COUNTER, "ALLOCATIONS_FILE": counts}) as vehicle:
+    with Vehicle(a.seed, kind, {"LD_PRELOAD": COUNTER, "ALLOCATIONS_FILE": counts}) as vehicle:
         def read():
             with open(counts, "rb") as f:
-                return sum(struct.unpack("<3Q", f.read(24)))
+                return sum(struct.unpack("<3Q", f.read(24))), sum(map(len, vehicle.watcher.heard.values()))
         vehicle.watch(WARM_S)
-        first, first_frames = read(), vehicle.frames()
+        first, first_samples = read()
         vehicle.watch(a.seconds)
-        last, last_frames = read(), vehicle.frames()
-    frames = last_frames - first_frames
-    return {"seconds": a.seconds, "allocations": last - first, "frames": frames, "a_frame": round((last - first) / frames, 2)}
+        last, last_samples = read()
+    samples = last_samples - first_samples
+    return {"seconds": a.seconds, "allocations": last - first, "samples": samples, "each": round((last - first) / samples, 3)}
 
 
 def day(a):
@@ -123,7 +129,8 @@ def run(a):
         arguments.skip("there is no valgrind here")
     if not os.path.exists(COUNTER):
         arguments.skip(f"{COUNTER} is not there: cmake --preset bench && cmake --build build/bench")
-    result = {"valgrind": valgrind(a), "allocations": allocations(a), "day": day(a)}
+    result = {"valgrind": valgrind(a), "allocations": allocations(a, VehicleDaemon),
+              "frames_alone": allocations(a, Quiet), "day": day(a)}
     problems = []
     if result["valgrind"]["status"] != 0:
         problems.append(f"valgrind: status {result['valgrind']['status']}")

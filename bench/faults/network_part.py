@@ -11,7 +11,7 @@ from faults import arguments, process
 from faults.attackers import Attack
 
 CLIENTS = 200
-SETTLE_S = 3
+SETTLE_S = 1
 ANSWER_LIMIT_S = 20
 REFUSED, TAKEN, ANSWERED = range(3)
 WORDS = {REFUSED: "refused", TAKEN: "taken", ANSWERED: "answered with an error"}
@@ -59,7 +59,7 @@ class Network:
     def __init__(self, a):
         self.rate, self.seed = a.rate, a.seed
         self.seconds, self.rounds = (2, 1) if a.short else (a.seconds, a.rounds)
-        self.values = {False: [], True: []}  # under attack -> latencies in us
+        self.values = {False: [], True: [], None: []}  # under attack -> latencies in us; None: before it counts
         self.sent = self.answered = self.refused = self.acts = self.no_act = self.held = 0
         self.next_record, self.problems = 0, []
 
@@ -91,9 +91,9 @@ class Network:
         with rig.Daemon("navcald", [pty], folder=folder) as daemon:
             client = rig.Client(daemon.connect())
             self.next_record, _ = rig.warm_up(pty, client)
-            with Attack(daemon.port, CLIENTS, self.seed):
-                time.sleep(0.5)  # memory that the first crowd takes is kept
-            time.sleep(SETTLE_S if self.rounds > 1 else 1)
+            with Attack(daemon.port, CLIENTS, self.seed):  # what the first crowd takes is kept for the next
+                self.feed(pty, client, None)
+            time.sleep(SETTLE_S)
             pid = daemon.process.pid
             before = process.descriptors(pid), process.anonymous_KiB(pid)
             for number in range(self.rounds):

@@ -95,13 +95,14 @@ def gpsd(r):
 
 
 def memory(r):
-    v, n, d = r["valgrind"], r["allocations"], r["day"]
+    v, n, alone, d = r["valgrind"], r["allocations"], r["frames_alone"], r["day"]
     found = "nothing found" if v["status"] == 0 else f"status {v['status']}: " + " ".join(v["said"][:3])
     m = d["anonymous_KiB"]
     return "\n".join([
         f"- valgrind's memcheck, leaks included, {v['frames']} frames with a hang-up of each port: {found}.",
-        f"- {n['allocations']} allocations for {n['frames']} frames in {n['seconds']:g} s, with log, one client, HEALTH every second, "
-        f"calibration and navigation: {n['a_frame']} a frame.",
+        f"- {alone['allocations']} allocations for {alone['samples']} samples in {alone['seconds']:g} s, log, one client, calibration and "
+        f"navigation on: {alone['each']} each, when the reports that come by the clock (HEALTH, CALIB) are left out; with them "
+        f"{n['allocations']} for {n['samples']}: {n['each']}.",
         f"- {d['hours']:g} hours of simulated mission ({d['recording_MB']} MB, {d['samples']} samples) replayed at "
         f"{d['times_real_time']} times real time: memory of its own {m['after_a_tenth']} KiB after a tenth, {m['at_half']} KiB at half, "
         f"{m['at_end']} KiB at the end."])
