@@ -88,8 +88,10 @@ class Port:
         received = self.reached.received
         sampled = {arrival for arrival, _, _ in received.samples}
         self.is_sample = [frames.is_sample(line.protocol, data[a:b]) for a, b in found]
-        missed = [sample and true and received.arrival_ns(end - 1) not in sampled
-                  for sample, true, (_, end) in zip(self.is_sample, genuine, found)]
+        # The same frame twice in a row is one measurement.
+        repeats = [k > 0 and data[a:b] == data[slice(*found[k - 1])] for k, (a, b) in enumerate(found)]
+        missed = [sample and true and not again and received.arrival_ns(end - 1) not in sampled
+                  for sample, true, again, (_, end) in zip(self.is_sample, genuine, repeats, found)]
         torn = [miss and self.reached.is_torn(*frame) for miss, frame in zip(missed, found)]
         self.torn = sum(torn)
         self.unsampled = [miss and not apart for miss, apart in zip(missed, torn)]
