@@ -125,17 +125,12 @@ class Machine:
         self.paths = paths
 
     def connect(self):
-        """True once both UARTs take bytes."""
-        if self.uarts:
-            return True
-        if not all(os.path.exists(p) for p in self.paths):
-            return False
+        """To both UARTs."""
         for path in self.paths:
             s = socket.socket(socket.AF_UNIX)
+            s.settimeout(30)
             s.connect(path)
-            s.setblocking(False)
             self.uarts.append(s)
-        return True
 
     def said(self, what):
         with open(self.console, errors="replace") as f:

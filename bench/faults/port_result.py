@@ -8,7 +8,7 @@ from faults import frames
 from faults.emulator import navcal_binary
 
 IN_FLIGHT_NS = 1_000_000_000  # a byte written this long before a line was cut has been read, however busy the machine
-TORN_NS = 50_000_000  # navcald gives a frame up that pauses for 60 ms (docs/icd.md); read it may be in less
+TORN_NS = 200_000_000  # navcald gives a frame up that pauses for 250 ms (docs/timing.md); read it may be in less
 
 
 def decoded(protocol, data):

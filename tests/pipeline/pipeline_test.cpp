@@ -155,10 +155,21 @@ TEST(Pipeline, ATornFrameDoesNotDelayTheNextOne) {
   auto torn = gps_frame(0);
   torn.resize(20);
   pipeline.bytes(1, 1 * kS, torn, recorder);
-  EXPECT_LT(pipeline.next_deadline_ns(), 1 * kS + 200 * kMs);
+  EXPECT_LT(pipeline.next_deadline_ns(), 1 * kS + 500 * kMs);
   pipeline.bytes(1, 2 * kS, gps_frame(1), recorder);
   EXPECT_EQ(recorder.samples.size(), 1U);
   EXPECT_EQ(recorder.samples[0].stamp.arrival_ns, 2 * kS);
+}
+
+TEST(Pipeline, AFrameOfWhichTheHostReadsTheRestLateIsStillWhole) {
+  Pipeline pipeline(imu_and_gps());
+  Recorder recorder;
+  const auto frame = imu_frame(0);
+  const protocols::Bytes bytes(frame);
+  pipeline.bytes(0, 1 * kS, bytes.first(16), recorder);
+  pipeline.advance(1 * kS + 200 * kMs, recorder);
+  pipeline.bytes(0, 1 * kS + 200 * kMs, bytes.subspan(16), recorder);
+  EXPECT_EQ(recorder.samples.size(), 1U);
 }
 
 TEST(Pipeline, StampsAreWithinAFractionOfAMillisecondOfTheTruth) {
