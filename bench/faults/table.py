@@ -137,6 +137,6 @@ def text():
 def write():
     with open(PAGE) as f:
         page = f.read()
-    before, after = page[:page.index(BEGIN)], page[page.index(END):]
+    page = f"{page[:page.index(BEGIN)]}{BEGIN}\n\n{text()}\n\n{page[page.index(END):]}"
     with open(PAGE, "w") as f:
-        f.write(f"{before}{BEGIN}\n\n{text()}\n\n{after}")
+        f.write(page)
