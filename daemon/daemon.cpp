@@ -44,7 +44,7 @@ Daemon::Daemon(asio::any_io_executor executor, const config::Settings& settings,
       publisher_(settings_, server_),
       notifier_(executor),
       deadline_timer_(executor, [this] { advance(); }),
-      tick_timer_(executor) {
+      tick_timer_(executor, [this] { tick(); }) {
   PortOwner& owner = *this;
   for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
     sessions_.push_back(std::make_unique<PortSession>(executor, port, settings_.ports[port], owner));
@@ -73,7 +73,7 @@ void Daemon::stop(std::string_view reason) {
   event(now_ns, "info", "daemon.stop", "", reason);
   for (const auto& session : sessions_) session->stop();
   deadline_timer_.stop();
-  tick_timer_.cancel();
+  tick_timer_.stop();
   server_.stop();
   control_.stop();
 }
@@ -195,10 +195,7 @@ void Daemon::tick() {
   }
   notifier_.status(summary());
   next_tick_ns_ = std::max(next_tick_ns_ + tick_ns_, now_ns);
-  tick_timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(next_tick_ns_)));
-  tick_timer_.async_wait([this](boost::system::error_code error) {
-    if (!error) tick();
-  });
+  tick_timer_.arm(next_tick_ns_);
 }
 
 void Daemon::watch_system_clock() {

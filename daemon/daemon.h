@@ -92,7 +92,7 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   Alarms alarms_;
   std::vector<std::unique_ptr<PortSession>> sessions_;
   LazyTimer deadline_timer_;
-  boost::asio::steady_timer tick_timer_;
+  LazyTimer tick_timer_;
   std::int64_t next_tick_ns_ = 0;
   std::int64_t next_health_ns_ = 0;
 };

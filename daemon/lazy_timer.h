@@ -23,14 +23,17 @@ class LazyTimer {
   void arm(std::int64_t deadline_ns) {
     if (deadline_ns >= armed_ns_) return;
     armed_ns_ = deadline_ns;
+    const std::uint64_t wait = ++waits_;
     timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns)));
-    timer_.async_wait([this](boost::system::error_code error) {
-      if (error) return;
+    timer_.async_wait([this, wait](boost::system::error_code error) {
+      // A wait that ended in the same turn of the loop as stop() was called is no longer to be cancelled.
+      if (error || wait != waits_) return;
       armed_ns_ = kNever;
       ring_();
     });
   }
   void stop() {
+    ++waits_;
     timer_.cancel();
     armed_ns_ = kNever;
   }
@@ -39,6 +42,7 @@ class LazyTimer {
   boost::asio::steady_timer timer_;
   std::function<void()> ring_;
   std::int64_t armed_ns_ = kNever;
+  std::uint64_t waits_ = 0;  ///< the newest one counts
 };
 
 }  // namespace navcal::daemon

@@ -1,10 +1,11 @@
 #include "daemon/notifier.h"
 
 #include "daemon/service_manager.h"
+#include "ports/port.h"
 
 namespace navcal::daemon {
 
-Notifier::Notifier(boost::asio::any_io_executor executor) : timer_(std::move(executor)) {
+Notifier::Notifier(const boost::asio::any_io_executor& executor) : timer_(executor, [this] { feed_watchdog(); }) {
   // A third of what systemd allows: one late feeding is not yet a death sentence.
   interval_ = watchdog_limit() / 3;
 }
@@ -16,10 +17,7 @@ void Notifier::ready() {
 
 void Notifier::feed_watchdog() {
   notify_manager("WATCHDOG=1");
-  timer_.expires_after(interval_);
-  timer_.async_wait([this](boost::system::error_code error) {
-    if (!error) feed_watchdog();
-  });
+  timer_.arm(ports::monotonic_ns() + std::chrono::nanoseconds(interval_).count());
 }
 
 void Notifier::status(std::string_view text) {
@@ -29,7 +27,7 @@ void Notifier::status(std::string_view text) {
 }
 
 void Notifier::stopping() {
-  timer_.cancel();
+  timer_.stop();
   notify_manager("STOPPING=1", IfBusy::wait);
 }
 

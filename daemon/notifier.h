@@ -1,10 +1,11 @@
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <string>
 #include <string_view>
+
+#include "daemon/lazy_timer.h"
 
 namespace navcal::daemon {
 
@@ -12,7 +13,7 @@ namespace navcal::daemon {
 /// I/O loop itself, so it starves when the loop hangs.
 class Notifier {
  public:
-  explicit Notifier(boost::asio::any_io_executor executor);
+  explicit Notifier(const boost::asio::any_io_executor& executor);
 
   void ready();
   /// One line for `systemctl status`; sent when it changed.
@@ -22,7 +23,7 @@ class Notifier {
  private:
   void feed_watchdog();
 
-  boost::asio::steady_timer timer_;
+  LazyTimer timer_;
   std::chrono::microseconds interval_{0};
   std::string last_status_;
 };
