@@ -1,6 +1,3 @@
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
-
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
@@ -10,6 +7,7 @@
 #include "config/load.h"
 #include "daemon/check.h"
 #include "daemon/daemon.h"
+#include "daemon/diagnostics.h"
 #include "daemon/start_error.h"
 #include "share/manual.h"
 
@@ -45,12 +43,6 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   return std::nullopt;
 }
 
-/// journald knows the time and reads the priority from the first characters.
-void start_diagnostics() {
-  spdlog::set_default_logger(spdlog::stderr_logger_st("navcald"));
-  spdlog::set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%v" : "%H:%M:%S.%e %l %v");
-}
-
 /// SIGTERM and SIGINT stop, SIGHUP begins a new log file.
 void wait_for_signal(asio::signal_set& signals, Daemon& daemon) {
   signals.async_wait([&signals, &daemon](boost::system::error_code error, int signal) {
@@ -81,12 +73,12 @@ int main(int argc, char** argv) {
   Options options;
   if (const auto status = parse(argc, argv, options)) return *status;
   try {
-    start_diagnostics();
     const auto settings = navcal::config::load(options.config, options.overrides);
     if (options.check) {
       std::fputs(navcal::daemon::describe(settings).c_str(), stdout);
       return kStopped;
     }
+    const navcal::daemon::Diagnostics diagnostics;
     run(settings);
     return kStopped;
   } catch (const navcal::config::Error& error) {

@@ -63,7 +63,8 @@ class FakeLine {
 /// A navcald of its own with one NMEA port on a fake line; its folder goes with it.
 class DaemonProcess {
  public:
-  explicit DaemonProcess(std::vector<std::string> more = {}) {
+  /// `standard_error`: where its diagnostics go, if not to a file in its folder.
+  explicit DaemonProcess(std::vector<std::string> more = {}, const std::string& standard_error = {}) {
     const std::string folder = folder_.path();
     std::ofstream(config()) << "[port.compass]\nprotocol = \"nmea\"\npath = \"" << line.path()
                             << "\"\nbaud = 9600\n";
@@ -89,7 +90,7 @@ class DaemonProcess {
                   "--set",
                   "status.port=" + std::to_string(port_)};
     arguments_.insert(arguments_.end(), more.begin(), more.end());
-    pid_ = spawn(arguments_, folder + "/stderr");
+    pid_ = spawn(arguments_, standard_error.empty() ? folder + "/stderr" : standard_error);
   }
   ~DaemonProcess() {
     if (pid_ > 0) stop(SIGKILL);

@@ -1,7 +1,9 @@
 // The service as it is installed: a process, a pseudo-terminal, sockets, a log on disk.
 #include "tests/daemon/daemon_process.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -112,6 +114,32 @@ TEST(DaemonProcess, APortThatIsNotThereIsSaidAndNothingElseSuffers) {
   EXPECT_FALSE(health["ports"][0]["reason"].get<std::string>().empty());
   EXPECT_EQ(health["log"]["state"], "writing");
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
+}
+
+// A pager that is not scrolled, a journal that stands still: with messages written by the loop itself all ports
+// stood still with them.
+TEST(DaemonProcess, AStandardErrorThatNobodyReadsHoldsNothingUp) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder.path() / "unread";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int descriptor = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(descriptor, 0);
+  const std::string filling(4096, '.');
+  while (::write(descriptor, filling.data(), filling.size()) > 0) continue;
+
+  DaemonProcess daemon({}, pipe);
+  const auto client = watcher(daemon);
+  wait_until_open(*client);
+  daemon.line.sentence("HCHDM,100.5,M");
+  EXPECT_EQ(json::parse(client->line_with("\"class\":\"ATT\""))["heading"], 100.5);
+
+  std::string said(1 << 20, '\0');
+  EXPECT_GT(::read(descriptor, said.data(), said.size()), 0);
+  EXPECT_EQ(daemon.stop(SIGTERM), 0);
+  const ssize_t size = ::read(descriptor, said.data(), said.size());
+  said.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  EXPECT_NE(said.find("SIGTERM"), std::string::npos) << "heard again: " << said;
+  ::close(descriptor);
 }
 
 TEST(DaemonProcess, HangupBeginsANewLog) {
