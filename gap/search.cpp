@@ -1,95 +1,29 @@
 #include "gap/search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 
-#include "gap/evidence.h"
 #include "gap/parallel.h"
+#include "gap/set_evidence.h"
 
 namespace navcal::gap {
 namespace {
 
-using Set = std::vector<std::size_t>;
+using Set = CauseSet;
 
 constexpr std::size_t kMostEffects = 3;
 /// So many sets of each size are simulated again.
 constexpr std::size_t kLeading = 3;
 constexpr std::size_t kSecondThoughts = 6;
-/// Against the first effect, beside the choice among all of them: what innovations that are not quite Gaussian
-/// gain by chance. Against each further one: what the signatures of those before leave, since they are not quite
-/// exact.
-constexpr double kCaution = 3, kFurtherCaution = 8;
-/// An effect that is there may be weak or strong, as likely the one as the other: with one wide prior for all,
-/// many parameters of a weak one would cost more than they explain.
-constexpr std::array<double, 3> kStrengths{0.2, 0.6, 2};
-constexpr int kIterations = 2, kCurvedIterations = 5;
-/// An estimate that moves by less, in standard errors, has arrived.
-constexpr double kArrived = 0.2;
-/// A step by which a set loses so much evidence led along a line that bends, and is taken back.
-constexpr double kWorse_nats = 1;
 /// A leading set and its neighbours are judged where all columns are taken about its own estimate: from columns of
 /// the nominal vehicle those that are not in the set look unlike themselves, and one of them gains by being let
 /// in.
 constexpr int kRefinements = 4;
-/// Prior of what is to be zero, against what tolerance allows it.
-constexpr double kNothing = 1e-6;
 /// Columns serve as far from where they were taken, in typical values: within tolerances nothing curves.
 constexpr double kNear = 0.25;
-
-/// Evidence referred to the nominal vehicle, whatever point it was linearised about.
-class Judge {
- public:
-  Judge(const Linearised& linear, const Library& library, const Priors& priors)
-      : library_(library),
-        evidence_(linear.gram, linear.score + linear.gram * linear.at, priors.spike, priors.slab),
-        data_(-0.5 * residual_at_zero(linear).squaredNorm()) {}
-
-  /// Log of the joint probability of set and data, apart from a constant.
-  [[nodiscard]] double operator()(const Set& set) const {
-    if (set.empty()) return data_ + evidence_.base();
-    const auto count = static_cast<double>(set.size());
-    const double against =
-        count * std::log(static_cast<double>(library_.size())) + kCaution + (count - 1) * kFurtherCaution;
-    return data_ + evidence_.base() + gain(set) - against;
-  }
-
- private:
-  /// Over all combinations of the members' strengths.
-  [[nodiscard]] double gain(const Set& set) const {
-    const auto members = members_of(library_, set);
-    Eigen::VectorXd slabs(static_cast<Eigen::Index>(members.size()));
-    std::size_t combinations = 1;
-    for (std::size_t i = 0; i < set.size(); ++i) combinations *= kStrengths.size();
-    std::vector<double> gains(combinations);
-    for (std::size_t n = 0; n < combinations; ++n) {
-      Eigen::Index at = 0;
-      std::size_t rest = n;
-      for (const std::size_t effect : set) {
-        for (Eigen::Index k = 0; k < library_.count(effect); ++k) {
-          slabs[at] = kStrengths[rest % kStrengths.size()] *
-                      library_.unknowns()[static_cast<std::size_t>(library_.first(effect) + k)].typical;
-          ++at;
-        }
-        rest /= kStrengths.size();
-      }
-      gains[n] = evidence_.gain(members, slabs);
-    }
-    const double greatest = *std::max_element(gains.begin(), gains.end());
-    double sum = 0;
-    for (const double one : gains) sum += std::exp(one - greatest);
-    return greatest + std::log(sum / static_cast<double>(combinations));
-  }
-
-  const Library& library_;
-  Evidence evidence_;
-  double data_;
-};
 
 Set with(Set set, std::size_t effect) {
   set.insert(std::upper_bound(set.begin(), set.end(), effect), effect);
@@ -149,116 +83,6 @@ class Found {
   std::set<Set> settled_;
 };
 
-}  // namespace
-
-std::vector<Eigen::Index> members_of(const Library& library, const Set& effects) {
-  std::vector<Eigen::Index> members;
-  for (const std::size_t effect : effects) {
-    for (Eigen::Index k = 0; k < library.count(effect); ++k) members.push_back(library.first(effect) + k);
-  }
-  return members;
-}
-
-namespace {
-
-/// Of all unknowns; those that cannot be negative, lags above all, and would be stay at zero, and the others are
-/// as they are then: what is answered must be a vehicle that can be simulated.
-Evidence::Posterior possible_posterior(const Linearised& linear, const Library& library, const Priors& priors,
-                                       const std::vector<Eigen::Index>& members) {
-  constexpr int kRounds = 5;
-  const Eigen::VectorXd score = linear.score + linear.gram * linear.at;
-  Priors allowed = priors;
-  for (int round = 1;; ++round) {
-    auto posterior = Evidence(linear.gram, score, allowed.spike, allowed.slab).posterior(members);
-    bool possible = true;
-    for (Eigen::Index j = Library::kBiases; j < posterior.mean.size(); ++j) {
-      if (library.unknowns()[static_cast<std::size_t>(j)].least < 0 || posterior.mean[j] >= 0) continue;
-      if (allowed.slab[j] < priors.slab[j]) continue;
-      allowed.spike[j] = allowed.slab[j] = kNothing * priors.spike[j];
-      possible = false;
-    }
-    if (possible || round == kRounds) return posterior;
-  }
-}
-
-}  // namespace
-
-double strength_of(const Library& library, std::size_t effect, const Eigen::VectorXd& values) {
-  double square = 0, largest = 0;
-  for (Eigen::Index k = 0; k < library.count(effect); ++k) {
-    const Eigen::Index j = library.first(effect) + k;
-    const double part = values[j] / library.unknowns()[static_cast<std::size_t>(j)].typical;
-    square += part * part;
-    largest = std::max(largest, std::abs(part));
-  }
-  return library[effect].vector > 1 ? std::sqrt(square) : largest;
-}
-
-Priors without_members(Priors priors, const Library& library, const Set& effects) {
-  for (const Eigen::Index j : members_of(library, effects)) priors.spike[j] *= kNothing;
-  return priors;
-}
-
-namespace {
-
-/// What a linearisation about a set's own estimate says of it.
-Explanation concluded(const Set& set, Linearised linear, const Library& library, const Priors& priors) {
-  Explanation result;
-  result.effects = set;
-  result.linear = std::move(linear);
-  result.log_odds = Judge(result.linear, library, priors)(set);
-  const auto posterior = possible_posterior(result.linear, library, priors, members_of(library, set));
-  result.mean = posterior.mean;
-  const Eigen::VectorXd left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
-  const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));
-  result.std = (noise * posterior.covariance.diagonal() + priors.model_error.cwiseAbs2()).cwiseSqrt();
-  return result;
-}
-
-/// Where the set's own estimate says the vehicle is, in the bounds of its parameters; non-members are at zero.
-Eigen::VectorXd place_of(const Evidence::Posterior& posterior, const Library& library,
-                         const std::vector<Eigen::Index>& moved) {
-  Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
-  for (const Eigen::Index j : moved) {
-    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
-    at[j] = std::clamp(posterior.mean[j], unknown.least, unknown.greatest);
-  }
-  return at;
-}
-
-/// The set, simulated and linearised about its own estimate.
-Explanation explain(const Set& set, const Replay& replay, const Library& library, const Whitening& whitening,
-                    Linearised start, const Priors& priors, unsigned threads) {
-  Linearised linear = std::move(start);
-  const auto members = members_of(library, set);
-  std::vector<Eigen::Index> moved(Library::kBiases);
-  std::iota(moved.begin(), moved.end(), Eigen::Index{0});
-  moved.insert(moved.end(), members.begin(), members.end());
-  const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
-  Eigen::VectorXd best_at;
-  double best = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < (curved ? kCurvedIterations : kIterations); ++i) {
-    const auto posterior = possible_posterior(linear, library, priors, members);
-    const Eigen::VectorXd at = place_of(posterior, library, moved);
-    const Eigen::VectorXd step = (at - linear.at).cwiseAbs();
-    const auto has_arrived = [&](Eigen::Index j) {
-      return step[j] <= kArrived * std::sqrt(posterior.covariance(j, j));
-    };
-    if (i >= kIterations && std::all_of(moved.begin(), moved.end(), has_arrived)) break;
-    linear = relinearise(replay, library, whitening, std::move(linear), at, members, threads);
-    if (!curved) continue;
-    const double here = Judge(linear, library, priors)(set);
-    if (here > best) {
-      best = here;
-      best_at = at;
-    } else if (here < best - kWorse_nats) {
-      linear = relinearise(replay, library, whitening, std::move(linear), best_at, members, threads);
-      break;
-    }
-  }
-  return concluded(set, std::move(linear), library, priors);
-}
-
 /// Whether columns that were taken about one point serve at the other.
 bool are_near(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Library& library) {
   for (Eigen::Index j = Library::kBiases; j < a.size(); ++j) {
@@ -273,7 +97,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
                     const Linearised& nominal, const Priors& priors, unsigned threads,
                     const std::function<void(double)>& progress) {
   Found found;
-  const Judge judge(nominal, library, priors);
+  const SetEvidence judge(nominal, library, priors);
   found.settle({}, judge({}));
   std::vector<std::size_t> held;
   for (std::size_t e = 0; e < library.size(); ++e) {
@@ -292,7 +116,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   const auto take = [&](Explanation tried) {
     const Set& set = tried.effects;
     found.settle(set, tried.log_odds);
-    const Judge here(tried.linear, library, priors);
+    const SetEvidence here(tried.linear, library, priors);
     for (const std::size_t e : held) {
       if (std::find(set.begin(), set.end(), e) != set.end()) continue;
       if (set.size() < kMostEffects) found.guess(with(set, e), here(with(set, e)));
@@ -345,7 +169,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
           library, priors);
       fresh_at = at;
     }
-    const Judge here(result.best.linear, library, priors);
+    const SetEvidence here(result.best.linear, library, priors);
     found.settle(result.best.effects, result.best.log_odds);
     for (const auto& [set, score] : std::map(found.scores())) {
       if (!set.empty() && are_neighbours(set, result.best.effects)) found.settle(set, here(set));

@@ -1,0 +1,102 @@
+#include "gap/explanation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "gap/set_evidence.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr int kIterations = 2, kCurvedIterations = 5;
+/// An estimate that moves by less, in standard errors, has arrived.
+constexpr double kArrived = 0.2;
+/// A step by which a set loses so much evidence led along a line that bends, and is taken back.
+constexpr double kWorse_nats = 1;
+/// Prior of what is to be zero, against what tolerance allows it.
+constexpr double kNothing = 1e-6;
+
+/// Where the set's own estimate says the vehicle is, in the bounds of its parameters; non-members are at zero.
+Eigen::VectorXd place_of(const Evidence::Posterior& posterior, const Library& library,
+                         const std::vector<Eigen::Index>& moved) {
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
+  for (const Eigen::Index j : moved) {
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+    at[j] = std::clamp(posterior.mean[j], unknown.least, unknown.greatest);
+  }
+  return at;
+}
+
+}  // namespace
+
+Priors without_members(Priors priors, const Library& library, const CauseSet& effects) {
+  for (const Eigen::Index j : members_of(library, effects)) priors.spike[j] *= kNothing;
+  return priors;
+}
+
+Evidence::Posterior possible_posterior(const Linearised& linear, const Library& library, const Priors& priors,
+                                       const std::vector<Eigen::Index>& members) {
+  constexpr int kRounds = 5;
+  const Eigen::VectorXd score = linear.score + linear.gram * linear.at;
+  Priors allowed = priors;
+  for (int round = 1;; ++round) {
+    auto posterior = Evidence(linear.gram, score, allowed.spike, allowed.slab).posterior(members);
+    bool possible = true;
+    for (Eigen::Index j = Library::kBiases; j < posterior.mean.size(); ++j) {
+      if (library.unknowns()[static_cast<std::size_t>(j)].least < 0 || posterior.mean[j] >= 0) continue;
+      if (allowed.slab[j] < priors.slab[j]) continue;
+      allowed.spike[j] = allowed.slab[j] = kNothing * priors.spike[j];
+      possible = false;
+    }
+    if (possible || round == kRounds) return posterior;
+  }
+}
+
+Explanation concluded(const CauseSet& set, Linearised linear, const Library& library, const Priors& priors) {
+  Explanation result;
+  result.effects = set;
+  result.linear = std::move(linear);
+  result.log_odds = SetEvidence(result.linear, library, priors)(set);
+  const auto posterior = possible_posterior(result.linear, library, priors, members_of(library, set));
+  result.mean = posterior.mean;
+  const Eigen::VectorXd left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
+  const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));
+  result.std = (noise * posterior.covariance.diagonal() + priors.model_error.cwiseAbs2()).cwiseSqrt();
+  return result;
+}
+
+Explanation explain(const CauseSet& set, const Replay& replay, const Library& library, const Whitening& whitening,
+                    Linearised start, const Priors& priors, unsigned threads) {
+  Linearised linear = std::move(start);
+  const auto members = members_of(library, set);
+  std::vector<Eigen::Index> moved(Library::kBiases);
+  std::iota(moved.begin(), moved.end(), Eigen::Index{0});
+  moved.insert(moved.end(), members.begin(), members.end());
+  const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
+  Eigen::VectorXd best_at;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < (curved ? kCurvedIterations : kIterations); ++i) {
+    const auto posterior = possible_posterior(linear, library, priors, members);
+    const Eigen::VectorXd at = place_of(posterior, library, moved);
+    const Eigen::VectorXd step = (at - linear.at).cwiseAbs();
+    const auto has_arrived = [&](Eigen::Index j) {
+      return step[j] <= kArrived * std::sqrt(posterior.covariance(j, j));
+    };
+    if (i >= kIterations && std::all_of(moved.begin(), moved.end(), has_arrived)) break;
+    linear = relinearise(replay, library, whitening, std::move(linear), at, members, threads);
+    if (!curved) continue;
+    const double here = SetEvidence(linear, library, priors)(set);
+    if (here > best) {
+      best = here;
+      best_at = at;
+    } else if (here < best - kWorse_nats) {
+      linear = relinearise(replay, library, whitening, std::move(linear), best_at, members, threads);
+      break;
+    }
+  }
+  return concluded(set, std::move(linear), library, priors);
+}
+
+}  // namespace navcal::gap

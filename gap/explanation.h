@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "gap/cause_set.h"
+#include "gap/evidence.h"
+#include "gap/linearised.h"
+#include "gap/spikes.h"
+
+namespace navcal::gap {
+
+/// A set of effects whose replay was taken anew where it says the vehicle is.
+struct Explanation {
+  CauseSet effects;
+  double log_odds = 0;
+  Linearised linear;  ///< about the posterior mean of members and biases
+  /// Posterior of all unknowns; the standard deviations hold what the model is known to be wrong by, and grow with
+  /// noise that is more than nominal.
+  Eigen::VectorXd mean, std;
+};
+
+/// The set, simulated and linearised about its own estimate, from where `start` was taken.
+[[nodiscard]] Explanation explain(const CauseSet& set, const Replay& replay, const Library& library,
+                                  const Whitening& whitening, Linearised start, const Priors& priors,
+                                  unsigned threads);
+
+/// What a linearisation about a set's own estimate says of it.
+[[nodiscard]] Explanation concluded(const CauseSet& set, Linearised linear, const Library& library,
+                                    const Priors& priors);
+
+/// Of all unknowns; those that cannot be negative, lags above all, and would be stay at zero, and the others are
+/// as they are then: what is answered must be a vehicle that can be simulated.
+[[nodiscard]] Evidence::Posterior possible_posterior(const Linearised& linear, const Library& library,
+                                                     const Priors& priors,
+                                                     const std::vector<Eigen::Index>& members);
+
+/// Priors by which none of these effects is there at all.
+[[nodiscard]] Priors without_members(Priors priors, const Library& library, const CauseSet& effects);
+
+}  // namespace navcal::gap

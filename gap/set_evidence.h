@@ -1,0 +1,28 @@
+#pragma once
+
+#include "gap/cause_set.h"
+#include "gap/evidence.h"
+#include "gap/linearised.h"
+#include "gap/spikes.h"
+
+namespace navcal::gap {
+
+/// What speaks for sets of effects, referred to the nominal vehicle whatever point it was linearised about, so
+/// that words from several linearisations may be compared.
+class SetEvidence {
+ public:
+  /// `library` must outlive it.
+  SetEvidence(const Linearised& linear, const Library& library, const Priors& priors);
+
+  /// Log of the joint probability of set and data, nats, apart from a constant.
+  [[nodiscard]] double operator()(const CauseSet& set) const;
+
+ private:
+  [[nodiscard]] double gain(const CauseSet& set) const;
+
+  const Library& library_;
+  Evidence evidence_;
+  double data_;
+};
+
+}  // namespace navcal::gap
