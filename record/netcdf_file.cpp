@@ -1,8 +1,11 @@
 #include "record/netcdf_file.h"
 
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
 #include <stdexcept>
 
 namespace navcal::record {
@@ -12,12 +15,13 @@ namespace {
 constexpr std::size_t kChunk = 65536;
 /// More makes files hardly smaller and takes several times as long.
 constexpr int kDeflateLevel = 2;
+constexpr std::size_t kFirstBytes = 1 << 20;
 constexpr const char* kFillValue = "_FillValue";
 
 }  // namespace
 
-NetcdfFile::NetcdfFile(const std::filesystem::path& path) : path_(path) {
-  check(nc_create(path_.part().c_str(), NC_NETCDF4 | NC_CLOBBER, &file_));
+NetcdfFile::NetcdfFile(const std::filesystem::path& path) : disk_(path) {
+  check(nc_create_mem(path.c_str(), NC_NETCDF4 | NC_CLOBBER, kFirstBytes, &file_));
   open_ = true;
   // Everything is written once: filling it first would write it twice.
   int before = 0;
@@ -31,9 +35,9 @@ NetcdfFile::~NetcdfFile() {
 void NetcdfFile::check(int status) const {
   if (status == NC_NOERR) return;
   // Positive: errno. Others are the library's own, and their words its only account.
-  if (status > 0) throw std::system_error(status, std::system_category(), path_.path().string());
+  if (status > 0) throw std::system_error(status, std::system_category(), disk_.path().string());
   throw std::system_error(std::make_error_code(std::errc::io_error),
-                          path_.path().string() + ": " + nc_strerror(status));
+                          disk_.path().string() + ": " + nc_strerror(status));
 }
 
 NetcdfFile::Group NetcdfFile::add_group(const std::string& name) {
@@ -101,8 +105,11 @@ void NetcdfFile::write(Variable variable, std::vector<const char*>& texts) {
 
 void NetcdfFile::commit() {
   open_ = false;
-  check(nc_close(file_));
-  path_.commit();
+  NC_memio whole{};
+  check(nc_close_memio(file_, &whole));
+  const std::unique_ptr<void, decltype(&std::free)> bytes(whole.memory, &std::free);
+  disk_.write({static_cast<const char*>(bytes.get()), whole.size});
+  disk_.commit();
 }
 
 }  // namespace navcal::record

@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "record/part_path.h"
+#include "record/whole_file.h"
 
 namespace navcal::record {
 
 /// A netCDF-4 file that is being written; a thin cover of the C library that turns its statuses into
-/// std::system_error, which names the file. Appears under its name by commit().
+/// std::system_error, which names the file. Made in memory, since HDF5 does not survive a disk that is full: it
+/// crashes when the process ends. Appears under its name by commit().
 class NetcdfFile {
  public:
   /// A group, or the file itself; and a variable in it.
@@ -52,7 +53,7 @@ class NetcdfFile {
  private:
   void check(int status) const;
 
-  PartPath path_;
+  WholeFile disk_;
   int file_ = 0;
   bool open_ = false;
 };
