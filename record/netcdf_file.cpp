@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kChunk = 65536;
 /// More makes files hardly smaller and takes several times as long.
 constexpr int kDeflateLevel = 2;
-constexpr std::size_t kFirstBytes = 1 << 20;
+constexpr std::size_t kFirstBytes = 1 << 12;
 constexpr const char* kFillValue = "_FillValue";
 
 }  // namespace
