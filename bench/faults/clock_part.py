@@ -69,7 +69,7 @@ def run(a):
     verdict = Verdict(campaign)
     told = sum(e["name"] == "clock.step" for e in verdict.events)
     utc = utc_errors_ms(campaign, verdict, true_offset_s)
-    problems = verdict.problems()
+    problems = verdict.problems(live=not a.short)
     if told < len(campaign.steps):
         problems.append(f"{len(campaign.steps)} steps, {told} told")
     # No sample's stamp may follow the clock: an hour is 3.6 million ms.

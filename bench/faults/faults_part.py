@@ -69,7 +69,7 @@ def run(a):
         campaign.run(SHORT_S if a.short else a.minutes * 60, tell)
         campaign.finish()
     verdict = Verdict(campaign)
-    result, problems = figures(campaign, verdict), verdict.problems()
+    result, problems = figures(campaign, verdict), verdict.problems(live=not a.short)
     if a.keep or problems:
         print(f"kept: {campaign.folder}", file=sys.stderr)
     else:
