@@ -14,7 +14,7 @@ import time
 import serial_rig as rig
 from faults import arguments, frames
 from faults.emulator import navcal_binary
-from faults.log_bytes import Logs, Received, logs_in, records
+from faults.log_bytes import logs_in, loss_window, records
 
 SYNC_S = 1  # the shipped log.sync_interval_s
 NS = rig.NS
@@ -118,20 +118,7 @@ class Cycle:
             return 0, ["there is not exactly one new log"]
         length, size = whole(self.log)
         self.torn = size - length
-        problems, oldest_ns = [], self.killed_ns
-        logs = Logs([self.log])
-        for name, writes in self.written.items():
-            logged = bytes(logs.ports.get(name, Received()).data)
-            given = b"".join(data for _, data in writes)
-            if not given.startswith(logged):
-                problems.append(f"{os.path.basename(self.log)}: port {name} differs from what was written")
-            done = 0
-            for time_ns, data in writes:
-                done += len(data)
-                if done > len(logged):
-                    oldest_ns = min(oldest_ns, time_ns)
-                    break
-        return (self.killed_ns - oldest_ns) / NS, problems
+        return loss_window(self.log, self.written, self.killed_ns)
 
 
 def finished(path):

@@ -102,3 +102,21 @@ class Logs:
             self.events.append(json.loads(bytes(data)))
         elif topic == "/health":
             self.health = bytes(data)
+
+
+def loss_window(path, written, cut_ns):
+    """(age in s, at the cut, of the oldest byte that the log lacks of what was `written` ({port: [(ns, bytes)]}); problems)."""
+    problems, oldest_ns = [], cut_ns
+    logs = Logs([path])
+    for name, writes in written.items():
+        logged = bytes(logs.ports.get(name, Received()).data)
+        if not b"".join(data for _, data in writes).startswith(logged):
+            problems.append(f"{os.path.basename(path)}: port {name} differs from what was written ({len(logged)} bytes)")
+            continue
+        done = 0
+        for time_ns, data in writes:
+            done += len(data)
+            if done > len(logged):
+                oldest_ns = min(oldest_ns, time_ns)
+                break
+    return (cut_ns - oldest_ns) / 1_000_000_000, problems

@@ -9,9 +9,8 @@ import time
 import serial_rig as rig
 from faults import arguments, machine
 from faults.kill_part import SYNC_S, finished, imu_frame, whole
-from faults.log_bytes import Logs, Received, logs_in
+from faults.log_bytes import logs_in, loss_window
 
-NS = rig.NS
 RATE_HZ = 20
 BOOT_LIMIT_S = 900
 LEAST_S, MOST_S = 3, 9
@@ -50,21 +49,7 @@ class Cycle:
 
     def loss(self, path):
         """(age in s of the oldest byte at the cut that the log lacks; problems)."""
-        problems, oldest_ns = [], self.cut_ns
-        logs = Logs([path])
-        for name, writes in self.written.items():
-            logged = bytes(logs.ports.get(name, Received()).data)
-            given = b"".join(data for _, data in writes)
-            if not given.startswith(logged):
-                problems.append(f"{os.path.basename(path)}: port {name} differs from what was sent ({len(logged)} bytes)")
-                continue
-            done = 0
-            for time_ns, data in writes:
-                done += len(data)
-                if done > len(logged):
-                    oldest_ns = min(oldest_ns, time_ns)
-                    break
-        return (self.cut_ns - oldest_ns) / NS, problems
+        return loss_window(path, self.written, self.cut_ns)
 
 
 def cut_once(guest, k, rng, seen, words=""):
