@@ -8,8 +8,8 @@
 #include <map>
 
 #include "gap/advice.h"
-#include "gap/evidence.h"
 #include "gap/regimes.h"
+#include "gap/set_evidence.h"
 
 namespace navcal::gap {
 namespace {
@@ -60,8 +60,7 @@ void write_findings(const SearchResult& found, const Library& library, const Pri
   for (const Candidate& candidate : found.candidates) {
     for (const std::size_t effect : candidate.effects) included[effect] += candidate.probability;
   }
-  const auto& linear = found.best.linear;
-  const Evidence evidence(linear.gram, linear.score + linear.gram * linear.at, priors.spike, priors.slab);
+  const Evidence evidence = evidence_of(found.best.linear, priors);
   for (const auto& [effect, probability] : included) {
     const auto& set = found.best.effects;
     const bool member = std::find(set.begin(), set.end(), effect) != set.end();

@@ -39,10 +39,9 @@ Priors without_members(Priors priors, const Library& library, const CauseSet& ef
 Evidence::Posterior possible_posterior(const Linearised& linear, const Library& library, const Priors& priors,
                                        const std::vector<Eigen::Index>& members) {
   constexpr int kRounds = 5;
-  const Eigen::VectorXd score = linear.score + linear.gram * linear.at;
   Priors allowed = priors;
   for (int round = 1;; ++round) {
-    auto posterior = Evidence(linear.gram, score, allowed.spike, allowed.slab).posterior(members);
+    auto posterior = evidence_of(linear, allowed).posterior(members);
     bool possible = true;
     for (Eigen::Index j = Library::kBiases; j < posterior.mean.size(); ++j) {
       if (library.unknowns()[static_cast<std::size_t>(j)].least < 0 || posterior.mean[j] >= 0) continue;

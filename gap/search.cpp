@@ -182,8 +182,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   const Priors others = without_members(priors, library, result.best.effects);
   result.mean_without_effects = possible_posterior(nominal, library, others, {}).mean;
 
-  const Linearised& there = result.best.linear;
-  const Evidence evidence(there.gram, there.score + there.gram * there.at, priors.spike, priors.slab);
+  const Evidence evidence = evidence_of(result.best.linear, priors);
   for (const std::size_t effect : result.best.effects) {
     const double strength = strength_of(library, effect, result.best.mean);
     const Eigen::VectorXd typical = result.best.mean / std::max(strength, 1e-9);

@@ -18,9 +18,13 @@ constexpr std::array<double, 3> kStrengths{0.2, 0.6, 2};
 
 }  // namespace
 
+Evidence evidence_of(const Linearised& linear, const Priors& priors) {
+  return {linear.gram, linear.score + linear.gram * linear.at, priors.spike, priors.slab};
+}
+
 SetEvidence::SetEvidence(const Linearised& linear, const Library& library, const Priors& priors)
     : library_(library),
-      evidence_(linear.gram, linear.score + linear.gram * linear.at, priors.spike, priors.slab),
+      evidence_(evidence_of(linear, priors)),
       data_(-0.5 * residual_at_zero(linear).squaredNorm()) {}
 
 double SetEvidence::operator()(const CauseSet& set) const {

@@ -7,6 +7,9 @@
 
 namespace navcal::gap {
 
+/// Referred to no effects at all, whatever point it was linearised about.
+[[nodiscard]] Evidence evidence_of(const Linearised& linear, const Priors& priors);
+
 /// What speaks for sets of effects, referred to the nominal vehicle whatever point it was linearised about, so
 /// that words from several linearisations may be compared.
 class SetEvidence {
