@@ -184,30 +184,44 @@ class Client:
 
 def feed(pty, client, rate, records, first=0, tail_s=0.5, on_record=None):
     """Writes `records` at `rate` per second; returns {key: time of writing} and how many did not fit."""
-    sent, refused, period = {}, 0, int(NS / rate)
+    return feed_in_turn([(pty, client)], rate, records, first, tail_s, on_record)[0]
+
+
+def feed_in_turn(pairs, rate, records, first=0, tail_s=0.5, on_record=None):
+    """Each pair of pty and client gets `records` at `rate` per second, one after the other; a list of what feed() returns."""
+    results, period = [[{}, 0] for _ in pairs], int(NS / rate / len(pairs))
+    clients = [client for _, client in pairs]
     poll = select.poll()
-    poll.register(client.sock, select.POLLIN)
+    for client in clients:
+        poll.register(client.sock, select.POLLIN)
     due = time.monotonic_ns()
-    for i in range(first, first + records):
+    for i in range(first * len(pairs), (first + records) * len(pairs)):
         while (left := due - time.monotonic_ns()) > 0:
             # poll() counts in milliseconds; the last part of the wait is spent asking.
             if poll.poll(left // 1_000_000):
-                client.pump()
-        data, key = compass_record(i)
+                pump_all(clients)
+        record, turn = divmod(i, len(pairs))
+        data, key = compass_record(record)
         now = time.monotonic_ns()
-        if pty.write(data):
-            sent[key] = now
+        if pairs[turn][0].write(data):
+            results[turn][0][key] = now
         else:
-            refused += 1
+            results[turn][1] += 1
         due = max(due + period, time.monotonic_ns() - period)
         if on_record:
-            on_record(i)
+            on_record(record)
     end = time.monotonic_ns() + int(tail_s * NS)
     while time.monotonic_ns() < end:
         if poll.poll(20):
-            client.pump()
-    pty.drain()
-    return sent, refused
+            pump_all(clients)
+    for pty, _ in pairs:
+        pty.drain()
+    return [tuple(r) for r in results]
+
+
+def pump_all(clients):
+    for client in clients:
+        client.pump()
 
 
 def warm_up(pty, client, limit_s=30):

@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kGap_s = 600;  // longer without time: the phase is found anew
+constexpr double kJump_s = 0.9;       // of what is stated against what is observed
+constexpr int kJumpsToBelieve = 4;    // in a row
+constexpr double kEarly_s = 0.1;
 constexpr std::int64_t kRefreshAge_ns = 60 * kSecond_ns;
 constexpr double kBoundSigmas = 3;
 
@@ -24,8 +27,15 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
     const std::int64_t steps = second - last_second_;
     if (steps == 0) return std::nullopt;
     const auto off_s = static_cast<double>(observed_ns - model_.predict_ns(second)) * 1e-9;
-    // A leap second learnt, a rollover undone, a receiver that changed its mind: begin again.
-    if (steps < 0 || steps > kGap_s || std::abs(off_s) > 0.9) model_.reset_phase();
+    if (steps < 0 || steps > kGap_s || std::abs(off_s) > kJump_s) {
+      // A host that stood still for a second is late once. A leap second learnt, a rollover undone, a receiver that
+      // changed its mind stays.
+      if (steps <= kGap_s && ++jumps_ < kJumpsToBelieve) return std::nullopt;
+      model_.reset_phase();
+    } else if (off_s < -kEarly_s) {
+      model_.reset_phase();  // nothing arrives early: the phase was learnt from a message that was late
+    }
+    jumps_ = 0;
   }
   last_second_ = second;
   const auto time = model_.update(second, observed_ns);

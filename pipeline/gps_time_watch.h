@@ -24,6 +24,7 @@ class GpsTimeWatch {
   double latency_std_s_;
   instruments::ClockModel model_;
   std::int64_t last_second_ = 0;
+  int jumps_ = 0;  ///< messages in a row that do not fit
 };
 
 }  // namespace navcal::pipeline

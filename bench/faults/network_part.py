@@ -55,55 +55,79 @@ def health(port):
         return next(json.loads(line) for line in f if line.startswith('{"class":"HEALTH"'))
 
 
-class Network:
-    def __init__(self, a):
-        self.rate, self.seed = a.rate, a.seed
-        self.seconds, self.rounds = (2, 1) if a.short else (a.seconds, a.rounds)
-        self.values = {False: [], True: [], None: []}  # under attack -> latencies in us; None: before it counts
-        self.sent = self.answered = self.refused = self.acts = self.no_act = self.held = 0
-        self.next_record, self.problems = 0, []
+class Station:
+    """A navcald of its own with one port, and the client that reads it."""
 
-    def feed(self, pty, client, attacked):
-        sent, refused = rig.feed(pty, client, self.rate, int(self.rate * self.seconds), self.next_record)
-        self.next_record += int(self.rate * self.seconds)
-        end = time.monotonic() + ANSWER_LIMIT_S
-        while any(key not in client.seen for key in sent) and time.monotonic() < end:
-            client.pump()
-            time.sleep(0.01)
-        values = rig.latencies_us(sent, client)
-        self.values[attacked] += values
+    def __init__(self):
+        self.folder = tempfile.mkdtemp(prefix="navcal-bench-")
+        os.chmod(self.folder, 0o755)  # the socket's own permissions are what is tried
+        self.pty = rig.Pty(self.folder, "compass")
+        self.daemon = rig.Daemon("navcald", [self.pty], folder=self.folder)
+        self.values = {False: [], True: [], None: []}  # while there is an attack -> latencies in us; None: before it counts
+        self.sent = self.answered = self.refused = 0
+
+    def __enter__(self):
+        self.client = rig.Client(self.daemon.connect())
+        rig.warm_up(self.pty, self.client)
+        return self
+
+    def __exit__(self, *_):
+        self.daemon.__exit__()
+
+    def take(self, fed, during_attack):
+        sent, refused = fed
+        values = rig.latencies_us(sent, self.client)
+        self.values[during_attack] += values
         self.sent += len(sent)
         self.answered += len(values)
         self.refused += refused
 
-    def round(self, daemon, pty, client, number):
-        self.feed(pty, client, False)
-        with Attack(daemon.port, CLIENTS, self.seed + number) as attack:
-            self.feed(pty, client, True)
-            self.held = max(self.held, health(daemon.port)["clients"])
+
+class Network:
+    """One navcald is attacked; another, fed in turn with it, shows what the attackers cost whoever shares their machine."""
+
+    def __init__(self, a):
+        self.rate, self.seed = a.rate, a.seed
+        self.seconds, self.rounds = (2, 1) if a.short else (a.seconds, a.rounds)
+        self.acts = self.no_act = self.held = 0
+        self.next_record, self.problems = 0, []
+
+    def feed(self, during_attack):
+        stations, records = (self.attacked, self.bystander), int(self.rate * self.seconds)
+        fed = rig.feed_in_turn([(s.pty, s.client) for s in stations], self.rate, records, self.next_record)
+        self.next_record += records
+        clients = [s.client for s in stations]
+        end = time.monotonic() + ANSWER_LIMIT_S
+        while any(key not in c.seen for c, (sent, _) in zip(clients, fed) for key in sent) and time.monotonic() < end:
+            rig.pump_all(clients)
+            time.sleep(0.01)
+        for station, result in zip(stations, fed):
+            station.take(result, during_attack)
+
+    def round(self, number):
+        self.feed(False)
+        with Attack(self.attacked.daemon.port, CLIENTS, self.seed + number) as attack:
+            self.feed(True)
+            self.held = max(self.held, health(self.attacked.daemon.port)["clients"])
             self.acts += attack.counts[1]
             self.no_act += attack.counts[2]
 
     def run(self):
-        folder = tempfile.mkdtemp(prefix="navcal-bench-")
-        os.chmod(folder, 0o755)  # the socket's own permissions are what is tried
-        pty = rig.Pty(folder, "compass")
-        with rig.Daemon("navcald", [pty], folder=folder) as daemon:
-            client = rig.Client(daemon.connect())
-            self.next_record, _ = rig.warm_up(pty, client)
+        with Station() as self.attacked, Station() as self.bystander:
+            daemon = self.attacked.daemon
             with Attack(daemon.port, CLIENTS, self.seed):  # what the first crowd takes is kept for the next
-                self.feed(pty, client, None)
+                self.feed(None)
             time.sleep(SETTLE_S)
             pid = daemon.process.pid
             before = process.descriptors(pid), process.anonymous_KiB(pid)
             for number in range(self.rounds):
-                self.round(daemon, pty, client, number)
+                self.round(number)
             end = time.monotonic() + 15
             while process.descriptors(pid) != before[0] and time.monotonic() < end:
-                client.pump()
+                rig.pump_all([self.attacked.client, self.bystander.client])
                 time.sleep(0.1)
             after = process.descriptors(pid), process.anonymous_KiB(pid)
-            self.nobody = control_as_nobody(f"{folder}/control")
+            self.nobody = control_as_nobody(f"{self.attacked.folder}/control")
             self.judge(daemon, before, after)
         self.growth_KiB = after[1] - before[1]
         self.descriptors = before[0], after[0]
@@ -111,8 +135,8 @@ class Network:
     def judge(self, daemon, before, after):
         if daemon.process.poll() is not None:
             self.problems.append(f"navcald ended with {daemon.process.returncode}")
-        if self.answered != self.sent:
-            self.problems.append(f"{self.sent - self.answered} records not answered to the client that reads")
+        if self.attacked.answered != self.attacked.sent:
+            self.problems.append(f"{self.attacked.sent - self.attacked.answered} records not answered to the client that reads")
         if before[0] != after[0]:
             self.problems.append(f"{after[0]} descriptors, {before[0]} before")
         if self.nobody not in (None, "refused"):
@@ -121,15 +145,19 @@ class Network:
             self.problems.append(f"only {self.held} clients at once")
 
 
+def quantiles(values):
+    values = sorted(values)
+    return {n: round(rig.quantile(values, q), 1) for n, q in (("p50_us", 0.5), ("p99_us", 0.99), ("p999_us", 0.999),
+                                                                ("most_us", 1))}
+
+
 def run(a):
     network = Network(a)
     network.run()
-    quantiles = {}
-    for attacked, name in ((False, "undisturbed"), (True, "under_attack")):
-        values = sorted(network.values[attacked])
-        quantiles[name] = {n: round(rig.quantile(values, q), 1) for n, q in
-                           (("p50_us", 0.5), ("p99_us", 0.99), ("p999_us", 0.999))}
-    ratio = {n: round(quantiles["under_attack"][n] / quantiles["undisturbed"][n], 2) for n in quantiles["undisturbed"]}
-    return {"clients_held": network.held, "acts": network.acts, "acts_refused": network.no_act, "records": network.sent,
-            "answered": network.answered, **quantiles, "ratio": ratio, "descriptors": network.descriptors,
+    attacked, bystander = network.attacked, network.bystander
+    latency = {"before the attack": quantiles(attacked.values[False]), "under attack": quantiles(attacked.values[True]),
+               "beside it, another navcald before the attack": quantiles(bystander.values[False]),
+               "the other, during the attack": quantiles(bystander.values[True])}
+    return {"clients_held": network.held, "acts": network.acts, "acts_refused": network.no_act, "records": attacked.sent,
+            "answered": attacked.answered, "latency": latency, "descriptors": network.descriptors,
             "growth_KiB": network.growth_KiB, "command_by_nobody": network.nobody or "not tried: not root"}, network.problems

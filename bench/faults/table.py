@@ -66,9 +66,9 @@ def storage(r):
 
 
 def network(r):
-    lines = [[name.replace("_", " "), *r[name].values()] for name in ("undisturbed", "under_attack", "ratio")]
+    lines = [[name, *values.values()] for name, values in r["latency"].items()]
     return "\n\n".join([
-        rows(["latency of a record at a client that reads, us", "median", "99th", "99.9th percentile"], lines),
+        rows(["latency of a record at a client that reads, us", "median", "99th", "99.9th percentile", "most"], lines),
         f"{r['clients_held']} clients at once, {r['acts']} hostile acts; {r['answered']} of {r['records']} records answered; "
         f"descriptors {r['descriptors'][0]} before and {r['descriptors'][1]} after, memory {r['growth_KiB']:+d} KiB; a command "
         f"on the control socket by the user nobody: {r['command_by_nobody']}."])

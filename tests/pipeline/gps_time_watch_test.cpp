@@ -38,6 +38,25 @@ TEST(GpsTimeWatch, ALeapSecondLearntMovesTheMapping) {
   EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 0, 0.01);
 }
 
+/// Whenever the host stands still, one or two messages are read late; no mapping may follow them.
+TEST(GpsTimeWatch, AHostThatStoodStillMovesNothing) {
+  for (int stall_at = 10; stall_at < 60; ++stall_at) {
+    for (const double stall_s : {0.3, 0.95, 1.4, 1.875}) {
+      GpsTimeWatch watch(0.020);
+      UtcMapping mapping;
+      for (int k = 10; k < 120; ++k) {
+        const double late_s = std::max(0.0, stall_at + stall_s - k) * (k >= stall_at ? 1 : 0) + 1e-3 * (k % 3);
+        const auto better = watch.update(kUtc + k * kS, k * kS + std::llround(late_s * 1e9), mapping);
+        if (!better) continue;
+        mapping = *better;
+        ASSERT_LT(std::abs(mapping.offset_ns - kUtc), mapping.bound_ns)
+            << "stood still for " << stall_s << " s at " << stall_at << ", mapping of " << k;
+      }
+      EXPECT_EQ(mapping.source, UtcMapping::Source::gps);
+    }
+  }
+}
+
 TEST(GpsTimeWatch, NarrowerMappingsStay) {
   GpsTimeWatch watch(0.020);
   const UtcMapping ntp{UtcMapping::Source::system_synchronised, kUtc, 1'000'000, 0};
