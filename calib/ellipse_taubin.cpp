@@ -92,7 +92,7 @@ std::optional<EllipseShape> taubin_ellipse(const EllipseCells& cells) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<ConicMatrix> eigen(values, gradients);
   const Conic q = eigen.eigenvectors().col(0);
   if (q.allFinite()) {
-    if (const auto shape = ellipse_of(q, -q.dot(mean), *frame)) return shape;
+    if (auto shape = ellipse_of(q, -q.dot(mean), *frame)) return shape;
   }
   return circle(cells, *frame);
 }

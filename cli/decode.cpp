@@ -98,6 +98,7 @@ void add_decode(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("decode", "Show the frames of a raw byte stream, then what it consisted of");
   std::vector<std::string> names;
+  names.reserve(kProtocols.size());
   for (const Protocol protocol : kProtocols) names.emplace_back(name_of(protocol));
 
   command->add_option("--protocol", arguments->protocol, "Language of the device")

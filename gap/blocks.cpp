@@ -12,7 +12,8 @@ constexpr double kPiece_s = 60;
 bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
   const Eigen::Index grid = layout.intervals * kEvidenceChannels;
   if (row < grid) {
-    return static_cast<long>(static_cast<double>(row / kEvidenceChannels) * kInterval_s / kPiece_s) % 2 == 0;
+    const Eigen::Index interval = row / kEvidenceChannels;
+    return static_cast<long>(static_cast<double>(interval) * kInterval_s / kPiece_s) % 2 == 0;
   }
   return row < (grid + rows) / 2;  // fixes: the first half of them
 }

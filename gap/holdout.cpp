@@ -82,6 +82,7 @@ Foretold foretold(const Replay& replay, const Library& library, const Whitening&
 
 PooledClosure pooled_closure(const std::vector<Comparison>& comparisons) {
   std::vector<Power> after;
+  after.reserve(comparisons.size());
   for (const Comparison& each : comparisons) after.push_back(each.after);
   return pooled_closure(comparisons, after);
 }

@@ -12,11 +12,29 @@ namespace navcal::gap {
 namespace {
 
 constexpr double kBias_rad_s = 0.3 * std::numbers::pi / 180;  // the usual one at power-on
-constexpr std::string_view kLag = "tau_s", kPlay = "width_deg";
-constexpr double kLagStep = 0.1;
-/// A play is felt only where it is wider than the fins' moves, so about nothing its step is long; once it is
-/// there, a long step on leads past the least of what is left.
-constexpr double kOnwardStep = 0.1;
+
+/// Of a difference with respect to a parameter, in typical values.
+struct Steps {
+  double first = 0.2;   ///< about nothing
+  double onward = 0.2;  ///< where the effect is there already
+};
+
+constexpr Steps steps_of(sim::EffectKind kind) {
+  switch (kind) {
+    case sim::EffectKind::lag:
+      // The tangent: a long secant is another shape, and what a vehicle within tolerance lags would pass for
+      // something else. How a lag of typical size looks is found by linearising again (gap/search.h).
+      return {0.1, 0.1};
+    case sim::EffectKind::play:
+      // It is felt only where it is wider than the fins' moves, so about nothing its step is long; once it is
+      // there, a long step on leads past the least of what is left.
+      return {0.6, 0.1};
+    case sim::EffectKind::amount:
+      break;
+  }
+  return {};
+}
+
 constexpr std::array<std::string_view, 4> kBiasNames{"bias_ax", "bias_az", "bias_by", "bias_bz"};
 
 }  // namespace
@@ -34,28 +52,21 @@ Library::Library(std::span<const std::string> excluded) {
     if (description.place == sim::EffectPlace::lines) continue;
     held_.push_back(std::find(excluded.begin(), excluded.end(), entry.name) == excluded.end());
     first_.push_back(static_cast<Eigen::Index>(unknowns_.size()));
+    const Steps steps = steps_of(description.kind);
     for (std::size_t i = 0; i < description.parameters.size(); ++i) {
       const auto& parameter = description.parameters[i];
-      // Of a lag the tangent: a long secant is another shape, and what a vehicle within tolerance lags would pass
-      // for something else. How a lag of typical size looks is found by linearising again (gap/search.h).
-      const double step = parameter.name == kLag ? kLagStep : description.step;
-      const double onward = description.one_sided ? kOnwardStep : step;
-      unknowns_.push_back({effects_.size(), i, parameter.name, parameter.typical, step, onward, parameter.least,
-                           parameter.greatest});
+      unknowns_.push_back({effects_.size(), i, parameter.name, parameter.typical, steps.first, steps.onward,
+                           parameter.least, parameter.greatest});
     }
     effects_.push_back(std::move(effect));
   }
 }
 
-bool Library::is_lag(std::size_t effect) const {
-  return unknowns_[static_cast<std::size_t>(first(effect))].name == kLag;
-}
+bool Library::is_lag(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::lag; }
 
-bool Library::is_play(std::size_t effect) const {
-  return unknowns_[static_cast<std::size_t>(first(effect))].name == kPlay;
-}
+bool Library::is_play(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::play; }
 
-bool Library::is_curved(std::size_t effect) const { return (*this)[effect].one_sided; }
+bool Library::is_curved(std::size_t effect) const { return (*this)[effect].kind != sim::EffectKind::amount; }
 
 std::vector<Eigen::Index> Library::moving() const {
   std::vector<Eigen::Index> columns;

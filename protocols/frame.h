@@ -24,7 +24,7 @@ class FrameId {
     while (n < text_.size() && text_[n] != '\0') ++n;
     return {text_.data(), n};
   }
-  constexpr auto operator<=>(const FrameId&) const = default;
+  constexpr auto operator<=>(const FrameId&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 
  private:
   std::array<char, 8> text_{};

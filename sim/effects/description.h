@@ -23,6 +23,14 @@ enum class EffectPlace : std::uint8_t {
   lines,        ///< noise, clocks and the way of frames to the host: no cause of a gap, but a trial of the host
 };
 
+/// How what it does grows with its parameters: a diagnosis that goes by straight lines must know where there are
+/// none.
+enum class EffectKind : std::uint8_t {
+  amount,  ///< in proportion, or nearly
+  lag,     ///< it delays or smooths, the longer the more
+  play,    ///< something stands anywhere within a width
+};
+
 /// What a file says of an effect for people and for those who search among all of them.
 struct EffectDescription {
   std::string_view name;
@@ -35,10 +43,7 @@ struct EffectDescription {
   /// Where several act on the same quantity, the lower goes first: soft iron (0), turned triad (1), what remembers
   /// the field (2), what is added (3), lag (4); servo, then gain (0), lag (1), play (2), offset (3), fin.
   int order = 3;
-  /// Of a difference with respect to a parameter, in typical values. A lag shows its shape, which tells it from a
-  /// gain, in large steps only.
-  double step = 0.2;
-  bool one_sided = false;  ///< the difference goes towards the stronger effect only
+  EffectKind kind = EffectKind::amount;
 };
 
 }  // namespace navcal::sim

@@ -10,8 +10,7 @@ constexpr EffectDescription kDescription{.name = "compass_lag",
                                          .equation = "tau m' + m = field",
                                          .parameters = kParameters,
                                          .order = 4,
-                                         .step = 0.7,
-                                         .one_sided = true};
+                                         .kind = EffectKind::lag};
 
 /// The compass filters its magnetometers, hence its heading.
 class CompassLag final : public EffectOf<CompassLag, 1> {

@@ -12,8 +12,7 @@ constexpr EffectDescription kDescription{.name = "fin_backlash",
                                          .parameters = kParameters,
                                          .place = EffectPlace::vehicle,
                                          .order = 2,
-                                         .step = 0.6,
-                                         .one_sided = true};
+                                         .kind = EffectKind::play};
 
 /// Play of total width b between the servo that is reported and the fin.
 class FinBacklash final : public EffectOf<FinBacklash, 1> {

@@ -11,8 +11,7 @@ constexpr EffectDescription kDescription{.name = "fin_lag",
                                          .parameters = kParameters,
                                          .place = EffectPlace::vehicle,
                                          .order = 1,
-                                         .step = 0.7,
-                                         .one_sided = true};
+                                         .kind = EffectKind::lag};
 
 /// A further lag between the servo that is reported and the fin.
 class FinLag final : public EffectOf<FinLag, 1> {

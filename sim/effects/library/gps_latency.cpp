@@ -8,8 +8,7 @@ constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 1, 0, 10}}};
 constexpr EffectDescription kDescription{.name = "gps_latency",
                                          .equation = "p(t - tau), v(t - tau)",
                                          .parameters = kParameters,
-                                         .step = 0.7,
-                                         .one_sided = true};
+                                         .kind = EffectKind::lag};
 
 /// Position and velocity are older than the second that the message states.
 class GpsLatency final : public EffectOf<GpsLatency, 1> {

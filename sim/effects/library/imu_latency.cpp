@@ -6,7 +6,7 @@ namespace {
 constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 0.05, 0, 1}}};
 
 constexpr EffectDescription kDescription{
-    .name = "imu_latency", .equation = "x(t - tau)", .parameters = kParameters, .step = 0.7, .one_sided = true};
+    .name = "imu_latency", .equation = "x(t - tau)", .parameters = kParameters, .kind = EffectKind::lag};
 
 /// All channels of the inertial card are older than nominal.
 class ImuLatency final : public EffectOf<ImuLatency, 1> {
