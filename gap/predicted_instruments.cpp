@@ -6,7 +6,7 @@
 #include "sim/rotation.h"
 
 namespace navcal::gap {
-using sim::operator*;
+using sim::operator*;  // NOLINT(misc-unused-using-decls): of a matrix and a vector, which are std::array
 
 namespace {
 

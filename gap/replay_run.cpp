@@ -10,8 +10,6 @@
 #include "sim/rotation.h"
 
 namespace navcal::gap {
-using sim::operator*;
-
 namespace {
 
 // The estimator's gains, found by a study of this vehicle: a reading or a frame each.

@@ -157,7 +157,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
     if (found.is_settled(leader)) break;
     take(explain(leader, replay, library, whitening, nominal, priors, threads));
   }
-  if (const Set leader = found.leader(); leader != result.best.effects) {
+  if (const Set& leader = found.leader(); leader != result.best.effects) {
     result.best = explain(leader, replay, library, whitening, nominal, priors, threads);
   }
   Eigen::VectorXd fresh_at = nominal.at;

@@ -56,7 +56,7 @@ sim::Actuators ShadowHelm::next(double time_s, double step_s, const sim::Body& b
   rudder_rad_ += follows * (bounded(rudder, kMost_rad) - rudder_rad_);
   elevator_rad_ += follows * (bounded(elevator, kMost_rad) - elevator_rad_);
 
-  const auto row = static_cast<std::size_t>((time_s + step_s) / ActuatorTrack::kStep_s + 0.5);
+  const auto row = static_cast<std::size_t>(std::lround((time_s + step_s) / ActuatorTrack::kStep_s));
   finished_ = row >= rows_.size();
   const auto& now = rows_[std::min(row, rows_.size() - 1)];
   Eigen::Vector3d fins_rad = sim::mixed_fins(rudder_rad_, elevator_rad_);

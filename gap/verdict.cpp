@@ -29,6 +29,7 @@ constexpr double kLouder = 1.3;
 
 std::string names(const Library& library, const std::vector<std::size_t>& effects) {
   std::vector<std::string_view> all;
+  all.reserve(effects.size());
   for (const std::size_t effect : effects) all.push_back(library[effect].name);
   return fmt::format("{}", fmt::join(all, " + "));
 }

@@ -9,7 +9,7 @@ namespace {
 
 namespace wire = protocols::oncore;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kWeek_ns = 7 * 86400 * kSecond_ns;
+constexpr std::int64_t kWeek_ns = 7 * 86400LL * kSecond_ns;
 constexpr std::size_t kInputBytes = 1024;
 
 }  // namespace
