@@ -54,8 +54,9 @@ std::vector<Quantity> quantities_of_compass(const TurnCalibrator& compass) {
   const TurnCoefficients estimate = compass.filter().estimate();
   const TurnCovariance covariance = compass.filter().covariance();
   for (int i = kB; i <= kE; ++i) {
+    const int above_A = i - kB + 1;
     quantities.push_back(
-        {kCoefficients[static_cast<std::size_t>(i - kB + 1)], estimate[i], std_of(covariance(i, i))});
+        {kCoefficients[static_cast<std::size_t>(above_A)], estimate[i], std_of(covariance(i, i))});
   }
   return quantities;
 }

@@ -99,7 +99,7 @@ std::optional<TurnedReading> Estimators::next(const Correction& in_force) {
 }
 
 TurnedReading Estimators::take_pending(std::optional<TurnStep> turn) {
-  const TurnedReading turned{pending_[first_pending_], turn};
+  TurnedReading turned{pending_[first_pending_], turn};
   first_pending_ = (first_pending_ + 1) % kPending;
   --pending_count_;
   return turned;

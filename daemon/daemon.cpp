@@ -29,7 +29,7 @@ pipeline::UtcMapping first_mapping() {
 
 }  // namespace
 
-Daemon::Daemon(asio::any_io_executor executor, const config::Settings& settings, ActivatedSockets sockets)
+Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets)
     : settings_(settings),
       started_ns_(ports::monotonic_ns()),
       tick_ns_(static_cast<std::int64_t>(std::min(kTick_s, settings.status.health_interval_s) * 1e9)),
@@ -46,7 +46,7 @@ Daemon::Daemon(asio::any_io_executor executor, const config::Settings& settings,
       deadline_timer_(executor, [this] { advance(); }),
       tick_timer_(executor, [this] { tick(); }) {
   PortOwner& owner = *this;
-  for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
+  for (std::uint16_t port = 0; port < Daemon::device_count(); ++port) {
     sessions_.push_back(std::make_unique<PortSession>(executor, port, settings_.ports[port], owner));
   }
 }
@@ -178,7 +178,7 @@ void Daemon::advance() {
 void Daemon::tick() {
   const std::int64_t now_ns = ports::monotonic_ns();
   watch_system_clock();
-  for (std::uint16_t port = 0; port < sessions_.size(); ++port) {
+  for (std::uint16_t port = 0; port < device_count(); ++port) {
     sessions_[port]->tick(now_ns, pipeline_.statistics(port));
   }
   pipeline_.advance(now_ns, *this);

@@ -29,7 +29,7 @@ namespace navcal::daemon {
 class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
  public:
   /// Opens what cannot be done without: log folder and sockets. Throws StartError.
-  Daemon(boost::asio::any_io_executor executor, const config::Settings& settings, ActivatedSockets sockets);
+  Daemon(const boost::asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets);
   ~Daemon() override;
 
   void start();
@@ -56,7 +56,9 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   void on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
                              const instruments::Tcm2Calibration& calibration) override;
   // StatusSource
-  [[nodiscard]] std::size_t device_count() const override { return sessions_.size(); }
+  [[nodiscard]] std::uint16_t device_count() const override {
+    return static_cast<std::uint16_t>(settings_.ports.size());
+  }
   [[nodiscard]] std::optional<std::uint16_t> device_named(std::string_view name) const override;
   [[nodiscard]] std::string_view device_name(std::uint16_t port) const override;
   void append_device(std::string& out, std::uint16_t port) const override;

@@ -20,7 +20,7 @@ bool may_give_positions(protocols::Protocol protocol) {
 }  // namespace
 
 std::optional<std::uint16_t> Daemon::device_named(std::string_view name) const {
-  for (std::uint16_t port = 0; port < settings_.ports.size(); ++port) {
+  for (std::uint16_t port = 0; port < device_count(); ++port) {
     if (settings_.ports[port].name == name) return port;
   }
   if (name == pipeline::kNavigationDevice) return navigation_device(settings_);

@@ -13,7 +13,7 @@ constexpr std::size_t kWakeAt_bytes = 256 << 10;
 constexpr std::size_t kWriteStep_bytes = 1 << 20;
 constexpr std::uint64_t kCheckSpaceEvery_bytes = 4ULL << 20;
 /// A buffer that a stall has blown up is given back.
-constexpr std::size_t kKeepBuffer_bytes = 1 << 20;
+constexpr std::size_t kKeepBuffer_bytes = 256 << 10;
 /// Synced ahead of the interval: what is not yet synced is held in memory, too.
 constexpr std::uint64_t kMostUnsynced_bytes = 4ULL << 20;
 constexpr std::uint64_t kMegabyte = 1'000'000;

@@ -47,7 +47,8 @@ bool is_alive(const asio::any_io_executor& executor, const std::string& path) {
 
 }  // namespace
 
-asio::ip::tcp::acceptor listen_status(asio::any_io_executor executor, const config::StatusSettings& settings) {
+asio::ip::tcp::acceptor listen_status(const asio::any_io_executor& executor,
+                                      const config::StatusSettings& settings) {
   boost::system::error_code error;
   const auto address = asio::ip::make_address(settings.address, error);
   if (error) throw StartError(fmt::format("status.address: \"{}\" is not an IP address", settings.address));
@@ -65,7 +66,7 @@ asio::ip::tcp::acceptor listen_status(asio::any_io_executor executor, const conf
   return acceptor;
 }
 
-Unix::acceptor listen_control(asio::any_io_executor executor, const config::ControlSettings& settings) {
+Unix::acceptor listen_control(const asio::any_io_executor& executor, const config::ControlSettings& settings) {
   const std::string path = settings.socket.string();
   const auto failed = [&](const std::string& why) { return StartError("control socket " + path + ": " + why); };
   if (path.size() > kMaxUnixPath) throw failed(fmt::format("longer than {} bytes", kMaxUnixPath));

@@ -10,12 +10,12 @@
 namespace navcal::daemon {
 
 /// The status socket. Throws StartError; a port that is taken is explained.
-[[nodiscard]] boost::asio::ip::tcp::acceptor listen_status(boost::asio::any_io_executor executor,
+[[nodiscard]] boost::asio::ip::tcp::acceptor listen_status(const boost::asio::any_io_executor& executor,
                                                            const config::StatusSettings& settings);
 
 /// The control socket, with its permissions from the first moment on. What a dead daemon left behind is replaced;
 /// a living one is not disturbed. Throws StartError.
 [[nodiscard]] boost::asio::local::stream_protocol::acceptor listen_control(
-    boost::asio::any_io_executor executor, const config::ControlSettings& settings);
+    const boost::asio::any_io_executor& executor, const config::ControlSettings& settings);
 
 }  // namespace navcal::daemon

@@ -88,7 +88,8 @@ void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns
   bool first = true;
   const auto list = [&](auto&& append_one) {
     first = true;
-    for (std::uint16_t port = 0; port < last_.size(); ++port) {
+    const auto ports = static_cast<std::uint16_t>(last_.size());
+    for (std::uint16_t port = 0; port < ports; ++port) {
       const std::size_t before = out.size();
       if (!first) out += ',';
       if (append_one(last_[port], port)) {

@@ -19,7 +19,7 @@ namespace navcal::daemon {
 class StatusSource {
  public:
   virtual ~StatusSource() = default;
-  [[nodiscard]] virtual std::size_t device_count() const = 0;
+  [[nodiscard]] virtual std::uint16_t device_count() const = 0;
   [[nodiscard]] virtual std::optional<std::uint16_t> device_named(std::string_view name) const = 0;
   [[nodiscard]] virtual std::string_view device_name(std::uint16_t port) const = 0;
   /// The DEVICE object, without newline.

@@ -4,7 +4,7 @@ namespace navcal::record {
 namespace {
 
 /// A buffer that a stall has blown up is given back.
-constexpr std::size_t kKeepCapacity = 1 << 20;
+constexpr std::size_t kKeepCapacity = 256 << 10;
 
 }  // namespace
 

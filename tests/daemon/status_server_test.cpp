@@ -20,7 +20,7 @@ using nlohmann::json;
 
 class TwoDevices : public StatusSource {
  public:
-  std::size_t device_count() const override { return 2; }
+  std::uint16_t device_count() const override { return 2; }
   std::optional<std::uint16_t> device_named(std::string_view name) const override {
     if (name == "compass") return 0;
     return name == "gps" ? std::optional<std::uint16_t>(1) : std::nullopt;
