@@ -1,5 +1,7 @@
 #include "cli/calibrate_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <variant>
 
@@ -55,7 +57,7 @@ void CalibrateRun::play(const std::string& file) {
     progress.show(recording->progress());
   }
   pipeline_->advance(newest_ns_, sink_);
-  for (const auto& remark : recording->remarks()) remarks_.push_back(file + ": " + remark);
+  for (const auto& remark : recording->remarks()) remarks_.push_back(fmt::format("{}: {}", file, remark));
 }
 
 void CalibrateRun::at(const std::string& file, std::int64_t time_ns) {

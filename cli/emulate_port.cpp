@@ -12,7 +12,7 @@ namespace navcal::cli {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-EmulatedPort::EmulatedPort(boost::asio::any_io_executor executor, const Place& place,
+EmulatedPort::EmulatedPort(const boost::asio::any_io_executor& executor, const Place& place,
                            std::unique_ptr<sim::Device> device, SentLog* log)
     : place_(place),
       device_(std::move(device)),

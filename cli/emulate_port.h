@@ -28,8 +28,8 @@ class EmulatedPort {
     std::uint64_t seed = 1;
   };
   /// `log` may be nullptr.
-  EmulatedPort(boost::asio::any_io_executor executor, const Place& place, std::unique_ptr<sim::Device> device,
-               SentLog* log);
+  EmulatedPort(const boost::asio::any_io_executor& executor, const Place& place,
+               std::unique_ptr<sim::Device> device, SentLog* log);
 
   [[nodiscard]] const std::string& name() const { return place_.name; }
   [[nodiscard]] const ports::PtyHost& host() const { return host_; }

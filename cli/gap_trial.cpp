@@ -70,6 +70,7 @@ std::vector<TrialCase> cases_of(const Options& options) {
     }
   }
   std::vector<TrialCase> cases;
+  cases.reserve(numbers.size());
   for (const int number : numbers) cases.push_back(drawn_case(options.seed, number, options.minutes));
   return cases;
 }

@@ -1,5 +1,7 @@
 #include "cli/gap_trial_arms.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -60,7 +62,8 @@ std::vector<TrialArm> trial_arms_named(const std::vector<std::string>& names) {
       if (meant) arms.push_back(facts.arm);
       known.append(known.empty() ? "" : ", ").append(facts.name);
     }
-    if (arms.size() == before) throw std::invalid_argument("there is no arm " + name + "; there are " + known);
+    if (arms.size() == before)
+      throw std::invalid_argument(fmt::format("there is no arm {}; there are {}", name, known));
   }
   return arms;
 }

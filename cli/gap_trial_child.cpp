@@ -48,6 +48,7 @@ class Spawning {
   [[nodiscard]] pid_t start(const std::filesystem::path& program, std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), program.string());
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     pid_t pid = -1;

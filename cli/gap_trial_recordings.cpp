@@ -18,6 +18,7 @@ namespace {
 
 std::vector<config::PortSettings> trial_ports() {
   std::vector<config::PortSettings> ports;
+  ports.reserve(trial::kPorts.size());
   for (const trial::PortFacts& facts : trial::kPorts) {
     ports.push_back(config::default_port(std::string(facts.name),
                                          protocols::protocol_named(facts.protocol).value(), facts.baud));
@@ -69,7 +70,7 @@ void write_recording(const trial::Mission& mission, const trial::Specimen& vehic
 std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
                                                       const std::filesystem::path& folder) {
   const auto missions = trial_missions(facts_of(drawn.arm).missions, drawn.minutes);
-  const std::array<std::filesystem::path, 3> files{folder / "a.cap", folder / "b.cap", folder / "c.cap"};
+  std::array<std::filesystem::path, 3> files{folder / "a.cap", folder / "b.cap", folder / "c.cap"};
   std::array<std::future<void>, 3> written;
   for (std::size_t i = 0; i < files.size(); ++i) {
     written[i] = std::async(std::launch::async, [&, i] {

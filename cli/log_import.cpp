@@ -10,7 +10,7 @@
 namespace navcal::cli {
 namespace {
 
-constexpr std::size_t kFlushBytes = 64 * 1024;
+constexpr std::size_t kFlushBytes = 64 << 10;
 
 /// A capture says what its ports are called and speak, not where they were; a configuration must.
 config::Settings with_places(config::Settings settings, const std::filesystem::path& capture) {

@@ -26,7 +26,7 @@ void run(const PlayArguments& arguments) {
     io.stop();
   });
   std::exception_ptr failure;
-  asio::co_spawn(io, session.run(), [&](std::exception_ptr error) {
+  asio::co_spawn(io, session.run(), [&](const std::exception_ptr& error) {
     failure = error;
     io.stop();
   });

@@ -24,7 +24,7 @@ constexpr milliseconds kGrace{50};  // for bytes that the kernel has still to ha
 
 }  // namespace
 
-PlaySession::PlaySession(asio::any_io_executor executor, const PlayArguments& arguments)
+PlaySession::PlaySession(const asio::any_io_executor& executor, const PlayArguments& arguments)
     : arguments_(arguments), recording_(record::Recording::open(arguments.file)), timer_(executor) {
   for (const config::PortSettings& port : recording_->settings().ports) {
     hosts_.push_back(

@@ -23,7 +23,7 @@ struct PlayArguments {
 class PlaySession {
  public:
   /// Opens the file and makes the ports. Throws record::BadRecording, or what ports::PtyHost throws.
-  PlaySession(boost::asio::any_io_executor executor, const PlayArguments& arguments);
+  PlaySession(const boost::asio::any_io_executor& executor, const PlayArguments& arguments);
 
   /// Says `ready`, waits for readers, plays to the end and leaves them time to take what they have been sent.
   boost::asio::awaitable<void> run();

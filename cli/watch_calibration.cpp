@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kRows = 13, kColumns = 27;
+constexpr int kRows = 13, kColumns = 27;  // odd: there is a middle
+constexpr int kMiddleRow = kRows / 2, kMiddleColumn = kColumns / 2;
 /// A sector with so many readings has seen enough of them.
 constexpr double kOften = 20;
 /// In the order in which people read of them.
@@ -81,8 +82,8 @@ std::vector<std::string> compass_rose(const std::array<double, 36>& visits) {
   std::vector<std::string> rows(kRows, std::string(kColumns, ' '));
   const auto put = [&](double turns, double radius, char c) {
     const double angle = 2 * std::numbers::pi * turns;
-    const auto row = std::lround(kRows / 2 - radius * (kRows / 2) * std::cos(angle));
-    const auto column = std::lround(kColumns / 2 + radius * (kColumns / 2) * std::sin(angle));
+    const auto row = std::lround(kMiddleRow - radius * kMiddleRow * std::cos(angle));
+    const auto column = std::lround(kMiddleColumn + radius * kMiddleColumn * std::sin(angle));
     rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = c;
   };
   for (std::size_t i = 0; i < visits.size(); ++i) {

@@ -1,5 +1,8 @@
 #include "record/calibration_json.h"
 
+#include <fmt/format.h>
+
+#include <iterator>
 #include <numbers>
 
 #include "record/correction_json.h"
@@ -88,9 +91,9 @@ std::vector<std::string> calib_lines(const calib::Report& report, std::optional<
   for (const std::string& list : lists) {
     std::string line = common;
     if (lists.size() > 1) {
-      line += ",\"part\":" + std::to_string(lines.size() + 1) + ",\"parts\":" + std::to_string(lists.size());
+      fmt::format_to(std::back_inserter(line), ",\"part\":{},\"parts\":{}", lines.size() + 1, lists.size());
     }
-    line += ",\"calibrators\":[" + list + "]" + rest;
+    fmt::format_to(std::back_inserter(line), ",\"calibrators\":[{}]{}", list, rest);
     lines.push_back(std::move(line));
   }
   return lines;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 4096;
 /// The longest line with bytes has some 8.3 kB; comments may be longer.
-constexpr std::size_t kMaxLine = 64 * 1024;
+constexpr std::size_t kMaxLine = 64 << 10;
 constexpr std::size_t kMaxPorts = 1000;
 constexpr std::string_view kCapture = "#capture ";
 constexpr std::string_view kPort = "#port ";

@@ -29,7 +29,7 @@ class ReadWindow {
   [[nodiscard]] std::uint64_t size() const { return source_->size(); }
 
  private:
-  static constexpr std::size_t kChunk = 256 * 1024;
+  static constexpr std::size_t kChunk = 256 << 10;
 
   std::unique_ptr<ByteSource> source_;
   std::vector<char> buffer_;
