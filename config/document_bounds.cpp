@@ -7,7 +7,7 @@
 namespace navcal::config {
 namespace {
 
-constexpr std::size_t kMaxBytes = 256 * 1024;
+constexpr std::size_t kMaxBytes = 256 << 10;
 constexpr int kMaxDots = 32;
 
 bool begins_key(char c) {

@@ -28,8 +28,8 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
     if (steps == 0) return std::nullopt;
     const auto off_s = static_cast<double>(observed_ns - model_.predict_ns(second)) * 1e-9;
     if (steps < 0 || steps > kGap_s || std::abs(off_s) > kJump_s) {
-      // A host that stood still for a second is late once. A leap second learnt, a rollover undone, a receiver that
-      // changed its mind stays.
+      // A host that stood still for a second is late once. A leap second learnt, a rollover undone, a receiver
+      // that changed its mind stays.
       if (steps <= kGap_s && ++jumps_ < kJumpsToBelieve) return std::nullopt;
       model_.reset_phase();
     } else if (off_s < -kEarly_s) {

@@ -17,7 +17,7 @@ namespace navcal::record {
 namespace {
 
 constexpr std::uint64_t kProgressEvery = 1024;
-constexpr std::size_t kFlushBytes = 64 * 1024;
+constexpr std::size_t kFlushBytes = 64 << 10;
 
 /// One file of the export.
 struct Output {

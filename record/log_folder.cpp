@@ -30,7 +30,7 @@ std::optional<std::uint64_t> counter_of(std::string_view name) {
 }
 
 std::string explain(const std::filesystem::path& folder, const std::error_code& error) {
-  const std::string what = "log folder " + folder.string();
+  std::string what = "log folder " + folder.string();
   if (error == std::errc::resource_unavailable_try_again) return what + ": another navcald is writing logs there";
   if (error == std::errc::no_such_file_or_directory) return what + ": it does not exist";
   if (error == std::errc::read_only_file_system) return what + ": its file system is read-only";
