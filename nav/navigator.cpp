@@ -93,13 +93,13 @@ void Navigator::take(const CompassReading& reading) {
     const double since_s = tilt_ns_ ? seconds(reading.time_ns - *tilt_ns_) : 0;
     const Vector2d turned = attitude_.correct_tilt(wrapped(*reading.roll_rad - felt.roll_rad),
                                                    *reading.pitch_rad - felt.pitch_rad, since_s);
-    past_.correct(turned.x(), turned.y(), 0);
+    past_.correct({turned.x(), turned.y(), 0});
     tilt_ns_ = reading.time_ns;
   }
   if (reading.heading_rad) {
     const double since_s = heading_ns_ ? seconds(reading.time_ns - *heading_ns_) : 0;
     const double turned = attitude_.correct_heading(wrapped(*reading.heading_rad - pose->heading_rad), since_s);
-    past_.correct(0, 0, turned);
+    past_.correct({0, 0, turned});
     heading_ns_ = reading.time_ns;
     heading_calibrated_ = reading.calibrated;
     drift_rad_ = 0;

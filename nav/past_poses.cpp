@@ -23,35 +23,34 @@ Pose between(const Pose& a, const Pose& b, std::int64_t time_ns) {
 void PastPoses::push(const Pose& pose) {
   // The newest may lie closer to the one before it; it is replaced until they are far enough apart.
   const bool close = count_ >= 2 && entry(count_ - 1).time_ns - entry(count_ - 2).time_ns < kSpacing_ns;
-  if (close) {
-    entry(count_ - 1) = pose;
-    return;
-  }
-  if (count_ == kCapacity) {
+  if (!close && count_ == kCapacity) {
     first_ = (first_ + 1) % kCapacity;
     --count_;
   }
-  entry(count_++) = pose;
+  if (!close) ++count_;
+  Pose& newest = entry(count_ - 1);
+  newest = pose;
+  newest.roll_rad -= corrected_rad_.x();
+  newest.pitch_rad -= corrected_rad_.y();
+  newest.heading_rad -= corrected_rad_.z();
 }
 
-void PastPoses::correct(double roll, double pitch, double heading) {
-  for (std::size_t i = 0; i < count_; ++i) {
-    Pose& pose = entry(i);
-    pose.roll_rad += roll;
-    pose.pitch_rad += pitch;
-    pose.heading_rad += heading;
-  }
+Pose PastPoses::corrected(Pose pose) const {
+  pose.roll_rad += corrected_rad_.x();
+  pose.pitch_rad += corrected_rad_.y();
+  pose.heading_rad += corrected_rad_.z();
+  return pose;
 }
 
 std::optional<Pose> PastPoses::at(std::int64_t time_ns) const {
   if (count_ == 0 || time_ns < entry(0).time_ns || time_ns > entry(count_ - 1).time_ns + kReach_ns)
     return std::nullopt;
-  if (count_ == 1) return entry(0);
+  if (count_ == 1) return corrected(entry(0));
   std::size_t later = 1;
   // From the newest back: readings are late by a few entries.
   for (later = count_ - 1; later > 1 && entry(later - 1).time_ns > time_ns; --later) {
   }
-  return between(entry(later - 1), entry(later), time_ns);
+  return corrected(between(entry(later - 1), entry(later), time_ns));
 }
 
 }  // namespace navcal::nav

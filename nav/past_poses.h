@@ -27,7 +27,7 @@ class PastPoses {
   /// Later than all before.
   void push(const Pose& pose);
   /// The angles of all poses were wrong by this; angles in radians.
-  void correct(double roll, double pitch, double heading);
+  void correct(const Eigen::Vector3d& roll_pitch_heading_rad) { corrected_rad_ += roll_pitch_heading_rad; }
   void clear() { count_ = 0; }
   /// Linear between neighbours; nullopt when it is too long ago or not yet.
   [[nodiscard]] std::optional<Pose> at(std::int64_t time_ns) const;
@@ -36,7 +36,10 @@ class PastPoses {
   [[nodiscard]] const Pose& entry(std::size_t i) const { return poses_[(first_ + i) % kCapacity]; }
   [[nodiscard]] Pose& entry(std::size_t i) { return poses_[(first_ + i) % kCapacity]; }
 
-  std::array<Pose, kCapacity> poses_{};
+  [[nodiscard]] Pose corrected(Pose pose) const;
+
+  std::array<Pose, kCapacity> poses_{};                      ///< each less the corrections of before it
+  Eigen::Vector3d corrected_rad_ = Eigen::Vector3d::Zero();  ///< a compass corrects often: not pose by pose
   std::size_t first_ = 0, count_ = 0;
 };
 

@@ -54,11 +54,15 @@ TEST(PastPoses, ACorrectionIsOneOfThePastToo) {
   PastPoses past;
   past.push(pose(0, 1));
   past.push(pose(50, 2));
-  past.correct(0.1, 0.2, 0.3);
+  past.correct({0.1, 0.2, 0.3});
+  past.push(pose(100, 2.3));
   const auto found = past.at(25 * kMillisecond_ns);
   EXPECT_NEAR(found->roll_rad, 0.1, 1e-12);
   EXPECT_NEAR(found->pitch_rad, 0.2, 1e-12);
   EXPECT_NEAR(found->heading_rad, 1.8, 1e-12);
+  // What is told after a correction has it in it already.
+  EXPECT_NEAR(past.at(100 * kMillisecond_ns)->heading_rad, 2.3, 1e-12);
+  EXPECT_NEAR(past.at(50 * kMillisecond_ns)->heading_rad, 2.3, 1e-12);
 }
 
 }  // namespace
