@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "gap/answer.h"
@@ -8,6 +9,7 @@
 #include "gap/blocks.h"
 #include "gap/holdout.h"
 #include "gap/parallel.h"
+#include "gap/play_twins.h"
 #include "gap/request.h"
 #include "gap/search.h"
 #include "gap/verdict.h"
@@ -29,14 +31,21 @@ struct Prepared {
 /// What is left with all that was found in the model, as far as that can be nothing.
 Innovations rest_of(const Replay& replay, const Library& library, const Explanation& best) {
   Innovations rest = replay.run(library.model(best.mean));
-  const auto& set = best.effects;
-  // Rolling comes from the small sum of three fins' angles. Where each stands in its play is told by the turning
-  // points of its servo between two reports, and what is wrong there by a tenth of a degree rolls the vehicle.
-  if (std::any_of(set.begin(), set.end(), [&](std::size_t effect) { return library.is_play(effect); })) {
-    rest.grid.col(gyro_roll).setZero();
-  }
+  // Rolling comes from the small sum of three fins' angles, and its gyro feels each turning point of a servo
+  // between two reports. Twins, steered by what was reported, have none there.
+  if (has_play(library, best.effects)) rest.grid.col(gyro_roll).setZero();
   return rest;
 }
+
+/// Twins of a vehicle with play: enough for a floor, few enough to wait for.
+constexpr int kPlayTwins = 16;
+
+/// What a search found, and what it was compared with.
+struct Searched {
+  SearchResult found;
+  Priors priors;
+  std::optional<PlayTwins> twins;  ///< of a vehicle with play
+};
 
 class Diagnosing {
  public:
@@ -53,6 +62,7 @@ class Diagnosing {
   /// nullptr: nothing can be said from it, and a remark says why.
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
   void find_bank(Prepared& prepared, const std::string& name);
+  [[nodiscard]] Searched searched(const Prepared& a);
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
 
   const Request& request_;
@@ -104,13 +114,34 @@ void Diagnosing::find_bank(Prepared& prepared, const std::string& name) {
   cache_.keep(*prepared.replay, prepared.course, prepared.bank);
 }
 
-void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts,
-                          Diagnosis& answer) {
+Searched Diagnosing::searched(const Prepared& a) {
   const Priors priors = learnt_priors(library_, a.bank.gram, a.bank.scores);
   progress_("linearising", 0);
   const Linearised nominal = linearise(*a.replay, library_, a.bank.whitening, a.at, threads_);
-  const SearchResult found = search(*a.replay, library_, a.bank.whitening, nominal, priors, threads_,
-                                    [&](double done) { progress_("searching", done); });
+  const auto search_by = [&](const Priors& by) {
+    return search(*a.replay, library_, a.bank.whitening, nominal, by, threads_,
+                  [&](double done) { progress_("searching", done); });
+  };
+  Searched result{search_by(priors), priors, {}};
+  if (!has_play(library_, result.found.best.effects)) return result;
+  progress_("vehicles with such a play", 0);
+  PlayTwins twins = play_twins(*a.replay, a.course, request_.vehicle, library_, a.bank.whitening,
+                               result.found.best, {kPlayTwins, request_.bank_seed, threads_});
+  if (twins.missions <= kPlayTwins / 2) return result;
+  // Once more: beside a play, others are recruited for what it leaves.
+  const Priors wider = with_twins(priors, library_, result.found.best, twins);
+  if (SearchResult again = search_by(wider); has_play(library_, again.best.effects)) {
+    result.found = std::move(again);
+    result.priors = wider;
+  }
+  result.twins = std::move(twins);
+  return result;
+}
+
+void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts,
+                          Diagnosis& answer) {
+  Searched result = searched(a);
+  SearchResult& found = result.found;
 
   // Members alone go into the missions held out; all that was found, small as it is, is taken out of what is left.
   Eigen::VectorXd members = Eigen::VectorXd::Zero(found.best.mean.size());
@@ -137,13 +168,13 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   const Eigen::MatrixXd is = followed(rest_of(*a.replay, library_, found.best), here.course, here.fix_times_s);
   answer.map = where_map(was, a.bank.followed);
   answer.where = clear_of_nulls(answer.map);
-  const auto leftover = clear_of_nulls(where_map(is, a.bank.followed));
+  const auto leftover = clear_of_nulls(where_map(is, result.twins ? result.twins->followed : a.bank.followed));
 
   const bool blocks = compared.empty();
   std::vector<double> nats;
   PooledClosure closure_by_all;
   if (blocks) {
-    nats = gains_of_blocks(found.best, library_, priors, layout_of(*a.replay));
+    nats = gains_of_blocks(found.best, library_, result.priors, layout_of(*a.replay));
     compared.push_back(here);
   } else if (!foretellings.empty()) {
     std::vector<Power> by_all;
@@ -158,13 +189,18 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
       judge({found, library_, answer.where, leftover, nats, closure, closure_by_all, blocks});
 
   answer.verdict = judgement.verdict;
+  if (answer.where.empty() && answer.verdict == Verdict::explained && !answer.map.empty()) {
+    const Eigen::MatrixXd with_members = followed(here.improved, here.course, here.fix_times_s);
+    answer.where.push_back(most_changed(answer.map, was, with_members, a.bank.followed));
+  }
   answer.unexplained = judgement.reasons;
   answer.duration_s = a.mission.duration_s;
   for (Eigen::Index i = 0; i < Library::kBiases; ++i) {
     answer.gyro_bias_rad_s[static_cast<std::size_t>(i)] = found.best.mean[i];
   }
   answer.bank = {a.bank.missions, a.bank.seed, a.from_cache, a.bank.seconds};
-  write_findings(found, library_, priors, answer);
+  if (result.twins) correct(found.best, library_, *result.twins);
+  write_findings(found, library_, result.priors, answer);
   write_gap(compared, closure, !blocks, answer);
   answer.changes = change_points(here.nominal, a.course, here.fix_times_s, a.bank.followed);
   answer.courses = courses(here.nominal, here.improved, here.course, here.fix_times_s);

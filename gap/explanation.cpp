@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "gap/null_mission.h"
 #include "gap/set_evidence.h"
 
 namespace navcal::gap {
@@ -62,7 +63,10 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Library& lib
   result.mean = posterior.mean;
   const Eigen::VectorXd left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
   const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));
-  result.std = (noise * posterior.covariance.diagonal() + priors.model_error.cwiseAbs2()).cwiseSqrt();
+  // What an effect does is as much off as the vehicle that it acts on.
+  const Eigen::VectorXd tolerance = kTolerance * result.mean;
+  result.std = (noise * posterior.covariance.diagonal() + priors.model_error.cwiseAbs2() + tolerance.cwiseAbs2())
+                   .cwiseSqrt();
   return result;
 }
 

@@ -27,7 +27,8 @@ struct Null {
   std::optional<Innovations> noise;  ///< by its own true parameters
 };
 
-/// Of the shape of another mission that was steered alike: cut off, or filled with what was not measured.
+}  // namespace
+
 Innovations fitted_into(const Innovations& innovations, const Layout& layout) {
   const auto shaped = [](const Eigen::MatrixXd& from, Eigen::Index rows) {
     Eigen::MatrixXd to = Eigen::MatrixXd::Constant(rows, from.cols(), std::numeric_limits<double>::quiet_NaN());
@@ -40,8 +41,6 @@ Innovations fitted_into(const Innovations& innovations, const Layout& layout) {
   result.fixes = shaped(innovations.fixes, static_cast<Eigen::Index>(layout.fix_numbers.size()));
   return result;
 }
-
-}  // namespace
 
 NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const config::VehicleSettings& vehicle,
                         const Library& library, const Eigen::VectorXd& at, const BankOptions& options,

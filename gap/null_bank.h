@@ -27,6 +27,9 @@ struct NullBank {
   RegimeStatistics followed;   ///< of the nominal replay of each
 };
 
+/// Of the shape of another mission that was steered alike: cut off, or filled with what was not measured.
+[[nodiscard]] Innovations fitted_into(const Innovations& innovations, const Layout& layout);
+
 struct BankOptions {
   int missions = 100;
   std::uint64_t seed = 1;

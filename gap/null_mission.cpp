@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/servo_path.h"
 #include "gap/shadow_helm.h"
 #include "sim/effects/effect_table.h"
 #include "sim/noise.h"
@@ -61,9 +62,13 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
   for (std::size_t i = 0; i < mismatch.size(); ++i) effects.add(mismatch[i].clone());
   add_surfacings(recorded.mission(), effects);
   effects.reseed(seed);
-  const sim::SimulatedMotion motion(
-      vehicle, std::make_unique<ShadowHelm>(recorded.actuators().rows(), course, vehicle.fins),
-      {begin_ns, &effects, 20});
+  // The card's reports fall anywhere between the commands.
+  const double later_s = sim::Noise(seed).uniform(0, kInterval_s);
+  const auto& track = recorded.actuators();
+  auto helm = std::make_unique<ShadowHelm>(
+      track.rows(), servo_path(track.rows(), recorded.mission().motor, vehicle.fins.lag_s, later_s), course,
+      vehicle.fins);
+  const sim::SimulatedMotion motion(vehicle, std::move(helm), {begin_ns, &effects, 20});
   sim::Recording::Options options{begin_ns, true, seed, &effects, false, true};
   sim::Recording instruments(options, motion);
 

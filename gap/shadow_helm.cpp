@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "sim/vehicle/autopilot.h"
 
@@ -19,9 +20,9 @@ double bounded(double value, double bound) { return std::clamp(value, -bound, bo
 
 }  // namespace
 
-ShadowHelm::ShadowHelm(std::span<const ActuatorTrack::Row> rows, const Course10Hz& course,
-                       const config::FinSettings& fins)
-    : rows_(rows), course_(course), fins_(fins) {}
+ShadowHelm::ShadowHelm(std::span<const ActuatorTrack::Row> rows, std::vector<Vector3> servos_rad,
+                       const Course10Hz& course, const config::FinSettings& fins)
+    : rows_(rows), servos_rad_(std::move(servos_rad)), course_(course), fins_(fins) {}
 
 std::size_t ShadowHelm::row_at(double time_s) const {
   if (time_s <= course_.time_s.front()) return 0;
@@ -38,7 +39,7 @@ sim::Body ShadowHelm::start() const {
 }
 
 sim::Actuators ShadowHelm::actuators_at_start() const {
-  const auto& fins = rows_.front().fins_rad;
+  const auto& fins = servos_rad_.front();
   return {{fins[0], fins[1], fins[2]}, rows_.front().shaft_rps, rows_.front().shaft_rps};
 }
 
@@ -58,12 +59,13 @@ sim::Actuators ShadowHelm::next(double time_s, double step_s, const sim::Body& b
 
   const auto row = static_cast<std::size_t>(std::lround((time_s + step_s) / ActuatorTrack::kStep_s));
   finished_ = row >= rows_.size();
-  const auto& now = rows_[std::min(row, rows_.size() - 1)];
+  const double shaft_rps = rows_[std::min(row, rows_.size() - 1)].shaft_rps;
+  const Vector3& servos_rad = servos_rad_[std::min(row, rows_.size() - 1)];
   Eigen::Vector3d fins_rad = sim::mixed_fins(rudder_rad_, elevator_rad_);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    fins_rad[i] = bounded(fins_rad[i] + now.fins_rad[static_cast<std::size_t>(i)], fins_.limit_rad);
+    fins_rad[i] = bounded(fins_rad[i] + servos_rad[static_cast<std::size_t>(i)], fins_.limit_rad);
   }
-  return {fins_rad, now.shaft_rps, now.shaft_rps};
+  return {fins_rad, shaft_rps, shaft_rps};
 }
 
 }  // namespace navcal::gap

@@ -10,12 +10,14 @@
 
 namespace navcal::gap {
 
-/// Steers a simulated vehicle as the recorded one was steered: fins and shaft as reported, and as little rudder
+/// Steers a simulated vehicle as the recorded one was steered: servos and shaft as given, and as little rudder
 /// and elevator more as keeps its heading and depth near those of the record. Without that, an elevator off by a
 /// tenth of a degree is metres of depth after ten minutes.
 class ShadowHelm final : public sim::Helm {
  public:
-  ShadowHelm(std::span<const ActuatorTrack::Row> rows, const Course10Hz& course, const config::FinSettings& fins);
+  /// `servos_rad` at the times of the rows.
+  ShadowHelm(std::span<const ActuatorTrack::Row> rows, std::vector<Vector3> servos_rad, const Course10Hz& course,
+             const config::FinSettings& fins);
 
   [[nodiscard]] sim::Body start() const override;
   [[nodiscard]] sim::Actuators actuators_at_start() const override;
@@ -26,6 +28,7 @@ class ShadowHelm final : public sim::Helm {
   [[nodiscard]] std::size_t row_at(double time_s) const;
 
   std::span<const ActuatorTrack::Row> rows_;
+  std::vector<Vector3> servos_rad_;
   const Course10Hz& course_;
   config::FinSettings fins_;
   double rudder_rad_ = 0, elevator_rad_ = 0;  ///< more than was reported, after the servos' lag

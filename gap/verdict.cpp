@@ -24,8 +24,6 @@ constexpr double kBeyondTolerance = 0.2;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
 /// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
 constexpr double kLeft = 1e-4;
-/// And it is so much larger than the nulls' own: an instrument a little noisier than nominal is no gap.
-constexpr double kLouder = 1.3;
 
 std::string names(const Library& library, const std::vector<std::size_t>& effects) {
   std::vector<std::string_view> all;
@@ -49,7 +47,7 @@ bool closes(const Grounds& grounds) {
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
   for (const WhereEntry& left : grounds.leftover) {
     if (reasons.size() >= kMostReasons) break;
-    if (left.p_value > kLeft || left.gap < kLouder * left.floor) continue;
+    if (left.p_value > kLeft) continue;
     reasons.push_back(fmt::format("{} still follows {} by {:.2g} {}; vehicles without a gap show {:.2g}",
                                   left.channel, left.regime, left.gap, left.unit, left.floor));
   }

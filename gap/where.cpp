@@ -9,6 +9,8 @@ namespace navcal::gap {
 namespace {
 
 constexpr double kSignificant = 1e-3;
+/// And so much larger than the nulls' own: an instrument a little noisier than nominal is no gap.
+constexpr double kLouder = 1.3;
 constexpr double kPiece_s = 10;
 constexpr std::size_t kMostPoints = 600;
 
@@ -111,9 +113,20 @@ std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeS
 std::vector<WhereEntry> clear_of_nulls(const std::vector<WhereEntry>& map) {
   std::vector<WhereEntry> clear;
   for (const WhereEntry& entry : map) {
-    if (entry.p_value < kSignificant) clear.push_back(entry);
+    if (entry.p_value < kSignificant && entry.gap >= kLouder * entry.floor) clear.push_back(entry);
   }
   return clear;
+}
+
+WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixXd& before,
+                        const Eigen::MatrixXd& after, const RegimeStatistics& nulls) {
+  const auto change = [&](const WhereEntry& entry) {
+    const auto c = static_cast<Eigen::Index>(channel_index(entry.channel));
+    const auto k = static_cast<Eigen::Index>(index_of(entry.regime, regimes()));
+    return (before(c, k) * before(c, k) - after(c, k) * after(c, k)) / std::sqrt(nulls.variance(c, k));
+  };
+  return *std::max_element(map.begin(), map.end(),
+                           [&](const WhereEntry& a, const WhereEntry& b) { return change(a) < change(b); });
 }
 
 std::vector<ChangePoint> change_points(const Innovations& innovations, const Course10Hz& course,

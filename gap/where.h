@@ -10,8 +10,12 @@ namespace navcal::gap {
 
 /// Every channel by every regime; p values hold over all of them together (Bonferroni), strongest excess first.
 [[nodiscard]] std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeStatistics& nulls);
-/// Those that nulls would hardly show.
+/// Those that nulls would hardly show, by their size either.
 [[nodiscard]] std::vector<WhereEntry> clear_of_nulls(const std::vector<WhereEntry>& map);
+/// Of a map that is not empty, where `after` follows the regime less than `before` by most, in the nulls' own
+/// spread: what to look at when nothing stands clear of them by itself.
+[[nodiscard]] WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixXd& before,
+                                      const Eigen::MatrixXd& after, const RegimeStatistics& nulls);
 
 /// Levels of channels that changed for good in mid-mission.
 [[nodiscard]] std::vector<ChangePoint> change_points(const Innovations& innovations, const Course10Hz& course,
