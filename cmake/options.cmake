@@ -48,7 +48,7 @@ if(NAVCAL_SANITIZE)
 endif()
 
 # Coverage of these libraries too: without it the fuzzer sees nothing of what it feeds.
-set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record sim daemon)
+set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record sim gap daemon)
 
 include_directories(${CMAKE_SOURCE_DIR})
 
