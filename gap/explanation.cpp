@@ -30,6 +30,39 @@ Eigen::VectorXd place_of(const Evidence::Posterior& posterior, const Library& li
   return at;
 }
 
+Eigen::VectorXd by_membership(const Priors& priors, const std::vector<Eigen::Index>& members) {
+  Eigen::VectorXd prior = priors.spike;
+  for (const Eigen::Index j : members) prior[j] = priors.slab[j];
+  return prior;
+}
+
+/// Mean of the posterior, by a prior of these standard deviations.
+Eigen::VectorXd mean_by(const Eigen::VectorXd& prior, const Linearised& linear) {
+  Eigen::MatrixXd scaled = prior.asDiagonal() * linear.gram * prior.asDiagonal();
+  scaled.diagonal().array() += 1;
+  const Eigen::VectorXd half = prior.cwiseProduct(linear.score + linear.gram * linear.at);
+  return prior.cwiseProduct(scaled.llt().solve(half));
+}
+
+/// Priors by which what cannot be negative, and would be, is nothing.
+Priors possible_priors(const Linearised& linear, const Library& library, const Priors& priors,
+                       const std::vector<Eigen::Index>& members) {
+  constexpr int kRounds = 4;
+  Priors allowed = priors;
+  for (int round = 0; round < kRounds; ++round) {
+    const Eigen::VectorXd mean = mean_by(by_membership(allowed, members), linear);
+    bool possible = true;
+    for (Eigen::Index j = Library::kBiases; j < mean.size(); ++j) {
+      if (library.unknowns()[static_cast<std::size_t>(j)].least < 0 || mean[j] >= 0) continue;
+      if (allowed.slab[j] < priors.slab[j]) continue;
+      allowed.spike[j] = allowed.slab[j] = kNothing * priors.spike[j];
+      possible = false;
+    }
+    if (possible) break;
+  }
+  return allowed;
+}
+
 }  // namespace
 
 Priors without_members(Priors priors, const Library& library, const CauseSet& effects) {
@@ -39,29 +72,34 @@ Priors without_members(Priors priors, const Library& library, const CauseSet& ef
 
 Evidence::Posterior possible_posterior(const Linearised& linear, const Library& library, const Priors& priors,
                                        const std::vector<Eigen::Index>& members) {
-  constexpr int kRounds = 5;
-  Priors allowed = priors;
-  for (int round = 1;; ++round) {
-    auto posterior = evidence_of(linear, allowed).posterior(members);
-    bool possible = true;
-    for (Eigen::Index j = Library::kBiases; j < posterior.mean.size(); ++j) {
-      if (library.unknowns()[static_cast<std::size_t>(j)].least < 0 || posterior.mean[j] >= 0) continue;
-      if (allowed.slab[j] < priors.slab[j]) continue;
-      allowed.spike[j] = allowed.slab[j] = kNothing * priors.spike[j];
-      possible = false;
-    }
-    if (possible || round == kRounds) return posterior;
-  }
+  return evidence_of(linear, possible_priors(linear, library, priors, members)).posterior(members);
 }
 
-Explanation concluded(const CauseSet& set, Linearised linear, const Library& library, const Priors& priors) {
+double impossible_nats(const CauseSet& set, const Linearised& linear, const Library& library,
+                       const Priors& priors) {
+  const auto members = members_of(library, set);
+  const Eigen::VectorXd prior = by_membership(priors, members);
+  const auto cost = [&](const Eigen::VectorXd& values) {
+    const Eigen::VectorXd step = values - linear.at;
+    return 0.5 * step.dot(linear.gram * step) - linear.score.dot(step) +
+           0.5 * values.cwiseQuotient(prior).squaredNorm();
+  };
+  const Priors possible = possible_priors(linear, library, priors, members);
+  return cost(mean_by(by_membership(possible, members), linear)) - cost(mean_by(prior, linear));
+}
+
+Explanation concluded(const CauseSet& set, Linearised linear, const Replay& replay, const Library& library,
+                      const Whitening& whitening, const Priors& priors) {
   Explanation result;
   result.effects = set;
   result.linear = std::move(linear);
-  result.log_odds = SetEvidence(result.linear, library, priors)(set);
   const auto posterior = possible_posterior(result.linear, library, priors, members_of(library, set));
   result.mean = posterior.mean;
   const Eigen::VectorXd left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
+  const double simulated = residual_at(replay, library, whitening, result.mean).squaredNorm();
+  result.beyond_linear = 0.5 * (left.squaredNorm() - simulated);
+  result.log_odds = SetEvidence(result.linear, library, priors)(set) -
+                    impossible_nats(set, result.linear, library, priors) + result.beyond_linear;
   const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));
   // What an effect does is as much off as the vehicle that it acts on.
   const Eigen::VectorXd tolerance = kTolerance * result.mean;
@@ -99,7 +137,7 @@ Explanation explain(const CauseSet& set, const Replay& replay, const Library& li
       break;
     }
   }
-  return concluded(set, std::move(linear), library, priors);
+  return concluded(set, std::move(linear), replay, library, whitening, priors);
 }
 
 }  // namespace navcal::gap

@@ -13,6 +13,9 @@ namespace navcal::gap {
 struct Explanation {
   CauseSet effects;
   double log_odds = 0;
+  /// By how much less is left at the estimate, in nats, than the straight lines of its signatures say; log_odds
+  /// holds it.
+  double beyond_linear = 0;
   Linearised linear;  ///< about the posterior mean of members and biases
   /// Posterior of all unknowns; the standard deviations hold what the model is known to be wrong by, and grow with
   /// noise that is more than nominal.
@@ -24,9 +27,14 @@ struct Explanation {
                                   const Whitening& whitening, Linearised start, const Priors& priors,
                                   unsigned threads);
 
-/// What a linearisation about a set's own estimate says of it.
-[[nodiscard]] Explanation concluded(const CauseSet& set, Linearised linear, const Library& library,
-                                    const Priors& priors);
+/// By how much the evidence of a set is too good, nats: it goes to where straight lines are lowest, be that
+/// possible or not.
+[[nodiscard]] double impossible_nats(const CauseSet& set, const Linearised& linear, const Library& library,
+                                     const Priors& priors);
+
+/// What a linearisation about a set's own estimate says of it, with the estimate itself simulated.
+[[nodiscard]] Explanation concluded(const CauseSet& set, Linearised linear, const Replay& replay,
+                                    const Library& library, const Whitening& whitening, const Priors& priors);
 
 /// Of all unknowns; those that cannot be negative, lags above all, and would be stay at zero, and the others are
 /// as they are then: what is answered must be a vehicle that can be simulated.

@@ -83,6 +83,27 @@ class Found {
   std::set<Set> settled_;
 };
 
+/// How sets look from where one of them was simulated.
+class View {
+ public:
+  View(const Linearised& linear, double beyond_linear, const Library& library, const Priors& priors)
+      : linear_(linear),
+        beyond_linear_(beyond_linear),
+        library_(library),
+        priors_(priors),
+        evidence_(linear, library, priors) {}
+  [[nodiscard]] double operator()(const Set& set) const {
+    return evidence_(set) - impossible_nats(set, linear_, library_, priors_) + beyond_linear_;
+  }
+
+ private:
+  const Linearised& linear_;
+  double beyond_linear_;
+  const Library& library_;
+  const Priors& priors_;
+  SetEvidence evidence_;
+};
+
 /// Whether columns that were taken about one point serve at the other.
 bool are_near(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Library& library) {
   for (Eigen::Index j = Library::kBiases; j < a.size(); ++j) {
@@ -97,8 +118,10 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
                     const Linearised& nominal, const Priors& priors, unsigned threads,
                     const std::function<void(double)>& progress) {
   Found found;
-  const SetEvidence judge(nominal, library, priors);
-  found.settle({}, judge({}));
+  SearchResult result;
+  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
+  found.settle({}, result.best.log_odds);
+  const View judge(nominal, result.best.beyond_linear, library, priors);
   std::vector<std::size_t> held;
   for (std::size_t e = 0; e < library.size(); ++e) {
     if (library.holds(e)) held.push_back(e);
@@ -110,16 +133,19 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
     }
   }
 
-  SearchResult result;
-  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
-  result.best.log_odds = found.scores().at({});
+  const auto guess_larger = [&](const Set& set, const View& here) {
+    if (set.size() == kMostEffects) return;
+    for (const std::size_t e : held) {
+      if (std::find(set.begin(), set.end(), e) == set.end()) found.guess(with(set, e), here(with(set, e)));
+    }
+  };
   const auto take = [&](Explanation tried) {
     const Set& set = tried.effects;
     found.settle(set, tried.log_odds);
-    const SetEvidence here(tried.linear, library, priors);
+    const View here(tried.linear, tried.beyond_linear, library, priors);
+    guess_larger(set, here);
     for (const std::size_t e : held) {
       if (std::find(set.begin(), set.end(), e) != set.end()) continue;
-      if (set.size() < kMostEffects) found.guess(with(set, e), here(with(set, e)));
       // One member exchanged: seen from here, where what the others do is known better. The little play that a
       // vehicle within tolerance has looks unlike any long step; it is no merit of the set in which it was stepped
       // anew.
@@ -166,11 +192,12 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
       result.best = concluded(
           result.best.effects,
           relinearise(replay, library, whitening, std::move(result.best.linear), at, library.moving(), threads),
-          library, priors);
+          replay, library, whitening, priors);
       fresh_at = at;
     }
-    const SetEvidence here(result.best.linear, library, priors);
+    const View here(result.best.linear, result.best.beyond_linear, library, priors);
     found.settle(result.best.effects, result.best.log_odds);
+    guess_larger(result.best.effects, here);
     for (const auto& [set, score] : std::map(found.scores())) {
       if (!set.empty() && are_neighbours(set, result.best.effects)) found.settle(set, here(set));
     }

@@ -71,6 +71,21 @@ TEST_F(Diagnose, NamesTwoEffectsAndNoInnocentCompanion) {
   EXPECT_NEAR(found.effects[1].parameters.front().value, 0.3, 0.03);
 }
 
+// A latency of the card ten times the tolerance was swallowed as one: the pair without it was found late in the
+// search, and sets larger by one effect were not looked at any more.
+TEST_F(Diagnose, NamesAThirdEffectThatTolerancesWouldSwallow) {
+  constexpr std::string_view kEffects =
+      "[fin_lag]\ntau_s = 0.2\n[buoyancy]\nforce_N = -0.4\n[imu_latency]\ntau_s = 0.05\n";
+  const Diagnosis found = diagnosis(recorded("a.cap", kEffects, 200, 21), {recorded("b.cap", kEffects, 200, 22)});
+  EXPECT_EQ(found.verdict, Verdict::explained) << found.sentence;
+  ASSERT_EQ(found.effects.size(), 3U) << found.sentence;
+  for (const EffectFinding& effect : found.effects) {
+    if (effect.name == "imu_latency") {
+      EXPECT_NEAR(effect.parameters.front().value, 0.05, 0.01);
+    }
+  }
+}
+
 TEST_F(Diagnose, FindsNoGapInANominalMission) {
   const Diagnosis found = diagnosis(recorded("a.cap", "", 200, 3), {recorded("b.cap", "", 200, 4)});
   EXPECT_EQ(found.verdict, Verdict::no_gap) << found.sentence;
