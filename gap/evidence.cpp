@@ -4,6 +4,22 @@
 #include <cmath>
 
 namespace navcal::gap {
+namespace {
+
+/// In units of the prior, so that nothing is badly scaled: A = D^1/2 G D^1/2 + 1.
+Eigen::LLT<Eigen::MatrixXd> scaled_factor(const Eigen::MatrixXd& gram, const Eigen::VectorXd& prior) {
+  Eigen::MatrixXd scaled = prior.asDiagonal() * gram * prior.asDiagonal();
+  scaled.diagonal().array() += 1;
+  return Eigen::LLT<Eigen::MatrixXd>(scaled);
+}
+
+}  // namespace
+
+Eigen::VectorXd posterior_mean(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score,
+                               const Eigen::VectorXd& prior) {
+  const Eigen::VectorXd half = prior.cwiseProduct(score);
+  return prior.cwiseProduct(scaled_factor(gram, prior).solve(half));
+}
 
 Evidence::Evidence(Eigen::MatrixXd gram, Eigen::VectorXd score, Eigen::VectorXd spike, Eigen::VectorXd slab)
     : gram_(std::move(gram)), score_(std::move(score)), spike_(std::move(spike)), slab_(std::move(slab)) {
@@ -11,16 +27,13 @@ Evidence::Evidence(Eigen::MatrixXd gram, Eigen::VectorXd score, Eigen::VectorXd 
 }
 
 Evidence::Posterior Evidence::solve(const Eigen::VectorXd& prior, double* log_evidence) const {
-  // In units of the prior, so that nothing is badly scaled: A = D^1/2 G D^1/2 + 1.
-  Eigen::MatrixXd scaled = prior.asDiagonal() * gram_ * prior.asDiagonal();
-  scaled.diagonal().array() += 1;
-  const Eigen::LLT<Eigen::MatrixXd> factor(scaled);
+  const auto factor = scaled_factor(gram_, prior);
   const Eigen::VectorXd half = prior.cwiseProduct(score_);
   const Eigen::VectorXd solved = factor.solve(half);
   if (log_evidence != nullptr) {
     *log_evidence = 0.5 * half.dot(solved) - factor.matrixLLT().diagonal().array().log().sum();
   }
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()));
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(prior.size(), prior.size()));
   return {prior.cwiseProduct(solved), prior.asDiagonal() * inverse * prior.asDiagonal()};
 }
 
@@ -61,11 +74,9 @@ double Evidence::separation(std::span<const Eigen::Index> members, const Eigen::
   Eigen::VectorXd prior = spike_;
   for (const Eigen::Index j : others) prior[j] = slab_[j];
   // 1/2 s^T X^T (1 + X D X^T)^-1 X s
-  Eigen::MatrixXd scaled = prior.asDiagonal() * gram_ * prior.asDiagonal();
-  scaled.diagonal().array() += 1;
   const Eigen::VectorXd image = gram_ * signal;
   const Eigen::VectorXd half = prior.cwiseProduct(image);
-  return 0.5 * (signal.dot(image) - half.dot(scaled.llt().solve(half)));
+  return 0.5 * (signal.dot(image) - half.dot(scaled_factor(gram_, prior).solve(half)));
 }
 
 }  // namespace navcal::gap

@@ -40,4 +40,8 @@ class Evidence {
   Posterior posterior_;
 };
 
+/// Mean of the posterior alone, by a prior of these standard deviations: what a whole one costs is its covariance.
+[[nodiscard]] Eigen::VectorXd posterior_mean(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score,
+                                             const Eigen::VectorXd& prior);
+
 }  // namespace navcal::gap

@@ -36,12 +36,8 @@ Eigen::VectorXd by_membership(const Priors& priors, const std::vector<Eigen::Ind
   return prior;
 }
 
-/// Mean of the posterior, by a prior of these standard deviations.
 Eigen::VectorXd mean_by(const Eigen::VectorXd& prior, const Linearised& linear) {
-  Eigen::MatrixXd scaled = prior.asDiagonal() * linear.gram * prior.asDiagonal();
-  scaled.diagonal().array() += 1;
-  const Eigen::VectorXd half = prior.cwiseProduct(linear.score + linear.gram * linear.at);
-  return prior.cwiseProduct(scaled.llt().solve(half));
+  return posterior_mean(linear.gram, linear.score + linear.gram * linear.at, prior);
 }
 
 /// Priors by which what cannot be negative, and would be, is nothing.
