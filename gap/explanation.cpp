@@ -16,6 +16,10 @@ constexpr int kIterations = 2, kCurvedIterations = 5;
 constexpr double kArrived = 0.2;
 /// A step by which a set loses so much evidence led along a line that bends, and is taken back.
 constexpr double kWorse_nats = 1;
+/// An estimate is simulated anew, its signatures as they are, until straight lines say what is left to less than
+/// this; strong data make tolerances, which no signature was taken about, what they are.
+constexpr int kSettlings = 4;
+constexpr double kSettled_nats = 1;
 /// Prior of what is to be zero, against what tolerance allows it.
 constexpr double kNothing = 1e-6;
 
@@ -88,12 +92,31 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
                       const Whitening& whitening, const Priors& priors) {
   Explanation result;
   result.effects = set;
+  result.about = linear.at;
+  const auto members = members_of(library, set);
+  const Eigen::VectorXd prior = by_membership(priors, members);
+  const auto cost = [&](const Eigen::VectorXd& residual, const Eigen::VectorXd& at) {
+    return 0.5 * (residual.squaredNorm() + at.cwiseQuotient(prior).squaredNorm());
+  };
   result.linear = std::move(linear);
-  const auto posterior = possible_posterior(result.linear, library, priors, members_of(library, set));
+  Eigen::VectorXd left;
+  for (int i = 0; i < kSettlings; ++i) {
+    result.mean =
+        mean_by(by_membership(possible_priors(result.linear, library, priors, members), members), result.linear);
+    left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
+    const Eigen::VectorXd simulated = residual_at(replay, library, whitening, result.mean);
+    result.beyond_linear = 0.5 * (left.squaredNorm() - simulated.squaredNorm());
+    const bool stays = std::abs(result.beyond_linear) < kSettled_nats;
+    const bool better =
+        cost(simulated, result.mean) < cost(result.linear.residual, result.linear.at) - kSettled_nats;
+    if (stays || !better) break;
+    result.linear.at = result.mean;
+    result.linear.residual = simulated;
+    result.linear.score = result.linear.design.transpose() * simulated;
+    result.beyond_linear = 0;
+  }
+  const auto posterior = possible_posterior(result.linear, library, priors, members);
   result.mean = posterior.mean;
-  const Eigen::VectorXd left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
-  const double simulated = residual_at(replay, library, whitening, result.mean).squaredNorm();
-  result.beyond_linear = 0.5 * (left.squaredNorm() - simulated);
   result.log_odds = SetEvidence(result.linear, library, priors)(set) -
                     impossible_nats(set, result.linear, library, priors) + result.beyond_linear;
   const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));

@@ -16,7 +16,8 @@ struct Explanation {
   /// By how much less is left at the estimate, in nats, than the straight lines of its signatures say; log_odds
   /// holds it.
   double beyond_linear = 0;
-  Linearised linear;  ///< about the posterior mean of members and biases
+  Eigen::VectorXd about;  ///< members and biases where the signatures were taken; all others at zero
+  Linearised linear;      ///< with these signatures, its residual that of the whole estimate
   /// Posterior of all unknowns; the standard deviations hold what the model is known to be wrong by, and grow with
   /// noise that is more than nominal.
   Eigen::VectorXd mean, std;
@@ -32,7 +33,8 @@ struct Explanation {
 [[nodiscard]] double impossible_nats(const CauseSet& set, const Linearised& linear, const Library& library,
                                      const Priors& priors);
 
-/// What a linearisation about a set's own estimate says of it, with the estimate itself simulated.
+/// What a linearisation about a set's own estimate says of it, with the estimate itself, tolerances included,
+/// simulated until it stays.
 [[nodiscard]] Explanation concluded(const CauseSet& set, Linearised linear, const Replay& replay,
                                     const Library& library, const Whitening& whitening, const Priors& priors);
 

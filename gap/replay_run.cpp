@@ -125,9 +125,11 @@ sim::State ReplayRun::past(double time_s) const {
   auto later = std::lower_bound(moments_.begin(), moments_.end(), time_s,
                                 [](const Moment& moment, double t) { return moment.time_s < t; });
   if (later == moments_.begin()) return moments_.front().predicted;
-  if (later == moments_.end()) return moments_.back().predicted;
+  if (later == moments_.end()) return moments_.back().corrected;
   const Moment& earlier = *std::prev(later);
-  return sim::between(earlier.corrected, later->predicted,
+  // What a reading corrected must not jump at its time: a delay that comes to be as long as the time between two
+  // readings would look unlike one that is a little shorter.
+  return sim::between(earlier.corrected, later->corrected,
                       (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
 }
 
@@ -276,13 +278,13 @@ Innovations ReplayRun::innovations(Course10Hz* course) {
     Moment moment;
     moment.time_s = reading.time_s;
     complete(moment.predicted, reading.time_s);
+    moment.corrected = moment.predicted;
     moments_.push_back(moment);
     while (moments_.front().time_s < reading.time_s - kRemembered_s) moments_.pop_front();
     take_words(reading.time_s);
     take_fixes(reading.time_s);
     take_card(reading);
     if (effects_.size() > 0) instruments_.feel(reading.time_s, moment.predicted);
-    moments_.back().corrected = moment.predicted;
     moments_.back().corrected.euler_rad = array_of(body_.euler_rad);
     moments_.back().corrected.position_m = array_of(body_.position_m);
     moments_.back().corrected.rate_rad_s = array_of(body_.velocity.tail<3>());

@@ -121,7 +121,8 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   SearchResult result;
   result.best = explain({}, replay, library, whitening, nominal, priors, threads);
   found.settle({}, result.best.log_odds);
-  const View judge(nominal, result.best.beyond_linear, library, priors);
+  const double beyond_nominal = result.best.log_odds - View(nominal, 0, library, priors)({});
+  const View judge(nominal, beyond_nominal, library, priors);
   std::vector<std::size_t> held;
   for (std::size_t e = 0; e < library.size(); ++e) {
     if (library.holds(e)) held.push_back(e);
@@ -188,7 +189,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   }
   Eigen::VectorXd fresh_at = nominal.at;
   for (int i = 0; i < kRefinements && !result.best.effects.empty(); ++i) {
-    if (const Eigen::VectorXd at = result.best.linear.at; !are_near(at, fresh_at, library)) {
+    if (const Eigen::VectorXd at = result.best.about; !are_near(at, fresh_at, library)) {
       result.best = concluded(
           result.best.effects,
           relinearise(replay, library, whitening, std::move(result.best.linear), at, library.moving(), threads),

@@ -77,6 +77,24 @@ TEST(Replay, GapsAndRestartsAreGoneOver) {
   EXPECT_TRUE(std::isnan(left.grid(955, gyro_yaw_a)));
 }
 
+// Readings correct the estimate: it jumped where a delay came to be as long as the time between two of them.
+TEST(Replay, ALatencyAsLongAsAFrameIsNothingApart) {
+  const Mission mission = simulated_mission("identification", "[gyro_scale]\nscale_by = 0.05\n", 100, 6);
+  const auto moved = [&](double from_s, double to_s) {
+    const Innovations a = replayed(mission, "imu_latency", from_s), b = replayed(mission, "imu_latency", to_s);
+    double square = 0;
+    for (Eigen::Index i = 300; i < a.grid.rows(); ++i) {
+      const double apart = a.grid(i, gyro_pitch) - b.grid(i, gyro_pitch);
+      if (std::isfinite(apart)) square += apart * apart;
+    }
+    return std::sqrt(square);
+  };
+  const double frame_s = mission.card[100].time_s - mission.card[99].time_s;
+  const double across = moved(frame_s - 0.0005, frame_s + 0.0005);
+  EXPECT_LT(across, 2 * moved(frame_s - 0.004, frame_s - 0.003));
+  EXPECT_LT(across, 2 * moved(frame_s + 0.003, frame_s + 0.004));
+}
+
 TEST(Replay, AMissionWithoutFixesHasTheOtherChannels) {
   Mission mission = simulated_mission("identification", "", 60, 6);
   mission.fixes.clear();
