@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -45,6 +47,7 @@ struct Searched {
   SearchResult found;
   Priors priors;
   std::optional<PlayTwins> twins;  ///< of a vehicle with play
+  CauseSet hidden;                 ///< what the mission hardly shows, and what was allowed for therefore
 };
 
 class Diagnosing {
@@ -122,19 +125,33 @@ Searched Diagnosing::searched(const Prepared& a) {
     return search(*a.replay, library_, a.bank.whitening, nominal, by, threads_,
                   [&](double done) { progress_("searching", done); });
   };
-  Searched result{search_by(priors), priors, {}};
-  if (!has_play(library_, result.found.best.effects)) return result;
-  progress_("vehicles with such a play", 0);
-  PlayTwins twins = play_twins(*a.replay, a.course, request_.vehicle, library_, a.bank.whitening,
-                               result.found.best, {kPlayTwins, request_.bank_seed, threads_});
-  if (twins.missions <= kPlayTwins / 2) return result;
-  // Once more: beside a play, others are recruited for what it leaves.
-  const Priors wider = with_twins(priors, library_, result.found.best, twins);
-  if (SearchResult again = search_by(wider); has_play(library_, again.best.effects)) {
-    result.found = std::move(again);
-    result.priors = wider;
+  Searched result{search_by(priors), priors, {}, {}};
+  if (has_play(library_, result.found.best.effects)) {
+    progress_("vehicles with such a play", 0);
+    PlayTwins twins = play_twins(*a.replay, a.course, request_.vehicle, library_, a.bank.whitening,
+                                 result.found.best, {kPlayTwins, request_.bank_seed, threads_});
+    if (twins.missions > kPlayTwins / 2) {
+      // Once more: beside a play, others are recruited for what it leaves.
+      const Priors wider = with_twins(priors, library_, result.found.best, twins);
+      if (SearchResult again = search_by(wider); has_play(library_, again.best.effects)) {
+        result.found = std::move(again);
+        result.priors = wider;
+      }
+      result.twins = std::move(twins);
+    }
   }
-  result.twins = std::move(twins);
+  // What this mission could not show may be there unnoticed, and takes what is not its own: it cannot be named,
+  // but is allowed for, and the others are asked again. Twins of another play are not made.
+  const CauseSet hidden = hidden_effects(result.found);
+  if (hidden.empty()) return result;
+  const Priors freed = with_freed(result.priors, library_, hidden);
+  SearchResult again = search_by(freed);
+  const bool can_be_told = !again.best.effects.empty() && hidden_effects(again).empty();
+  if (can_be_told && has_play(library_, again.best.effects) == result.twins.has_value()) {
+    result.found = std::move(again);
+    result.priors = freed;
+    result.hidden = hidden;
+  }
   return result;
 }
 
@@ -188,6 +205,10 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   const Judgement judgement =
       judge({found, library_, answer.where, leftover, nats, closure, closure_by_all, blocks});
 
+  for (const std::size_t effect : result.hidden) {
+    answer.remarks.push_back(
+        fmt::format("{} hardly shows in this mission: it was allowed for, not asked for", library_[effect].name));
+  }
   answer.verdict = judgement.verdict;
   if (answer.where.empty() && answer.verdict == Verdict::explained && !answer.map.empty()) {
     const Eigen::MatrixXd with_members = followed(here.improved, here.course, here.fix_times_s);

@@ -20,6 +20,9 @@ constexpr double kWorse_nats = 1;
 /// this; strong data make tolerances, which no signature was taken about, what they are.
 constexpr int kSettlings = 4;
 constexpr double kSettled_nats = 1;
+/// Prior, in typical values, of what may be there unnamed: wider than that of any member, so that to name it gains
+/// nothing.
+constexpr double kFreely = 5;
 /// Prior of what is to be zero, against what tolerance allows it.
 constexpr double kNothing = 1e-6;
 
@@ -64,6 +67,11 @@ Priors possible_priors(const Linearised& linear, const Library& library, const P
 }
 
 }  // namespace
+
+Priors with_freed(Priors priors, const Library& library, const CauseSet& effects) {
+  for (const Eigen::Index j : members_of(library, effects)) priors.spike[j] = kFreely * priors.slab[j];
+  return priors;
+}
 
 Priors without_members(Priors priors, const Library& library, const CauseSet& effects) {
   for (const Eigen::Index j : members_of(library, effects)) priors.spike[j] *= kNothing;

@@ -44,6 +44,9 @@ struct Explanation {
                                                      const Priors& priors,
                                                      const std::vector<Eigen::Index>& members);
 
+/// Priors by which these effects may be there unnamed, as strong as they like.
+[[nodiscard]] Priors with_freed(Priors priors, const Library& library, const CauseSet& effects);
+
 /// Priors by which none of these effects is there at all.
 [[nodiscard]] Priors without_members(Priors priors, const Library& library, const CauseSet& effects);
 

@@ -114,6 +114,14 @@ bool are_near(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Library&
 
 }  // namespace
 
+CauseSet hidden_effects(const SearchResult& result) {
+  CauseSet hidden;
+  for (std::size_t i = 0; i < result.best.effects.size(); ++i) {
+    if (result.shown_nats[i] < kShown_nats) hidden.push_back(result.best.effects[i]);
+  }
+  return hidden;
+}
+
 SearchResult search(const Replay& replay, const Library& library, const Whitening& whitening,
                     const Linearised& nominal, const Priors& priors, unsigned threads,
                     const std::function<void(double)>& progress) {

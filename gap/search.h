@@ -15,6 +15,9 @@ struct Candidate {
   double probability = 0;
 };
 
+/// Less than this does not tell one effect from another, nats.
+inline constexpr double kShown_nats = 10;
+
 struct SearchResult {
   std::vector<Candidate> candidates;  ///< most probable first
   Explanation best;                   ///< of the first of them
@@ -25,6 +28,9 @@ struct SearchResult {
   /// found and its typical strength.
   std::vector<double> shown_nats;
 };
+
+/// Those of the best set that this mission hardly shows, were they as strong as usual.
+[[nodiscard]] CauseSet hidden_effects(const SearchResult& result);
 
 /// Singles, pairs and triples of effects by their evidence. Leading sets are simulated and linearised again at
 /// their own estimate: what is left of second order would otherwise recruit innocent effects.

@@ -15,8 +15,6 @@ constexpr double kProbable = 0.7;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
 constexpr double kLargest = 5;
-/// Less than this does not tell one effect from another.
-constexpr double kShown_nats = 10;
 /// Typical strengths up to which it is a tolerance.
 constexpr double kSmallest = 0.05;
 /// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
