@@ -12,6 +12,8 @@ namespace {
 constexpr double kNoise_rad = 0.104 * std::numbers::pi / 180;
 /// The share of it that the cleaned reports are without.
 constexpr double kTakenOut = 0.656;
+/// Rolling of cleaned reports up to which it is their noise: three standard deviations of what is left of it.
+constexpr double kRollingNoise_rad = 3 * 0.026 * std::numbers::pi / 180;
 /// Reports further apart leave the way to the track.
 constexpr double kGap_s = 0.25;
 
@@ -20,11 +22,30 @@ const ActuatorTrack::Row& row_at(std::span<const ActuatorTrack::Row> rows, doubl
   return rows[std::min(row, rows.size() - 1)];
 }
 
-/// What rudder and elevator make of three fins' angles; the rest would roll the vehicle (the mixing of the card's
+/// What rudder and elevator do not make of three fins' angles: it would roll the vehicle (the mixing of the card's
 /// interface document, section 4).
+double rolling(const Vector3& fins) { return (fins[0] + fins[1] + fins[2]) / 3; }
+
+/// The rest of them.
 Vector3 steering(const Vector3& fins) {
-  const double rolling = (fins[0] + fins[1] + fins[2]) / 3;
-  return {fins[0] - rolling, fins[1] - rolling, fins[2] - rolling};
+  const double rolls = rolling(fins);
+  return {fins[0] - rolls, fins[1] - rolls, fins[2] - rolls};
+}
+
+/// Cleaned reports without the rolling that is their noise. Fins that rudder and elevator move do not roll the
+/// vehicle; one that was moved by the noise of the recorded reports would, and the replay would foresee it.
+Vector3 without_rolling_noise(const Vector3& fins) {
+  const double rolls = rolling(fins);
+  const double noise = kRollingNoise_rad / std::max(std::abs(rolls), kRollingNoise_rad);
+  const double less = noise * noise * rolls;
+  return {fins[0] - less, fins[1] - less, fins[2] - less};
+}
+
+/// The card takes tenths of a degree, fin by fin; what that rounds off rolls the vehicle a little all the time.
+Vector3 commandable(Vector3 fins) {
+  constexpr double kTenth_rad = 0.1 * std::numbers::pi / 180;
+  for (double& angle : fins) angle = std::round(angle / kTenth_rad) * kTenth_rad;
+  return fins;
 }
 
 Vector3 sum(const Vector3& a, double share, const Vector3& b) {
@@ -46,12 +67,14 @@ std::vector<Vector3> servo_path(std::span<const ActuatorTrack::Row> rows, std::s
   const double noise = kTakenOut * 2 * kNoise_rad * kNoise_rad * static_cast<double>(readings.size());
   const double share = square > noise ? std::sqrt(1 - noise / square) : 0;
   const auto went = [&](std::size_t i) {
-    return sum(row_at(rows, readings[i].time_s).clean_fins_rad, share, scatter[i]);
+    const Vector3 clean = without_rolling_noise(row_at(rows, readings[i].time_s).clean_fins_rad);
+    return sum(clean, share, scatter[i]);
   };
 
   std::vector<Vector3> path;
   path.reserve(rows.size());
-  std::size_t at = 0;
+  std::size_t at = 0, commanded_after = readings.size();
+  Vector3 from = went(0), command = from;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double time_s = static_cast<double>(k) * ActuatorTrack::kStep_s;
     while (at + 1 < readings.size() && readings[at + 1].time_s + later_s <= time_s) ++at;
@@ -59,11 +82,23 @@ std::vector<Vector3> servo_path(std::span<const ActuatorTrack::Row> rows, std::s
     const double interval_s = at + 1 < readings.size() ? readings[at + 1].time_s - readings[at].time_s : kGap_s;
     if (since_s < 0 || interval_s >= kGap_s) {
       path.push_back(rows[k].clean_fins_rad);
+      commanded_after = readings.size();
       continue;
     }
-    const Vector3 from = went(at), to = went(at + 1);
-    const double kept = std::exp(-since_s / servo_lag_s), kept_until = std::exp(-interval_s / servo_lag_s);
-    path.push_back(sum(from, (1 - kept) / (1 - kept_until), sum(to, -1, from)));
+    if (commanded_after != at) {
+      // From where the command before left it, or from the report if there was none.
+      const bool follows = at > 0 && commanded_after == at - 1;
+      if (follows) {
+        const double before_s = readings[at].time_s - readings[at - 1].time_s;
+        from = sum(command, std::exp(-before_s / servo_lag_s), sum(from, -1, command));
+      } else {
+        from = went(at);
+      }
+      const double kept = std::exp(-interval_s / servo_lag_s);
+      command = commandable(sum(from, 1 / (1 - kept), sum(went(at + 1), -1, from)));
+      commanded_after = at;
+    }
+    path.push_back(sum(command, std::exp(-since_s / servo_lag_s), sum(from, -1, command)));
   }
   return path;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "gap/set_evidence.h"
+
 namespace navcal::gap {
 namespace {
 
@@ -73,6 +75,22 @@ TEST_F(Explained, TheImpossibleIsNeverCheaper) {
     }
     EXPECT_GE(impossible_nats({iron_}, made_up(library_, truth_), library_, priors_), -1e-6);
   }
+}
+
+// What a mission hardly shows took its part of an innocent companion, and won as a member of any set.
+TEST_F(Explained, WhatIsAllowedForGainsNothingByBeingNamed) {
+  for (Eigen::Index j = 0; j < library_.count(iron_); ++j) {
+    const auto unknown = static_cast<std::size_t>(library_.first(iron_) + j);
+    truth_[library_.first(iron_) + j] = 4 * library_.unknowns()[unknown].typical;
+  }
+  const Linearised linear = made_up(library_, truth_);
+  const SetEvidence as_usual(linear, library_, priors_);
+  EXPECT_GT(as_usual({iron_}), as_usual({}) + 100);
+  const Priors freed = with_freed(priors_, library_, {iron_});
+  const SetEvidence allowed(linear, library_, freed);
+  EXPECT_LT(allowed({iron_}), allowed({}));
+  const Eigen::Index x = library_.first(iron_);
+  EXPECT_NEAR(possible_posterior(linear, library_, freed, {}).mean[x], truth_[x], 0.1 * std::abs(truth_[x]));
 }
 
 }  // namespace

@@ -78,18 +78,28 @@ TEST(ServoPath, OfARestlessHelmIsRestless) {
   }
 }
 
-TEST(ServoPath, RollsTheVehicleNoMoreThanTheCleanedReports) {
+double rolling_deg(const Vector3& fins) { return (fins[0] + fins[1] + fins[2]) / 3 / kDegree; }
+
+// Nulls that were rolled by the noise of the recorded reports had twice the roll of the vehicle that they stood
+// for.
+TEST(ServoPath, RollsTheVehicleByWhatTenthsRoundOffAndNotByTheReportsNoise) {
   const Steered helm = steered(0.6);
-  const ActuatorTrack track(helm.readings, kLag_s, kDuration_s);
-  const auto path = servo_path(track.rows(), helm.readings, kLag_s, 0);
-  const auto rolling = [](const Vector3& fins) { return fins[0] + fins[1] + fins[2]; };
-  double most = 0;
-  for (const MotorReading& reading : helm.readings) {
-    const auto row = static_cast<std::size_t>(std::lround(reading.time_s / ActuatorTrack::kStep_s));
-    if (row < 100 || row > 11'500) continue;
-    most = std::max(most, std::abs(rolling(path[row]) - rolling(track.rows()[row].clean_fins_rad)));
+  const auto path = path_of(helm, 0);
+  double square = 0;
+  int count = 0;
+  for (std::size_t k = 200; k < 11'500; ++k, ++count) square += std::pow(rolling_deg(path[k]), 2);
+  const double rms = std::sqrt(square / count);
+  EXPECT_LT(rms, 0.02);  // 0.1 / sqrt(12) of a fin, 1 / sqrt(3) of that, and less behind the servo's lag
+  EXPECT_GT(rms, 0.005);
+}
+
+TEST(ServoPath, RollsTheVehicleOnPurpose) {
+  Steered helm = steered(0);
+  for (MotorReading& reading : helm.readings) {
+    for (double& angle : reading.fins_rad) angle += 2 * kDegree;
   }
-  EXPECT_LT(most, 1e-9);
+  const auto path = path_of(helm, 0.05);
+  for (std::size_t k = 200; k < 11'500; ++k) EXPECT_NEAR(rolling_deg(path[k]), 2, 0.15);
 }
 
 TEST(ServoPath, IsTheTrackWhereThereAreNoReports) {
