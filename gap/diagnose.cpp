@@ -10,6 +10,7 @@
 #include "gap/biases.h"
 #include "gap/blocks.h"
 #include "gap/holdout.h"
+#include "gap/null_gains.h"
 #include "gap/parallel.h"
 #include "gap/play_twins.h"
 #include "gap/request.h"
@@ -39,8 +40,10 @@ Innovations rest_of(const Replay& replay, const Library& library, const Explanat
   return rest;
 }
 
-/// Twins of a vehicle with play: enough for a floor, few enough to wait for.
-constexpr int kPlayTwins = 16;
+/// Simulated vehicles with the play or without the gap that was found: enough for a floor, few enough to wait for.
+constexpr int kTwins = 16;
+/// No mission of a vehicle without a gap makes so much evidence of its own noise.
+constexpr double kBeyondChance_nats = 300;
 
 /// What a search found, and what it was compared with.
 struct Searched {
@@ -48,6 +51,7 @@ struct Searched {
   Priors priors;
   std::optional<PlayTwins> twins;  ///< of a vehicle with play
   CauseSet hidden;                 ///< what the mission hardly shows, and what was allowed for therefore
+  CauseSet by_chance;              ///< what was found, but vehicles without a gap show as well
 };
 
 class Diagnosing {
@@ -66,6 +70,8 @@ class Diagnosing {
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
   void find_bank(Prepared& prepared, const std::string& name);
   [[nodiscard]] Searched searched(const Prepared& a);
+  /// Whether simulated vehicles without a gap would show the effects found as well, noise as it comes.
+  [[nodiscard]] bool is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched);
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
 
   const Request& request_;
@@ -125,12 +131,12 @@ Searched Diagnosing::searched(const Prepared& a) {
     return search(*a.replay, library_, a.bank.whitening, nominal, by, threads_,
                   [&](double done) { progress_("searching", done); });
   };
-  Searched result{search_by(priors), priors, {}, {}};
+  Searched result{search_by(priors), priors, {}, {}, {}};
   if (has_play(library_, result.found.best.effects)) {
     progress_("vehicles with such a play", 0);
     PlayTwins twins = play_twins(*a.replay, a.course, request_.vehicle, library_, a.bank.whitening,
-                                 result.found.best, {kPlayTwins, request_.bank_seed, threads_});
-    if (twins.missions > kPlayTwins / 2) {
+                                 result.found.best, {kTwins, request_.bank_seed, threads_});
+    if (twins.missions > kTwins / 2) {
       // Once more: beside a play, others are recruited for what it leaves.
       const Priors wider = with_twins(priors, library_, result.found.best, twins);
       if (SearchResult again = search_by(wider); has_play(library_, again.best.effects)) {
@@ -140,19 +146,30 @@ Searched Diagnosing::searched(const Prepared& a) {
       result.twins = std::move(twins);
     }
   }
+  if (is_chance(a, nominal, result)) {
+    result.by_chance = result.found.best.effects;
+    result.found = nothing_found(*a.replay, library_, a.bank.whitening, nominal, result.priors, threads_);
+    result.twins.reset();
+    return result;
+  }
   // What this mission could not show may be there unnoticed, and takes what is not its own: it cannot be named,
   // but is allowed for, and the others are asked again. Twins of another play are not made.
   const CauseSet hidden = hidden_effects(result.found);
   if (hidden.empty()) return result;
-  const Priors freed = with_freed(result.priors, library_, hidden);
-  SearchResult again = search_by(freed);
-  const bool can_be_told = !again.best.effects.empty() && hidden_effects(again).empty();
-  if (can_be_told && has_play(library_, again.best.effects) == result.twins.has_value()) {
-    result.found = std::move(again);
-    result.priors = freed;
-    result.hidden = hidden;
-  }
-  return result;
+  Searched again{{}, with_freed(result.priors, library_, hidden), result.twins, hidden, {}};
+  again.found = search_by(again.priors);
+  const bool can_be_told = !again.found.best.effects.empty() && hidden_effects(again.found).empty() &&
+                           has_play(library_, again.found.best.effects) == result.twins.has_value();
+  return can_be_told && !is_chance(a, nominal, again) ? again : result;
+}
+
+bool Diagnosing::is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) {
+  const Explanation& best = searched.found.best;
+  if (best.effects.empty() || best.log_odds > kBeyondChance_nats) return false;
+  progress_("vehicles without a gap", 0);
+  return !stands_out(best.log_odds, gains_among_nulls(best.effects, *a.replay, a.course, request_.vehicle,
+                                                      library_, a.bank.whitening, nominal, searched.priors,
+                                                      {kTwins, request_.bank_seed, threads_}));
 }
 
 void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts,
@@ -205,6 +222,11 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   const Judgement judgement =
       judge({found, library_, answer.where, leftover, nats, closure, closure_by_all, blocks});
 
+  for (const std::size_t effect : result.by_chance) {
+    answer.remarks.push_back(fmt::format(
+        "{} was the best candidate, but simulated vehicles without a gap show as much on such a course",
+        library_[effect].name));
+  }
   for (const std::size_t effect : result.hidden) {
     answer.remarks.push_back(
         fmt::format("{} hardly shows in this mission: it was allowed for, not asked for", library_[effect].name));

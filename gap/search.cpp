@@ -240,4 +240,14 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
   return result;
 }
 
+SearchResult nothing_found(const Replay& replay, const Library& library, const Whitening& whitening,
+                           const Linearised& nominal, const Priors& priors, unsigned threads) {
+  SearchResult result;
+  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
+  result.best.log_odds = 0;
+  result.mean_without_effects = possible_posterior(nominal, library, priors, {}).mean;
+  result.candidates = {{{}, 0, 1}};
+  return result;
+}
+
 }  // namespace navcal::gap

@@ -38,4 +38,8 @@ struct SearchResult {
                                   const Linearised& nominal, const Priors& priors, unsigned threads,
                                   const std::function<void(double)>& progress);
 
+/// As if no effect had been looked at.
+[[nodiscard]] SearchResult nothing_found(const Replay& replay, const Library& library, const Whitening& whitening,
+                                         const Linearised& nominal, const Priors& priors, unsigned threads);
+
 }  // namespace navcal::gap

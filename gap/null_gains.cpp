@@ -1,0 +1,99 @@
+#include "gap/null_gains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "gap/null_mission.h"
+#include "gap/parallel.h"
+#include "gap/set_evidence.h"
+#include "sim/vehicle/vehicle.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Apart from those of the null bank and of twins with play.
+constexpr std::uint64_t kSeeds = 700'000;
+constexpr double kDeviations = 3;
+/// Of gains that hardly differ.
+constexpr double kLeastScatter_nats = 1;
+
+/// Of members of the library, whitened in the shape of the recorded mission: a column each.
+Eigen::MatrixXd signatures(const Replay& replay, const Library& library, const Whitening& whitening,
+                           const Layout& layout, const Eigen::VectorXd& white,
+                           const std::vector<Eigen::Index>& members) {
+  Eigen::MatrixXd columns(white.size(), static_cast<Eigen::Index>(members.size()));
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(members[k])];
+    const double step = unknown.step * unknown.typical;
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+    values[members[k]] = step;
+    const Innovations stepped = replay.run(library.model(values));
+    columns.col(static_cast<Eigen::Index>(k)) = (white - whitening(fitted_into(stepped, layout), layout)) / step;
+  }
+  return columns;
+}
+
+/// What the recorded mission's signatures, and the members' own, say of a null.
+Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eigen::MatrixXd& own,
+                   const std::vector<Eigen::Index>& members) {
+  Linearised null;
+  null.at = Eigen::VectorXd::Zero(recorded.at.size());
+  null.gram = recorded.gram;
+  null.score = recorded.design.transpose() * white;
+  const Eigen::MatrixXd with_others = recorded.design.transpose() * own, with_own = own.transpose() * own;
+  const Eigen::VectorXd own_score = own.transpose() * white;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    null.gram.col(members[k]) = with_others.col(column);
+    null.gram.row(members[k]) = with_others.col(column).transpose();
+    null.score[members[k]] = own_score[column];
+  }
+  null.gram(members, members) = with_own;
+  null.residual = std::move(white);
+  return null;
+}
+
+}  // namespace
+
+std::vector<double> gains_among_nulls(const CauseSet& set, const Replay& recorded, const Course10Hz& course,
+                                      const config::VehicleSettings& vehicle, const Library& library,
+                                      const Whitening& whitening, const Linearised& linear, const Priors& priors,
+                                      const BankOptions& options) {
+  const auto members = members_of(library, set);
+  const Layout layout = layout_of(recorded);
+  std::vector<std::optional<double>> gains(static_cast<std::size_t>(options.missions));
+  in_parallel(options.threads, gains.size(), [&](std::size_t i) {
+    const std::uint64_t seed = options.seed * 1'000'003 + kSeeds + i;
+    try {
+      const Model truth = library.model(benign_mismatch(library, seed));
+      const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
+      const Replay replay(mission, vehicle);
+      Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
+      const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, members);
+      const Linearised null = seen_by(linear, std::move(white), own, members);
+      const SetEvidence evidence(null, library, priors);
+      gains[i] = evidence(set) - impossible_nats(set, null, library, priors) - evidence({}) +
+                 impossible_nats({}, null, library, priors);
+    } catch (const sim::UnstableVehicle&) {
+      // As in the null bank: those that could follow are looked at.
+    }
+  });
+  std::vector<double> all;
+  for (const auto& gain : gains) {
+    if (gain) all.push_back(*gain);
+  }
+  return all;
+}
+
+bool stands_out(double gain_nats, std::span<const double> among_nulls) {
+  if (among_nulls.empty()) return true;
+  const auto count = static_cast<double>(among_nulls.size());
+  const double mean = std::accumulate(among_nulls.begin(), among_nulls.end(), 0.0) / count;
+  double square = 0;
+  for (const double gain : among_nulls) square += (gain - mean) * (gain - mean);
+  return gain_nats > mean + kDeviations * std::max(kLeastScatter_nats, std::sqrt(square / count));
+}
+
+}  // namespace navcal::gap
