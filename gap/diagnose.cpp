@@ -69,9 +69,12 @@ class Diagnosing {
   /// nullptr: nothing can be said from it, and a remark says why.
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
   void find_bank(Prepared& prepared, const std::string& name);
-  [[nodiscard]] Searched searched(const Prepared& a);
+  [[nodiscard]] SearchResult search_by(const Priors& priors, const Prepared& a, const Linearised& nominal) const;
+  /// A play is judged by vehicles that have it.
+  [[nodiscard]] Searched searched_with_twins(const Prepared& a, const Linearised& nominal) const;
+  [[nodiscard]] Searched searched(const Prepared& a) const;
   /// Whether simulated vehicles without a gap would show the effects found as well, noise as it comes.
-  [[nodiscard]] bool is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched);
+  [[nodiscard]] bool is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) const;
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
 
   const Request& request_;
@@ -123,29 +126,33 @@ void Diagnosing::find_bank(Prepared& prepared, const std::string& name) {
   cache_.keep(*prepared.replay, prepared.course, prepared.bank);
 }
 
-Searched Diagnosing::searched(const Prepared& a) {
+SearchResult Diagnosing::search_by(const Priors& priors, const Prepared& a, const Linearised& nominal) const {
+  return search(*a.replay, library_, a.bank.whitening, nominal, priors, threads_,
+                [&](double done) { progress_("searching", done); });
+}
+
+Searched Diagnosing::searched_with_twins(const Prepared& a, const Linearised& nominal) const {
   const Priors priors = learnt_priors(library_, a.bank.gram, a.bank.scores);
+  Searched result{search_by(priors, a, nominal), priors, {}, {}, {}};
+  if (!has_play(library_, result.found.best.effects)) return result;
+  progress_("vehicles with such a play", 0);
+  PlayTwins twins = play_twins(*a.replay, a.course, request_.vehicle, library_, a.bank.whitening,
+                               result.found.best, {kTwins, request_.bank_seed, threads_});
+  if (twins.missions <= kTwins / 2) return result;
+  // Once more: beside a play, others are recruited for what it leaves.
+  const Priors wider = with_twins(priors, library_, result.found.best, twins);
+  if (SearchResult again = search_by(wider, a, nominal); has_play(library_, again.best.effects)) {
+    result.found = std::move(again);
+    result.priors = wider;
+  }
+  result.twins = std::move(twins);
+  return result;
+}
+
+Searched Diagnosing::searched(const Prepared& a) const {
   progress_("linearising", 0);
   const Linearised nominal = linearise(*a.replay, library_, a.bank.whitening, a.at, threads_);
-  const auto search_by = [&](const Priors& by) {
-    return search(*a.replay, library_, a.bank.whitening, nominal, by, threads_,
-                  [&](double done) { progress_("searching", done); });
-  };
-  Searched result{search_by(priors), priors, {}, {}, {}};
-  if (has_play(library_, result.found.best.effects)) {
-    progress_("vehicles with such a play", 0);
-    PlayTwins twins = play_twins(*a.replay, a.course, request_.vehicle, library_, a.bank.whitening,
-                                 result.found.best, {kTwins, request_.bank_seed, threads_});
-    if (twins.missions > kTwins / 2) {
-      // Once more: beside a play, others are recruited for what it leaves.
-      const Priors wider = with_twins(priors, library_, result.found.best, twins);
-      if (SearchResult again = search_by(wider); has_play(library_, again.best.effects)) {
-        result.found = std::move(again);
-        result.priors = wider;
-      }
-      result.twins = std::move(twins);
-    }
-  }
+  Searched result = searched_with_twins(a, nominal);
   if (is_chance(a, nominal, result)) {
     result.by_chance = result.found.best.effects;
     result.found = nothing_found(*a.replay, library_, a.bank.whitening, nominal, result.priors, threads_);
@@ -157,13 +164,13 @@ Searched Diagnosing::searched(const Prepared& a) {
   const CauseSet hidden = hidden_effects(result.found);
   if (hidden.empty()) return result;
   Searched again{{}, with_freed(result.priors, library_, hidden), result.twins, hidden, {}};
-  again.found = search_by(again.priors);
+  again.found = search_by(again.priors, a, nominal);
   const bool can_be_told = !again.found.best.effects.empty() && hidden_effects(again.found).empty() &&
                            has_play(library_, again.found.best.effects) == result.twins.has_value();
   return can_be_told && !is_chance(a, nominal, again) ? again : result;
 }
 
-bool Diagnosing::is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) {
+bool Diagnosing::is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) const {
   const Explanation& best = searched.found.best;
   if (best.effects.empty() || best.log_odds > kBeyondChance_nats) return false;
   progress_("vehicles without a gap", 0);
