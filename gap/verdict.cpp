@@ -19,6 +19,8 @@ constexpr double kLargest = 5;
 constexpr double kSmallest = 0.05;
 /// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
 constexpr double kBeyondTolerance = 0.2;
+/// Typical strengths beyond which what is not named is no tolerance, however little a mission shows of it.
+constexpr double kMostTolerance = 0.4;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
 /// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
 constexpr double kLeft = 1e-4;
@@ -32,13 +34,17 @@ std::string names(const Library& library, const std::vector<std::size_t>& effect
 
 /// Whether nothing is left that speaks for something outside the library. What is left beside the effects may be
 /// this vehicle's tolerances, if those found on the first mission explain it on the others; but then the effects
-/// must be more than tolerances themselves.
+/// must be more than tolerances themselves, and the others must be tolerances.
 bool closes(const Grounds& grounds) {
   if (!grounds.closure.clear || grounds.closure.upper >= kClosed) return true;
   const auto& best = grounds.found.best;
   const bool more_than_tolerances = std::all_of(best.effects.begin(), best.effects.end(), [&](std::size_t effect) {
     return strength_of(grounds.library, effect, best.mean) > kBeyondTolerance;
   });
+  for (std::size_t effect = 0; effect < grounds.library.size(); ++effect) {
+    const bool named = std::find(best.effects.begin(), best.effects.end(), effect) != best.effects.end();
+    if (!named && strength_of(grounds.library, effect, best.mean) > kMostTolerance) return false;
+  }
   return more_than_tolerances && grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
 }
 
