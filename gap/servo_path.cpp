@@ -75,6 +75,9 @@ std::vector<Vector3> servo_path(std::span<const ActuatorTrack::Row> rows, std::s
   path.reserve(rows.size());
   std::size_t at = 0, commanded_after = readings.size();
   Vector3 from = went(0), command = from;
+  const auto servos_after = [&](double since_s) {
+    return sum(command, std::exp(-since_s / servo_lag_s), sum(from, -1, command));
+  };
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double time_s = static_cast<double>(k) * ActuatorTrack::kStep_s;
     while (at + 1 < readings.size() && readings[at + 1].time_s + later_s <= time_s) ++at;
@@ -88,17 +91,12 @@ std::vector<Vector3> servo_path(std::span<const ActuatorTrack::Row> rows, std::s
     if (commanded_after != at) {
       // From where the command before left it, or from the report if there was none.
       const bool follows = at > 0 && commanded_after == at - 1;
-      if (follows) {
-        const double before_s = readings[at].time_s - readings[at - 1].time_s;
-        from = sum(command, std::exp(-before_s / servo_lag_s), sum(from, -1, command));
-      } else {
-        from = went(at);
-      }
+      from = follows ? servos_after(readings[at].time_s - readings[at - 1].time_s) : went(at);
       const double kept = std::exp(-interval_s / servo_lag_s);
       command = commandable(sum(from, 1 / (1 - kept), sum(went(at + 1), -1, from)));
       commanded_after = at;
     }
-    path.push_back(sum(command, std::exp(-since_s / servo_lag_s), sum(from, -1, command)));
+    path.push_back(servos_after(since_s));
   }
   return path;
 }

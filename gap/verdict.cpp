@@ -38,14 +38,12 @@ std::string names(const Library& library, const std::vector<std::size_t>& effect
 bool closes(const Grounds& grounds) {
   if (!grounds.closure.clear || grounds.closure.upper >= kClosed) return true;
   const auto& best = grounds.found.best;
-  const bool more_than_tolerances = std::all_of(best.effects.begin(), best.effects.end(), [&](std::size_t effect) {
-    return strength_of(grounds.library, effect, best.mean) > kBeyondTolerance;
-  });
   for (std::size_t effect = 0; effect < grounds.library.size(); ++effect) {
+    const double strength = strength_of(grounds.library, effect, best.mean);
     const bool named = std::find(best.effects.begin(), best.effects.end(), effect) != best.effects.end();
-    if (!named && strength_of(grounds.library, effect, best.mean) > kMostTolerance) return false;
+    if (named ? !(strength > kBeyondTolerance) : strength > kMostTolerance) return false;
   }
-  return more_than_tolerances && grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
+  return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
 }
 
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
