@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 6;
+constexpr int kFormat = 7;
 
 json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());

@@ -9,8 +9,10 @@
 #include "gap/bank_cache.h"
 #include "gap/biases.h"
 #include "gap/blocks.h"
+#include "gap/fin_orders.h"
 #include "gap/holdout.h"
 #include "gap/null_gains.h"
+#include "gap/order_times.h"
 #include "gap/parallel.h"
 #include "gap/play_twins.h"
 #include "gap/request.h"
@@ -44,6 +46,9 @@ Innovations rest_of(const Replay& replay, const Library& library, const Explanat
 constexpr int kTwins = 16;
 /// No mission of a vehicle without a gap makes so much evidence of its own noise.
 constexpr double kBeyondChance_nats = 300;
+
+/// Of orders that were recorded, with twice the noise that a report should have.
+constexpr double kMostMisfit = 4;
 
 /// What a search found, and what it was compared with.
 struct Searched {
@@ -97,6 +102,16 @@ std::unique_ptr<Prepared> Diagnosing::prepare(const std::filesystem::path& file,
   if (prepared->mission.fixes.size() < 3) {
     answer.remarks.push_back(name +
                              ": hardly a GPS fix, so nothing can be said of declination, current, GPS and speed");
+  }
+  if (const auto& orders_s = prepared->mission.order_times_s;
+      !orders_s.empty() &&
+      FinOrders(prepared->mission.motor, orders_s, request_.vehicle.fins.lag_s).misfit() > kMostMisfit) {
+    answer.remarks.push_back(name + ": the fins moved by other orders than those recorded");
+    prepared->mission.order_times_s.clear();
+  }
+  if (prepared->mission.order_times_s.empty()) {
+    prepared->mission.order_times_s =
+        likely_order_times_s(prepared->mission, request_.vehicle, library_, threads_);
   }
   prepared->replay = std::make_unique<Replay>(prepared->mission, request_.vehicle);
   if (prepared->replay->intervals() < 200) {

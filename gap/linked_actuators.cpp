@@ -14,16 +14,12 @@ LinkedActuators::LinkedActuators(std::span<const ActuatorTrack::Row> rows, sim::
   fins_rad_.reserve(rows.size());
   integrals_.reserve(rows.size());
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    // What an effect changes is taken from fins without noise: the derivative of a report's noise would else be a
-    // part of what a lag does, and a lag would be found too small.
-    const auto& [reported_rad, clean_rad, shaft_rps] = rows[k];
-    sim::Vector3 linked_rad = clean_rad;
+    sim::Vector3 linked_rad = rows[k].fins_rad;
     effects.link_fins(static_cast<double>(k) * kStep_s, kStep_s, linked_rad);
-    for (std::size_t i = 0; i < 3; ++i) linked_rad[i] += reported_rad[i] - clean_rad[i];
     fins_rad_.emplace_back(linked_rad[0], linked_rad[1], linked_rad[2]);
     if (k > 0) {
       sum.fins_rad += kStep_s / 2 * (fins_rad_[k - 1] + fins_rad_[k]);
-      sum.shaft_rps += kStep_s / 2 * (rows[k - 1].shaft_rps + shaft_rps);
+      sum.shaft_rps += kStep_s / 2 * (rows[k - 1].shaft_rps + rows[k].shaft_rps);
     }
     integrals_.push_back(sum);
   }

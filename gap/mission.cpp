@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/local_plane.h"
+#include "protocols/motor_card.h"
 #include "record/recording.h"
 
 namespace navcal::gap {
@@ -126,11 +127,14 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
   pipeline::Pipeline pipeline(samples_only(recording->settings()));
   MissionGatherer gatherer;
   std::optional<std::int64_t> begin_ns;
+  std::vector<std::int64_t> orders_ns;
   while (const auto entry = recording->next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       if (!begin_ns) begin_ns = raw->time_ns;
       if (raw->direction == record::Direction::received) {
         pipeline.bytes(raw->port, raw->time_ns, raw->bytes, gatherer);
+      } else if (protocols::motor_card::decode_command(raw->bytes)) {
+        orders_ns.push_back(raw->time_ns);
       }
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, gatherer);
@@ -138,6 +142,9 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
     progress(recording->progress());
   }
   Mission mission = gatherer.take(begin_ns.value_or(0));
+  for (const std::int64_t time_ns : orders_ns) {
+    mission.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
+  }
   for (const auto& remark : recording->remarks()) mission.remarks.push_back(file.string() + ": " + remark);
   return mission;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/servo_path.h"
 #include "gap/shadow_helm.h"
 #include "sim/effects/effect_table.h"
 #include "sim/noise.h"
@@ -62,12 +61,13 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
   for (std::size_t i = 0; i < mismatch.size(); ++i) effects.add(mismatch[i].clone());
   add_surfacings(recorded.mission(), effects);
   effects.reseed(seed);
-  // The card's reports fall anywhere between the commands.
-  const double later_s = sim::Noise(seed).uniform(0, kInterval_s);
+  // The card's reports fall anywhere between the orders.
+  sim::Noise dice(seed);
+  const double later_s = dice.uniform(0, kInterval_s);
   const auto& track = recorded.actuators();
   auto helm = std::make_unique<ShadowHelm>(
-      track.rows(), servo_path(track.rows(), recorded.mission().motor, vehicle.fins.lag_s, later_s), course,
-      vehicle.fins);
+      track.rows(), track.orders().drawn_servos_rad(track.rows().size(), ActuatorTrack::kStep_s, later_s, dice),
+      course, vehicle.fins);
   const sim::SimulatedMotion motion(vehicle, std::move(helm), {begin_ns, &effects, 20});
   sim::Recording::Options options{begin_ns, true, seed, &effects, false, true};
   sim::Recording instruments(options, motion);
@@ -86,6 +86,7 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
   }
   Mission mission = gatherer.take(begin_ns);
   keep_fixes(recorded.mission(), mission);
+  for (const double time_s : track.orders().order_times_s()) mission.order_times_s.push_back(time_s + later_s);
   return mission;
 }
 

@@ -38,7 +38,9 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
     : mission_(mission),
       settings_(vehicle),
       vehicle_(vehicle),
-      track_(mission.motor, vehicle.fins.lag_s, mission.duration_s),
+      track_(mission.motor,
+             mission.order_times_s.empty() ? regular_orders(0, mission.duration_s) : mission.order_times_s,
+             vehicle.fins.lag_s, mission.duration_s),
       electronics_C_(smoothed_electronics(mission.compass)) {
   std::vector<double> nominal_A;
   nominal_A.reserve(track_.rows().size());
