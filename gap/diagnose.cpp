@@ -78,6 +78,8 @@ class Diagnosing {
   /// A play is judged by vehicles that have it.
   [[nodiscard]] Searched searched_with_twins(const Prepared& a, const Linearised& nominal) const;
   [[nodiscard]] Searched searched(const Prepared& a) const;
+  /// Whether some channel follows something as nulls hardly do.
+  [[nodiscard]] bool is_seen(const Prepared& a) const;
   /// Whether simulated vehicles without a gap would show the effects found as well, noise as it comes.
   [[nodiscard]] bool is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) const;
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
@@ -185,13 +187,23 @@ Searched Diagnosing::searched(const Prepared& a) const {
   return can_be_told && !is_chance(a, nominal, again) ? again : result;
 }
 
+bool Diagnosing::is_seen(const Prepared& a) const {
+  const Innovations nominal = a.replay->run(library_.model(a.at));
+  const auto map = where_map(followed(nominal, a.course, a.mission.fix_times_s()), a.bank.followed);
+  return !clear_of_nulls(map).empty();
+}
+
 bool Diagnosing::is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) const {
   const Explanation& best = searched.found.best;
-  if (best.effects.empty() || best.log_odds > kBeyondChance_nats) return false;
+  if (best.effects.empty() || best.log_odds > kBeyondChance_nats || is_seen(a)) return false;
   progress_("vehicles without a gap", 0);
-  return !stands_out(best.log_odds, gains_among_nulls(best.effects, *a.replay, a.course, request_.vehicle,
-                                                      library_, a.bank.whitening, nominal, searched.priors,
-                                                      {kTwins, request_.bank_seed, threads_}));
+  // As nulls are looked at: signatures taken anew at an estimate far off gain some nats that nothing is behind.
+  const bool curved = std::any_of(best.effects.begin(), best.effects.end(),
+                                  [&](std::size_t effect) { return library_.is_curved(effect); });
+  const double gain = curved ? best.log_odds : gain_over_none(best.effects, nominal, library_, searched.priors);
+  return !stands_out(
+      gain, gains_among_nulls(best.effects, *a.replay, a.course, request_.vehicle, library_, a.bank.whitening,
+                              nominal, searched.priors, {kTwins, request_.bank_seed, threads_}));
 }
 
 void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts,

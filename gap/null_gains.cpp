@@ -57,6 +57,13 @@ Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eige
 
 }  // namespace
 
+double gain_over_none(const CauseSet& set, const Linearised& linear, const Library& library,
+                      const Priors& priors) {
+  const SetEvidence evidence(linear, library, priors);
+  return evidence(set) - impossible_nats(set, linear, library, priors) - evidence({}) +
+         impossible_nats({}, linear, library, priors);
+}
+
 std::vector<double> gains_among_nulls(const CauseSet& set, const Replay& recorded, const Course10Hz& course,
                                       const config::VehicleSettings& vehicle, const Library& library,
                                       const Whitening& whitening, const Linearised& linear, const Priors& priors,
@@ -73,9 +80,7 @@ std::vector<double> gains_among_nulls(const CauseSet& set, const Replay& recorde
       Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
       const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, members);
       const Linearised null = seen_by(linear, std::move(white), own, members);
-      const SetEvidence evidence(null, library, priors);
-      gains[i] = evidence(set) - impossible_nats(set, null, library, priors) - evidence({}) +
-                 impossible_nats({}, null, library, priors);
+      gains[i] = gain_over_none(set, null, library, priors);
     } catch (const sim::UnstableVehicle&) {
       // As in the null bank: those that could follow are looked at.
     }

@@ -8,6 +8,10 @@
 
 namespace navcal::gap {
 
+/// By how much a set is better than none, nats, by these straight lines.
+[[nodiscard]] double gain_over_none(const CauseSet& set, const Linearised& linear, const Library& library,
+                                    const Priors& priors);
+
 /// By how much a set of effects is better than none, nats, on simulated missions that have no gap and were steered
 /// as the recorded one: one each. The members' signatures are taken of each of these missions. A replay is led by
 /// its instruments, so that their noise is in the signatures as it is in the innovations; where hardly anything

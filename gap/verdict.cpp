@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMostReasons = 4;
 constexpr double kProbable = 0.7;
+/// Where nothing stands clear of nulls, a gap is one whose absence is less probable than this.
+constexpr double kAbsent = 0.01;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
 constexpr double kLargest = 5;
@@ -44,6 +46,11 @@ bool closes(const Grounds& grounds) {
     if (named ? !(strength > kBeyondTolerance) : strength > kMostTolerance) return false;
   }
   return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
+}
+
+bool is_left(const Grounds& grounds) {
+  return std::any_of(grounds.leftover.begin(), grounds.leftover.end(),
+                     [](const WhereEntry& left) { return left.p_value <= kLeft; });
 }
 
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
@@ -116,6 +123,12 @@ Judgement judge(const Grounds& grounds) {
   }
   add_leftover(grounds, reasons);
   judgement.verdict = reasons.empty() ? Verdict::explained : Verdict::unknown;
+  const auto none = std::find_if(candidates.begin(), candidates.end(),
+                                 [](const Candidate& candidate) { return candidate.effects.empty(); });
+  const bool may_be_none = none != candidates.end() && none->probability > kAbsent;
+  if (!reasons.empty() && may_be_none && grounds.where.empty() && !is_left(grounds)) {
+    return {Verdict::no_gap, {}};
+  }
   return judgement;
 }
 

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "sim/noise.h"
 
 namespace navcal::sim {
 namespace {
+
+/// The motor card takes tenths of a degree (its interface document, section 4).
+constexpr double kOrdered_rad = 0.1 * std::numbers::pi / 180;
 
 std::unique_ptr<Manoeuvre> make_manoeuvre(const config::MissionStep& step) {
   using config::StepKind;
@@ -76,6 +82,7 @@ void MissionHelm::give_orders(const Body& body) {
   if (!manoeuvre_ && step_ < mission_.steps.size()) begin_step(situation_);
   if (manoeuvre_ && !manoeuvre_->go_on(situation_, demand_)) end_step(body);
   orders_ = autopilot_.orders(demand_, body);
+  for (double& fin : orders_.fins_rad) fin = rounded(fin, kOrdered_rad);
   situation_.since_s += situation_.period_s;
 }
 

@@ -21,17 +21,26 @@ class Case {
     const Eigen::Index j = library_.first(3);
     found_.best.mean[j] = strength * library_.unknowns()[static_cast<std::size_t>(j)].typical;
   }
+  /// Besides the effect and none, others share what is left.
+  void set_probabilities(double effect, double none) {
+    found_.candidates = {{{7}, 2, effect}, {{3}, 1, 1 - effect - none}, {{}, 0, none}};
+  }
+  void set_where(double p_value) {
+    WhereEntry entry;
+    entry.p_value = p_value;
+    where_ = {entry};
+  }
   [[nodiscard]] Verdict verdict(double closed_upper, double closed_by_all_upper) const {
     const PooledClosure alone{2, 1.5, 1, true, closed_upper - 0.1, closed_upper - 0.2, closed_upper};
     const PooledClosure by_all{
         2, 1, 1, true, closed_by_all_upper - 0.1, closed_by_all_upper - 0.2, closed_by_all_upper};
-    return judge({found_, library_, nothing_, nothing_, {20, 20}, alone, by_all, false}).verdict;
+    return judge({found_, library_, where_, nothing_, {20, 20}, alone, by_all, false}).verdict;
   }
 
  private:
   Library library_{{}};
   SearchResult found_;
-  std::vector<WhereEntry> nothing_;
+  std::vector<WhereEntry> where_, nothing_;
 };
 
 TEST(Verdict, AnEffectThatClosesTheGapExplainsIt) {
@@ -67,6 +76,18 @@ TEST(Verdict, AToleranceIsNoCauseHoweverClearItIs) { EXPECT_EQ(Case(0.03).verdic
 TEST(Verdict, WhatAMissionDoesNotShowIsNotNamedByIt) {
   EXPECT_EQ(Case(4, 0.5).verdict(0.99, 0.99), Verdict::unknown);
   EXPECT_EQ(Case(4, 11).verdict(0.99, 0.99), Verdict::explained);
+}
+
+// A nominal vehicle was said to have a gap since none of 34 effects was quite as improbable as none at all.
+TEST(Verdict, WhereNothingIsClearAndNothingIsProbableThereIsNoGap) {
+  Case weak(0.3);
+  weak.set_probabilities(0.3, 0.05);
+  EXPECT_EQ(weak.verdict(0.99, 0.99), Verdict::no_gap);
+  weak.set_probabilities(0.3, 0.001);
+  EXPECT_EQ(weak.verdict(0.99, 0.99), Verdict::unknown) << "something is there, but what?";
+  weak.set_probabilities(0.3, 0.05);
+  weak.set_where(1e-6);
+  EXPECT_EQ(weak.verdict(0.99, 0.99), Verdict::unknown) << "it is seen where";
 }
 
 TEST(Verdict, OneFarStrongerThanUsualStandsForSomethingElse) {
