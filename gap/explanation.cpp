@@ -19,6 +19,8 @@ constexpr double kWorse_nats = 1;
 /// An estimate is simulated anew, its signatures as they are, until straight lines say what is left to less than
 /// this; strong data make tolerances, which no signature was taken about, what they are.
 constexpr int kSettlings = 4;
+/// A step that leads beyond where straight lines hold is taken half way, and half of that.
+constexpr int kHalvings = 2;
 constexpr double kSettled_nats = 1;
 /// Prior, in typical values, of what may be there unnamed: wider than that of any member, so that to name it gains
 /// nothing.
@@ -112,13 +114,16 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
     result.mean =
         mean_by(by_membership(possible_priors(result.linear, library, priors, members), members), result.linear);
     left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
-    const Eigen::VectorXd simulated = residual_at(replay, library, whitening, result.mean);
+    Eigen::VectorXd next = result.mean, simulated = residual_at(replay, library, whitening, next);
     result.beyond_linear = 0.5 * (left.squaredNorm() - simulated.squaredNorm());
-    const bool stays = std::abs(result.beyond_linear) < kSettled_nats;
-    const bool better =
-        cost(simulated, result.mean) < cost(result.linear.residual, result.linear.at) - kSettled_nats;
-    if (stays || !better) break;
-    result.linear.at = result.mean;
+    if (std::abs(result.beyond_linear) < kSettled_nats) break;
+    const double here = cost(result.linear.residual, result.linear.at);
+    for (int half = 0; half < kHalvings && !(cost(simulated, next) < here - kSettled_nats); ++half) {
+      next = (result.linear.at + next) / 2;
+      simulated = residual_at(replay, library, whitening, next);
+    }
+    if (!(cost(simulated, next) < here - kSettled_nats)) break;
+    result.linear.at = next;
     result.linear.residual = simulated;
     result.linear.score = result.linear.design.transpose() * simulated;
     result.beyond_linear = 0;

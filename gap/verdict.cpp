@@ -24,6 +24,8 @@ constexpr double kBeyondTolerance = 0.2;
 /// Typical strengths beyond which what is not named is no tolerance, however little a mission shows of it.
 constexpr double kMostTolerance = 0.4;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
+/// Beyond that the number says nothing any more.
+constexpr double kFarWorse_nats = -10'000;
 /// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
 constexpr double kLeft = 1e-4;
 
@@ -94,9 +96,12 @@ Judgement judge(const Grounds& grounds) {
   const bool worse = std::any_of(grounds.held_out_nats.begin(), grounds.held_out_nats.end(),
                                  [](double nats) { return nats < kLoss_nats; });
   if (worse || altogether < kGainAltogether_nats) {
+    const std::string_view others = grounds.blocks ? "blocks of it that were left out" : "the missions held out";
     reasons.push_back(
-        fmt::format("{} explains this mission, but {} fit no better with it (log likelihood {:+.1f})", set,
-                    grounds.blocks ? "blocks of it that were left out" : "the missions held out", altogether));
+        altogether < kFarWorse_nats
+            ? fmt::format("{} explains this mission, but {} fit far worse with it", set, others)
+            : fmt::format("{} explains this mission, but {} fit no better with it (log likelihood {:+.1f})", set,
+                          others, altogether));
   }
   if (!closes(grounds)) {
     reasons.push_back(fmt::format("with {} only {:.0f} % of the gap goes away (95 %: {:.0f} to {:.0f} %)", set,
