@@ -15,11 +15,13 @@
 namespace navcal::gap {
 namespace {
 
-constexpr int kPhases = 10;
-constexpr double kPhase_s = kInterval_s / kPhases;
+constexpr std::size_t kPhases = 10;
+constexpr double kPhase_s = kInterval_s / static_cast<double>(kPhases);
 
 /// So much of a mission is looked at, where the fins move most: it tells as well as the whole.
 constexpr double kLooked_at_s = 200;
+/// Of its usual strength, how far an effect is left free; gyros' biases are new at each power-on.
+constexpr double kFree = 0.1, kBiasesFree = 10;
 
 template <class Reading>
 std::vector<Reading> within(const std::vector<Reading>& readings, double from_s, double until_s) {
@@ -78,12 +80,13 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
   const Mission first = ordered_at(looked_at, 0);
   const Replay replay(first, vehicle);
   const Eigen::VectorXd at = with_biases_found(replay, library, threads);
-  // A gap is not to be made up for by the instants: whatever the library knows is left free, within three times
-  // its usual strength.
+  // A gap is not to be made up for by the instants, so whatever the library knows is left free; but not far, or
+  // lags would make up for the instants.
   const Linearised linear = linearise(replay, library, whitening, at, threads);
   Eigen::VectorXd widths(at.size());
   for (Eigen::Index j = 0; j < widths.size(); ++j) {
-    widths[j] = 3 * library.unknowns()[static_cast<std::size_t>(j)].typical;
+    widths[j] =
+        (j < Library::kBiases ? kBiasesFree : kFree) * library.unknowns()[static_cast<std::size_t>(j)].typical;
   }
   const Eigen::MatrixXd gram = widths.asDiagonal() * linear.gram * widths.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> free(gram + Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
@@ -95,8 +98,13 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
     const Eigen::VectorXd score = widths.cwiseProduct(linear.design.transpose() * residual);
     cost[i] = residual.squaredNorm() - score.dot(free.solve(score));
   });
-  const auto best = std::min_element(cost.begin(), cost.end()) - cost.begin();
-  return regular_orders(kPhase_s * static_cast<double>(best), mission.duration_s);
+  // Between those looked at, by the parabola through the best and its neighbours.
+  const auto best = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  const double before = cost[(best + kPhases - 1) % kPhases], after = cost[(best + 1) % kPhases];
+  const double bend = before - 2 * cost[best] + after;
+  const double shift = bend > 0 ? (before - after) / (2 * bend) : 0;
+  const double phase_s = kPhase_s * (static_cast<double>(best) + shift);
+  return regular_orders(std::fmod(phase_s + kInterval_s, kInterval_s), mission.duration_s);
 }
 
 }  // namespace navcal::gap

@@ -1,9 +1,12 @@
 #include "sim/recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "config/load.h"
+#include "protocols/motor_card.h"
 #include "protocols/oncore_command.h"
 #include "sim/imu_card.h"
 #include "sim/motor_card.h"
@@ -56,7 +59,7 @@ std::vector<config::PortSettings> recording_ports() {
 }
 
 Recording::Recording(const Options& options, const Motion& motion)
-    : effects_(options.effects != nullptr ? *options.effects : none_) {
+    : effects_(options.effects != nullptr ? *options.effects : none_), motion_(motion) {
   Noise seeds(options.seed);
   const auto seed = [&] { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); };
   const auto add = [&](Instrument of, std::unique_ptr<Device> device) {
@@ -91,7 +94,18 @@ Recording::Recording(const Options& options, const Motion& motion)
   sent_.push_back({options.begin_ns, Instrument::gps, true, poll});
 }
 
+void Recording::write_orders(std::int64_t t_ns) {
+  orders_.clear();
+  motion_.take_orders(t_ns, orders_);
+  for (const Order& order : orders_) {
+    protocols::motor_card::Command command{static_cast<std::int32_t>(std::lround(order.rpm)), {}};
+    for (std::size_t i = 0; i < 3; ++i) command.fins_deg[i] = order.fins_rad[i] * 180 / std::numbers::pi;
+    sent_.push_back({order.time_ns, Instrument::motor, true, protocols::motor_card::encode_command(command)});
+  }
+}
+
 void Recording::advance(std::int64_t t_ns, std::vector<LineRead>& out) {
+  write_orders(t_ns);
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   std::move(sent_.begin(), sent_.end(), std::back_inserter(out));
   sent_.clear();

@@ -15,7 +15,7 @@ namespace navcal::sim {
 
 /// The four instruments from power-on, each on its line, as a host records them. Nothing has to be said to them:
 /// the compass is set up to send all it has, and the receiver is asked for its position every second in the first
-/// moment.
+/// moment. The motor card is told what the vehicle's helm orders.
 class Recording {
  public:
   struct Options {
@@ -28,7 +28,7 @@ class Recording {
   };
   Recording(const Options& options, const Motion& motion);
 
-  /// The reads that returned up to t_ns (UTC), appended in order of time; t_ns never goes back.
+  /// The reads that returned up to t_ns (UTC), and the writes, appended in order of time; t_ns never goes back.
   void advance(std::int64_t t_ns, std::vector<LineRead>& out);
 
  private:
@@ -36,10 +36,14 @@ class Recording {
     std::unique_ptr<Device> device;
     HostLine line;
   };
+  void write_orders(std::int64_t t_ns);
+
   EffectSet none_;
   EffectSet& effects_;
+  const Motion& motion_;
   std::vector<Channel> channels_;
   std::vector<Emission> emissions_;
+  std::vector<Order> orders_;
   std::vector<LineRead> sent_;
 };
 

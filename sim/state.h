@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace navcal::sim {
 
@@ -31,12 +32,22 @@ struct State {
 /// Between two instants near each other, linearly; what only changes in jumps is that of `a`.
 [[nodiscard]] State between(const State& a, const State& b, double part);
 
+/// What the motor card was told.
+struct Order {
+  std::int64_t time_ns = 0;  ///< UTC since the epoch
+  double rpm = 0;
+  Vector3 fins_rad{};
+};
+
 /// Where the vehicle is, at any time and in any order; the devices know nothing else of it.
 class Motion {
  public:
   virtual ~Motion() = default;
   /// `t_ns`: UTC since the epoch.
   [[nodiscard]] virtual State at(std::int64_t t_ns) const = 0;
+  /// Appends what the motor card was told up to t_ns and was not yet taken, in order of time. Along a path it is
+  /// told nothing.
+  virtual void take_orders(std::int64_t /*t_ns*/, std::vector<Order>& /*out*/) const {}
 };
 
 }  // namespace navcal::sim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "sim/vehicle/body.h"
 
@@ -11,6 +12,8 @@ struct Actuators {
   Eigen::Vector3d fins_rad = Eigen::Vector3d::Zero();  ///< of the servos' shafts
   double shaft_rps = 0;
   double shaft_commanded_rps = 0;
+  /// Of the servos, where the step began with a new order to the motor card.
+  std::optional<Eigen::Vector3d> fins_ordered_rad{};
 };
 
 /// Who moves a vehicle's fins and propeller, and where the run begins. Asked once a step, in order of time.

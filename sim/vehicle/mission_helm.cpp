@@ -59,9 +59,14 @@ Actuators MissionHelm::actuators_at_start() const {
 
 Actuators MissionHelm::next(double /*time_s*/, double step_s, const Body& body) {
   situation_.way_m += body.velocity.head<3>().norm() * step_s;
+  actuators_.fins_ordered_rad.reset();
   // Half a step: the sum of steps is no round number.
   if (until_orders_s_ < 0.5 * step_s) {
+    const Orders before = orders_;
     give_orders(body);
+    if (orders_.fins_rad != before.fins_rad || orders_.shaft_rps != before.shaft_rps) {
+      actuators_.fins_ordered_rad = orders_.fins_rad;
+    }
     until_orders_s_ += vehicle_.autopilot.period_s;
   }
   until_orders_s_ -= step_s;

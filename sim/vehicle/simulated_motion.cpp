@@ -35,6 +35,11 @@ State SimulatedMotion::at(std::int64_t t_ns) const {
   return between(states_[index], states_[index + 1], part);
 }
 
+void SimulatedMotion::take_orders(std::int64_t t_ns, std::vector<Order>& out) const {
+  (void)at(t_ns);
+  for (; !orders_.empty() && orders_.front().time_ns <= t_ns; orders_.pop_front()) out.push_back(orders_.front());
+}
+
 double SimulatedMotion::duration_s() const {
   while (!ended_s_) take_step();
   return *ended_s_;
@@ -45,6 +50,14 @@ void SimulatedMotion::take_step() const {
   Influences influences;
   if (options_.influencer != nullptr) options_.influencer->influence(time_s, influences);
   const Actuators next = helm_->next(time_s, kStep_s, body_);
+  if (next.fins_ordered_rad) {
+    const std::int64_t time_ns = options_.start_ns + steps_ * kStep_ns;
+    orders_.push_back({time_ns, 60 * next.shaft_commanded_rps, array_of(*next.fins_ordered_rad)});
+    const auto is_old = [&](const Order& order) {
+      return 1e-9 * static_cast<double>(time_ns - order.time_ns) > options_.history_s;
+    };
+    while (is_old(orders_.front())) orders_.pop_front();
+  }
   Controls held{next.fins_rad, actuators_.shaft_rps};
   if (options_.influencer != nullptr) {
     Vector3 fins_rad = array_of(next.fins_rad);

@@ -32,6 +32,8 @@ class SimulatedMotion final : public Motion {
 
   /// Before the run it is as at the beginning. Throws UnstableVehicle.
   [[nodiscard]] State at(std::int64_t t_ns) const override;
+  /// Those older than `history_s` are gone, too.
+  void take_orders(std::int64_t t_ns, std::vector<Order>& out) const override;
   /// When the orders end, seconds from the start: taken ahead so far, and further back than `history_s` the states
   /// are gone. Throws UnstableVehicle.
   [[nodiscard]] double duration_s() const;
@@ -50,6 +52,7 @@ class SimulatedMotion final : public Motion {
   mutable std::optional<Eigen::Vector3d> linked_rad_;  ///< the fins themselves, behind their linkage
   mutable std::int64_t steps_ = 0;                     ///< taken
   mutable std::deque<State> states_;                   ///< at the beginnings of the newest of them
+  mutable std::deque<Order> orders_;                   ///< not yet taken
   mutable std::optional<double> ended_s_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "sim/rotation.h"
@@ -26,6 +28,32 @@ TEST(SimulatedMotion, IsTheSameInWhateverOrderItIsAsked) {
     ASSERT_EQ(back.position_m, there[static_cast<std::size_t>(i)].position_m);
     ASSERT_EQ(back.specific_force_m_s2, there[static_cast<std::size_t>(i)].specific_force_m_s2);
   }
+}
+
+TEST(SimulatedMotion, OrdersAreTakenOnceAndTheServosFollowThem) {
+  const auto motion = on_mission(kWeave);
+  std::vector<Order> orders;
+  for (int i = 1; i <= 40; ++i) motion.take_orders(at_s(0.5 * i), orders);
+  ASSERT_GT(orders.size(), 50U);
+  constexpr double kLag_s = 0.15, kTenth_rad = 0.1 * std::numbers::pi / 180;
+  Vector3 servo_rad{}, command_rad{};
+  std::int64_t at_ns = at_s(0);
+  for (const Order& order : orders) {
+    EXPECT_GE(order.time_ns, at_ns);
+    EXPECT_LE(order.time_ns, at_s(20));
+    const double kept = std::exp(-1e-9 * static_cast<double>(order.time_ns - at_ns) / kLag_s);
+    const State state = motion.at(order.time_ns);
+    for (std::size_t i = 0; i < 3; ++i) {
+      servo_rad[i] = command_rad[i] + (servo_rad[i] - command_rad[i]) * kept;
+      EXPECT_NEAR(state.fins_rad[i], servo_rad[i], 1e-9) << order.time_ns - at_s(0);
+      EXPECT_NEAR(std::remainder(order.fins_rad[i], kTenth_rad), 0, 1e-12) << "the card takes tenths";
+    }
+    command_rad = order.fins_rad;
+    at_ns = order.time_ns;
+  }
+  const std::size_t before = orders.size();
+  motion.take_orders(at_s(20), orders);
+  EXPECT_EQ(orders.size(), before);
 }
 
 TEST(SimulatedMotion, WhatItSaysOfMotionFitsTogether) {
