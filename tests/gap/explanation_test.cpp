@@ -25,7 +25,8 @@ Linearised made_up(const Library& library, const Eigen::VectorXd& truth, double 
   linear.residual = linear.design * truth;
   for (double& each : linear.residual) each += noise * normal(dice);
   linear.gram = linear.design.transpose() * linear.design;
-  linear.score = linear.design.transpose() * linear.residual;
+  linear.noise.setZero(truth.size());
+  linear.renew_score();
   return linear;
 }
 
