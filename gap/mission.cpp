@@ -128,13 +128,17 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
   MissionGatherer gatherer;
   std::optional<std::int64_t> begin_ns;
   std::vector<std::int64_t> orders_ns;
+  std::optional<protocols::motor_card::Command> last_order;
   while (const auto entry = recording->next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       if (!begin_ns) begin_ns = raw->time_ns;
       if (raw->direction == record::Direction::received) {
         pipeline.bytes(raw->port, raw->time_ns, raw->bytes, gatherer);
-      } else if (protocols::motor_card::decode_command(raw->bytes)) {
+      } else if (const auto order = protocols::motor_card::decode_command(raw->bytes);
+                 order && order != last_order) {
+        // What only repeats the order before moves nothing.
         orders_ns.push_back(raw->time_ns);
+        last_order = order;
       }
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, gatherer);
