@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 8;
+constexpr int kFormat = 9;
 
 json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());
@@ -38,7 +38,6 @@ json bank_json(const NullBank& bank) {
           {"fix_factor", numbers(bank.whitening.fix_factor)},
           {"gram", numbers(bank.gram)},
           {"scores", numbers(bank.scores)},
-          {"noise", numbers(bank.noise)},
           {"powers", bank.powers},
           {"followed_mean", numbers(bank.followed.mean_square)},
           {"followed_variance", numbers(bank.followed.variance)}};
@@ -55,7 +54,6 @@ NullBank bank_from(const json& from) {
   bank.whitening.fix_factor = matrix(from.at("fix_factor"));
   bank.gram = matrix(from.at("gram"));
   bank.scores = matrix(from.at("scores"));
-  bank.noise = matrix(from.at("noise"));
   bank.powers = from.at("powers").get<std::vector<double>>();
   bank.followed.mean_square = matrix(from.at("followed_mean"));
   bank.followed.variance = matrix(from.at("followed_variance"));
@@ -87,7 +85,7 @@ bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
          is_shaped(w.fix_filter, w.fix_filter.rows(), kFixChannels) &&
          is_factor(w.grid_factor, kEvidenceChannels) && is_factor(w.fix_factor, kFixChannels) &&
          is_shaped(bank.gram, unknowns, unknowns) && is_shaped(bank.scores, unknowns, bank.missions) &&
-         is_shaped(bank.noise, unknowns, 1) && bank.powers.size() == static_cast<std::size_t>(bank.missions) &&
+         bank.powers.size() == static_cast<std::size_t>(bank.missions) &&
          std::all_of(bank.powers.begin(), bank.powers.end(), [](double power) { return std::isfinite(power); }) &&
          is_square(bank.followed.mean_square, channels, columns) &&
          is_square(bank.followed.variance, channels, columns);

@@ -168,8 +168,7 @@ Searched Diagnosing::searched_with_twins(const Prepared& a, const Linearised& no
 
 Searched Diagnosing::searched(const Prepared& a) const {
   progress_("linearising", 0);
-  const Linearised nominal =
-      without_noise(linearise(*a.replay, library_, a.bank.whitening, a.at, threads_), a.bank.noise);
+  const Linearised nominal = linearise(*a.replay, library_, a.bank.whitening, a.at, threads_);
   Searched result = searched_with_twins(a, nominal);
   if (is_chance(a, nominal, result)) {
     result.by_chance = result.found.best.effects;

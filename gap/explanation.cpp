@@ -105,10 +105,10 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
   result.about = linear.at;
   const auto members = members_of(library, set);
   const Eigen::VectorXd prior = by_membership(priors, members);
-  result.linear = std::move(linear);
   const auto cost = [&](const Eigen::VectorXd& residual, const Eigen::VectorXd& at) {
-    return 0.5 * (residual.squaredNorm() + at.cwiseQuotient(prior).squaredNorm()) + result.linear.noise.dot(at);
+    return 0.5 * (residual.squaredNorm() + at.cwiseQuotient(prior).squaredNorm());
   };
+  result.linear = std::move(linear);
   Eigen::VectorXd left;
   for (int i = 0; i < kSettlings; ++i) {
     result.mean =
@@ -125,7 +125,7 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
     if (!(cost(simulated, next) < here - kSettled_nats)) break;
     result.linear.at = next;
     result.linear.residual = simulated;
-    result.linear.renew_score();
+    result.linear.score = result.linear.design.transpose() * simulated;
     result.beyond_linear = 0;
   }
   const auto posterior = possible_posterior(result.linear, library, priors, members);

@@ -74,7 +74,6 @@ Linearised linearise(const Replay& replay, const Library& library, const Whiteni
   Linearised empty;
   empty.design.setZero(rows, at.size());
   empty.gram.setZero(at.size(), at.size());
-  empty.noise.setZero(at.size());
   return relinearise(replay, library, whitening, std::move(empty), at, library.moving(), threads);
 }
 
@@ -87,14 +86,8 @@ Linearised relinearise(const Replay& replay, const Library& library, const White
     result.design.col(columns[i]) = column(replay, library, whitening, at, result.residual, columns[i]);
   });
   renew_gram(result, columns, threads);
-  result.renew_score();
+  result.score = result.design.transpose() * result.residual;
   return result;
-}
-
-Linearised without_noise(Linearised linear, Eigen::VectorXd noise) {
-  linear.noise = std::move(noise);
-  linear.renew_score();
-  return linear;
 }
 
 Eigen::VectorXd residual_at_zero(const Linearised& linear) {

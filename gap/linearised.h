@@ -19,14 +19,8 @@ struct Linearised {
   Eigen::VectorXd residual;  ///< whitened, at that point
   Eigen::MatrixXd design;    ///< a column for each unknown
   Eigen::MatrixXd gram;      ///< design^T design
-  Eigen::VectorXd score;     ///< design^T residual, less what noise makes of it
-  Eigen::VectorXd noise;     ///< in the mean, of the score (noise_score.h)
-
-  void renew_score() { score = design.transpose() * residual - noise; }
+  Eigen::VectorXd score;     ///< design^T residual
 };
-
-/// With what the instruments' noise makes of the score in the mean, a number for each unknown.
-[[nodiscard]] Linearised without_noise(Linearised linear, Eigen::VectorXd noise);
 
 [[nodiscard]] Layout layout_of(const Replay& replay);
 

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "gap/biases.h"
-#include "gap/noise_score.h"
 #include "gap/null_mission.h"
 #include "gap/parallel.h"
 #include "sim/vehicle/vehicle.h"
@@ -19,8 +18,6 @@ namespace {
 
 /// Whose noise the whitening is learnt from.
 constexpr std::size_t kWhiteningMissions = 30;
-/// Of the score; each takes as long as ninety replays. Their mean adds a twelfth of a score's own variance to it.
-constexpr int kNoiseMissions = 12;
 
 struct Null {
   Innovations nominal;
@@ -72,7 +69,7 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
       // One that cannot swim this way is not in the bank, and the bank says how many are.
     }
     const std::lock_guard lock(progress_mutex);
-    progress(0.5 * static_cast<double>(++done) / static_cast<double>(count));
+    progress(0.95 * static_cast<double>(++done) / static_cast<double>(count));
   });
   std::erase_if(nulls, [](const auto& null) { return !null; });
   bank.missions = static_cast<int>(nulls.size());
@@ -105,8 +102,6 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
     followed_by_nulls.push_back(followed(null.nominal, null.course, null.fix_times_s));
   }
   bank.followed = RegimeStatistics(followed_by_nulls);
-  bank.noise = noise_score(recorded, course, vehicle, library, bank.whitening,
-                           {kNoiseMissions, options.seed, options.threads});
   bank.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   progress(1);
   return bank;

@@ -23,7 +23,6 @@ struct NullBank {
   Whitening whitening;
   Eigen::MatrixXd gram;        ///< of the design of the recorded mission, of all unknowns of the whole library
   Eigen::MatrixXd scores;      ///< design^T innovations: a column for each mission
-  Eigen::VectorXd noise;       ///< what the instruments' noise makes of the recorded mission's score, in the mean
   std::vector<double> powers;  ///< of each: mean square of whitened innovations, biases fitted
   RegimeStatistics followed;   ///< of the nominal replay of each
 };

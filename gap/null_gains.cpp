@@ -41,7 +41,6 @@ Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eige
   Linearised null;
   null.at = Eigen::VectorXd::Zero(recorded.at.size());
   null.gram = recorded.gram;
-  null.noise = recorded.noise;
   null.score = recorded.design.transpose() * white;
   const Eigen::MatrixXd with_others = recorded.design.transpose() * own, with_own = own.transpose() * own;
   const Eigen::VectorXd own_score = own.transpose() * white;
@@ -49,7 +48,7 @@ Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eige
     const auto column = static_cast<Eigen::Index>(k);
     null.gram.col(members[k]) = with_others.col(column);
     null.gram.row(members[k]) = with_others.col(column).transpose();
-    null.score[members[k]] = own_score[column] - recorded.noise[members[k]];
+    null.score[members[k]] = own_score[column];
   }
   null.gram(members, members) = with_own;
   null.residual = std::move(white);

@@ -284,7 +284,7 @@ Innovations ReplayRun::innovations(Course10Hz* course) {
     take_words(reading.time_s);
     take_fixes(reading.time_s);
     take_card(reading);
-    instruments_.feel(reading.time_s, moment.predicted);
+    if (effects_.size() > 0) instruments_.feel(reading.time_s, moment.predicted);
     moments_.back().corrected.euler_rad = array_of(body_.euler_rad);
     moments_.back().corrected.position_m = array_of(body_.position_m);
     moments_.back().corrected.rate_rad_s = array_of(body_.velocity.tail<3>());

@@ -24,7 +24,6 @@ TEST_F(BankFile, GivesBackEveryNumber) {
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->fingerprint, (std::vector<double>{1, 2.5, -3}));
   EXPECT_EQ(kept->bank.scores, bank_.scores);
-  EXPECT_EQ(kept->bank.noise, bank_.noise);
   EXPECT_EQ(kept->bank.whitening.fix_factor, bank_.whitening.fix_factor);
   EXPECT_EQ(kept->bank.followed.variance, bank_.followed.variance);
 }
@@ -45,7 +44,6 @@ TEST_F(BankFile, ShapesThatDoNotFitOneAnotherAreRefused) {
   EXPECT_TRUE(refused([](NullBank& b) { b.missions = 19; }));
   EXPECT_TRUE(refused([](NullBank& b) { b.powers.pop_back(); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.scores.conservativeResize(b.scores.rows() - 1, 20); }));
-  EXPECT_TRUE(refused([](NullBank& b) { b.noise.conservativeResize(b.noise.size() - 1); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.followed.variance.resize(2, 3); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.whitening.grid_filter.setZero(11, kEvidenceChannels); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.whitening.grid_factor(3, 3) = 0; }));

@@ -25,8 +25,7 @@ Linearised made_up(const Library& library, const Eigen::VectorXd& truth, double 
   linear.residual = linear.design * truth;
   for (double& each : linear.residual) each += noise * normal(dice);
   linear.gram = linear.design.transpose() * linear.design;
-  linear.noise.setZero(truth.size());
-  linear.renew_score();
+  linear.score = linear.design.transpose() * linear.residual;
   return linear;
 }
 

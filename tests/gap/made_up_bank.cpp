@@ -12,7 +12,6 @@ NullBank made_up_bank(Eigen::Index unknowns) {
   bank.whitening = Whitening::nominal();
   bank.gram = Eigen::MatrixXd::Identity(unknowns, unknowns);
   bank.scores = Eigen::MatrixXd::Random(unknowns, 20);
-  bank.noise = Eigen::VectorXd::Random(unknowns);
   bank.powers.assign(20, 1.0625);
   bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(
       static_cast<Eigen::Index>(reported_channels().size()), static_cast<Eigen::Index>(regimes().size()));
