@@ -9,7 +9,6 @@
 #include "gap/bank_cache.h"
 #include "gap/biases.h"
 #include "gap/blocks.h"
-#include "gap/fin_orders.h"
 #include "gap/holdout.h"
 #include "gap/null_gains.h"
 #include "gap/order_times.h"
@@ -105,17 +104,18 @@ std::unique_ptr<Prepared> Diagnosing::prepare(const std::filesystem::path& file,
     answer.remarks.push_back(name +
                              ": hardly a GPS fix, so nothing can be said of declination, current, GPS and speed");
   }
-  if (const auto& orders_s = prepared->mission.order_times_s;
-      !orders_s.empty() &&
-      FinOrders(prepared->mission.motor, orders_s, request_.vehicle.fins.lag_s).misfit() > kMostMisfit) {
-    answer.remarks.push_back(name + ": the fins moved by other orders than those recorded");
-    prepared->mission.order_times_s.clear();
+  auto& orders_s = prepared->mission.order_times_s;
+  if (!orders_s.empty()) {
+    prepared->replay = std::make_unique<Replay>(prepared->mission, request_.vehicle);
+    if (prepared->replay->actuators().orders().misfit() > kMostMisfit) {
+      answer.remarks.push_back(name + ": the fins moved by other orders than those recorded");
+      orders_s.clear();
+    }
   }
-  if (prepared->mission.order_times_s.empty()) {
-    prepared->mission.order_times_s =
-        likely_order_times_s(prepared->mission, request_.vehicle, library_, threads_);
+  if (orders_s.empty()) {
+    orders_s = likely_order_times_s(prepared->mission, request_.vehicle, library_, threads_);
+    prepared->replay = std::make_unique<Replay>(prepared->mission, request_.vehicle);
   }
-  prepared->replay = std::make_unique<Replay>(prepared->mission, request_.vehicle);
   if (prepared->replay->intervals() < 200) {
     answer.remarks.push_back(name + ": compass, inertial card and motor card have less than 20 s in common");
     return nullptr;

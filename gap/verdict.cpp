@@ -50,15 +50,12 @@ bool closes(const Grounds& grounds) {
   return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
 }
 
-bool is_left(const Grounds& grounds) {
-  return std::any_of(grounds.leftover.begin(), grounds.leftover.end(),
-                     [](const WhereEntry& left) { return left.p_value <= kLeft; });
-}
+bool is_left(const WhereEntry& entry) { return entry.p_value <= kLeft; }
 
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
   for (const WhereEntry& left : grounds.leftover) {
     if (reasons.size() >= kMostReasons) break;
-    if (left.p_value > kLeft) continue;
+    if (!is_left(left)) continue;
     reasons.push_back(fmt::format("{} still follows {} by {:.2g} {}; vehicles without a gap show {:.2g}",
                                   left.channel, left.regime, left.gap, left.unit, left.floor));
   }
@@ -131,7 +128,9 @@ Judgement judge(const Grounds& grounds) {
   const auto none = std::find_if(candidates.begin(), candidates.end(),
                                  [](const Candidate& candidate) { return candidate.effects.empty(); });
   const bool may_be_none = none != candidates.end() && none->probability > kAbsent;
-  if (!reasons.empty() && may_be_none && grounds.where.empty() && !is_left(grounds)) {
+  const bool nothing_seen =
+      grounds.where.empty() && std::none_of(grounds.leftover.begin(), grounds.leftover.end(), is_left);
+  if (!reasons.empty() && may_be_none && nothing_seen) {
     return {Verdict::no_gap, {}};
   }
   return judgement;

@@ -21,7 +21,9 @@ TEST(PlayTwins, ShowWhatAPlayLeavesBesideItself) {
   EXPECT_FALSE(has_play(library, {gain}));
   EXPECT_FALSE(has_play(library, {}));
 
-  const Mission mission = test::simulated_mission("identification", "[fin_backlash]\nwidth_deg = 2\n", 150, 3);
+  // Without the orders, as of a host that recorded none, the reports alone tell where servos turned.
+  Mission mission = test::simulated_mission("identification", "[fin_backlash]\nwidth_deg = 2\n", 150, 3);
+  mission.order_times_s.clear();
   const Replay replay(mission, vehicle);
   const Eigen::VectorXd at = with_biases_found(replay, library, 2);
   Course10Hz course;
@@ -49,7 +51,7 @@ TEST(PlayTwins, ShowWhatAPlayLeavesBesideItself) {
   EXPECT_LT(twins.scatter[width], 0.2);
   EXPECT_EQ(twins.excess.cwiseAbs().sum(), std::abs(twins.excess[width]));
 
-  // What they leave is a floor of its own; now that orders tell where servos turn, it is of the same size.
+  // Where the fins stand in their play is not told by the reports: more is left than of vehicles without.
   const auto left = [](const RegimeStatistics& statistics, std::string_view channel) {
     double sum = 0;
     for (std::size_t c = 0; c < reported_channels().size(); ++c) {
@@ -59,8 +61,7 @@ TEST(PlayTwins, ShowWhatAPlayLeavesBesideItself) {
     return sum;
   };
   for (const auto channel : {"vehicle.pitch_rate", "vehicle.yaw_rate"}) {
-    EXPECT_GT(left(twins.followed, channel), 0.5 * left(bank.followed, channel)) << channel;
-    EXPECT_LT(left(twins.followed, channel), 10 * left(bank.followed, channel)) << channel;
+    EXPECT_GT(left(twins.followed, channel), left(bank.followed, channel)) << channel;
   }
   const Priors wider = with_twins(priors, library, found, twins);
   EXPECT_TRUE((wider.spike.array() >= priors.spike.array()).all());
