@@ -24,10 +24,19 @@ ShadowHelm::ShadowHelm(std::span<const ActuatorTrack::Row> rows, std::vector<Vec
                        const Course10Hz& course, const config::FinSettings& fins)
     : rows_(rows), servos_rad_(std::move(servos_rad)), course_(course), fins_(fins) {}
 
-std::size_t ShadowHelm::row_at(double time_s) const {
-  if (time_s <= course_.time_s.front()) return 0;
-  const auto row = static_cast<std::size_t>((time_s - course_.time_s.front()) / kInterval_s);
-  return std::min(row, course_.time_s.size() - 1);
+// A staircase of ten steps a second would make the fins ripple in step with the card's reports, which then see
+// always the same side of it: in a steady turn a rudder that is thirds of a per cent less than it is.
+ShadowHelm::Wanted ShadowHelm::wanted_at(double time_s) const {
+  const double place = std::clamp((time_s - course_.time_s.front()) / kInterval_s, 0.0,
+                                  static_cast<double>(course_.time_s.size() - 1));
+  const auto before = static_cast<std::size_t>(place);
+  const std::size_t after = std::min(before + 1, course_.time_s.size() - 1);
+  const double part = place - static_cast<double>(before);
+  const auto between = [&](const std::vector<double>& of) { return of[before] + part * (of[after] - of[before]); };
+  const double turn_rad =
+      std::remainder(course_.heading_rad[after] - course_.heading_rad[before], 2 * std::numbers::pi);
+  return {course_.heading_rad[before] + part * turn_rad, between(course_.yaw_rate_rad_s),
+          between(course_.pitch_rad), between(course_.pitch_rate_rad_s), between(course_.depth_m)};
 }
 
 sim::Body ShadowHelm::start() const {
@@ -44,15 +53,13 @@ sim::Actuators ShadowHelm::actuators_at_start() const {
 }
 
 sim::Actuators ShadowHelm::next(double time_s, double step_s, const sim::Body& body) {
-  const std::size_t at = row_at(time_s);
-  const double turned = std::remainder(course_.heading_rad[at] - body.euler_rad[2], 2 * std::numbers::pi);
-  const double rudder =
-      kRudderPerHeading * turned + kRudderPerRate_s * (course_.yaw_rate_rad_s[at] - body.velocity[5]);
+  const Wanted wanted = wanted_at(time_s);
+  const double turned = std::remainder(wanted.heading_rad - body.euler_rad[2], 2 * std::numbers::pi);
+  const double rudder = kRudderPerHeading * turned + kRudderPerRate_s * (wanted.yaw_rate_rad_s - body.velocity[5]);
   const double pitch_wanted =
-      course_.pitch_rad[at] -
-      bounded(kPitchPerDepth_m * (course_.depth_m[at] - body.position_m.z()), kMostPitch_rad);
+      wanted.pitch_rad - bounded(kPitchPerDepth_m * (wanted.depth_m - body.position_m.z()), kMostPitch_rad);
   const double elevator = kElevatorPerPitch * (pitch_wanted - body.euler_rad[1]) +
-                          kElevatorPerRate_s * (course_.pitch_rate_rad_s[at] - body.velocity[4]);
+                          kElevatorPerRate_s * (wanted.pitch_rate_rad_s - body.velocity[4]);
   const double follows = -std::expm1(-step_s / fins_.lag_s);
   rudder_rad_ += follows * (bounded(rudder, kMost_rad) - rudder_rad_);
   elevator_rad_ += follows * (bounded(elevator, kMost_rad) - elevator_rad_);

@@ -25,7 +25,11 @@ class ShadowHelm final : public sim::Helm {
   [[nodiscard]] bool finished() const override { return finished_; }
 
  private:
-  [[nodiscard]] std::size_t row_at(double time_s) const;
+  /// What the record says at a time, in a straight line between its rows.
+  struct Wanted {
+    double heading_rad = 0, yaw_rate_rad_s = 0, pitch_rad = 0, pitch_rate_rad_s = 0, depth_m = 0;
+  };
+  [[nodiscard]] Wanted wanted_at(double time_s) const;
 
   std::span<const ActuatorTrack::Row> rows_;
   std::vector<Vector3> servos_rad_;

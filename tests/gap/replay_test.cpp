@@ -53,6 +53,26 @@ TEST(Replay, AnEffectLeavesItsMarkUntilItIsInTheModel) {
   EXPECT_LT(after, 0.3);
 }
 
+// Without any effect the compass's fluid was felt at its words only: whatever was tried beside it got that
+// difference for a signature, which on a straight course was all there was of an antenna's lever arm.
+TEST(Replay, AnEffectOfHardlyAnythingChangesHardlyAnything) {
+  const Mission mission = simulated_mission("identification", "", 60, 4);
+  const Replay replay(mission, {});
+  const Library library({});
+  const Innovations without = replay.run({});
+  for (std::size_t e = 0; e < library.size(); ++e) {
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+    const Eigen::Index j = library.first(e);
+    values[j] = 1e-9 * library.unknowns()[static_cast<std::size_t>(j)].typical;
+    const Innovations with = replay.run(library.model(values));
+    for (Eigen::Index i = 0; i < with.grid.size(); ++i) {
+      if (std::isfinite(with.grid(i))) {
+        ASSERT_NEAR(with.grid(i), without.grid(i), 1e-6) << library[e].name;
+      }
+    }
+  }
+}
+
 TEST(Replay, ASecondRunGivesTheSameToTheBit) {
   const Mission mission = simulated_mission("identification", "", 60, 4);
   const Replay replay(mission, {});
