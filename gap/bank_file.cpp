@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 12;
+constexpr int kFormat = 13;
 
 json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());
@@ -32,7 +32,7 @@ json bank_json(const NullBank& bank) {
   return {{"missions", bank.missions},
           {"seed", bank.seed},
           {"seconds", bank.seconds},
-          {"grid_filter", numbers(bank.whitening.grid_filter)},
+          {"grid_filter", numbers(bank.whitening.grid_filter.weights())},
           {"fix_filter", numbers(bank.whitening.fix_filter)},
           {"grid_factor", numbers(bank.whitening.grid_factor)},
           {"fix_factor", numbers(bank.whitening.fix_factor)},
@@ -48,7 +48,7 @@ NullBank bank_from(const json& from) {
   bank.missions = from.at("missions");
   bank.seed = from.at("seed");
   bank.seconds = from.at("seconds");
-  bank.whitening.grid_filter = matrix(from.at("grid_filter"));
+  bank.whitening.grid_filter = PastFilter(matrix(from.at("grid_filter")));
   bank.whitening.fix_filter = matrix(from.at("fix_filter"));
   bank.whitening.grid_factor = matrix(from.at("grid_factor"));
   bank.whitening.fix_factor = matrix(from.at("fix_factor"));
@@ -62,6 +62,11 @@ NullBank bank_from(const json& from) {
 
 bool is_shaped(const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index cols) {
   return matrix.rows() == rows && matrix.cols() == cols && matrix.allFinite();
+}
+
+/// Nothing, too: where no simulated vehicle could follow.
+bool is_past_filter(const Eigen::MatrixXd& weights) {
+  return weights.size() == 0 || is_shaped(weights, PastFilter::kWindows * kEvidenceChannels, kEvidenceChannels);
 }
 
 /// A factor that whitening can divide by.
@@ -79,8 +84,7 @@ bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
   const auto channels = static_cast<Eigen::Index>(reported_channels().size());
   const auto columns = static_cast<Eigen::Index>(regimes().size());
   const Whitening& w = bank.whitening;
-  return bank.missions > 0 && std::isfinite(bank.seconds) && w.grid_filter.rows() <= Whitening::kOrder &&
-         is_shaped(w.grid_filter, w.grid_filter.rows(), kEvidenceChannels) &&
+  return bank.missions > 0 && std::isfinite(bank.seconds) && is_past_filter(w.grid_filter.weights()) &&
          w.fix_filter.rows() <= Whitening::kFixOrder &&
          is_shaped(w.fix_filter, w.fix_filter.rows(), kFixChannels) &&
          is_factor(w.grid_factor, kEvidenceChannels) && is_factor(w.fix_factor, kFixChannels) &&

@@ -11,7 +11,7 @@ namespace {
 constexpr double kSettling_s = 20;
 
 /// Prediction errors of rows by `filter`; a row that begins a run has nothing before it. What was not measured is
-/// as predicted. Rows before `from` come out as zero.
+/// as predicted.
 Eigen::MatrixXd filtered(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& filter,
                          const std::vector<bool>& begins) {
   const Eigen::Index order = filter.rows();
@@ -42,12 +42,6 @@ Eigen::VectorXd autoregression(const Eigen::VectorXd& covariances) {
   }
   toeplitz.diagonal().array() += 1e-9 * covariances[0];
   return toeplitz.ldlt().solve(covariances.tail(order));
-}
-
-std::vector<bool> grid_begins(const Layout& layout) {
-  std::vector<bool> begins(static_cast<std::size_t>(layout.intervals), false);
-  if (!begins.empty()) begins.front() = true;
-  return begins;
 }
 
 std::vector<bool> fix_begins(const Layout& layout) {
@@ -111,20 +105,19 @@ void gather_products(const Eigen::MatrixXd& errors, Eigen::Index from, Eigen::Ma
 }  // namespace
 
 Whitening::Whitening(std::span<const Innovations> noise, std::span<const Layout> layouts) {
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kOrder + 1, kEvidenceChannels), counts = sums;
+  std::vector<Eigen::MatrixXd> grids;
   Eigen::MatrixXd fix_sums = Eigen::MatrixXd::Zero(kFixOrder + 1, kFixChannels), fix_counts = fix_sums;
   for (std::size_t n = 0; n < noise.size(); ++n) {
-    gather(noise[n].grid.leftCols(kEvidenceChannels), grid_begins(layouts[n]), settled_row(), sums, counts);
+    grids.push_back(noise[n].grid.leftCols(kEvidenceChannels));
     gather(noise[n].fixes, fix_begins(layouts[n]), 0, fix_sums, fix_counts);
   }
-  grid_filter = filters(sums, counts);
+  grid_filter = PastFilter::learnt(grids, settled_row());
   fix_filter = filters(fix_sums, fix_counts);
 
-  sums = counts = Eigen::MatrixXd::Zero(kEvidenceChannels, kEvidenceChannels);
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kEvidenceChannels, kEvidenceChannels), counts = sums;
   fix_sums = fix_counts = Eigen::MatrixXd::Zero(kFixChannels, kFixChannels);
   for (std::size_t n = 0; n < noise.size(); ++n) {
-    gather_products(filtered(noise[n].grid.leftCols(kEvidenceChannels), grid_filter, grid_begins(layouts[n])),
-                    settled_row(), sums, counts);
+    gather_products(grid_filter.errors(grids[n]), settled_row(), sums, counts);
     gather_products(filtered(noise[n].fixes, fix_filter, fix_begins(layouts[n])), 0, fix_sums, fix_counts);
   }
   grid_factor = factor(sums, counts);
@@ -135,7 +128,6 @@ Whitening Whitening::nominal() {
   constexpr double kDegree = std::numbers::pi / 180;
   const double gyro = 0.1 * kDegree / std::sqrt(2.0), force = 0.02 / std::sqrt(2.0), tilt = 0.1 * kDegree;
   Whitening result;
-  result.grid_filter = Eigen::MatrixXd::Zero(0, kEvidenceChannels);
   result.fix_filter = Eigen::MatrixXd::Zero(0, kFixChannels);
   Eigen::VectorXd grid(kEvidenceChannels);
   grid << 0.15, 0.15, 0.15, tilt, tilt, gyro, gyro, gyro, force, force, force, 0.02 / std::sqrt(2.0);
@@ -145,8 +137,7 @@ Whitening Whitening::nominal() {
 }
 
 Eigen::VectorXd Whitening::operator()(const Innovations& innovations, const Layout& layout) const {
-  Eigen::MatrixXd grid =
-      filtered(innovations.grid.leftCols(kEvidenceChannels), grid_filter, grid_begins(layout)).transpose();
+  Eigen::MatrixXd grid = grid_filter.errors(innovations.grid.leftCols(kEvidenceChannels)).transpose();
   Eigen::MatrixXd fixes = filtered(innovations.fixes, fix_filter, fix_begins(layout)).transpose();
   const auto whiten = [](Eigen::MatrixXd& errors, const Eigen::MatrixXd& lower) {
     if (errors.size() == 0) return;  // a mission without fixes

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gap/innovations.h"
+#include "gap/past_filter.h"
 
 namespace navcal::gap {
 
@@ -14,13 +15,14 @@ struct Layout {
   std::vector<int> fix_numbers;  ///< since surfacing, of each fix
 };
 
-/// Makes innovations white: each channel through the prediction error filter of an autoregression (order 10 on the
-/// grid, 3 on fixes), then all of an instant through the inverse of the Cholesky factor of their covariance. It is
-/// linear and the same for residuals and regressors. Learnt from simulated missions of the nominal vehicle: learnt
-/// from the mission to be diagnosed, it would take part of the gap for noise.
+/// Makes innovations white: those of the grid less what all channels' past says of them, those of fixes each
+/// through the prediction error filter of an autoregression of order 3, then all of an instant through the inverse
+/// of the Cholesky factor of their covariance. It is linear and the same for residuals and regressors. Learnt from
+/// simulated missions of the nominal vehicle: learnt from the mission to be diagnosed, it would take part of the
+/// gap for noise.
 class Whitening {
  public:
-  static constexpr Eigen::Index kOrder = 10, kFixOrder = 3;
+  static constexpr Eigen::Index kFixOrder = 3;
 
   Whitening() = default;
   /// From residuals that hold nothing but noise.
@@ -36,7 +38,8 @@ class Whitening {
   [[nodiscard]] static Eigen::Index count(const Eigen::VectorXd& white);
 
   // For keeping it in a file.
-  Eigen::MatrixXd grid_filter, fix_filter;  ///< order x channels
+  PastFilter grid_filter;
+  Eigen::MatrixXd fix_filter;               ///< order x channels
   Eigen::MatrixXd grid_factor, fix_factor;  ///< lower triangles
 };
 

@@ -17,7 +17,8 @@ constexpr Eigen::Index kUnknowns = 5;
 
 std::string good_text() {
   NullBank bank = test::made_up_bank(kUnknowns);
-  bank.whitening.grid_filter = Eigen::MatrixXd::Constant(2, kEvidenceChannels, 0.25);
+  bank.whitening.grid_filter =
+      PastFilter(Eigen::MatrixXd::Constant(PastFilter::kWindows * kEvidenceChannels, kEvidenceChannels, 0.01));
   return bank_text({{1, 2, 3}, bank}, "model");
 }
 
