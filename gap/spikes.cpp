@@ -12,8 +12,8 @@ namespace {
 
 /// Of what was excluded: as good as nothing.
 constexpr double kNever = 1e-9;
-/// Reports of the fins ten times a second do not tell finer when something happened.
-constexpr double kLeastLag_s = 0.005;
+/// When the fins were ordered to move is found no finer, where it was not recorded (gap/order_times.h).
+constexpr double kOrdersOff_s = 0.005;
 /// Where expectation and maximisation begins, in typical values.
 constexpr double kFirstGuess = 0.03;
 constexpr int kIterations = 60;
@@ -54,7 +54,9 @@ Priors learnt_priors(const Library& library, const Eigen::MatrixXd& gram, const 
     if (!library.holds(effect)) continue;
     const double tolerance = kTolerance * priors.slab[j];
     priors.model_error[j] = std::sqrt(std::max(0.0, scatter[j] * scatter[j] - tolerance * tolerance));
-    if (library.is_lag(effect)) priors.model_error[j] = std::max(priors.model_error[j], kLeastLag_s);
+    if (library.is_lag(effect) && library[effect].place == sim::EffectPlace::vehicle) {
+      priors.model_error[j] = std::max(priors.model_error[j], kOrdersOff_s);
+    }
     priors.spike[j] = std::max({tolerance, scatter[j], priors.model_error[j]});
   }
   return priors;
