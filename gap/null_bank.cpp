@@ -1,17 +1,14 @@
 #include "gap/null_bank.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <optional>
 
+#include "gap/able_vehicles.h"
 #include "gap/biases.h"
 #include "gap/null_mission.h"
-#include "gap/parallel.h"
-#include "sim/vehicle/vehicle.h"
 
 namespace navcal::gap {
 namespace {
@@ -48,39 +45,30 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
   const auto began = std::chrono::steady_clock::now();
   NullBank bank;
   bank.seed = options.seed;
-  const auto count = static_cast<std::size_t>(options.missions);
-  std::vector<std::optional<Null>> nulls(count);
-  std::atomic<std::size_t> done{0};
-  std::mutex progress_mutex;
-  in_parallel(options.threads, count, [&](std::size_t i) {
-    const std::uint64_t seed = options.seed * 1'000'003 + i;
-    const Eigen::VectorXd values = benign_mismatch(library, seed);
-    const Model truth = library.model(values);
-    try {
-      const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
-      const Replay replay(mission, vehicle);
-      Null null;
-      null.layout = layout_of(replay);
-      null.fix_times_s = mission.fix_times_s();
-      null.nominal = replay.run(Model{}, &null.course);
-      if (i < kWhiteningMissions) null.noise = replay.run(truth);
-      nulls[i] = std::move(null);
-    } catch (const sim::UnstableVehicle&) {
-      // One that cannot swim this way is not in the bank, and the bank says how many are.
-    }
-    const std::lock_guard lock(progress_mutex);
-    progress(0.95 * static_cast<double>(++done) / static_cast<double>(count));
-  });
-  std::erase_if(nulls, [](const auto& null) { return !null; });
+  auto nulls = of_able_vehicles(
+      options, Seeds::bank,
+      [&](std::size_t i, std::uint64_t seed) {
+        const Eigen::VectorXd values = benign_mismatch(library, seed);
+        const Model truth = library.model(values);
+        const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
+        const Replay replay(mission, vehicle);
+        Null null;
+        null.layout = layout_of(replay);
+        null.fix_times_s = mission.fix_times_s();
+        null.nominal = replay.run(Model{}, &null.course);
+        if (i < kWhiteningMissions) null.noise = replay.run(truth);
+        return null;
+      },
+      [&](double share) { progress(0.95 * share); });
   bank.missions = static_cast<int>(nulls.size());
   if (nulls.empty()) return bank;
 
   std::vector<Innovations> noise;
   std::vector<Layout> layouts;
-  for (auto& null : nulls) {
-    if (!null->noise) continue;
-    noise.push_back(std::move(*null->noise));
-    layouts.push_back(null->layout);
+  for (Null& null : nulls) {
+    if (!null.noise) continue;
+    noise.push_back(std::move(*null.noise));
+    layouts.push_back(null.layout);
   }
   bank.whitening = Whitening(noise, layouts);
 
@@ -92,7 +80,7 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
   const auto biases = bias_factor(linear.gram);
   std::vector<Eigen::MatrixXd> followed_by_nulls;
   for (std::size_t i = 0; i < nulls.size(); ++i) {
-    const Null& null = *nulls[i];
+    const Null& null = nulls[i];
     const Eigen::VectorXd white = bank.whitening(fitted_into(null.nominal, layout), layout);
     const auto column = static_cast<Eigen::Index>(i);
     bank.scores.col(column) = linear.design.transpose() * white;

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
+#include "gap/able_vehicles.h"
 #include "gap/null_mission.h"
-#include "gap/parallel.h"
 #include "gap/set_evidence.h"
-#include "sim/vehicle/vehicle.h"
 
 namespace navcal::gap {
 namespace {
 
-/// Apart from those of the null bank and of twins with play.
-constexpr std::uint64_t kSeeds = 700'000;
 constexpr double kDeviations = 3;
 /// Of gains that hardly differ.
 constexpr double kLeastScatter_nats = 1;
@@ -70,26 +66,15 @@ std::vector<double> gains_among_nulls(const CauseSet& set, const Replay& recorde
                                       const BankOptions& options) {
   const auto members = members_of(library, set);
   const Layout layout = layout_of(recorded);
-  std::vector<std::optional<double>> gains(static_cast<std::size_t>(options.missions));
-  in_parallel(options.threads, gains.size(), [&](std::size_t i) {
-    const std::uint64_t seed = options.seed * 1'000'003 + kSeeds + i;
-    try {
-      const Model truth = library.model(benign_mismatch(library, seed));
-      const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
-      const Replay replay(mission, vehicle);
-      Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
-      const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, members);
-      const Linearised null = seen_by(linear, std::move(white), own, members);
-      gains[i] = gain_over_none(set, null, library, priors);
-    } catch (const sim::UnstableVehicle&) {
-      // As in the null bank: those that could follow are looked at.
-    }
+  return of_able_vehicles(options, Seeds::null_gains, [&](std::size_t, std::uint64_t seed) {
+    const Model truth = library.model(benign_mismatch(library, seed));
+    const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
+    const Replay replay(mission, vehicle);
+    Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
+    const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, members);
+    const Linearised null = seen_by(linear, std::move(white), own, members);
+    return gain_over_none(set, null, library, priors);
   });
-  std::vector<double> all;
-  for (const auto& gain : gains) {
-    if (gain) all.push_back(*gain);
-  }
-  return all;
 }
 
 bool stands_out(double gain_nats, std::span<const double> among_nulls) {

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 
+#include "gap/able_vehicles.h"
 #include "gap/null_mission.h"
-#include "gap/parallel.h"
-#include "sim/vehicle/vehicle.h"
 
 namespace navcal::gap {
 namespace {
 
-/// Apart from those of the null bank.
-constexpr std::uint64_t kSeeds = 500'000;
 /// Of a search for a width, in typical values.
 constexpr double kStep = 0.05;
 constexpr int kMostSteps = 8;
@@ -67,28 +63,21 @@ PlayTwins play_twins(const Replay& recorded, const Course10Hz& course, const con
                [&](std::size_t effect) { return library.is_play(effect); });
   const auto widths = members_of(library, plays);
   const Layout layout = layout_of(recorded);
-  std::vector<std::optional<Twin>> twins(static_cast<std::size_t>(options.missions));
-  in_parallel(options.threads, twins.size(), [&](std::size_t i) {
-    const std::uint64_t seed = options.seed * 1'000'003 + kSeeds + i;
+  const auto twins = of_able_vehicles(options, Seeds::play_twins, [&](std::size_t, std::uint64_t seed) {
     Eigen::VectorXd truth = benign_mismatch(library, seed), model = Eigen::VectorXd::Zero(truth.size());
     for (const Eigen::Index j : widths) truth[j] = found.mean[j];
-    try {
-      const Mission mission = null_mission(recorded, course, vehicle, library.model(truth).effects, seed);
-      const Replay replay(mission, vehicle);
-      for (const Eigen::Index j : widths) model[j] = least_left(replay, library, whitening, truth, j);
-      Twin twin;
-      twin.excess = Eigen::VectorXd::Zero(truth.size());
-      for (const Eigen::Index j : widths) twin.excess[j] = model[j] - truth[j];
-      Course10Hz its_course;
-      const Innovations rest = replay.run(library.model(model), &its_course);
-      twin.followed = followed(rest, its_course, mission.fix_times_s());
-      twin.score = found.linear.design.transpose() * whitening(fitted_into(rest, layout), layout);
-      twins[i] = std::move(twin);
-    } catch (const sim::UnstableVehicle&) {
-      // As in the null bank: the count says how many could follow.
-    }
+    const Mission mission = null_mission(recorded, course, vehicle, library.model(truth).effects, seed);
+    const Replay replay(mission, vehicle);
+    for (const Eigen::Index j : widths) model[j] = least_left(replay, library, whitening, truth, j);
+    Twin twin;
+    twin.excess = Eigen::VectorXd::Zero(truth.size());
+    for (const Eigen::Index j : widths) twin.excess[j] = model[j] - truth[j];
+    Course10Hz its_course;
+    const Innovations rest = replay.run(library.model(model), &its_course);
+    twin.followed = followed(rest, its_course, mission.fix_times_s());
+    twin.score = found.linear.design.transpose() * whitening(fitted_into(rest, layout), layout);
+    return twin;
   });
-  std::erase_if(twins, [](const auto& twin) { return !twin; });
 
   PlayTwins result;
   result.missions = static_cast<int>(twins.size());
@@ -98,11 +87,11 @@ PlayTwins play_twins(const Replay& recorded, const Course10Hz& course, const con
   std::vector<Eigen::MatrixXd> all;
   const auto count = static_cast<double>(twins.size());
   for (std::size_t i = 0; i < twins.size(); ++i) {
-    all.push_back(twins[i]->followed);
-    result.excess += twins[i]->excess / count;
-    result.scores.col(static_cast<Eigen::Index>(i)) = twins[i]->score;
+    all.push_back(twins[i].followed);
+    result.excess += twins[i].excess / count;
+    result.scores.col(static_cast<Eigen::Index>(i)) = twins[i].score;
   }
-  for (const auto& twin : twins) result.scatter += (twin->excess - result.excess).cwiseAbs2() / count;
+  for (const Twin& twin : twins) result.scatter += (twin.excess - result.excess).cwiseAbs2() / count;
   result.scatter = result.scatter.cwiseSqrt();
   result.followed = RegimeStatistics(all);
   return result;

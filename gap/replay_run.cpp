@@ -18,6 +18,9 @@ constexpr double kFixVariance_m2 = 1, kDriftVariance_m2_s = 0.02;
 /// A card silent for longer has been off: the estimator begins anew.
 constexpr double kRestart_s = 5;
 constexpr double kLongestStep_s = 0.06;
+/// Of the vehicle's own motion. A frame of the card taken at once makes a vehicle that is its model pass for one
+/// with quicker fins and a late card, by ten standard errors on a zigzag.
+constexpr double kLongestPart_s = 0.026;
 /// How much of the past is kept: a GPS may be late by ten seconds (sim/effects/library/gps_latency.cpp).
 constexpr double kRemembered_s = 12;
 constexpr double kSubmerged_s = 10;
@@ -100,13 +103,12 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
   effects_.influence(from_s, influences_);
   const Eigen::Vector3d euler = body_.euler_rad;
   const Eigen::Vector3d rate = vector_of(gyro_rad_s);
-  // As fine as fins are known: in a frame at once, a vehicle that is its model would pass for one with quicker
-  // fins and a late card, by ten standard errors on a zigzag.
-  const auto parts = std::max(1L, std::lround(step_s / ActuatorTrack::kStep_s));
-  const double part_s = step_s / static_cast<double>(parts);
-  for (long i = 0; i < parts; ++i) {
-    const double at_s = from_s + static_cast<double>(i) * part_s;
-    body_ = in_.vehicle.midpoint_step(body_, actuators_.mean(at_s, at_s + part_s), influences_, part_s);
+  const int parts = std::max(1, static_cast<int>(std::ceil(step_s / kLongestPart_s)));
+  const double part_s = step_s / parts;
+  for (int i = 0; i < parts; ++i) {
+    const double at_s = from_s + i * part_s;
+    body_ = in_.vehicle.midpoint_step(body_, actuators_.mean(at_s, at_s + part_s / 2),
+                                      actuators_.mean(at_s, at_s + part_s), influences_, part_s);
   }
   const Eigen::Vector3d middle = euler + step_s / 2 * euler_rates(euler, rate);
   body_.euler_rad = euler + step_s * euler_rates(middle, rate);

@@ -78,10 +78,10 @@ Vehicle::Step Vehicle::step(const Body& body, const Controls& held, const Influe
   return {moved(body, mean, step_s), k1.velocity};
 }
 
-Body Vehicle::midpoint_step(const Body& body, const Controls& held, const Influences& influences,
-                            double step_s) const {
-  const Body middle = moved(body, change(body, held, influences), step_s / 2);
-  return moved(body, change(middle, held, influences), step_s);
+Body Vehicle::midpoint_step(const Body& body, const Controls& first_half, const Controls& all,
+                            const Influences& influences, double step_s) const {
+  const Body middle = moved(body, change(body, first_half, influences), step_s / 2);
+  return moved(body, change(middle, all, influences), step_s);
 }
 
 void check_stable(const Body& body, double time_s) {

@@ -41,9 +41,10 @@ class Vehicle {
   [[nodiscard]] Step step(const Body& body, const Controls& held, const Influences& influences,
                           double step_s) const;
   /// The body after one step of the midpoint rule, of second order: for an estimator, whose next reading corrects
-  /// more than what this leaves out.
-  [[nodiscard]] Body midpoint_step(const Body& body, const Controls& held, const Influences& influences,
-                                   double step_s) const;
+  /// more than what this leaves out. Controls are means over the step's first half and over all of it: of the
+  /// latter alone it would not tell when in the step a fin moved.
+  [[nodiscard]] Body midpoint_step(const Body& body, const Controls& first_half, const Controls& all,
+                                   const Influences& influences, double step_s) const;
   /// nu' at this instant.
   [[nodiscard]] Vector6 acceleration(const Body& body, const Controls& held, const Influences& influences) const {
     return change(body, held, influences).velocity;
