@@ -9,7 +9,7 @@ namespace navcal::gap {
 /// length with their distance: the last interval, the one before, the two before those, and so on to the last six
 /// seconds (the idea of Corsi's heterogeneous autoregression, 2009). Gains of two per cent a frame remember for
 /// seconds, and one gyro's noise is what another's prediction is off by: each channel's own last second leaves
-/// half of what is known about a drift, and a third of it about a depth scale.
+/// half of what is known about a drift, and a quarter about a depth's scale.
 class PastFilter {
  public:
   static constexpr Eigen::Index kWindows = 7;
