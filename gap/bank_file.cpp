@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 14;
+constexpr int kFormat = 15;
 
 json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());

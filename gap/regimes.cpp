@@ -36,6 +36,7 @@ enum Regime : std::size_t {
   constant,
   heading_once,
   heading_twice,
+  heading_thrice,
   turn_rate,
   turn_rate_size,
   roll,
@@ -120,9 +121,9 @@ const std::vector<ReportedChannel>& reported_channels() {
 
 const std::vector<std::string_view>& regimes() {
   static const std::vector<std::string_view> kAll{
-      "constant", "heading_once",  "heading_twice", "turn_rate", "turn_rate_size", "roll",
-      "pitch",    "motor_current", "temperature",   "time",      "depth",          "speed",
-      "surface",  "rudder",        "elevator",      "slow",      "fast",           "overall"};
+      "constant", "heading_once",  "heading_twice", "heading_thrice", "turn_rate", "turn_rate_size", "roll",
+      "pitch",    "motor_current", "temperature",   "time",           "depth",     "speed",          "surface",
+      "rudder",   "elevator",      "slow",          "fast",           "overall"};
   return kAll;
 }
 
@@ -206,6 +207,9 @@ Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
       return without_mean(both);
     case heading_twice:
       both << (2 * turned).cos(), (2 * turned).sin();
+      return without_mean(both);
+    case heading_thrice:
+      both << (3 * turned).cos(), (3 * turned).sin();
       return without_mean(both);
     case turn_rate:
       return one(mapped(course.yaw_rate_rad_s));

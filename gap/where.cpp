@@ -67,6 +67,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr Driver kDrivers[] = {
     {"heading_once", "heading", "deg", kDegrees, &Course10Hz::heading_rad},
     {"heading_twice", "heading", "deg", kDegrees, &Course10Hz::heading_rad},
+    {"heading_thrice", "heading", "deg", kDegrees, &Course10Hz::heading_rad},
     {"turn_rate", "yaw rate", "deg/s", kDegrees, &Course10Hz::yaw_rate_rad_s},
     {"turn_rate_size", "yaw rate", "deg/s", kDegrees, &Course10Hz::yaw_rate_rad_s},
     {"roll", "roll", "deg", kDegrees, &Course10Hz::roll_rad},

@@ -98,6 +98,23 @@ TEST(Where, WhatFollowsTheCurrentIsFoundThere) {
   for (const WhereEntry& entry : clear) EXPECT_EQ(entry.channel, "compass.field");
 }
 
+// Iron and misalignment turn with the heading once and twice; what is left three times is no map of straight
+// lines.
+TEST(Where, AFieldThatSaturatesFollowsTheHeadingThrice) {
+  const Course10Hz course = circling();
+  Innovations made = noise(210);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const double along_uT = 20 * std::cos(course.heading_rad[i]);
+    made.grid(static_cast<Eigen::Index>(i), field_x) -=
+        2e-5 * std::pow(along_uT, 3) - 0.75 * 2e-5 * 400 * along_uT;
+  }
+  const auto clear = clear_of_nulls(where_map(followed(made, course, {}), nulls(course)));
+  ASSERT_FALSE(clear.empty());
+  EXPECT_EQ(clear.front().channel, "compass.field");
+  EXPECT_EQ(clear.front().regime, "heading_thrice");
+  EXPECT_NEAR(clear.front().gap, 2e-5 * 8000 / 4 / std::sqrt(2.0), 0.01);
+}
+
 TEST(Where, AStepInMidMissionIsAChange) {
   const Course10Hz course = circling();
   Innovations made = noise(300);
