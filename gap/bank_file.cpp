@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 15;
+constexpr int kFormat = 16;
 
 json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());

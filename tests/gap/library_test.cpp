@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "gap/null_mission.h"
+
 namespace navcal::gap {
 namespace {
 
@@ -19,6 +21,19 @@ TEST(Library, HoldsEveryEffectThatCanBeACause) {
   }
   EXPECT_EQ(static_cast<Eigen::Index>(library.unknowns().size()), next);
   EXPECT_EQ(static_cast<Eigen::Index>(library.moving().size()), next);
+}
+
+// Every real vehicle is off by a little either way. What a replay cannot follow below zero looks like something
+// else: an inclinometer that felt turns a hundredth the wrong way was a thrust 2 % too strong.
+TEST(Library, OnlyTimesAndWidthsEndAtZero) {
+  const Library library({});
+  for (const Unknown& unknown : library.unknowns()) {
+    if (unknown.effect == Library::kNuisance) continue;
+    const bool ends = library.is_lag(unknown.effect) || library.is_play(unknown.effect);
+    EXPECT_EQ(unknown.least >= 0, ends) << library[unknown.effect].name << " " << unknown.name;
+    if (ends) continue;
+    EXPECT_LT(unknown.least, -5 * kTolerance * unknown.typical) << library[unknown.effect].name;
+  }
 }
 
 // A play's step is long where there is none yet, and short where it is: with the long one a search led away from

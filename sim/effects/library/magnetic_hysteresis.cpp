@@ -6,7 +6,7 @@ namespace {
 
 constexpr double kMemory_s = 60;
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"gain", 0.06, 0, 1}}};
+constexpr std::array<EffectParameter, 1> kParameters{{{"gain", 0.06, -0.03, 1}}};
 
 constexpr EffectDescription kDescription{
     .name = "magnetic_hysteresis", .equation = "m += k lowpass(m, 60 s)", .parameters = kParameters, .order = 2};

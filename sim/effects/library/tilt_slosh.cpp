@@ -3,7 +3,7 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"gain", 0.3, 0, 2}}};
+constexpr std::array<EffectParameter, 1> kParameters{{{"gain", 0.3, -0.15, 2}}};
 
 constexpr EffectDescription kDescription{.name = "tilt_slosh",
                                          .equation = "roll -= k a_y/g, pitch += k a_x/g, before the fluid's lag",
