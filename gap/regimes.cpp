@@ -1,6 +1,7 @@
 #include "gap/regimes.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/gamma.hpp>
 #include <cmath>
@@ -71,6 +72,20 @@ double fitted_mean_square(const Eigen::MatrixXd& values, const Eigen::MatrixXd& 
 Eigen::MatrixXd without_mean(Eigen::MatrixXd columns) {
   columns.rowwise() -= columns.colwise().mean().eval();
   return columns;
+}
+
+/// What the third harmonic of the heading has beyond the first two, which an iron makes: on courses that do not
+/// turn evenly each of them follows the others. Nothing where the course turns too little to tell them apart.
+Eigen::MatrixXd third_harmonic(const Eigen::ArrayXd& heading_rad) {
+  constexpr double kLeast = 0.1;  // of its size
+  Eigen::MatrixXd lower(heading_rad.size(), 5), third(heading_rad.size(), 2);
+  lower << Eigen::ArrayXd::Ones(heading_rad.size()), heading_rad.cos(), heading_rad.sin(), (2 * heading_rad).cos(),
+      (2 * heading_rad).sin();
+  third << (3 * heading_rad).cos(), (3 * heading_rad).sin();
+  const double size = third.squaredNorm();
+  third -= (lower * lower.colPivHouseholderQr().solve(third)).eval();
+  if (third.squaredNorm() < kLeast * kLeast * size) third.setZero();
+  return third;
 }
 
 /// A fin that only holds the course moves by the noise of what it is steered by, and so follows the innovations
@@ -209,8 +224,7 @@ Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
       both << (2 * turned).cos(), (2 * turned).sin();
       return without_mean(both);
     case heading_thrice:
-      both << (3 * turned).cos(), (3 * turned).sin();
-      return without_mean(both);
+      return third_harmonic(turned);
     case turn_rate:
       return one(mapped(course.yaw_rate_rad_s));
     case turn_rate_size:

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "gap/where.h"
@@ -113,6 +114,30 @@ TEST(Where, AFieldThatSaturatesFollowsTheHeadingThrice) {
   EXPECT_EQ(clear.front().channel, "compass.field");
   EXPECT_EQ(clear.front().regime, "heading_thrice");
   EXPECT_NEAR(clear.front().gap, 2e-5 * 8000 / 4 / std::sqrt(2.0), 0.01);
+}
+
+// On a course that goes there and back the first harmonic looks like the third, and irons of vehicles without a
+// gap would hide it.
+TEST(Where, TheThirdHarmonicIsSeenBesideIrons) {
+  Course10Hz course = circling();
+  for (double& heading : course.heading_rad) heading += 1.2 * std::sin(2 * heading) + 0.6 * std::sin(heading);
+  const auto with_field = [&](std::uint64_t seed, const std::function<double(double)>& field_uT) {
+    Innovations made = noise(seed);
+    for (std::size_t i = 0; i < kRows; ++i) {
+      made.grid(static_cast<Eigen::Index>(i), field_x) += field_uT(course.heading_rad[i]);
+    }
+    return followed(made, course, {});
+  };
+  std::vector<Eigen::MatrixXd> irons;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const double size_uT = 0.02 * (static_cast<double>(seed) - 20.5);
+    irons.push_back(with_field(seed, [&](double heading_rad) { return size_uT * std::cos(heading_rad); }));
+  }
+  const auto clear = clear_of_nulls(
+      where_map(with_field(220, [](double heading_rad) { return 0.04 * std::cos(3 * heading_rad); }),
+                RegimeStatistics(irons)));
+  ASSERT_FALSE(clear.empty());
+  EXPECT_EQ(clear.front().regime, "heading_thrice");
 }
 
 TEST(Where, AStepInMidMissionIsAChange) {
