@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 16;
+constexpr int kFormat = 17;
 
 json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());
@@ -28,6 +28,17 @@ Eigen::MatrixXd matrix(const json& from) {
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), rows, cols);
 }
 
+json statistics_json(const RegimeStatistics& of_nulls) {
+  return {{"mean_square", numbers(of_nulls.mean_square)}, {"variance", numbers(of_nulls.variance)}};
+}
+
+RegimeStatistics statistics(const json& from) {
+  RegimeStatistics of_nulls;
+  of_nulls.mean_square = matrix(from.at("mean_square"));
+  of_nulls.variance = matrix(from.at("variance"));
+  return of_nulls;
+}
+
 json bank_json(const NullBank& bank) {
   return {{"missions", bank.missions},
           {"seed", bank.seed},
@@ -39,8 +50,8 @@ json bank_json(const NullBank& bank) {
           {"gram", numbers(bank.gram)},
           {"scores", numbers(bank.scores)},
           {"powers", bank.powers},
-          {"followed_mean", numbers(bank.followed.mean_square)},
-          {"followed_variance", numbers(bank.followed.variance)}};
+          {"followed", statistics_json(bank.followed)},
+          {"left", statistics_json(bank.left)}};
 }
 
 NullBank bank_from(const json& from) {
@@ -55,8 +66,8 @@ NullBank bank_from(const json& from) {
   bank.gram = matrix(from.at("gram"));
   bank.scores = matrix(from.at("scores"));
   bank.powers = from.at("powers").get<std::vector<double>>();
-  bank.followed.mean_square = matrix(from.at("followed_mean"));
-  bank.followed.variance = matrix(from.at("followed_variance"));
+  bank.followed = statistics(from.at("followed"));
+  bank.left = statistics(from.at("left"));
   return bank;
 }
 
@@ -80,9 +91,13 @@ bool is_square(const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index co
   return is_shaped(matrix, rows, cols) && (matrix.array() >= 0).all() && (matrix.array() < kGreatest).all();
 }
 
-bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
+bool is_statistics(const RegimeStatistics& of_nulls) {
   const auto channels = static_cast<Eigen::Index>(reported_channels().size());
   const auto columns = static_cast<Eigen::Index>(regimes().size());
+  return is_square(of_nulls.mean_square, channels, columns) && is_square(of_nulls.variance, channels, columns);
+}
+
+bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
   const Whitening& w = bank.whitening;
   return bank.missions > 0 && std::isfinite(bank.seconds) && is_past_filter(w.grid_filter.weights()) &&
          w.fix_filter.rows() <= Whitening::kFixOrder &&
@@ -91,8 +106,7 @@ bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
          is_shaped(bank.gram, unknowns, unknowns) && is_shaped(bank.scores, unknowns, bank.missions) &&
          bank.powers.size() == static_cast<std::size_t>(bank.missions) &&
          std::all_of(bank.powers.begin(), bank.powers.end(), [](double power) { return std::isfinite(power); }) &&
-         is_square(bank.followed.mean_square, channels, columns) &&
-         is_square(bank.followed.variance, channels, columns);
+         is_statistics(bank.followed) && is_statistics(bank.left);
 }
 
 }  // namespace

@@ -81,6 +81,9 @@ class Diagnosing {
   [[nodiscard]] bool is_seen(const Prepared& a) const;
   /// Whether simulated vehicles without a gap would show the effects found as well, noise as it comes.
   [[nodiscard]] bool is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) const;
+  /// What is clear of vehicles without a gap although all that was found is in the model.
+  [[nodiscard]] std::vector<WhereEntry> leftover_of(const Prepared& a, const Searched& result,
+                                                    const Comparison& here) const;
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
 
   const Request& request_;
@@ -166,6 +169,23 @@ Searched Diagnosing::searched_with_twins(const Prepared& a, const Linearised& no
   return result;
 }
 
+std::vector<WhereEntry> Diagnosing::leftover_of(const Prepared& a, const Searched& result,
+                                                const Comparison& here) const {
+  Innovations rest = rest_of(*a.replay, library_, result.found.best);
+  const auto map_of = [&] { return followed(rest, here.course, here.fix_times_s); };
+  if (result.twins) return clear_of_nulls(where_map(map_of(), result.twins->followed));
+  auto leftover = clear_of_nulls(where_map(map_of(), a.bank.followed));
+  // Rolling is no evidence, so that no search fits its gyro: vehicles that are known have another rest there.
+  rest.grid.col(gyro_roll).setZero();
+  for (WhereEntry& entry : beyond_known(map_of(), a.bank.left, a.bank.followed)) {
+    const bool is_known = std::any_of(leftover.begin(), leftover.end(), [&](const WhereEntry& other) {
+      return other.channel == entry.channel && other.regime == entry.regime;
+    });
+    if (!is_known) leftover.push_back(std::move(entry));
+  }
+  return leftover;
+}
+
 Searched Diagnosing::searched(const Prepared& a) const {
   progress_("linearising", 0);
   const Linearised nominal = linearise(*a.replay, library_, a.bank.whitening, a.at, threads_);
@@ -233,10 +253,9 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
     }
   });
   const Eigen::MatrixXd was = followed(here.nominal, a.course, here.fix_times_s);
-  const Eigen::MatrixXd is = followed(rest_of(*a.replay, library_, found.best), here.course, here.fix_times_s);
   answer.map = where_map(was, a.bank.followed);
   answer.where = clear_of_nulls(answer.map);
-  const auto leftover = clear_of_nulls(where_map(is, result.twins ? result.twins->followed : a.bank.followed));
+  const auto leftover = leftover_of(a, result, here);
 
   const bool blocks = compared.empty();
   std::vector<double> nats;

@@ -65,8 +65,10 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
 
   std::vector<Innovations> noise;
   std::vector<Layout> layouts;
+  std::vector<Eigen::MatrixXd> left_by_nulls;
   for (Null& null : nulls) {
     if (!null.noise) continue;
+    left_by_nulls.push_back(followed(*null.noise, null.course, null.fix_times_s));
     noise.push_back(std::move(*null.noise));
     layouts.push_back(null.layout);
   }
@@ -90,6 +92,7 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
     followed_by_nulls.push_back(followed(null.nominal, null.course, null.fix_times_s));
   }
   bank.followed = RegimeStatistics(followed_by_nulls);
+  bank.left = RegimeStatistics(left_by_nulls);
   bank.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   progress(1);
   return bank;

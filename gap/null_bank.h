@@ -25,6 +25,7 @@ struct NullBank {
   Eigen::MatrixXd scores;      ///< design^T innovations: a column for each mission
   std::vector<double> powers;  ///< of each: mean square of whitened innovations, biases fitted
   RegimeStatistics followed;   ///< of the nominal replay of each
+  RegimeStatistics left;       ///< of the replays of some by their own true parameters
 };
 
 /// Of the shape of another mission that was steered alike: cut off, or filled with what was not measured.

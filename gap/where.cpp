@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 namespace navcal::gap {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 constexpr double kSignificant = 1e-3;
 /// And so much larger than the nulls' own: an instrument a little noisier than nominal is no gap.
 constexpr double kLouder = 1.3;
+/// So improbable must be what is left: a search finds the vehicle's numbers nearly, and a simulator is one nearly.
+constexpr double kBeyondDoubt = 1e-8;
 constexpr double kPiece_s = 10;
 constexpr std::size_t kMostPoints = 600;
 
@@ -22,6 +25,12 @@ std::size_t channel_index(std::string_view name) {
   std::size_t index = 0;
   while (index + 1 < reported_channels().size() && reported_channels()[index].name != name) ++index;
   return index;
+}
+
+/// Its place in a map.
+std::pair<Eigen::Index, Eigen::Index> cell_of(const WhereEntry& entry) {
+  return {static_cast<Eigen::Index>(channel_index(entry.channel)),
+          static_cast<Eigen::Index>(index_of(entry.regime, regimes()))};
 }
 
 /// The component of a channel in which there is most to see.
@@ -119,11 +128,20 @@ std::vector<WhereEntry> clear_of_nulls(const std::vector<WhereEntry>& map) {
   return clear;
 }
 
+std::vector<WhereEntry> beyond_known(const Eigen::MatrixXd& left, const RegimeStatistics& known,
+                                     const RegimeStatistics& nulls) {
+  std::vector<WhereEntry> beyond = where_map(left, known);
+  std::erase_if(beyond, [&](const WhereEntry& entry) {
+    const auto [c, k] = cell_of(entry);
+    return entry.p_value >= kBeyondDoubt || entry.gap < kLouder * nulls.floor(c, k);
+  });
+  return beyond;
+}
+
 WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixXd& before,
                         const Eigen::MatrixXd& after, const RegimeStatistics& nulls) {
   const auto change = [&](const WhereEntry& entry) {
-    const auto c = static_cast<Eigen::Index>(channel_index(entry.channel));
-    const auto k = static_cast<Eigen::Index>(index_of(entry.regime, regimes()));
+    const auto [c, k] = cell_of(entry);
     return (before(c, k) * before(c, k) - after(c, k) * after(c, k)) / std::sqrt(nulls.variance(c, k));
   };
   return *std::max_element(map.begin(), map.end(),

@@ -12,6 +12,10 @@ namespace navcal::gap {
 [[nodiscard]] std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeStatistics& nulls);
 /// Those that nulls would hardly show, by their size either.
 [[nodiscard]] std::vector<WhereEntry> clear_of_nulls(const std::vector<WhereEntry>& map);
+/// Of what is left with all that was found in the model: what no vehicle leaves whose every number is known
+/// (`known`), and is more than tolerances alone make of vehicles without a gap, too.
+[[nodiscard]] std::vector<WhereEntry> beyond_known(const Eigen::MatrixXd& left, const RegimeStatistics& known,
+                                                   const RegimeStatistics& nulls);
 /// Of a map that is not empty, where `after` follows the regime less than `before` by most, in the nulls' own
 /// spread: what to look at when nothing stands clear of them by itself.
 [[nodiscard]] WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixXd& before,

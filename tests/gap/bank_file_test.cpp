@@ -45,6 +45,7 @@ TEST_F(BankFile, ShapesThatDoNotFitOneAnotherAreRefused) {
   EXPECT_TRUE(refused([](NullBank& b) { b.powers.pop_back(); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.scores.conservativeResize(b.scores.rows() - 1, 20); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.followed.variance.resize(2, 3); }));
+  EXPECT_TRUE(refused([](NullBank& b) { b.left.mean_square.resize(2, 3); }));
   EXPECT_TRUE(refused(
       [](NullBank& b) { b.whitening.grid_filter = PastFilter(Eigen::MatrixXd::Zero(11, kEvidenceChannels)); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.whitening.grid_factor(3, 3) = 0; }));

@@ -15,6 +15,7 @@ NullBank made_up_bank(Eigen::Index unknowns) {
   bank.powers.assign(20, 1.0625);
   bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(
       static_cast<Eigen::Index>(reported_channels().size()), static_cast<Eigen::Index>(regimes().size()));
+  bank.left = bank.followed;
   return bank;
 }
 

@@ -42,6 +42,22 @@ TEST_F(WhereMap, AnInstrumentALittleNoisierIsNotClearOfNullsHoweverSureThatIs) {
   EXPECT_TRUE(clear_of_nulls(map).empty());
 }
 
+// Vehicles known to the last number leave a tenth of what tolerances make: a saturated magnetometer that iron
+// nearly explains leaves half a tolerance more than that, and speaks for itself.
+TEST_F(WhereMap, WhatIsLeftIsHeldAgainstKnownVehiclesButMustBeMoreThanTolerance) {
+  std::vector<Eigen::MatrixXd> of_known;
+  for (int i = 0; i < 30; ++i) of_known.push_back(quiet(0.1 + 0.01 * (i % 7)));
+  const RegimeStatistics known(of_known);
+  Eigen::MatrixXd left = quiet(0.1);
+  left(3, 1) = 1.2;  // beyond any known vehicle, but no more than a tolerance
+  left(5, 2) = 1.5;
+  ASSERT_TRUE(clear_of_nulls(where_map(quiet(0.1), known)).empty());
+  const auto beyond = beyond_known(left, known, nulls_);
+  ASSERT_EQ(beyond.size(), 1U);
+  EXPECT_EQ(beyond[0].channel, name_of(5));
+  EXPECT_EQ(beyond[0].regime, regimes()[2]);
+}
+
 TEST_F(WhereMap, MostChangedIsWhereTheEffectsTakeMostAway) {
   Eigen::MatrixXd before = quiet(), after = quiet();
   before(3, 1) = after(3, 1) = 1.35;  // the loudest, which the effects leave as it is
