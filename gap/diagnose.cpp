@@ -175,8 +175,10 @@ std::vector<WhereEntry> Diagnosing::leftover_of(const Prepared& a, const Searche
   const auto map_of = [&] { return followed(rest, here.course, here.fix_times_s); };
   if (result.twins) return clear_of_nulls(where_map(map_of(), result.twins->followed));
   auto leftover = clear_of_nulls(where_map(map_of(), a.bank.followed));
-  // Rolling is no evidence, so that no search fits its gyro: vehicles that are known have another rest there.
+  // Rolling is no evidence, so that no search fits its gyro; where the vehicle was when the replay began is as
+  // good as its first fixes, decimetres. Vehicles that are known have another rest in both.
   rest.grid.col(gyro_roll).setZero();
+  rest.fixes.leftCols<2>().setZero();
   for (WhereEntry& entry : beyond_known(map_of(), a.bank.left, a.bank.followed)) {
     const bool is_known = std::any_of(leftover.begin(), leftover.end(), [&](const WhereEntry& other) {
       return other.channel == entry.channel && other.regime == entry.regime;
