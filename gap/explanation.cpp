@@ -110,6 +110,7 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
   };
   result.linear = std::move(linear);
   Eigen::VectorXd left;
+  bool refused = false;
   for (int i = 0; i < kSettlings; ++i) {
     result.mean =
         mean_by(by_membership(possible_priors(result.linear, library, priors, members), members), result.linear);
@@ -122,14 +123,20 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
       next = (result.linear.at + next) / 2;
       simulated = residual_at(replay, library, whitening, next);
     }
-    if (!(cost(simulated, next) < here - kSettled_nats)) break;
+    if (!(cost(simulated, next) < here - kSettled_nats)) {
+      // Straight lines promise what is not there: where the last step began is the best that was simulated.
+      result.beyond_linear = cost(left, result.mean) - here;
+      result.mean = result.linear.at;
+      refused = true;
+      break;
+    }
     result.linear.at = next;
     result.linear.residual = simulated;
     result.linear.score = result.linear.design.transpose() * simulated;
     result.beyond_linear = 0;
   }
   const auto posterior = possible_posterior(result.linear, library, priors, members);
-  result.mean = posterior.mean;
+  if (!refused) result.mean = posterior.mean;
   result.log_odds = SetEvidence(result.linear, library, priors)(set) -
                     impossible_nats(set, result.linear, library, priors) + result.beyond_linear;
   const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));
