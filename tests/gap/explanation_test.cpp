@@ -6,6 +6,7 @@
 #include <random>
 
 #include "gap/set_evidence.h"
+#include "tests/gap/simulated_mission.h"
 
 namespace navcal::gap {
 namespace {
@@ -75,6 +76,25 @@ TEST_F(Explained, TheImpossibleIsNeverCheaper) {
     }
     EXPECT_GE(impossible_nats({iron_}, made_up(library_, truth_), library_, priors_), -1e-6);
   }
+}
+
+// On a straight course straight lines promised a shorter latency; simulation refused the step, and it was answered
+// all the same.
+TEST_F(Explained, AStepThatSimulationRefusesIsNotTheAnswer) {
+  const Mission mission = test::simulated_mission("survey", "[hard_iron]\nx_uT = 2\n", 60, 6);
+  const config::VehicleSettings vehicle;
+  const Replay replay(mission, vehicle);
+  const Whitening whitening = Whitening::nominal();
+  const Linearised honest = linearise(replay, library_, whitening, truth_, 2);
+  const Eigen::Index x = library_.first(iron_);
+  const Explanation found = concluded({iron_}, honest, replay, library_, whitening, priors_);
+  EXPECT_NEAR(found.mean[x], 2, 0.2);
+  Linearised lying = honest;
+  lying.design *= -1;
+  lying.score *= -1;
+  const Explanation misled = concluded({iron_}, lying, replay, library_, whitening, priors_);
+  EXPECT_EQ(misled.mean, lying.at);
+  EXPECT_LT(misled.log_odds, found.log_odds - 1000);
 }
 
 // What a mission hardly shows took its part of an innocent companion, and won as a member of any set.
