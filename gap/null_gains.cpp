@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "gap/able_vehicles.h"
 #include "gap/null_mission.h"
@@ -15,7 +16,28 @@ constexpr double kDeviations = 3;
 /// Of gains that hardly differ.
 constexpr double kLeastScatter_nats = 1;
 
-/// Of members of the library, whitened in the shape of the recorded mission: a column each.
+/// Members, and those others of which a usual tolerance looks most like one of them: their own signatures serve,
+/// too, lest a null's lag of the fins, which moved otherwise between two reports than the recorded ones, pass for
+/// a member.
+std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, const Linearised& linear,
+                                          const Priors& priors) {
+  constexpr std::size_t kMost = 6;
+  constexpr double kLeast = 2;  // standard errors of the member that it looks like
+  std::vector<std::pair<double, Eigen::Index>> others;
+  for (Eigen::Index k = Library::kBiases; k < linear.gram.rows(); ++k) {
+    if (std::find(members.begin(), members.end(), k) != members.end()) continue;
+    double most = 0;
+    for (const Eigen::Index j : members) {
+      most = std::max(most, priors.spike[k] * std::abs(linear.gram(j, k)) / std::sqrt(linear.gram(j, j)));
+    }
+    if (most > kLeast) others.emplace_back(-most, k);
+  }
+  std::sort(others.begin(), others.end());
+  for (std::size_t i = 0; i < std::min(kMost, others.size()); ++i) members.push_back(others[i].second);
+  return members;
+}
+
+/// Of unknowns of the library, whitened in the shape of the recorded mission: a column each.
 Eigen::MatrixXd signatures(const Replay& replay, const Library& library, const Whitening& whitening,
                            const Layout& layout, const Eigen::VectorXd& white,
                            const std::vector<Eigen::Index>& members) {
@@ -64,15 +86,15 @@ std::vector<double> gains_among_nulls(const CauseSet& set, const Replay& recorde
                                       const config::VehicleSettings& vehicle, const Library& library,
                                       const Whitening& whitening, const Linearised& linear, const Priors& priors,
                                       const BankOptions& options) {
-  const auto members = members_of(library, set);
+  const auto columns = with_likenesses(members_of(library, set), linear, priors);
   const Layout layout = layout_of(recorded);
   return of_able_vehicles(options, Seeds::null_gains, [&](std::size_t, std::uint64_t seed) {
     const Model truth = library.model(benign_mismatch(library, seed));
     const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
     const Replay replay(mission, vehicle);
     Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
-    const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, members);
-    const Linearised null = seen_by(linear, std::move(white), own, members);
+    const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, columns);
+    const Linearised null = seen_by(linear, std::move(white), own, columns);
     return gain_over_none(set, null, library, priors);
   });
 }
