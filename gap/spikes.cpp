@@ -19,6 +19,13 @@ constexpr double kFirstGuess = 0.03;
 constexpr int kIterations = 60;
 constexpr double kBias_rad_s = 3 * std::numbers::pi / 180;
 
+/// Whether it looks as if the fins had been ordered at another time: they move later, or whatever follows them is
+/// read later.
+bool is_of_orders(const Library& library, std::size_t effect) {
+  const bool moves_fins = library[effect].place == sim::EffectPlace::vehicle;
+  return library.is_lag(effect) && (moves_fins || library[effect].name == "imu_latency");
+}
+
 /// Standard deviations under which these missions are most probable.
 Eigen::VectorXd scatter_among(const Library& library, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& scores,
                               const Eigen::VectorXd& slab) {
@@ -54,7 +61,7 @@ Priors learnt_priors(const Library& library, const Eigen::MatrixXd& gram, const 
     if (!library.holds(effect)) continue;
     const double tolerance = kTolerance * priors.slab[j];
     priors.model_error[j] = std::sqrt(std::max(0.0, scatter[j] * scatter[j] - tolerance * tolerance));
-    if (library.is_lag(effect) && library[effect].place == sim::EffectPlace::vehicle) {
+    if (is_of_orders(library, effect)) {
       priors.model_error[j] = std::max(priors.model_error[j], kOrdersOff_s);
     }
     priors.spike[j] = std::max({tolerance, scatter[j], priors.model_error[j]});

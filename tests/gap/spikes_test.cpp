@@ -69,15 +69,18 @@ TEST(Spikes, WhatTheBankScattersBeyondItsTolerancesIsTheModelsError) {
   EXPECT_EQ(priors.model_error.head<Library::kBiases>().norm(), 0);
 }
 
-// An instrument's lag needs no fins to be seen: known no better, one of a tenth of its typical value was never
-// found.
-TEST(Spikes, TheFinsLagIsKnownNoBetterThanWhenTheyWereOrdered) {
+// A compass's or a receiver's lag needs no fins to be seen: known no better, one of a tenth of its typical value
+// was never found. A card that answers late looks like fins that were ordered earlier: known better, 5 ms of it
+// were named beside four single effects of nineteen on straight courses.
+TEST(Spikes, WhatTheInstantsOfOrdersDecideIsKnownNoBetterThanThey) {
   const Library library({});
   const Priors priors = MadeUpBank(library, everywhere(library, 0)).priors(library);
-  const Eigen::Index fins = unknown_of(library, "fin_lag");
-  EXPECT_GE(priors.model_error[fins], 0.005);
-  EXPECT_GE(priors.spike[fins], 0.005);
-  for (const char* lag : {"compass_lag", "imu_latency", "gps_latency"}) {
+  for (const char* lag : {"fin_lag", "imu_latency"}) {
+    const Eigen::Index j = unknown_of(library, lag);
+    EXPECT_GE(priors.model_error[j], 0.005) << lag;
+    EXPECT_GE(priors.spike[j], 0.005) << lag;
+  }
+  for (const char* lag : {"compass_lag", "gps_latency"}) {
     const Eigen::Index j = unknown_of(library, lag);
     EXPECT_LT(priors.spike[j], 1.5 * kTolerance * priors.slab[j]) << lag;
   }
