@@ -180,10 +180,10 @@ std::vector<WhereEntry> Diagnosing::leftover_of(const Prepared& a, const Searche
   rest.grid.col(gyro_roll).setZero();
   rest.fixes.leftCols<2>().setZero();
   for (WhereEntry& entry : beyond_known(map_of(), a.bank.left, a.bank.followed)) {
-    const bool is_known = std::any_of(leftover.begin(), leftover.end(), [&](const WhereEntry& other) {
+    const bool is_there = std::any_of(leftover.begin(), leftover.end(), [&](const WhereEntry& other) {
       return other.channel == entry.channel && other.regime == entry.regime;
     });
-    if (!is_known) leftover.push_back(std::move(entry));
+    if (!is_there) leftover.push_back(std::move(entry));
   }
   return leftover;
 }

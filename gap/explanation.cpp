@@ -126,7 +126,6 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
     if (!(cost(simulated, next) < here - kSettled_nats)) {
       // Straight lines promise what is not there: where the last step began is the best that was simulated.
       result.beyond_linear = cost(left, result.mean) - here;
-      result.mean = result.linear.at;
       refused = true;
       break;
     }
@@ -136,7 +135,7 @@ Explanation concluded(const CauseSet& set, Linearised linear, const Replay& repl
     result.beyond_linear = 0;
   }
   const auto posterior = possible_posterior(result.linear, library, priors, members);
-  if (!refused) result.mean = posterior.mean;
+  result.mean = refused ? result.linear.at : posterior.mean;
   result.log_odds = SetEvidence(result.linear, library, priors)(set) -
                     impossible_nats(set, result.linear, library, priors) + result.beyond_linear;
   const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));

@@ -40,35 +40,35 @@ std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, con
 /// Of unknowns of the library, whitened in the shape of the recorded mission: a column each.
 Eigen::MatrixXd signatures(const Replay& replay, const Library& library, const Whitening& whitening,
                            const Layout& layout, const Eigen::VectorXd& white,
-                           const std::vector<Eigen::Index>& members) {
-  Eigen::MatrixXd columns(white.size(), static_cast<Eigen::Index>(members.size()));
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(members[k])];
+                           const std::vector<Eigen::Index>& unknowns) {
+  Eigen::MatrixXd columns(white.size(), static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(unknowns[k])];
     const double step = unknown.step * unknown.typical;
     Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
-    values[members[k]] = step;
+    values[unknowns[k]] = step;
     const Innovations stepped = replay.run(library.model(values));
     columns.col(static_cast<Eigen::Index>(k)) = (white - whitening(fitted_into(stepped, layout), layout)) / step;
   }
   return columns;
 }
 
-/// What the recorded mission's signatures, and the members' own, say of a null.
+/// What the recorded mission's signatures, and these unknowns' own, say of a null.
 Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eigen::MatrixXd& own,
-                   const std::vector<Eigen::Index>& members) {
+                   const std::vector<Eigen::Index>& unknowns) {
   Linearised null;
   null.at = Eigen::VectorXd::Zero(recorded.at.size());
   null.gram = recorded.gram;
   null.score = recorded.design.transpose() * white;
   const Eigen::MatrixXd with_others = recorded.design.transpose() * own, with_own = own.transpose() * own;
   const Eigen::VectorXd own_score = own.transpose() * white;
-  for (std::size_t k = 0; k < members.size(); ++k) {
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    null.gram.col(members[k]) = with_others.col(column);
-    null.gram.row(members[k]) = with_others.col(column).transpose();
-    null.score[members[k]] = own_score[column];
+    null.gram.col(unknowns[k]) = with_others.col(column);
+    null.gram.row(unknowns[k]) = with_others.col(column).transpose();
+    null.score[unknowns[k]] = own_score[column];
   }
-  null.gram(members, members) = with_own;
+  null.gram(unknowns, unknowns) = with_own;
   null.residual = std::move(white);
   return null;
 }

@@ -13,10 +13,11 @@ namespace navcal::gap {
                                     const Priors& priors);
 
 /// By how much a set of effects is better than none, nats, on simulated missions that have no gap and were steered
-/// as the recorded one: one each. The members' signatures are taken of each of these missions. A replay is led by
-/// its instruments, so that their noise is in the signatures as it is in the innovations; where hardly anything
-/// else moves, on a straight course, that makes evidence of which the bank, all of it compared with the recorded
-/// mission's signatures, knows nothing. `linear` is about the nominal vehicle.
+/// as the recorded one: one each. The signatures of the members, and of what looks most like them, are taken of
+/// each of these missions. A replay is led by its instruments, so that their noise is in the signatures as it is
+/// in the innovations; where hardly anything else moves, on a straight course, that makes evidence of which the
+/// bank, all of it compared with the recorded mission's signatures, knows nothing. `linear` is about the nominal
+/// vehicle.
 [[nodiscard]] std::vector<double> gains_among_nulls(const CauseSet& set, const Replay& recorded,
                                                     const Course10Hz& course,
                                                     const config::VehicleSettings& vehicle, const Library& library,
