@@ -142,6 +142,27 @@ sim::State ReplayRun::past(double time_s) const {
                       (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
 }
 
+sim::State ReplayRun::corrected_past(double time_s) const {
+  Eigen::Vector3d euler = Eigen::Vector3d::Zero(), position = euler, rate = euler;
+  auto later = std::prev(moments_.end());
+  for (; later != moments_.begin() && std::prev(later)->time_s > time_s; --later) {
+    const Moment& read = *std::prev(later);
+    euler += vector_of(read.corrected.euler_rad) - vector_of(read.predicted.euler_rad);
+    position += vector_of(read.corrected.position_m) - vector_of(read.predicted.position_m);
+    rate += vector_of(read.corrected.rate_rad_s) - vector_of(read.predicted.rate_rad_s);
+  }
+  if (later == moments_.begin()) return moments_.front().predicted;
+  const Moment& earlier = *std::prev(later);
+  // Back along the vehicle's own motion: were single corrections part of the way, a delay of a little more than
+  // the time between two readings would look unlike one of a little less, for their noise.
+  sim::State state = sim::between(earlier.corrected, later->predicted,
+                                  (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
+  state.euler_rad = array_of(vector_of(state.euler_rad) + euler);
+  state.position_m = array_of(vector_of(state.position_m) + position);
+  state.rate_rad_s = array_of(vector_of(state.rate_rad_s) + rate);
+  return state;
+}
+
 std::optional<Eigen::Index> ReplayRun::interval_of(double time_s) const {
   if (time_s < in_.begin_s) return std::nullopt;
   const auto row = static_cast<Eigen::Index>((time_s - in_.begin_s) / kInterval_s);
@@ -158,7 +179,7 @@ void ReplayRun::take_card(const CardReading& reading) {
   const double delay_s = effects_.delays(reading.time_s).card_s;
   const Moment& now = moments_.back();
   const auto said =
-      instruments_.card(reading.time_s, delay_s > 0 ? past(reading.time_s - delay_s) : now.predicted);
+      instruments_.card(reading.time_s, delay_s > 0 ? corrected_past(reading.time_s - delay_s) : now.predicted);
   const auto interval = interval_of(reading.time_s);
   std::array<double, 4> missed{};
   for (std::size_t i = 0; i < 4; ++i) missed[i] = reading.gyro_rad_s[i] - said.gyro_rad_s[i];

@@ -44,6 +44,8 @@ class ReplayRun {
   void step(double from_s, double until_s, const Vector3& gyro_rad_s);
   void complete(sim::State& state, double time_s);
   [[nodiscard]] sim::State past(double time_s) const;
+  /// Of a moment little before the newest, corrected by all that was read since.
+  [[nodiscard]] sim::State corrected_past(double time_s) const;
   void take_card(const CardReading& reading);
   void take_words(double until_s);
   void take_word(const CompassReading& reading, const sim::State& state);

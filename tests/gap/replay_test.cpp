@@ -115,6 +115,21 @@ TEST(Replay, ALatencyAsLongAsAFrameIsNothingApart) {
   EXPECT_LT(across, 2 * moved(frame_s + 0.003, frame_s + 0.004));
 }
 
+// Single corrections were part of a way longer than a frame: beyond it their noise was much of what a little more
+// latency changed, and a search stopped there.
+TEST(Replay, ALatencyBeyondAFrameChangesWhatOneBelowDoes) {
+  const Mission mission = simulated_mission("identification", "", 100, 6);
+  const double frame_s = mission.card[100].time_s - mission.card[99].time_s;
+  const auto change = [&](double from_s, double to_s) -> Eigen::VectorXd {
+    const Eigen::VectorXd apart = replayed(mission, "imu_latency", to_s).grid.col(depth) -
+                                  replayed(mission, "imu_latency", from_s).grid.col(depth);
+    return apart.tail(apart.size() - 300).unaryExpr([](double x) { return std::isfinite(x) ? x : 0; });
+  };
+  const Eigen::VectorXd below = change(frame_s - 0.006, frame_s - 0.001);
+  const Eigen::VectorXd above = change(frame_s + 0.001, frame_s + 0.006);
+  EXPECT_GT(below.dot(above), 0.97 * below.norm() * above.norm());
+}
+
 TEST(Replay, AMissionWithoutFixesHasTheOtherChannels) {
   Mission mission = simulated_mission("identification", "", 60, 6);
   mission.fixes.clear();
