@@ -107,8 +107,9 @@ std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeS
       WhereEntry entry{
           std::string(channel.name), std::string(regimes()[static_cast<std::size_t>(k)]), value, nulls.floor(c, k),
           std::string(channel.unit), std::min(1.0, cells * nulls.p_value(c, k, value))};
-      // In the nulls' own spread: the logarithm of a gamma's tail falls with it.
-      const double excess = (value * value - nulls.mean_square(c, k)) / std::sqrt(nulls.variance(c, k));
+      // As the gap, in powers of the channel's noise. How plainly it is seen is the p value's to say: by that the
+      // depth, whose slow part hardly scatters, would come before the tilt that turned it.
+      const double excess = (value * value - nulls.mean_square(c, k)) / nulls.mean_square(c, overall_regime());
       ranked.push_back({std::move(entry), excess});
     }
   }

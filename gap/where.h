@@ -8,7 +8,8 @@
 
 namespace navcal::gap {
 
-/// Every channel by every regime; p values hold over all of them together (Bonferroni), strongest excess first.
+/// Every channel by every regime; p values hold over all of them together (Bonferroni). Strongest excess first, by
+/// its power in that of the channel's noise.
 [[nodiscard]] std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeStatistics& nulls);
 /// Those that nulls would hardly show, by their size either.
 [[nodiscard]] std::vector<WhereEntry> clear_of_nulls(const std::vector<WhereEntry>& map);

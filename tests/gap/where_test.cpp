@@ -34,6 +34,23 @@ TEST_F(WhereMap, PutsFirstWhatIsFurthestBeyondTheNulls) {
   EXPECT_EQ(clear[1].channel, name_of(5));
 }
 
+// A wrong tilt turns the depth that is reckoned with it, whose slow part nulls scatter least in: more plainly seen
+// there, but a small part of the depth's noise.
+TEST_F(WhereMap, PutsALargeExcessBeforeAPlainOne) {
+  std::vector<Eigen::MatrixXd> of_nulls;
+  for (int i = 0; i < 40; ++i) {
+    of_nulls.push_back(quiet(1 + 0.02 * (i % 5)));
+    of_nulls.back()(5, 2) /= 50;
+  }
+  Eigen::MatrixXd followed = quiet();
+  followed(3, 1) = 2;
+  followed(5, 2) = 0.5;
+  const auto clear = clear_of_nulls(where_map(followed, RegimeStatistics(of_nulls)));
+  ASSERT_EQ(clear.size(), 2U);
+  EXPECT_EQ(clear[0].channel, name_of(3));
+  EXPECT_LT(clear[1].p_value, clear[0].p_value);
+}
+
 TEST_F(WhereMap, AnInstrumentALittleNoisierIsNotClearOfNullsHoweverSureThatIs) {
   Eigen::MatrixXd followed = quiet();
   followed(3, 1) = 1.34;
