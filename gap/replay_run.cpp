@@ -21,8 +21,6 @@ constexpr double kLongestStep_s = 0.06;
 /// Of the vehicle's own motion. A frame of the card taken at once makes a vehicle that is its model pass for one
 /// with quicker fins and a late card, by ten standard errors on a zigzag.
 constexpr double kLongestPart_s = 0.026;
-/// How much of the past is kept: a GPS may be late by ten seconds (sim/effects/library/gps_latency.cpp).
-constexpr double kRemembered_s = 12;
 constexpr double kSubmerged_s = 10;
 
 Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
@@ -116,7 +114,7 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
 }
 
 void ReplayRun::carry(const CardReading& to) {
-  const double from_s = moments_.back().time_s;
+  const double from_s = states_.newest_s();
   const double span_s = to.time_s - from_s;
   const Vector3 said = about_axes(to.gyro_rad_s);
   Vector3 rate{};
@@ -128,39 +126,6 @@ void ReplayRun::carry(const CardReading& to) {
     if (steps > 3) rate = array_of(body_.velocity.tail<3>());
     step(from_s + span_s * i / steps, from_s + span_s * (i + 1) / steps, rate);
   }
-}
-
-sim::State ReplayRun::past(double time_s) const {
-  auto later = std::lower_bound(moments_.begin(), moments_.end(), time_s,
-                                [](const Moment& moment, double t) { return moment.time_s < t; });
-  if (later == moments_.begin()) return moments_.front().predicted;
-  if (later == moments_.end()) return moments_.back().corrected;
-  const Moment& earlier = *std::prev(later);
-  // What a reading corrected must not jump at its time: a delay that comes to be as long as the time between two
-  // readings would look unlike one that is a little shorter.
-  return sim::between(earlier.corrected, later->corrected,
-                      (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
-}
-
-sim::State ReplayRun::corrected_past(double time_s) const {
-  Eigen::Vector3d euler = Eigen::Vector3d::Zero(), position = euler, rate = euler;
-  auto later = std::prev(moments_.end());
-  for (; later != moments_.begin() && std::prev(later)->time_s > time_s; --later) {
-    const Moment& read = *std::prev(later);
-    euler += vector_of(read.corrected.euler_rad) - vector_of(read.predicted.euler_rad);
-    position += vector_of(read.corrected.position_m) - vector_of(read.predicted.position_m);
-    rate += vector_of(read.corrected.rate_rad_s) - vector_of(read.predicted.rate_rad_s);
-  }
-  if (later == moments_.begin()) return moments_.front().predicted;
-  const Moment& earlier = *std::prev(later);
-  // Back along the vehicle's own motion: were single corrections part of the way, a delay of a little more than
-  // the time between two readings would look unlike one of a little less, for their noise.
-  sim::State state = sim::between(earlier.corrected, later->predicted,
-                                  (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
-  state.euler_rad = array_of(vector_of(state.euler_rad) + euler);
-  state.position_m = array_of(vector_of(state.position_m) + position);
-  state.rate_rad_s = array_of(vector_of(state.rate_rad_s) + rate);
-  return state;
 }
 
 std::optional<Eigen::Index> ReplayRun::interval_of(double time_s) const {
@@ -177,9 +142,9 @@ void ReplayRun::add(std::optional<Eigen::Index> interval, Channel channel, doubl
 
 void ReplayRun::take_card(const CardReading& reading) {
   const double delay_s = effects_.delays(reading.time_s).card_s;
-  const Moment& now = moments_.back();
+  const sim::State& now = states_.predicted();
   const auto said =
-      instruments_.card(reading.time_s, delay_s > 0 ? corrected_past(reading.time_s - delay_s) : now.predicted);
+      instruments_.card(reading.time_s, delay_s > 0 ? states_.known_now(reading.time_s - delay_s) : now);
   const auto interval = interval_of(reading.time_s);
   std::array<double, 4> missed{};
   for (std::size_t i = 0; i < 4; ++i) missed[i] = reading.gyro_rad_s[i] - said.gyro_rad_s[i];
@@ -193,7 +158,7 @@ void ReplayRun::take_card(const CardReading& reading) {
   }
   add(interval, depth, reading.depth_m - said.depth_m);
 
-  const auto& rate = now.predicted.rate_rad_s;
+  const auto& rate = now.rate_rad_s;
   gyro_error_rad_s_ = {said.gyro_rad_s[0] - rate[0], said.gyro_rad_s[2] - rate[1],
                        (said.gyro_rad_s[1] + said.gyro_rad_s[3]) / 2 - rate[2]};
   body_.velocity[3] += kRateGain * missed[0];
@@ -225,7 +190,7 @@ void ReplayRun::take_words(double until_s) {
   const auto& words = in_.mission.compass;
   for (; next_word_ < words.size() && words[next_word_].time_s <= until_s; ++next_word_) {
     instruments_.set_electronics(in_.electronics_C[next_word_]);
-    take_word(words[next_word_], past(words[next_word_].time_s));
+    take_word(words[next_word_], states_.known_then(words[next_word_].time_s));
   }
 }
 
@@ -237,7 +202,7 @@ void ReplayRun::take_fixes(double until_s) {
 void ReplayRun::take_fix(std::size_t index) {
   const FixReading& fix = in_.mission.fixes[index];
   const double time_s = fix.time_s - effects_.delays(fix.time_s).gps_s;
-  const auto antenna = instruments_.antenna(time_s, past(time_s), offset_m_);
+  const auto antenna = instruments_.antenna(time_s, states_.known_then(time_s), offset_m_);
 
   // The first fixes after surfacing come from few satellites (docs/simulator.md).
   const double degraded = 1 + std::exp2(1 - fix.number);
@@ -277,7 +242,7 @@ void ReplayRun::take_fix(std::size_t index) {
 void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) const {
   const auto interval = interval_of(reading.time_s);
   if (!interval || *interval < static_cast<Eigen::Index>(course.time_s.size())) return;
-  const sim::State& state = moments_.back().predicted;
+  const sim::State& state = states_.predicted();
   const auto& fins = state.fins_rad;
   while (static_cast<Eigen::Index>(course.time_s.size()) <= *interval) {
     course.time_s.push_back(in_.begin_s + (static_cast<double>(course.time_s.size()) + 0.5) * kInterval_s);
@@ -300,24 +265,19 @@ void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) con
 Innovations ReplayRun::innovations(Course10Hz* course) {
   for (const CardReading& reading : in_.mission.card) {
     if (reading.time_s < in_.begin_s) continue;
-    if (moments_.empty() || reading.time_s - moments_.back().time_s > kRestart_s) {
+    if (states_.empty() || reading.time_s - states_.newest_s() > kRestart_s) {
       begin(reading);
     } else {
       carry(reading);
     }
-    Moment moment;
-    moment.time_s = reading.time_s;
-    complete(moment.predicted, reading.time_s);
-    moment.corrected = moment.predicted;
-    moments_.push_back(moment);
-    while (moments_.front().time_s < reading.time_s - kRemembered_s) moments_.pop_front();
+    sim::State predicted;
+    complete(predicted, reading.time_s);
+    states_.predict(reading.time_s, predicted);
     take_words(reading.time_s);
     take_fixes(reading.time_s);
     take_card(reading);
-    instruments_.feel(reading.time_s, moment.predicted);
-    moments_.back().corrected.euler_rad = array_of(body_.euler_rad);
-    moments_.back().corrected.position_m = array_of(body_.position_m);
-    moments_.back().corrected.rate_rad_s = array_of(body_.velocity.tail<3>());
+    instruments_.feel(reading.time_s, predicted);
+    states_.correct(array_of(body_.euler_rad), array_of(body_.position_m), array_of(body_.velocity.tail<3>()));
     if (course != nullptr) write_course(reading, *course);
   }
   // Nothing measured: 0 / 0.

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "gap/linked_actuators.h"
 #include "gap/predicted_instruments.h"
+#include "gap/remembered_states.h"
 #include "gap/replay.h"
 
 namespace navcal::gap {
@@ -33,19 +33,10 @@ class ReplayRun {
   [[nodiscard]] Innovations innovations(Course10Hz* course);
 
  private:
-  struct Moment {
-    double time_s = 0;
-    sim::State predicted;  ///< before the readings of this moment were used
-    sim::State corrected;  ///< after
-  };
-
   void begin(const CardReading& reading);
   void carry(const CardReading& to);
   void step(double from_s, double until_s, const Vector3& gyro_rad_s);
   void complete(sim::State& state, double time_s);
-  [[nodiscard]] sim::State past(double time_s) const;
-  /// Of a moment little before the newest, corrected by all that was read since.
-  [[nodiscard]] sim::State corrected_past(double time_s) const;
   void take_card(const CardReading& reading);
   void take_words(double until_s);
   void take_word(const CompassReading& reading, const sim::State& state);
@@ -65,7 +56,7 @@ class ReplayRun {
   sim::Body body_;              ///< the estimate
   Vector3 gyro_error_rad_s_{};  ///< predicted, of the rates about x, y, z
   Vector3 gyro_said_rad_s_{};   ///< at the last frame
-  std::deque<Moment> moments_;  ///< the newest last
+  RememberedStates states_;
   std::size_t next_word_ = 0, next_fix_ = 0;
   std::array<double, 2> offset_m_{};  ///< by which fixes moved the estimate
   double variance_m2_ = 0;
