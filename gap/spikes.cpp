@@ -19,11 +19,19 @@ constexpr double kFirstGuess = 0.03;
 constexpr int kIterations = 60;
 constexpr double kBias_rad_s = 3 * std::numbers::pi / 180;
 
+/// Whether what the inertial card says comes later by it.
+bool delays_card(const Library& library, std::size_t effect) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+  const Eigen::Index j = library.first(effect);
+  values[j] = library.unknowns()[static_cast<std::size_t>(j)].typical;
+  return library.model(values).effects.delays(0).card_s > 0;
+}
+
 /// Whether it looks as if the fins had been ordered at another time: they move later, or whatever follows them is
 /// read later.
 bool is_of_orders(const Library& library, std::size_t effect) {
   const bool moves_fins = library[effect].place == sim::EffectPlace::vehicle;
-  return library.is_lag(effect) && (moves_fins || library[effect].name == "imu_latency");
+  return library.is_lag(effect) && (moves_fins || delays_card(library, effect));
 }
 
 /// Standard deviations under which these missions are most probable.
