@@ -287,7 +287,8 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
         fmt::format("{} hardly shows in this mission: it was allowed for, not asked for", library_[effect].name));
   }
   answer.verdict = judgement.verdict;
-  if (answer.where.empty() && answer.verdict == Verdict::explained && !answer.map.empty()) {
+  if (answer.where.empty() && answer.verdict != Verdict::no_gap && !found.best.effects.empty() &&
+      !answer.map.empty()) {
     const Eigen::MatrixXd with_members = followed(here.improved, here.course, here.fix_times_s);
     answer.where.push_back(most_changed(answer.map, was, with_members, a.bank.followed));
   }

@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::size_t kMostReasons = 4;
 constexpr double kProbable = 0.7;
+/// Other causes together may be no more probable: a wrong name sends people to mend what is whole, where one more
+/// manoeuvre would tell. That there is none at all is the lesser mistake, for which kProbable is enough.
+constexpr double kMostRivals = 0.15;
 /// Where nothing stands clear of nulls, a gap is one whose absence is less probable than this.
 constexpr double kAbsent = 0.01;
 constexpr double kClosed = 0.9;
@@ -50,6 +53,16 @@ bool closes(const Grounds& grounds) {
   return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
 }
 
+/// Probability that the cause is one without some of `set`.
+double rivals_of(const CauseSet& set, const std::vector<Candidate>& candidates) {
+  double together = 0;
+  for (const Candidate& other : candidates) {
+    const bool has_all = std::includes(other.effects.begin(), other.effects.end(), set.begin(), set.end());
+    if (!other.effects.empty() && !has_all) together += other.probability;
+  }
+  return together;
+}
+
 bool is_left(const WhereEntry& entry) { return entry.p_value <= kLeft; }
 
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
@@ -77,7 +90,7 @@ Judgement judge(const Grounds& grounds) {
   const auto first = std::find_if(candidates.begin(), candidates.end(),
                                   [&](const Candidate& candidate) { return candidate.effects == best.effects; });
   const double probability = first != candidates.end() ? first->probability : 0;
-  if (probability < kProbable) {
+  if (probability < kProbable || rivals_of(best.effects, candidates) > kMostRivals) {
     std::string others;
     for (std::size_t i = 0; i < std::min<std::size_t>(candidates.size(), 3); ++i) {
       const Candidate& other = candidates[i];

@@ -143,7 +143,7 @@ WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixX
                         const Eigen::MatrixXd& after, const RegimeStatistics& nulls) {
   const auto change = [&](const WhereEntry& entry) {
     const auto [c, k] = cell_of(entry);
-    return (before(c, k) * before(c, k) - after(c, k) * after(c, k)) / std::sqrt(nulls.variance(c, k));
+    return (before(c, k) * before(c, k) - after(c, k) * after(c, k)) / nulls.mean_square(c, overall_regime());
   };
   return *std::max_element(map.begin(), map.end(),
                            [&](const WhereEntry& a, const WhereEntry& b) { return change(a) < change(b); });

@@ -17,8 +17,8 @@ namespace navcal::gap {
 /// (`known`), and is more than tolerances alone make of vehicles without a gap, too.
 [[nodiscard]] std::vector<WhereEntry> beyond_known(const Eigen::MatrixXd& left, const RegimeStatistics& known,
                                                    const RegimeStatistics& nulls);
-/// Of a map that is not empty, where `after` follows the regime less than `before` by most, in the nulls' own
-/// spread: what to look at when nothing stands clear of them by itself.
+/// Of a map that is not empty, where `after` follows the regime less than `before` by most, in powers
+/// of the channel's noise: what to look at when nothing stands clear of nulls by itself.
 [[nodiscard]] WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixXd& before,
                                       const Eigen::MatrixXd& after, const RegimeStatistics& nulls);
 

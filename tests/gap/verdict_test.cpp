@@ -25,6 +25,7 @@ class Case {
   void set_probabilities(double effect, double none) {
     found_.candidates = {{{7}, 2, effect}, {{3}, 1, 1 - effect - none}, {{}, 0, none}};
   }
+  void set_candidates(std::vector<Candidate> candidates) { found_.candidates = std::move(candidates); }
   void set_where(double p_value) {
     WhereEntry entry;
     entry.p_value = p_value;
@@ -88,6 +89,23 @@ TEST(Verdict, WhereNothingIsClearAndNothingIsProbableThereIsNoGap) {
   weak.set_probabilities(0.3, 0.05);
   weak.set_where(1e-6);
   EXPECT_EQ(weak.verdict(0.99, 0.99), Verdict::unknown) << "it is seen where";
+}
+
+// On a straight course declination was named for a current, with a probability of 0.79 and 0.21 for its twins.
+TEST(Verdict, WhatHasProbableRivalsIsNotNamed) {
+  Case rivalled(1), lonely(1);
+  rivalled.set_probabilities(0.79, 0.001);
+  lonely.set_probabilities(0.79, 0.2);
+  EXPECT_EQ(rivalled.verdict(0.99, 0.99), Verdict::unknown);
+  EXPECT_EQ(lonely.verdict(0.99, 0.99), Verdict::explained);
+}
+
+TEST(Verdict, ASetWithOneEffectMoreIsNoRival) {
+  Case single(1);
+  single.set_candidates({{{7}, 100, 0.75}, {{3, 7}, 99, 0.24}, {{}, 0, 0.01}});
+  EXPECT_EQ(single.verdict(0.99, 0.99), Verdict::explained);
+  single.set_candidates({{{7}, 100, 0.75}, {{3, 5}, 99, 0.24}, {{}, 0, 0.01}});
+  EXPECT_EQ(single.verdict(0.99, 0.99), Verdict::unknown);
 }
 
 TEST(Verdict, OneFarStrongerThanUsualStandsForSomethingElse) {
