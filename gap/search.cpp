@@ -188,7 +188,7 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
 
   // What was seen only from another set's place is not answered before it was simulated itself.
   for (std::size_t i = 0; i < kSecondThoughts; ++i) {
-    const Set leader = found.leader();
+    const Set& leader = found.leader();
     if (found.is_settled(leader)) break;
     take(explain(leader, replay, library, whitening, nominal, priors, threads));
   }
