@@ -81,9 +81,10 @@ class Diagnosing {
   [[nodiscard]] bool is_seen(const Prepared& a) const;
   /// Whether simulated vehicles without a gap would show the effects found as well, noise as it comes.
   [[nodiscard]] bool is_chance(const Prepared& a, const Linearised& nominal, const Searched& searched) const;
-  /// What is clear of vehicles without a gap although all that was found is in the model.
+  /// What is clear of vehicles without a gap although all that was found is in the model; `seen`: something was
+  /// clear of them before.
   [[nodiscard]] std::vector<WhereEntry> leftover_of(const Prepared& a, const Searched& result,
-                                                    const Comparison& here) const;
+                                                    const Comparison& here, bool seen) const;
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
 
   const Request& request_;
@@ -169,12 +170,14 @@ Searched Diagnosing::searched_with_twins(const Prepared& a, const Linearised& no
   return result;
 }
 
-std::vector<WhereEntry> Diagnosing::leftover_of(const Prepared& a, const Searched& result,
-                                                const Comparison& here) const {
+std::vector<WhereEntry> Diagnosing::leftover_of(const Prepared& a, const Searched& result, const Comparison& here,
+                                                bool seen) const {
   Innovations rest = rest_of(*a.replay, library_, result.found.best);
   const auto map_of = [&] { return followed(rest, here.course, here.fix_times_s); };
   if (result.twins) return clear_of_nulls(where_map(map_of(), result.twins->followed));
   auto leftover = clear_of_nulls(where_map(map_of(), a.bank.followed));
+  // Nothing found and nothing seen is no gap: how well its tolerances were found makes none.
+  if (result.found.best.effects.empty() && !seen) return leftover;
   // Rolling is no evidence, so that no search fits its gyro; where the vehicle was when the replay began is as
   // good as its first fixes, decimetres. Vehicles that are known have another rest in both.
   rest.grid.col(gyro_roll).setZero();
@@ -257,7 +260,7 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   const Eigen::MatrixXd was = followed(here.nominal, a.course, here.fix_times_s);
   answer.map = where_map(was, a.bank.followed);
   answer.where = clear_of_nulls(answer.map);
-  const auto leftover = leftover_of(a, result, here);
+  const auto leftover = leftover_of(a, result, here, !answer.where.empty());
 
   const bool blocks = compared.empty();
   std::vector<double> nats;
