@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,9 @@ struct Options {
 void calibrate(const Options& options) {
   try {
     if (!options.report.empty()) expect_folder_of(options.report);
+    std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
+    inputs.emplace_back(options.config);
+    expect_no_overwriting(inputs, {options.report});
     const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                  : config::load(options.config);
     std::optional<CalibrateHistory> history;

@@ -83,9 +83,13 @@ void write_answers(const gap::Diagnosis& diagnosis, const Options& options) {
 void find_gap(const Options& options) {
   try {
     expect_effects(options.source.excluded);
-    for (const std::string& file : {options.json, options.report, options.source.effects_file}) {
+    const auto& source = options.source;
+    for (const std::string& file : {options.json, options.report, source.effects_file}) {
       if (!file.empty() && file != "-") expect_folder_of(file);
     }
+    std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
+    inputs.insert(inputs.end(), {source.mission, source.vehicle});
+    expect_no_overwriting(inputs, {options.json, options.report, source.effects_file});
     write_answers(diagnosis_of(options), options);
   } catch (const record::BadRecording& error) {
     throw Failure(Exit::bad_input, error.what());

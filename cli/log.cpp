@@ -11,6 +11,7 @@
 #include "cli/interruptible.h"
 #include "cli/log_import.h"
 #include "cli/progress.h"
+#include "cli/result_file.h"
 #include "record/export.h"
 #include "record/log_info.h"
 #include "record/log_repair.h"
@@ -58,7 +59,17 @@ void finish(const std::string& file) {
 using Exporter = record::Exported (*)(const std::filesystem::path&, const std::filesystem::path&,
                                       const record::Progress&);
 
+void import_log(const std::string& file, const std::string& to) {
+  expect_no_overwriting({file}, {to});
+  expect_not_ending(to, ".cap", "a log (.mcap)", "navcal log export --cap makes a capture of a log");
+  tell(run([&](const record::Progress& progress) { return import_capture(file, to, progress); }));
+}
+
 void export_log(const std::string& file, Exporter exporter, const std::string& to) {
+  expect_no_overwriting({file}, {to});
+  if (exporter == record::export_capture) {
+    expect_not_ending(to, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
+  }
   const auto exported = run([&](const record::Progress& progress) { return exporter(file, to, progress); });
   tell(exported.remarks);
   for (const auto& path : exported.files) fmt::print("{}\n", path.string());
@@ -94,10 +105,7 @@ void add_log(CLI::App& app) {
   in->add_option("FILE", options->file, "capture (.cap)")->required();
   in->add_option("-o,--output", options->to, "the log")->option_text("FILE.mcap")->required();
   in->footer("Example: navcal log import -o survey.mcap survey.cap");
-  in->callback([options] {
-    tell(run(
-        [&](const record::Progress& progress) { return import_capture(options->file, options->to, progress); }));
-  });
+  in->callback([options] { import_log(options->file, options->to); });
 
   auto* const out = log->add_subcommand("export", "topics as tables, or the raw bytes as a capture");
   out->add_option("FILE", options->file, "log (.mcap); with --cap also a capture")->required();

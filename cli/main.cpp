@@ -2,6 +2,7 @@
 #include <exception>
 
 #include "cli/commands.h"
+#include "cli/misspelling.h"
 #include "share/manual.h"
 
 int main(int argc, char** argv) {
@@ -32,6 +33,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string words = navcal::cli::misspelling(app, {argv + 1, argv + argc}); !words.empty()) {
+      std::fprintf(stderr, "%s\n", words.c_str());
+      return static_cast<int>(Exit::usage);
+    }
     // CLI11 has statuses of its own; the contract has one for wrong usage.
     return app.exit(error) == 0 ? static_cast<int>(Exit::success) : static_cast<int>(Exit::usage);
   } catch (const navcal::cli::Failure& failure) {

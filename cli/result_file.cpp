@@ -1,5 +1,6 @@
 #include "cli/result_file.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,15 +10,60 @@
 #include "record/whole_file.h"
 
 namespace navcal::cli {
+namespace {
 
-void expect_folder_of(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+namespace fs = std::filesystem;
+
+bool is_file_name(const fs::path& path) { return !path.empty() && path != "-"; }
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  const fs::path full_a = fs::weakly_canonical(fs::absolute(a), error);
+  const fs::path full_b = fs::weakly_canonical(fs::absolute(b), error);
+  return !full_a.empty() && full_a == full_b;
+}
+
+/// An output is written under a name of its own first (WholeFile), so that name is written to as well.
+bool would_write_to(const fs::path& output, const fs::path& file) {
+  return is_same_file(output, file) || is_same_file(record::WholeFile::part_of(output), file);
+}
+
+}  // namespace
+
+void expect_folder_of(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (::access(folder.c_str(), W_OK) != 0) {
     throw Failure(Exit::failed, file.string() + ": " + std::system_category().message(errno));
   }
 }
 
-void write_result(const std::filesystem::path& file, std::string_view content) {
+void expect_no_overwriting(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (!is_file_name(outputs[i])) continue;
+    for (const fs::path& input : inputs) {
+      if (!is_file_name(input) || !would_write_to(outputs[i], input)) continue;
+      throw Failure(Exit::usage, fmt::format("{}: it is to be read and to be written; nothing was done. Give the "
+                                             "output another name.",
+                                             outputs[i].string()));
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!is_file_name(outputs[k])) continue;
+      if (!would_write_to(outputs[i], outputs[k]) && !would_write_to(outputs[k], outputs[i])) continue;
+      throw Failure(Exit::usage, fmt::format("{}: two outputs have this name; nothing was done. Give each a name "
+                                             "of its own.",
+                                             outputs[i].string()));
+    }
+  }
+}
+
+void expect_not_ending(const fs::path& output, std::string_view ending, std::string_view kind,
+                       std::string_view hint) {
+  if (output.extension() != ending) return;
+  throw Failure(Exit::usage, fmt::format("{}: the output is {}; {}", output.string(), kind, hint));
+}
+
+void write_result(const fs::path& file, std::string_view content) {
   record::WholeFile whole(file);
   whole.write(content);
   whole.commit();

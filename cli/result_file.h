@@ -2,12 +2,23 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace navcal::cli {
 
 /// Before the work is done rather than after it. Throws Failure when the folder of a file to be written is not
 /// there or may not be written to.
 void expect_folder_of(const std::filesystem::path& file);
+
+/// Throws Failure (usage) when a file to be written is one of the files to be read, or another file to be written:
+/// writing it would destroy what the user has. Links are followed. Empty names and "-" are passed over.
+void expect_no_overwriting(const std::vector<std::filesystem::path>& inputs,
+                           const std::vector<std::filesystem::path>& outputs);
+
+/// Throws Failure (usage) when the name of an output ends like another kind of file. `kind` says what the file
+/// will be, with its usual ending: "a capture (.cap)"; `hint` says how to get the other kind.
+void expect_not_ending(const std::filesystem::path& output, std::string_view ending, std::string_view kind,
+                       std::string_view hint);
 
 /// Whole or not at all. Throws std::system_error.
 void write_result(const std::filesystem::path& file, std::string_view content);

@@ -44,6 +44,10 @@ void simulate(const Options& options) {
     throw Failure(Exit::usage, "one of --path, --drive and --mission says how the vehicle moves");
   }
   if (arguments.capture.empty()) throw Failure(Exit::usage, "-o FILE.cap says where the recording goes");
+  expect_not_ending(arguments.capture, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
+  expect_no_overwriting(
+      {arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.effects_file},
+      {arguments.capture, arguments.truth, arguments.report});
   run(arguments);
 }
 

@@ -22,7 +22,7 @@ constexpr auto kLineInterval = std::chrono::seconds(1);
 
 struct Options {
   std::string host = "127.0.0.1";
-  std::string port = "2947";
+  int port = 2947;
   bool json = false;
   double seconds = 0;
 };
@@ -104,12 +104,17 @@ void watch(const Options& options) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
   // A reader that has gone is seen by fflush.
   std::signal(SIGPIPE, SIG_IGN);
-  WatchStream stream(options.host, options.port);
+  WatchStream stream(options.host, std::to_string(options.port));
   const auto end = end_of(options);
   if (options.json) {
     pass_on(stream, end);
   } else {
     show(options, stream, end, ::isatty(STDOUT_FILENO) != 0);
+  }
+  if (!stream.was_connected()) {
+    throw Failure(Exit::failed,
+                  fmt::format("no connection to {} port {}: {}. Is navcald running there? Try navcal doctor.",
+                              options.host, options.port, stream.problem()));
   }
 }
 
@@ -119,7 +124,9 @@ void add_watch(CLI::App& app) {
   auto* command = app.add_subcommand("watch", "live view of a running navcald");
   const auto options = std::make_shared<Options>();
   command->add_option("--host", options->host, "where it runs")->capture_default_str();
-  command->add_option("--port", options->port, "its status port")->capture_default_str();
+  command->add_option("--port", options->port, "its status port")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "pass the stream on as it comes");
   command->add_option("--seconds", options->seconds, "end after so long (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);

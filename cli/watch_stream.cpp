@@ -59,6 +59,7 @@ bool WatchStream::connect() {
         ::send(candidate, kRequest.data(), kRequest.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(kRequest.size());
     if (ready) {
       socket_ = candidate;
+      was_connected_ = true;
     } else {
       problem = std::strerror(errno);
       ::close(candidate);

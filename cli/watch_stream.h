@@ -19,6 +19,8 @@ class WatchStream {
   /// and the daemon's return.
   std::optional<std::string> next(std::chrono::steady_clock::time_point until);
   [[nodiscard]] bool connected() const { return socket_ >= 0; }
+  /// Whether there was a connection at any time.
+  [[nodiscard]] bool was_connected() const { return was_connected_; }
   /// Why it is not connected.
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
@@ -29,6 +31,7 @@ class WatchStream {
 
   std::string host_, port_;
   int socket_ = -1;
+  bool was_connected_ = false;
   std::string bytes_;
   std::string problem_;
   std::chrono::steady_clock::time_point next_attempt_{};

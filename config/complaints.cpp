@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <utility>
 
 namespace navcal::config {
@@ -34,12 +34,16 @@ void refuse(std::vector<Problem> problems, std::string_view file) {
 }
 
 std::string content_of(const std::filesystem::path& file) {
+  const auto refused = [&file](int reason) {
+    return Error({fmt::format("{}: cannot be read: {}", file.native(), std::strerror(reason))});
+  };
+  errno = 0;
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  if (!in || !(content << in.rdbuf())) {
-    throw Error({fmt::format("{}: cannot be read: {}", file.native(), std::strerror(errno))});
-  }
-  return content.str();
+  if (!in) throw refused(errno);
+  if (std::filesystem::is_directory(file)) throw refused(EISDIR);
+  std::string content{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) throw refused(errno != 0 ? errno : EIO);
+  return content;
 }
 
 }  // namespace navcal::config

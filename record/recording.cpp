@@ -38,9 +38,12 @@ std::string peek(ByteSource& source, std::size_t n) {
   return begin;
 }
 
+/// Throws BadRecording when there is nothing to read.
 std::unique_ptr<ByteSource> open_recording(const std::filesystem::path& file) {
   try {
-    return open_file(file);
+    auto source = open_file(file);
+    if (source->size() == 0) throw BadRecording(file.string() + ": the file is empty");
+    return source;
   } catch (const std::system_error& error) {
     throw BadRecording(error.what());
   }

@@ -15,7 +15,7 @@ namespace navcal::record {
 class WholeFile {
  public:
   explicit WholeFile(std::filesystem::path path)
-      : path_(std::move(path)), part_(path_.string() + ".part"), file_(std::fopen(part_.c_str(), "wbe")) {
+      : path_(std::move(path)), part_(part_of(path_)), file_(std::fopen(part_.c_str(), "wbe")) {
     if (file_ == nullptr) fail();
   }
   WholeFile(const WholeFile&) = delete;
@@ -24,6 +24,11 @@ class WholeFile {
     if (file_ == nullptr) return;
     std::fclose(file_);
     std::remove(part_.c_str());
+  }
+
+  /// The name under which the file is written until it is whole.
+  [[nodiscard]] static std::filesystem::path part_of(const std::filesystem::path& path) {
+    return path.string() + ".part";
   }
 
   void write(std::string_view bytes) {
@@ -44,7 +49,7 @@ class WholeFile {
   [[noreturn]] void fail() const { throw std::system_error(errno, std::system_category(), path_.string()); }
 
   std::filesystem::path path_;
-  std::string part_;
+  std::filesystem::path part_;
   std::FILE* file_;
 };
 
