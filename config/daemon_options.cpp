@@ -66,7 +66,7 @@ std::vector<Option<S>> make() {
            .key = "address",
            .description =
                "Address of the status socket. Whoever reaches it can read everything: mind the network.",
-           .text_rule = "an IPv4 or IPv6 address",
+           .text_rule = "an IPv4 or IPv6 address, or localhost",
            .text_holds = is_ip_address},
           [](auto& s) -> auto& { return s.status.address; }),
       integer<S>(

@@ -28,8 +28,8 @@ std::vector<Option<P>> make() {
       text<P>(
           {.key = "path",
            .description = "Where it is: a tty, a pseudo-terminal or a link to one.",
-           .text_rule = "a path without control characters",
-           .text_holds = is_printable},
+           .text_rule = "a path on this machine without control characters",
+           .text_holds = is_local_path},
           [](auto& p) -> auto& { return p.path; }),
       text<P>(
           {.key = "udev_name",

@@ -16,6 +16,10 @@ bool is_printable(std::string_view text) {
                                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
 }
 
+bool is_local_path(std::string_view text) {
+  return is_printable(text) && text.find("://") == std::string_view::npos;
+}
+
 bool is_absolute_path(std::string_view text) { return is_printable(text) && text.front() == '/'; }
 
 bool is_socket_path(std::string_view text) {
@@ -24,6 +28,7 @@ bool is_socket_path(std::string_view text) {
 
 bool is_ip_address(std::string_view text) {
   if (!is_printable(text)) return false;
+  if (text == "localhost") return true;
   std::array<unsigned char, sizeof(in6_addr)> address{};
   const std::string terminated(text);
   return inet_pton(AF_INET, terminated.c_str(), address.data()) == 1 ||

@@ -8,10 +8,12 @@ namespace navcal::config {
 
 /// Something, and no control characters.
 [[nodiscard]] bool is_printable(std::string_view text);
+/// A path, and no address of another machine (tcp://...).
+[[nodiscard]] bool is_local_path(std::string_view text);
 [[nodiscard]] bool is_absolute_path(std::string_view text);
 /// An absolute path that fits sockaddr_un.
 [[nodiscard]] bool is_socket_path(std::string_view text);
-/// IPv4 or IPv6, in numbers: a name would make the start depend on a name server.
+/// IPv4 or IPv6, in numbers, or "localhost": any other name would make the start depend on a name server.
 [[nodiscard]] bool is_ip_address(std::string_view text);
 /// YYYY-MM-DD, a day of the calendar from 1980-01-06 (the first of GPS time) on.
 [[nodiscard]] bool is_gps_date(std::string_view text);

@@ -50,7 +50,8 @@ bool is_alive(const asio::any_io_executor& executor, const std::string& path) {
 asio::ip::tcp::acceptor listen_status(const asio::any_io_executor& executor,
                                       const config::StatusSettings& settings) {
   boost::system::error_code error;
-  const auto address = asio::ip::make_address(settings.address, error);
+  const std::string literal = settings.address == "localhost" ? "127.0.0.1" : settings.address;
+  const auto address = asio::ip::make_address(literal, error);
   if (error) throw StartError(fmt::format("status.address: \"{}\" is not an IP address", settings.address));
   const asio::ip::tcp::endpoint endpoint(address, settings.port);
   asio::ip::tcp::acceptor acceptor(executor);

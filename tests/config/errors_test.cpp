@@ -87,8 +87,9 @@ TEST(ConfigErrors, TextsThatCannotBe) {
             Problems{"t.toml:7: log.directory: \"log\" is not an absolute path"});
   EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = \"/var/\\u0000log\"\n"),
             Problems{"t.toml:7: log.directory: \"/var/\\u0000log\" is not an absolute path"});
-  EXPECT_EQ(problems_beside_a_port("[status]\naddress = \"localhost\"\n"),
-            Problems{"t.toml:7: status.address: \"localhost\" is not an IPv4 or IPv6 address"});
+  EXPECT_EQ(problems_beside_a_port("[status]\naddress = \"localhost\"\n"), Problems{});
+  EXPECT_EQ(problems_beside_a_port("[status]\naddress = \"vehicle.local\"\n"),
+            Problems{"t.toml:7: status.address: \"vehicle.local\" is not an IPv4 or IPv6 address, or localhost"});
   const std::string long_path = "/" + std::string(107, 'x');
   EXPECT_EQ(
       problems_beside_a_port("[control]\nsocket = \"" + long_path + "\"\n"),

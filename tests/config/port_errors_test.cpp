@@ -43,6 +43,12 @@ TEST(ConfigPortErrors, AnEmptyPlaceIsNone) {
                 "t.toml:3: port.compass.usb_serial: \"\" is not a serial number without control characters"}));
 }
 
+TEST(ConfigPortErrors, AnAddressIsNoPath) {
+  EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm2\"\npath = \"tcp://vehicle:4001\"\n"),
+            Problems{"t.toml:3: port.compass.path: \"tcp://vehicle:4001\" is not a path on this machine without "
+                     "control characters"});
+}
+
 TEST(ConfigPortErrors, SeveralPlaces) {
   const Problems several{"t.toml:1: port.compass: only one of path, udev_name and usb_serial can say where it is"};
   EXPECT_EQ(problems_of(compass("udev_name = \"x\"\n")), several);
