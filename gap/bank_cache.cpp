@@ -88,13 +88,18 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& 
   return best;
 }
 
-void BankCache::keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const {
-  if (folder_.empty()) return;
-  std::filesystem::create_directories(folder_);
-  const std::string text = bank_text({fingerprint(replay, course), bank}, model_);
-  record::WholeFile file(folder_ / fmt::format("{}{:08x}.json", kPrefix, record::crc32c(text)));
-  file.write(text);
-  file.commit();
+std::string BankCache::keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const {
+  if (folder_.empty()) return {};
+  try {
+    std::filesystem::create_directories(folder_);
+    const std::string text = bank_text({fingerprint(replay, course), bank}, model_);
+    record::WholeFile file(folder_ / fmt::format("{}{:08x}.json", kPrefix, record::crc32c(text)));
+    file.write(text);
+    file.commit();
+  } catch (const std::system_error& error) {
+    return error.what();
+  }
+  return {};
 }
 
 }  // namespace navcal::gap

@@ -22,8 +22,8 @@ class BankCache {
   /// be read as one is passed over.
   [[nodiscard]] std::optional<NullBank> find(const Replay& replay, const Course10Hz& course,
                                              const BankOptions& options) const;
-  /// Throws std::system_error.
-  void keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const;
+  /// Returns why the bank could not be kept; empty: it is kept, or there is no folder for it.
+  [[nodiscard]] std::string keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const;
 
  private:
   std::filesystem::path folder_;

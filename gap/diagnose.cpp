@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "gap/answer.h"
 #include "gap/bank_cache.h"
@@ -16,6 +18,7 @@
 #include "gap/play_twins.h"
 #include "gap/request.h"
 #include "gap/search.h"
+#include "gap/shared_content.h"
 #include "gap/verdict.h"
 #include "gap/where.h"
 
@@ -72,7 +75,9 @@ class Diagnosing {
  private:
   /// nullptr: nothing can be said from it, and a remark says why.
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
-  void find_bank(Prepared& prepared, const std::string& name);
+  /// A mission is held out only when it shares no readings with those before it.
+  void expect_other_content(const std::string& name, const Mission& mission);
+  void find_bank(Prepared& prepared, const std::string& name, Diagnosis& answer);
   [[nodiscard]] SearchResult search_by(const Priors& priors, const Prepared& a, const Linearised& nominal) const;
   /// A play is judged by vehicles that have it.
   [[nodiscard]] Searched searched_with_twins(const Prepared& a, const Linearised& nominal) const;
@@ -92,12 +97,27 @@ class Diagnosing {
   Library library_;
   BankCache cache_;
   unsigned threads_;
+  std::vector<std::pair<std::string, SharedContent>> contents_;  ///< of the missions read, by file name
 };
+
+void Diagnosing::expect_other_content(const std::string& name, const Mission& mission) {
+  SharedContent content(mission);
+  for (const auto& [other, before] : contents_) {
+    const double shared_s = content.shared_s(before);
+    if (!(shared_s > 0)) continue;
+    throw std::invalid_argument(fmt::format(
+        "--holdout {}: {:.0f} s of it are in {} as well. An answer can only be checked on a recording of "
+        "another mission.",
+        name, std::max(shared_s, 1.0), other));
+  }
+  contents_.emplace_back(name, std::move(content));
+}
 
 std::unique_ptr<Prepared> Diagnosing::prepare(const std::filesystem::path& file, Diagnosis& answer) {
   auto prepared = std::make_unique<Prepared>();
   const std::string name = file.filename().string();
   prepared->mission = load_mission(file, [&](double done) { progress_("reading " + name, done); });
+  expect_other_content(name, prepared->mission);
   for (const auto& remark : prepared->mission.remarks) answer.remarks.push_back(remark);
   const std::string shortcoming = prepared->mission.shortcoming();
   if (!shortcoming.empty()) {
@@ -126,7 +146,7 @@ std::unique_ptr<Prepared> Diagnosing::prepare(const std::filesystem::path& file,
   }
   prepared->at = with_biases_found(*prepared->replay, library_, threads_);
   (void)prepared->replay->run(library_.model(prepared->at), &prepared->course);
-  find_bank(*prepared, name);
+  find_bank(*prepared, name, answer);
   if (prepared->bank.missions < 10) {
     answer.remarks.push_back(name +
                              ": no simulated vehicle could follow this mission, so nothing can be compared");
@@ -135,7 +155,7 @@ std::unique_ptr<Prepared> Diagnosing::prepare(const std::filesystem::path& file,
   return prepared;
 }
 
-void Diagnosing::find_bank(Prepared& prepared, const std::string& name) {
+void Diagnosing::find_bank(Prepared& prepared, const std::string& name, Diagnosis& answer) {
   const BankOptions options{request_.bank_missions, request_.bank_seed, threads_};
   if (auto bank = cache_.find(*prepared.replay, prepared.course, options)) {
     prepared.bank = std::move(*bank);
@@ -144,7 +164,9 @@ void Diagnosing::find_bank(Prepared& prepared, const std::string& name) {
   }
   prepared.bank = make_null_bank(*prepared.replay, prepared.course, request_.vehicle, library_, prepared.at,
                                  options, [&](double done) { progress_("null bank of " + name, done); });
-  cache_.keep(*prepared.replay, prepared.course, prepared.bank);
+  const std::string refusal = cache_.keep(*prepared.replay, prepared.course, prepared.bank);
+  if (!refusal.empty())
+    answer.remarks.push_back("the simulated null missions could not be kept for next time: " + refusal);
 }
 
 SearchResult Diagnosing::search_by(const Priors& priors, const Prepared& a, const Linearised& nominal) const {

@@ -29,7 +29,8 @@ struct Request {
 using Progress = std::function<void(std::string_view what, double done)>;
 
 /// Throws record::BadRecording for a file that is none, std::invalid_argument for an excluded name that is not in
-/// the library. A recording of which nothing can be said gets the verdict `unknown` and remarks that say why.
+/// the library, and for a hold-out that shares readings with the mission or another hold-out. A recording of which
+/// nothing can be said gets the verdict `unknown` and remarks that say why.
 [[nodiscard]] Diagnosis diagnose(const Request& request, const Progress& progress);
 
 }  // namespace navcal::gap

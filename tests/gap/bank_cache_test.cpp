@@ -27,7 +27,7 @@ class BankCacheTest : public testing::Test {
 TEST_F(BankCacheTest, GivesBackWhatItWasGiven) {
   const BankCache cache(folder_ / "banks", {}, library_);
   EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
-  cache.keep(replay_, course_, bank_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
   const auto found = cache.find(replay_, course_, {20, 1, 1});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->scores, bank_.scores);
@@ -37,7 +37,7 @@ TEST_F(BankCacheTest, GivesBackWhatItWasGiven) {
 
 TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, bank_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
   EXPECT_FALSE(cache.find(replay_, course_, {20, 2, 1}));
   EXPECT_FALSE(cache.find(replay_, course_, {100, 1, 1}));
   config::VehicleSettings heavier;
@@ -52,7 +52,7 @@ TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
 
 TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, bank_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
   const Mission again = test::simulated_mission("identification", "[hard_iron]\nx_uT = 2\n", 60, 9);
   const Replay replay(again, {});
   Course10Hz course;
@@ -60,9 +60,16 @@ TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   EXPECT_TRUE(cache.find(replay, course, {20, 1, 1}));
 }
 
+TEST_F(BankCacheTest, AFolderThatCannotBeMadeIsToldAndNoMore) {
+  std::ofstream(folder_ / "file") << "in the way";
+  const BankCache cache(folder_ / "file" / "banks", {}, library_);
+  EXPECT_NE(cache.keep(replay_, course_, bank_), "");
+  EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
+}
+
 TEST_F(BankCacheTest, FilesThatAreNoBanksArePassedOver) {
   const BankCache cache(folder_.path(), {}, library_);
-  cache.keep(replay_, course_, bank_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
   std::filesystem::path bank;
   for (const auto& file : std::filesystem::directory_iterator(folder_.path())) bank = file.path();
   std::ifstream stream(bank);
