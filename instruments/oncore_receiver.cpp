@@ -56,7 +56,8 @@ Instrument::Verdict OncoreReceiver::read_position(const oncore::Position& positi
     sample.latitude_rad = position.filtered.latitude_deg * kRadPerDeg;
     sample.longitude_rad = position.filtered.longitude_deg * kRadPerDeg;
     sample.height_m = position.filtered.height_m;
-    sample.height_msl_m = position.filtered.height_msl_m;
+    // Many receivers know no geoid and send exactly 0 (ICD section 2): that is no height.
+    if (position.filtered.height_msl_m != 0) sample.height_msl_m = position.filtered.height_msl_m;
   }
   if (position.fix == Fix::fix_2d || position.fix == Fix::fix_3d || position.fix == Fix::propagated) {
     sample.speed_m_s = position.speed_m_s;
