@@ -204,6 +204,7 @@ std::optional<double> quantile(std::vector<double> values, double share) {
 
 std::optional<bool> TrialScore::met() const {
   if (!value || (!least && !most)) return std::nullopt;
+  if (interval && cases < kLeastCasesToJudge) return std::nullopt;
   return (!least || *value >= *least) && (!most || *value <= *most);
 }
 

@@ -22,7 +22,9 @@ struct TrialScore {
   int hits = 0, cases = 0;                        ///< of a share; else `cases` values went in
   std::optional<std::array<double, 2>> interval;  ///< of a share
   std::optional<double> least, most;              ///< the target
-  /// Absent where there is no target, or nothing to hold against it.
+  /// With fewer cases the 95 % interval of a share spans half of the scale and more: they decide nothing.
+  static constexpr int kLeastCasesToJudge = 10;
+  /// Absent where there is no target, or too little to hold against it.
   [[nodiscard]] std::optional<bool> met() const;
 };
 

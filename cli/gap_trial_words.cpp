@@ -39,7 +39,8 @@ std::string target_text(const TrialScore& score) {
 
 std::string met_text(const TrialScore& score) {
   const auto met = score.met();
-  return !met ? "" : *met ? "met" : "missed";
+  if (!met) return score.value && (score.least || score.most) ? "too few cases" : "";
+  return *met ? "met" : "missed";
 }
 
 std::string targets_text(const TrialScores& scores) {
@@ -51,7 +52,7 @@ std::string targets_text(const TrialScores& scores) {
     untried += int{!score.met()};
   }
   std::string text = fmt::format("{} of {} targets are met", met, targets);
-  if (untried > 0) text += fmt::format(", {} could not be tried", untried);
+  if (untried > 0) text += fmt::format(", {} could not be judged", untried);
   return text + ".";
 }
 
