@@ -35,6 +35,7 @@ void append_alarms(std::string& out, const Health& health) {
 
 void append_clock(std::string& out, const instruments::ClockState& clock) {
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"clock\":{{\"locked\":{}"), clock.locked);
+  text(out, "timing", instruments::name_of(clock.timing));
   number(out, "period_s", clock.period_s, 9);
   number(out, "skew_ppm", clock.skew_ppm, 3);
   number(out, "skew_std_ppm", clock.skew_std_ppm, 3);

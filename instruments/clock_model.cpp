@@ -2,125 +2,169 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "instruments/period_finder.h"
 
 namespace navcal::instruments {
 namespace {
 
 constexpr double kNs = 1e9;
-constexpr double kPeriodPrior = 300e-6;       // one sigma: the card's rate can be off by 200 ppm (ICD section 3)
-constexpr double kFrequencyWalkPrior = 1e-6;  // per sqrt(s); then learnt from how well predictions hold
-constexpr double kFrequencyWalkLeast =
-    1e-6;  // assumed even of a quiet crystal: an optimistic error bar is worse than a wide one
-constexpr double kFrequencyWalkMost = 20e-6;  // a ceramic resonator warming up
-constexpr double kWalkGain = 0.03;            // per block
-constexpr double kSurpriseLimit = 25;         // in variances: one stall must not open the filter
-constexpr double kSurpriseExpected = 0.9;     // a little under 1, so that doubt widens the error bars
-constexpr double kPhaseWalk_s = 2e-6;         // per sqrt(s)
-constexpr double kJitterPrior_s = 1e-3;
-constexpr double kJitterPriorWeight = 0.5;    // blocks
-constexpr double kJitterMemory = 30;          // blocks
-constexpr double kMeasurementFloor_s = 5e-6;  // what a scheduler's wake-up varies even on an idle machine
-constexpr double kStampFloor_s = 5e-6;        // what no model of the delays can know of their least value
-constexpr double kGate = 5;                   // sigmas by which a whole block may be late before it is left out
+constexpr double kFrequencyWalkPrior = 1e-6;    // per sqrt(s); then learnt from how well predictions hold
+constexpr double kFrequencyWalkLeast = 0.5e-6;  // assumed even of a quiet crystal
+constexpr double kFrequencyWalkMost = 20e-6;    // a ceramic resonator warming up
+constexpr double kWalkGain = 0.03;              // per block
+constexpr double kMisfitLimit = 25;             // in variances: one stall must not open the filter
+constexpr double kMisfitExpected = 0.9;         // a little under 1, so that doubt widens the error bars
+constexpr double kMisfitGain = 0.05;            // per block
+constexpr double kMisfitIgnored = 1.5;          // what chance alone makes of the mean over recent blocks
+constexpr double kPhaseWalk_s = 1e-6;           // per sqrt(s)
+constexpr double kMeasurementFloor_s = 2e-6;    // what a scheduler's wake-up varies even on an idle machine
+constexpr double kStampFloor_s = 2e-6;          // what no model of the delays can know of their least value
+constexpr double kEarly = 3;                    // sigmas before its time: news at once
+constexpr double kTooEarly = 6;                 // sigmas: no noise, the model is wrong
+constexpr double kGate = 5;                     // sigmas by which a whole block may be late before it is left out
+constexpr double kLateExpected = 5;             // (mean delay / n) by which n frames may all be late
+constexpr int kLateFrames = 3;                  // fewer may be late together by a stall
+constexpr double kSoftEdgeShare = 0.6;          // standard deviation, in distances of the middle from the edge
+constexpr double kFitCaution = 1.3;             // on the errors of a line through few frames
+constexpr double kFitBlocks = 2;                // that such a line is worth
 constexpr int kRejectedBlocksToReset = 4;
-constexpr int kResetsToConfuse = 3;
+constexpr int kContradictionsToGiveUp = 4;
 constexpr std::uint64_t kObservationsToLock = 8;
-
-/// Expected (median - minimum) of n exponential delays of mean 1: the difference of two order statistics.
-double median_above_minimum(int n) {
-  double sum = 0;
-  for (int i = 1; i < (n + 1) / 2; ++i) sum += 1.0 / (n - i);
-  return sum;
-}
 
 double square(double x) { return x * x; }
 
 }  // namespace
 
-ClockModel::ClockModel(double nominal_period_s)
+ClockModel::ClockModel(double nominal_period_s, double period_std)
     : nominal_s_(nominal_period_s),
+      period_prior_s_(period_std * nominal_period_s),
       period_s_(nominal_period_s),
-      jitter_s_(kJitterPrior_s),
       walk_(kFrequencyWalkPrior) {
-  var_period_ = square(kPeriodPrior * nominal_s_);
+  var_period_ = square(period_prior_s_);
 }
 
-void ClockModel::begin(std::int64_t index, std::int64_t observed_ns) {
+void ClockModel::begin_at(std::int64_t index, std::int64_t observed_ns) {
   origin_ns_ = observed_ns;
   index_ = index;
-  phase_s_ = -jitter_s_;
-  var_phase_ = square(doubt() * jitter_s_);
+  phase_s_ = -delays_.mean_s();
+  var_phase_ = square(doubt() * delays_.mean_s());
   cov_ = 0;
-  var_period_ = std::max(var_period_, square(kPeriodPrior * nominal_s_) * 0.01);
+  var_period_ = std::max(var_period_, square(period_prior_s_) * 0.01);
   in_block_ = 0;
   block_size_ = 1;
   rejected_blocks_ = 0;
+  held_late_s_ = 0;
+}
+
+void ClockModel::begin(std::int64_t index, const PeriodFit& fit) {
+  origin_ns_ = fit.origin_ns;
+  index_ = index;
+  phase_s_ = fit.line.end_s;
+  period_s_ = fit.line.slope_s;
+  period_prior_s_ = kCrystal * period_s_;
+  const double span_s = (fit.frames + fit.lost) * period_s_;
+  var_phase_ = square(kFitCaution * fit.line.end_std_s) + square(kMeasurementFloor_s);
+  var_period_ = square(kFitCaution * fit.line.slope_std_s) + square(kMeasurementFloor_s * period_s_ / span_s);
+  cov_ = kEndSlopeCorrelation * std::sqrt(var_phase_ * var_period_);
+  delays_.begin(fit.line.delay_s, kFitBlocks);
+  walk_ = kFrequencyWalkPrior;
+  misfit_ = 1;
+  in_block_ = 0;
+  block_size_ = kMaxBlock;
+  rejected_blocks_ = contradictions_ = 0;
+  held_late_s_ = 0;
+  observations_ = kObservationsToLock;
 }
 
 void ClockModel::advance_to(std::int64_t index) {
   const auto n = static_cast<double>(index - index_);
-  const double dt_s = n * nominal_s_;
-  phase_s_ += n * period_s_;
+  const double dt_s = n * period_s_;
+  phase_s_ += dt_s;
   // Random walk of the frequency, integrated once for the phase (period = nominal * (1 + frequency error)).
   const double walk = square(walk_) * dt_s;
   var_phase_ += 2 * n * cov_ + n * n * var_period_ + walk * dt_s * dt_s / 3 + square(kPhaseWalk_s) * dt_s;
-  cov_ += n * var_period_ + walk * dt_s / 2 * nominal_s_;
-  var_period_ += walk * square(nominal_s_);
+  cov_ += n * var_period_ + walk * dt_s / 2 * period_s_;
+  var_period_ += walk * square(period_s_);
   index_ = index;
 }
 
-TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns) {
+TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns, bool held_up) {
   ++observations_;
   if (observations_ == 1) {
-    begin(index, observed_ns);
+    begin_at(index, observed_ns);
   } else {
     advance_to(index);
   }
   const double observed_s = static_cast<double>(observed_ns - origin_ns_) / kNs;
   const double residual_s = observed_s - phase_s_;
-  residuals_[static_cast<std::size_t>(in_block_++)] = residual_s;
-  // A frame that comes earlier than the model allows is news at once; late ones wait for the block to end.
-  const bool early = residual_s < -3 * std::sqrt(var_phase_);
-  if (in_block_ == block_size_ || early) close_block();
-
-  const double now_s = std::min(phase_s_, observed_s);
+  const bool early = residual_s < -kEarly * std::sqrt(var_phase_);
+  if (early || !held_up) {
+    if (early) take_early(residual_s);
+    earliest_s_ = in_block_ == 0 ? residual_s : std::min(earliest_s_, residual_s);
+    residuals_[static_cast<std::size_t>(in_block_++)] = residual_s;
+    // A frame that comes earlier than the model allows is news at once; late ones wait for the block to end.
+    if (in_block_ == block_size_ || early) close_block();
+  }
+  const double now_s = std::min(phase_s_ + delays_.soft_edge_s(), observed_s);
   return {origin_ns_ + std::llround(now_s * kNs), std::llround(sigma_s() * kNs)};
 }
 
+/// Nothing arrives early: far too early a frame means that the model is wrong by so much.
+void ClockModel::take_early(double residual_s) {
+  const double allowed_s =
+      std::hypot(kTooEarly * std::sqrt(var_phase_ * std::max(1.0, misfit_)), delays_.soft_edge_s());
+  if (-residual_s < allowed_s) return;
+  const double opened = 1 + square(residual_s) / var_phase_;
+  var_phase_ *= opened;
+  cov_ *= std::sqrt(opened);
+  ++contradictions_;
+}
+
 void ClockModel::close_block() {
-  const auto* const first = residuals_.data();
-  const double earliest_s = *std::min_element(first, first + in_block_);
-  const double expected_s = jitter_s_ / in_block_;
+  const double expected_s = delays_.mean_s() / in_block_;
   const double variance = square(doubt() * expected_s) + square(kMeasurementFloor_s);
-  const double residual_s = earliest_s - expected_s;
-  const double gate_s = kGate * std::sqrt(var_phase_ + variance);
-  if (residual_s > gate_s && rejected_blocks_ + 1 < kRejectedBlocksToReset) {
-    // All of the block was held up somewhere; the device's clock did not stop for that. Unless the period is
-    // wrong: each such block makes it less believed, so that a bad start cannot shut the truth out.
-    ++rejected_blocks_;
-    var_period_ = std::max(var_period_, std::min(4 * var_period_, square(kPeriodPrior * nominal_s_)));
-  } else if (residual_s > gate_s) {
-    phase_s_ += residual_s;  // it stays late: the device paused
-    var_phase_ = variance + square(jitter_s_);
-    cov_ = 0;
-    var_period_ = std::max(var_period_, square(kPeriodPrior * nominal_s_));
-    rejected_blocks_ = 0;
-    count_reset();
+  const double residual_s = earliest_s_ - expected_s;
+  const double gate_s = kGate * std::sqrt((var_phase_ + variance) * std::max(1.0, misfit_));
+  if (residual_s > gate_s) {
+    reject_block(residual_s, variance);
   } else {
-    if (in_block_ == kMaxBlock) resets_without_fit_ = 0;
-    learn_jitter();
+    if (in_block_ == kMaxBlock) contradictions_ = std::max(0, contradictions_ - 1);
+    if (in_block_ >= 4) delays_.learn(std::span(residuals_).first(static_cast<std::size_t>(in_block_)));
     correct(residual_s, variance);
     rejected_blocks_ = 0;
+    held_late_s_ = 0;
   }
   in_block_ = 0;
   block_size_ = std::min(2 * block_size_, kMaxBlock);
 }
 
+/// All of the block was held up somewhere, or the device paused, or the period is wrong.
+void ClockModel::reject_block(double residual_s, double variance_s2) {
+  held_late_s_ = residual_s;
+  contradictions_ += 2;
+  if (++rejected_blocks_ < kRejectedBlocksToReset) {
+    // Each such block makes the period less believed, so that a bad start cannot shut the truth out.
+    var_period_ = std::max(var_period_, std::min(4 * var_period_, square(period_prior_s_)));
+    return;
+  }
+  phase_s_ += residual_s;  // it stays late: the device paused
+  var_phase_ = variance_s2 + square(delays_.mean_s());
+  cov_ = 0;
+  var_period_ = std::max(var_period_, square(period_prior_s_));
+  rejected_blocks_ = 0;
+  held_late_s_ = 0;
+  ++resets_;
+}
+
 void ClockModel::correct(double residual_s, double variance_s2) {
   const double total = var_phase_ + variance_s2;
   // Predictions that miss by more than they claim mean that the clock wanders more than was assumed.
-  const double surprise = std::min(square(residual_s) / total, kSurpriseLimit) - kSurpriseExpected;
-  walk_ = std::clamp(walk_ * std::exp(kWalkGain * surprise), kFrequencyWalkLeast, kFrequencyWalkMost);
+  const double misfit = std::min(square(residual_s) / total, kMisfitLimit);
+  walk_ = std::clamp(walk_ * std::exp(kWalkGain * (misfit - kMisfitExpected)), kFrequencyWalkLeast,
+                     kFrequencyWalkMost);
+  misfit_ += kMisfitGain * (misfit - misfit_);
   const double gain_phase = var_phase_ / total;
   const double gain_period = cov_ / total;
   phase_s_ += gain_phase * residual_s;
@@ -131,20 +175,12 @@ void ClockModel::correct(double residual_s, double variance_s2) {
 }
 
 // As long as few blocks have told what the mean delay is, it may well be several times what is believed.
-double ClockModel::doubt() const { return 1 + 4 / (1 + jitter_weight_); }
+double ClockModel::doubt() const { return 1 + 4 / (1 + delays_.weight()) - 0.13; }
 
-void ClockModel::learn_jitter() {
-  if (in_block_ < 4) return;
-  // Residuals are all relative to the model as of this block, advanced frame by frame: their differences are
-  // delays.
-  auto sorted = residuals_;
-  auto* const middle = sorted.data() + (in_block_ + 1) / 2 - 1;
-  std::nth_element(sorted.data(), middle, sorted.data() + in_block_);
-  const double earliest_s = *std::min_element(sorted.data(), sorted.data() + in_block_);
-  const double jitter_s = (*middle - earliest_s) / median_above_minimum(in_block_);
-  if (jitter_weight_ <= 0) jitter_weight_ = kJitterPriorWeight;
-  jitter_weight_ = std::min(jitter_weight_ + 1, kJitterMemory);
-  jitter_s_ += (jitter_s - jitter_s_) / jitter_weight_;
+/// By how much the newest frames are all later than delays explain.
+double ClockModel::least_late_s() const {
+  const double late_s = in_block_ < kLateFrames ? 0 : earliest_s_ - kLateExpected * delays_.mean_s() / in_block_;
+  return std::max({0.0, late_s, in_block_ < kLateFrames ? held_late_s_ : 0.0});
 }
 
 std::int64_t ClockModel::predict_ns(std::int64_t index) const {
@@ -152,34 +188,31 @@ std::int64_t ClockModel::predict_ns(std::int64_t index) const {
   return origin_ns_ + std::llround(time_s * kNs);
 }
 
-double ClockModel::sigma_s() const { return std::sqrt(var_phase_ + square(kStampFloor_s)); }
-
-void ClockModel::count_reset() {
-  ++resets_;
-  ++resets_without_fit_;
+double ClockModel::sigma_s() const {
+  const double excess = std::max(1.0, misfit_ / kMisfitIgnored);
+  return std::sqrt(var_phase_ * excess + square(kStampFloor_s) + square(kSoftEdgeShare * delays_.soft_edge_s()) +
+                   square(least_late_s()));
 }
 
-bool ClockModel::confused() const { return resets_without_fit_ >= kResetsToConfuse; }
+double ClockModel::period_std_s() const {
+  return std::sqrt(var_period_ * std::max(1.0, misfit_ / kMisfitIgnored));
+}
+
+bool ClockModel::contradicted() const { return contradictions_ >= kContradictionsToGiveUp; }
 
 void ClockModel::reset_phase() {
   observations_ = 0;
-  count_reset();
-}
-
-void ClockModel::reset_period(double period_s) {
-  nominal_s_ = period_s_ = period_s;
-  // Found by averaging a few arrivals: good to some per cent of a period over the frames averaged.
-  var_period_ = square(0.01 * period_s);
-  reset_phase();
-  resets_without_fit_ = 0;
+  contradictions_ += 2;
+  ++resets_;
 }
 
 ClockState ClockModel::state() const {
   return {.locked = observations_ >= kObservationsToLock,
+          .timing = Timing::periodic,
           .period_s = period_s_,
           .skew_ppm = (period_s_ / nominal_s_ - 1) * 1e6,
-          .skew_std_ppm = std::sqrt(var_period_) / nominal_s_ * 1e6,
-          .jitter_s = jitter_s_,
+          .skew_std_ppm = period_std_s() / nominal_s_ * 1e6,
+          .jitter_s = delays_.mean_s(),
           .resets = resets_};
 }
 

@@ -3,23 +3,12 @@
 #include <array>
 #include <cstdint>
 
+#include "instruments/clock_state.h"
+#include "instruments/delay_spread.h"
+
 namespace navcal::instruments {
 
-/// What the model of a device's own clock says of itself; shown in HEALTH.
-struct ClockState {
-  bool locked = false;  ///< enough was seen to stamp by the model rather than by arrival
-  double period_s = 0;  ///< estimated time between frames
-  double skew_ppm = 0;  ///< of the device's clock against ours: positive when its frames come too slowly
-  double skew_std_ppm = 0;
-  double jitter_s = 0;  ///< mean delay of arrivals behind the envelope
-  std::uint64_t resets = 0;
-};
-
-/// A time in nanoseconds with one standard deviation.
-struct TimeEstimate {
-  std::int64_t time_ns = 0;
-  std::int64_t std_ns = 0;
-};
+struct PeriodFit;
 
 /// Model: frame k was measured at phase + k * period; it is observed at that time plus a delay d >= 0.
 /// The delay is noise of the host, never negative, so the truth is the lower envelope of the observations. A
@@ -28,52 +17,63 @@ struct TimeEstimate {
 /// it. Value machine: no clock inside, bounded memory, O(1) per frame.
 class ClockModel {
  public:
-  /// `nominal_period_s` > 0.
-  explicit ClockModel(double nominal_period_s);
+  static constexpr double kCrystal = 300e-6;  ///< a card's rate can be off by 200 ppm (ICD section 3)
 
-  /// Observation of frame `index` (increasing). Returns the estimate of when it was measured, never later than
-  /// observed: a frame cannot arrive before it was sent.
-  TimeEstimate update(std::int64_t index, std::int64_t observed_ns);
+  /// `nominal_period_s` > 0, known to `period_std` (relative) until begin() says better.
+  explicit ClockModel(double nominal_period_s, double period_std = kCrystal);
+
+  /// Phase and period found from a run of frames; `index` is the newest of them.
+  void begin(std::int64_t index, const PeriodFit& fit);
+  /// Observation of frame `index` (not less than the one before). Returns the estimate of when it was measured,
+  /// never later than observed: a frame cannot arrive before it was sent. `held_up`: known to be late.
+  TimeEstimate update(std::int64_t index, std::int64_t observed_ns, bool held_up = false);
 
   /// Predicted time of frame `index`; meaningful once something was observed.
   [[nodiscard]] std::int64_t predict_ns(std::int64_t index) const;
   [[nodiscard]] double sigma_s() const;  ///< one standard deviation of a prediction for the newest frame
   [[nodiscard]] double period_s() const { return period_s_; }
+  [[nodiscard]] double period_std_s() const;
+  [[nodiscard]] double mean_delay_s() const { return delays_.mean_s(); }
+  /// From the earliest to the latest delay of a block, in the mean.
+  [[nodiscard]] double delay_range_s() const { return delays_.range_s(); }
   [[nodiscard]] bool empty() const { return observations_ == 0; }
-  /// The phase was lost again and again, and nothing has fitted in between: the period itself must be wrong.
-  [[nodiscard]] bool confused() const;
+  /// Observations contradict the model again and again: phase and period are to be found anew.
+  [[nodiscard]] bool contradicted() const;
   [[nodiscard]] ClockState state() const;
 
   /// The device paused or began anew: forget the phase, keep the period.
   void reset_phase();
-  /// The device does not run at the period it was said to.
-  void reset_period(double period_s);
 
  private:
   static constexpr int kMaxBlock = 16;
 
-  void begin(std::int64_t index, std::int64_t observed_ns);
+  void begin_at(std::int64_t index, std::int64_t observed_ns);
   void advance_to(std::int64_t index);
+  void take_early(double residual_s);
   void close_block();
-  void count_reset();
+  void reject_block(double residual_s, double variance_s2);
   void correct(double residual_s, double variance_s2);
-  void learn_jitter();
+  void learn_delays();
   [[nodiscard]] double doubt() const;
+  [[nodiscard]] double least_late_s() const;
 
   double nominal_s_;
+  double period_prior_s_;
   std::int64_t origin_ns_ = 0;  ///< integer part of the phase, so that doubles keep nanoseconds for days
   std::int64_t index_ = 0;      ///< frame to which phase_s_ belongs
   double phase_s_ = 0;          ///< time of frame index_, relative to origin_ns_
   double period_s_;
   double var_phase_ = 0, cov_ = 0, var_period_ = 0;  ///< covariance of (phase, period)
-  double jitter_s_;
-  double walk_;  ///< of the frequency, relative, per sqrt(s)
-  double jitter_weight_ = 0;
+  double walk_;                                      ///< of the frequency, relative, per sqrt(s)
+  double misfit_ = 1;                                ///< normalised innovation squared, mean over recent blocks
+  double held_late_s_ = 0;  ///< by how much the last block was late as a whole, if it was left out for that
+  DelaySpread delays_;
   std::array<double, kMaxBlock> residuals_{};  ///< of the open block
+  double earliest_s_ = 0;                      ///< of them
   int in_block_ = 0;
   int block_size_ = 1;
   int rejected_blocks_ = 0;
-  int resets_without_fit_ = 0;
+  int contradictions_ = 0;  ///< since a whole block fitted
   std::uint64_t observations_ = 0;
   std::uint64_t resets_ = 0;
 };

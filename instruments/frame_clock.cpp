@@ -6,70 +6,198 @@
 namespace navcal::instruments {
 namespace {
 
-constexpr double kArrivalStd_s = 1e-3;   // of a stamp by arrival: a loaded kernel's wake-up
+constexpr double kArrivalStd_s = 1e-3;   // of a stamp by arrival where no rate is configured
+constexpr double kUnknownStd_s = 12e-3;  // of a stamp by arrival when nothing is known of the delays: twice that
+                                         // holds 95 % of exponential ones of 8 ms mean, those of a loaded machine
+constexpr double kUnknownFrames = 3;     // after so many more frames, half of that is left
+constexpr double kScarce = 4;            // frames by which the delays of a short run may look too small
 constexpr double kAheadTolerance = 0.5;  // periods before its time that a frame may come and the phase be believed
 constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a counted frame means a pause
-constexpr double kRateTolerance = 0.1;   // of the nominal rate
-constexpr double kLeastTick = 0.4;       // of the nominal period, once a line may have babbled: less is no tick
-constexpr double kSameTick = 0.25;       // intervals that differ from the median by more are none of one tick
+constexpr double kLostMargin_sigma = 6;
+constexpr double kLostMargin = 0.002, kLostMarginMost = 0.25;  // of a period, by which a tick may be missed early
+constexpr double kReachingDelay = 0.05;  // of a period: mean of delays that reach a whole one now and then
+constexpr double kLostShareMost = 0.35;  // more guessed losses than that: the period is wrong
+constexpr double kShareGain = 1.0 / 24;  // per frame
+constexpr double kShort = 0.3;           // of the period: frames closer than that came in a burst
+constexpr double kBurstsBegin = 0.3, kBurstsEnd = 0.15;  // share of such intervals
+constexpr double kLeastStep = 0.1;                       // of the period, between two times of validity
+constexpr std::int64_t kLeastStep_ns = 1000;
+constexpr double kWholeTurn = 256;  // of the sequence number
+
+std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
 
 }  // namespace
 
-FrameClock::FrameClock(double rate_Hz, double latency_std_s)
-    : periodic_(rate_Hz > 0),
-      nominal_s_(periodic_ ? 1 / rate_Hz : 1.0),
-      latency_std_s_(latency_std_s),
-      model_(nominal_s_) {}
-
-FrameClock::Outcome FrameClock::update(const FrameObservation& frame) {
-  if (!periodic_) {
-    return {{frame.observed_ns, std::llround(std::hypot(kArrivalStd_s, latency_std_s_) * 1e9)}, false};
+std::string_view name_of(Timing timing) {
+  switch (timing) {
+    case Timing::arrival:
+      return "arrival";
+    case Timing::searching:
+      return "searching";
+    case Timing::periodic:
+      return "periodic";
+    case Timing::bursts:
+      return "bursts";
+    case Timing::irregular:
+      return "irregular";
   }
-  if (model_.confused() && !on_trial_) {
-    // A line that babbled, say, has been taken for the device: what is configured counts again, until the next
-    // trial.
-    model_.reset_period(nominal_s_);
-    on_trial_ = may_babble_ = true;
-    trial_frames_ = -1;
-  }
-  const std::int64_t index = next_index(frame);
-  sequence_ = frame.sequence;
-  if (index == index_ && !model_.empty()) {
-    ++repeated_;
-    return {{model_.predict_ns(index), std::llround(model_.sigma_s() * 1e9)}, true};
-  }
-  index_ = index;
-  check_period(frame.observed_ns);
-  TimeEstimate time = model_.update(index, frame.observed_ns);
-  time.std_ns = std::llround(std::hypot(static_cast<double>(time.std_ns), latency_std_s_ * 1e9));
-  return {time, false};
+  return "arrival";
 }
 
-std::int64_t FrameClock::next_index(const FrameObservation& frame) {
-  if (model_.empty()) return index_ + 1;
-  const double late_s = static_cast<double>(frame.observed_ns - model_.predict_ns(index_ + 1)) * 1e-9;
-  const double late_periods = late_s / model_.period_s();
-  const bool counted = frame.sequence && sequence_;
-  return counted ? by_sequence(frame, late_periods) : by_time(frame, late_periods);
+FrameClock::FrameClock(double rate_Hz, double latency_std_s)
+    : nominal_s_(rate_Hz > 0 ? 1 / rate_Hz : 0),
+      latency_std_s_(latency_std_s),
+      timing_(rate_Hz > 0 ? Timing::searching : Timing::arrival),
+      model_(rate_Hz > 0 ? nominal_s_ : 1.0) {}
+
+FrameClock::Outcome FrameClock::update(const FrameObservation& frame) {
+  if (any_ && is_repeated(frame)) {
+    ++repeated_;
+    return {{stamped_ns_, ns(kUnknownStd_s)}, true};
+  }
+  const bool tracking = timing_ == Timing::periodic || timing_ == Timing::bursts;
+  TimeEstimate time = timing_ == Timing::arrival     ? TimeEstimate{frame.observed_ns, ns(kArrivalStd_s)}
+                      : tracking                     ? track(frame)
+                      : timing_ == Timing::searching ? search(frame)
+                                                     : by_arrival(frame);
+  sequence_ = frame.sequence;
+  observed_ns_ = frame.observed_ns;
+  return {finish(time, tracking ? kLeastStep * model_.period_s() : 0), false};
+}
+
+/// The latency's uncertainty, and no step backwards.
+TimeEstimate FrameClock::finish(TimeEstimate time, double least_step_s) {
+  double std_ns = std::hypot(static_cast<double>(time.std_ns), latency_std_s_ * 1e9);
+  const std::int64_t least_ns = stamped_ns_ + std::max(kLeastStep_ns, ns(least_step_s));
+  if (any_ && time.time_ns < least_ns) {
+    std_ns = std::hypot(std_ns, static_cast<double>(least_ns - time.time_ns));
+    time.time_ns = least_ns;
+  }
+  any_ = true;
+  stamped_ns_ = time.time_ns;
+  time.std_ns = std::llround(std_ns);
+  return time;
+}
+
+/// The counter has not moved, though it may have turned whole times.
+bool FrameClock::is_repeated(const FrameObservation& frame) const {
+  if (!frame.sequence || !sequence_ || *frame.sequence != *sequence_) return false;
+  const double period_s = model_known_ ? model_.period_s() : nominal_s_;
+  if (period_s <= 0) return false;
+  return static_cast<double>(frame.observed_ns - observed_ns_) * 1e-9 < kWholeTurn / 2 * period_s;
+}
+
+int FrameClock::counted_step(const FrameObservation& frame) const {
+  if (!frame.sequence) return 0;
+  return sequence_ ? std::max<int>(1, static_cast<std::uint8_t>(*frame.sequence - *sequence_)) : 1;
+}
+
+TimeEstimate FrameClock::search(const FrameObservation& frame) {
+  const int step = counted_step(frame);
+  const double elapsed_s = static_cast<double>(frame.observed_ns - observed_ns_) * 1e-9;
+  // A counter that runs far ahead of time was set back by a restart.
+  const bool ahead = step > 4 + 4 * elapsed_s / nominal_s_;
+  const bool paused = finder_.frames() < 6 && elapsed_s > 50 * nominal_s_;
+  if (any_ && (ahead || (paused && step < 25))) {
+    finder_.clear();
+  } else if (any_ && step > 1) {
+    lost_ += static_cast<std::uint64_t>(step - 1);
+  }
+  finder_.add(frame.observed_ns, step, frame.backlog);
+  const PeriodFit fit = finder_.fit();
+  TimeEstimate time{frame.observed_ns, ns(kUnknownStd_s)};
+  const int n = finder_.frames();
+  if (fit.found && n > 3) {
+    const double at_s = static_cast<double>(frame.observed_ns - fit.origin_ns) * 1e-9;
+    time.time_ns = fit.origin_ns + ns(std::min(at_s, fit.line.end_s));
+    const double unknown_s = kUnknownStd_s * std::exp2((1 - n) / kUnknownFrames);
+    time.std_ns = ns(std::hypot(unknown_s, fit.line.end_std_s * (1 + kScarce / n)));
+  }
+  if (finder_.full()) settle(fit);
+  return time;
+}
+
+/// Enough was seen to tell what kind of stream it is.
+void FrameClock::settle(const PeriodFit& fit) {
+  finder_.clear();
+  if (!fit.periodic(nominal_s_)) {
+    timing_ = Timing::irregular;
+    return;
+  }
+  model_.begin(index_, fit);
+  if (!sequence_) lost_ += static_cast<std::uint64_t>(fit.lost);
+  timing_ = fit.bursts() ? Timing::bursts : Timing::periodic;
+  burst_share_ = fit.burst_share;
+  lost_share_ = 0;
+  guessed_lost_ = 0;
+  model_known_ = true;
+}
+
+void FrameClock::search_again() {
+  timing_ = Timing::searching;
+  finder_.clear();
+}
+
+/// No clock explains the frames, so far.
+TimeEstimate FrameClock::by_arrival(const FrameObservation& frame) {
+  const int step = counted_step(frame);
+  if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
+  finder_.add(frame.observed_ns, step, frame.backlog);
+  if (finder_.full()) settle(finder_.fit());
+  return {frame.observed_ns, ns(kUnknownStd_s)};
+}
+
+TimeEstimate FrameClock::track(const FrameObservation& frame) {
+  if (!model_.empty()) {
+    const double late_s = static_cast<double>(frame.observed_ns - model_.predict_ns(index_ + 1)) * 1e-9;
+    const double late_periods = late_s / model_.period_s();
+    const bool counted = frame.sequence && sequence_;
+    index_ += counted ? by_sequence(frame, late_periods) : by_time(frame, late_periods);
+  } else {
+    ++index_;
+  }
+  watch_intervals(frame);
+  TimeEstimate time = model_.update(index_, frame.observed_ns, frame.backlog);
+  if (timing_ == Timing::bursts) {
+    // Whether the device measured evenly or as it sent, nothing tells: twice this holds both.
+    time.std_ns = ns(std::hypot(static_cast<double>(time.std_ns) * 1e-9, 0.5 * model_.delay_range_s()));
+  }
+  if (model_.contradicted() || lost_share_ > kLostShareMost) search_again();
+  return time;
+}
+
+void FrameClock::watch_intervals(const FrameObservation& frame) {
+  const double interval_s = static_cast<double>(frame.observed_ns - observed_ns_) * 1e-9;
+  const double is_short = interval_s < kShort * model_.period_s() ? 1 : 0;
+  burst_share_ += kShareGain * (is_short - burst_share_);
+  if (burst_share_ > kBurstsBegin) timing_ = Timing::bursts;
+  if (burst_share_ < kBurstsEnd) timing_ = Timing::periodic;
 }
 
 std::int64_t FrameClock::by_sequence(const FrameObservation& frame, double late_periods) {
   const auto step = static_cast<std::uint8_t>(*frame.sequence - *sequence_);
   // The counter wraps: add the whole turns that the elapsed time makes likely.
   const double elapsed = late_periods + 1;
-  const double turns = std::max(0.0, std::round((elapsed - step) / 256));
-  const double counted = step + 256 * turns;
-  if (counted < 0.5) return index_;
+  const double turns = std::max(0.0, std::round((elapsed - step) / kWholeTurn));
+  const double counted = std::max(1.0, step + kWholeTurn * turns);
   const bool ahead = counted > elapsed + kAheadTolerance;
   const double behind_s = (elapsed - counted) * model_.period_s();
-  const bool paused = behind_s > kPauseLimit_s && !frame.backlog;
+  const bool paused = behind_s > kPauseLimit_s && behind_s > 2 * model_.period_s() && !frame.backlog;
   if (ahead || paused) {
-    model_
-        .reset_phase();  // the device began anew, or stood still: its counter says nothing about the time between
-    return index_ + 1;
+    model_.reset_phase();  // it began anew, or stood still: its counter says nothing about the time between
+    return 1;
   }
   lost_ += static_cast<std::uint64_t>(counted) - 1;
-  return index_ + static_cast<std::int64_t>(counted);
+  return static_cast<std::int64_t>(counted);
+}
+
+/// By how much of a period a frame may come before the tick that it is taken for, when the one before was lost.
+double FrameClock::lost_margin() const {
+  const double sigma = model_.sigma_s() / model_.period_s();
+  // Where delays reach a period, a frame that is late by a little less was late, and nothing was lost.
+  const bool delays_reach = model_.mean_delay_s() > kReachingDelay * model_.period_s();
+  if (delays_reach) return std::min(sigma, kLostMarginMost);
+  return std::min(kLostMargin + kLostMargin_sigma * sigma, kLostMarginMost);
 }
 
 std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_periods) {
@@ -77,58 +205,31 @@ std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_peri
     // Longer than any stall of ours: silence of the device. How many it would have sent nobody knows.
     model_.reset_phase();
     guessed_lost_ = 0;
-    return index_ + 1;
+    return 1;
   }
   if (late_periods < -kAheadTolerance) {
-    // Too early by the model: the frames thought lost were only late. Take them back and find the phase again.
-    lost_ -= static_cast<std::uint64_t>(
-        std::min(guessed_lost_, static_cast<std::int64_t>(std::llround(-late_periods))));
+    // Too early by the model: the frames thought lost were only late. Take them back.
+    const std::int64_t back = std::min(guessed_lost_, static_cast<std::int64_t>(std::llround(-late_periods)));
+    lost_ -= static_cast<std::uint64_t>(back);
     guessed_lost_ = 0;
-    model_.reset_phase();
-    return index_ + 1;
+    if (late_periods + static_cast<double>(back) < -kAheadTolerance) model_.reset_phase();
+    return 1 - back;
   }
-  const double margin = 3 * model_.sigma_s() / model_.period_s();
+  const double margin = lost_margin();
   const auto missing =
       frame.backlog ? 0 : static_cast<std::int64_t>(std::max(0.0, std::floor(late_periods + margin)));
   guessed_lost_ = missing;
   lost_ += static_cast<std::uint64_t>(missing);
-  return index_ + 1 + missing;
+  lost_share_ += kShareGain * (static_cast<double>(missing > 0) - lost_share_);
+  return 1 + missing;
 }
 
-void FrameClock::check_period(std::int64_t observed_ns) {
-  if (!on_trial_) return;
-  const bool first = trial_frames_ < 0;
-  const double passed_s = static_cast<double>(observed_ns - trial_last_ns_) * 1e-9;
-  if (!first && may_babble_ && passed_s < kLeastTick * nominal_s_) return;
-  if (!first) {
-    // Without a counter the index itself rests on the period in question: there frames are counted as they came.
-    const auto ticks = sequence_ ? static_cast<double>(index_ - trial_last_index_) : 1.0;
-    trial_s_[static_cast<std::size_t>(trial_frames_)] = passed_s / ticks;
-  }
-  trial_last_ns_ = observed_ns;
-  trial_last_index_ = index_;
-  if (++trial_frames_ == kTrialFrames) judge_period();
-}
-
-void FrameClock::judge_period() {
-  trial_frames_ = 0;
-  auto* const middle = trial_s_.data() + kTrialFrames / 2;
-  std::nth_element(trial_s_.begin(), middle, trial_s_.end());
-  const double median_s = *middle;
-  // The mean is the better estimate, of those that are no lost frame and no pause.
-  double sum_s = 0;
-  int count = 0;
-  for (const double tick_s : trial_s_) {
-    if (std::abs(tick_s - median_s) > kSameTick * median_s) continue;
-    sum_s += tick_s;
-    ++count;
-  }
-  const double mean_s = sum_s / count;
-  if (std::abs(mean_s / model_.period_s() - 1) > kRateTolerance && mean_s > 0) {
-    model_.reset_period(mean_s);
-  } else {
-    on_trial_ = false;
-  }
+ClockState FrameClock::state() const {
+  ClockState state = model_.state();
+  state.timing = timing_;
+  const bool tracking = timing_ == Timing::periodic || timing_ == Timing::bursts;
+  state.locked = tracking && state.locked;
+  return state;
 }
 
 }  // namespace navcal::instruments

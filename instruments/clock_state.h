@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace navcal::instruments {
+
+/// How the frames of a stream get their times of validity.
+enum class Timing : std::uint8_t {
+  arrival,    ///< no rate is configured: by their own arrival
+  searching,  ///< too few frames so far: by a line below those that there are
+  periodic,   ///< by the model of the device's clock
+  bursts,     ///< likewise, and the frames come several at a time
+  irregular,  ///< no clock explains them: by their own arrival
+};
+
+[[nodiscard]] std::string_view name_of(Timing timing);
+
+/// What the model of a device's own clock says of itself; shown in HEALTH.
+struct ClockState {
+  bool locked = false;  ///< enough was seen to stamp by the model rather than by arrival
+  Timing timing = Timing::arrival;
+  double period_s = 0;  ///< estimated time between frames
+  double skew_ppm = 0;  ///< of the device's clock against ours: positive when its frames come too slowly
+  double skew_std_ppm = 0;
+  double jitter_s = 0;  ///< mean delay of arrivals behind the envelope
+  std::uint64_t resets = 0;
+};
+
+/// A time in nanoseconds with one standard deviation.
+struct TimeEstimate {
+  std::int64_t time_ns = 0;
+  std::int64_t std_ns = 0;
+};
+
+}  // namespace navcal::instruments

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace navcal::instruments {
+
+/// One frame of a periodic stream, as its time was observed.
+struct FrameObservation {
+  /// Monotonic time before which it must have been measured: arrival less wire time less nominal latency.
+  std::int64_t observed_ns = 0;
+  std::optional<std::uint8_t> sequence{};  ///< the device's counter, where it has one (wraps at 256)
+  bool backlog = false;  ///< more of the stream lay behind it in the same read: the host was late
+};
+
+}  // namespace navcal::instruments

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "instruments/envelope_line.h"
+#include "instruments/frame_observation.h"
+
+namespace navcal::instruments {
+
+/// What a run of frames tells about the device's ticks, with no more than a rough idea of their period.
+struct PeriodFit {
+  bool found = false;  ///< enough frames for a line
+  EnvelopeLine line;   ///< end_s relative to origin_ns
+  std::int64_t origin_ns = 0;
+  int frames = 0;
+  int lost = 0;         ///< ticks without a frame
+  double spread_s = 0;  ///< mean absolute deviation of the residuals from their median
+  double roughness =
+      0;  ///< mean |difference of neighbouring residuals| / spread: 1.4 independent, less for a walk
+  double burst_share = 0;  ///< of the intervals that are much shorter than the period
+
+  [[nodiscard]] bool bursts() const;
+  /// Whether the frames are ticks of one clock. `nominal_s` is the configured period.
+  [[nodiscard]] bool periodic(double nominal_s) const;
+};
+
+/// Finds period and phase from the newest frames alone: at the beginning, and when a device no longer does what
+/// the clock model says. Without sequence numbers, the ticks to which the frames belong are found as well: of
+/// several periods, each with so many ticks in the time observed, the one that leaves the least delays wins, and
+/// each lost frame counts against it. Bounded: 32 frames, and the work of a fit is some microseconds.
+class PeriodFinder {
+ public:
+  static constexpr int kFrames = kEnvelopeMost;
+
+  void clear() { frames_ = 0; }
+  /// `step`: ticks since the frame before by the device's counter; 0: no counter.
+  void add(std::int64_t observed_ns, int step, bool backlog);
+  [[nodiscard]] int frames() const { return frames_; }
+  [[nodiscard]] bool full() const { return frames_ == kFrames; }
+  [[nodiscard]] PeriodFit fit() const;
+
+ private:
+  struct Ticks {
+    std::array<double, kFrames> index{};
+    EnvelopeLine line;
+    double score = 0;
+  };
+  void drop_before_pause();
+  void count_ticks(Ticks& ticks) const;
+  void guess_ticks(double period_s, Ticks& ticks) const;
+  void settle_ticks(Ticks& ticks) const;
+  void judge(Ticks& ticks) const;
+  [[nodiscard]] Ticks best_ticks() const;
+  [[nodiscard]] double median_interval() const;
+  [[nodiscard]] std::span<const double> times() const {
+    return {time_s_.data(), static_cast<std::size_t>(frames_)};
+  }
+
+  std::int64_t origin_ns_ = 0;
+  std::array<double, kFrames> time_s_{};  ///< relative to origin_ns_
+  std::array<int, kFrames> step_{};
+  std::array<bool, kFrames> backlog_{};
+  int frames_ = 0;
+};
+
+}  // namespace navcal::instruments
