@@ -26,6 +26,7 @@ void add_completion(CLI::App& app);
 void add_decode(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_emulate(CLI::App& app);
+void add_field(CLI::App& app);
 void add_gap(CLI::App& app);
 void add_log(CLI::App& app);
 void add_play(CLI::App& app);

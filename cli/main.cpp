@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   navcal::cli::add_decode(app);
   navcal::cli::add_doctor(app);
   navcal::cli::add_emulate(app);
+  navcal::cli::add_field(app);
   navcal::cli::add_gap(app);
   navcal::cli::add_log(app);
   navcal::cli::add_play(app);
