@@ -14,6 +14,23 @@
 
 namespace navcal::calib {
 
+namespace {
+
+/// Tilt that a manoeuvre may ask for. Beyond it more readings help, and more tilt does not.
+constexpr double kMostTilt_rad = 1.05;
+
+/// What to do for a vertical part that is uncertain, where tilt reached `tilt_rad`.
+std::string tilt_manoeuvre(double tilt_rad) {
+  constexpr double kMore_rad = 0.26;
+  if (tilt_rad >= kMostTilt_rad) {
+    return "turn through full circles again, rolled and pitched far to both sides, and stay there for longer";
+  }
+  return "turn through a full circle with roll or pitch beyond " +
+         whole_degrees(std::min(1.2, tilt_rad + kMore_rad)) + " degrees";
+}
+
+}  // namespace
+
 EllipsoidShape::Matrix doubtful_covariance(const EllipsoidFit& fit, const EllipsoidCells& cells, double field_uT,
                                            double model_error) {
   using Row = EllipsoidShape::Vector;
@@ -98,17 +115,16 @@ Judgement EllipsoidEstimator::judgement() const {
                   tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
   }
   if (vertical_uT > parameters_.offset_std_uT) {
-    return refuse("the vertical offset is uncertain by " + rounded(vertical_uT, 1) + " uT: tilt stayed within " +
+    return refuse("the vertical offset is uncertain by " + rounded(vertical_uT, 1) + " uT: " +
+                      (tilt_rad < kMostTilt_rad ? "tilt stayed within " : "too little was seen at tilts up to ") +
                       whole_degrees(tilt_rad) + " degrees",
-                  tilt_more + whole_degrees(std::min(1.2, tilt_rad + 15 * kDegree)) + " degrees");
+                  tilt_manoeuvre(tilt_rad));
   }
   const double worst_rad = worst_heading_std_rad(fit_->shape, covariance, parameters_.expected_tilt_rad);
   if (worst_rad > parameters_.heading_std_rad) {
     return refuse(
         "the heading would be uncertain by " + rounded(worst_rad / kDegree, 1) + " degrees where it is worst",
-        coverage.arc_rad() < 0.9 * kFullTurn_rad
-            ? coverage.manoeuvre(kFullTurn_rad)
-            : tilt_more + whole_degrees(std::min(1.2, tilt_rad + 15 * kDegree)) + " degrees");
+        coverage.arc_rad() < 0.9 * kFullTurn_rad ? coverage.manoeuvre(kFullTurn_rad) : tilt_manoeuvre(tilt_rad));
   }
   judgement.accepted = true;
   return judgement;

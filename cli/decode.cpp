@@ -2,6 +2,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/decode_describe.h"
 #include "cli/decode_input.h"
+#include "cli/decode_port.h"
 #include "cli/decode_stream.h"
 #include "cli/progress.h"
 #include "protocols/imu_card.h"
@@ -25,6 +27,7 @@ using protocols::Protocol;
 
 struct DecodeArguments {
   std::string protocol;
+  std::string port;
   std::string file;
   std::string pivot;
   bool json = false;
@@ -41,15 +44,14 @@ std::optional<Date> pivot_of(const DecodeArguments& arguments, Protocol protocol
 }
 
 template <protocols::Scanner S>
-DecodeSummary decode_with(Describe describe, Protocol protocol, const std::optional<Date>& pivot, Input& input,
-                          FieldWriter& fields) {
+DecodeSummary decode_with(Describe describe, Protocol protocol, const std::optional<Date>& pivot,
+                          DecodeSource& input, FieldWriter& fields) {
   const std::string_view name = name_of(protocol);
   Progress progress("decode");
-  std::uint64_t done = 0;
   return decode_stream<S>(
       [&] {
         const protocols::Bytes bytes = input.next();
-        progress.show_bytes(done += bytes.size(), input.size());
+        input.show(progress);
         return bytes;
       },
       [&](const protocols::Frame& frame) {
@@ -59,7 +61,8 @@ DecodeSummary decode_with(Describe describe, Protocol protocol, const std::optio
       });
 }
 
-DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, Input& input, FieldWriter& fields) {
+DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, DecodeSource& input,
+                     FieldWriter& fields) {
   switch (protocol) {
     case Protocol::tcm2:
       return decode_with<protocols::tcm2::Scanner>(describe_tcm2, protocol, pivot, input, fields);
@@ -78,8 +81,16 @@ DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, Input&
 void run(const DecodeArguments& arguments) {
   // A reader that goes away (head, less) is told as a failure of the write and not by a signal.
   std::signal(SIGPIPE, SIG_IGN);
-  const Protocol protocol = *protocols::protocol_named(arguments.protocol);
-  Input input(arguments.file);
+  std::unique_ptr<PortBytes> port;
+  std::unique_ptr<DecodeSource> file;
+  if (!arguments.port.empty()) {
+    port = std::make_unique<PortBytes>(arguments.file, arguments.port);
+  } else {
+    file = std::make_unique<Input>(arguments.file);
+  }
+  DecodeSource& input = port ? static_cast<DecodeSource&>(*port) : *file;
+  const Protocol protocol =
+      arguments.protocol.empty() ? port->protocol() : *protocols::protocol_named(arguments.protocol);
   Output output(STDOUT_FILENO, "standard output");
   FieldWriter fields(output, arguments.json ? FieldWriter::Format::json : FieldWriter::Format::text);
   const DecodeSummary summary = decode(protocol, pivot_of(arguments, protocol), input, fields);
@@ -89,6 +100,8 @@ void run(const DecodeArguments& arguments) {
     write_text(output, summary);
   }
   output.flush();
+  if (!port) return;
+  for (const auto& remark : port->remarks()) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
 }
 
 }  // namespace
@@ -101,9 +114,12 @@ void add_decode(CLI::App& app) {
   names.reserve(kProtocols.size());
   for (const Protocol protocol : kProtocols) names.emplace_back(name_of(protocol));
 
-  command->add_option("--protocol", arguments->protocol, "Language of the device")
-      ->required()
+  command
+      ->add_option("--protocol", arguments->protocol,
+                   "Language of the device; with --port, the one that the recording names unless given")
       ->check(CLI::IsMember(names));
+  command->add_option("--port", arguments->port, "FILE is a capture or log; decode what this port of it received")
+      ->type_name("NAME");
   command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
   command
       ->add_option("--pivot", arguments->pivot,
@@ -113,12 +129,19 @@ void add_decode(CLI::App& app) {
       ->check([](const std::string& text) {
         return protocols::parse_iso_date(text) ? std::string{} : text + " is not a date, such as 2019-04-07";
       });
-  command->add_option("FILE", arguments->file, "Bytes as the device sent them; - is standard input")->required();
+  command
+      ->add_option("FILE", arguments->file,
+                   "Bytes as the device sent them (- is standard input), or with --port a capture or log")
+      ->required();
   command->footer(
       "Examples:\n"
       "  navcal decode --protocol oncore gps.bin\n"
+      "  navcal decode --port compass --json dive.cap\n"
       "  navcal decode --protocol nmea --json - < /dev/ttyUSB0 | jq .heading_deg");
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments] {
+    if (arguments->protocol.empty() && arguments->port.empty()) throw CLI::RequiredError("--protocol or --port");
+    run(*arguments);
+  });
 }
 
 }  // namespace navcal::cli

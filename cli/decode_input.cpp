@@ -1,13 +1,16 @@
 #include "cli/decode_input.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 #include "cli/commands.h"
+#include "record/mcap_format.h"
 
 namespace navcal::cli {
 namespace {
@@ -34,9 +37,23 @@ Input::~Input() {
 protocols::Bytes Input::next() {
   while (true) {
     const ssize_t n = ::read(descriptor_, block_.data(), block_.size());
-    if (n >= 0) return {block_.data(), static_cast<std::size_t>(n)};
-    if (errno != EINTR) fail(name_, "cannot read");
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(name_, "cannot read");
+    const protocols::Bytes bytes{block_.data(), static_cast<std::size_t>(n)};
+    if (done_ == 0) refuse_recording(bytes);
+    done_ += bytes.size();
+    return bytes;
   }
+}
+
+/// The whole text of a recording would count as bytes skipped, which tells nobody what is wrong.
+void Input::refuse_recording(protocols::Bytes first) const {
+  const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
+  const bool capture = text.starts_with("#capture ");
+  if (!capture && !text.starts_with(record::kMcapMagic)) return;
+  throw Failure(Exit::bad_input, fmt::format("{}: {}, not the bytes of one device: --port NAME decodes one of its "
+                                             "ports, \"navcal log info\" lists them",
+                                             name_, capture ? "a capture" : "a log"));
 }
 
 }  // namespace navcal::cli

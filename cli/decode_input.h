@@ -5,30 +5,44 @@
 #include <string>
 #include <vector>
 
+#include "cli/progress.h"
 #include "protocols/frame.h"
 
 namespace navcal::cli {
 
-/// A file, or standard input for "-", read from its beginning in large blocks. Throws Failure (bad input, the file
-/// named) when it cannot be opened or read.
-class Input {
+/// Bytes of one device, piece by piece.
+class DecodeSource {
  public:
-  explicit Input(const std::string& file);
-  ~Input();
-  Input(const Input&) = delete;
-  Input& operator=(const Input&) = delete;
+  DecodeSource() = default;
+  DecodeSource(const DecodeSource&) = delete;
+  DecodeSource& operator=(const DecodeSource&) = delete;
+  virtual ~DecodeSource() = default;
 
   /// The next bytes, valid until the next call; empty at the end.
-  protocols::Bytes next();
-  /// Of a regular file; nullopt for pipes and devices.
-  [[nodiscard]] std::optional<std::uint64_t> size() const { return size_; }
+  virtual protocols::Bytes next() = 0;
+  /// Tells a user who waits how far it has come.
+  virtual void show(Progress& progress) const = 0;
+};
+
+/// A file, or standard input for "-", read from its beginning in large blocks. Throws Failure (bad input, the file
+/// named) when it cannot be opened or read, and when it is a recording of several devices.
+class Input final : public DecodeSource {
+ public:
+  explicit Input(const std::string& file);
+  ~Input() override;
+
+  protocols::Bytes next() override;
+  void show(Progress& progress) const override { progress.show_bytes(done_, size_); }
 
  private:
   static constexpr std::size_t kBlock = std::size_t{256} << 10;
 
+  void refuse_recording(protocols::Bytes first) const;
+
   std::string name_;
   int descriptor_ = -1;
-  std::optional<std::uint64_t> size_;
+  std::uint64_t done_ = 0;
+  std::optional<std::uint64_t> size_;  ///< of a regular file; nullopt for pipes and devices
   std::vector<std::uint8_t> block_;
 };
 

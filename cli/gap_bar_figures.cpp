@@ -46,11 +46,19 @@ std::string unbroken(std::string_view text) {
   return out;
 }
 
-void append_cause(std::string& html, const gap::EffectFinding& effect, bool named) {
-  const double probability = std::isfinite(effect.probability) ? effect.probability : 0;
-  std::string bar;
-  append_part(bar, named ? "fill" : "fill weak", placed({0, 1}, 0, probability));
-  append_row(html, effect.name, bar, probability_text(effect.probability));
+/// How a cause is shown: on which the verdict rests, considered beside it, or of those that explain nothing.
+enum class Standing { named, considered, unconvincing };
+
+void append_cause(std::string& html, const gap::EffectFinding& effect, Standing standing) {
+  const bool named = standing == Standing::named;
+  if (standing == Standing::unconvincing) {
+    append_row(html, effect.name, "", "explains too little");
+  } else {
+    const double probability = std::isfinite(effect.probability) ? effect.probability : 0;
+    std::string bar;
+    append_part(bar, named ? "fill" : "fill weak", placed({0, 1}, 0, probability));
+    append_row(html, effect.name, bar, probability_text(effect.probability));
+  }
   std::string parameters;
   for (const auto& parameter : effect.parameters) {
     parameters += (parameters.empty() ? "" : ", ") + unbroken(text_of(parameter, kPlusMinus));
@@ -104,16 +112,18 @@ std::optional<Figure> cause_figure(const gap::Diagnosis& diagnosis) {
                        [&](const gap::EffectFinding& effect) { return effect.name == candidate.name; });
   };
   std::string html = "<div class=\"ranks\">\n";
-  for (const auto& effect : effects) append_cause(html, effect, true);
+  for (const auto& effect : effects) append_cause(html, effect, Standing::named);
+  const bool unknown = diagnosis.verdict == gap::Verdict::unknown;
+  const Standing standing = unknown ? Standing::unconvincing : Standing::considered;
   std::size_t others = 0;
   for (const auto& candidate : diagnosis.candidates) {
-    if (!is_named(candidate) && others++ < kMostCauses) append_cause(html, candidate, false);
+    if (!is_named(candidate) && others++ < kMostCauses) append_cause(html, candidate, standing);
   }
   html += "</div>\n";
   if (effects.empty() && others == 0) return std::nullopt;
   return Figure{effects.empty() ? "Considered, and not convincing" : "Causes by probability", std::move(html),
                 effects.empty()
-                    ? "No cause is named: none of these passes all that is asked of one."
+                    ? "No cause is named. " + std::string(kNoneExplains)
                     : "Blue: the set on which the verdict rests, with standard errors. Grey: considered "
                       "as well."};
 }

@@ -50,9 +50,12 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
   }
 }
 
-void append_effect(std::string& out, const gap::EffectFinding& effect) {
+/// Without a probability where that is only a share among effects of which none explains the recording.
+void append_effect(std::string& out, const gap::EffectFinding& effect, bool with_probability) {
   constexpr std::size_t kIndent = kTitle + 2;
-  add(out, "{}, {}\n", effect.name, probability_text(effect.probability));
+  out += effect.name;
+  if (with_probability) add(out, ", {}", probability_text(effect.probability));
+  out += '\n';
   std::vector<std::string> pieces;
   for (const auto& parameter : effect.parameters) pieces.push_back(text_of(parameter, kPlusMinus));
   if (!pieces.empty()) {
@@ -66,10 +69,10 @@ void append_effect(std::string& out, const gap::EffectFinding& effect) {
 }
 
 void append_effects(std::string& out, std::string_view title, const std::vector<gap::EffectFinding>& effects,
-                    std::size_t most) {
+                    std::size_t most, bool with_probability) {
   for (std::size_t i = 0; i < std::min(effects.size(), most); ++i) {
     begin(out, i == 0 ? title : "");
-    append_effect(out, effects[i]);
+    append_effect(out, effects[i], with_probability);
   }
 }
 
@@ -91,11 +94,14 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   append_lines(out, verdict_word(diagnosis.verdict), {verdict_sentence(diagnosis)});
   append_where(out, diagnosis);
   if (!diagnosis.effects.empty()) {
-    append_effects(out, "causes", diagnosis.effects, diagnosis.effects.size());
+    append_effects(out, "causes", diagnosis.effects, diagnosis.effects.size(), true);
     append_closure(out, diagnosis.gap, source);
   } else {
     append_lines(out, "how much", {size_text(diagnosis.gap.pooled)});
-    append_effects(out, "not convincing", diagnosis.candidates, kMostCandidates);
+    const bool unknown = diagnosis.verdict == gap::Verdict::unknown;
+    const bool any = unknown && !diagnosis.candidates.empty();
+    if (any) append_lines(out, "not convincing", {std::string(kNoneExplains)});
+    append_effects(out, any ? "" : "not convincing", diagnosis.candidates, kMostCandidates, !unknown);
   }
   append_lines(out, "what it means", consequences(diagnosis.gap, kArrow));
   append_lines(out, "left over", diagnosis.unexplained);

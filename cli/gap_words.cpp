@@ -105,9 +105,14 @@ std::string text_of(const gap::Confusion& confusion) {
 }
 
 std::string closed_text(const gap::Closure& closure) {
+  // Further below zero the digits of a share mean nothing: what is left has grown.
+  constexpr double kGrows = -1;
   if (!closure.closed || !std::isfinite(*closure.closed)) return "nothing to close";
+  if (*closure.closed < kGrows) return "grows";
   std::string text = share_text(*closure.closed);
-  if (closure.closed_ci) {
+  if (closure.closed_ci && closure.closed_ci->front() < kGrows) {
+    text += fmt::format(" (at most {})", share_text(closure.closed_ci->back()));
+  } else if (closure.closed_ci) {
     text +=
         fmt::format(" ({:.0f} to {})", 100 * closure.closed_ci->front(), share_text(closure.closed_ci->back()));
   }

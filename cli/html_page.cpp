@@ -50,6 +50,7 @@ svg text.tick { font-size:11px; }
 .grid { stroke:var(--line); fill:none; stroke-width:1; }
 .grid.strong { stroke:var(--strong); stroke-dasharray:4 3; }
 .frame { stroke:var(--strong); fill:none; stroke-width:1; }
+.cut { fill:var(--strong); stroke:none; }
 .line { fill:none; stroke-width:2; stroke-linejoin:round; }
 .dots { fill:none; stroke-width:3.2; stroke-linecap:round; stroke-opacity:.55; }
 .area { fill-opacity:.2; stroke:none; }

@@ -3,6 +3,7 @@
 #include "config/load.h"
 #include "pipeline/pipeline.h"
 #include "record/calibration_json.h"
+#include "record/flat_json.h"
 #include "record/log_encoder.h"
 #include "record/recording.h"
 #include "record/whole_file.h"
@@ -44,6 +45,14 @@ class Importer final : public pipeline::Sink {
       pipeline_.bytes(read.port, read.time_ns, read.bytes, *this);
     }
     if (text_.size() >= kFlushBytes) flush();
+  }
+
+  /// A mark of the capture, as an operator's mark stands in a log.
+  void take(const record::LoggedEvent& event) {
+    const auto json = record::FlatJson::parse(event.json);
+    if (json)
+      encoder_.event(text_, event.time_ns, json->get("severity"), json->get("name"), json->get("port"),
+                     json->get("message"));
   }
 
   void commit() {
@@ -99,6 +108,7 @@ std::vector<std::string> import_capture(const std::filesystem::path& capture, co
   while (const auto entry = recording->next()) {
     if (const auto* first = std::get_if<record::MappingChange>(&*entry)) importer.begin(*first);
     if (const auto* read = std::get_if<record::RawRead>(&*entry)) importer.take(*read);
+    if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) importer.take(*event);
     progress(recording->progress());
   }
   importer.commit();

@@ -49,13 +49,39 @@ std::vector<double> multiples(Range range, double step) {
 
 }  // namespace
 
+namespace {
+
+/// A value that lies further out than this many lengths of what is within it is an outlier.
+constexpr double kJump = 2;
+/// No axis is longer than this many times the range that holds the middle four fifths of the values.
+constexpr double kLongest = 40;
+
+/// Range of sorted values without outliers: grows outwards from the middle four fifths, and ends where the next
+/// value would lengthen it by a jump.
+Range without_outliers(const std::vector<double>& sorted) {
+  const std::size_t n = sorted.size(), few = n / 300;
+  std::size_t low = n / 10, high = n - 1 - n / 10;
+  const double middle = sorted[high] - sorted[low];
+  // Where most values are the same, any other would be a jump.
+  if (!(middle > 0)) return {sorted[few], sorted[n - 1 - few]};
+  const double most = kLongest * middle;
+  while (low > few && sorted[high] - sorted[low - 1] <= std::min(most, (1 + kJump) * (sorted[high] - sorted[low])))
+    --low;
+  while (high + 1 < n - few &&
+         sorted[high + 1] - sorted[low] <= std::min(most, (1 + kJump) * (sorted[high] - sorted[low]))) {
+    ++high;
+  }
+  return {sorted[low], sorted[high]};
+}
+
+}  // namespace
+
 Range range_of(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }),
                values.end());
   if (values.empty()) return {-1, 1};
   std::sort(values.begin(), values.end());
-  const std::size_t few = values.size() / 300;
-  Range range{values[few], values[values.size() - 1 - few]};
+  const Range range = without_outliers(values);
   // What does not vary is drawn as such, not with ticks that differ in the seventh place.
   const double size = std::abs(range.least);
   const bool constant = range.length() <= 1e-6 * size;
@@ -114,6 +140,7 @@ void SvgPlot::band(Ink ink, std::string_view name, std::span<const Point> lower,
 void SvgPlot::points(Ink ink, std::string_view name, std::span<const Point> points) {
   std::string path;
   for (const Point& point : points) {
+    mark_cut(point);
     // A line of no length with round ends is a dot, in a third of the bytes of a circle.
     if (visible(point)) add(path, "M{:.1f} {:.1f}h0", x_of(point.x), y_of(point.y));
   }
@@ -123,12 +150,28 @@ void SvgPlot::points(Ink ink, std::string_view name, std::span<const Point> poin
 }
 
 void SvgPlot::line(Ink ink, std::string_view name, std::span<const Point> points) {
+  for (const Point& point : points) mark_cut(point);
   std::string path;
   bool begun = false;
   append_path(path, points, begun);
   if (path.empty()) return;
   add(body_, "<path class=\"line {}\" d=\"{}\"/>\n", name_of(ink), path);
   legend(ink, Mark::stroke, name);
+}
+
+void SvgPlot::mark_cut(const Point& point) {
+  if (!x_.range.contains(point.x) || !std::isfinite(point.y) || y_.range.contains(point.y)) return;
+  auto& at_px = point.y > y_.range.most ? cut_above_px_ : cut_below_px_;
+  at_px.insert(static_cast<int>(x_of(point.x)) / kCutMark_px * kCutMark_px);
+}
+
+void SvgPlot::append_cuts(std::string& out) const {
+  if (cut_above_px_.empty() && cut_below_px_.empty()) return;
+  const double height = size_.height - kTop - kBottom;
+  std::string path;
+  for (const int x : cut_above_px_) add(path, "M{:.1f} {:.1f}l3 -5l3 5Z", kLeft + x, kTop + 6);
+  for (const int x : cut_below_px_) add(path, "M{:.1f} {:.1f}l3 5l3 -5Z", kLeft + x, kTop + height - 6);
+  add(out, "<path class=\"cut\" d=\"{}\"><title>values beyond the axis</title></path>\n", path);
 }
 
 void SvgPlot::level(double y) {
@@ -195,6 +238,7 @@ std::string SvgPlot::svg() const {
       height, body_);
   add(out, "<path class=\"frame\" d=\"M{:.1f} {:.1f}h{:.1f}v{:.1f}h-{:.1f}Z\"/>\n", kLeft, kTop, width, height,
       width);
+  append_cuts(out);
   return out + legend_ + "</svg>\n";
 }
 

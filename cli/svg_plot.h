@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +18,8 @@ struct Range {
   [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
 };
 
-/// Around all finite values but the outermost few in a thousand on either side, with a margin; never empty.
+/// Around all finite values but the outermost few in a thousand on either side and outliers, which lie far from
+/// all others; with a margin; never empty.
 [[nodiscard]] Range range_of(std::vector<double> values);
 /// Round values within a range, about so many, 1, 2 or 5 apart in their leading digit.
 [[nodiscard]] std::vector<double> round_values(Range range, int about);
@@ -43,7 +45,8 @@ class SvgPlot {
   SvgPlot(std::string_view title, Axis x, Axis y) : SvgPlot(title, std::move(x), std::move(y), Size()) {}
 
   // What is drawn first lies below. A name enters the legend once; an empty one does not. Points that are not
-  // finite are left out and end a line; what lies outside the axes is cut off.
+  // finite are left out and end a line; what lies outside the axes is cut off. Where points or lines lie above or
+  // below, a triangle at the edge says so.
   void band(Ink ink, std::string_view name, std::span<const Point> lower, std::span<const Point> upper);
   void points(Ink ink, std::string_view name, std::span<const Point> points);
   void line(Ink ink, std::string_view name, std::span<const Point> points);
@@ -61,12 +64,17 @@ class SvgPlot {
   void append_path(std::string& path, std::span<const Point> points, bool& begun) const;
   void append_axes(std::string& out) const;
   void legend(Ink ink, Mark mark, std::string_view name);
+  void mark_cut(const Point& point);
+  void append_cuts(std::string& out) const;
+
+  static constexpr int kCutMark_px = 6;  ///< width of a triangle, so that they do not overlap
 
   std::string title_;
   Axis x_, y_;
   Size size_;
   std::string body_, legend_;
   double legend_x_ = kLeft;
+  std::set<int> cut_above_px_, cut_below_px_;
 };
 
 }  // namespace navcal::cli

@@ -170,7 +170,8 @@ void write_words(Diagnosis& answer) {
     const EffectFinding& candidate = answer.candidates[i];
     if (candidate.probability < 0.1) break;
     answer.unexplained.push_back(
-        fmt::format("candidate: {} (probability {:.2f})", candidate.name, candidate.probability));
+        fmt::format("candidate: {} fits {} of the library's effects, and does not explain the recording",
+                    candidate.name, i == 0 ? "best" : "next best"));
     answer.next.push_back(
         fmt::format("to see whether it is {}: {}", candidate.name, telling_manoeuvre(candidate.name)));
   }

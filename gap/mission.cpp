@@ -43,6 +43,9 @@ std::vector<double> Mission::fix_times_s() const {
 std::string Mission::shortcoming() const {
   if (card.empty()) return "no inertial card in the recording: nothing carries the motion from sample to sample";
   if (compass.empty()) return "no compass with field and tilt in the recording: heading is not known";
+  if (motor.empty() && !motor_lacks.empty()) {
+    return fmt::format("the motor card reports no {}: what the vehicle was told to do is not known", motor_lacks);
+  }
   if (motor.empty()) return "no motor card in the recording: what the vehicle was told to do is not known";
   if (duration_s < kShortest_s) {
     return fmt::format("the recording lasts {:.1f} s; at least {:.0f} s are needed", duration_s, kShortest_s);
@@ -91,12 +94,22 @@ void MissionGatherer::add(const instruments::GpsSample& sample, std::int64_t tim
 }
 
 void MissionGatherer::add(const instruments::MotorSample& sample, std::int64_t time_ns) {
-  if (!sample.rpm || !sample.current_A) return;
-  MotorReading reading{0, *sample.rpm, {}, *sample.current_A};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!sample.fins_rad[i]) return;
-    reading.fins_rad[i] = *sample.fins_rad[i];
+  const bool has_fins = std::all_of(sample.fins_rad.begin(), sample.fins_rad.end(),
+                                    [](const auto& fin_rad) { return fin_rad.has_value(); });
+  if (!sample.rpm || !sample.current_A || !has_fins) {
+    // Shown only where no status is whole, so the first one is as good as any.
+    std::string& lacks = mission_.motor_lacks;
+    if (!lacks.empty()) return;
+    const auto add_lack = [&](bool has, std::string_view what) {
+      if (!has) lacks.append(lacks.empty() ? "" : ", ").append(what);
+    };
+    add_lack(sample.rpm.has_value(), "shaft speed (rpm)");
+    add_lack(sample.current_A.has_value(), "current");
+    add_lack(has_fins, "fin angles");
+    return;
   }
+  MotorReading reading{0, *sample.rpm, {}, *sample.current_A};
+  for (std::size_t i = 0; i < 3; ++i) reading.fins_rad[i] = *sample.fins_rad[i];
   mission_.motor.push_back(reading);
   times_ns_[motor].push_back(time_ns);
 }

@@ -54,6 +54,8 @@ struct Mission {
   std::vector<CardReading> card;
   std::vector<FixReading> fixes;
   std::vector<MotorReading> motor;
+  /// What the motor card's statuses lack, where every one lacks it: "shaft speed". Empty: nothing, or no card.
+  std::string motor_lacks;
   /// When the motor card was told something new. Empty: not recorded.
   std::vector<double> order_times_s;
   double duration_s = 0;

@@ -20,6 +20,8 @@ constexpr double kAbsent = 0.01;
 constexpr double kClosed = 0.9;
 /// Typical strengths beyond which an effect rather stands for something else.
 constexpr double kLargest = 5;
+/// Typical strengths whose digits mean nothing any more.
+constexpr double kAbsurd = 100;
 /// Typical strengths up to which it is a tolerance.
 constexpr double kSmallest = 0.05;
 /// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
@@ -27,8 +29,8 @@ constexpr double kBeyondTolerance = 0.2;
 /// Typical strengths beyond which what is not named is no tolerance, however little a mission shows of it.
 constexpr double kMostTolerance = 0.4;
 constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
-/// Beyond that the number says nothing any more.
-constexpr double kFarWorse_nats = -10'000;
+/// A closure below this is growth: the interval of its error may reach a little below zero where nothing closes.
+constexpr double kGrows = -0.05;
 /// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
 constexpr double kLeft = 1e-4;
 
@@ -74,6 +76,32 @@ void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
   }
 }
 
+/// Missions or blocks on which the effects did not raise the likelihood as causes would.
+void add_held_out(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
+  const auto& gains_nats = grounds.held_out_nats;
+  const double altogether = std::accumulate(gains_nats.begin(), gains_nats.end(), 0.0);
+  const auto worse =
+      std::count_if(gains_nats.begin(), gains_nats.end(), [](double nats) { return nats < kLoss_nats; });
+  if (worse == 0 && altogether >= kGainAltogether_nats) return;
+  const std::string_view parts = grounds.blocks ? "blocks of it that were left out" : "missions held out";
+  reasons.push_back(worse == 0
+                        ? fmt::format("{} explains this mission, but makes the fit of {} no better", set, parts)
+                        : fmt::format("{} explains this mission, but makes the fit of {} of {} {} worse", set,
+                                      worse, gains_nats.size(), parts));
+}
+
+/// Why a closure is not enough. Far below zero its digits mean nothing, so that only the direction is told.
+std::string closure_words(const PooledClosure& closure, const std::string& set) {
+  if (closure.closed < kGrows) return fmt::format("with {} the gap grows instead of going away", set);
+  const double percent = std::max(0.0, 100 * closure.closed);
+  if (closure.lower < kGrows) {
+    return fmt::format("with {} only {:.0f} % of the gap goes away (95 %: at most {:.0f} %)", set, percent,
+                       100 * closure.upper);
+  }
+  return fmt::format("with {} only {:.0f} % of the gap goes away (95 %: {:.0f} to {:.0f} %)", set, percent,
+                     100 * std::max(0.0, closure.lower), 100 * closure.upper);
+}
+
 }  // namespace
 
 Judgement judge(const Grounds& grounds) {
@@ -102,22 +130,8 @@ Judgement judge(const Grounds& grounds) {
     reasons.push_back(fmt::format("{} is the best candidate, but only with probability {:.2f}; others: {}", set,
                                   probability, others));
   }
-  const double altogether = std::accumulate(grounds.held_out_nats.begin(), grounds.held_out_nats.end(), 0.0);
-  const bool worse = std::any_of(grounds.held_out_nats.begin(), grounds.held_out_nats.end(),
-                                 [](double nats) { return nats < kLoss_nats; });
-  if (worse || altogether < kGainAltogether_nats) {
-    const std::string_view others = grounds.blocks ? "blocks of it that were left out" : "the missions held out";
-    reasons.push_back(
-        altogether < kFarWorse_nats
-            ? fmt::format("{} explains this mission, but {} fit far worse with it", set, others)
-            : fmt::format("{} explains this mission, but {} fit no better with it (log likelihood {:+.1f})", set,
-                          others, altogether));
-  }
-  if (!closes(grounds)) {
-    reasons.push_back(fmt::format("with {} only {:.0f} % of the gap goes away (95 %: {:.0f} to {:.0f} %)", set,
-                                  100 * grounds.closure.closed, 100 * grounds.closure.lower,
-                                  100 * grounds.closure.upper));
-  }
+  add_held_out(grounds, set, reasons);
+  if (!closes(grounds)) reasons.push_back(closure_words(grounds.closure, set));
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     const std::size_t effect = best.effects[i];
     const double size = strength_of(grounds.library, effect, best.mean);
@@ -131,9 +145,10 @@ Judgement judge(const Grounds& grounds) {
     }
     if (size > kLargest) {
       reasons.push_back(
-          fmt::format("{} would have to be {:.1f} times as strong as usual, which speaks for something "
+          fmt::format("{} would have to be {} times as strong as usual, which speaks for something "
                       "else that looks like it",
-                      grounds.library[effect].name, size));
+                      grounds.library[effect].name,
+                      size < kAbsurd ? fmt::format("{:.1f}", size) : fmt::format("over {:.0f}", kAbsurd)));
     }
   }
   add_leftover(grounds, reasons);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <utility>
 
 #include "config/load.h"
 #include "config/text_rules.h"
@@ -19,6 +20,7 @@ constexpr std::size_t kMaxLine = 64 << 10;
 constexpr std::size_t kMaxPorts = 1000;
 constexpr std::string_view kCapture = "#capture ";
 constexpr std::string_view kPort = "#port ";
+constexpr std::string_view kEvent = "#event ";
 
 constexpr std::uint8_t kNoDigit = 0xFF;
 constexpr std::array<std::uint8_t, 256> kDigits = [] {
@@ -56,6 +58,8 @@ CaptureReader::CaptureReader(std::unique_ptr<ByteSource> source, std::string nam
   find_read();
 }
 
+std::vector<std::string> CaptureReader::take_events() { return std::exchange(events_, {}); }
+
 bool CaptureReader::next(RawRead& read) {
   if (pending_.empty()) return false;
   parse_read(pending_, read);
@@ -68,12 +72,12 @@ bool CaptureReader::find_read() {
   std::string_view line;
   while (read_line(line)) {
     if (line.empty()) fail("empty line");
-    if (line.back() == '\r') fail("line ends in CR LF; a capture's lines end in LF alone");
     if (line.front() != '#') {
       pending_ = line;
       return true;
     }
     if (line.starts_with(kPort)) parse_port(line);
+    if (line.starts_with(kEvent)) events_.emplace_back(line.substr(kEvent.size()));
     if (line.starts_with(kCapture)) fail("a second \"#capture\" line");
   }
   pending_ = {};
@@ -97,6 +101,9 @@ bool CaptureReader::read_line(std::string_view& line) {
     return false;
   }
   line = window_.view().substr(0, end);
+  if (line.ends_with('\r')) {
+    fail("line ends in CR LF; a capture's lines end in LF alone (sed 's/\\r$//' FILE converts it)");
+  }
   pass_ = end + 1;
   return true;
 }

@@ -24,6 +24,10 @@ class CaptureReader {
   /// The next line with bytes, as UTC; false at the end.
   bool next(RawRead& read);
 
+  /// Texts of the `#event` lines between the line with bytes that next() gave last and the one that follows it;
+  /// before the first call of next(), those at the head of the file. Each is given once.
+  [[nodiscard]] std::vector<std::string> take_events();
+
   [[nodiscard]] const std::vector<config::PortSettings>& ports() const { return ports_; }
   /// "FILE:17: last line cut short: left out".
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
@@ -40,7 +44,7 @@ class CaptureReader {
   ReadWindow window_;
   std::string name_;
   std::vector<config::PortSettings> ports_;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> remarks_, events_;
   std::string_view pending_;  ///< the line with bytes that find_read() came to
   std::size_t pass_ = 0;      ///< length of the line handed out last, with its end
   std::uint64_t line_ = 0;

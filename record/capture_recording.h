@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+
 #include "record/capture_reader.h"
 #include "record/recording.h"
 
@@ -16,9 +18,14 @@ class CaptureRecording final : public Recording {
   [[nodiscard]] double progress() const override { return reader_.progress(); }
 
  private:
+  Entry begin();
+  void queue_marks(std::int64_t time_ns);
+
   CaptureReader reader_;
   config::Settings settings_;
   std::optional<RawRead> first_;  ///< read ahead for the time of the mapping
+  std::deque<LoggedEvent> marks_;
+  std::int64_t newest_ns_ = 0;  ///< time of the read that the reader gave last
   bool mapping_told_ = false;
 };
 

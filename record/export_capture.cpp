@@ -2,6 +2,7 @@
 
 #include "record/capture_writer.h"
 #include "record/export.h"
+#include "record/flat_json.h"
 #include "record/recording.h"
 #include "record/whole_file.h"
 
@@ -9,6 +10,13 @@ namespace navcal::record {
 namespace {
 
 constexpr std::uint64_t kProgressEvery = 1024;
+
+/// An operator's mark; what the daemon says of itself belongs to the log alone.
+void append_mark(std::string& text, const LoggedEvent& event) {
+  const auto json = FlatJson::parse(event.json);
+  if (json && json->get("name") == "mark")
+    CaptureWriter::comment(text, fmt::format("event {}", json->get("message")));
+}
 
 }  // namespace
 
@@ -28,6 +36,7 @@ Exported export_capture(const std::filesystem::path& recording_file, const std::
       if (mapping.source == pipeline::UtcMapping::Source::none) ++unmapped;
       writer.bytes(text, read->port, read->direction, mapping.to_utc(read->time_ns), read->bytes);
     }
+    if (const auto* event = std::get_if<LoggedEvent>(&*entry)) append_mark(text, *event);
     if (++entries % kProgressEvery == 0) {
       progress(recording->progress());
       file.write(text);

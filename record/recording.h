@@ -29,6 +29,7 @@ struct RawRead {
   std::vector<std::uint8_t> bytes;
 };
 
+/// Of a log; of a capture its `#event` lines, at the time of the last read before them.
 struct LoggedEvent {
   std::int64_t time_ns = 0;
   std::string json;

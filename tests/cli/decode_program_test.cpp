@@ -146,6 +146,52 @@ TEST_F(Decode, WrongUsageSaysWhatIsKnown) {
   EXPECT_NE(help.output.find("navcal decode --protocol oncore gps.bin"), std::string::npos) << "an example";
 }
 
+/// A capture in which `bytes` came over the port "gps" in reads of 100 bytes, with orders sent and another port.
+std::string capture_of(const std::string& bytes) {
+  std::ostringstream text;
+  text << "#capture 1\n#port gps oncore 9600\n#port compass tcm2 38400\n";
+  int second = 0;
+  for (std::size_t at = 0; at < bytes.size(); at += 100, ++second) {
+    text << 1'700'000'000 + second << ".000000000 gps < ";
+    for (const char c : bytes.substr(at, 100)) {
+      constexpr const char* kDigits = "0123456789abcdef";
+      const auto byte = static_cast<unsigned char>(c);
+      text << kDigits[byte >> 4U] << kDigits[byte & 15U];
+    }
+    text << '\n' << 1'700'000'000 + second << ".000000000 gps > 4040\n";
+    text << 1'700'000'000 + second << ".000000000 compass < 2443\n";
+  }
+  return text.str();
+}
+
+TEST_F(Decode, OnePortOfARecordingIsDecodedAsItsBytesAre) {
+  const auto capture = folder_ / "dive.cap";
+  std::ofstream(capture) << capture_of(test::read_file(kFixtures + "oncore.bin"));
+  const auto decoded = run("decode --port gps --json " + capture.string());
+  EXPECT_EQ(decoded.status, 0) << decoded.errors;
+  EXPECT_EQ(decoded.output, test::read_file(kFixtures + "oncore.jsonl"));
+  const auto log = (folder_ / "dive.mcap").string();
+  ASSERT_EQ(run("'" NAVCAL_PROGRAM "' log import -o " + log + " " + capture.string()).status, 0);
+  EXPECT_EQ(run("decode --port gps --json " + log).output, decoded.output);
+  const auto other = lines(run("decode --port gps --protocol nmea --json " + capture.string()).output);
+  EXPECT_EQ(other.back()["frames"].size(), 0U) << "the language that was asked for";
+}
+
+TEST_F(Decode, ARecordingIsNotTakenForBytes) {
+  const auto capture = folder_ / "dive.cap";
+  std::ofstream(capture) << capture_of("abc");
+  for (const std::string& from : std::vector<std::string>{" " + capture.string(), " - < " + capture.string()}) {
+    const auto without = run("decode --protocol tcm2" + from);
+    EXPECT_EQ(without.status, 3) << from;
+    EXPECT_NE(without.errors.find("a capture, not the bytes of one device: --port NAME"), std::string::npos)
+        << without.errors;
+  }
+  const auto absent = run("decode --port sonar " + capture.string());
+  EXPECT_EQ(absent.status, 2);
+  EXPECT_NE(absent.errors.find("no port \"sonar\"; its ports: gps, compass"), std::string::npos) << absent.errors;
+  EXPECT_EQ(run("decode --port gps " + kFixtures + "oncore.bin").status, 3) << "no recording";
+}
+
 TEST_F(Decode, AFullDiskAndAReaderThatLeavesAreTold) {
   const auto full = run("decode --protocol nmea --json " + kFixtures + "nmea.bin > /dev/full");
   EXPECT_EQ(full.status, 1);

@@ -47,7 +47,11 @@ TEST(GapPage, ShowsWhereWhatAndHowMuch) {
 }
 
 TEST(GapPage, AnUnknownGapNamesNoCause) {
-  const std::string page = gap_page(test::unknown_gap(), gap_source());
+  auto diagnosis = test::unknown_gap();
+  diagnosis.candidates.front().probability = 1;
+  const std::string page = gap_page(diagnosis, gap_source());
+  EXPECT_EQ(page.find("99.9 %"), std::string::npos) << "a share of what explains nothing is no certainty";
+  EXPECT_NE(page.find("none of them explains the recording"), std::string::npos);
   EXPECT_NE(page.find("class=\"bad\">unknown"), std::string::npos);
   EXPECT_NE(page.find("No cause is named"), std::string::npos);
   EXPECT_NE(page.find("What is left over"), std::string::npos);

@@ -77,6 +77,26 @@ TEST(GapText, AnUnknownGapNamesNoCause) {
   }
 }
 
+TEST(GapText, CandidatesOfAnUnknownGapHaveNoProbability) {
+  auto diagnosis = test::unknown_gap();
+  diagnosis.candidates.front().probability = 1;
+  const std::string text = gap_text(diagnosis, gap_source());
+  EXPECT_TRUE(says(text, "none of them explains the recording")) << text;
+  EXPECT_FALSE(says(text, "99.9 %")) << text;
+  EXPECT_TRUE(says(text, "motor_field")) << text;
+}
+
+TEST(GapWords, AGapThatGrowsIsToldWithoutDigits) {
+  gap::Closure closure{1, 7000, 0.9, -6120.74, std::array{-6536.39, -5717.98}};
+  EXPECT_EQ(closed_text(closure), "grows");
+  closure.closed = 0.2;
+  closure.closed_ci = std::array{-400.0, 0.7};
+  EXPECT_EQ(closed_text(closure), "20 % (at most 70 %)");
+  closure.closed = -0.09;
+  closure.closed_ci.reset();
+  EXPECT_EQ(closed_text(closure), "-9 %");
+}
+
 TEST(GapText, NoGapIsShort) {
   const std::string text = gap_text(test::no_gap(), gap_source());
   EXPECT_EQ(text.find("no gap"), 0U);

@@ -69,6 +69,25 @@ TEST_F(LogCommand, ImportMakesALogThatHoldsTheCapture) {
   EXPECT_FALSE(std::filesystem::exists(path_ / "c.mcap") || std::filesystem::exists(path_ / "c.mcap.part"));
 }
 
+TEST_F(LogCommand, MarksOfACaptureAreEventsOfTheLog) {
+  const std::string text =
+      "#capture 1\n#port imu imu-card 57600\n#event before\n1700000000.000000000 imu < a5\n#event dive \"one\"\n"
+      "1700000001.000000000 imu < a5\n#event after\n";
+  const auto capture = write("a.cap", text).string();
+  const auto imported = (path_ / "a.mcap").string();
+  ASSERT_EQ(run({"import", "-o", imported, capture}).status, 0);
+  const auto info = nlohmann::json::parse(run({"info", "--json", imported}).output);
+  EXPECT_EQ(info["topics"]["/event"]["messages"], 3);
+  const auto shown = run({"info", imported}).output;
+  EXPECT_NE(shown.find("dive \"one\""), std::string::npos) << shown;
+  EXPECT_NE(run({"info", capture}).output.find("after"), std::string::npos);
+  ASSERT_EQ(run({"export", "--cap", (path_ / "b.cap").string(), imported}).status, 0);
+  const std::string back = read(path_ / "b.cap");
+  for (const char* mark : {"#event before\n", "#event dive \"one\"\n", "#event after\n"}) {
+    EXPECT_NE(back.find(mark), std::string::npos) << mark << back;
+  }
+}
+
 TEST_F(LogCommand, BadInputNamesFileAndPlace) {
   const auto text = write("a.txt", "hello, world").string();
   for (const auto* command : {"info", "finish"}) {

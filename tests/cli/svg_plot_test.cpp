@@ -44,6 +44,37 @@ TEST(SvgPlot, PointsOutsideAreLeftOut) {
   EXPECT_EQ(count(some.svg(), "h0"), 2);
 }
 
+TEST(SvgPlot, OutliersDoNotStretchAnAxis) {
+  std::vector<double> rates_deg_s;
+  for (int i = 0; i < 1000; ++i) rates_deg_s.push_back(20 * std::sin(0.1 * i));
+  const Range plain = range_of(rates_deg_s);
+  EXPECT_NEAR(plain.length(), 40, 6);
+  for (int i = 0; i < 50; ++i) rates_deg_s[static_cast<std::size_t>(20 * i)] = i % 2 == 0 ? 2e5 : -3e4 * i;
+  EXPECT_NEAR(range_of(rates_deg_s).length(), plain.length(), 0.1 * plain.length());
+}
+
+TEST(SvgPlot, RareMotionAndLongTailsStayWithinTheAxis) {
+  std::vector<double> mostly_still, exponential;
+  for (int i = 0; i < 1000; ++i) {
+    mostly_still.push_back(i % 20 == 0 ? 10 * std::sin(i) : 0.5 * std::sin(i));
+    exponential.push_back(-std::log((i + 0.5) / 1000));
+  }
+  EXPECT_GT(range_of(mostly_still).most, 9);
+  EXPECT_GT(range_of(exponential).most, 5.5);
+}
+
+TEST(SvgPlot, WhereDataAreCutATriangleSaysSo) {
+  SvgPlot some = plot();
+  const std::vector<Point> within{{1, 0}, {2, 0.5}}, beyond{{1, 5}, {2, -7}, {3, 0}, {2, -9}, {20, 9}};
+  some.points(SvgPlot::Ink::before, "", within);
+  EXPECT_EQ(count(some.svg(), "class=\"cut\""), 0);
+  some.line(SvgPlot::Ink::before, "", beyond);
+  EXPECT_EQ(count(some.svg(), "class=\"cut\""), 1);
+  EXPECT_EQ(count(some.svg(), "l3 -5l3 5Z"), 1);
+  EXPECT_EQ(count(some.svg(), "l3 5l3 -5Z"), 1) << "two at one place are one mark";
+  EXPECT_EQ(flaw_in(some.svg()), "");
+}
+
 TEST(SvgPlot, WhatDoesNotVaryIsShownOnARoundScale) {
   for (const double value : {780.0, -3e-5, 0.0}) {
     const Range range = range_of({value, value, value});

@@ -51,6 +51,23 @@ TEST(Mission, KnowsWhenTheFinsWereToldSomethingIfThatWasRecorded) {
   EXPECT_EQ(load_mission(file, [](double) {}).order_times_s, recorded);
 }
 
+TEST(Mission, AMotorCardWithoutShaftSpeedIsToldAsSuch) {
+  MissionGatherer gatherer;
+  instruments::MotorSample motor;
+  motor.current_A = 1;
+  motor.fins_rad = {0, 0, 0};
+  instruments::Sample sample;
+  sample.value = motor;
+  gatherer.on_sample(sample);
+  Mission mission = gatherer.take(0);
+  const Mission whole = simulated_mission("identification", "", 60, 1);
+  mission.card = whole.card;
+  mission.compass = whole.compass;
+  mission.duration_s = whole.duration_s;
+  EXPECT_EQ(mission.shortcoming(),
+            "the motor card reports no shaft speed (rpm): what the vehicle was told to do is not known");
+}
+
 TEST(Mission, SaysWhatItLacks) {
   const Mission whole = simulated_mission("identification", "", 60, 1);
   Mission mission = whole;

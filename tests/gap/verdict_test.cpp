@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace navcal::gap {
 namespace {
 
@@ -30,6 +32,16 @@ class Case {
     WhereEntry entry;
     entry.p_value = p_value;
     where_ = {entry};
+  }
+  /// Why the effect does not explain the gap, in one text, where it closes `closed` of it.
+  [[nodiscard]] std::string reasons(double closed, std::vector<double> held_out_nats) const {
+    const PooledClosure closure{2, 1.5, 1, true, closed, closed - 0.1 * std::abs(closed), closed};
+    std::string text;
+    for (const auto& reason :
+         judge({found_, library_, where_, nothing_, std::move(held_out_nats), closure, closure, false}).reasons) {
+      text += reason + "\n";
+    }
+    return text;
   }
   [[nodiscard]] Verdict verdict(double closed_upper, double closed_by_all_upper) const {
     const PooledClosure alone{2, 1.5, 1, true, closed_upper - 0.1, closed_upper - 0.2, closed_upper};
@@ -106,6 +118,21 @@ TEST(Verdict, ASetWithOneEffectMoreIsNoRival) {
   EXPECT_EQ(single.verdict(0.99, 0.99), Verdict::explained);
   single.set_candidates({{{7}, 100, 0.75}, {{3, 5}, 99, 0.24}, {{}, 0, 0.01}});
   EXPECT_EQ(single.verdict(0.99, 0.99), Verdict::unknown);
+}
+
+TEST(Verdict, WordsForAFitThatGrowsWorseHoldNoAbsurdDigits) {
+  const auto says = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  const std::string mixed = Case(1).reasons(-6120.74, {4.6e10, -50});
+  EXPECT_TRUE(says(mixed, "makes the fit of 1 of 2 missions held out worse")) << mixed;
+  EXPECT_TRUE(says(mixed, "the gap grows instead of going away")) << mixed;
+  EXPECT_EQ(mixed.find_first_of("+-"), std::string::npos) << mixed;
+  EXPECT_TRUE(says(Case(1).reasons(0.99, {0.5, 0.6}), "makes the fit of missions held out no better"));
+  const std::string little = Case(1).reasons(0.3, {20, 20});
+  EXPECT_TRUE(says(little, "only 30 % of the gap goes away (95 %: 27 to 30 %)")) << little;
+  const std::string huge = Case(5e6).reasons(0.99, {20, 20});
+  EXPECT_TRUE(says(huge, "over 100 times as strong as usual")) << huge;
 }
 
 TEST(Verdict, OneFarStrongerThanUsualStandsForSomethingElse) {

@@ -89,6 +89,21 @@ TEST(Capture, ACutAtEveryByteKeepsAllThatCameBefore) {
   }
 }
 
+TEST(Capture, MarksAreGivenBetweenTheReadsWhereTheyStand) {
+  CaptureReader reader = reader_of(kHead +
+                                   "#event head\n1.000000000 imu < a5\n#event one\n# no mark\n#event two\n"
+                                   "2.000000000 imu < a5\n#event end\n");
+  using Texts = std::vector<std::string>;
+  RawRead read;
+  EXPECT_EQ(reader.take_events(), Texts{"head"});
+  ASSERT_TRUE(reader.next(read));
+  EXPECT_EQ(reader.take_events(), (Texts{"one", "two"}));
+  ASSERT_TRUE(reader.next(read));
+  EXPECT_EQ(reader.take_events(), Texts{"end"});
+  EXPECT_FALSE(reader.next(read));
+  EXPECT_EQ(reader.take_events(), Texts{});
+}
+
 TEST(Capture, LongReadsAreSplitAndTimeNeverGoesBack) {
   const auto settings = testing::sample_settings();
   CaptureWriter writer(settings.ports);
@@ -106,11 +121,15 @@ TEST(Capture, LongReadsAreSplitAndTimeNeverGoesBack) {
 
 TEST(Capture, ErrorsNameFileLineAndReason) {
   const std::string at4 = "x.cap:4: ";
+  const auto cr_lf_at = [](int line) {
+    return "x.cap:" + std::to_string(line) +
+           ": line ends in CR LF; a capture's lines end in LF alone (sed 's/\\r$//' FILE converts it)";
+  };
   const std::string good = "1700000000.125003881 imu < a55a\n";
   EXPECT_EQ(error_of(""), "x.cap:0: empty: a capture begins with \"#capture 1\"");
   EXPECT_EQ(error_of("hello\n"), "x.cap:1: a capture begins with \"#capture 1\"");
   EXPECT_EQ(error_of("#capture 2\n"), "x.cap:1: this version of captures is not known; 1 is");
-  EXPECT_EQ(error_of("#capture 1\r\n"), "x.cap:1: this version of captures is not known; 1 is");
+  EXPECT_EQ(error_of("#capture 1\r\n"), cr_lf_at(1));
   EXPECT_EQ(error_of(kHead + "\n"), at4 + "empty line");
   EXPECT_EQ(error_of(kHead + "1700000000.125 imu < a5\n"), at4 + "expected UTC seconds with nine decimals");
   EXPECT_EQ(error_of(kHead + "-1.000000000 imu < a5\n"), at4 + "expected UTC seconds with nine decimals");
@@ -124,8 +143,8 @@ TEST(Capture, ErrorsNameFileLineAndReason) {
   EXPECT_EQ(error_of(kHead + "1.000000000 imu < " + std::string(8194, 'a') + "\n"), bytes);
   EXPECT_EQ(error_of(kHead + "1.000000000 imu < A5\n"), at4 + "bytes must be lower-case hexadecimal");
   EXPECT_EQ(error_of(kHead + "1.000000000 imu < a5 5\n"), at4 + "bytes must be lower-case hexadecimal");
-  EXPECT_EQ(error_of(kHead + "1.000000000 imu < a5\r\n"),
-            at4 + "line ends in CR LF; a capture's lines end in LF alone");
+  EXPECT_EQ(error_of(kHead + "1.000000000 imu < a5\r\n"), cr_lf_at(4));
+  EXPECT_EQ(error_of(kHead + "\r\n"), cr_lf_at(4));
   EXPECT_EQ(error_of(kHead + good + "1.000000000 imu < a5\n"), "x.cap:5: time goes backwards");
   EXPECT_EQ(error_of(kHead + good + "#port gps oncore 9600\n" + good),
             "x.cap:5: a port line behind the first line with bytes");

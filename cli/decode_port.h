@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cli/decode_input.h"
+#include "record/recording.h"
+
+namespace navcal::cli {
+
+/// What one port of a recording received, as one stream.
+class PortBytes final : public DecodeSource {
+ public:
+  /// Throws Failure when the file is no recording (bad input) or has no such port (usage; names those it has).
+  PortBytes(const std::string& file, const std::string& port);
+
+  /// By the recording's port line or configuration.
+  [[nodiscard]] protocols::Protocol protocol() const;
+  protocols::Bytes next() override;
+  void show(Progress& progress) const override { progress.show(recording_->progress()); }
+  /// To be told to the user once the end is reached: "last line cut short".
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return recording_->remarks(); }
+
+ private:
+  std::unique_ptr<record::Recording> recording_;
+  std::uint16_t port_ = 0;
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace navcal::cli
