@@ -69,7 +69,8 @@ Judgement EllipseGyro::judgement() const {
   }
   const double worst_rad = worst_heading_std_rad(
       chain_.shape, doubtful_covariance(chain_, groups_, parameters_.noise_uT, parameters_.model_error_uT));
-  if (worst_rad > parameters_.heading_std_rad) {
+  if (worst_rad >
+      accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(chain_.shape))) {
     return refuse(
         "the heading would be uncertain by " + rounded(worst_rad / kDegree, 1) + " degrees where it is worst",
         coverage.manoeuvre(kFullTurn_rad));

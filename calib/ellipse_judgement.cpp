@@ -112,7 +112,8 @@ Judgement EllipseEstimator::judgement() const {
   }
   const double worst_rad =
       worst_heading_std_rad(fit_->shape, doubtful_covariance(*fit_, cells_.cells(), parameters_.model_error_uT));
-  if (worst_rad > parameters_.heading_std_rad) {
+  if (worst_rad >
+      accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(fit_->shape))) {
     return refuse("the heading would be uncertain by " + rounded(worst_rad * (180 / std::numbers::pi), 1) +
                       " degrees where it is worst",
                   coverage.arc_rad() < 0.9 * kFullTurn_rad ? coverage.manoeuvre(kFullTurn_rad)

@@ -56,6 +56,18 @@ Eigen::Vector2d levelled(const Eigen::Vector3d& m, double roll_rad, double pitch
           m.y() * std::cos(roll_rad) - m.z() * std::sin(roll_rad)};
 }
 
+double worst_raw_heading_error_rad(const EllipseShape& shape) {
+  constexpr int kHeadings = 72;
+  double worst = 0;
+  for (int i = 0; i < kHeadings; ++i) {
+    const double heading = 2 * std::numbers::pi * i / kHeadings;
+    const Eigen::Vector2d measured = shape.at(heading);
+    const double raw = std::atan2(-measured.y(), measured.x());
+    worst = std::max(worst, std::abs(std::remainder(raw - heading, 2 * std::numbers::pi)));
+  }
+  return worst;
+}
+
 double worst_heading_std_rad(const EllipseShape& shape, const EllipseShape::Matrix& covariance) {
   constexpr int kHeadings = 72;
   const Eigen::Matrix2d inverse = shape.axes_uT.inverse();

@@ -55,6 +55,10 @@ struct EllipseShape {
 /// Where the horizontal field would be measured in body axes; thesis (2.2).
 [[nodiscard]] Eigen::Vector2d levelled(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
 
+/// Error of the heading that the levelled field gives without a calibration, at the worst heading of the circle, 0
+/// to pi.
+[[nodiscard]] double worst_raw_heading_error_rad(const EllipseShape& shape);
+
 /// Standard deviation of the calibrated heading at the worst heading of the circle, by first order.
 [[nodiscard]] double worst_heading_std_rad(const EllipseShape& shape, const EllipseShape::Matrix& covariance);
 

@@ -114,14 +114,17 @@ Judgement EllipsoidEstimator::judgement() const {
                       whole_degrees(tilt_rad) + " degrees does not determine it",
                   tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
   }
-  if (vertical_uT > parameters_.offset_std_uT) {
+  // Of a large hard iron a tenth is a gain, even where that tenth is more than the usual limit. The vertical
+  // itself does not count: an error could feign it.
+  if (vertical_uT > std::max(parameters_.offset_std_uT, 0.1 * fit_->shape.centre_uT.head<2>().norm())) {
     return refuse("the vertical offset is uncertain by " + rounded(vertical_uT, 1) + " uT: " +
                       (tilt_rad < kMostTilt_rad ? "tilt stayed within " : "too little was seen at tilts up to ") +
                       whole_degrees(tilt_rad) + " degrees",
                   tilt_manoeuvre(tilt_rad));
   }
   const double worst_rad = worst_heading_std_rad(fit_->shape, covariance, parameters_.expected_tilt_rad);
-  if (worst_rad > parameters_.heading_std_rad) {
+  if (worst_rad >
+      accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(fit_->shape))) {
     return refuse(
         "the heading would be uncertain by " + rounded(worst_rad / kDegree, 1) + " degrees where it is worst",
         coverage.arc_rad() < 0.9 * kFullTurn_rad ? coverage.manoeuvre(kFullTurn_rad) : tilt_manoeuvre(tilt_rad));

@@ -43,6 +43,21 @@ Eigen::Vector3d down_in_body(double roll_rad, double pitch_rad) {
           std::cos(roll_rad) * std::cos(pitch_rad)};
 }
 
+double worst_raw_heading_error_rad(const EllipsoidShape& shape) {
+  constexpr int kHeadings = 72;
+  const double across = std::sqrt(1 - shape.sine_of_dip * shape.sine_of_dip);
+  const Eigen::Matrix3d inverse = shape.matrix_per_uT.inverse();
+  double worst = 0;
+  for (int i = 0; i < kHeadings; ++i) {
+    const double heading = 2 * std::numbers::pi * i / kHeadings;
+    const Eigen::Vector3d field(across * std::cos(heading), -across * std::sin(heading), shape.sine_of_dip);
+    const Eigen::Vector3d measured = shape.centre_uT + inverse * field;
+    const double raw = std::atan2(-measured.y(), measured.x());
+    worst = std::max(worst, std::abs(std::remainder(raw - heading, 2 * std::numbers::pi)));
+  }
+  return worst;
+}
+
 double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance,
                              double tilt_rad) {
   constexpr int kHeadings = 24;

@@ -33,6 +33,10 @@ struct EllipsoidShape {
 /// Down in body axes.
 [[nodiscard]] Eigen::Vector3d down_in_body(double roll_rad, double pitch_rad);
 
+/// Error of the heading that the measured field gives without a calibration, at the worst heading of the circle,
+/// level, 0 to pi.
+[[nodiscard]] double worst_raw_heading_error_rad(const EllipsoidShape& shape);
+
 /// Standard deviation of the calibrated heading at the worst heading of the circle with roll and pitch up to
 /// `tilt_rad`.
 [[nodiscard]] double worst_heading_std_rad(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance,

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "calib/estimators.h"
@@ -15,6 +16,18 @@ constexpr std::array<std::string_view, Swing::kHeadings> kSwingHeadings{"N_rad",
                                                                         "S_rad", "SW_rad", "W_rad", "NW_rad"};
 
 double std_of(double variance) { return variance >= 0 ? std::sqrt(variance) : kUnknown; }
+
+// Standard errors from which on the readings have not told more than was known before them.
+constexpr double kScaleUnknown = 1;
+constexpr double kRateUnknown_rad_s = 1;
+constexpr double kDeviationUnknown_rad = std::numbers::pi;
+constexpr double kGpsDeviationUnknown_rad = 0.09;  // of a prior of 0.1 (GpsCompass)
+
+/// A number that the readings determine to better than `unknown`; else no number.
+Quantity quantity(std::string_view name, double value, double std, double unknown) {
+  if (!(std < unknown)) return {name, std::numeric_limits<double>::quiet_NaN(), kUnknown};
+  return {name, value, std};
+}
 
 RateCorrection rate_of(const TurnFilter& filter) {
   const TurnCoefficients estimate = filter.estimate();
@@ -44,8 +57,8 @@ std::vector<Quantity> quantities_of_gyro(const TurnCalibrator& gyro) {
   if (!gyro.has_estimate()) return {};
   const TurnCoefficients estimate = gyro.filter().estimate();
   const TurnCovariance covariance = gyro.filter().covariance();
-  return {{"scale", estimate[kScale], std_of(covariance(kScale, kScale))},
-          {"bias_rad_s", estimate[kBias], std_of(covariance(kBias, kBias))}};
+  return {quantity("scale", estimate[kScale], std_of(covariance(kScale, kScale)), kScaleUnknown),
+          quantity("bias_rad_s", estimate[kBias], std_of(covariance(kBias, kBias)), kRateUnknown_rad_s)};
 }
 
 std::vector<Quantity> quantities_of_compass(const TurnCalibrator& compass) {
@@ -55,8 +68,8 @@ std::vector<Quantity> quantities_of_compass(const TurnCalibrator& compass) {
   const TurnCovariance covariance = compass.filter().covariance();
   for (int i = kB; i <= kE; ++i) {
     const int above_A = i - kB + 1;
-    quantities.push_back(
-        {kCoefficients[static_cast<std::size_t>(above_A)], estimate[i], std_of(covariance(i, i))});
+    quantities.push_back(quantity(kCoefficients[static_cast<std::size_t>(above_A)], estimate[i],
+                                  std_of(covariance(i, i)), kDeviationUnknown_rad));
   }
   return quantities;
 }
@@ -78,7 +91,8 @@ std::vector<Quantity> quantities_of(const std::optional<GpsCompass::Estimate>& e
   if (!estimate) return quantities;
   const auto std = [&](int i) { return std_of(estimate->covariance(i, i)); };
   for (int i = 0; i < 5; ++i)
-    quantities.push_back({kCoefficients[static_cast<std::size_t>(i)], estimate->unknowns[i], std(i)});
+    quantities.push_back(quantity(kCoefficients[static_cast<std::size_t>(i)], estimate->unknowns[i], std(i),
+                                  kGpsDeviationUnknown_rad));
   constexpr std::array<std::string_view, 4> kOthers{"speed_scale", "slip_s", "current_north_m_s",
                                                     "current_east_m_s"};
   for (int i = 0; i < 4; ++i)

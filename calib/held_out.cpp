@@ -64,6 +64,11 @@ bool Comparison::better_by(double margin) const {
          s.rms(s.estimate) < (1 - margin) * s.rms(s.in_force);
 }
 
+bool Comparison::contradicts() const {
+  const Sums& s = since_change_;
+  return s.blocks >= kLeastBlocks && s.rms(s.estimate) > s.rms(s.in_force);
+}
+
 void HeldOut::Scatter::add(double residual_rad) {
   // About the mean so far, so that a residual near plus or minus pi is no leap.
   const double departure = wrapped(residual_rad - mean);

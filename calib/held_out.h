@@ -21,10 +21,15 @@ class Comparison {
   /// would have it: three standard errors of the mean gain.
   [[nodiscard]] bool better_by(double margin) const;
 
+  /// The estimate was judged by enough blocks and did no better than what is in force.
+  [[nodiscard]] bool contradicts() const;
+
   [[nodiscard]] double before_rms() const { return all_.rms(all_.before); }
   [[nodiscard]] double in_force_rms() const { return since_change_.rms(since_change_.in_force); }
   [[nodiscard]] double estimate_rms() const { return all_.rms(all_.estimate); }
   [[nodiscard]] std::uint64_t blocks() const { return all_.blocks; }
+  /// Enough blocks were judged for a verdict.
+  [[nodiscard]] bool is_judged() const { return all_.blocks >= kLeastBlocks; }
   void archive(Archive& archive) { archive(all_, since_change_); }
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -8,6 +9,21 @@ namespace navcal::calib {
 
 /// Headings visited, in sectors of ten degrees clockwise from north: what a compass rose shows.
 using Rose = std::array<std::uint32_t, 36>;
+
+/// What the readings held out are judged by.
+enum class HeldOutQuantity : std::uint8_t {
+  none,     ///< nothing was judged
+  heading,  ///< rad, against the integrated gyro or, for A, against the course by GPS
+  field,    ///< spread of the field's size and vertical component, as a fraction of the size
+};
+
+/// Largest standard error of a calibrated heading that is accepted, rad: `limit_rad`, or a tenth of the error that
+/// the calibration removes where that is more, up to 0.175 rad (ten degrees). A compass that is 90 degrees off is
+/// worth calibrating to within four; one that is 3 degrees off is not.
+[[nodiscard]] inline double accepted_heading_std_rad(double limit_rad, double removed_error_rad) {
+  constexpr double kShare = 0.1, kMost_rad = 0.175;
+  return std::max(limit_rad, std::min(kShare * removed_error_rad, kMost_rad));
+}
 
 /// What a calibrator thinks of its own estimate.
 struct Judgement {
@@ -18,6 +34,7 @@ struct Judgement {
   double coverage = 0;   ///< 0..1, share of what the calibrator needs to see
   double condition = 0;  ///< condition number of the (scaled) information matrix; infinity: singular
   std::uint64_t samples = 0;
+  HeldOutQuantity held_out_quantity = HeldOutQuantity::none;
   // Root-mean-square on readings that had no part in the estimate, without and with it; 0 when there were none.
   double held_out_before = 0;
   double held_out_after = 0;

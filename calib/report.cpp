@@ -16,6 +16,18 @@ std::string_view name_of(Verdict verdict) {
   return "refused";
 }
 
+std::string_view name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::accepted:
+      return "accepted";
+    case Outcome::no_better:
+      return "no better";
+    case Outcome::refused:
+      break;
+  }
+  return "refused";
+}
+
 const Quantity* CalibratorReport::quantity(std::string_view name) const {
   const auto found =
       std::find_if(estimate.begin(), estimate.end(), [&](const Quantity& q) { return q.name == name; });

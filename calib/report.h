@@ -21,17 +21,27 @@ enum class Verdict : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
+/// What the estimate is worth, for people.
+enum class Outcome : std::uint8_t {
+  refused,    ///< the data do not support it
+  no_better,  ///< supported, but readings that had no part in it are no better with it than before
+  accepted,
+};
+/// "refused", "no better", "accepted".
+[[nodiscard]] std::string_view name_of(Outcome outcome);
+
 /// One number of an estimate with its standard error. Units as in its name: rad, rad/s, s, uT, or none.
 struct Quantity {
   std::string_view name;  ///< "scale", "bias_rad_s", "B_rad"
-  double value = 0;
-  double std = 0;  ///< infinite when it is not known
+  double value = 0;       ///< not a number when it is not determined
+  double std = 0;         ///< infinite when it is not known
 };
 
 /// What one calibrator says now.
 struct CalibratorReport {
   Calibrator calibrator = Calibrator::gyro;
   Verdict verdict = Verdict::refused;
+  Outcome outcome = Outcome::refused;
   Judgement judgement;
   std::vector<Quantity> estimate;  ///< empty when there is none yet
   Eigen::MatrixXd covariance;      ///< of compass (B..E) and GPS-aided compass; empty of the others

@@ -54,6 +54,7 @@ void Suite::take_turned() {
 void Suite::judge(const TurnedReading& turned) {
   if (readings_ % kJudgeEvery == 0) refresh_accepted(kCalibrators[readings_ / kJudgeEvery % kCalibrators.size()]);
   ++readings_;
+  if (field_.update(turned.reading, in_force_.correction(), accepted_)) adopt_what_is_better();
   if (!turned.turn) return;
   if (held_out_.update(turned.reading, *turned.turn, in_force_.correction(), accepted_)) adopt_what_is_better();
 }
@@ -70,11 +71,18 @@ const Comparison& Suite::comparison(Calibrator calibrator) const {
   return calibrator == Calibrator::misalignment ? estimators_.misalignment_comparison() : held_out_.of(calibrator);
 }
 
+bool Suite::is_better(Calibrator calibrator) const {
+  const Comparison& found = comparison(calibrator);
+  if (found.better_by(options_.margin)) return true;
+  // Where no gyro serves as reference, the field itself does.
+  return calibrator == Calibrator::magnetometer && field_.comparison().better_by(options_.margin) &&
+         !found.contradicts();
+}
+
 void Suite::adopt_what_is_better() {
   if (!options_.automatic) return;
   for (const Calibrator calibrator : kAutomatic) {
-    const Comparison& found = comparison(calibrator);
-    if (held_[index(calibrator)] || !has(accepted_, calibrator) || !found.better_by(options_.margin)) continue;
+    if (held_[index(calibrator)] || !has(accepted_, calibrator) || !is_better(calibrator)) continue;
     adopt(calibrator, accepted_);
     adopted_[index(calibrator)] = true;
   }
@@ -87,6 +95,7 @@ void Suite::adopt(Calibrator calibrator, const Correction& estimates) {
 
 void Suite::on_change(Calibrator calibrator) {
   held_out_.on_change();
+  field_.on_change();
   estimators_.on_in_force(calibrator, in_force_.correction());
   refresh_accepted(Calibrator::misalignment);  // it may have begun anew
 }
@@ -100,15 +109,18 @@ std::optional<Calibrator> Suite::take_adopted() {
   return std::nullopt;
 }
 
-std::string Suite::accept(Calibrator calibrator) {
+std::string Suite::accept(Calibrator calibrator, bool force) {
   if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
   Correction estimates;
   estimators_.put_estimate(calibrator, estimates);
   const Judgement judgement = estimators_.judgement(calibrator);
-  if (!judgement.accepted) {
-    return "refused: " + judgement.reason + (judgement.manoeuvre.empty() ? "" : "; " + judgement.manoeuvre);
+  if (!judgement.accepted && !force) {
+    const std::string hint = has(estimates, calibrator) ? ". \"force\":true puts it in force all the same" : "";
+    return "refused: " + judgement.reason + (judgement.manoeuvre.empty() ? "" : "; " + judgement.manoeuvre) + hint;
   }
-  if (!has(estimates, calibrator)) return "there is no estimate yet";
+  if (!has(estimates, calibrator)) {
+    return "there is no estimate yet" + (judgement.reason.empty() ? "" : ": " + judgement.reason);
+  }
   held_[index(calibrator)] = false;
   adopt(calibrator, estimates);
   return {};
@@ -125,6 +137,7 @@ std::string Suite::start(Calibrator calibrator) {
   if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
   estimators_.start(calibrator);
   held_out_.forget(calibrator);
+  if (calibrator == Calibrator::magnetometer) field_.forget();
   held_[index(calibrator)] = false;
   if (calibrator == Calibrator::compass || calibrator == Calibrator::magnetometer) rose_ = {};
   refresh_accepted(calibrator);
@@ -151,6 +164,23 @@ bool Suite::has_instruments(Calibrator calibrator) const {
   return compass && rate;
 }
 
+void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
+  Judgement& judgement = report.judgement;
+  const bool by_field =
+      report.calibrator == Calibrator::magnetometer && !comparison(report.calibrator).is_judged();
+  const Comparison& held_out = by_field ? field_.comparison() : comparison(report.calibrator);
+  judgement.held_out_before = held_out.before_rms();
+  judgement.held_out_after = held_out.estimate_rms();
+  judgement.held_out_quantity = held_out.blocks() == 0 ? HeldOutQuantity::none
+                                : by_field             ? HeldOutQuantity::field
+                                                       : HeldOutQuantity::heading;
+  const bool is_worse = held_out.is_judged() && judgement.held_out_after >= judgement.held_out_before;
+  report.outcome = !judgement.accepted ? Outcome::refused : is_worse ? Outcome::no_better : Outcome::accepted;
+  report.verdict = has(in_force, report.calibrator) ? Verdict::in_force
+                   : judgement.accepted             ? Verdict::shadow
+                                                    : Verdict::refused;
+}
+
 Report Suite::report() const {
   Report report;
   report.name = in_force_.name();
@@ -161,11 +191,7 @@ Report Suite::report() const {
     CalibratorReport& one = report.calibrators.emplace_back();
     one.calibrator = calibrator;
     one.judgement = estimators_.judgement(calibrator);
-    one.judgement.held_out_before = comparison(calibrator).before_rms();
-    one.judgement.held_out_after = comparison(calibrator).estimate_rms();
-    one.verdict = has(report.in_force, calibrator) ? Verdict::in_force
-                  : one.judgement.accepted         ? Verdict::shadow
-                                                   : Verdict::refused;
+    judge(one, report.in_force);
     one.estimate = estimators_.quantities(calibrator);
     one.covariance = estimators_.covariance(calibrator);
     one.held = held_[index(calibrator)];
@@ -179,8 +205,8 @@ Report Suite::report() const {
 }
 
 void Suite::archive(Archive& archive) {
-  archive.tag("suite 2");
-  archive(gate_, estimators_, held_out_, in_force_, accepted_, readings_, held_, adopted_, rose_);
+  archive.tag("suite 3");
+  archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_, held_, adopted_, rose_);
 }
 
 }  // namespace navcal::calib

@@ -8,6 +8,7 @@
 
 #include "calib/archive.h"
 #include "calib/estimators.h"
+#include "calib/field_comparison.h"
 #include "calib/gate.h"
 #include "calib/held_out.h"
 #include "calib/in_force.h"
@@ -40,7 +41,8 @@ class Suite {
   std::optional<Calibrator> take_adopted();
 
   // The operator's word. Each returns why it cannot be done; empty: it is done.
-  std::string accept(Calibrator calibrator);
+  /// `force`: also an estimate that is refused.
+  std::string accept(Calibrator calibrator, bool force = false);
   std::string roll_back(Calibrator calibrator);
   std::string start(Calibrator calibrator);
 
@@ -55,7 +57,11 @@ class Suite {
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
   /// Looks anew whether a calibrator's estimate is accepted.
   void refresh_accepted(Calibrator calibrator);
+  /// Held out, the estimate is better than what is in force, and no other instrument contradicts it.
+  [[nodiscard]] bool is_better(Calibrator calibrator) const;
   void adopt_what_is_better();
+  /// Verdict, outcome and held-out figures of one calibrator.
+  void judge(CalibratorReport& report, const Correction& in_force) const;
   void adopt(Calibrator calibrator, const Correction& estimates);
   void on_change(Calibrator calibrator);
 
@@ -64,6 +70,7 @@ class Suite {
   Gate gate_;
   Estimators estimators_;
   HeldOut held_out_;
+  FieldComparison field_;  ///< of the magnetometer, by the field alone
   InForce in_force_;
   Correction accepted_;  ///< as of not long ago: one calibrator is judged after the other, for it takes time
   std::uint64_t readings_ = 0;

@@ -42,12 +42,13 @@ void append_verdicts(HtmlPage& page, const calib::Report& report) {
   for (const auto& calibrator : report.calibrators) {
     const bool accepted = calibrator.judgement.accepted;
     std::string sentence(title_of(calibrator.calibrator));
+    const bool no_better = calibrator.outcome == calib::Outcome::no_better;
     sentence += ": " + (accepted ? joined(shown(calibrator)) : objection_of(calibrator)) + ".";
     if (const auto held_out = held_out_of(calibrator, kArrow); accepted && !held_out.empty())
       sentence += " On readings held out " + held_out + ".";
     if (accepted && calibrator.verdict == calib::Verdict::in_force)
       sentence += " On the vehicle it would have come into force by itself.";
-    page.fact(accepted ? "good" : "bad", verdict_of(calibrator), sentence);
+    page.fact(no_better ? "plain" : accepted ? "good" : "bad", verdict_of(calibrator), sentence);
   }
 }
 

@@ -36,7 +36,10 @@ void append_calibrator(std::string& out, const calib::CalibratorReport& report) 
   };
   const std::string objection = objection_of(report), held_out = held_out_of(report, "->");
   append_line(objection);
-  if (!held_out.empty()) append_line("on readings held out " + held_out);
+  const bool adopted = report.verdict == calib::Verdict::in_force;
+  if (!held_out.empty()) {
+    append_line("on readings held out " + held_out + (adopted ? "; a vehicle would use it by itself" : ""));
+  }
   if (!estimated && objection.empty() && held_out.empty()) out += '\n';
 }
 

@@ -44,7 +44,8 @@ std::string name_without(std::string_view name, std::string_view ending) {
 
 /// Where nothing is known a number would only mislead; empty where something is.
 std::string_view instead_of_value(const calib::Quantity& quantity, double error, double unknown) {
-  if (std::isfinite(error)) return error > unknown ? "unknown" : "";
+  if (std::isnan(quantity.value)) return "not determined";
+  if (std::isfinite(error)) return error > unknown ? "not determined" : "";
   // An ellipse in the horizontal plane says nothing of the vertical.
   return quantity.name.starts_with("offset_") ? "not determined" : "";
 }
@@ -89,12 +90,13 @@ std::string text_of(const ShownQuantity& quantity, std::string_view plus_minus) 
   return text;
 }
 
-std::string_view verdict_of(const calib::CalibratorReport& report) {
-  return report.judgement.accepted ? "accepted" : "refused";
-}
+std::string_view verdict_of(const calib::CalibratorReport& report) { return calib::name_of(report.outcome); }
 
 std::string objection_of(const calib::CalibratorReport& report) {
   const auto& judgement = report.judgement;
+  if (report.outcome == calib::Outcome::no_better) {
+    return "the estimate is supported, but readings that had no part in it are no better with it than before";
+  }
   if (judgement.accepted) return {};
   if (judgement.manoeuvre.empty()) return judgement.reason;
   return judgement.reason.empty() ? judgement.manoeuvre : judgement.reason + "; " + judgement.manoeuvre;
@@ -102,13 +104,21 @@ std::string objection_of(const calib::CalibratorReport& report) {
 
 std::string held_out_of(const calib::CalibratorReport& report, std::string_view arrow) {
   const double before = report.judgement.held_out_before, after = report.judgement.held_out_after;
-  if (!(before > 0) && !(after > 0)) return {};
-  return fmt::format("{:.2f} {} {:.2f} deg", before * kDegrees, arrow, after * kDegrees);
+  switch (report.judgement.held_out_quantity) {
+    case calib::HeldOutQuantity::heading:
+      return fmt::format("{:.2f} {} {:.2f} deg of heading", before * kDegrees, arrow, after * kDegrees);
+    case calib::HeldOutQuantity::field:
+      return fmt::format("{:.2f} {} {:.2f} % of the field's size", before * 100, arrow, after * 100);
+    case calib::HeldOutQuantity::none:
+      break;
+  }
+  return {};
 }
 
 std::string sentence_of(const calib::HeadingCheck& heading) {
   if (heading.blocks == 0) {
-    return "The heading could not be judged: that takes a calibrated gyro and turns after it was calibrated.";
+    return "The heading could not be judged: that takes a gyro (inertial card) that was calibrated, and turns "
+           "after that.";
   }
   return fmt::format(
       "Heading against the calibrated gyro, on readings that had no part in the estimates: {:.2f} deg as the "

@@ -23,11 +23,11 @@ struct ShownQuantity {
 /// "bias -6.366 +- 0.012 deg/s"; `plus_minus` stands between value and error.
 [[nodiscard]] std::string text_of(const ShownQuantity& quantity, std::string_view plus_minus);
 
-/// "accepted" or "refused".
+/// "accepted", "no better" or "refused".
 [[nodiscard]] std::string_view verdict_of(const calib::CalibratorReport& report);
-/// What stands against it and what would help; empty when it is accepted.
+/// What stands against it and what would help; empty when it is accepted and of use.
 [[nodiscard]] std::string objection_of(const calib::CalibratorReport& report);
-/// "0.63 -> 0.21 deg" on readings held out; empty when nothing was judged.
+/// "0.63 -> 0.21 deg of heading" on readings held out; empty when nothing was judged.
 [[nodiscard]] std::string held_out_of(const calib::CalibratorReport& report, std::string_view arrow);
 /// The heading as a whole, before and after, or why it could not be judged.
 [[nodiscard]] std::string sentence_of(const calib::HeadingCheck& heading);

@@ -89,7 +89,8 @@ std::string Calibrations::answer(const ControlRequest& request, std::int64_t now
     }
     return control_error("\"calibrator\" must be one of " + known);
   }
-  const auto order = request.command == ControlCommand::calibration_accept ? pipeline::CalibrationOrder::accept
+  const auto accept = request.force ? pipeline::CalibrationOrder::force : pipeline::CalibrationOrder::accept;
+  const auto order = request.command == ControlCommand::calibration_accept ? accept
                      : request.command == ControlCommand::calibration_rollback
                          ? pipeline::CalibrationOrder::roll_back
                          : pipeline::CalibrationOrder::start;

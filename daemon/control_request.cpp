@@ -56,8 +56,10 @@ std::variant<ControlRequest, std::string> parse_control(std::string_view line) {
   const auto text = text_at(object, "text");
   const auto calibrator = text_at(object, "calibrator");
   if (!text || !calibrator) return "text and calibrator are strings";
+  const auto force = object.find("force");
+  if (force != object.end() && !force->is_boolean()) return "force is true or false";
   if (*command == ControlCommand::event && text->empty()) return "an event needs a text";
-  return ControlRequest{*command, *text, *calibrator};
+  return ControlRequest{*command, *text, *calibrator, force != object.end() && force->get<bool>()};
 }
 
 std::string control_error(std::string_view message) {

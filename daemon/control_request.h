@@ -25,6 +25,7 @@ struct ControlRequest {
   ControlCommand command = ControlCommand::status;
   std::string text;        ///< of an event
   std::string calibrator;  ///< of calibration.*
+  bool force = false;      ///< of calibration.accept: an estimate that is refused, too
 };
 
 /// The request, or why it is none, for people.

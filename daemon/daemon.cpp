@@ -130,9 +130,11 @@ void Daemon::on_mapping(const pipeline::UtcMapping& mapping) {
 
 void Daemon::on_calibration(const pipeline::CalibrationChange& change) {
   calibrations_.on_change(change);
-  event(change.time_ns, "info", "calibration.changed", "",
-        fmt::format("{} {}: in force is now {}", calib::name_of(change.calibrator.value()),
-                    pipeline::name_of(change.cause), change.name.text()));
+  const bool forced = change.cause == pipeline::CalibrationChange::Cause::force;
+  event(change.time_ns, forced ? "warning" : "info", "calibration.changed", "",
+        fmt::format("{} {}: in force is now {}{}", calib::name_of(change.calibrator.value()),
+                    pipeline::name_of(change.cause), change.name.text(),
+                    forced ? "; the operator put it in force although it may be refused" : ""));
 }
 
 void Daemon::on_navigation(const pipeline::NavigationSample& sample) {

@@ -10,6 +10,8 @@ std::string_view name_of(CalibrationChange::Cause cause) {
       return "automatic";
     case CalibrationChange::Cause::accept:
       return "accept";
+    case CalibrationChange::Cause::force:
+      return "force";
     case CalibrationChange::Cause::roll_back:
       return "rollback";
     case CalibrationChange::Cause::start:

@@ -13,6 +13,7 @@ namespace navcal::pipeline {
 /// What an operator may ask for.
 enum class CalibrationOrder : std::uint8_t {
   accept,     ///< the newest estimate comes into force
+  force,      ///< the same, also when the estimate is refused
   roll_back,  ///< what was in force before comes back, and stays until accepted or started anew
   start,      ///< the calibrator forgets what it has seen; what is in force stays
 };
@@ -23,6 +24,7 @@ struct CalibrationChange {
     begin,      ///< a log begins: state of everything, for replay to go on from
     automatic,  ///< better by the margin on readings held out: follows from the readings, in replay too
     accept,
+    force,  ///< accepted by the operator although it was refused
     roll_back,
     start,
   };
@@ -34,7 +36,7 @@ struct CalibrationChange {
   std::string state;  ///< with `begin`: CalibrationStage's, to be restored
 };
 
-/// "begin", "automatic", "accept", "rollback", "start".
+/// "begin", "automatic", "accept", "force", "rollback", "start".
 [[nodiscard]] std::string_view name_of(CalibrationChange::Cause cause);
 
 }  // namespace navcal::pipeline

@@ -110,6 +110,10 @@ std::string CalibrationStage::order(CalibrationOrder order, Calibrator calibrato
       if (auto why_not = suite_.accept(calibrator); !why_not.empty()) return why_not;
       tell(now_ns, Cause::accept, calibrator, sink);
       break;
+    case CalibrationOrder::force:
+      if (auto why_not = suite_.accept(calibrator, true); !why_not.empty()) return why_not;
+      tell(now_ns, Cause::force, calibrator, sink);
+      break;
     case CalibrationOrder::roll_back:
       if (auto why_not = suite_.roll_back(calibrator); !why_not.empty()) return why_not;
       tell(now_ns, Cause::roll_back, calibrator, sink);

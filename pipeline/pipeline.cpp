@@ -136,6 +136,7 @@ std::string Pipeline::replay_calibration(const CalibrationChange& change, Sink& 
     return restored ? "" : "the state of its calibrators is of another version: they begin anew";
   }
   const auto order = change.cause == Cause::accept      ? CalibrationOrder::accept
+                     : change.cause == Cause::force     ? CalibrationOrder::force
                      : change.cause == Cause::roll_back ? CalibrationOrder::roll_back
                                                         : CalibrationOrder::start;
   const auto why_not = order_calibration(order, change.calibrator.value(), change.time_ns, sink);

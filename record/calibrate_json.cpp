@@ -19,36 +19,76 @@ Json value_of(const calib::CalibratorReport* report, std::string_view name, doub
   return quantity == nullptr ? Json(nullptr) : number_json(quantity->*which * unit);
 }
 
+/// The instruments without which a calibrator cannot begin.
+std::string_view needs_of(Calibrator calibrator) {
+  switch (calibrator) {
+    case Calibrator::magnetometer:
+      return "a compass that gives its field (protocol tcm2)";
+    case Calibrator::gps_compass:
+      return "a compass, a GPS receiver and the motor card";
+    case Calibrator::misalignment:
+    case Calibrator::course_delay:
+      return "a compass and a GPS receiver (protocol oncore or nmea)";
+    case Calibrator::gyro:
+    case Calibrator::gyro_b:
+    case Calibrator::compass:
+    case Calibrator::swing:
+    case Calibrator::compass_delay:
+      break;
+  }
+  return "a compass and an inertial card (protocol imu-card)";
+}
+
 /// What stands against it and what would help, in one sentence for people.
-std::string reason_of(const calib::CalibratorReport* report) {
-  if (report == nullptr) return "the recording has no such instrument";
+std::string reason_of(const calib::CalibratorReport* report, Calibrator calibrator) {
+  if (report == nullptr) return "the recording lacks an instrument: it takes " + std::string(needs_of(calibrator));
+  if (report->outcome == calib::Outcome::no_better) {
+    return "readings that had no part in the estimate are no better with it than before";
+  }
   const auto& judgement = report->judgement;
   if (judgement.accepted || judgement.manoeuvre.empty()) return judgement.reason;
   return judgement.reason + "; " + judgement.manoeuvre;
 }
 
-void append_judgement(Json& json, const calib::CalibratorReport* report) {
+Json held_out_json(const calib::CalibratorReport* report) {
+  const auto quantity = report == nullptr ? calib::HeldOutQuantity::none : report->judgement.held_out_quantity;
+  if (quantity == calib::HeldOutQuantity::none) return nullptr;
+  const bool heading = quantity == calib::HeldOutQuantity::heading;
+  const double unit = heading ? kDegrees : 100;
+  Json json;
+  json["before"] = number_json(report->judgement.held_out_before * unit);
+  json["after"] = number_json(report->judgement.held_out_after * unit);
+  json["unit"] = heading ? "deg" : "%";
+  return json;
+}
+
+void append_judgement(Json& json, const calib::CalibratorReport* report, Calibrator calibrator) {
   json["accepted"] = report != nullptr && report->judgement.accepted;
-  json["reason"] = reason_of(report);
+  json["verdict"] = calib::name_of(report == nullptr ? calib::Verdict::refused : report->verdict);
+  json["judgement"] = calib::name_of(report == nullptr ? calib::Outcome::refused : report->outcome);
+  json["reason"] = reason_of(report, calibrator);
+  json["held_out"] = held_out_json(report);
   json["condition"] = report == nullptr ? Json(nullptr) : number_json(report->judgement.condition);
 }
 
-Json gyro_json(const calib::CalibratorReport* report) {
+Json gyro_json(const calib::Report& whole, Calibrator calibrator) {
+  const calib::CalibratorReport* const report = whole.find(calibrator);
   Json json;
   json["scale"] = value_of(report, "scale", &calib::Quantity::value);
   json["scale_std"] = value_of(report, "scale", &calib::Quantity::std);
   json["bias_rad_s"] = value_of(report, "bias_rad_s", &calib::Quantity::value);
   json["bias_std"] = value_of(report, "bias_rad_s", &calib::Quantity::std);
   json["samples"] = report == nullptr ? 0 : report->judgement.samples;
-  append_judgement(json, report);
+  append_judgement(json, report, calibrator);
   return json;
 }
 
-/// A..E in degrees; A, which no turn tells, from `a`.
-Json deviation_answer(const calib::CalibratorReport* report, const calib::CalibratorReport* a) {
+/// A..E in degrees; A, which no turn tells, from calibrator `a`.
+Json deviation_answer(const calib::Report& whole, Calibrator calibrator, Calibrator a) {
+  const calib::CalibratorReport* const report = whole.find(calibrator);
   Json value, std;
   for (const std::string name : kCoefficients) {
-    const auto* source = name == "A" ? a : report;
+    const auto* source = name == "A" ? whole.find(a) : report;
     value[name] = value_of(source, name + "_rad", &calib::Quantity::value, kDegrees);
     std[name] = value_of(source, name + "_rad", &calib::Quantity::std, kDegrees);
   }
@@ -56,7 +96,7 @@ Json deviation_answer(const calib::CalibratorReport* report, const calib::Calibr
   json["deviation_deg"] = std::move(value);
   json["deviation_std_deg"] = std::move(std);
   json["samples"] = report == nullptr ? 0 : report->judgement.samples;
-  append_judgement(json, report);
+  append_judgement(json, report, calibrator);
   return json;
 }
 
@@ -69,7 +109,7 @@ Json magnetometer_json(const calib::Report& report) {
   json["residual_uT"] = value_of(magnetometer, "residual_uT", &calib::Quantity::value);
   json["coverage"] = magnetometer == nullptr ? Json(0.0) : number_json(magnetometer->judgement.coverage);
   json["samples"] = magnetometer == nullptr ? 0 : magnetometer->judgement.samples;
-  append_judgement(json, magnetometer);
+  append_judgement(json, magnetometer, Calibrator::magnetometer);
   return json;
 }
 
@@ -78,7 +118,7 @@ Json beside(const calib::Report& report, Calibrator calibrator) {
   Json json;
   json["estimate"] = found == nullptr ? Json::object() : values_json(found->estimate, &calib::Quantity::value);
   json["std"] = found == nullptr ? Json::object() : values_json(found->estimate, &calib::Quantity::std);
-  append_judgement(json, found);
+  append_judgement(json, found, calibrator);
   return json;
 }
 
@@ -95,14 +135,12 @@ Json heading_json(const calib::HeadingCheck& heading) {
 
 void append_calibrate_json(std::string& out, const calib::Report& report) {
   Json json;
-  json["gyro"] = gyro_json(report.find(Calibrator::gyro));
-  json["gyro_b"] = gyro_json(report.find(Calibrator::gyro_b));
-  const auto* misalignment = report.find(Calibrator::misalignment);
-  json["compass"] = deviation_answer(report.find(Calibrator::compass), misalignment);
+  json["gyro"] = gyro_json(report, Calibrator::gyro);
+  json["gyro_b"] = gyro_json(report, Calibrator::gyro_b);
+  json["compass"] = deviation_answer(report, Calibrator::compass, Calibrator::misalignment);
   json["magnetometer"] = magnetometer_json(report);
   json["heading"] = heading_json(report.heading);
-  const auto* gps_compass = report.find(Calibrator::gps_compass);
-  json["gps_compass"] = deviation_answer(gps_compass, gps_compass);
+  json["gps_compass"] = deviation_answer(report, Calibrator::gps_compass, Calibrator::gps_compass);
   for (const Calibrator calibrator :
        {Calibrator::misalignment, Calibrator::swing, Calibrator::compass_delay, Calibrator::course_delay}) {
     json[std::string(calib::name_of(calibrator))] = beside(report, calibrator);

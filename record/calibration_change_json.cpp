@@ -13,7 +13,8 @@ using Cause = pipeline::CalibrationChange::Cause;
 constexpr std::string_view kHead = "{\"class\":\"CALIBRATION\"";
 
 std::optional<Cause> cause_named(std::string_view name) {
-  for (const Cause cause : {Cause::begin, Cause::automatic, Cause::accept, Cause::roll_back, Cause::start}) {
+  for (const Cause cause :
+       {Cause::begin, Cause::automatic, Cause::accept, Cause::force, Cause::roll_back, Cause::start}) {
     if (pipeline::name_of(cause) == name) return cause;
   }
   return std::nullopt;

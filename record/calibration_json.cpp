@@ -28,9 +28,13 @@ Json calibrator_json(const calib::CalibratorReport& report, const calib::Correct
   json["coverage"] = number_json(judgement.coverage);
   json["condition"] = number_json(judgement.condition);
   json["samples"] = judgement.samples;
-  const bool judged = judgement.held_out_before > 0 || judgement.held_out_after > 0;
+  json["judgement"] = calib::name_of(report.outcome);
+  const bool judged = judgement.held_out_quantity == calib::HeldOutQuantity::heading;
+  const bool by_field = judgement.held_out_quantity == calib::HeldOutQuantity::field;
   json["held_out_before_deg"] = judged ? number_json(judgement.held_out_before * kDegrees) : Json(nullptr);
   json["held_out_after_deg"] = judged ? number_json(judgement.held_out_after * kDegrees) : Json(nullptr);
+  json["held_out_before_percent"] = by_field ? number_json(judgement.held_out_before * 100) : Json(nullptr);
+  json["held_out_after_percent"] = by_field ? number_json(judgement.held_out_after * 100) : Json(nullptr);
   json["estimate"] = values_json(report.estimate, &calib::Quantity::value);
   json["std"] = values_json(report.estimate, &calib::Quantity::std);
   json["in_force"] = correction_json(in_force, report.calibrator);

@@ -123,6 +123,18 @@ TEST(Suite, WithoutAutomaticEverythingStaysInShadowUntilTheOperatorSpeaks) {
   EXPECT_NE(suite.roll_back(Calibrator::gyro), "") << "there is nothing more to take back";
 }
 
+TEST(Suite, TheOperatorMayForceWhatIsRefused) {
+  Suite suite(thesis_options(), kCompassAndGyros);
+  for (const Reading& reading : readings_along("path3", thesis_deviation(), {}, 1)) suite.put(reading);
+  ASSERT_FALSE(suite.report().find(Calibrator::compass)->judgement.accepted);
+  const std::string refusal = suite.accept(Calibrator::compass);
+  EXPECT_NE(refusal.find("\"force\":true"), std::string::npos) << refusal;
+  EXPECT_EQ(suite.accept(Calibrator::compass, true), "");
+  EXPECT_EQ(suite.report().find(Calibrator::compass)->verdict, Verdict::in_force);
+  EXPECT_EQ(suite.roll_back(Calibrator::compass), "");
+  EXPECT_NE(suite.accept(Calibrator::misalignment, true), "") << "there is nothing to force";
+}
+
 TEST(Suite, WhatWasRolledBackStaysSo) {
   const auto readings = readings_along("path_long600", thesis_deviation(), {}, 1);
   Suite suite(thesis_options(), kCompassAndGyros);

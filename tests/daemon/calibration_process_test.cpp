@@ -1,11 +1,15 @@
 // Calibrators of a running navcald: what it reports, what it is told on its control socket, what it keeps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "protocols/tcm2_word.h"
 #include "record/log_reader.h"
 #include "tests/daemon/daemon_process.h"
 
@@ -74,6 +78,36 @@ TEST_F(CalibrationProcess, ReportsItsCalibratorsAndTakesOrders) {
   EXPECT_EQ(causes["begin"], 2) << "every file begins with the calibration in force";
   EXPECT_EQ(causes["start"], 1);
   EXPECT_GE(causes["CALIB"], 2);
+}
+
+TEST_F(CalibrationProcess, TheOperatorMayForceWhatIsRefused) {
+  DaemonProcess daemon(settings());
+  daemon.wait_until_ready();
+  Client control(daemon.folder() / "control");
+  const std::string force = R"({"command":"calibration.accept","calibrator":"magnetometer","force":true})";
+  EXPECT_EQ(ask(control, force)["error"].get<std::string>().rfind("there is no estimate yet", 0), 0U);
+  // A third of a circle: an estimate, but none that is supported.
+  json forced;
+  for (int i = 0; i < 1000 && !forced.value("ok", false); ++i) {
+    protocols::tcm2::Word word;
+    const double heading_deg = i % 120, heading_rad = heading_deg * std::numbers::pi / 180;
+    word.heading = heading_deg;
+    word.pitch = word.roll = 0;
+    word.x = 19 * std::cos(heading_rad) + 3;
+    word.y = -19 * std::sin(heading_rad);
+    word.z = 44;
+    const auto bytes = protocols::tcm2::encode_word(word);
+    daemon.line.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    ::usleep(10'000);
+    if (i % 50 == 49) forced = ask(control, force);
+  }
+  ASSERT_EQ(forced["ok"], true) << forced;
+  EXPECT_NE(forced["name"], "none");
+  EXPECT_EQ(daemon.stop(SIGTERM), 0);
+  const auto all = this->calib();
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const json& one) {
+    return one["class"] == "CALIBRATION" && one["cause"] == "force" && one["in_force"].contains("magnetometer");
+  }));
 }
 
 TEST_F(CalibrationProcess, ADamagedStateIsToldAndNeverFatal) {

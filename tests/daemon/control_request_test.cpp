@@ -29,6 +29,18 @@ TEST(ControlRequest, EveryCommandOfTheContractIsKnown) {
   }
 }
 
+TEST(ControlRequest, ForceIsSaidInSoManyWords) {
+  const auto forced = [](const std::string& more) {
+    const auto parsed = parse_control(R"({"command":"calibration.accept","calibrator":"compass")" + more + "}");
+    return std::get<ControlRequest>(parsed).force;
+  };
+  EXPECT_TRUE(forced(R"(,"force":true)"));
+  EXPECT_FALSE(forced(R"(,"force":false)"));
+  EXPECT_FALSE(forced(""));
+  EXPECT_EQ(refusal(R"({"command":"calibration.accept","calibrator":"compass","force":1})"),
+            "force is true or false");
+}
+
 TEST(ControlRequest, RefusalsSayWhatWouldBeRight) {
   EXPECT_NE(refusal("nonsense").find("not a JSON object"), std::string::npos);
   EXPECT_NE(refusal("[1,2]").find("not a JSON object"), std::string::npos);
