@@ -68,6 +68,7 @@ double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double r
   FieldCells<2, 2>::Cell reading;
   reading.count = 1;
   reading.mean = levelled(field_body_uT, roll_rad, pitch_rad);
+  if (!reading.mean.allFinite()) return 0;  // nothing is said of a field whose tilt is not known
   const Eigen::Vector2d u = fit_->shape.foot(reading.mean);
   const Eigen::Vector2d normal = (fit_->shape.axes_uT.inverse() * u).normalized();
   const EllipseShape::Vector row = EllipseShape::slope(u).transpose() * normal;

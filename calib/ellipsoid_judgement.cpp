@@ -29,6 +29,23 @@ std::string tilt_manoeuvre(double tilt_rad) {
          whole_degrees(std::min(1.2, tilt_rad + kMore_rad)) + " degrees";
 }
 
+/// Whether the field came from all sides of the hull, whatever was known of its tilt: the smallest eigenvalue of
+/// the mean square of its direction is a third on a whole sphere, and zero on a plane or a line.
+bool is_all_round(const EllipsoidCells& cells, const EllipsoidShape& shape) {
+  constexpr double kLeastSquare = 0.12, kMostMean = 0.5;
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& cell : cells) {
+    const Eigen::Vector3d direction = shape.unit_field(cell.mean.head<3>()).normalized();
+    square += direction * direction.transpose();
+    mean += direction;
+  }
+  const double count = std::max(1.0, static_cast<double>(cells.size()));
+  const Eigen::Vector3d axes =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(square / count, Eigen::EigenvaluesOnly).eigenvalues();
+  return axes[0] > kLeastSquare && mean.norm() < kMostMean * count;
+}
+
 }  // namespace
 
 EllipsoidShape::Matrix doubtful_covariance(const EllipsoidFit& fit, const EllipsoidCells& cells, double field_uT,
@@ -96,9 +113,10 @@ Judgement EllipsoidEstimator::judgement() const {
   }
   const FieldCoverage coverage(std::move(headings));
   const double tilt_rad = tilt_seen_rad();
-  judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
+  const bool all_round = is_all_round(all, fit_->shape);
+  judgement.coverage = all_round ? 1 : coverage.arc_rad() / kFullTurn_rad;
   const std::string tilt_more = "turn through a full circle with roll or pitch beyond ";
-  if (coverage.arc_rad() < kLeastArc_rad && tilt_rad < 60 * kDegree) {
+  if (coverage.arc_rad() < kLeastArc_rad && tilt_rad < 60 * kDegree && !all_round) {
     return refuse("headings within " + whole_degrees(coverage.arc_rad()) + " degrees, tilt within " +
                       whole_degrees(tilt_rad) + " degrees do not tell the field's offset from its size",
                   coverage.manoeuvre(kFullTurn_rad));

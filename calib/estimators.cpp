@@ -1,5 +1,6 @@
 #include "calib/estimators.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -25,6 +26,7 @@ Magnetometer::Parameters field_parameters(const SuiteOptions& options) {
   parameters.gyro.rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s;
   parameters.ellipsoid.noise_uT = options.field_noise_uT;
   parameters.ellipsoid.known = options.known_field;
+  parameters.tilt_lag_s = std::max(options.tilt_lag_s, parameters.tilt_lag_s);
   return parameters;
 }
 
@@ -132,12 +134,17 @@ void Estimators::learn(const TurnedReading& turned, const Correction& in_force) 
 
 void Estimators::learn_field(const TurnedReading& turned) {
   const auto& reading = turned.reading;
-  if (!reading.field_body_uT || !reading.roll_rad || !reading.pitch_rad) return;
-  if (turned.turn) {
-    magnetometer_.update(*reading.field_body_uT, *reading.roll_rad, *reading.pitch_rad, *turned.turn);
-  } else {
-    magnetometer_.update(*reading.field_body_uT, *reading.roll_rad, *reading.pitch_rad);
-  }
+  if (!reading.field_body_uT) return;
+  // The size of the field tells of its iron without tilt, too.
+  Magnetometer::Reading field;
+  field.field_body_uT = *reading.field_body_uT;
+  field.roll_rad = reading.roll_rad.value_or(NAN);
+  field.pitch_rad = reading.pitch_rad.value_or(NAN);
+  field.has_turn = turned.turn.has_value();
+  if (turned.turn) field.turn = *turned.turn;
+  field.time_s = reading.time_s;
+  field.utc_ns = reading.utc_ns;
+  magnetometer_.update(field);
 }
 
 /// The reference is the calibrated gyro, begun at the compass's own heading: what the swing finds is right but for

@@ -54,6 +54,7 @@ class Estimators {
   [[nodiscard]] std::vector<Quantity> quantities(Calibrator calibrator) const;
   /// As in CalibratorReport.
   [[nodiscard]] Eigen::MatrixXd covariance(Calibrator calibrator) const;
+  [[nodiscard]] const Magnetometer& magnetometer() const { return magnetometer_; }
   [[nodiscard]] const Comparison& misalignment_comparison() const { return surface_.comparison(); }
   void archive(Archive& archive);
 

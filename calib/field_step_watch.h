@@ -7,14 +7,14 @@
 
 namespace navcal::calib {
 
-/// Model: the squared distance z of a reading from the fit, in units of its variance, has mean 1 while the field
-/// is the fitted one, and much more after a step. Cumulative sum (Page, Biometrika 41, 1954) of min(z, ceiling) -
-/// reference: a single outlier adds at most the ceiling, a step goes on adding.
+/// Model: the surprise z of a reading (FieldPredictor), its squared departure in units of the predicted variance,
+/// has mean 1 while the field is the fitted one, and much more after a step. Cumulative sum (Page, Biometrika 41,
+/// 1954) of min(z, ceiling) - reference: a single outlier adds at most the ceiling, a step goes on adding.
 class FieldStepWatch {
  public:
   static constexpr std::uint64_t kLongest = 128;  ///< readings from onset to alarm; a slower rise is not a step
 
-  /// True: the field has stepped; begin() says where. `z` >= 0.
+  /// True: the field may have stepped, since_onset() readings ago. `z` >= 0.
   bool update(double z);
   /// Readings since the sum last was zero, with the newest.
   [[nodiscard]] std::uint64_t since_onset() const { return since_onset_; }

@@ -8,7 +8,8 @@ namespace navcal::calib {
 namespace {
 
 constexpr std::array<std::string_view, kRejections> kRejectionNames{
-    "not_finite", "absurd", "repeated", "reversed", "faulty", "saturated", "frozen", "motor_switched"};
+    "not_finite", "absurd", "repeated",       "reversed",          "faulty",
+    "saturated",  "frozen", "motor_switched", "tilt_out_of_range", "field_out_of_range"};
 constexpr std::array<std::string_view, kStreams> kStreamNames{"compass", "imu", "gps", "motor"};
 
 /// A pause after which an instrument's readings begin a new segment.
@@ -139,6 +140,18 @@ bool Gate::clean(CompassReading& reading) {
     count(Stream::compass, Rejection::faulty);
     return false;
   }
+  if (reading.distorted) ++counts_.distorted;
+  if (reading.tilt_out_of_range) {
+    count(Stream::compass, Rejection::tilt_out_of_range);
+    reading.heading_rad.reset();
+    reading.pitch_rad.reset();
+    reading.roll_rad.reset();
+  }
+  if (reading.field_out_of_range) {
+    count(Stream::compass, Rejection::field_out_of_range);
+    reading.heading_rad.reset();
+    reading.field_body_uT.reset();
+  }
   std::optional<Fitness> found;
   const auto check = [&](auto& value, Fitness fit) {
     if (fit == Fitness::good) return;
@@ -261,7 +274,7 @@ void Gate::watch_gap(Stream stream, double time_s) {
 }
 
 void Gate::archive(Archive& archive) {
-  archive.tag("gate 1");
+  archive.tag("gate 2");
   archive(queue_, counts_, newest_s_, released_s_, offset_s_, front_s_, back_s_);
   archive(restart_pending_, flushing_, reversed_in_a_row_, field_, heading_, rates_, motor_on_, motor_switched_s_);
 }

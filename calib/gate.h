@@ -12,16 +12,18 @@ namespace navcal::calib {
 
 /// Why a reading, or a part of one, was kept from the calibrators.
 enum class Rejection : std::uint8_t {
-  not_finite,      ///< a value is not a number or infinite
-  absurd,          ///< no such vehicle or planet
-  repeated,        ///< the stamp of the reading before
-  reversed,        ///< a stamp before those already used
-  faulty,          ///< the device says so itself (E002, E004)
-  saturated,       ///< the converter was over its range
-  frozen,          ///< the same to the last digit for a second
-  motor_switched,  ///< magnetic, and the motor was switched on or off about then
+  not_finite,          ///< a value is not a number or infinite
+  absurd,              ///< no such vehicle or planet
+  repeated,            ///< the stamp of the reading before
+  reversed,            ///< a stamp before those already used
+  faulty,              ///< the device reports an error of unknown effect
+  saturated,           ///< the converter was over its range
+  frozen,              ///< the same to the last digit for a second
+  motor_switched,      ///< magnetic, and the motor was switched on or off about then
+  tilt_out_of_range,   ///< heading and tilt, as the device reports (E002); the field is used
+  field_out_of_range,  ///< heading and field, as the device reports (E004); the tilt is used
 };
-inline constexpr std::size_t kRejections = 8;
+inline constexpr std::size_t kRejections = 10;
 [[nodiscard]] std::string_view name_of(Rejection rejection);
 /// "compass", "imu", "gps", "motor".
 [[nodiscard]] std::string_view name_of(Stream stream);
@@ -31,7 +33,8 @@ struct GateCounts {
   std::array<std::array<std::uint64_t, kRejections>, kStreams> left_out{};
   std::array<std::uint64_t, kStreams> gaps{};  ///< nothing usable for longer than the stream's gap
   std::uint64_t restarts = 0;                  ///< time began anew
-  void archive(Archive& archive) { archive(taken, left_out, gaps, restarts); }
+  std::uint64_t distorted = 0;  ///< readings of the compass with its remark of magnetic distortion (E001); used
+  void archive(Archive& archive) { archive(taken, left_out, gaps, restarts, distorted); }
 };
 
 struct GateOptions {

@@ -9,55 +9,81 @@ void Magnetometer::Reading::archive(Archive& archive) {
   archive(field_body_uT, roll_rad, pitch_rad, has_turn, turn.time_s, turn.heading_rad, turn.begins_segment);
   archive(turn.duration_s, turn.measured_angle_rad, turn.measured_angle_b_rad, turn.bias_time_s,
           turn.tilt_angle_rad);
+  archive(time_s, utc_ns);
+}
+
+void Magnetometer::Waiting::archive(Archive& archive) {
+  archive(reading, predicted.cell, predicted.tilt_error_rad, number);
 }
 
 Magnetometer::Estimators::Estimators(const Parameters& parameters)
-    : ellipse(parameters.ellipse), gyro(parameters.gyro), ellipsoid(parameters.ellipsoid) {}
+    : ellipse(parameters.ellipse),
+      gyro(parameters.gyro),
+      ellipsoid(parameters.ellipsoid),
+      predictor(parameters.ellipsoid.noise_uT, parameters.ellipsoid.known) {}
 
-void Magnetometer::Estimators::update(const Reading& reading) {
+void Magnetometer::Estimators::update(const Reading& reading, const PredictedReading& predicted) {
   ellipse.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
   ellipsoid.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
   if (reading.has_turn) gyro.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad, reading.turn);
+  predictor.update(predicted, [this] { return ellipsoid.cells(); });
 }
 
-double Magnetometer::Estimators::surprise(const Reading& reading) const {
-  return std::max(ellipse.surprise(reading.field_body_uT, reading.roll_rad, reading.pitch_rad),
-                  ellipsoid.surprise(reading.field_body_uT));
-}
-
-void Magnetometer::Estimators::archive(Archive& archive) { archive(ellipse, gyro, ellipsoid); }
+void Magnetometer::Estimators::archive(Archive& archive) { archive(ellipse, gyro, ellipsoid, predictor); }
 
 Magnetometer::Magnetometer(const Parameters& parameters) : parameters_(parameters), now_(parameters) {}
 
 void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) {
-  take({field_body_uT, roll_rad, pitch_rad, false, TurnStep{}});
+  Reading reading;
+  reading.field_body_uT = field_body_uT;
+  reading.roll_rad = roll_rad;
+  reading.pitch_rad = pitch_rad;
+  update(reading);
 }
 
 void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad,
                           const TurnStep& turn) {
-  take({field_body_uT, roll_rad, pitch_rad, true, turn});
+  Reading reading;
+  reading.field_body_uT = field_body_uT;
+  reading.roll_rad = roll_rad;
+  reading.pitch_rad = pitch_rad;
+  reading.has_turn = true;
+  reading.turn = turn;
+  reading.time_s = turn.time_s;
+  update(reading);
 }
 
-void Magnetometer::take(const Reading& reading) {
+PredictedReading Magnetometer::predicted_of(const Reading& reading) const {
+  // Without times: those of a compass at its usual rate.
+  constexpr double kUsualInterval_s = 0.1, kLongestInterval_s = 2;
+  PredictedReading predicted;
+  predicted.cell = cell_of(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
+  const Eigen::Vector3d down = predicted.cell.mean.tail<3>();
+  if (!last_down_ || down.isZero(0)) return predicted;
+  const double since_s = reading.time_s - last_time_s_;
+  const double interval_s = since_s > 0 ? std::min(since_s, kLongestInterval_s) : kUsualInterval_s;
+  predicted.tilt_error_rad = parameters_.tilt_lag_s * (down - *last_down_).norm() / interval_s;
+  return predicted;
+}
+
+void Magnetometer::update(const Reading& reading) {
   ++readings_;
   answer_.reset();
-  if (!reading.field_body_uT.allFinite() || reading.field_body_uT.cwiseAbs().maxCoeff() > kHighestField_uT ||
-      !std::isfinite(reading.roll_rad) || !std::isfinite(reading.pitch_rad)) {
+  if (!reading.field_body_uT.allFinite() || reading.field_body_uT.cwiseAbs().maxCoeff() > kHighestField_uT) {
     leave_out();
     return;
   }
-  recent_[readings_ % recent_.size()] = reading;
-  const double surprise = now_.surprise(reading);
-  if (watch_.update(surprise)) {
-    change_field();
-  } else if (FieldStepWatch::is_off(surprise)) {
-    leave_out();
-  } else {
-    // The turn over readings that were left out is not the one since the last that was used.
-    Reading used = reading;
-    used.turn.begins_segment = used.turn.begins_segment || turn_broken_;
-    turn_broken_ = false;
-    now_.update(used);
+  const Waiting next{reading, predicted_of(reading), readings_};
+  if (const Eigen::Vector3d down = next.predicted.cell.mean.tail<3>(); !down.isZero(0)) {
+    last_down_ = down;
+    last_time_s_ = reading.time_s;
+  }
+  waiting_.push_back(next);
+  const bool suspicious = watch_.update(now_.predictor.surprise(next.predicted));
+  if (watch_.since_onset() == 0) {
+    release();
+  } else if (suspicious && waiting_.size() >= std::min<std::size_t>(next_decision_, FieldStepWatch::kLongest)) {
+    decide();
   }
 }
 
@@ -66,33 +92,33 @@ void Magnetometer::leave_out() {
   turn_broken_ = true;
 }
 
-void Magnetometer::change_field() {
-  const std::uint64_t count = watch_.since_onset();
-  const std::uint64_t first = readings_ + 1 - count;
-  FieldStep step{first, readings_, false};
-  double surprise_before = 0;
-  if (before_) {
-    for (std::uint64_t i = first; i <= readings_; ++i) {
-      surprise_before += std::min(before_->surprise(recent_[i % recent_.size()]), 25.0);
+void Magnetometer::use(const Waiting& waiting) {
+  // The turn over readings that were left out is not the one since the last that was used.
+  Reading used = waiting.reading;
+  used.turn.begins_segment = used.turn.begins_segment || turn_broken_;
+  turn_broken_ = false;
+  now_.update(used, waiting.predicted);
+  history_.add(waiting.predicted.cell, used.time_s, used.utc_ns);
+  if (history_.is_time_to_refine()) history_.refine(now_.predictor.noise(), now_.predictor.belief());
+  constexpr std::size_t kPast = 64;
+  past_.push_back(waiting.predicted.cell);
+  if (past_.size() > kPast) past_.pop_front();
+}
+
+void Magnetometer::release() {
+  for (const Waiting& waiting : waiting_) {
+    if (FieldStepWatch::is_off(now_.predictor.surprise(waiting.predicted))) {
+      leave_out();
+    } else {
+      use(waiting);
     }
   }
-  // Judged as the watch judges: on the mean less than two standard deviations off.
-  constexpr double kFits = 4;
-  step.returned = before_ && surprise_before < kFits * static_cast<double>(count);
-  Estimators next = step.returned ? *before_ : Estimators(parameters_);
-  before_ = now_;
-  now_ = std::move(next);
-  bool begins = true;
-  for (std::uint64_t i = first; i <= readings_; ++i) {
-    Reading reading = recent_[i % recent_.size()];
-    reading.turn.begins_segment = reading.turn.begins_segment || begins;
-    begins = false;
-    now_.update(reading);
-  }
-  turn_broken_ = false;
-  watch_.reset();
-  ++field_steps_;
-  last_step_ = step;
+  waiting_.clear();
+  next_decision_ = 0;
+}
+
+std::optional<FieldStep> Magnetometer::last_step() const {
+  return history_.steps().empty() ? std::nullopt : std::optional(history_.steps().back());
 }
 
 void Magnetometer::set_gyro(const GyroBelief& gyro) {
@@ -104,16 +130,27 @@ void Magnetometer::set_gyro(const GyroBelief& gyro) {
 
 void Magnetometer::settle() {
   answer_.reset();
+  release();
+  watch_.reset();
   now_.ellipse.settle();
   now_.gyro.settle();
   now_.ellipsoid.settle();
+  history_.refine(now_.predictor.noise(), now_.predictor.belief());
 }
 
 void Magnetometer::archive(Archive& archive) {
-  archive.tag("magnetometer 1");
+  archive.tag("magnetometer 2");
   answer_.reset();
-  archive(parameters_.gyro.gyro, now_, watch_, recent_, field_steps_, last_step_, readings_, left_out_,
-          turn_broken_);
+  archive(parameters_.gyro.gyro, now_, watch_, history_, field_steps_, readings_, left_out_, turn_broken_);
+  archive(last_down_, last_time_s_, next_decision_);
+  const auto archive_list = [&](auto& list) {
+    std::uint64_t count = list.size();
+    archive(count);
+    if (!archive.saving()) list.assign(archive.ok() && count <= FieldStepWatch::kLongest ? count : 0, {});
+    for (auto& one : list) archive(one);
+  };
+  archive_list(waiting_);
+  archive_list(past_);
   bool has_before = before_.has_value();
   archive(has_before);
   if (!archive.saving()) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "calib/correction.h"
@@ -27,12 +29,45 @@ struct KnownField {
   void archive(Archive& archive) { archive(magnitude_uT, dip_rad, magnitude_std_uT, dip_std_rad); }
 };
 
+/// Difference of the readings right after a step and right before it, for a hull that hardly turned meanwhile.
+struct FieldContrast {
+  Eigen::Vector3d size_uT = Eigen::Vector3d::Zero();
+  Eigen::Vector3d std_uT = Eigen::Vector3d::Zero();
+  void archive(Archive& archive) { archive(size_uT, std_uT); }
+};
+
 /// A field that stepped in mid-mission: a motor switched on, a magnet near.
 struct FieldStep {
   std::uint64_t onset_sample = 0;  ///< the first reading of the new field, counted from 1
   std::uint64_t found_sample = 0;
-  bool returned = false;  ///< to the field before the last step, whose summary goes on
-  void archive(Archive& archive) { archive(onset_sample, found_sample, returned); }
+  bool returned = false;                              ///< to the field before the last step, whose summary goes on
+  double time_s = 0;                                  ///< of the first reading of the new field
+  std::int64_t utc_ns = 0;                            ///< the same; 0: not known
+  Eigen::Vector3d size_uT = Eigen::Vector3d::Zero();  ///< hard iron after less hard iron before, body axes
+  Eigen::Vector3d std_uT = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  std::optional<FieldContrast> contrast;
+  void archive(Archive& archive) {
+    archive(onset_sample, found_sample, returned, time_s, utc_ns, size_uT, std_uT, contrast);
+  }
+};
+
+/// The time between two steps of the field.
+struct FieldSegment {
+  double begin_s = 0, end_s = 0;  ///< first and last reading
+  std::int64_t begin_utc_ns = 0, end_utc_ns = 0;
+  std::uint64_t readings = 0;
+  double raw_mean_uT = 0, raw_squares_uT2 = 0;  ///< of the size of the field: mean, squares about it
+  /// Standard deviation over mean of the size calibrated for this segment; nullopt: not fitted yet.
+  std::optional<double> spread_calibrated;
+
+  /// Standard deviation over mean of the size as measured.
+  [[nodiscard]] std::optional<double> spread_raw() const {
+    if (readings < 2 || !(raw_mean_uT > 0)) return std::nullopt;
+    return std::sqrt(raw_squares_uT2 / static_cast<double>(readings - 1)) / raw_mean_uT;
+  }
+  void archive(Archive& archive) {
+    archive(begin_s, end_s, begin_utc_ns, end_utc_ns, readings, raw_mean_uT, raw_squares_uT2, spread_calibrated);
+  }
 };
 
 }  // namespace navcal::calib

@@ -24,7 +24,8 @@ Reading reading_of_kind(std::size_t kind, std::index_sequence<I...>) {
 }  // namespace
 
 void archive(Archive& archive, CompassReading& r) {
-  archive(r.time_s, r.heading_rad, r.pitch_rad, r.roll_rad, r.field_body_uT, r.faulty);
+  archive(r.time_s, r.heading_rad, r.pitch_rad, r.roll_rad, r.field_body_uT, r.utc_ns);
+  archive(r.distorted, r.tilt_out_of_range, r.field_out_of_range, r.faulty);
 }
 
 double time_of(const Reading& reading) {
@@ -56,7 +57,7 @@ QueuedReading& ReadingQueue::push(double key_s, const Reading& reading) {
 }
 
 void ReadingQueue::archive(Archive& archive) {
-  archive.tag("reading_queue 1");
+  archive.tag("reading_queue 2");
   std::uint64_t count = count_;
   archive(count);
   if (!archive.saving()) {

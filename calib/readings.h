@@ -15,7 +15,11 @@ struct CompassReading {
   std::optional<double> pitch_rad;    ///< positive nose-up
   std::optional<double> roll_rad;     ///< positive starboard-down
   std::optional<Eigen::Vector3d> field_body_uT;
-  bool faulty = false;  ///< the device says so itself (TCM2 E002, E004)
+  std::int64_t utc_ns = 0;         ///< time_s in UTC, for reports; 0: not known
+  bool distorted = false;          ///< the device reports magnetic distortion (TCM2 E001): a remark, voids nothing
+  bool tilt_out_of_range = false;  ///< heading and tilt are absent for that reason (E002)
+  bool field_out_of_range = false;  ///< heading and field are absent for that reason (E004)
+  bool faulty = false;              ///< the device reports another error: nothing of the reading is used
 };
 
 struct RateReading {

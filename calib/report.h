@@ -11,6 +11,7 @@
 #include "calib/gate.h"
 #include "calib/in_force.h"
 #include "calib/judgement.h"
+#include "calib/magnetometer_estimate.h"
 
 namespace navcal::calib {
 
@@ -60,6 +61,12 @@ struct HeadingCheck {
   double in_force_rad = 0;   ///< by the calibration in force
 };
 
+/// "2030-01-01T00:00:45.312Z"; of 0 that it is not known.
+[[nodiscard]] std::string utc_text(std::int64_t utc_ns);
+/// "the field stepped by (-1.5, -0.5, -13.6) +- (0.2, 0.1, 0.1) uT at 2030-01-01T00:00:45.312Z", in body axes; of
+/// a return to the field before it says so.
+[[nodiscard]] std::string words_of(const FieldStep& step);
+
 /// The whole suite, for status, log and calibrate.
 struct Report {
   CorrectionName name;  ///< of the calibration in force
@@ -67,7 +74,9 @@ struct Report {
   Correction estimates;                       ///< the newest of each calibrator that has one, accepted or not
   std::vector<CalibratorReport> calibrators;  ///< those that have instruments, in the order of kCalibrators
   HeadingCheck heading;
-  Rose rose{};  ///< headings visited, as the compass says them
+  Rose rose{};                         ///< headings visited, as the compass says them
+  std::vector<FieldStep> steps;        ///< of the field of the compass
+  std::vector<FieldSegment> segments;  ///< between them, one more than steps; empty without readings of the field
   GateCounts gate;
 
   /// Null when it has no instruments.

@@ -109,6 +109,13 @@ std::optional<Calibrator> Suite::take_adopted() {
   return std::nullopt;
 }
 
+std::optional<FieldStep> Suite::take_field_step() {
+  const Magnetometer& magnetometer = estimators_.magnetometer();
+  const bool is_new = magnetometer.field_steps() > told_steps_;
+  told_steps_ = magnetometer.field_steps();  // steps are minutes apart: never two at once
+  return is_new ? magnetometer.last_step() : std::nullopt;
+}
+
 std::string Suite::accept(Calibrator calibrator, bool force) {
   if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
   Correction estimates;
@@ -200,13 +207,15 @@ Report Suite::report() const {
   const Comparison& heading = held_out_.heading();
   report.heading = {heading.blocks(), heading.before_rms(), heading.estimate_rms(), heading.in_force_rms()};
   report.rose = rose_;
+  report.steps = estimators_.magnetometer().history().steps();
+  report.segments = estimators_.magnetometer().history().segments();
   report.gate = gate_.counts();
   return report;
 }
 
 void Suite::archive(Archive& archive) {
   archive.tag("suite 3");
-  archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_, held_, adopted_, rose_);
+  archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_, held_, adopted_, rose_, told_steps_);
 }
 
 }  // namespace navcal::calib

@@ -40,6 +40,9 @@ class Suite {
   /// A calibrator whose estimate came into force by itself since the last call; to be called until there is none.
   std::optional<Calibrator> take_adopted();
 
+  /// A step of the field that was found since the last call.
+  std::optional<FieldStep> take_field_step();
+
   // The operator's word. Each returns why it cannot be done; empty: it is done.
   /// `force`: also an estimate that is refused.
   std::string accept(Calibrator calibrator, bool force = false);
@@ -77,6 +80,7 @@ class Suite {
   std::array<bool, kCalibrators.size()> held_{};     ///< rolled back: only the operator brings it back
   std::array<bool, kCalibrators.size()> adopted_{};  ///< not told yet
   Rose rose_{};
+  std::uint32_t told_steps_ = 0;
 };
 
 }  // namespace navcal::calib

@@ -3,32 +3,13 @@
 #include <utility>
 #include <variant>
 
+#include "pipeline/calib_reading.h"
+
 namespace navcal::cli {
 namespace {
 
 /// Readings of the compass that wait for the gyro; more wait in vain.
 constexpr std::size_t kMostPending = 64;
-
-calib::CompassReading reading_of(const instruments::CompassSample& compass, double time_s) {
-  calib::CompassReading reading;
-  reading.time_s = time_s;
-  if (!compass.heading_is_true) reading.heading_rad = compass.heading_rad;
-  reading.pitch_rad = compass.pitch_rad;
-  reading.roll_rad = compass.roll_rad;
-  if (compass.field_body_uT) reading.field_body_uT = Eigen::Vector3d(compass.field_body_uT->data());
-  reading.faulty = compass.error.has_value();
-  return reading;
-}
-
-calib::RateReading reading_of(const instruments::ImuSample& imu, double time_s) {
-  calib::RateReading reading;
-  reading.time_s = time_s;
-  reading.rate_rad_s = Eigen::Vector3d(imu.rate_rad_s.data());
-  reading.yaw_rate_b_rad_s = imu.yaw_rate_b_rad_s;
-  reading.specific_force_m_s2 = Eigen::Vector3d(imu.specific_force_m_s2.data());
-  reading.saturated = imu.over_range;
-  return reading;
-}
 
 /// Two that followed each other as one.
 TurnedSample joined(const TurnedSample& first, const TurnedSample& second) {
@@ -56,9 +37,9 @@ void CalibrateHistory::on_sample(const instruments::Sample& sample) {
   if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
     if (sample.port != ports_.compass) return;
     ++readings_;
-    put(reading_of(*compass, seconds(sample)));
+    put(pipeline::calib_reading(*compass, sample.stamp, seconds(sample)));
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
-    if (sample.port == ports_.imu) put(reading_of(*imu, seconds(sample)));
+    if (sample.port == ports_.imu) put(pipeline::calib_reading(*imu, seconds(sample)));
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
     if (sample.port == ports_.motor && motor->rpm) put(calib::MotorReading{seconds(sample), *motor->rpm});
   }

@@ -95,6 +95,15 @@ void append_estimates(HtmlPage& page, const calib::Report& report) {
              rows);
 }
 
+void append_field_history(HtmlPage& page, const calib::Report& report) {
+  const auto lines = field_history_of(report);
+  if (lines.empty()) return;
+  page.paragraph(
+      "The field of the compass stepped during the recording. What is calibrated is the last field; the "
+      "spread of each segment is about its own hard iron, with soft iron in common.");
+  for (const std::string& line : lines) page.paragraph(line + ".");
+}
+
 void append_left_out(HtmlPage& page, const calib::Report& report, const PageSource& source) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < calib::kStreams; ++i) {
@@ -110,6 +119,8 @@ void append_left_out(HtmlPage& page, const calib::Report& report, const PageSour
   } else {
     page.table({"Instrument", "Readings", "Left out, and why", "Gaps"}, rows);
   }
+  if (const std::string distortion = distortion_of(report.gate); !distortion.empty())
+    page.paragraph(distortion + ". Nothing is left out for that.");
   for (const auto& remark : source.remarks) page.paragraph(remark);
 }
 
@@ -147,6 +158,7 @@ std::string calibrate_page(const calib::Report& report, const CalibrateHistory& 
     const auto field = field_figures(report, history.samples());
     if (!field.empty()) {
       page.section("Magnetometer");
+      append_field_history(page, report);
       page.figures(field);
     }
     if (const auto figures = convergence_figures(history.estimates()); !figures.empty()) {

@@ -43,6 +43,14 @@ void append_calibrator(std::string& out, const calib::CalibratorReport& report) 
   if (!estimated && objection.empty() && held_out.empty()) out += '\n';
 }
 
+void append_field_history(std::string& out, const calib::Report& report) {
+  std::string_view title = "steps of the field";
+  for (const std::string& line : field_history_of(report)) {
+    add(out, "{:<{}}{}\n", title, kTitle, line);
+    title = "";
+  }
+}
+
 void append_rose(std::string& out, const calib::Rose& rose) {
   if (calib::visited(rose) == 0) return;
   add(out, "{1:<{2}}N{0:8}E{0:8}S{0:8}W{0:8}N\n", "", "headings seen", kTitle);
@@ -60,6 +68,8 @@ void append_readings(std::string& out, const calib::GateCounts& gate, double dur
         left_out.empty() ? "" : " (left out: " + left_out + ")");
   }
   out += '\n';
+  if (const std::string distortion = distortion_of(gate); !distortion.empty())
+    add(out, "{:<{}}{}\n", "", kTitle, distortion);
 }
 
 }  // namespace
@@ -71,6 +81,7 @@ std::string calibrate_text(const calib::Report& report, double duration_s) {
     return out + "Nothing can be calibrated: the recording has no compass (a port of protocol tcm2 or nmea).\n";
   }
   for (const auto& calibrator : report.calibrators) append_calibrator(out, calibrator);
+  append_field_history(out, report);
   append_rose(out, report.rose);
   out += sentence_of(report.heading) + "\n";
   const auto lacks = [&](calib::Calibrator calibrator) { return report.find(calibrator) == nullptr; };

@@ -50,6 +50,15 @@ std::string_view instead_of_value(const calib::Quantity& quantity, double error,
   return quantity.name.starts_with("offset_") ? "not determined" : "";
 }
 
+/// Two codes of the compass leave a part of its words out, not the whole.
+std::string reason_in_words(calib::Rejection rejection) {
+  if (rejection == calib::Rejection::tilt_out_of_range) return "heading and tilt by E002";
+  if (rejection == calib::Rejection::field_out_of_range) return "heading and field by E004";
+  std::string reason(calib::name_of(rejection));
+  std::replace(reason.begin(), reason.end(), '_', ' ');
+  return reason;
+}
+
 }  // namespace
 
 std::string_view title_of(Calibrator calibrator) { return kTitles.at(static_cast<std::size_t>(calibrator)); }
@@ -126,13 +135,35 @@ std::string sentence_of(const calib::HeadingCheck& heading) {
       heading.before_rad * kDegrees, heading.after_rad * kDegrees, heading.blocks);
 }
 
+std::vector<std::string> field_history_of(const calib::Report& report) {
+  std::vector<std::string> lines;
+  if (report.steps.empty()) return lines;
+  const auto percent = [](const std::optional<double>& spread) {
+    return spread ? fmt::format("{:.2f} %", 100 * *spread) : std::string("unknown");
+  };
+  for (std::size_t i = 0; i < report.segments.size(); ++i) {
+    const calib::FieldSegment& segment = report.segments[i];
+    if (i > 0 && i - 1 < report.steps.size()) lines.push_back(words_of(report.steps[i - 1]));
+    lines.push_back(fmt::format("{} to {}: {} readings, spread of the field's size {} as measured, {} calibrated",
+                                calib::utc_text(segment.begin_utc_ns), calib::utc_text(segment.end_utc_ns),
+                                segment.readings, percent(segment.spread_raw()),
+                                percent(segment.spread_calibrated)));
+  }
+  return lines;
+}
+
+std::string distortion_of(const calib::GateCounts& gate) {
+  if (gate.distorted == 0) return {};
+  return fmt::format("{} {} with E001: the compass reports magnetic distortion", gate.distorted,
+                     gate.distorted == 1 ? "word" : "words");
+}
+
 std::string left_out_of(const calib::GateCounts& gate, calib::Stream stream) {
   std::string text;
   const auto& counts = gate.left_out.at(static_cast<std::size_t>(stream));
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
-    std::string reason(calib::name_of(static_cast<calib::Rejection>(i)));
-    std::replace(reason.begin(), reason.end(), '_', ' ');
+    std::string reason = reason_in_words(static_cast<calib::Rejection>(i));
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[i], reason);
   }
   return text;

@@ -32,6 +32,12 @@ struct ShownQuantity {
 /// The heading as a whole, before and after, or why it could not be judged.
 [[nodiscard]] std::string sentence_of(const calib::HeadingCheck& heading);
 
+/// A line for each step of the field and for each segment between two; empty where it did not step.
+[[nodiscard]] std::vector<std::string> field_history_of(const calib::Report& report);
+
+/// "4048 words with E001: the compass reports magnetic distortion"; empty when it does not.
+[[nodiscard]] std::string distortion_of(const calib::GateCounts& gate);
+
 /// "12 repeated, 3 frozen" of one instrument; empty when nothing was left out.
 [[nodiscard]] std::string left_out_of(const calib::GateCounts& gate, calib::Stream stream);
 

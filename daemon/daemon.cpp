@@ -137,6 +137,10 @@ void Daemon::on_calibration(const pipeline::CalibrationChange& change) {
                     forced ? "; the operator put it in force although it may be refused" : ""));
 }
 
+void Daemon::on_field_step(const calib::FieldStep& step, std::int64_t now_ns) {
+  event(now_ns, "warning", "field.step", "", calib::words_of(step));
+}
+
 void Daemon::on_navigation(const pipeline::NavigationSample& sample) {
   publisher_.navigation(sample);
   log_.navigation(sample);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "instruments/compass_error.h"
 #include "pipeline/local_plane.h"
 #include "protocols/motor_card.h"
 #include "record/recording.h"
@@ -63,7 +64,9 @@ void MissionGatherer::on_sample(const instruments::Sample& sample) {
 }
 
 void MissionGatherer::add(const instruments::CompassSample& sample, std::int64_t time_ns) {
-  if (!sample.field_body_uT || !sample.roll_rad || !sample.pitch_rad || sample.error) return;
+  const instruments::CompassError error(sample.error);
+  if (error.distortion) ++mission_.distorted;
+  if (!sample.field_body_uT || !sample.roll_rad || !sample.pitch_rad || error.unknown) return;
   mission_.compass.push_back(
       {0, sample.heading_rad, *sample.roll_rad, *sample.pitch_rad, *sample.field_body_uT, sample.temperature_C});
   times_ns_[compass].push_back(time_ns);
@@ -161,6 +164,10 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
   Mission mission = gatherer.take(begin_ns.value_or(0));
   for (const std::int64_t time_ns : orders_ns) {
     mission.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
+  }
+  if (mission.distorted > 0) {
+    mission.remarks.push_back(fmt::format("{}: {} words with E001: the compass reports magnetic distortion",
+                                          file.string(), mission.distorted));
   }
   for (const auto& remark : recording->remarks()) mission.remarks.push_back(file.string() + ": " + remark);
   return mission;

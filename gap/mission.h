@@ -59,6 +59,7 @@ struct Mission {
   /// When the motor card was told something new. Empty: not recorded.
   std::vector<double> order_times_s;
   double duration_s = 0;
+  std::uint64_t distorted = 0;  ///< words of the compass with its remark of magnetic distortion (E001)
   std::vector<std::string> remarks;
 
   [[nodiscard]] std::vector<double> fix_times_s() const;

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "gap/level_changes.h"
+
 namespace navcal::gap {
 namespace {
 
@@ -151,40 +153,31 @@ WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixX
 
 std::vector<ChangePoint> change_points(const Innovations& innovations, const Course10Hz& course,
                                        const std::vector<double>& fix_times_s, const RegimeStatistics& nulls) {
-  constexpr std::size_t kLeast = 6;  // pieces on either side
-  constexpr double kClear = 8;       // of the standard error of the difference
+  constexpr double kTimesUsual = 3;  // of the slow part that nulls have
+  const auto slow = static_cast<Eigen::Index>(index_of("slow", regimes()));
   std::vector<ChangePoint> changes;
   for (std::size_t c = 0; c < reported_channels().size(); ++c) {
     const ChannelSeries series = series_of(c, innovations, course, fix_times_s);
     if (series.values.rows() == 0) continue;
     const auto pieces = pieces_of(series, loudest(series.values), course);
-    if (pieces.size() < 2 * kLeast) continue;
-    ChangePoint best;
-    double best_t = kClear;
-    for (std::size_t split = kLeast; split + kLeast <= pieces.size(); ++split) {
-      const auto mean = [&](std::size_t from, std::size_t until) {
-        double sum = 0;
-        for (std::size_t i = from; i < until; ++i) sum += pieces[i].mean;
-        return sum / static_cast<double>(until - from);
-      };
-      const double first = mean(0, split), second = mean(split, pieces.size());
-      double square = 0;
-      for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const double off = pieces[i].mean - (i < split ? first : second);
-        square += off * off;
-      }
-      const double scatter = std::sqrt(square / static_cast<double>(pieces.size() - 2));
-      const double error =
-          scatter * std::sqrt(1.0 / static_cast<double>(split) + 1.0 / static_cast<double>(pieces.size() - split));
-      if (error > 0 && std::abs(second - first) / error > best_t) {
-        best_t = std::abs(second - first) / error;
-        best = {std::string(reported_channels()[c].name), pieces[split].time_s - kPiece_s / 2, first, second,
-                std::string(reported_channels()[c].unit)};
-      }
+    std::vector<double> means;
+    for (const Piece& piece : pieces) means.push_back(piece.mean);
+    LevelChanges levels;
+    levels.least_difference = kTimesUsual * nulls.floor(static_cast<Eigen::Index>(c), slow);
+    std::vector<std::size_t> bounds = levels.of(means);
+    bounds.insert(bounds.begin(), 0);
+    bounds.push_back(means.size());
+    const auto level = [&](std::size_t part) {
+      const std::size_t from = bounds[part], until = bounds[part + 1];
+      double sum = 0;
+      for (std::size_t i = from; i < until; ++i) sum += means[i];
+      return sum / static_cast<double>(until - from);
+    };
+    const auto& channel = reported_channels()[c];
+    for (std::size_t part = 1; part + 1 < bounds.size(); ++part) {
+      changes.push_back({std::string(channel.name), pieces[bounds[part]].time_s - kPiece_s / 2, level(part - 1),
+                         level(part), std::string(channel.unit)});
     }
-    const auto slow = static_cast<Eigen::Index>(index_of("slow", regimes()));
-    const double usual = nulls.floor(static_cast<Eigen::Index>(c), slow);
-    if (best_t > kClear && std::abs(best.after - best.before) > 3 * usual) changes.push_back(best);
   }
   return changes;
 }

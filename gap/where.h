@@ -22,7 +22,7 @@ namespace navcal::gap {
 [[nodiscard]] WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixXd& before,
                                       const Eigen::MatrixXd& after, const RegimeStatistics& nulls);
 
-/// Levels of channels that changed for good in mid-mission.
+/// Levels of channels that changed in mid-mission, for good or for a time (LevelChanges): one entry a change.
 [[nodiscard]] std::vector<ChangePoint> change_points(const Innovations& innovations, const Course10Hz& course,
                                                      const std::vector<double>& fix_times_s,
                                                      const RegimeStatistics& nulls);

@@ -37,7 +37,7 @@ struct CompassSample {
   std::optional<double> dip_rad;          ///< as the device says it, where it does
   std::optional<double> turn_rate_rad_s;  ///< as the device says it (ROT), positive to starboard
   std::optional<double> temperature_C;
-  std::optional<std::uint32_t> error;  ///< TCM2's raw error code; absent when none stands
+  std::optional<std::uint32_t> error;  ///< TCM2's raw error code (CompassError); absent when none stands
 };
 
 /// Inertial card (ICD section 3), body axes.

@@ -1,5 +1,6 @@
 #include "instruments/tcm2_compass.h"
 
+#include "instruments/compass_error.h"
 #include "instruments/units.h"
 #include "protocols/tcm2.h"
 
@@ -12,13 +13,14 @@ Instrument::Verdict Tcm2Compass::read(const protocols::Frame& frame, Receiver& r
   if (frame.id == tcm2::kWord) {
     const auto word = tcm2::decode_word(frame.bytes);
     if (!word) return Verdict::out_of_range;
-    const bool tilt_void = word->error && (*word->error & tcm2::error::kInclinometerOutOfRange) != 0;
-    if (!tilt_void) {
-      if (word->heading) sample.heading_rad = radians_of(*word->heading, settings_.heading_unit);
+    const CompassError error(word->error);
+    if (!error.tilt_out_of_range) {
+      if (word->heading && !error.field_out_of_range)
+        sample.heading_rad = radians_of(*word->heading, settings_.heading_unit);
       if (word->pitch) sample.pitch_rad = radians_of(*word->pitch, settings_.tilt_unit);
       if (word->roll) sample.roll_rad = radians_of(*word->roll, settings_.tilt_unit);
     }
-    sample.field_body_uT = word->field();
+    if (!error.field_out_of_range) sample.field_body_uT = word->field();
     if (word->temperature) sample.temperature_C = celsius_of(*word->temperature, settings_.temperature_unit);
     sample.error = word->error;
   } else if (frame.id == tcm2::kHchdm) {

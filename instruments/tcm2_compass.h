@@ -4,8 +4,9 @@
 
 namespace navcal::instruments {
 
-/// PNI TCM2: data words, and its heading as NMEA. While the device says that its inclinometer is out of range
-/// (E002), heading and tilt are void; the field is not.
+/// PNI TCM2: data words, and its heading as NMEA. What an error code voids is absent from the sample: heading and
+/// tilt with the inclinometer out of range (E002), heading and field with the magnetometer (E004), nothing with
+/// distortion near (E001).
 class Tcm2Compass : public Instrument {
  public:
   explicit Tcm2Compass(const config::CompassSettings& settings) : settings_(settings) {}

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <variant>
 
+#include "pipeline/calib_reading.h"
 #include "pipeline/calibration_options.h"
 #include "pipeline/local_plane.h"
 
@@ -11,19 +12,6 @@ namespace {
 
 using calib::Calibrator;
 using protocols::Protocol;
-
-Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
-
-calib::CompassReading reading_of(const instruments::CompassSample& sample, double time_s) {
-  calib::CompassReading reading;
-  reading.time_s = time_s;
-  if (!sample.heading_is_true) reading.heading_rad = sample.heading_rad;
-  reading.pitch_rad = sample.pitch_rad;
-  reading.roll_rad = sample.roll_rad;
-  if (sample.field_body_uT) reading.field_body_uT = vector(*sample.field_body_uT);
-  reading.faulty = sample.error.has_value();
-  return reading;
-}
 
 }  // namespace
 
@@ -48,7 +36,8 @@ void CalibrationStage::correct(instruments::Sample& sample) const {
   sample.calibration = {name.number, name.sum};
   if (auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
     if (sample.port != ports_.compass || compass->heading_is_true) return;
-    compass->heading_calibrated_rad = calib::corrected_heading(correction, reading_of(*compass, 0));
+    compass->heading_calibrated_rad =
+        calib::corrected_heading(correction, calib_reading(*compass, sample.stamp, 0));
     const auto delay_ns = std::llround(correction.compass_delay_s.value_or(0) * 1e9);
     sample.stamp.validity_ns -= delay_ns;
     sample.stamp.validity_utc_ns -= delay_ns;
@@ -66,18 +55,13 @@ void CalibrationStage::learn(const instruments::Sample& original, Sink& sink) {
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::CompassSample& compass) {
-  if (sample.port == ports_.compass) suite_.put(reading_of(compass, seconds(sample.stamp.validity_ns)));
+  if (sample.port == ports_.compass)
+    suite_.put(calib_reading(compass, sample.stamp, seconds(sample.stamp.validity_ns)));
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::ImuSample& imu) {
   if (sample.port != ports_.imu) return;
-  calib::RateReading reading;
-  reading.time_s = seconds(sample.stamp.validity_ns);
-  reading.rate_rad_s = vector(imu.rate_rad_s);
-  reading.yaw_rate_b_rad_s = imu.yaw_rate_b_rad_s;
-  reading.specific_force_m_s2 = vector(imu.specific_force_m_s2);
-  reading.saturated = imu.over_range;
-  suite_.put(reading);
+  suite_.put(calib_reading(imu, seconds(sample.stamp.validity_ns)));
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::GpsSample& gps) {
@@ -135,6 +119,7 @@ void CalibrationStage::tell_adopted(Sink& sink) {
   while (const auto adopted = suite_.take_adopted()) {
     tell(newest_ns_, CalibrationChange::Cause::automatic, *adopted, sink);
   }
+  if (const auto step = suite_.take_field_step()) sink.on_field_step(*step, newest_ns_);
 }
 
 void CalibrationStage::tell(std::int64_t now_ns, CalibrationChange::Cause cause, Calibrator calibrator,

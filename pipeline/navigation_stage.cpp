@@ -4,6 +4,8 @@
 #include <cmath>
 #include <variant>
 
+#include "instruments/compass_error.h"
+
 namespace navcal::pipeline {
 namespace {
 
@@ -76,7 +78,7 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
 
 void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample& sample,
                            const instruments::CompassSample& compass, bool calibrated) const {
-  if (compass.error) return;
+  if (instruments::CompassError(compass.error).unknown) return;
   nav::CompassReading reading;
   reading.time_ns = sample.stamp.validity_ns;
   reading.calibrated = calibrated && compass.heading_calibrated_rad;

@@ -28,6 +28,8 @@ class Sink {
   virtual void on_mapping(const UtcMapping& /*mapping*/) {}
   /// The calibrations changed, by themselves or by order.
   virtual void on_calibration(const CalibrationChange& /*change*/) {}
+  /// The field of the compass stepped: a magnet near, a load, a motor.
+  virtual void on_field_step(const calib::FieldStep& /*step*/, std::int64_t /*now_ns*/) {}
   /// Where the vehicle is thought to be, at the interval of the configuration.
   virtual void on_navigation(const NavigationSample& /*sample*/) {}
 };

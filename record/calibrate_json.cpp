@@ -145,6 +145,8 @@ void append_calibrate_json(std::string& out, const calib::Report& report) {
        {Calibrator::misalignment, Calibrator::swing, Calibrator::compass_delay, Calibrator::course_delay}) {
     json[std::string(calib::name_of(calibrator))] = beside(report, calibrator);
   }
+  json["steps"] = steps_json(report.steps);
+  json["segments"] = segments_json(report.segments);
   json["rose"] = report.rose;
   json["left_out"] = gate_json(report.gate);
   out += json.dump();

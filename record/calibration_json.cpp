@@ -75,6 +75,7 @@ std::vector<std::string> calib_lines(const calib::Report& report, std::optional<
   Json whole;
   whole["heading"] = heading_json(report.heading);
   whole["rose"] = report.rose;
+  if (!report.steps.empty()) whole["field_step"] = steps_json({report.steps.back()}).front();
   whole["left_out"] = gate_json(report.gate);
   std::string rest = whole.dump();
   if (!tcm2.empty()) {

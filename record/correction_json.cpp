@@ -32,6 +32,11 @@ Json field_json(const calib::FieldCorrection& field) {
   return json;
 }
 
+/// UTC seconds.
+Json time_json(std::int64_t utc_ns) {
+  return utc_ns == 0 ? Json(nullptr) : Json(static_cast<double>(utc_ns) * 1e-9);
+}
+
 Json named(std::string_view name, const std::optional<double>& value, double unit) {
   if (!value) return nullptr;
   Json json;
@@ -104,6 +109,36 @@ Json values_json(const std::vector<calib::Quantity>& quantities, double calib::Q
   return json;
 }
 
+Json steps_json(const std::vector<calib::FieldStep>& steps) {
+  Json all = Json::array();
+  for (const auto& step : steps) {
+    Json json;
+    json["time"] = time_json(step.utc_ns);
+    json["size_uT"] = vector_json(step.size_uT);
+    for (const double std_uT : step.std_uT) json["std_uT"].push_back(number_json(std_uT));
+    json["returned"] = step.returned;
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
+Json segments_json(const std::vector<calib::FieldSegment>& segments) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? number_json(*value) : Json(nullptr);
+  };
+  Json all = Json::array();
+  for (const auto& segment : segments) {
+    Json json;
+    json["from"] = time_json(segment.begin_utc_ns);
+    json["to"] = time_json(segment.end_utc_ns);
+    json["readings"] = segment.readings;
+    json["spread_raw"] = number(segment.spread_raw());
+    json["spread_calibrated"] = number(segment.spread_calibrated);
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
 Json gate_json(const calib::GateCounts& counts) {
   Json json;
   for (std::size_t s = 0; s < calib::kStreams; ++s) {
@@ -113,6 +148,8 @@ Json gate_json(const calib::GateCounts& counts) {
       if (counts.left_out[s][r] > 0)
         stream[std::string(calib::name_of(static_cast<calib::Rejection>(r)))] = counts.left_out[s][r];
     }
+    if (static_cast<calib::Stream>(s) == calib::Stream::compass && counts.distorted > 0)
+      stream["distorted"] = counts.distorted;
     stream["gaps"] = counts.gaps[s];
     json[std::string(calib::name_of(static_cast<calib::Stream>(s)))] = std::move(stream);
   }

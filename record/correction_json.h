@@ -23,6 +23,11 @@ namespace navcal::record {
                                                  double calib::Quantity::*which);
 
 /// By instrument: readings taken, those left out by reason, gaps.
+/// Steps of the field, [{"time","size_uT":[3],"std_uT":[3],"returned"}]; what is not known is null.
+[[nodiscard]] nlohmann::ordered_json steps_json(const std::vector<calib::FieldStep>& steps);
+/// The time between them, [{"from","to","readings","spread_raw","spread_calibrated"}]: UTC seconds, standard
+/// deviation of the field's size over its mean.
+[[nodiscard]] nlohmann::ordered_json segments_json(const std::vector<calib::FieldSegment>& segments);
 [[nodiscard]] nlohmann::ordered_json gate_json(const calib::GateCounts& counts);
 
 /// The number, or null when it is not finite.

@@ -231,7 +231,9 @@ std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) 
   if (fields.temperature) {
     out.temperature = fields.fahrenheit ? reading.temperature_C * 1.8 + 32 : reading.temperature_C;
   }
-  if (reading.tilt_out_of_range) out.error = wire::error::kInclinometerOutOfRange;
+  const std::uint32_t error = (reading.distorted ? wire::error::kDistortion : 0U) |
+                              (reading.tilt_out_of_range ? wire::error::kInclinometerOutOfRange : 0U);
+  if (error != 0) out.error = error;
   return wire::encode_word(out);
 }
 

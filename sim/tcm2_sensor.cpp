@@ -12,6 +12,8 @@ namespace {
 constexpr std::int64_t kStep_ns = 10'000'000;
 constexpr double kRadians = std::numbers::pi / 180;
 
+double norm(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
+
 }  // namespace
 
 Tcm2Sensor::Tcm2Sensor(const Options& options, const Motion& motion, std::uint64_t seed)
@@ -56,6 +58,8 @@ Tcm2Reading Tcm2Sensor::measure(std::int64_t t_ns) {
   reading.roll_rad = said.roll_rad + noise_.normal(options_.tilt_noise_deg * louder * kRadians);
   reading.tilt_out_of_range =
       std::max(std::abs(reading.pitch_rad), std::abs(reading.roll_rad)) > options_.tilt_range_deg * kRadians;
+  const double earth_uT = norm(state.field_world_uT);
+  reading.distorted = std::abs(norm(reading.field_uT) - earth_uT) > options_.distortion_share * earth_uT;
   // Levelling: Mach's thesis (2003), eq. 2.2.
   const auto [x, y, z] = reading.field_uT;
   const double sf = std::sin(reading.roll_rad), cf = std::cos(reading.roll_rad);

@@ -16,6 +16,7 @@ struct Tcm2Reading {
   Vector3 field_uT{};
   double temperature_C = 0;
   bool tilt_out_of_range = false;
+  bool distorted = false;  ///< the field's size is far from the Earth's
 };
 
 /// Magnetometers, fluid inclinometer (a first-order lag of the tilt) and thermometer, with the errors of
@@ -27,6 +28,8 @@ class Tcm2Sensor {
     double tilt_noise_deg = 0.1;
     double fluid_lag_s = 0.3;
     double tilt_range_deg = 50;
+    double distortion_share =
+        0.25;  ///< departure of the field's size from the Earth's, relative, that is remarked
     double temperature_noise_C = 0.1;
     EffectSet* effects = nullptr;  ///< nullptr: nominal
   };

@@ -87,6 +87,30 @@ TEST(Gate, CountsEveryReadingOnceAsGivenOutOrLeftOut) {
   EXPECT_EQ(out.size() + rejected, readings.size());
 }
 
+TEST(Gate, ErrorCodesVoidWhatTheyConcern) {
+  std::vector<Reading> readings;
+  for (int i = 0; i < 40; ++i) {
+    CompassReading reading = compass(i * 0.1, i * 0.01);
+    reading.field_body_uT = Eigen::Vector3d(20, i, 40);
+    reading.distorted = i % 4 == 0;
+    reading.tilt_out_of_range = i % 4 == 1;
+    reading.field_out_of_range = i % 4 == 2;
+    readings.emplace_back(reading);
+  }
+  Gate gate;
+  const auto out = through(gate, readings);
+  ASSERT_EQ(out.size(), readings.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto& reading = std::get<CompassReading>(out[i]);
+    EXPECT_EQ(reading.heading_rad.has_value(), i % 4 == 0 || i % 4 == 3) << i;
+    EXPECT_EQ(reading.roll_rad.has_value(), i % 4 != 1) << i;
+    EXPECT_EQ(reading.field_body_uT.has_value(), i % 4 != 2) << i;
+  }
+  EXPECT_EQ(gate.counts().distorted, 10U);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::tilt_out_of_range), 10U);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::field_out_of_range), 10U);
+}
+
 TEST(Gate, ALiveInstrumentIsNotFrozenByRepeatingItselfForLessThanASecond) {
   std::vector<Reading> readings;
   for (int i = 0; i < 100; ++i) readings.emplace_back(compass(i * 0.1, (i / 8) * 0.1));

@@ -76,14 +76,26 @@ TEST(MagnetometerRecording, MagnetBroughtNearAndTakenAway) {
   const auto readings = recording("broad34.cap");
   if (readings.empty()) GTEST_SKIP() << "../shared is missing";
   Magnetometer magnetometer{Magnetometer::Parameters{}};
-  std::vector<double> found_s;
   for (const auto& r : readings) {
-    magnetometer.update(r.field_body_uT, r.roll_rad, r.pitch_rad);
-    if (magnetometer.field_steps() > found_s.size()) found_s.push_back(r.time_s);
+    Magnetometer::Reading reading;
+    reading.field_body_uT = r.field_body_uT;
+    reading.roll_rad = r.roll_rad;
+    reading.pitch_rad = r.pitch_rad;
+    reading.time_s = r.time_s;
+    magnetometer.update(reading);
   }
-  ASSERT_EQ(found_s.size(), 2u);
-  EXPECT_NEAR(found_s[0], 45.3, 1);
-  EXPECT_NEAR(found_s[1], 100, 1);
+  magnetometer.settle();
+  const auto& steps = magnetometer.history().steps();
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_NEAR(steps[0].time_s, 45.3, 0.6);
+  EXPECT_NEAR(steps[1].time_s, 99.7, 0.6);
+  const Eigen::Vector3d size_uT(-1.5, -0.5, -13.6);
+  // The board rested before the magnet came, at a heading that the field alone does not tell.
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(steps[0].size_uT[i], size_uT[i], 3 * steps[0].std_uT[i]) << steps[0].size_uT.transpose();
+    EXPECT_NEAR(steps[1].size_uT[i], -size_uT[i], 3 * steps[1].std_uT[i]) << steps[1].size_uT.transpose();
+  }
+  EXPECT_LT((steps[1].size_uT + size_uT).norm(), 1) << steps[1].size_uT.transpose();
   const auto on = [](const RecordedField& r) { return r.time_s > 46.5 && r.time_s < 98.5; };
   EXPECT_LE(spread(fitted(readings, on), readings, on), 1.632);
 }

@@ -109,6 +109,35 @@ TEST(Magnetometer, ADiveIsNoStep) {
   EXPECT_LT((magnetometer.estimate()->correction.offset_uT - iron.hard_uT).norm(), 1.0);
 }
 
+/// Level turns for a minute, then roll and pitch, with soft iron and a vertical offset.
+TEST(Magnetometer, TheFirstTiltIsNoStep) {
+  for (std::uint64_t seed = 20; seed < 24; ++seed) {
+    Random random(seed);
+    std::vector<Attitude> motion;
+    for (int i = 0; i < 1500; ++i) {
+      const double sway = i < 600 ? 0 : std::min(1.0, (i - 600) / 100.0);
+      motion.push_back({0.025 * i, 0.35 * sway * std::sin(0.031 * i), 0.3 * sway * std::sin(0.019 * i)});
+    }
+    Iron iron = some_iron();
+    iron.hard_uT = {3, -2, 15};
+    Magnetometer magnetometer{Magnetometer::Parameters{}};
+    feed(magnetometer, field_on(motion, iron, random));
+    EXPECT_EQ(magnetometer.field_steps(), 0u) << seed;
+    EXPECT_LT(magnetometer.left_out(), 15u) << seed;
+  }
+}
+
+/// Four uT in ten minutes.
+TEST(Magnetometer, ASlowDriftIsNoStep) {
+  Random random(17);
+  Magnetometer magnetometer{Magnetometer::Parameters{}};
+  auto readings = turning(6000, 0, kBefore, random);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    readings[i].field_body_uT.y() += 4 * static_cast<double>(i) / static_cast<double>(readings.size());
+  feed(magnetometer, readings);
+  EXPECT_EQ(magnetometer.field_steps(), 0u);
+}
+
 TEST(Magnetometer, RestoredGoesOnBitForBit) {
   Random random(4);
   const auto first = turning(500, 0, kBefore, random), second = turning(300, 500, kAfter, random);

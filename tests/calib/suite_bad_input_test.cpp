@@ -69,7 +69,7 @@ std::vector<Case> cases() {
          }
          return out;
        }},
-      {"E002 or E004", Stream::compass, Rejection::faulty,
+      {"an error of unknown effect", Stream::compass, Rejection::faulty,
        [=](Reading r, int i) {
          if (i >= 100 && i < 120) {
            compass(r).faulty = true;

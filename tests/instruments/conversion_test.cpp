@@ -101,6 +101,19 @@ TEST(Tcm2Compass, TiltOutOfRangeVoidsHeadingAndTiltButNotTheField) {
   EXPECT_EQ(samples[1].error, 1U);
 }
 
+TEST(Tcm2Compass, MagnetometerOutOfRangeVoidsHeadingAndFieldButNotTheTilt) {
+  Tcm2Compass compass{config::CompassSettings{}};
+  Collector collector(compass);
+  collector.feed<tcm2::Parser>(nmea("C10.0P7.0R1.0X1.00Y2.00Z3.00E004"));
+  collector.feed<tcm2::Parser>(nmea("C10.0P7.0R1.0X1.00Y2.00Z3.00E007"));
+  const auto samples = collector.all<CompassSample>();
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_FALSE(samples[0].heading_rad || samples[0].field_body_uT);
+  EXPECT_TRUE(samples[0].pitch_rad && samples[0].roll_rad);
+  EXPECT_EQ(samples[0].error, 4U);
+  EXPECT_FALSE(samples[1].heading_rad || samples[1].field_body_uT || samples[1].pitch_rad);
+}
+
 TEST(Tcm2Compass, FieldsThatAreOffAndNmeaOutput) {
   Tcm2Compass compass{config::CompassSettings{}};
   Collector collector(compass);

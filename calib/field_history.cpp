@@ -1,0 +1,104 @@
+#include "calib/field_history.h"
+
+#include <array>
+#include <cmath>
+
+namespace navcal::calib {
+namespace {
+
+constexpr double kCellSize_uT = 0.7;
+/// Fewer readings give no shape of their own.
+constexpr std::uint64_t kLeastReadings = 20;
+
+void archive_all(Archive& archive, auto& list) {
+  std::uint64_t count = list.size();
+  archive(count);
+  if (!archive.saving()) list.assign(archive.ok() && count <= FieldHistory::kMost + 1 ? count : 0, {});
+  for (auto& one : list) archive(one);
+}
+
+/// Whether the field was seen from about one side only: then any heading explains it, and where its hard iron is
+/// the fit does not tell.
+bool rested(const EllipsoidCells& cells, const EllipsoidShape& shape, const Eigen::Vector3d& centre_uT) {
+  constexpr double kLeastScatter = 0.05;  // of the unit vectors, of 1
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double count = 0;
+  for (const auto& cell : cells) {
+    mean += cell.count * (shape.matrix_per_uT * (cell.mean.head<3>() - centre_uT)).normalized();
+    count += cell.count;
+  }
+  return count > 0 && 1 - (mean / count).squaredNorm() < kLeastScatter;
+}
+
+}  // namespace
+
+FieldHistory::FieldHistory() : before_(kCellSize_uT), now_(kCellSize_uT) {}
+
+void FieldHistory::add(const FieldCells<3, 6>::Cell& reading, double time_s, std::int64_t utc_ns) {
+  if (segments_.empty()) segments_.emplace_back();
+  FieldSegment& segment = segments_.back();
+  if (segment.readings == 0) {
+    segment.begin_s = time_s;
+    segment.begin_utc_ns = utc_ns;
+  }
+  segment.end_s = time_s;
+  segment.end_utc_ns = utc_ns;
+  ++segment.readings;
+  const double size_uT = reading.mean.head<3>().norm();
+  const double apart_uT = size_uT - segment.raw_mean_uT;
+  segment.raw_mean_uT += apart_uT / static_cast<double>(segment.readings);
+  segment.raw_squares_uT2 += apart_uT * (size_uT - segment.raw_mean_uT);
+  now_.add(reading.mean);
+}
+
+void FieldHistory::begin_segment(const FieldStep& step, const SegmentNoise& noise, const SegmentBelief& belief) {
+  refine(noise, belief);
+  if (steps_.size() == kMost) {
+    steps_.erase(steps_.begin());
+    segments_.erase(segments_.begin());
+  }
+  steps_.push_back(step);
+  segments_.emplace_back();
+  before_ = now_;
+  now_ = FieldCells<3, 6>(kCellSize_uT);
+  next_refinement_ = kFirstRefinement;
+}
+
+void FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& belief) {
+  // Lag, accelerations and whatever else no model describes are alike in neighbouring cells.
+  constexpr double kAlike = 2.2;
+  SegmentNoise noise = of_readings;
+  noise.model_uT *= kAlike;
+  noise.tilt_error_rad *= kAlike;
+  next_refinement_ = 2 * std::max(readings(), kFirstRefinement);
+  if (readings() < kLeastReadings && steps_.empty()) return;
+  const std::array both{&before_.cells(), &now_.cells()};
+  const bool alone = steps_.empty();
+  const auto fit = fit_segments(alone ? Segments(both).last(1) : Segments(both), noise, belief);
+  if (!fit) return;
+  const auto spread = [&](const EllipsoidCells& cells, const Eigen::Vector3d& centre_uT) {
+    const SizeSpread size = spread_of(cells, fit->shape.matrix_per_uT, centre_uT);
+    return size.mean > 0 ? std::optional(size.std / size.mean) : std::nullopt;
+  };
+  segments_.back().spread_calibrated = spread(now_.cells(), fit->centres_uT.back());
+  if (alone) return;
+  segments_[segments_.size() - 2].spread_calibrated = spread(before_.cells(), fit->centres_uT.front());
+  FieldStep& step = steps_.back();
+  if (step.contrast && (rested(before_.cells(), fit->shape, fit->centres_uT.front()) ||
+                        rested(now_.cells(), fit->shape, fit->centres_uT.back()))) {
+    step.size_uT = step.contrast->size_uT;
+    step.std_uT = step.contrast->std_uT;
+    return;
+  }
+  step.size_uT = fit->centres_uT[1] - fit->centres_uT[0];
+  step.std_uT = fit->covariance.diagonal().segment<3>(EllipsoidShape::kParameters).cwiseSqrt();
+}
+
+void FieldHistory::archive(Archive& archive) {
+  archive.tag("field_history 1");
+  archive_all(archive, steps_);
+  archive_all(archive, segments_);
+  archive(before_, now_, next_refinement_);
+}
+
+}  // namespace navcal::calib

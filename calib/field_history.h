@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "calib/field_segments.h"
+#include "calib/magnetometer_estimate.h"
+
+namespace navcal::calib {
+
+/// Steps of the field, and the segments of time between them, told as a whole.
+///
+/// The size of a step is the difference of the hard iron of the two segments, fitted jointly with soft iron and
+/// dip in common (fit_segments), so that a segment that saw little turning has the shape of its neighbour.
+class FieldHistory {
+ public:
+  static constexpr std::size_t kMost = 64;  ///< steps that are kept; older ones go
+
+  FieldHistory();
+  /// A reading that was used.
+  void add(const FieldCells<3, 6>::Cell& reading, double time_s, std::int64_t utc_ns);
+  /// The field stepped: what comes belongs to another segment.
+  void begin_segment(const FieldStep& step, const SegmentNoise& noise, const SegmentBelief& belief);
+  /// Fits the last two segments anew. To be called at the end, and now and then before.
+  void refine(const SegmentNoise& noise, const SegmentBelief& belief);
+  [[nodiscard]] bool is_time_to_refine() const { return !steps_.empty() && readings() >= next_refinement_; }
+
+  [[nodiscard]] const std::vector<FieldStep>& steps() const { return steps_; }
+  [[nodiscard]] const std::vector<FieldSegment>& segments() const { return segments_; }
+  void archive(Archive& archive);
+
+ private:
+  [[nodiscard]] std::uint64_t readings() const { return segments_.empty() ? 0 : segments_.back().readings; }
+
+  std::vector<FieldStep> steps_;
+  std::vector<FieldSegment> segments_;  ///< one more than steps once there is a reading
+  FieldCells<3, 6> before_, now_;       ///< of the last two segments
+  std::uint64_t next_refinement_ = kFirstRefinement;
+
+  static constexpr std::uint64_t kFirstRefinement = 64;
+};
+
+}  // namespace navcal::calib

@@ -1,0 +1,39 @@
+#include "pipeline/calib_reading.h"
+
+#include "instruments/compass_error.h"
+
+namespace navcal::pipeline {
+namespace {
+
+Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+calib::CompassReading calib_reading(const instruments::CompassSample& compass, const instruments::Stamp& stamp,
+                                    double time_s) {
+  const instruments::CompassError error(compass.error);
+  calib::CompassReading reading;
+  reading.time_s = time_s;
+  if (!compass.heading_is_true) reading.heading_rad = compass.heading_rad;
+  reading.pitch_rad = compass.pitch_rad;
+  reading.roll_rad = compass.roll_rad;
+  if (compass.field_body_uT) reading.field_body_uT = vector(*compass.field_body_uT);
+  reading.utc_ns = stamp.validity_utc_ns;
+  reading.distorted = error.distortion;
+  reading.tilt_out_of_range = error.tilt_out_of_range;
+  reading.field_out_of_range = error.field_out_of_range;
+  reading.faulty = error.unknown;
+  return reading;
+}
+
+calib::RateReading calib_reading(const instruments::ImuSample& imu, double time_s) {
+  calib::RateReading reading;
+  reading.time_s = time_s;
+  reading.rate_rad_s = vector(imu.rate_rad_s);
+  reading.yaw_rate_b_rad_s = imu.yaw_rate_b_rad_s;
+  reading.specific_force_m_s2 = vector(imu.specific_force_m_s2);
+  reading.saturated = imu.over_range;
+  return reading;
+}
+
+}  // namespace navcal::pipeline

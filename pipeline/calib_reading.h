@@ -1,0 +1,14 @@
+#pragma once
+
+#include "calib/readings.h"
+#include "instruments/samples.h"
+
+namespace navcal::pipeline {
+
+/// A sample as the calibrators take it; `time_s` from an origin of the caller's choice. True headings are left
+/// out: calibrators learn magnetic ones.
+[[nodiscard]] calib::CompassReading calib_reading(const instruments::CompassSample& compass,
+                                                  const instruments::Stamp& stamp, double time_s);
+[[nodiscard]] calib::RateReading calib_reading(const instruments::ImuSample& imu, double time_s);
+
+}  // namespace navcal::pipeline
