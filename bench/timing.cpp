@@ -1,63 +1,104 @@
-// Error of time stamps against the true sample times, arrival against model, on simulated arrivals: exponential
-// delays, stalls, a device clock that is off and wanders. One table; no input.
+// Error of time stamps against the true times of measurement, on simulated streams: instruments at half to twice
+// their nominal rate, exponential delays of the host, stalls, lost frames, with and without sequence numbers.
+//
+//     bench_timing [--step 0.05] [--runs 4] [--frames 3000] [--cells]
+//
+// One line for each kind of delay: root mean squares over all rates, and the worst cell. --cells prints each rate.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <string_view>
 
-#include "instruments/clock_model.h"
-#include "tests/instruments/clock_simulation.h"
+#include "tests/instruments/frame_stream.h"
 
 namespace {
 
-using navcal::instruments::ClockModel;
-using navcal::instruments::SimulatedDevice;
+using navcal::instruments::FrameClock;
+using navcal::instruments::StreamOptions;
+using navcal::instruments::StreamScore;
+using navcal::instruments::StreamScores;
 
-constexpr int kSeeds = 40;
-constexpr double kDuration_s = 600;
-
-struct Row {
-  double arrival_rms_s = 0, model_rms_s = 0, within_two_sigma = 0, update_ns = 0;
+struct Arguments {
+  double step = 0.05;
+  int runs = 4, frames = 3000;
+  bool cells = false;
 };
 
-Row measure(const SimulatedDevice::Options& options) {
-  Row row;
-  long count = 0;
-  std::chrono::nanoseconds spent{};
-  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-    SimulatedDevice device(options, 1000 + seed);
-    ClockModel clock(1 / options.rate_Hz);
-    for (int k = 0; k < static_cast<int>(kDuration_s * options.rate_Hz); ++k, ++count) {
-      const auto frame = device.next();
-      const auto before = std::chrono::steady_clock::now();
-      const auto time = clock.update(k, std::llround(frame.arrival_s * 1e9));
-      spent += std::chrono::steady_clock::now() - before;
-      const double error_s = static_cast<double>(time.time_ns) * 1e-9 - frame.true_s;
-      row.model_rms_s += error_s * error_s;
-      row.arrival_rms_s += (frame.arrival_s - frame.true_s) * (frame.arrival_s - frame.true_s);
-      row.within_two_sigma += std::abs(error_s) <= 2e-9 * static_cast<double>(time.std_ns) ? 1 : 0;
-    }
+Arguments read(int argc, char** argv) {
+  Arguments arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view name = argv[i];
+    if (name == "--cells") arguments.cells = true;
+    if (i + 1 == argc) continue;
+    if (name == "--step") arguments.step = std::atof(argv[i + 1]);
+    if (name == "--runs") arguments.runs = std::atoi(argv[i + 1]);
+    if (name == "--frames") arguments.frames = std::atoi(argv[i + 1]);
   }
-  const auto n = static_cast<double>(count);
-  return {std::sqrt(row.arrival_rms_s / n), std::sqrt(row.model_rms_s / n), row.within_two_sigma / n,
-          static_cast<double>(spent.count()) / n};
+  return arguments;
+}
+
+struct Kind {
+  double jitter_s, stall_s, stall_share;
+};
+
+constexpr Kind kKinds[] = {{0.2e-3, 30e-3, 0.01}, {2e-3, 30e-3, 0.01}, {8e-3, 30e-3, 0.01}, {2e-3, 0.7, 0.005}};
+
+void print(double factor, const Kind& kind, bool counted, const StreamScores& s, double worst_ratio, double least,
+           double most) {
+  fmt::print(
+      "{:7.3f} {:6.1f} {:6.0f} {:>4} {:10.0f} {:8.0f} {:7.4f} {:7.3f} {:8.4f} {:6.3f} {:6.3f} {:9.0f} {:6.3f}\n",
+      factor, kind.jitter_s * 1e3, kind.stall_s * 1e3, counted ? "yes" : "no", s.steady.arrival_rms_s() * 1e6,
+      s.steady.rms_s() * 1e6, s.steady.ratio(), s.steady.coverage(), worst_ratio, least, most,
+      s.first.rms_s() * 1e6, s.first.coverage());
 }
 
 }  // namespace
 
-int main() {
-  fmt::print("delays exponential with 2 ms mean, 30 ms stalls 1 %, device clock off by 100 ppm; {} runs of {} s\n",
-             kSeeds, kDuration_s);
-  fmt::print("{:>8} {:>18} {:>14} {:>12} {:>8} {:>14} {:>12}\n", "rate_Hz", "wander_ppm_sqrt_s", "arrival_rms_us",
-             "model_rms_us", "ratio", "within_2_sigma", "ns_update");
-  for (const double rate_Hz : {10.0, 20.0, 50.0, 200.0}) {
-    for (const double wander : {0.0, 0.3e-6, 1e-6, 3e-6}) {
-      SimulatedDevice::Options options;
-      options.rate_Hz = rate_Hz;
-      options.wander = wander;
-      const Row row = measure(options);
-      fmt::print("{:8.0f} {:18.1f} {:14.1f} {:12.1f} {:8.4f} {:14.3f} {:12.0f}\n", rate_Hz, wander * 1e6,
-                 row.arrival_rms_s * 1e6, row.model_rms_s * 1e6, row.model_rms_s / row.arrival_rms_s,
-                 row.within_two_sigma, row.update_ns);
+int main(int argc, char** argv) {
+  const Arguments arguments = read(argc, argv);
+  fmt::print(
+      "10 Hz nominal, rates 0.5 to 2 times that in steps of {}, {} runs of {} frames; 1 % lost; the clock\n"
+      "wanders by 0.5 ppm per root second. After 256 frames; at the end of the line, the first 24.\n",
+      arguments.step, arguments.runs, arguments.frames);
+  fmt::print("{:>7} {:>6} {:>6} {:>4} {:>10} {:>8} {:>7} {:>7} {:>8} {:>6} {:>6} {:>9} {:>6}\n", "rate", "jit_ms",
+             "st_ms", "seq", "arrival_us", "rms_us", "ratio", "within", "worst", "least", "most", "first_us",
+             "within");
+  const auto begin = std::chrono::steady_clock::now();
+  long frames = 0;
+  unsigned seed = 1000;
+  for (const Kind& kind : kKinds) {
+    for (const bool counted : {false, true}) {
+      StreamScores all;
+      double worst = 0, least = 1, most = 0;
+      for (int i = 0; 0.5 + i * arguments.step < 2 + 1e-9; ++i) {
+        StreamOptions options{.factor = 0.5 + i * arguments.step,
+                              .jitter_s = kind.jitter_s,
+                              .stall_s = kind.stall_s,
+                              .stall_share = kind.stall_share,
+                              .counted = counted};
+        StreamScores cell;
+        for (int run = 0; run < arguments.runs; ++run) {
+          FrameClock clock(options.nominal_Hz, 0);
+          const auto stream = make_stream(options, ++seed, arguments.frames);
+          frames += static_cast<long>(stream.size());
+          cell.run(clock, stream);
+        }
+        worst = std::max(worst, cell.steady.ratio());
+        least = std::min(least, cell.steady.coverage());
+        most = std::max(most, cell.steady.coverage());
+        if (arguments.cells)
+          print(options.factor, kind, counted, cell, cell.steady.ratio(), cell.steady.coverage(),
+                cell.steady.coverage());
+        all.first.add(cell.first);
+        all.learning.add(cell.learning);
+        all.steady.add(cell.steady);
+        if (cell.backwards) fmt::print("a stamp ran backwards at {}\n", options.factor);
+      }
+      print(0, kind, counted, all, worst, least, most);
     }
   }
+  const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - begin;
+  fmt::print("{:.0f} ns a frame, its simulation included\n", spent.count() / static_cast<double>(frames));
 }

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/emulate_console.h"
 #include "cli/emulate_input.h"
@@ -92,6 +93,7 @@ void add_emulate(CLI::App& app) {
   command->add_option("--compass-baud", arguments->compass_baud, "speed of the compass")->capture_default_str();
   command->add_option("--imu-ppm", arguments->imu_ppm, "by how much the card's seconds are too long (by the seed)")
       ->check(CLI::Range(-1e4, 1e4));
+  add_clock_option(command, arguments->clocks);
   command->add_option("--sent-log", arguments->sent_log, "capture of exactly what went over the lines, both ways");
   const auto* const misbehaviour = "Misbehaviour";
   command->add_option("--noise", arguments->noise, "probability of a flipped bit in a frame or garbage before it")

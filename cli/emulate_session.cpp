@@ -53,10 +53,12 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   sim::Tcm2::Options compass;
   compass.baud = arguments.compass_baud;
   compass.seed = seed();
+  compass.clock_ppm = sim::clock_ppm(arguments.clocks, "compass", compass.clock_ppm);
   add(arguments, "compass", std::make_unique<sim::Tcm2>(compass, *motion_));
   sim::ImuCard::Options imu;
   imu.seed = seed();
   imu.clock_ppm = arguments.imu_ppm.value_or(seeds.uniform(-kGreatest_ppm, kGreatest_ppm));
+  imu.clock_ppm = sim::clock_ppm(arguments.clocks, "imu", imu.clock_ppm);
   auto card = std::make_unique<sim::ImuCard>(imu, *motion_);
   imu_ = card.get();
   add(arguments, "imu", std::move(card));
@@ -66,6 +68,7 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   add(arguments, "gps", std::make_unique<sim::Oncore>(gps, *motion_));
   sim::MotorCard::Options motor;
   motor.seed = seed();
+  motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
   add(arguments, "motor", std::make_unique<sim::MotorCard>(motor, *motion_));
 
   for (const StallPlan& plan : arguments.stalls) stall_regularly(plan);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/emulate_port.h"
+#include "sim/clock_factor.h"
 #include "sim/imu_card.h"
 #include "sim/oncore.h"
 #include "sim/state.h"
@@ -26,6 +27,7 @@ struct EmulateArguments {
   double seconds = 0;  ///< 0: until it is stopped
   std::uint64_t seed = 1;
   std::optional<double> imu_ppm;
+  std::vector<sim::ClockFactor> clocks;
   int compass_baud = 38400;
   sim::Oncore::Kind gps = sim::Oncore::Kind::twelve_channels;
   double noise = 0;

@@ -24,7 +24,7 @@ config::Settings with_places(config::Settings settings, const std::filesystem::p
 class Importer final : public pipeline::Sink {
  public:
   Importer(const config::Settings& settings, const std::filesystem::path& log)
-      : encoder_(settings, config::to_toml(settings)), pipeline_(settings), file_(log) {}
+      : ports_(settings.ports), encoder_(settings, config::to_toml(settings)), pipeline_(settings), file_(log) {}
 
   void begin(const record::MappingChange& first) {
     newest_ns_ = first.time_ns;
@@ -78,6 +78,9 @@ class Importer final : public pipeline::Sink {
                      pipeline::words_for_outage(sample));
     }
   }
+  void on_stream_event(const pipeline::StreamEvent& event) override {
+    encoder_.event(text_, event.time_ns, event.severity, event.name, ports_[event.port].name, event.message);
+  }
   void on_calibration(const pipeline::CalibrationChange& change) override {
     std::string json;
     record::append_json(json, pipeline_.mapping(), change);
@@ -90,6 +93,7 @@ class Importer final : public pipeline::Sink {
     text_.clear();
   }
 
+  std::vector<config::PortSettings> ports_;
   record::LogEncoder encoder_;
   pipeline::Pipeline pipeline_;
   record::WholeFile file_;

@@ -14,6 +14,7 @@
 #include "cli/watch_text.h"
 #include "config/load.h"
 #include "pipeline/pipeline.h"
+#include "record/event_json.h"
 #include "record/navigation_json.h"
 #include "record/recording.h"
 #include "record/sample_json.h"
@@ -38,6 +39,14 @@ class Printer : public pipeline::Sink {
     line_ += '\n';
     output_.append(line_);
   }
+  void on_stream_event(const pipeline::StreamEvent& event) override {
+    line_.clear();
+    record::append_event_json(line_, mapping_, event.time_ns, event.severity, event.name,
+                              settings_.ports[event.port].name, event.message);
+    line_ += '\n';
+    output_.append(line_);
+  }
+  void on_mapping(const pipeline::UtcMapping& mapping) override { mapping_ = mapping; }
   void on_navigation(const pipeline::NavigationSample& sample) override {
     line_.clear();
     record::append_json(line_, sample);
@@ -48,6 +57,7 @@ class Printer : public pipeline::Sink {
  private:
   const config::Settings& settings_;
   Output& output_;
+  pipeline::UtcMapping mapping_;
   std::string line_;
 };
 

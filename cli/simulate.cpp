@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "cli/simulate_effects.h"
@@ -84,6 +85,7 @@ void add_simulate(CLI::App& app) {
       ->add_option("--effects", arguments.effects_file,
                    "departures with exact parameters: a table [NAME] each, with from_s and until_s")
       ->option_text("FILE.toml");
+  add_clock_option(command, arguments.clocks);
   command->add_option("--seed", arguments.seed, "of noise, biases and directions")->capture_default_str();
   command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
   command->add_option("-o,--output", arguments.capture, "the recording")->option_text("FILE.cap");

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/clock_factor.h"
+
 namespace navcal::cli {
 
 /// A mission on the time scale of the simulated recordings begins here: 2026-01-01, 00:00:00 UTC.
@@ -18,6 +20,7 @@ struct SimulateArguments {
   std::filesystem::path vehicle;
   std::vector<std::string> effects;  ///< NAME=STRENGTH
   std::filesystem::path effects_file;
+  std::vector<sim::ClockFactor> clocks;
   std::uint64_t seed = 1;
   bool no_noise = false;
   std::optional<double> seconds;

@@ -35,7 +35,9 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   writer.begin(text);
   if (truth) sim::begin_truth(rows);
   const std::int64_t end_ns = kSimulatedBegin_ns + std::llround(run.duration_s * 1e9);
-  sim::Recording recording({kSimulatedBegin_ns, !arguments.no_noise, arguments.seed, &effects}, *run.motion);
+  sim::Recording::Options options{kSimulatedBegin_ns, !arguments.no_noise, arguments.seed, &effects};
+  options.clocks = arguments.clocks;
+  sim::Recording recording(options, *run.motion);
   std::vector<sim::LineRead> reads;
   std::int64_t truth_ns = kSimulatedBegin_ns;
   for (std::int64_t t_ns = kSimulatedBegin_ns; t_ns < end_ns;) {

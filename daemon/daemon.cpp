@@ -159,6 +159,11 @@ void Daemon::update_alarms(const instruments::Sample& sample, const instruments:
   if (!changes.empty()) report_health(sample.stamp.arrival_ns);
 }
 
+void Daemon::on_stream_event(const pipeline::StreamEvent& stream_event) {
+  on_port_event(stream_event.port, stream_event.time_ns, stream_event.severity, stream_event.name,
+                stream_event.message);
+}
+
 void Daemon::on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity,
                            std::string_view name, std::string_view message) {
   event(now_ns, severity, name, settings_.ports[port].name, message);

@@ -15,20 +15,26 @@ constexpr double kFrequencyWalkLeast = 0.5e-6;  // assumed even of a quiet cryst
 constexpr double kFrequencyWalkMost = 20e-6;    // a ceramic resonator warming up
 constexpr double kWalkGain = 0.03;              // per block
 constexpr double kMisfitLimit = 25;             // in variances: one stall must not open the filter
-constexpr double kMisfitExpected = 0.9;         // a little under 1, so that doubt widens the error bars
-constexpr double kMisfitGain = 0.05;            // per block
-constexpr double kMisfitIgnored = 1.5;          // what chance alone makes of the mean over recent blocks
-constexpr double kPhaseWalk_s = 1e-6;           // per sqrt(s)
-constexpr double kMeasurementFloor_s = 2e-6;    // what a scheduler's wake-up varies even on an idle machine
-constexpr double kStampFloor_s = 2e-6;          // what no model of the delays can know of their least value
-constexpr double kEarly = 3;                    // sigmas before its time: news at once
-constexpr double kTooEarly = 6;                 // sigmas: no noise, the model is wrong
-constexpr double kGate = 5;                     // sigmas by which a whole block may be late before it is left out
-constexpr double kLateExpected = 5;             // (mean delay / n) by which n frames may all be late
-constexpr int kLateFrames = 3;                  // fewer may be late together by a stall
-constexpr double kSoftEdgeShare = 0.6;          // standard deviation, in distances of the middle from the edge
-constexpr double kFitCaution = 1.3;             // on the errors of a line through few frames
-constexpr double kFitBlocks = 2;                // that such a line is worth
+constexpr double kMisfitExpected = 1.0;
+constexpr double kMisfitGain = 0.05;          // per block
+constexpr double kMisfitIgnored = 1.5;        // what chance alone makes of the mean over recent blocks
+constexpr double kPhaseWalk_s = 1e-6;         // per sqrt(s)
+constexpr double kMeasurementFloor_s = 2e-6;  // what a scheduler's wake-up varies even on an idle machine
+constexpr double kStampFloor_s = 2e-6;        // what no model of the delays can know of their least value
+constexpr double kEarly = 3;                  // sigmas before its time: news at once
+constexpr double kTooEarly = 6;               // sigmas: no noise, the model is wrong
+constexpr double kTooEarlyDelay = 0.5;        // of the mean delay, likewise
+constexpr double kGate = 5;                   // sigmas by which a whole block may be late before it is left out
+constexpr double kLateExpected = 5;           // (mean delay / n) by which n frames may all be late
+constexpr int kLateFrames = 3;                // fewer may be late together by a stall
+constexpr double kSoftEdgeShare = 1.2;        // standard deviation, in distances of the middle from the edge
+constexpr double kSoftMeasurement = 0.3;      // likewise, of the earliest of a block
+constexpr double kFitCaution = 1.3;           // on the errors of a line through few frames
+constexpr double kFitBlocks = 2;              // that such a line is worth
+constexpr double kAstray = 0.5;               // of the mean delay: a block that misses by more went astray,
+constexpr double kAstrayLeast = 0.004;        // if that is more than this share of a period
+constexpr double kAstrayGain = 0.1;           // per block
+constexpr double kAstrayMost = 0.5;           // of the recent blocks
 constexpr int kRejectedBlocksToReset = 4;
 constexpr int kContradictionsToGiveUp = 4;
 constexpr std::uint64_t kObservationsToLock = 8;
@@ -68,9 +74,10 @@ void ClockModel::begin(std::int64_t index, const PeriodFit& fit) {
   var_phase_ = square(kFitCaution * fit.line.end_std_s) + square(kMeasurementFloor_s);
   var_period_ = square(kFitCaution * fit.line.slope_std_s) + square(kMeasurementFloor_s * period_s_ / span_s);
   cov_ = kEndSlopeCorrelation * std::sqrt(var_phase_ * var_period_);
-  delays_.begin(fit.line.delay_s, kFitBlocks);
+  delays_.begin(fit.line.delay_s, fit.range_s, kFitBlocks);
   walk_ = kFrequencyWalkPrior;
   misfit_ = 1;
+  astray_ = 0;
   in_block_ = 0;
   block_size_ = kMaxBlock;
   rejected_blocks_ = contradictions_ = 0;
@@ -99,7 +106,8 @@ TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns, bo
   }
   const double observed_s = static_cast<double>(observed_ns - origin_ns_) / kNs;
   const double residual_s = observed_s - phase_s_;
-  const bool early = residual_s < -kEarly * std::sqrt(var_phase_);
+  const bool early =
+      residual_s < -kEarly * std::sqrt(var_phase_ + square(kSoftMeasurement * delays_.soft_edge_s()));
   if (early || !held_up) {
     if (early) take_early(residual_s);
     earliest_s_ = in_block_ == 0 ? residual_s : std::min(earliest_s_, residual_s);
@@ -113,8 +121,8 @@ TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns, bo
 
 /// Nothing arrives early: far too early a frame means that the model is wrong by so much.
 void ClockModel::take_early(double residual_s) {
-  const double allowed_s =
-      std::hypot(kTooEarly * std::sqrt(var_phase_ * std::max(1.0, misfit_)), delays_.soft_edge_s());
+  const double allowed_s = std::hypot(kTooEarly * std::sqrt(var_phase_ * std::max(1.0, misfit_)),
+                                      std::max(kTooEarlyDelay * delays_.mean_s(), delays_.soft_edge_s()));
   if (-residual_s < allowed_s) return;
   const double opened = 1 + square(residual_s) / var_phase_;
   var_phase_ *= opened;
@@ -124,9 +132,13 @@ void ClockModel::take_early(double residual_s) {
 
 void ClockModel::close_block() {
   const double expected_s = delays_.mean_s() / in_block_;
-  const double variance = square(doubt() * expected_s) + square(kMeasurementFloor_s);
+  const double variance = square(doubt() * expected_s) + square(kMeasurementFloor_s) +
+                          square(kSoftMeasurement * delays_.soft_edge_s());
   const double residual_s = earliest_s_ - expected_s;
   const double gate_s = kGate * std::sqrt((var_phase_ + variance) * std::max(1.0, misfit_));
+  const bool astray = std::abs(residual_s) > std::max(kAstray * delays_.mean_s(), kAstrayLeast * period_s_);
+  const double share = std::max(0.25, static_cast<double>(in_block_) / kMaxBlock);
+  astray_ += kAstrayGain * share * (static_cast<double>(astray) - astray_);
   if (residual_s > gate_s) {
     reject_block(residual_s, variance);
   } else {
@@ -197,6 +209,10 @@ double ClockModel::sigma_s() const {
 double ClockModel::period_std_s() const {
   return std::sqrt(var_period_ * std::max(1.0, misfit_ / kMisfitIgnored));
 }
+
+void ClockModel::contradict() { contradictions_ = kContradictionsToGiveUp; }
+
+bool ClockModel::useless() const { return astray_ > kAstrayMost; }
 
 bool ClockModel::contradicted() const { return contradictions_ >= kContradictionsToGiveUp; }
 

@@ -39,6 +39,10 @@ class ClockModel {
   [[nodiscard]] bool empty() const { return observations_ == 0; }
   /// Observations contradict the model again and again: phase and period are to be found anew.
   [[nodiscard]] bool contradicted() const;
+  /// An observation contradicts the period beyond doubt.
+  void contradict();
+  /// Blocks miss their prediction by as much as frames differ within a block: no clock paces these frames.
+  [[nodiscard]] bool useless() const;
   [[nodiscard]] ClockState state() const;
 
   /// The device paused or began anew: forget the phase, keep the period.
@@ -73,6 +77,7 @@ class ClockModel {
   int in_block_ = 0;
   int block_size_ = 1;
   int rejected_blocks_ = 0;
+  double astray_ = 0;       ///< share of the recent blocks that missed by more than the frames' spread
   int contradictions_ = 0;  ///< since a whole block fitted
   std::uint64_t observations_ = 0;
   std::uint64_t resets_ = 0;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kPriorWeight = 0.5;  // blocks
 constexpr double kMemory = 30;        // blocks
 constexpr double kShapeMemory = 60;   // blocks
-constexpr double kShapePrior = 6;     // blocks of exponential delays, before anything is known
+constexpr double kShapePrior = 3;     // blocks of exponential delays, before anything is known
 // Of exponential delays, blocks of 16: (second highest - median) / (median - second lowest). Symmetric ones: 1.
 constexpr double kExponentialRatio = 2.78;
 constexpr double kSharpRatio = 1.8;  // above, the lower edge is taken for sharp
@@ -27,9 +27,10 @@ double above_lowest(std::size_t i, std::size_t n) {
 
 }  // namespace
 
-void DelaySpread::begin(double mean_s, double blocks) {
+void DelaySpread::begin(double mean_s, double range_s, double blocks) {
   *this = {};
   mean_s_ = by_median_s_ = by_lowest_s_ = mean_s;
+  range_s_ = range_s;
   weight_ = blocks;
 }
 

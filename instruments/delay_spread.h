@@ -8,8 +8,8 @@ namespace navcal::instruments {
 /// lower edge on which the envelope rests, and how far they reach.
 class DelaySpread {
  public:
-  /// Delays of mean `mean_s`, believed as much as `blocks` of them.
-  void begin(double mean_s, double blocks);
+  /// Delays of mean `mean_s`, reaching over `range_s`, believed as much as `blocks` of them.
+  void begin(double mean_s, double range_s, double blocks);
   /// Residuals of one block against the model, at least 4. Sorts them.
   void learn(std::span<double> residuals_s);
 

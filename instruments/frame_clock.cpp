@@ -2,27 +2,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navcal::instruments {
 namespace {
 
+constexpr double kLateDelays = 6;   // mean delays by which the frame before may be late besides
+constexpr double kLineDelay = 0.2;  // of the period: a line through few frames with longer delays is not believed
 constexpr double kArrivalStd_s = 1e-3;   // of a stamp by arrival where no rate is configured
 constexpr double kUnknownStd_s = 12e-3;  // of a stamp by arrival when nothing is known of the delays: twice that
                                          // holds 95 % of exponential ones of 8 ms mean, those of a loaded machine
 constexpr double kUnknownFrames = 3;     // after so many more frames, half of that is left
 constexpr double kScarce = 4;            // frames by which the delays of a short run may look too small
 constexpr double kAheadTolerance = 0.5;  // periods before its time that a frame may come and the phase be believed
-constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a counted frame means a pause
+constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a frame means a pause
+constexpr double kCountedPause =
+    1.5;  // periods, and a little more, likewise of a counted frame: a host that was late
+constexpr double kCountedPause_s =
+    0.05;  // reads all that has come, and the last of that is less late than a period
 constexpr double kLostMargin_sigma = 6;
 constexpr double kLostMargin = 0.002, kLostMarginMost = 0.25;  // of a period, by which a tick may be missed early
-constexpr double kReachingDelay = 0.05;  // of a period: mean of delays that reach a whole one now and then
-constexpr double kLostShareMost = 0.35;  // more guessed losses than that: the period is wrong
-constexpr double kShareGain = 1.0 / 24;  // per frame
-constexpr double kShort = 0.3;           // of the period: frames closer than that came in a burst
+constexpr double kReachingDelay = 0.13;  // of a period: mean of delays that reach a whole one now and then
+constexpr double kLostShare = 0.15;      // of the ticks: more guessed losses than that put the period in question,
+constexpr double kLostShareFactor = 1.5;  // unless so many were there when it was found
+constexpr double kLateBeforeLoss =
+    0.4;  // periods: a guessed loss after a frame so late is a period that is too short
+constexpr int kRegularFitsMost = 96;      // runs of 32 frames
+constexpr double kShareGain = 1.0 / 24;   // per frame
+constexpr double kBurstGain = 1.0 / 256;  // per frame: a stall of some seconds is no change of rhythm
+constexpr double kBurstMargin = 0.5;      // periods beyond a burst's length, before frames are thought lost
+constexpr double kShort = 0.3;            // of the period: frames closer than that came in a burst
 constexpr double kBurstsBegin = 0.3, kBurstsEnd = 0.15;  // share of such intervals
 constexpr double kLeastStep = 0.1;                       // of the period, between two times of validity
 constexpr std::int64_t kLeastStep_ns = 1000;
-constexpr double kWholeTurn = 256;  // of the sequence number
+constexpr std::uint64_t kRateFrames = 32;  // between two looks at the rate
+constexpr double kRateSigmas = 5;          // beyond the tolerance, before a rate is told
+constexpr double kWholeTurn = 256;         // of the sequence number
 
 std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
 
@@ -53,7 +68,7 @@ FrameClock::FrameClock(double rate_Hz, double latency_std_s)
 FrameClock::Outcome FrameClock::update(const FrameObservation& frame) {
   if (any_ && is_repeated(frame)) {
     ++repeated_;
-    return {{stamped_ns_, ns(kUnknownStd_s)}, true};
+    return {{stamped_ns_, ns(kUnknownStd_s)}, true, std::nullopt};
   }
   const bool tracking = timing_ == Timing::periodic || timing_ == Timing::bursts;
   TimeEstimate time = timing_ == Timing::arrival     ? TimeEstimate{frame.observed_ns, ns(kArrivalStd_s)}
@@ -62,7 +77,7 @@ FrameClock::Outcome FrameClock::update(const FrameObservation& frame) {
                                                      : by_arrival(frame);
   sequence_ = frame.sequence;
   observed_ns_ = frame.observed_ns;
-  return {finish(time, tracking ? kLeastStep * model_.period_s() : 0), false};
+  return {finish(time, tracking ? kLeastStep * model_.period_s() : 0), false, std::exchange(news_, std::nullopt)};
 }
 
 /// The latency's uncertainty, and no step backwards.
@@ -97,8 +112,7 @@ TimeEstimate FrameClock::search(const FrameObservation& frame) {
   const double elapsed_s = static_cast<double>(frame.observed_ns - observed_ns_) * 1e-9;
   // A counter that runs far ahead of time was set back by a restart.
   const bool ahead = step > 4 + 4 * elapsed_s / nominal_s_;
-  const bool paused = finder_.frames() < 6 && elapsed_s > 50 * nominal_s_;
-  if (any_ && (ahead || (paused && step < 25))) {
+  if (any_ && ahead) {
     finder_.clear();
   } else if (any_ && step > 1) {
     lost_ += static_cast<std::uint64_t>(step - 1);
@@ -107,7 +121,7 @@ TimeEstimate FrameClock::search(const FrameObservation& frame) {
   const PeriodFit fit = finder_.fit();
   TimeEstimate time{frame.observed_ns, ns(kUnknownStd_s)};
   const int n = finder_.frames();
-  if (fit.found && n > 3) {
+  if (fit.found && n > 5 && fit.line.delay_s < kLineDelay * fit.line.slope_s && fit.plausible_delays()) {
     const double at_s = static_cast<double>(frame.observed_ns - fit.origin_ns) * 1e-9;
     time.time_ns = fit.origin_ns + ns(std::min(at_s, fit.line.end_s));
     const double unknown_s = kUnknownStd_s * std::exp2((1 - n) / kUnknownFrames);
@@ -120,17 +134,48 @@ TimeEstimate FrameClock::search(const FrameObservation& frame) {
 /// Enough was seen to tell what kind of stream it is.
 void FrameClock::settle(const PeriodFit& fit) {
   finder_.clear();
-  if (!fit.periodic(nominal_s_)) {
-    timing_ = Timing::irregular;
-    return;
-  }
+  if (!fit.periodic(nominal_s_)) return turn_irregular(fit.too_fast(nominal_s_) ? 1 : regular_fits_);
+  if (timing_ == Timing::irregular && --fits_to_regular_ > 0) return;
   model_.begin(index_, fit);
   if (!sequence_) lost_ += static_cast<std::uint64_t>(fit.lost);
   timing_ = fit.bursts() ? Timing::bursts : Timing::periodic;
   burst_share_ = fit.burst_share;
-  lost_share_ = 0;
+  lost_share_ = static_cast<double>(fit.lost) / (fit.frames + fit.lost);
+  lost_share_most_ = kLostShare + kLostShareFactor * lost_share_;
   guessed_lost_ = 0;
+  late_before_ = 0;
   model_known_ = true;
+  tell_rhythm(timing_);
+  frames_tracked_ = 0;
+}
+
+/// A change of the rhythm, once.
+void FrameClock::tell_rhythm(Timing timing) {
+  if (timing == told_timing_) return;
+  told_timing_ = timing;
+  news_ = timing == Timing::irregular ? ClockNews::irregular
+          : timing == Timing::bursts  ? ClockNews::bursts
+                                      : ClockNews::regular;
+}
+
+/// A rate that is another than the configured one, or than the one told last, beyond doubt.
+void FrameClock::watch_rate() {
+  if (++frames_tracked_ % kRateFrames != 0 || news_ || model_.contradicted()) return;
+  const double period_s = model_.period_s();
+  const double doubt_s = kRateSigmas * model_.period_std_s();
+  const double known_s = told_period_s_ > 0 ? told_period_s_ : nominal_s_;
+  if (std::abs(period_s - known_s) < kRateTolerance * known_s + doubt_s) return;
+  const bool right = std::abs(period_s - nominal_s_) < kRateTolerance * nominal_s_;
+  told_period_s_ = right ? 0 : period_s;
+  news_ = right ? ClockNews::rate_right : ClockNews::rate;
+}
+
+/// `fits`: runs of frames in a row that must be those of a clock before one is believed in again.
+void FrameClock::turn_irregular(int fits) {
+  timing_ = Timing::irregular;
+  fits_to_regular_ = fits;
+  finder_.clear();
+  tell_rhythm(timing_);
 }
 
 void FrameClock::search_again() {
@@ -157,21 +202,29 @@ TimeEstimate FrameClock::track(const FrameObservation& frame) {
     ++index_;
   }
   watch_intervals(frame);
+  watch_rate();
   TimeEstimate time = model_.update(index_, frame.observed_ns, frame.backlog);
   if (timing_ == Timing::bursts) {
     // Whether the device measured evenly or as it sent, nothing tells: twice this holds both.
     time.std_ns = ns(std::hypot(static_cast<double>(time.std_ns) * 1e-9, 0.5 * model_.delay_range_s()));
   }
-  if (model_.contradicted() || lost_share_ > kLostShareMost) search_again();
+  if (model_.contradicted() || lost_share_ > lost_share_most_) {
+    search_again();
+  } else if (model_.useless()) {
+    // It looked like a clock and was none: more is asked for the next time.
+    regular_fits_ = std::min(2 * regular_fits_, kRegularFitsMost);
+    turn_irregular(regular_fits_);
+  }
   return time;
 }
 
 void FrameClock::watch_intervals(const FrameObservation& frame) {
   const double interval_s = static_cast<double>(frame.observed_ns - observed_ns_) * 1e-9;
   const double is_short = interval_s < kShort * model_.period_s() ? 1 : 0;
-  burst_share_ += kShareGain * (is_short - burst_share_);
+  burst_share_ += kBurstGain * (is_short - burst_share_);
   if (burst_share_ > kBurstsBegin) timing_ = Timing::bursts;
   if (burst_share_ < kBurstsEnd) timing_ = Timing::periodic;
+  tell_rhythm(timing_);
 }
 
 std::int64_t FrameClock::by_sequence(const FrameObservation& frame, double late_periods) {
@@ -182,7 +235,8 @@ std::int64_t FrameClock::by_sequence(const FrameObservation& frame, double late_
   const double counted = std::max(1.0, step + kWholeTurn * turns);
   const bool ahead = counted > elapsed + kAheadTolerance;
   const double behind_s = (elapsed - counted) * model_.period_s();
-  const bool paused = behind_s > kPauseLimit_s && behind_s > 2 * model_.period_s() && !frame.backlog;
+  const bool paused = behind_s > kCountedPause * model_.period_s() + kCountedPause_s && !frame.backlog &&
+                      timing_ != Timing::bursts;
   if (ahead || paused) {
     model_.reset_phase();  // it began anew, or stood still: its counter says nothing about the time between
     return 1;
@@ -196,7 +250,7 @@ double FrameClock::lost_margin() const {
   const double sigma = model_.sigma_s() / model_.period_s();
   // Where delays reach a period, a frame that is late by a little less was late, and nothing was lost.
   const bool delays_reach = model_.mean_delay_s() > kReachingDelay * model_.period_s();
-  if (delays_reach) return std::min(sigma, kLostMarginMost);
+  if (delays_reach) return std::min(2 * sigma, kLostMarginMost);
   return std::min(kLostMargin + kLostMargin_sigma * sigma, kLostMarginMost);
 }
 
@@ -212,12 +266,18 @@ std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_peri
     const std::int64_t back = std::min(guessed_lost_, static_cast<std::int64_t>(std::llround(-late_periods)));
     lost_ -= static_cast<std::uint64_t>(back);
     guessed_lost_ = 0;
+    late_before_ = 0;
     if (late_periods + static_cast<double>(back) < -kAheadTolerance) model_.reset_phase();
     return 1 - back;
   }
-  const double margin = lost_margin();
+  // In a burst, all but the last frame are late by some periods.
+  const double allowed = timing_ == Timing::bursts ? kBurstMargin + model_.delay_range_s() / model_.period_s() : 0;
   const auto missing =
-      frame.backlog ? 0 : static_cast<std::int64_t>(std::max(0.0, std::floor(late_periods + margin)));
+      frame.backlog ? 0
+                    : static_cast<std::int64_t>(std::max(0.0, std::floor(late_periods + lost_margin() - allowed)));
+  const double usual = kLateBeforeLoss + kLateDelays * model_.mean_delay_s() / model_.period_s();
+  if (missing > 0 && late_before_ > usual && allowed == 0) model_.contradict();
+  late_before_ = frame.backlog ? 0 : late_periods - static_cast<double>(missing);
   guessed_lost_ = missing;
   lost_ += static_cast<std::uint64_t>(missing);
   lost_share_ += kShareGain * (static_cast<double>(missing > 0) - lost_share_);

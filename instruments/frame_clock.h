@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "instruments/clock_model.h"
+#include "instruments/clock_news.h"
 #include "instruments/frame_observation.h"
 #include "instruments/period_finder.h"
 
@@ -20,7 +21,8 @@ class FrameClock {
 
   struct Outcome {
     TimeEstimate time;
-    bool repeated = false;  ///< the frame before, once more
+    bool repeated = false;            ///< the frame before, once more
+    std::optional<ClockNews> news{};  ///< what this frame showed of the stream; told once
   };
   Outcome update(const FrameObservation& frame);
 
@@ -34,6 +36,7 @@ class FrameClock {
   TimeEstimate by_arrival(const FrameObservation& frame);
   void settle(const PeriodFit& fit);
   void search_again();
+  void turn_irregular(int fits);
   /// Ticks since the frame before, in `track`.
   std::int64_t by_sequence(const FrameObservation& frame, double late_periods);
   std::int64_t by_time(const FrameObservation& frame, double late_periods);
@@ -41,6 +44,8 @@ class FrameClock {
   [[nodiscard]] bool is_repeated(const FrameObservation& frame) const;
   [[nodiscard]] int counted_step(const FrameObservation& frame) const;
   void watch_intervals(const FrameObservation& frame);
+  void watch_rate();
+  void tell_rhythm(Timing timing);
   TimeEstimate finish(TimeEstimate time, double least_step_s);
 
   double nominal_s_;  ///< 0: none
@@ -54,9 +59,17 @@ class FrameClock {
   std::int64_t observed_ns_ = 0;  ///< of the frame before
   std::int64_t stamped_ns_ = 0;   ///< its time of validity
   bool any_ = false;
+  std::optional<ClockNews> news_;  ///< not told yet
+  Timing told_timing_ = Timing::periodic;
+  double told_period_s_ = 0;  ///< 0: none but the configured one
   bool model_known_ = false;  ///< the model has been tracking before
-  double lost_share_ = 0;     ///< of the last ticks, those thought lost by time alone
-  double burst_share_ = 0;    ///< of the last intervals, those much shorter than the period
+  std::uint64_t frames_tracked_ = 0;
+  int regular_fits_ = 3;  ///< runs of frames in a row that make an irregular stream a regular one
+  int fits_to_regular_ = 0;
+  double late_before_ = 0;  ///< periods by which the frame before was late
+  double lost_share_most_ = 1;
+  double lost_share_ = 0;   ///< of the last ticks, those thought lost by time alone
+  double burst_share_ = 0;  ///< of the last intervals, those much shorter than the period
   std::uint64_t lost_ = 0, repeated_ = 0;
 };
 

@@ -6,6 +6,12 @@
 namespace navcal::instruments {
 namespace {
 
+constexpr std::size_t kKeptLeast = 4;  // frames for a line
+constexpr double kImpossible = 1e9;    // score
+constexpr double kStallDelays = 4;     // mean delays beyond the median: later ones count as much
+constexpr double kDelayFloor_s = 1e-6;
+constexpr double kPlausibleDelay_s = 25e-3;  // mean delay of a host, or so much of a period for slow instruments:
+constexpr double kPlausibleDelay = 0.1;
 constexpr double kTooFast = 0.45;        // of the nominal period: a shorter one is a line that babbles
 constexpr double kLostMost = 0.5;        // of the ticks
 constexpr double kEarlyMargin = 0.25;    // of a period, by which a frame may lie before the tick it is given
@@ -15,7 +21,7 @@ constexpr double kShort = 0.3;           // of the period: frames closer than th
 constexpr double kBurstShare = 0.3;      // of the intervals
 constexpr double kSpreadIgnored = 0.02;  // of the period: a line that misses by less is good whatever its misses
 constexpr double kDelayMost = 0.4;       // of the period: beyond, ticks cannot be told apart by time
-constexpr double kWalk = 0.85;           // roughness below which the residuals wander
+constexpr double kWalk = 1.0;            // roughness below which the residuals wander
 constexpr double kPauseLeast_s = 0.5;
 constexpr double kPauseIntervals = 8;  // of the median interval
 constexpr int kLostTried = 3;          // more or fewer ticks than the median interval suggests
@@ -24,11 +30,17 @@ constexpr int kLostTried = 3;          // more or fewer ticks than the median in
 
 bool PeriodFit::bursts() const { return burst_share > kBurstShare; }
 
+bool PeriodFit::too_fast(double nominal_s) const { return !found || line.slope_s < kTooFast * nominal_s; }
+
+bool PeriodFit::plausible_delays() const {
+  return line.delay_s < std::max(kPlausibleDelay_s, kPlausibleDelay * line.slope_s);
+}
+
 bool PeriodFit::periodic(double nominal_s) const {
-  if (!found || line.slope_s < kTooFast * nominal_s) return false;
+  if (too_fast(nominal_s)) return false;
   if (lost > kLostMost * (lost + frames)) return false;
   if (spread_s < kSpreadIgnored * line.slope_s) return true;
-  return roughness > kWalk && (bursts() || line.delay_s < kDelayMost * line.slope_s);
+  return roughness > kWalk && (bursts() || (plausible_delays() && line.delay_s < kDelayMost * line.slope_s));
 }
 
 void PeriodFinder::add(std::int64_t observed_ns, int step, bool backlog) {
@@ -59,7 +71,7 @@ double PeriodFinder::median_interval() const {
 
 /// A device that was silent for long has begun anew: its ticks before say nothing about those after.
 void PeriodFinder::drop_before_pause() {
-  if (frames_ < 6) return;
+  if (frames_ < 4) return;
   const double limit_s = std::max(kPauseLeast_s, kPauseIntervals * median_interval());
   std::size_t begin = 0;
   for (std::size_t i = 1; i < times().size(); ++i) {
@@ -105,20 +117,40 @@ void PeriodFinder::settle_ticks(Ticks& ticks) const {
   judge(ticks);
 }
 
+/// Frames by which a line is judged: those behind which more lay in the same read are known to be late.
+PeriodFinder::Kept PeriodFinder::kept_frames() const {
+  Kept kept;
+  for (std::size_t i = 0; i < times().size(); ++i) {
+    if (!backlog_[i]) kept.at[kept.count++] = i;
+  }
+  if (kept.count >= kKeptLeast && 3 * kept.count >= times().size()) return kept;
+  for (std::size_t i = 0; i < times().size(); ++i) kept.at[i] = i;
+  kept.count = times().size();
+  return kept;
+}
+
 void PeriodFinder::judge(Ticks& ticks) const {
-  const auto n = static_cast<std::size_t>(frames_);
-  ticks.line = fit_envelope({ticks.index.data(), n}, times());
-  const double span = ticks.index[n - 1] - ticks.index[0];
+  const std::size_t last = times().size() - 1;
+  const double span = ticks.index[last] - ticks.index[0];
   const double lost = span - (frames_ - 1);
+  const Kept kept = kept_frames();
+  std::array<double, kFrames> index{};
+  std::array<double, kFrames> time_s{};
+  for (std::size_t i = 0; i < kept.count; ++i) {
+    index[i] = ticks.index[kept.at[i]];
+    time_s[i] = time_s_[kept.at[i]];
+  }
+  ticks.line = fit_envelope({index.data(), kept.count}, {time_s.data(), kept.count});
+  ticks.line.end_s += ticks.line.slope_s * (ticks.index[last] - index[kept.count - 1]);
   if (ticks.line.slope_s <= 0 || lost > kLostMost * (span + 1)) {
-    ticks.score = 1e9;
+    ticks.score = kImpossible;
     return;
   }
   // The mean, not the median: few frames behind an uncounted loss must show.
   double late_s = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    late_s += time_s_[i] - ticks.line.end_s - ticks.line.slope_s * (ticks.index[i] - ticks.index[n - 1]);
-  const double relative = std::max(0.0, late_s / frames_) / ticks.line.slope_s;
+  for (std::size_t i = 0; i < kept.count; ++i)
+    late_s += time_s[i] - ticks.line.end_s - ticks.line.slope_s * (index[i] - ticks.index[last]);
+  const double relative = std::max(0.0, late_s / static_cast<double>(kept.count)) / ticks.line.slope_s;
   ticks.score = frames_ * std::log(relative + kDelayLeast) + kLostCost * lost;
 }
 
@@ -157,26 +189,36 @@ PeriodFit PeriodFinder::fit() const {
   const std::size_t last = times().size() - 1;
   fit.lost = static_cast<int>(ticks.index[last] - ticks.index[0]) - (frames_ - 1);
 
+  describe(ticks, fit);
+  return fit;
+}
+
+void PeriodFinder::describe(const Ticks& ticks, PeriodFit& fit) const {
+  const std::size_t last = times().size() - 1;
+  const Kept kept = kept_frames();
+  const std::size_t n = kept.count;
   std::array<double, kFrames> residuals{};
-  for (std::size_t i = 0; i <= last; ++i)
-    residuals[i] = time_s_[i] - fit.line.end_s - fit.line.slope_s * (ticks.index[i] - ticks.index[last]);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k = kept.at[i];
+    residuals[i] = time_s_[k] - fit.line.end_s - fit.line.slope_s * (ticks.index[k] - ticks.index[last]);
+  }
   auto sorted = residuals;
-  auto* const middle = sorted.data() + frames_ / 2;
-  std::nth_element(sorted.data(), middle, sorted.data() + frames_);
+  auto* const middle = sorted.data() + n / 2;
+  std::nth_element(sorted.data(), middle, sorted.data() + n);
   // A few stalls must not count for more than the rest.
-  const double most_s = *middle + 4 * std::max(fit.line.delay_s, 1e-6);
+  const double most_s = *middle + kStallDelays * std::max(fit.line.delay_s, kDelayFloor_s);
   double difference_s = 0;
-  int shorts = 0;
-  for (std::size_t i = 0; i <= last; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     residuals[i] = std::min(residuals[i], most_s);
-    fit.spread_s += std::abs(residuals[i] - *middle) / frames_;
-    if (i == 0) continue;
-    difference_s += std::abs(residuals[i] - residuals[i - 1]) / (frames_ - 1);
-    shorts += time_s_[i] - time_s_[i - 1] < kShort * fit.line.slope_s ? 1 : 0;
+    fit.spread_s += std::abs(residuals[i] - *middle) / static_cast<double>(n);
+    fit.range_s = std::max(fit.range_s, residuals[i]);
+    if (i > 0) difference_s += std::abs(residuals[i] - residuals[i - 1]) / static_cast<double>(n - 1);
   }
   fit.roughness = fit.spread_s > 0 ? difference_s / fit.spread_s : 2;
-  fit.burst_share = static_cast<double>(shorts) / (frames_ - 1);
-  return fit;
+  int shorts = 0;
+  for (std::size_t i = 1; i <= last; ++i)
+    shorts += time_s_[i] - time_s_[i - 1] < kShort * fit.line.slope_s ? 1 : 0;
+  fit.burst_share = static_cast<double>(shorts) / static_cast<double>(last);
 }
 
 }  // namespace navcal::instruments

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,11 +18,15 @@ struct PeriodFit {
   int frames = 0;
   int lost = 0;         ///< ticks without a frame
   double spread_s = 0;  ///< mean absolute deviation of the residuals from their median
+  double range_s = 0;   ///< the greatest of them, without stalls
   double roughness =
       0;  ///< mean |difference of neighbouring residuals| / spread: 1.4 independent, less for a walk
   double burst_share = 0;  ///< of the intervals that are much shorter than the period
 
   [[nodiscard]] bool bursts() const;
+  /// Whether a host, or an instrument, may be so late in the mean.
+  [[nodiscard]] bool plausible_delays() const;
+  [[nodiscard]] bool too_fast(double nominal_s) const;
   /// Whether the frames are ticks of one clock. `nominal_s` is the configured period.
   [[nodiscard]] bool periodic(double nominal_s) const;
 };
@@ -47,7 +52,13 @@ class PeriodFinder {
     EnvelopeLine line;
     double score = 0;
   };
+  struct Kept {
+    std::array<std::size_t, kFrames> at{};
+    std::size_t count = 0;
+  };
   void drop_before_pause();
+  [[nodiscard]] Kept kept_frames() const;
+  void describe(const Ticks& ticks, PeriodFit& fit) const;
   void count_ticks(Ticks& ticks) const;
   void guess_ticks(double period_s, Ticks& ticks) const;
   void settle_ticks(Ticks& ticks) const;

@@ -26,6 +26,7 @@ class Stages final : public Sink {
   void on_frame(std::uint16_t port, const protocols::Frame& frame, std::int64_t arrival_ns) override {
     next_.on_frame(port, frame, arrival_ns);
   }
+  void on_stream_event(const StreamEvent& event) override { next_.on_stream_event(event); }
   void on_mapping(const UtcMapping& mapping) override { next_.on_mapping(mapping); }
 
  private:

@@ -8,7 +8,7 @@
 
 #include "calib/report.h"
 #include "config/settings.h"
-#include "instruments/clock_model.h"
+#include "instruments/clock_state.h"
 #include "instruments/samples.h"
 #include "pipeline/calibration.h"
 #include "pipeline/navigation.h"
@@ -17,6 +17,15 @@
 
 namespace navcal::pipeline {
 
+/// Something about a port's stream that its user should know; told once.
+struct StreamEvent {
+  std::uint16_t port = 0;
+  std::int64_t time_ns = 0;     ///< arrival of the frame that showed it, monotonic
+  std::string_view severity{};  ///< "info" or "warning", as in the log
+  std::string_view name{};      ///< "clock.rate"
+  std::string message{};        ///< for people
+};
+
 /// What comes out. Called from within Pipeline::bytes() and Pipeline::advance(); must not call back.
 class Sink {
  public:
@@ -24,6 +33,8 @@ class Sink {
   virtual void on_sample(const instruments::Sample& sample) = 0;
   /// Every intact frame, before the samples made of it (dialogues, counters).
   virtual void on_frame(std::uint16_t /*port*/, const protocols::Frame& /*frame*/, std::int64_t /*arrival_ns*/) {}
+  /// Rate or rhythm of a port's frames are not as configured, or are so again.
+  virtual void on_stream_event(const StreamEvent& /*event*/) {}
   /// The UTC mapping changed (from GPS time, or by set_mapping()).
   virtual void on_mapping(const UtcMapping& /*mapping*/) {}
   /// The calibrations changed, by themselves or by order.

@@ -32,6 +32,7 @@ PortStream::Parser PortStream::make_parser(protocols::Protocol protocol) {
 PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, UtcMapping& mapping)
     : port_(port),
       latency_ns_(std::llround(settings.latency_s * 1e9)),
+      nominal_rate_Hz_(settings.rate_Hz),
       parser_(make_parser(settings.protocol)),
       track_(settings.baud),
       instrument_(instruments::make_instrument(settings)),
@@ -78,6 +79,7 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   sample.stamp.validity_ns = observed_ns;
   if (measurement.paces) {
     const auto outcome = clock_.update({observed_ns, measurement.sequence, place_.backlog});
+    if (outcome.news) tell_news(*outcome.news);
     if (outcome.repeated) return;
     sample.stamp.validity_ns = outcome.time.time_ns;
     sample.stamp.std_ns = outcome.time.std_ns;
@@ -94,6 +96,15 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   sample.value = measurement.value;
   ++statistics_.samples;
   sink_->on_sample(sample);
+}
+
+void PortStream::tell_news(instruments::ClockNews news) {
+  const bool warning = news == instruments::ClockNews::rate || news == instruments::ClockNews::irregular;
+  sink_->on_stream_event({.port = port_,
+                          .time_ns = place_.arrival_ns,
+                          .severity = warning ? "warning" : "info",
+                          .name = instruments::name_of(news),
+                          .message = instruments::words_for(news, nominal_rate_Hz_, clock_.state())});
 }
 
 PortStatistics PortStream::statistics() const {

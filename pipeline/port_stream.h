@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "config/settings.h"
+#include "instruments/clock_news.h"
 #include "instruments/frame_clock.h"
 #include "instruments/instrument.h"
 #include "pipeline/arrival_track.h"
@@ -41,9 +42,11 @@ class PortStream : private instruments::Receiver {
 
   void on_frame(const protocols::Frame& frame);
   void on_measurement(const instruments::Measurement& measurement) override;
+  void tell_news(instruments::ClockNews news);
 
   std::uint16_t port_;
   std::int64_t latency_ns_;
+  double nominal_rate_Hz_;
   Parser parser_;
   ArrivalTrack track_;
   std::unique_ptr<instruments::Instrument> instrument_;

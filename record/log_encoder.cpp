@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "record/checksum.h"
+#include "record/event_json.h"
 #include "record/json_object.h"
 #include "record/log_topics.h"
 #include "record/mapping_json.h"
@@ -210,13 +211,7 @@ void LogEncoder::mapping(std::string& out, std::int64_t now_ns, const pipeline::
 void LogEncoder::event(std::string& out, std::int64_t now_ns, std::string_view severity, std::string_view name,
                        std::string_view port, std::string_view message) {
   state_->json_message(out, topic::kEvent, now_ns, now_ns, [&](std::string& text) {
-    JsonObject json(text, "EVENT");
-    json.seconds("time", state_->mapping.to_utc(now_ns));
-    json.seconds("monotonic", now_ns);
-    json.text("severity", severity);
-    json.text("name", name);
-    json.text("port", port);
-    json.text("message", message);
+    append_event_json(text, state_->mapping, now_ns, severity, name, port, message);
   });
 }
 

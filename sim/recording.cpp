@@ -70,10 +70,12 @@ Recording::Recording(const Options& options, const Motion& motion)
   auto compass = compass_options(options.noise);
   compass.seed = seed();
   compass.sensor.effects = &effects_;
+  compass.clock_ppm = clock_ppm(options.clocks, "compass", compass.clock_ppm);
   add(Instrument::compass, std::make_unique<Tcm2>(compass, motion));
   auto card = card_options(options.noise);
   card.seed = seed();
   card.effects = &effects_;
+  card.clock_ppm = clock_ppm(options.clocks, "imu", card.clock_ppm);
   if (!options.turn_on_bias) card.turn_on_bias_deg_s = 0;
   add(Instrument::imu, std::make_unique<ImuCard>(card, motion));
   auto receiver = receiver_options(options.noise);
@@ -87,6 +89,7 @@ Recording::Recording(const Options& options, const Motion& motion)
   auto motor = motor_options(options.noise);
   motor.seed = seed();
   motor.effects = &effects_;
+  motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);
   add(Instrument::motor, std::make_unique<MotorCard>(motor, motion));
 
   const auto poll = protocols::oncore::encode_poll(protocols::oncore::kHa, kEverySecond);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "sim/clock_factor.h"
 #include "sim/host_line.h"
 #include "sim/state.h"
 
@@ -22,9 +23,10 @@ class Recording {
     std::int64_t begin_ns = 0;  ///< power comes, UTC
     bool noise = true;          ///< of the instruments and the host; resolution and latency stay
     std::uint64_t seed = 1;
-    EffectSet* effects = nullptr;  ///< nullptr: nominal; must outlive the recording
-    bool turn_on_bias = true;      ///< of the gyros
-    bool sky_always_seen = false;  ///< fixes at every depth, from the first second on
+    EffectSet* effects = nullptr;       ///< nullptr: nominal; must outlive the recording
+    bool turn_on_bias = true;           ///< of the gyros
+    bool sky_always_seen = false;       ///< fixes at every depth, from the first second on
+    std::vector<ClockFactor> clocks{};  ///< of compass, imu and motor
   };
   Recording(const Options& options, const Motion& motion);
 
