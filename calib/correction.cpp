@@ -10,7 +10,7 @@ constexpr double kTurn_rad = 2 * std::numbers::pi;
 
 constexpr std::array<std::string_view, kCalibrators.size()> kNames{
     "gyro",  "gyro_b",       "compass",       "magnetometer", "gps_compass",
-    "swing", "misalignment", "compass_delay", "course_delay"};
+    "swing", "misalignment", "compass_delay", "course_delay", "motor_current"};
 
 double wrapped(double angle_rad) {
   const double once = angle_rad - kTurn_rad * std::floor(angle_rad / kTurn_rad);
@@ -38,9 +38,11 @@ auto visit_value(Corrections& c, Calibrator calibrator, Visit visit) {
     case Calibrator::compass_delay:
       return visit(&Correction::compass_delay_s, c);
     case Calibrator::course_delay:
+      return visit(&Correction::course_delay_s, c);
+    case Calibrator::motor_current:
       break;
   }
-  return visit(&Correction::course_delay_s, c);
+  return visit(&Correction::motor_current, c);
 }
 
 }  // namespace
@@ -95,6 +97,20 @@ double levelled_heading(const Eigen::Vector3d& field, double roll_rad, double pi
   return wrapped(std::atan2(-starboard, forward));
 }
 
+CompassReading without_motor_field(const Correction& correction, const CompassReading& reading,
+                                   std::optional<double> current_A) {
+  if (!correction.motor_current || !current_A || !reading.field_body_uT) return reading;
+  CompassReading without = reading;
+  *without.field_body_uT -= *current_A * correction.motor_current->slope_uT_per_A;
+  if (reading.heading_rad && reading.roll_rad && reading.pitch_rad) {
+    const auto levelled = [&](const CompassReading& r) {
+      return levelled_heading(*r.field_body_uT, *r.roll_rad, *r.pitch_rad);
+    };
+    without.heading_rad = wrapped(*reading.heading_rad + levelled(without) - levelled(reading));
+  }
+  return without;
+}
+
 std::optional<double> corrected_heading(const Correction& correction, const CompassReading& reading) {
   std::optional<double> heading;
   if (correction.magnetometer && reading.field_body_uT && reading.pitch_rad && reading.roll_rad) {
@@ -108,6 +124,8 @@ std::optional<double> corrected_heading(const Correction& correction, const Comp
     heading = correction.gps_compass->without_offset()(*reading.heading_rad);
   } else if (correction.swing) {
     heading = (*correction.swing)(*reading.heading_rad);
+  } else if (correction.motor_current) {
+    heading = reading.heading_rad;
   }
   if (const auto offset_rad = correction.offset_rad())
     heading = heading.value_or(*reading.heading_rad) - *offset_rad;

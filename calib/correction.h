@@ -22,11 +22,12 @@ enum class Calibrator : std::uint8_t {
   misalignment,   ///< A from straight runs by GPS
   compass_delay,  ///< of the compass against the gyro
   course_delay,   ///< of the GPS course against the heading
+  motor_current,  ///< field of the motor's current
 };
 inline constexpr std::array kCalibrators{
-    Calibrator::gyro,         Calibrator::gyro_b,        Calibrator::compass,
-    Calibrator::magnetometer, Calibrator::gps_compass,   Calibrator::swing,
-    Calibrator::misalignment, Calibrator::compass_delay, Calibrator::course_delay};
+    Calibrator::gyro,         Calibrator::gyro_b,       Calibrator::compass,      Calibrator::magnetometer,
+    Calibrator::gps_compass,  Calibrator::swing,        Calibrator::misalignment, Calibrator::compass_delay,
+    Calibrator::course_delay, Calibrator::motor_current};
 
 /// "gyro", "gyro_b", "compass", ...
 [[nodiscard]] std::string_view name_of(Calibrator calibrator);
@@ -65,6 +66,12 @@ struct SwingCorrection {
   void archive(Archive& archive) { archive(deviation_rad); }
 };
 
+/// Field without the motor's = measured - slope * current, body axes.
+struct MotorCurrentCorrection {
+  Eigen::Vector3d slope_uT_per_A = Eigen::Vector3d::Zero();
+  void archive(Archive& archive) { archive(slope_uT_per_A); }
+};
+
 /// One value for each calibrator that has one: what is in force, or what the estimators now say.
 struct Correction {
   std::optional<RateCorrection> gyro, gyro_b;
@@ -74,19 +81,25 @@ struct Correction {
   std::optional<SwingCorrection> swing;
   std::optional<double> misalignment_rad;
   std::optional<double> compass_delay_s, course_delay_s;
+  std::optional<MotorCurrentCorrection> motor_current;
 
   /// A, which no turn tells: the misalignment, or what GpsCompass found with it.
   [[nodiscard]] std::optional<double> offset_rad() const;
   void archive(Archive& archive) {
-    archive.tag("correction 1");
+    archive.tag("correction 2");
     archive(gyro, gyro_b, compass, magnetometer, gps_compass, swing);
-    archive(misalignment_rad, compass_delay_s, course_delay_s);
+    archive(misalignment_rad, compass_delay_s, course_delay_s, motor_current);
   }
 };
 
 [[nodiscard]] bool has(const Correction& correction, Calibrator calibrator);
 /// Gives `to` the value that `from` has for one calibrator, or takes it away.
 void copy_value(Correction& to, const Correction& from, Calibrator calibrator);
+
+/// The reading without the motor's field: its field, and its heading by what that changes in the levelled field.
+/// As it is where no such correction applies, or the current is not known. All that follows takes such readings.
+[[nodiscard]] CompassReading without_motor_field(const Correction& correction, const CompassReading& reading,
+                                                 std::optional<double> current_A);
 
 /// Magnetic heading of a reading after all that applies to it, 0..2 pi: from the calibrated and levelled field
 /// where there is one; else by the deviation; never by both. Nothing applies, or nothing to apply it to: nullopt.

@@ -110,6 +110,13 @@ std::vector<Quantity> quantities_of(const Swing& swing) {
   return quantities;
 }
 
+std::vector<Quantity> quantities_of(const std::optional<MotorCurrent::Estimate>& estimate) {
+  if (!estimate) return {};
+  const auto& slope = estimate->slope_uT_per_A;
+  const auto std = [&](Eigen::Index i) { return std_of(estimate->covariance(i, i)); };
+  return {{"x_uT_per_A", slope.x(), std(0)}, {"y_uT_per_A", slope.y(), std(1)}, {"z_uT_per_A", slope.z(), std(2)}};
+}
+
 std::vector<Quantity> quantities_of(const Delay& delay) {
   if (!std::isfinite(delay.std_s)) return {};
   return {{"delay_s", delay.delay_s, delay.std_s}};
@@ -169,6 +176,11 @@ void Estimators::put_estimate(Calibrator calibrator, Correction& into) const {
     case Calibrator::course_delay:
       into.course_delay_s = delay(delays_.course().estimate());
       break;
+    case Calibrator::motor_current: {
+      const auto motor = motor_current_.estimate();
+      into.motor_current = motor ? std::optional(MotorCurrentCorrection{motor->slope_uT_per_A}) : std::nullopt;
+      break;
+    }
   }
 }
 
@@ -188,6 +200,8 @@ Judgement Estimators::judgement(Calibrator calibrator) const {
       return delays_.compass_judgement();
     case Calibrator::course_delay:
       return delays_.course_judgement();
+    case Calibrator::motor_current:
+      return motor_current_.judgement();
     case Calibrator::swing:
       break;
   }
@@ -224,9 +238,11 @@ std::vector<Quantity> Estimators::quantities(Calibrator calibrator) const {
     case Calibrator::compass_delay:
       return quantities_of(delays_.compass());
     case Calibrator::course_delay:
+      return quantities_of(delays_.course().estimate());
+    case Calibrator::motor_current:
       break;
   }
-  return quantities_of(delays_.course().estimate());
+  return quantities_of(motor_current_.estimate());
 }
 
 Eigen::MatrixXd Estimators::covariance(Calibrator calibrator) const {

@@ -51,9 +51,13 @@ Estimators::Estimators(const SuiteOptions& options)
       magnetometer_(field_parameters(options)),
       surface_(options),
       delays_(delay_parameters(options)),
-      gyros_({}) {}
+      gyros_({}),
+      motor_current_({options.field_noise_uT, options.rate_noise_rad_sqrt_s}) {}
 
-void Estimators::update(const CompassReading& original, const Correction& in_force) {
+void Estimators::update(const CompassReading& measured, const Correction& in_force) {
+  motor_current_.update(measured, in_force.motor_current.value_or(MotorCurrentCorrection{}).slope_uT_per_A);
+  const CompassReading original =
+      without_motor_field(in_force, measured, motor_current_.current().at_or_newest(measured.time_s));
   delays_.update(original);
   CompassReading reading = original;
   reading.time_s -= in_force.compass_delay_s.value_or(0);
@@ -66,7 +70,18 @@ void Estimators::update(const CompassReading& original, const Correction& in_for
   ++pending_count_;
 }
 
+void Estimators::update(const MotorReading& reading) {
+  surface_.update(reading);
+  motor_current_.update(reading);
+}
+
+void Estimators::finish() {
+  finishing_ = true;
+  motor_current_.finish();
+}
+
 void Estimators::update(const RateReading& reading) {
+  motor_current_.update(reading);
   turns_.update(reading);
   delays_.update(reading);
   gyros_.update(reading);
@@ -195,6 +210,8 @@ void Estimators::start(Calibrator calibrator) {
     case Calibrator::course_delay:
       delays_ = DelayEstimator(delay_parameters(options_));
       return;
+    case Calibrator::motor_current:
+      return motor_current_.start();
   }
 }
 
@@ -225,6 +242,14 @@ void Estimators::on_in_force(Calibrator calibrator, const Correction& in_force) 
     case Calibrator::misalignment:
       surface_.on_change();
       break;
+    case Calibrator::motor_current:
+      motor_current_.on_change();
+      // The field that they learn from is another one now.
+      for (const Calibrator other :
+           {Calibrator::magnetometer, Calibrator::compass, Calibrator::gps_compass, Calibrator::misalignment}) {
+        start(other);
+      }
+      break;
     case Calibrator::compass_delay:
     case Calibrator::course_delay:
       break;
@@ -232,9 +257,9 @@ void Estimators::on_in_force(Calibrator calibrator, const Correction& in_force) 
 }
 
 void Estimators::archive(Archive& archive) {
-  archive.tag("estimators 1");
-  archive(turns_, gyro_, gyro_b_, compass_, magnetometer_, surface_, delays_, gyros_, swing_, swing_reference_rad_,
-          swing_heading_rad_, swing_anchored_);
+  archive.tag("estimators 2");
+  archive(turns_, gyro_, gyro_b_, compass_, magnetometer_, surface_, delays_, gyros_, motor_current_, swing_,
+          swing_reference_rad_, swing_heading_rad_, swing_anchored_);
   for (CompassReading& reading : pending_) calib::archive(archive, reading);
   archive(first_pending_, pending_count_, yaw_rate_rad_s_, heading_seen_, finishing_);
   bool has_turn = turn_.has_value();

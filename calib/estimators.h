@@ -10,6 +10,7 @@
 #include "calib/gyro_pair.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer.h"
+#include "calib/motor_current.h"
 #include "calib/report.h"
 #include "calib/suite_options.h"
 #include "calib/surface_calibrators.h"
@@ -30,15 +31,16 @@ class Estimators {
  public:
   explicit Estimators(const SuiteOptions& options);
 
+  /// The reading as measured. The others are fed with the field without the motor's, where that is in force.
   void update(const CompassReading& reading, const Correction& in_force);
   void update(const RateReading& reading);
   void update(const GroundReading& reading, const Correction& in_force);
-  void update(const MotorReading& reading) { surface_.update(reading); }
+  void update(const MotorReading& reading);
   /// The next reading of the compass whose turn is known, or that will have none; it has been through all
   /// estimators. To be called until there is none.
   std::optional<TurnedReading> next(const Correction& in_force);
   /// No more readings come.
-  void finish() { finishing_ = true; }
+  void finish();
   void settle() { magnetometer_.settle(); }
 
   /// One calibrator forgets what it has seen; the compass keeps what is known of the gyro.
@@ -56,6 +58,8 @@ class Estimators {
   [[nodiscard]] Eigen::MatrixXd covariance(Calibrator calibrator) const;
   [[nodiscard]] const Magnetometer& magnetometer() const { return magnetometer_; }
   [[nodiscard]] const Comparison& misalignment_comparison() const { return surface_.comparison(); }
+  /// Of the field's misfit about changes of the motor's current, uT.
+  [[nodiscard]] const Comparison& motor_comparison() const { return motor_current_.comparison(); }
   void archive(Archive& archive);
 
  private:
@@ -78,6 +82,7 @@ class Estimators {
   SurfaceCalibrators surface_;
   DelayEstimator delays_;
   GyroPair gyros_;
+  MotorCurrent motor_current_;
   std::optional<Swing> swing_;  ///< begun by the operator
   double swing_reference_rad_ = 0, swing_heading_rad_ = 0;
   bool swing_anchored_ = false;

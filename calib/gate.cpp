@@ -31,6 +31,7 @@ constexpr double kMaxSpecificForce_m_s2 = 200;
 constexpr double kMaxSpeed_m_s = 50;
 constexpr double kMaxDistance_m = 1e6;
 constexpr double kMaxRpm = 1e5;
+constexpr double kMaxCurrent_A = 1e3;
 
 enum class Fitness : std::uint8_t { good, not_finite, absurd };
 
@@ -202,6 +203,7 @@ bool Gate::clean(GroundReading& reading) {
 bool Gate::clean(MotorReading& reading) {
   const Fitness fit = fitness(reading.rpm, kMaxRpm);
   if (fit != Fitness::good) count(Stream::motor, rejection(fit));
+  if (reading.current_A && fitness(*reading.current_A, kMaxCurrent_A) != Fitness::good) reading.current_A.reset();
   return fit == Fitness::good;
 }
 

@@ -12,9 +12,10 @@ using Rose = std::array<std::uint32_t, 36>;
 
 /// What the readings held out are judged by.
 enum class HeldOutQuantity : std::uint8_t {
-  none,     ///< nothing was judged
-  heading,  ///< rad, against the integrated gyro or, for A, against the course by GPS
-  field,    ///< spread of the field's size and vertical component, as a fraction of the size
+  none,         ///< nothing was judged
+  heading,      ///< rad, against the integrated gyro or, for A, against the course by GPS
+  field,        ///< spread of the field's size and vertical component, as a fraction of the size
+  motor_field,  ///< field that changes with the motor's current, uT
 };
 
 /// Largest standard error of a calibrated heading that is accepted, rad: `limit_rad`, or a tenth of the error that

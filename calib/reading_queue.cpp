@@ -12,7 +12,7 @@ void archive_reading(Archive& archive, RateReading& r) {
 void archive_reading(Archive& archive, GroundReading& r) {
   archive(r.time_s, r.position_m, r.speed_m_s, r.course_rad);
 }
-void archive_reading(Archive& archive, MotorReading& r) { archive(r.time_s, r.rpm); }
+void archive_reading(Archive& archive, MotorReading& r) { archive(r.time_s, r.rpm, r.current_A); }
 
 template <std::size_t... I>
 Reading reading_of_kind(std::size_t kind, std::index_sequence<I...>) {

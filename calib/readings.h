@@ -41,6 +41,7 @@ struct GroundReading {
 struct MotorReading {
   double time_s = 0;
   double rpm = 0;
+  std::optional<double> current_A{};  ///< nullopt: the card does not say
 };
 
 }  // namespace navcal::calib

@@ -10,7 +10,8 @@ constexpr std::uint64_t kJudgeEvery = 3;
 
 /// Those that improve the heading or the rate; delays and the swing come into force by the operator's word alone.
 constexpr std::array kAutomatic{Calibrator::gyro,         Calibrator::gyro_b,      Calibrator::compass,
-                                Calibrator::magnetometer, Calibrator::gps_compass, Calibrator::misalignment};
+                                Calibrator::magnetometer, Calibrator::gps_compass, Calibrator::misalignment,
+                                Calibrator::motor_current};
 
 std::size_t index(Calibrator calibrator) { return static_cast<std::size_t>(calibrator); }
 
@@ -68,6 +69,7 @@ void Suite::refresh_accepted(Calibrator calibrator) {
 }
 
 const Comparison& Suite::comparison(Calibrator calibrator) const {
+  if (calibrator == Calibrator::motor_current) return estimators_.motor_comparison();
   return calibrator == Calibrator::misalignment ? estimators_.misalignment_comparison() : held_out_.of(calibrator);
 }
 
@@ -161,6 +163,8 @@ bool Suite::has_instruments(Calibrator calibrator) const {
     case Calibrator::misalignment:
     case Calibrator::course_delay:
       return compass && ground;
+    case Calibrator::motor_current:
+      return compass && rate && motor;
     case Calibrator::gyro:
     case Calibrator::gyro_b:
     case Calibrator::compass:
@@ -178,9 +182,10 @@ void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
   const Comparison& held_out = by_field ? field_.comparison() : comparison(report.calibrator);
   judgement.held_out_before = held_out.before_rms();
   judgement.held_out_after = held_out.estimate_rms();
-  judgement.held_out_quantity = held_out.blocks() == 0 ? HeldOutQuantity::none
-                                : by_field             ? HeldOutQuantity::field
-                                                       : HeldOutQuantity::heading;
+  judgement.held_out_quantity = held_out.blocks() == 0                           ? HeldOutQuantity::none
+                                : by_field                                       ? HeldOutQuantity::field
+                                : report.calibrator == Calibrator::motor_current ? HeldOutQuantity::motor_field
+                                                                                 : HeldOutQuantity::heading;
   const bool is_worse = held_out.is_judged() && judgement.held_out_after >= judgement.held_out_before;
   report.outcome = !judgement.accepted ? Outcome::refused : is_worse ? Outcome::no_better : Outcome::accepted;
   report.verdict = has(in_force, report.calibrator) ? Verdict::in_force
@@ -215,7 +220,8 @@ Report Suite::report() const {
 
 void Suite::archive(Archive& archive) {
   archive.tag("suite 3");
-  archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_, held_, adopted_, rose_, told_steps_);
+  archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_, held_, adopted_, rose_,
+          told_steps_);
 }
 
 }  // namespace navcal::calib

@@ -41,7 +41,8 @@ void CalibrateHistory::on_sample(const instruments::Sample& sample) {
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
     if (sample.port == ports_.imu) put(pipeline::calib_reading(*imu, seconds(sample)));
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
-    if (sample.port == ports_.motor && motor->rpm) put(calib::MotorReading{seconds(sample), *motor->rpm});
+    if (sample.port == ports_.motor && motor->rpm)
+      put(calib::MotorReading{seconds(sample), *motor->rpm, motor->current_A});
   }
 }
 

@@ -17,8 +17,8 @@ using calib::Calibrator;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::array<std::string_view, calib::kCalibrators.size()> kTitles{
-    "Gyro A",         "Gyro B",         "Compass deviation", "Magnetometer",       "Compass by GPS",
-    "Eight headings", "Misalignment A", "Delay of compass",  "Delay of GPS course"};
+    "Gyro A",         "Gyro B",         "Compass deviation", "Magnetometer",        "Compass by GPS",
+    "Eight headings", "Misalignment A", "Delay of compass",  "Delay of GPS course", "Motor current"};
 
 /// How a quantity is shown: what its name ends with, by how much it is multiplied, the unit, and the error beyond
 /// which nothing is known of it.
@@ -32,6 +32,7 @@ constexpr double kScaleUnknown = 1;
 constexpr std::array kUnits{Unit{"_rad_s", kDegrees, "deg/s", 100},
                             Unit{"_rad", kDegrees, "deg", 180},
                             Unit{"_uT", 1, "uT", 1000},
+                            Unit{"_uT_per_A", 1, "uT/A", 1000},
                             Unit{"_m_s", 1, "m/s", 100},
                             Unit{"delay_s", 1000, "ms", 10000},
                             Unit{"_s", 1, "s", 100}};
@@ -118,6 +119,8 @@ std::string held_out_of(const calib::CalibratorReport& report, std::string_view 
       return fmt::format("{:.2f} {} {:.2f} deg of heading", before * kDegrees, arrow, after * kDegrees);
     case calib::HeldOutQuantity::field:
       return fmt::format("{:.2f} {} {:.2f} % of the field's size", before * 100, arrow, after * 100);
+    case calib::HeldOutQuantity::motor_field:
+      return fmt::format("{:.3f} {} {:.3f} uT", before, arrow, after);
     case calib::HeldOutQuantity::none:
       break;
   }

@@ -19,9 +19,9 @@ constexpr int kMiddleRow = kRows / 2, kMiddleColumn = kColumns / 2;
 /// A sector with so many readings has seen enough of them.
 constexpr double kOften = 20;
 /// In the order in which people read of them.
-constexpr std::array<const char*, 9> kOrder{"gyro",         "gyro_b",        "compass",
-                                            "magnetometer", "gps_compass",   "swing",
-                                            "misalignment", "compass_delay", "course_delay"};
+constexpr std::array<const char*, 10> kOrder{"gyro",         "gyro_b",       "compass",      "magnetometer",
+                                             "gps_compass",  "swing",        "misalignment", "compass_delay",
+                                             "course_delay", "motor_current"};
 
 /// "scale 1.111 +- 0.0012, bias_deg_s -6.37 +- 0.02".
 std::string estimate_of(const Json& calibrator) {

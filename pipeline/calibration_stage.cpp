@@ -13,6 +13,9 @@ namespace {
 using calib::Calibrator;
 using protocols::Protocol;
 
+/// A motor current older than this is not used. The motor's field cannot be told then.
+constexpr std::int64_t kCurrentValid_ns = 1'000'000'000;
+
 }  // namespace
 
 std::unique_ptr<CalibrationStage> CalibrationStage::make(const config::Settings& settings) {
@@ -36,8 +39,10 @@ void CalibrationStage::correct(instruments::Sample& sample) const {
   sample.calibration = {name.number, name.sum};
   if (auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
     if (sample.port != ports_.compass || compass->heading_is_true) return;
-    compass->heading_calibrated_rad =
-        calib::corrected_heading(correction, calib_reading(*compass, sample.stamp, 0));
+    const bool fresh = motor_current_A_ && sample.stamp.validity_ns - motor_current_ns_ < kCurrentValid_ns;
+    const auto reading = calib::without_motor_field(correction, calib_reading(*compass, sample.stamp, 0),
+                                                    fresh ? motor_current_A_ : std::nullopt);
+    compass->heading_calibrated_rad = calib::corrected_heading(correction, reading);
     const auto delay_ns = std::llround(correction.compass_delay_s.value_or(0) * 1e9);
     sample.stamp.validity_ns -= delay_ns;
     sample.stamp.validity_utc_ns -= delay_ns;
@@ -82,8 +87,12 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::MotorSample& motor) {
-  if (sample.port == ports_.motor && motor.rpm)
-    suite_.put(calib::MotorReading{seconds(sample.stamp.validity_ns), *motor.rpm});
+  if (sample.port != ports_.motor) return;
+  if (motor.current_A) {
+    motor_current_A_ = *motor.current_A;
+    motor_current_ns_ = sample.stamp.validity_ns;
+  }
+  if (motor.rpm) suite_.put(calib::MotorReading{seconds(sample.stamp.validity_ns), *motor.rpm, motor.current_A});
 }
 
 std::string CalibrationStage::order(CalibrationOrder order, Calibrator calibrator, std::int64_t now_ns,
@@ -149,11 +158,13 @@ bool CalibrationStage::restore(std::string_view state) {
 void CalibrationStage::begin_run() {
   suite_.restart();
   origin_ns_.reset();
+  motor_current_A_.reset();
 }
 
 void CalibrationStage::archive(calib::Archive& archive) {
-  archive.tag("calibration_stage 1");
-  archive(suite_, newest_ns_, origin_ns_, origin_latitude_rad_, origin_longitude_rad_);
+  archive.tag("calibration_stage 2");
+  archive(suite_, newest_ns_, origin_ns_, origin_latitude_rad_, origin_longitude_rad_, motor_current_A_,
+          motor_current_ns_);
 }
 
 }  // namespace navcal::pipeline

@@ -55,6 +55,8 @@ class CalibrationStage {
   CalibratedPorts ports_;
   std::int64_t newest_ns_ = 0;             ///< arrival of the newest sample
   std::optional<std::int64_t> origin_ns_;  ///< of the seconds that the suite is told
+  std::optional<double> motor_current_A_;  ///< newest reading
+  std::int64_t motor_current_ns_ = 0;      ///< its time of validity
   std::optional<double> origin_latitude_rad_, origin_longitude_rad_;
 };
 

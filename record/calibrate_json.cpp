@@ -54,11 +54,12 @@ Json held_out_json(const calib::CalibratorReport* report) {
   const auto quantity = report == nullptr ? calib::HeldOutQuantity::none : report->judgement.held_out_quantity;
   if (quantity == calib::HeldOutQuantity::none) return nullptr;
   const bool heading = quantity == calib::HeldOutQuantity::heading;
-  const double unit = heading ? kDegrees : 100;
+  const bool field = quantity == calib::HeldOutQuantity::field;
+  const double unit = heading ? kDegrees : field ? 100 : 1;
   Json json;
   json["before"] = number_json(report->judgement.held_out_before * unit);
   json["after"] = number_json(report->judgement.held_out_after * unit);
-  json["unit"] = heading ? "deg" : "%";
+  json["unit"] = heading ? "deg" : field ? "%" : "uT";
   return json;
 }
 
@@ -113,6 +114,20 @@ Json magnetometer_json(const calib::Report& report) {
   return json;
 }
 
+Json motor_json(const calib::CalibratorReport* report) {
+  Json slope, std;
+  for (const std::string_view name : {"x_uT_per_A", "y_uT_per_A", "z_uT_per_A"}) {
+    if (report == nullptr || report->quantity(name) == nullptr) continue;
+    slope.push_back(value_of(report, name, &calib::Quantity::value));
+    std.push_back(value_of(report, name, &calib::Quantity::std));
+  }
+  Json json;
+  json["slope_uT_per_A"] = std::move(slope);
+  json["std"] = std::move(std);
+  append_judgement(json, report);
+  return json;
+}
+
 Json beside(const calib::Report& report, Calibrator calibrator) {
   const auto* found = report.find(calibrator);
   Json json;
@@ -147,6 +162,7 @@ void append_calibrate_json(std::string& out, const calib::Report& report) {
   }
   json["steps"] = steps_json(report.steps);
   json["segments"] = segments_json(report.segments);
+  json["motor_current"] = motor_json(report.find(Calibrator::motor_current));
   json["rose"] = report.rose;
   json["left_out"] = gate_json(report.gate);
   out += json.dump();

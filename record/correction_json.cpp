@@ -94,9 +94,14 @@ Json correction_json(const calib::Correction& correction, Calibrator calibrator)
     case Calibrator::compass_delay:
       return named("delay_s", correction.compass_delay_s, 1);
     case Calibrator::course_delay:
+      return named("delay_s", correction.course_delay_s, 1);
+    case Calibrator::motor_current:
       break;
   }
-  return named("delay_s", correction.course_delay_s, 1);
+  if (!correction.motor_current) return nullptr;
+  Json json;
+  json["slope_uT_per_A"] = vector_json(correction.motor_current->slope_uT_per_A);
+  return json;
 }
 
 Json values_json(const std::vector<calib::Quantity>& quantities, double calib::Quantity::*which) {

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "calib/archive.h"
+
+namespace navcal::calib {
+
+/// A reading of the field with what the gyros and the motor card say of its time.
+struct MotorFieldReading {
+  double time_s = 0;
+  Eigen::Vector3d field_body_uT = Eigen::Vector3d::Zero();
+  Eigen::Vector4d turned = {0, 0, 0, 1};  ///< quaternion (x, y, z, w): from the segment's axes to body axes
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
+  double current_A = 0;
+  void archive(Archive& archive) { archive(time_s, field_body_uT, turned, rate_rad_s, current_A); }
+};
+
+struct MotorWindowNoise {
+  double field_uT = 0.2;            ///< standard deviation of a field value
+  double rate_rad_sqrt_s = 0.0004;  ///< density of the gyros' noise
+};
+
+/// What one window says of k, the field per ampere in body axes (uT/A): the misfit of its readings, least over all
+/// else that is unknown, is rest_uT2 + (k - best)' information (k - best) for `information * best = vector`.
+struct MotorFieldEvidence {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();   ///< A2/uT2
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();        ///< A/uT
+  Eigen::Matrix3d by_hard_iron = Eigen::Matrix3d::Zero();  ///< derivative of `vector` by hard iron that is not 0
+  double square = 0;                                       ///< of the misfit for k = 0, in units of the variance
+  double values = 0;                                       ///< number of field values
+  double variance_uT2 = 0;                                 ///< of a field value, as the window itself shows it
+
+  /// Mean square of the misfit of a field value, for a field per ampere of `k`.
+  [[nodiscard]] double mean_square_uT2(const Eigen::Vector3d& k_uT_per_A) const;
+  void archive(Archive& archive) { archive(information, vector, by_hard_iron, square, values, variance_uT2); }
+};
+
+/// Model: m_i = (1 + D) (u_i + u_i x d_i + tau w_i x u_i) + h + k I_i + noise, for the readings i of a window.
+/// u_i = R_i b is the field b of the window's beginning, turned by the gyros; d_i the angle that the gyros miss by
+/// an unknown bias of each axis and an unknown scale of the yaw gyro; tau the delay of the field against the
+/// gyros; h hard iron, D soft iron. All of b, h, D, bias, scale and tau are nuisance parameters of this window
+/// alone, with wide Gaussian priors, and are marginalised: k follows only from what none of them can imitate. So
+/// neither a steady current nor a turn is taken for the motor's field. The product of b with the others is
+/// linearised and iterated (Gauss-Newton).
+///
+/// Where a window does not turn or tilt far enough to learn h, it is taken as 0, and what another one does to k is
+/// told. The gyros' noise lets b walk within the window (Kalman filter). Where residuals are larger than the noise
+/// says, the evidence is weakened accordingly.
+[[nodiscard]] MotorFieldEvidence evidence_of(const std::vector<MotorFieldReading>& window,
+                                             const MotorWindowNoise& noise);
+
+}  // namespace navcal::calib
