@@ -10,8 +10,10 @@ constexpr double kLeastSpread_rad_s = 0.05;
 Judgement judge(const Delay& delay, double accepted_std_s) {
   Judgement judgement;
   judgement.samples = delay.readings;
-  judgement.accepted = delay.std_s <= accepted_std_s;
-  judgement.coverage = judgement.accepted ? 1 : accepted_std_s / delay.std_s;
+  // What the stamps claim of themselves more readings do not lessen.
+  const double by_noise_s = std::sqrt(delay.std_s * delay.std_s - delay.stamps_std_s * delay.stamps_std_s);
+  judgement.accepted = by_noise_s <= accepted_std_s;
+  judgement.coverage = judgement.accepted ? 1 : accepted_std_s / by_noise_s;
   if (judgement.accepted) return judgement;
   judgement.reason = delay.rate_spread_rad_s < kLeastSpread_rad_s
                          ? "the rate of turn has hardly changed: a delay does not show"
@@ -27,6 +29,7 @@ DelayEstimator::DelayEstimator(const Parameters& parameters)
       turns_([&] {
         TurnIntegrator::Parameters turns;
         turns.tilt_lag_s = parameters.tilt_lag_s;
+        turns.levels_heading = false;  // HeadingDelay finds what the lag does to the heading
         return turns;
       }()),
       heading_([&] {
@@ -40,43 +43,33 @@ DelayEstimator::DelayEstimator(const Parameters& parameters)
 void DelayEstimator::update(const RateReading& rate) {
   turns_.update(rate);
   field_.update(rate);
-  if (!rate.saturated && std::isfinite(rate.time_s) && rate.rate_rad_s.allFinite()) follow_tilt(rate);
+  rate_std_s_ = rate.time_std_s;
   take_steps();
 }
 
-/// The slope of the tilt through the lag of the inclinometer, by pitch and roll gyro.
-void DelayEstimator::follow_tilt(const RateReading& rate) {
-  const double duration_s = rate.time_s - tilt_time_s_;
-  tilt_time_s_ = rate.time_s;
-  const double sine = std::sin(roll_rad_), cosine = std::cos(roll_rad_);
-  const Eigen::Vector3d& omega = rate.rate_rad_s;
-  const double roll_rad_s = omega.x() + (omega.y() * sine + omega.z() * cosine) * std::tan(pitch_rad_);
-  const double pitch_rad_s = omega.y() * cosine - omega.z() * sine;
-  if (duration_s <= 0 || parameters_.tilt_lag_s <= 0) return;
-  const double share = -std::expm1(-duration_s / parameters_.tilt_lag_s);
-  tilt_.roll_rad_s += share * (roll_rad_s - tilt_.roll_rad_s);
-  tilt_.pitch_rad_s += share * (pitch_rad_s - tilt_.pitch_rad_s);
-}
-
 void DelayEstimator::update(const CompassReading& compass) {
-  if (!compass.faulty && compass.roll_rad && compass.pitch_rad && std::isfinite(*compass.roll_rad) &&
-      std::abs(*compass.pitch_rad) < 1) {
-    roll_rad_ = *compass.roll_rad;
-    pitch_rad_ = *compass.pitch_rad;
-  }
+  compass_std_s_ = compass.time_std_s;
   turns_.update(compass);
   field_.update(compass);
   take_steps();
 }
 
 void DelayEstimator::take_steps() {
-  while (const auto step = turns_.next()) heading_.update(*step, tilt_);
+  while (const auto step = turns_.next()) {
+    // A first-order lag: what is shown changes by the difference from the tilt over the lag.
+    const double per_s = parameters_.tilt_lag_s > 0 ? 1 / parameters_.tilt_lag_s : 0;
+    heading_.update(*step, {step->roll_lag_rad * per_s, step->pitch_lag_rad * per_s});
+  }
 }
 
 Delay DelayEstimator::compass() const {
   const Delay by_heading = heading_.estimate(), by_field = field_.estimate();
-  // The heading has gone through a level that is late itself: as good in numbers, it still is the worse witness.
-  return by_field.std_s < 3 * by_heading.std_s ? by_field : by_heading;
+  // The heading has gone through a level that is late itself, and soft iron bends it as a delay would.
+  Delay delay = by_field.readings > 0 ? by_field : by_heading;
+  // The delay is against the gyro's stamps, so where either instrument's stamps are off, it is off as much.
+  delay.stamps_std_s = std::hypot(compass_std_s_, rate_std_s_);
+  delay.std_s = std::hypot(delay.std_s, delay.stamps_std_s);
+  return delay;
 }
 
 Judgement DelayEstimator::compass_judgement() const { return judge(compass(), parameters_.accepted_std_s); }
@@ -85,9 +78,8 @@ Judgement DelayEstimator::course_judgement() const {
 }
 
 void DelayEstimator::archive(Archive& archive) {
-  archive.tag("delay_estimator 1");
-  archive(turns_, heading_, field_, course_);
-  archive(tilt_time_s_, roll_rad_, pitch_rad_, tilt_.roll_rad_s, tilt_.pitch_rad_s);
+  archive.tag("delay_estimator 2");
+  archive(turns_, heading_, field_, course_, compass_std_s_, rate_std_s_);
 }
 
 }  // namespace navcal::calib

@@ -47,7 +47,6 @@ class DelayEstimator {
   void archive(Archive& archive);
 
  private:
-  void follow_tilt(const RateReading& rate);
   void take_steps();
 
   Parameters parameters_;
@@ -55,9 +54,7 @@ class DelayEstimator {
   HeadingDelay heading_;
   FieldDelay field_;
   CourseDelay course_;
-  double tilt_time_s_ = 0;
-  double roll_rad_ = 0, pitch_rad_ = 0;  ///< newest, as the compass says
-  HeadingDelay::TiltSlope tilt_;
+  double compass_std_s_ = 0, rate_std_s_ = 0;  ///< of the newest stamps
 };
 
 }  // namespace navcal::calib

@@ -120,6 +120,7 @@ void FieldDelay::correct(const Eigen::Vector3d& field_uT, const Eigen::Vector3d&
   covariance_ -= gain * response.transpose();
   covariance_ = ((covariance_ + covariance_.transpose()) / 2).eval();
   chi_squared_ += surprise;
+  blocks_.update(state_[kDelay], covariance_(kDelay, kDelay));
   rate_square_sum_ += rate_rad_s.squaredNorm();
   rate_sum_ += rate_rad_s;
   ++readings_;
@@ -131,14 +132,14 @@ Delay FieldDelay::estimate() const {
   // How noisy the field is and how well the model turns it is not known beforehand; the residuals tell.
   const double noise_scale = readings_ < kReadingsForNoise ? 1 : chi_squared_ / (3 * n);
   return {.delay_s = state_[kDelay],
-          .std_s = std::sqrt(covariance_(kDelay, kDelay) * noise_scale),
+          .std_s = std::sqrt(covariance_(kDelay, kDelay) * blocks_.variance_scale(noise_scale)),
           .readings = readings_,
           .rate_spread_rad_s = std::sqrt(std::max(0.0, rate_square_sum_ / n - (rate_sum_ / n).squaredNorm()))};
 }
 
 void FieldDelay::archive(Archive& archive) {
-  archive.tag("field_delay 1");
-  archive(state_, covariance_, rate_, field_, last_field_uT_, chi_squared_, rate_square_sum_, rate_sum_);
+  archive.tag("field_delay 2");
+  archive(state_, covariance_, rate_, field_, last_field_uT_, chi_squared_, blocks_, rate_square_sum_, rate_sum_);
   archive(readings_, left_out_, rejected_in_a_row_, field_steps_);
 }
 

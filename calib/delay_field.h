@@ -6,6 +6,7 @@
 
 #include "calib/archive.h"
 #include "calib/delay.h"
+#include "calib/delay_blocks.h"
 #include "calib/readings.h"
 
 namespace navcal::calib {
@@ -68,6 +69,7 @@ class FieldDelay {
   std::optional<Field> field_;  ///< waits for the rate after it
   Eigen::Vector3d last_field_uT_ = Eigen::Vector3d::Zero();
   double chi_squared_ = 0;  ///< sum of the squared innovations over their variances
+  DelayBlocks blocks_;
   double rate_square_sum_ = 0;
   Eigen::Vector3d rate_sum_ = Eigen::Vector3d::Zero();
   std::uint64_t readings_ = 0, left_out_ = 0;

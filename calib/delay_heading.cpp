@@ -78,6 +78,7 @@ void HeadingDelay::correct(const TurnStep& step, const TiltSlope& tilt, double m
   state_ += response * (innovation / variance);
   covariance_ -= response * response.transpose() / variance;
   chi_squared_ += square(innovation) / variance;
+  blocks_.update(state_[kDelay], covariance_(kDelay, kDelay));
   rate_sum_ += measured_rate_rad_s;
   rate_square_sum_ += square(measured_rate_rad_s);
   ++readings_;
@@ -89,7 +90,8 @@ Delay HeadingDelay::estimate() const {
   // The regressor is the rate as measured, so the state is the delay times the gyro's scale.
   const double scale = state_[kScale];
   const double noise_s =
-      std::sqrt(covariance_(kDelay, kDelay) * std::max(1.0, chi_squared_ / n)) / std::abs(scale);
+      std::sqrt(covariance_(kDelay, kDelay) * blocks_.variance_scale(std::max(1.0, chi_squared_ / n))) /
+      std::abs(scale);
   return {.delay_s = state_[kDelay] / scale,
           .std_s = std::hypot(noise_s, parameters_.level_std_s),
           .readings = readings_,
@@ -97,8 +99,8 @@ Delay HeadingDelay::estimate() const {
 }
 
 void HeadingDelay::archive(Archive& archive) {
-  archive.tag("heading_delay 1");
-  archive(state_, covariance_, waiting_, chi_squared_, rate_sum_, rate_square_sum_, readings_);
+  archive.tag("heading_delay 2");
+  archive(state_, covariance_, waiting_, chi_squared_, blocks_, rate_sum_, rate_square_sum_, readings_);
 }
 
 void HeadingDelay::Waiting::archive(Archive& archive) {

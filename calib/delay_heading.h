@@ -6,6 +6,7 @@
 
 #include "calib/archive.h"
 #include "calib/delay.h"
+#include "calib/delay_blocks.h"
 #include "calib/turn_step.h"
 
 namespace navcal::calib {
@@ -61,6 +62,7 @@ class HeadingDelay {
   Matrix covariance_ = Matrix::Zero();
   std::optional<Waiting> waiting_;  ///< until the step after it, for the rate about it
   double chi_squared_ = 0;          ///< sum of the squared innovations over their variances
+  DelayBlocks blocks_;
   double rate_sum_ = 0, rate_square_sum_ = 0;
   std::uint64_t readings_ = 0;
 };

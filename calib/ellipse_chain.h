@@ -15,6 +15,7 @@ struct TurnGroup {
   Eigen::Vector2d field_uT = Eigen::Vector2d::Zero();
   bool begins_segment = true;
   double time_s = 0, measured_angle_rad = 0, bias_time_s = 0, tilt_angle_rad = 0;
+  Eigen::Vector2d vertical = Eigen::Vector2d::Zero();  ///< vertical_in_level()
   void archive(Archive& archive);
 };
 

@@ -15,9 +15,9 @@ constexpr ChainNoise kRough{1, 0.01};  // to compare two beginnings, neither of 
 bool start_from_ellipse(EllipseChain& chain, const std::vector<TurnGroup>& groups, const GyroBelief& belief) {
   EllipseCells cells;
   for (const TurnGroup& group : groups) {
-    FieldCells<2, 2>::Cell cell;
+    EllipseCells::value_type cell;
     cell.count = group.count;
-    cell.mean = group.field_uT;
+    cell.mean << group.field_uT, group.vertical;
     cells.push_back(cell);
   }
   const auto shape = taubin_ellipse(cells);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/ellipse_judgement.h"
+
 namespace navcal::calib {
 namespace {
 
@@ -13,7 +15,6 @@ constexpr double kCellSize_uT = 0.7;
 constexpr std::uint64_t kFirstFit = 20;  // readings
 constexpr double kJudged = 50;           // readings held against a fit before it may find others surprising
 constexpr int kMostIterations = 200;
-constexpr double kVerticalOffset_uT = 20;  // of a magnetometer amid batteries and motors
 
 /// A beginning that depends on the summary alone; the scatter about it is where robust weights begin.
 std::optional<EllipseFit> started(const EllipseCells& cells) {
@@ -46,7 +47,9 @@ void EllipseEstimator::update(const Eigen::Vector3d& field_body_uT, double roll_
       held_out_.update(field.norm(), fit_->shape.radius_uT() * (size - 1));
     }
   }
-  cells_.add(field);
+  Eigen::Vector4d reading;
+  reading << field, vertical_in_level(roll_rad, pitch_rad);
+  cells_.add(reading);
   ++samples_;
   if (samples_ < kFirstFit) return;
   // Early beginnings are poor ones, on short arcs: begun anew each time the readings have doubled.
@@ -65,11 +68,11 @@ void EllipseEstimator::settle() {
 
 double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const {
   if (!fit_ || held_out_.weight() < kJudged) return 0;
-  FieldCells<2, 2>::Cell reading;
+  EllipseCells::value_type reading;
   reading.count = 1;
-  reading.mean = levelled(field_body_uT, roll_rad, pitch_rad);
-  if (!reading.mean.allFinite()) return 0;  // nothing is said of a field whose tilt is not known
-  const Eigen::Vector2d u = fit_->shape.foot(reading.mean);
+  reading.mean.head<2>() = levelled(field_body_uT, roll_rad, pitch_rad);
+  if (!reading.mean.head<2>().allFinite()) return 0;  // nothing is said of a field whose tilt is not known
+  const Eigen::Vector2d u = fit_->shape.foot(reading.mean.head<2>());
   const Eigen::Vector2d normal = (fit_->shape.axes_uT.inverse() * u).normalized();
   const EllipseShape::Vector row = EllipseShape::slope(u).transpose() * normal;
   const double distance = mean_distance_uT(fit_->shape, reading);
@@ -87,17 +90,19 @@ std::optional<MagnetometerEstimate> EllipseEstimator::estimate() const {
   if (!fit_) return std::nullopt;
   MagnetometerEstimate estimate;
   estimate.correction = correction_of(fit_->shape);
-  estimate.offset_std_uT.head<2>() = fit_->covariance.diagonal().head<2>().cwiseSqrt();
+  const EllipseShape::Matrix covariance = stated_covariance(*fit_, cells_.cells(), 0);
+  estimate.offset_std_uT.head<2>() = covariance.diagonal().head<2>().cwiseSqrt();
+  estimate.matrix_std.setConstant(std::numeric_limits<double>::infinity());
   estimate.offset_std_uT.z() = std::numeric_limits<double>::infinity();
   estimate.residual_uT = fit_->residual_uT;
   estimate.field_uT = fit_->shape.radius_uT();
-  estimate.heading_std_rad = worst_heading_std_rad(fit_->shape, fit_->covariance);
+  estimate.heading_std_rad = worst_heading_std_rad(fit_->shape, covariance);
   estimate.samples = samples_;
   return estimate;
 }
 
 void EllipseEstimator::archive(Archive& archive) {
-  archive.tag("ellipse_estimator 1");
+  archive.tag("ellipse_estimator 2");
   archive(cells_, fit_, held_out_, samples_);
 }
 

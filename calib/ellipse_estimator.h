@@ -34,7 +34,7 @@ class EllipseEstimator {
 
   [[nodiscard]] std::optional<MagnetometerEstimate> estimate() const;
   [[nodiscard]] const std::optional<EllipseFit>& fit() const { return fit_; }
-  [[nodiscard]] const FieldCells<2, 2>& cells() const { return cells_; }
+  [[nodiscard]] const FieldCells<2, 4>& cells() const { return cells_; }
   [[nodiscard]] Judgement judgement() const;
   /// Squared distance of a reading from the fit in units of its variance, that of the fit included; 0 without one.
   [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) const;
@@ -43,7 +43,7 @@ class EllipseEstimator {
 
  private:
   Parameters parameters_;
-  FieldCells<2, 2> cells_;
+  FieldCells<2, 4> cells_;
   std::optional<EllipseFit> fit_;
   FieldHeldOut held_out_;
   std::uint64_t samples_ = 0;

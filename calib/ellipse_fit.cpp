@@ -19,9 +19,9 @@ struct Distance {
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
 };
 
-Distance distance_of(const EllipseShape& shape, const FieldCells<2, 2>::Cell& cell) {
+Distance distance_of(const EllipseShape& shape, const EllipseCells::value_type& cell) {
   Distance result;
-  result.foot = shape.foot(cell.mean);
+  result.foot = shape.foot(cell.mean.head<2>());
   const Eigen::Vector2d& u = result.foot;
   const Eigen::Vector2d along = shape.axes_uT * Eigen::Vector2d(u.y(), -u.x());
   const double speed = along.norm();
@@ -29,9 +29,9 @@ Distance distance_of(const EllipseShape& shape, const FieldCells<2, 2>::Cell& ce
   result.normal = (shape.axes_uT.inverse() * u).normalized();
   // The mean of readings on an arc lies on its inner side by half the curvature times their variance along it.
   const double curvature = shape.axes_uT.determinant() / (speed * speed * speed);
-  const double along_uT2 = tangent.dot(cell.scatter * tangent) / cell.count;
+  const double along_uT2 = tangent.dot(cell.scatter.topLeftCorner<2, 2>() * tangent) / cell.count;
   result.distance_uT =
-      result.normal.dot(cell.mean - shape.centre_uT - shape.axes_uT * u) + 0.5 * curvature * along_uT2;
+      result.normal.dot(cell.mean.head<2>() - shape.centre_uT - shape.axes_uT * u) + 0.5 * curvature * along_uT2;
   return result;
 }
 
@@ -69,7 +69,8 @@ struct Sums {
       gradient += weight * d.distance_uT * row;
       cost += cell.count * cost_of(d.distance_uT, scale_uT);
       count += weight;
-      square += weight * (d.distance_uT * d.distance_uT + d.normal.dot(cell.scatter * d.normal) / cell.count);
+      square += weight * (d.distance_uT * d.distance_uT +
+                          d.normal.dot(cell.scatter.topLeftCorner<2, 2>() * d.normal) / cell.count);
       const double turns = std::atan2(-d.foot.y(), d.foot.x()) / (2 * std::numbers::pi);
       const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
       sector_count[sector] += weight;
@@ -91,7 +92,7 @@ struct Sums {
 
 }  // namespace
 
-double mean_distance_uT(const EllipseShape& shape, const FieldCells<2, 2>::Cell& cell) {
+double mean_distance_uT(const EllipseShape& shape, const EllipseCells::value_type& cell) {
   return distance_of(shape, cell).distance_uT;
 }
 

@@ -7,7 +7,8 @@
 
 namespace navcal::calib {
 
-using EllipseCells = std::vector<FieldCells<2, 2>::Cell>;
+/// Levelled field, and what a vertical offset of one uT adds to it: see vertical_in_level().
+using EllipseCells = std::vector<FieldCells<2, 4>::Cell>;
 
 /// Ellipse of least orthogonal distance from the readings in cells.
 struct EllipseFit {
@@ -27,6 +28,6 @@ struct EllipseFit {
 [[nodiscard]] EllipseFit improve(const EllipseFit& fit, const EllipseCells& cells, double noise_uT);
 
 /// Signed orthogonal distance of a cell's readings, on the mean, with the arc within the cell taken into account.
-[[nodiscard]] double mean_distance_uT(const EllipseShape& shape, const FieldCells<2, 2>::Cell& cell);
+[[nodiscard]] double mean_distance_uT(const EllipseShape& shape, const EllipseCells::value_type& cell);
 
 }  // namespace navcal::calib

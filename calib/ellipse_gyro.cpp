@@ -20,7 +20,7 @@ constexpr int kMostIterations = 200;
 }  // namespace
 
 void TurnGroup::archive(Archive& archive) {
-  archive(count, field_uT, begins_segment, time_s, measured_angle_rad, bias_time_s, tilt_angle_rad);
+  archive(count, field_uT, begins_segment, time_s, measured_angle_rad, bias_time_s, tilt_angle_rad, vertical);
 }
 
 EllipseGyro::EllipseGyro(const Parameters& parameters) : parameters_(parameters) {
@@ -36,7 +36,7 @@ void EllipseGyro::update(const Eigen::Vector3d& field_body_uT, double roll_rad, 
     broken_ = true;  // the way to the next reading is not known
     return;
   }
-  add(field, way, turn.begins_segment || broken_);
+  add(field, vertical_in_level(roll_rad, pitch_rad), way, turn.begins_segment || broken_);
   broken_ = false;
   ++samples_;
   if (groups_.size() < kFirstFit || samples_ % static_cast<std::uint64_t>(parameters_.slice_samples) != 0) return;
@@ -46,7 +46,8 @@ void EllipseGyro::update(const Eigen::Vector3d& field_body_uT, double roll_rad, 
   if (shape_found_) iterate();
 }
 
-void EllipseGyro::add(const Eigen::Vector2d& field_uT, const Eigen::Vector4d& way, bool begins_segment) {
+void EllipseGyro::add(const Eigen::Vector2d& field_uT, const Eigen::Vector2d& vertical, const Eigen::Vector4d& way,
+                      bool begins_segment) {
   if (begins_segment)
     way_.setZero();
   else
@@ -62,6 +63,7 @@ void EllipseGyro::add(const Eigen::Vector2d& field_uT, const Eigen::Vector4d& wa
       group.count += 1;
       const double gain = 1 / group.count;
       group.field_uT += gain * (field_uT - group.field_uT);
+      group.vertical += gain * (vertical - group.vertical);
       group.time_s += gain * (way_[0] - group.time_s);
       group.measured_angle_rad += gain * (way_[1] - group.measured_angle_rad);
       group.bias_time_s += gain * (way_[2] - group.bias_time_s);
@@ -79,7 +81,7 @@ void EllipseGyro::add(const Eigen::Vector2d& field_uT, const Eigen::Vector4d& wa
     groups_.front().begins_segment = true;
   }
   group_begin_ = way_;
-  groups_.push_back({1, field_uT, begins_segment, way_[0], way_[1], way_[2], way_[3]});
+  groups_.push_back({1, field_uT, begins_segment, way_[0], way_[1], way_[2], way_[3], vertical});
 }
 
 void EllipseGyro::iterate() {
@@ -101,10 +103,11 @@ std::optional<EllipseShape> EllipseGyro::shape() const {
 
 std::optional<MagnetometerEstimate> EllipseGyro::estimate() const {
   if (!shape_found_) return std::nullopt;
-  const EllipseShape::Matrix covariance = chain_.covariance.topLeftCorner<5, 5>();
+  const EllipseShape::Matrix covariance = stated_covariance(0);
   MagnetometerEstimate estimate;
   estimate.correction = correction_of(chain_.shape);
   estimate.offset_std_uT.head<2>() = covariance.diagonal().head<2>().cwiseSqrt();
+  estimate.matrix_std.setConstant(std::numeric_limits<double>::infinity());
   estimate.offset_std_uT.z() = std::numeric_limits<double>::infinity();
   estimate.residual_uT = chain_.residual_uT;
   estimate.field_uT = chain_.shape.radius_uT();
@@ -114,7 +117,7 @@ std::optional<MagnetometerEstimate> EllipseGyro::estimate() const {
 }
 
 void EllipseGyro::archive(Archive& archive) {
-  archive.tag("ellipse_gyro 1");
+  archive.tag("ellipse_gyro 2");
   archive(parameters_.gyro, groups_, chain_, shape_found_, broken_, way_, group_begin_, samples_);
 }
 

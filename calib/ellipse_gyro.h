@@ -47,12 +47,15 @@ class EllipseGyro {
   [[nodiscard]] Eigen::Vector2d gyro() const { return chain_.gyro; }  ///< scale, bias, with what this fit adds
   [[nodiscard]] Matrix covariance() const;
   [[nodiscard]] Judgement judgement() const;
+  /// Of the shape, with misfit and vertical offset, each ten degrees of heading off by `model_error_uT` together.
+  [[nodiscard]] EllipseShape::Matrix stated_covariance(double model_error_uT) const;
   [[nodiscard]] const std::vector<TurnGroup>& groups() const { return groups_; }
 
   void archive(Archive& archive);
 
  private:
-  void add(const Eigen::Vector2d& field_uT, const Eigen::Vector4d& way, bool begins_segment);
+  void add(const Eigen::Vector2d& field_uT, const Eigen::Vector2d& vertical, const Eigen::Vector4d& way,
+           bool begins_segment);
   void iterate();
 
   Parameters parameters_;

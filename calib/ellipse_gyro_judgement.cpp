@@ -16,29 +16,32 @@ namespace {
 
 constexpr std::size_t kSectors = 36;
 
-/// As for the ellipse: each ten degrees of heading off by `model_error_uT`, in both components here, since the
-/// gyro says where on the ellipse one should be.
-EllipseShape::Matrix doubtful_covariance(const EllipseChain& chain, const std::vector<TurnGroup>& groups,
-                                         double noise_uT, double model_error_uT) {
+}  // namespace
+
+/// In both components, unlike the ellipse's: the gyro says where on the ellipse one should be.
+EllipseShape::Matrix EllipseGyro::stated_covariance(double model_error_uT) const {
   using Columns = Eigen::Matrix<double, EllipseShape::kParameters, 2>;
   std::array<Columns, kSectors> sums;
   sums.fill(Columns::Zero());
-  for (std::size_t k = 0; k < std::min(groups.size(), chain.headings_rad.size()); ++k) {
-    const double turns = chain.headings_rad[k] / (2 * std::numbers::pi);
+  EllipseShape::Vector by_vertical = EllipseShape::Vector::Zero();
+  for (std::size_t k = 0; k < std::min(groups_.size(), chain_.headings_rad.size()); ++k) {
+    const double turns = chain_.headings_rad[k] / (2 * std::numbers::pi);
     const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
-    sums[sector] +=
-        (groups[k].count / (noise_uT * noise_uT)) * EllipseShape::slope(chain.headings_rad[k]).transpose();
+    const double weight = groups_[k].count / (parameters_.noise_uT * parameters_.noise_uT);
+    const Columns slope = weight * EllipseShape::slope(chain_.headings_rad[k]).transpose();
+    sums[sector] += slope;
+    by_vertical += slope * groups_[k].vertical;
   }
-  const EllipseShape::Matrix stated = chain.covariance.topLeftCorner<5, 5>();
-  EllipseShape::Matrix covariance = stated * std::max(1.0, chain.misfit);
+  const EllipseShape::Matrix by_noise = chain_.covariance.topLeftCorner<5, 5>();
+  EllipseShape::Matrix covariance = by_noise * std::max(1.0, chain_.misfit);
+  const EllipseShape::Vector vertical = kVerticalOffset_uT * (by_noise * by_vertical);
+  covariance += vertical * vertical.transpose();
   for (const Columns& sum : sums) {
-    const Columns moved = model_error_uT * (stated * sum);
+    const Columns moved = model_error_uT * (by_noise * sum);
     covariance += moved * moved.transpose();
   }
   return covariance;
 }
-
-}  // namespace
 
 Judgement EllipseGyro::judgement() const {
   constexpr double kFullTurn_rad = 2 * std::numbers::pi;
@@ -67,8 +70,7 @@ Judgement EllipseGyro::judgement() const {
                       " times what their noise explains",
                   "calibrate the gyro first, and keep clear of iron");
   }
-  const double worst_rad = worst_heading_std_rad(
-      chain_.shape, doubtful_covariance(chain_, groups_, parameters_.noise_uT, parameters_.model_error_uT));
+  const double worst_rad = worst_heading_std_rad(chain_.shape, stated_covariance(parameters_.model_error_uT));
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(chain_.shape))) {
     return refuse(

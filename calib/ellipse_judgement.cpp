@@ -27,19 +27,24 @@ double squares(const EllipseShape& shape, const EllipseCells& cells) {
 
 }  // namespace
 
-EllipseShape::Matrix doubtful_covariance(const EllipseFit& fit, const EllipseCells& cells, double model_error_uT) {
+EllipseShape::Matrix stated_covariance(const EllipseFit& fit, const EllipseCells& cells, double model_error_uT) {
   std::array<EllipseShape::Vector, kSectors> sums;
   sums.fill(EllipseShape::Vector::Zero());
+  EllipseShape::Vector by_vertical = EllipseShape::Vector::Zero();
   const Eigen::Matrix2d inverse = fit.shape.axes_uT.inverse();
   for (const auto& cell : cells) {
-    const Eigen::Vector2d u = fit.shape.foot(cell.mean);
+    const Eigen::Vector2d u = fit.shape.foot(cell.mean.head<2>());
     const double turns = std::atan2(-u.y(), u.x()) / (2 * std::numbers::pi);
     const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
     const Eigen::Vector2d normal = (inverse * u).normalized();
-    sums[sector] += cell.count * EllipseShape::slope(u).transpose() * normal;
+    const EllipseShape::Vector row = cell.count * EllipseShape::slope(u).transpose() * normal;
+    sums[sector] += row;
+    by_vertical += normal.dot(cell.mean.tail<2>()) * row;
   }
   const EllipseShape::Matrix per_uT2 = fit.covariance / (fit.residual_uT * fit.residual_uT);
   EllipseShape::Matrix covariance = fit.covariance * std::max(1.0, fit.misfit);
+  const EllipseShape::Vector vertical = kVerticalOffset_uT * (per_uT2 * by_vertical);
+  covariance += vertical * vertical.transpose();
   for (const auto& sum : sums) {
     const EllipseShape::Vector moved = model_error_uT * (per_uT2 * sum);
     covariance += moved * moved.transpose();
@@ -101,7 +106,8 @@ Judgement EllipseEstimator::judgement() const {
   std::vector<double> headings;
   for (const auto& cell : cells_.cells()) {
     const double limit = 6 * fit_->residual_uT;
-    if (std::abs(mean_distance_uT(fit_->shape, cell)) < limit) headings.push_back(fit_->shape.foot_rad(cell.mean));
+    if (std::abs(mean_distance_uT(fit_->shape, cell)) < limit)
+      headings.push_back(fit_->shape.foot_rad(cell.mean.head<2>()));
   }
   const FieldCoverage coverage(std::move(headings));
   judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
@@ -111,7 +117,7 @@ Judgement EllipseEstimator::judgement() const {
                   coverage.manoeuvre(parameters_.least_arc_rad));
   }
   const double worst_rad =
-      worst_heading_std_rad(fit_->shape, doubtful_covariance(*fit_, cells_.cells(), parameters_.model_error_uT));
+      worst_heading_std_rad(fit_->shape, stated_covariance(*fit_, cells_.cells(), parameters_.model_error_uT));
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(fit_->shape))) {
     return refuse("the heading would be uncertain by " + rounded(worst_rad * (180 / std::numbers::pi), 1) +

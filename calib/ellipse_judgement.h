@@ -4,10 +4,11 @@
 
 namespace navcal::calib {
 
-/// Covariance of a fit if, beside the scatter of readings, each ten degrees of heading are off by `model_error_uT`
-/// that no number of readings averages away: tilt in turns, iron that moves, a field that is not uniform.
-[[nodiscard]] EllipseShape::Matrix doubtful_covariance(const EllipseFit& fit, const EllipseCells& cells,
-                                                       double model_error_uT);
+/// Covariance of a fit with all that is off beside the scatter of readings: the misfit of sectors of ten degrees
+/// of heading, the vertical offset, of which each tilt brings a share into the level, and `model_error_uT` of each
+/// sector that no number of readings averages away (iron that moves, a field that is not uniform).
+[[nodiscard]] EllipseShape::Matrix stated_covariance(const EllipseFit& fit, const EllipseCells& cells,
+                                                     double model_error_uT);
 
 /// How the squares of distances grow two standard deviations away from the fit in its least certain direction,
 /// over the four times the variance that a parabola gives; the worse of both sides, >= 1. Large: the likelihood is

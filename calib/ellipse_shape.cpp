@@ -68,6 +68,10 @@ double worst_raw_heading_error_rad(const EllipseShape& shape) {
   return worst;
 }
 
+Eigen::Vector2d vertical_in_level(double roll_rad, double pitch_rad) {
+  return {std::cos(roll_rad) * std::sin(pitch_rad), -std::sin(roll_rad)};
+}
+
 double worst_heading_std_rad(const EllipseShape& shape, const EllipseShape::Matrix& covariance) {
   constexpr int kHeadings = 72;
   const Eigen::Matrix2d inverse = shape.axes_uT.inverse();

@@ -59,6 +59,13 @@ struct EllipseShape {
 /// to pi.
 [[nodiscard]] double worst_raw_heading_error_rad(const EllipseShape& shape);
 
+/// What a vertical offset of one uT adds to the levelled field.
+[[nodiscard]] Eigen::Vector2d vertical_in_level(double roll_rad, double pitch_rad);
+
+/// Vertical offset of a magnetometer amid batteries and motors, of which a level fit knows nothing: standard
+/// deviation.
+inline constexpr double kVerticalOffset_uT = 20;
+
 /// Standard deviation of the calibrated heading at the worst heading of the circle, by first order.
 [[nodiscard]] double worst_heading_std_rad(const EllipseShape& shape, const EllipseShape::Matrix& covariance);
 

@@ -20,13 +20,13 @@ std::optional<Frame> frame_of(const EllipseCells& cells) {
   Frame frame;
   for (const auto& cell : cells) {
     frame.count += cell.count;
-    frame.origin_uT += cell.count * cell.mean;
+    frame.origin_uT += cell.count * cell.mean.head<2>();
   }
   if (cells.size() < 5) return std::nullopt;
   frame.origin_uT /= frame.count;
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const auto& cell : cells) {
-    const Eigen::Vector2d off = cell.mean - frame.origin_uT;
+    const Eigen::Vector2d off = cell.mean.head<2>() - frame.origin_uT;
     scatter += cell.count * off * off.transpose();
   }
   const Eigen::Vector2d extent = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvalues();
@@ -55,7 +55,7 @@ std::optional<EllipseShape> circle(const EllipseCells& cells, const Frame& frame
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const auto& cell : cells) {
-    const Eigen::Vector2d x = (cell.mean - frame.origin_uT) / frame.scale_uT;
+    const Eigen::Vector2d x = (cell.mean.head<2>() - frame.origin_uT) / frame.scale_uT;
     const Eigen::Vector3d row(x.x(), x.y(), 1);
     normal += cell.count * row * row.transpose();
     right += cell.count * x.squaredNorm() * row;
@@ -77,7 +77,7 @@ std::optional<EllipseShape> taubin_ellipse(const EllipseCells& cells) {
   ConicMatrix gradients = ConicMatrix::Zero();  // mean square of its gradient
   Conic mean = Conic::Zero();
   for (const auto& cell : cells) {
-    const Eigen::Vector2d x = (cell.mean - frame->origin_uT) / frame->scale_uT;
+    const Eigen::Vector2d x = (cell.mean.head<2>() - frame->origin_uT) / frame->scale_uT;
     const double weight = cell.count / frame->count;
     Conic powers, by_x, by_y;
     powers << x.x() * x.x(), x.x() * x.y(), x.y() * x.y(), x.x(), x.y();

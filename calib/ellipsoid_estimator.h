@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "calib/ellipsoid_fit.h"
+#include "calib/ellipsoid_noise.h"
 #include "calib/field_cells.h"
 #include "calib/field_held_out.h"
 #include "calib/judgement.h"
@@ -22,15 +23,16 @@ namespace navcal::calib {
 class EllipsoidEstimator {
  public:
   struct Parameters {
-    double noise_uT = 0.15;        ///< of one reading; the data correct it
-    double tilt_noise_rad = 0.01;  ///< of one reading, with lag and accelerations; the data correct it
+    double noise_uT = 0.15;          ///< of one reading; the data correct it
+    double tilt_noise_rad = 0.0018;  ///< of one reading, at least; the data correct it
     std::optional<KnownField> known;
     double soft_iron_std = 0.15;       ///< of the soft iron matrix about the unit matrix, when the field is known
     int slice_samples = 20;            ///< readings from one iteration to the next
     double model_error = 0.002;        ///< of a cell, relative to the largest field measured
     double heading_std_rad = 0.02;     ///< the worst that is accepted, within
     double expected_tilt_rad = 0.175;  ///< this roll and pitch
-    double offset_std_uT = 1.0;        ///< the worst vertical offset that is accepted
+    double offset_std_uT =
+        3.0;  ///< the worst vertical offset that is accepted: its part in the heading is judged too
   };
 
   explicit EllipsoidEstimator(const Parameters& parameters);
@@ -43,6 +45,9 @@ class EllipsoidEstimator {
   [[nodiscard]] const std::optional<EllipsoidFit>& fit() const { return fit_; }
   /// The summary: those with tilt, then those without.
   [[nodiscard]] EllipsoidCells cells() const;
+  [[nodiscard]] const EllipsoidNoise& noise() const { return noise_; }
+  /// Of centre, matrix and dip, with what noise alone does not explain.
+  [[nodiscard]] EllipsoidShape::Matrix covariance() const;
   [[nodiscard]] Judgement judgement() const;
   /// The greatest angle of the hull's vertical from the plumb line among the cells.
   [[nodiscard]] double tilt_seen_rad() const;
@@ -54,20 +59,22 @@ class EllipsoidEstimator {
  private:
   /// One reading off the fit, relative to the size of the field.
   struct Departure {
-    double size = 0, dip = 0;
+    double size = 0;
     double noise_variance = 0, fit_variance = 0;  ///< of size
   };
-  [[nodiscard]] EllipsoidNoise noise() const;
-  [[nodiscard]] Departure departure(const Eigen::Vector3d& field_uT, const Eigen::Vector3d& down) const;
-  void learn_noise(const Eigen::Vector3d& field_uT, const Eigen::Vector3d& down);
+  [[nodiscard]] Departure departure(const Eigen::Vector3d& field_uT) const;
+  void judge(const Eigen::Vector3d& field_uT);
   void begin();
+  void iterate();
+  [[nodiscard]] EllipsoidNoise believed() const;
 
   Parameters parameters_;
   FieldCells<3, 6> cells_;
   FieldCells<3, 6> tiltless_;  ///< readings whose tilt is not known: down is zero
   std::optional<EllipsoidFit> fit_;
   FieldHeldOut held_out_;
-  double tilt_square_ = 0, tilt_weight_ = 0;  ///< of what gravity disagrees, with forgetting
+  ResidualBlocks blocks_;
+  EllipsoidNoise noise_;  ///< by the scatter about the fit
   std::uint64_t samples_ = 0;
 };
 

@@ -12,9 +12,13 @@ namespace navcal::calib {
 
 using EllipsoidCells = std::vector<FieldCells<3, 6>::Cell>;
 
+/// Noise of one reading. The inflations say by how much the variance of a mean of readings exceeds that of so many
+/// independent ones, because neighbours err together.
 struct EllipsoidNoise {
   double field_uT = 0.15;
-  double tilt_rad = 0.01;
+  double tilt_rad = 0.002;
+  double field_inflation = 1, tilt_inflation = 1;
+  void archive(Archive& archive) { archive(field_uT, tilt_rad, field_inflation, tilt_inflation); }
 };
 
 /// What is known beforehand.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <vector>
 
@@ -47,33 +46,6 @@ bool is_all_round(const EllipsoidCells& cells, const EllipsoidShape& shape) {
 }
 
 }  // namespace
-
-EllipsoidShape::Matrix doubtful_covariance(const EllipsoidFit& fit, const EllipsoidCells& cells, double field_uT,
-                                           double model_error) {
-  using Row = EllipsoidShape::Vector;
-  // Readings of a kind err together: those whose fields are within twenty degrees of each other.
-  constexpr double kKind = 0.35;
-  std::map<std::array<int, 3>, Row> sums;
-  const Eigen::Matrix3d& m = fit.shape.matrix_per_uT;
-  for (const auto& cell : cells) {
-    const Eigen::Vector3d off_centre = cell.mean.head<3>() - fit.shape.centre_uT;
-    const Eigen::Vector3d direction = (m * off_centre).normalized();
-    Row row = Row::Zero();
-    row.head<3>() = -m * direction;
-    row.segment<6>(3) = EllipsoidShape::slope_of_matrix(off_centre).transpose() * direction;
-    std::array<int, 3> kind{};
-    for (int i = 0; i < 3; ++i)
-      kind[static_cast<std::size_t>(i)] = static_cast<int>(std::floor(direction[i] / kKind));
-    const double variance = field_uT * field_uT * (m * direction).squaredNorm();
-    sums.try_emplace(kind, Row::Zero()).first->second += (cell.count / variance) * row;
-  }
-  EllipsoidShape::Matrix covariance = fit.covariance;
-  for (const auto& [kind, sum] : sums) {
-    const Row moved = model_error * (fit.covariance * sum);
-    covariance += moved * moved.transpose();
-  }
-  return covariance;
-}
 
 double EllipsoidEstimator::tilt_seen_rad() const {
   double tilt = 0;
@@ -125,7 +97,7 @@ Judgement EllipsoidEstimator::judgement() const {
   const double field = parameters_.known ? parameters_.known->magnitude_uT : fit_->shape.radius_uT();
   // Errors of the instrument's scales grow with the field that it measures.
   const double relative = parameters_.model_error * (1 + centre / field);
-  const auto covariance = doubtful_covariance(*fit_, all, noise().field_uT, relative);
+  const auto covariance = stated_covariance(*fit_, all, noise_, relative);
   const double vertical_uT = std::sqrt(covariance(2, 2));
   if (centre - 2 * vertical_uT > field && tilt_rad < 45 * kDegree) {
     return refuse("the hard iron of " + rounded(centre, 0) + " uT exceeds the Earth's field, and tilt within " +

@@ -4,9 +4,11 @@
 
 namespace navcal::calib {
 
-/// Covariance of a fit if, beside the noise of readings (`field_uT`), all of one direction of the field are off by
-/// `model_error` of its size, which no number of readings averages away.
-[[nodiscard]] EllipsoidShape::Matrix doubtful_covariance(const EllipsoidFit& fit, const EllipsoidCells& cells,
-                                                         double field_uT, double model_error);
+/// Covariance of a fit when, beside the noise of readings, those of one kind (fields within twenty degrees of each
+/// other) are off together, which no number of readings averages away. By how much, relative to the field, is
+/// found from the kinds' mean residuals beyond their noise (method of moments: DerSimonian and Laird, Controlled
+/// Clinical Trials 7, 1986); at least `least_misfit`.
+[[nodiscard]] EllipsoidShape::Matrix stated_covariance(const EllipsoidFit& fit, const EllipsoidCells& cells,
+                                                       const EllipsoidNoise& noise, double least_misfit);
 
 }  // namespace navcal::calib

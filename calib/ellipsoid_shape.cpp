@@ -38,6 +38,36 @@ bool EllipsoidShape::sane() const {
   return axes[0] > 1 / kLargest_uT && axes[0] > 0.1 * axes[2];
 }
 
+double relative_size_std(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance) {
+  // d ln(radius) = -tr(M^-1 dM) / 3
+  const Eigen::Matrix3d inverse = shape.matrix_per_uT.inverse();
+  Eigen::Matrix<double, 6, 1> trace;
+  trace << inverse.diagonal(), 2 * inverse(1, 2), 2 * inverse(0, 2), 2 * inverse(0, 1);
+  return std::sqrt(std::max(0., trace.dot(covariance.block<6, 6>(3, 3) * trace))) / 3;
+}
+
+Eigen::Matrix3d matrix_std(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance, double size_uT,
+                           bool size_known) {
+  Eigen::Matrix<double, 6, 6> of_matrix = covariance.block<6, 6>(3, 3);
+  if (!size_known) {
+    // d (M / det(M)^(1/3)) = (dM - M tr(M^-1 dM) / 3) / det(M)^(1/3)
+    const Eigen::Matrix3d inverse = shape.matrix_per_uT.inverse();
+    const Eigen::Matrix3d& m = shape.matrix_per_uT;
+    Eigen::Matrix<double, 6, 1> values, trace;
+    values << m(0, 0), m(1, 1), m(2, 2), m(1, 2), m(0, 2), m(0, 1);
+    trace << inverse.diagonal(), 2 * inverse(1, 2), 2 * inverse(0, 2), 2 * inverse(0, 1);
+    const Eigen::Matrix<double, 6, 6> slope =
+        Eigen::Matrix<double, 6, 6>::Identity() - values * trace.transpose() / 3;
+    of_matrix = (slope * of_matrix * slope.transpose()).eval();
+  }
+  const Eigen::Matrix<double, 6, 1> std = size_uT * of_matrix.diagonal().cwiseMax(0).cwiseSqrt();
+  Eigen::Matrix3d result;
+  result << std[0], std[5], std[4],  //
+      std[5], std[1], std[3],        //
+      std[4], std[3], std[2];
+  return result;
+}
+
 Eigen::Vector3d down_in_body(double roll_rad, double pitch_rad) {
   return {-std::sin(pitch_rad), std::sin(roll_rad) * std::cos(pitch_rad),
           std::cos(roll_rad) * std::cos(pitch_rad)};

@@ -30,6 +30,14 @@ struct EllipsoidShape {
   void archive(Archive& archive) { archive(centre_uT, matrix_per_uT, sine_of_dip); }
 };
 
+/// Standard errors of `size_uT` times M. A size that is not known beforehand is that of the fit, so that only the
+/// proportions of M are uncertain.
+[[nodiscard]] Eigen::Matrix3d matrix_std(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance,
+                                         double size_uT, bool size_known);
+
+/// Standard error of radius_uT() over itself.
+[[nodiscard]] double relative_size_std(const EllipsoidShape& shape, const EllipsoidShape::Matrix& covariance);
+
 /// Down in body axes.
 [[nodiscard]] Eigen::Vector3d down_in_body(double roll_rad, double pitch_rad);
 

@@ -29,12 +29,12 @@ Quantity quantity(std::string_view name, double value, double std, double unknow
   return {name, value, std};
 }
 
-RateCorrection rate_of(const TurnFilter& filter) {
+RateCorrection rate_of(const TurnFilterBank& filter) {
   const TurnCoefficients estimate = filter.estimate();
   return {estimate[kScale], estimate[kBias]};
 }
 
-DeviationCorrection deviation_of(const TurnFilter& filter) {
+DeviationCorrection deviation_of(const TurnFilterBank& filter) {
   const TurnCoefficients estimate = filter.estimate();
   return {{0, estimate[kB], estimate[kC], estimate[kD], estimate[kE]}};
 }
@@ -78,12 +78,22 @@ std::vector<Quantity> quantities_of(const std::optional<MagnetometerEstimate>& e
   if (!estimate) return {};
   const auto& offset = estimate->correction.offset_uT;
   const auto& std = estimate->offset_std_uT;
-  return {{"offset_x_uT", offset.x(), std.x()},
-          {"offset_y_uT", offset.y(), std.y()},
-          {"offset_z_uT", offset.z(), std.z()},
-          {"field_uT", estimate->field_uT, kUnknown},
-          {"residual_uT", estimate->residual_uT, kUnknown},
-          {"worst_heading_rad", 0, estimate->heading_std_rad}};
+  const auto &matrix = estimate->correction.matrix, &matrix_std = estimate->matrix_std;
+  std::vector<Quantity> quantities{{"offset_x_uT", offset.x(), std.x()},
+                                   {"offset_y_uT", offset.y(), std.y()},
+                                   {"offset_z_uT", offset.z(), std.z()},
+                                   {"field_uT", estimate->field_uT, kUnknown},
+                                   {"residual_uT", estimate->residual_uT, kUnknown},
+                                   {"worst_heading_rad", 0, estimate->heading_std_rad},
+                                   {"matrix_xx", matrix(0, 0), matrix_std(0, 0)},
+                                   {"matrix_yy", matrix(1, 1), matrix_std(1, 1)},
+                                   {"matrix_zz", matrix(2, 2), matrix_std(2, 2)},
+                                   {"matrix_yz", matrix(1, 2), matrix_std(1, 2)},
+                                   {"matrix_xz", matrix(0, 2), matrix_std(0, 2)},
+                                   {"matrix_xy", matrix(0, 1), matrix_std(0, 1)}};
+  if (estimate->field_scale > 0)
+    quantities.push_back({"field_scale", estimate->field_scale, estimate->field_scale_std});
+  return quantities;
 }
 
 std::vector<Quantity> quantities_of(const std::optional<GpsCompass::Estimate>& estimate) {

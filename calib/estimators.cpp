@@ -44,7 +44,7 @@ DelayEstimator::Parameters delay_parameters(const SuiteOptions& options) {
 
 Estimators::Estimators(const SuiteOptions& options)
     : options_(options),
-      turns_({.tilt_lag_s = options.tilt_lag_s}),
+      turns_({.tilt_lag_s = options.tilt_lag_s, .rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s}),
       gyro_(TurnCalibrator::Subject::gyro, turn_parameters(options)),
       gyro_b_(TurnCalibrator::Subject::gyro, turn_parameters(options)),
       compass_(TurnCalibrator::Subject::compass, turn_parameters(options)),
@@ -95,7 +95,7 @@ void Estimators::update(const GroundReading& reading, const Correction& in_force
 
 std::optional<TurnedReading> Estimators::next(const Correction& in_force) {
   for (;;) {
-    if (!turn_) turn_ = turns_.next();
+    if (!turn_) turn_ = turns_.next(finishing_);
     if (pending_count_ == 0) {
       turn_.reset();
       finishing_ = false;
@@ -140,7 +140,10 @@ void Estimators::learn(const TurnedReading& turned, const Correction& in_force) 
   learn_field(turned);
   double turn_rate_rad_s = 0;
   if (yaw_rate_rad_s_) {
-    if (const auto gyro = known_gyro(in_force)) turn_rate_rad_s = (*gyro)(*yaw_rate_rad_s_);
+    if (const auto gyro = known_gyro(in_force)) {
+      turn_rate_rad_s = (*gyro)(*yaw_rate_rad_s_);
+      turns_.set_gyro(gyro->scale, gyro->bias_rad_s);
+    }
   }
   const WaterTrackReading track = surface_.track_of(turned.reading, turn_rate_rad_s);
   surface_.update(turned.reading, track, in_force);
@@ -153,8 +156,9 @@ void Estimators::learn_field(const TurnedReading& turned) {
   // The size of the field tells of its iron without tilt, too.
   Magnetometer::Reading field;
   field.field_body_uT = *reading.field_body_uT;
-  field.roll_rad = reading.roll_rad.value_or(NAN);
-  field.pitch_rad = reading.pitch_rad.value_or(NAN);
+  // Where the gyros are known, without the inclinometer's lag.
+  field.roll_rad = turned.turn ? turned.turn->roll_rad : reading.roll_rad.value_or(NAN);
+  field.pitch_rad = turned.turn ? turned.turn->pitch_rad : reading.pitch_rad.value_or(NAN);
   field.has_turn = turned.turn.has_value();
   if (turned.turn) field.turn = *turned.turn;
   field.time_s = reading.time_s;
@@ -265,10 +269,7 @@ void Estimators::archive(Archive& archive) {
   bool has_turn = turn_.has_value();
   archive(has_turn);
   if (!archive.saving()) turn_ = has_turn ? std::optional(TurnStep{}) : std::nullopt;
-  if (turn_) {
-    archive(turn_->time_s, turn_->heading_rad, turn_->begins_segment, turn_->duration_s, turn_->measured_angle_rad,
-            turn_->measured_angle_b_rad, turn_->bias_time_s, turn_->tilt_angle_rad);
-  }
+  if (turn_) turn_->archive(archive);
   if (first_pending_ >= kPending || pending_count_ > kPending) first_pending_ = pending_count_ = 0;
 }
 

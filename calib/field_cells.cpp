@@ -59,7 +59,7 @@ void FieldCells<Keys, Features>::double_size() {
   newest_ = kept;
 }
 
-template class FieldCells<2, 2>;
+template class FieldCells<2, 4>;
 template class FieldCells<3, 6>;
 
 }  // namespace navcal::calib

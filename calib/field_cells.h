@@ -49,7 +49,7 @@ class FieldCells {
   std::vector<Cell> cells_;
 };
 
-extern template class FieldCells<2, 2>;
+extern template class FieldCells<2, 4>;
 extern template class FieldCells<3, 6>;
 
 }  // namespace navcal::calib

@@ -129,11 +129,8 @@ class Turning {
 /// walk; everything else is constant.
 class WindowFilter {
  public:
-  WindowFilter(const MotorWindowNoise& noise, const Eigen::Vector3d& field_uT, const Unknowns& learnt)
-      : noise_(noise),
-        b_(field_uT),
-        learnt_(learnt),
-        covariance_(prior().diagonal().cwiseInverse().asDiagonal()) {}
+  WindowFilter(const MotorWindowNoise& noise, const Eigen::Vector3d& field_uT, const Unknowns& prior_variance)
+      : noise_(noise), b_(field_uT), covariance_(prior_variance.asDiagonal()) {}
 
   void update(const Turning& turning, double duration_s) {
     const double walk_uT2 = noise_.rate_rad_sqrt_s * noise_.rate_rad_sqrt_s * duration_s;

@@ -7,7 +7,7 @@ namespace {
 
 void archive_reading(Archive& archive, CompassReading& r) { calib::archive(archive, r); }
 void archive_reading(Archive& archive, RateReading& r) {
-  archive(r.time_s, r.rate_rad_s, r.yaw_rate_b_rad_s, r.specific_force_m_s2, r.saturated);
+  archive(r.time_s, r.time_std_s, r.rate_rad_s, r.yaw_rate_b_rad_s, r.specific_force_m_s2, r.saturated);
 }
 void archive_reading(Archive& archive, GroundReading& r) {
   archive(r.time_s, r.position_m, r.speed_m_s, r.course_rad);
@@ -24,7 +24,7 @@ Reading reading_of_kind(std::size_t kind, std::index_sequence<I...>) {
 }  // namespace
 
 void archive(Archive& archive, CompassReading& r) {
-  archive(r.time_s, r.heading_rad, r.pitch_rad, r.roll_rad, r.field_body_uT, r.utc_ns);
+  archive(r.time_s, r.time_std_s, r.heading_rad, r.pitch_rad, r.roll_rad, r.field_body_uT, r.utc_ns);
   archive(r.distorted, r.tilt_out_of_range, r.field_out_of_range, r.faulty);
 }
 

@@ -16,6 +16,7 @@ struct CompassReading {
   std::optional<double> roll_rad;     ///< positive starboard-down
   std::optional<Eigen::Vector3d> field_body_uT;
   std::int64_t utc_ns = 0;         ///< time_s in UTC, for reports; 0: not known
+  double time_std_s = 0;           ///< of time_s, as its stamp claims it
   bool distorted = false;          ///< the device reports magnetic distortion (TCM2 E001): a remark, voids nothing
   bool tilt_out_of_range = false;  ///< heading and tilt are absent for that reason (E002)
   bool field_out_of_range = false;  ///< heading and field are absent for that reason (E004)
@@ -28,6 +29,7 @@ struct RateReading {
   double yaw_rate_b_rad_s = 0;                           ///< gyro B-z, redundant
   Eigen::Vector3d specific_force_m_s2 = Eigen::Vector3d::Zero();
   bool saturated = false;  ///< the card's converter was over its range
+  double time_std_s = 0;   ///< as its stamp claims it
 };
 
 /// A fix at the surface, in a local plane (north, east) that the caller holds fixed.

@@ -38,7 +38,7 @@ void TurnCalibrator::update(const TurnStep& step) {
 }
 
 void TurnCalibrator::start(const TurnPrior& prior) {
-  filter_ = TurnFilter(parameters_, prior);
+  filter_ = TurnFilterBank(parameters_, prior);
   gyro_known_ = !prior.sought[kScale];
   rose_ = {};
 }
@@ -109,7 +109,7 @@ void TurnCalibrator::judge_compass(Judgement& judgement) const {
 }
 
 void TurnCalibrator::archive(Archive& archive) {
-  archive.tag("turn_calibrator 1");
+  archive.tag("turn_calibrator 2");
   archive(filter_, gyro_known_, rose_);
 }
 

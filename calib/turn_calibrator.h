@@ -4,13 +4,13 @@
 
 #include "calib/archive.h"
 #include "calib/judgement.h"
-#include "calib/turn_filter.h"
+#include "calib/turn_filter_bank.h"
 
 namespace navcal::calib {
 
-/// A gyro or a compass calibrated by turns (TurnFilter), with the headings that it has seen and its judgement. The
-/// filter's covariance alone is not enough to judge by: where less than the circle was seen and the gyro is not
-/// known, its scale is mixed up with the deviation, and both are believed too well (THESIS 11.3).
+/// A gyro or a compass calibrated by turns (TurnFilterBank), with the headings that it has seen and its judgement.
+/// The filter's covariance alone is not enough to judge by: where less than the circle was seen and the gyro is
+/// not known, its scale is mixed up with the deviation, and both are believed too well (THESIS 11.3).
 class TurnCalibrator {
  public:
   enum class Subject : std::uint8_t { gyro, compass };
@@ -29,7 +29,7 @@ class TurnCalibrator {
   /// Forgets everything.
   void start(const TurnPrior& prior = TurnPrior::unknown_both());
 
-  [[nodiscard]] const TurnFilter& filter() const { return filter_; }
+  [[nodiscard]] const TurnFilterBank& filter() const { return filter_; }
   [[nodiscard]] bool has_estimate() const { return filter_.readings() >= limits_.readings; }
   /// Standard error of the corrected heading but for A, worst over the circle.
   [[nodiscard]] double worst_heading_std_rad() const;
@@ -43,7 +43,7 @@ class TurnCalibrator {
   Subject subject_;
   TurnFilter::Parameters parameters_;
   Limits limits_;
-  TurnFilter filter_;
+  TurnFilterBank filter_;
   bool gyro_known_ = false;  ///< by the prior
   Rose rose_{};
 };

@@ -143,6 +143,7 @@ void TurnFilter::correct(double measured_rad) {
   const Eigen::Vector2d gain = covariance_.col(0) / variance;
 
   products_ += row * row.transpose() / variance;
+  log_variances_ += std::log(variance);
   ++innovations_;
   noise_.correct(now.slope, heading_variance, variance, gain);
 
@@ -156,7 +157,11 @@ void TurnFilter::solve() {
   const ConstantsMatrix from_data = products_.bottomRightCorner<5, 5>();
   const ConstantsMatrix information = from_data + prior_information_;
   const Constants moment = products_.bottomLeftCorner<5, 1>();
-  solution_.departure = information.ldlt().solve(moment);
+  const Eigen::LDLT<ConstantsMatrix> factors(information);
+  solution_.departure = factors.solve(moment);
+  log_likelihood_ = -(log_variances_ + factors.vectorD().array().log().sum() + products_(0, 0) -
+                      moment.dot(solution_.departure)) /
+                    2;
   // How much of the noise stated is there is seen at the estimate, which depends on it: twice is enough.
   for (int pass = 0; pass < 2; ++pass) {
     Row at_estimate;
@@ -226,10 +231,10 @@ double TurnFilter::heading_variance_rad2() const {
 }
 
 void TurnFilter::archive(Archive& archive) {
-  archive.tag("turn_filter 1");
+  archive.tag("turn_filter 2");
   archive(prior_.mean, prior_.covariance, prior_.sought, prior_information_);
-  archive(track_, covariance_, noise_, products_, solution_, measured_rad_, unwrapped_rad_, time_s_, in_segment_,
-          readings_, innovations_, left_out_);
+  archive(track_, covariance_, noise_, products_, log_variances_, solution_, log_likelihood_, measured_rad_,
+          unwrapped_rad_, time_s_, in_segment_, readings_, innovations_, left_out_);
 }
 
 }  // namespace navcal::calib

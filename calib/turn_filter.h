@@ -46,6 +46,8 @@ class TurnFilter {
   /// Mean square of the normalised innovations at the estimate: 1 when the noise is as stated, with standard
   /// deviation sqrt(2/readings()).
   [[nodiscard]] double reduced_chi_squared() const;
+  /// Of all readings, the constants sought left open; but for a constant that depends on neither walk nor noise.
+  [[nodiscard]] double log_likelihood() const { return log_likelihood_; }
   /// Heading at the last reading, less A, and its variance.
   [[nodiscard]] double heading_rad() const;
   [[nodiscard]] double heading_variance_rad2() const;
@@ -96,7 +98,9 @@ class TurnFilter {
 
   // Second stage: sums over the rows of the innovations.
   TurnNoise::Products products_ = TurnNoise::Products::Zero();
+  double log_variances_ = 0;  ///< sum of the logarithms of the innovations' variances
   Solution solution_;
+  double log_likelihood_ = 0;
 
   double measured_rad_ = 0;   ///< newest reading
   double unwrapped_rad_ = 0;  ///< the same, continuous

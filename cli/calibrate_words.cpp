@@ -67,6 +67,7 @@ std::string_view title_of(Calibrator calibrator) { return kTitles.at(static_cast
 std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
   std::vector<ShownQuantity> all;
   for (const calib::Quantity& quantity : report.estimate) {
+    if (quantity.name.starts_with("matrix_")) continue;  // for programs: people look at the heading's error
     const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
                                    [&](const Unit& u) { return quantity.name.ends_with(u.ending); });
     const bool found = unit != kUnits.end();

@@ -14,6 +14,7 @@ calib::CompassReading calib_reading(const instruments::CompassSample& compass, c
   const instruments::CompassError error(compass.error);
   calib::CompassReading reading;
   reading.time_s = time_s;
+  reading.time_std_s = 1e-9 * static_cast<double>(stamp.std_ns);
   if (!compass.heading_is_true) reading.heading_rad = compass.heading_rad;
   reading.pitch_rad = compass.pitch_rad;
   reading.roll_rad = compass.roll_rad;
@@ -26,9 +27,11 @@ calib::CompassReading calib_reading(const instruments::CompassSample& compass, c
   return reading;
 }
 
-calib::RateReading calib_reading(const instruments::ImuSample& imu, double time_s) {
+calib::RateReading calib_reading(const instruments::ImuSample& imu, const instruments::Stamp& stamp,
+                                 double time_s) {
   calib::RateReading reading;
   reading.time_s = time_s;
+  reading.time_std_s = 1e-9 * static_cast<double>(stamp.std_ns);
   reading.rate_rad_s = vector(imu.rate_rad_s);
   reading.yaw_rate_b_rad_s = imu.yaw_rate_b_rad_s;
   reading.specific_force_m_s2 = vector(imu.specific_force_m_s2);

@@ -66,7 +66,7 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::ImuSample& imu) {
   if (sample.port != ports_.imu) return;
-  suite_.put(calib_reading(imu, seconds(sample.stamp.validity_ns)));
+  suite_.put(calib_reading(imu, sample.stamp, seconds(sample.stamp.validity_ns)));
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::GpsSample& gps) {

@@ -29,6 +29,8 @@ std::string_view needs_of(Calibrator calibrator) {
     case Calibrator::misalignment:
     case Calibrator::course_delay:
       return "a compass and a GPS receiver (protocol oncore or nmea)";
+    case Calibrator::motor_current:
+      return "a compass that gives its field, an inertial card and a motor card";
     case Calibrator::gyro:
     case Calibrator::gyro_b:
     case Calibrator::compass:
@@ -107,6 +109,15 @@ Json magnetometer_json(const calib::Report& report) {
   Json json;
   json["offset_uT"] = field ? vector_json(field->offset_uT) : Json(nullptr);
   json["matrix"] = field ? matrix_json(field->matrix) : Json(nullptr);
+  const auto std = [&](const std::string& name) { return value_of(magnetometer, name, &calib::Quantity::std); };
+  json["std"]["offset_uT"] = {std("offset_x_uT"), std("offset_y_uT"), std("offset_z_uT")};
+  json["std"]["matrix"] = {{std("matrix_xx"), std("matrix_xy"), std("matrix_xz")},
+                           {std("matrix_xy"), std("matrix_yy"), std("matrix_yz")},
+                           {std("matrix_xz"), std("matrix_yz"), std("matrix_zz")}};
+  json["std"]["worst_heading_deg"] = value_of(magnetometer, "worst_heading_rad", &calib::Quantity::std, kDegrees);
+  json["field_scale"] = value_of(magnetometer, "field_scale", &calib::Quantity::value);
+  json["std"]["field_scale"] = std("field_scale");
+  json["field_uT"] = value_of(magnetometer, "field_uT", &calib::Quantity::value);
   json["residual_uT"] = value_of(magnetometer, "residual_uT", &calib::Quantity::value);
   json["coverage"] = magnetometer == nullptr ? Json(0.0) : number_json(magnetometer->judgement.coverage);
   json["samples"] = magnetometer == nullptr ? 0 : magnetometer->judgement.samples;
@@ -124,7 +135,7 @@ Json motor_json(const calib::CalibratorReport* report) {
   Json json;
   json["slope_uT_per_A"] = std::move(slope);
   json["std"] = std::move(std);
-  append_judgement(json, report);
+  append_judgement(json, report, Calibrator::motor_current);
   return json;
 }
 

@@ -6,6 +6,8 @@ namespace navcal::bench {
 
 /// THESIS 11.4.
 void print_magnetometer(const TableOptions& options);
+/// The recipe of MAGYC.
+void print_magyc(const TableOptions& options);
 /// The recordings of others in ../shared/data.
 void print_magnetometer_real(const TableOptions& options);
 

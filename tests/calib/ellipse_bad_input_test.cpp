@@ -110,7 +110,7 @@ TEST(EllipseBadInput, TheSummaryIsBounded) {
   std::uniform_real_distribution<double> anywhere(-400, 400);
   EllipseEstimator estimator({});
   for (int i = 0; i < 5000; ++i) estimator.update({anywhere(random), anywhere(random), 0}, 0, 0);
-  EXPECT_LE(estimator.cells().cells().size(), (FieldCells<2, 2>::kCapacity));
+  EXPECT_LE(estimator.cells().cells().size(), (FieldCells<2, 4>::kCapacity));
   expect_refused(estimator);
 }
 

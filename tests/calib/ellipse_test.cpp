@@ -59,9 +59,9 @@ TEST(Ellipse, CellsAreAsGoodAsSingleReadings) {
     estimator.settle();
     EllipseCells single;
     for (const auto& r : readings) {
-      FieldCells<2, 2>::Cell cell;
+      FieldCells<2, 4>::Cell cell;
       cell.count = 1;
-      cell.mean = r.field_body_uT.head<2>();
+      cell.mean.head<2>() = r.field_body_uT.head<2>();
       single.push_back(cell);
     }
     EllipseFit fit = *estimator.fit();
