@@ -89,7 +89,7 @@ void TurnIntegrator::update(const RateReading& reading) {
     return;
   }
   rates_.add(reading.time_s, value);
-  if (parameters_.tilt_lag_s > 0) inclinometer_.update(reading.time_s, value.head<3>());
+  if (parameters_.tilt_lag_s > 0) inclinometer_.update(reading.time_s, Eigen::Vector3d(value.head<3>()));
 }
 
 void TurnIntegrator::test_lag() {
@@ -97,7 +97,7 @@ void TurnIntegrator::test_lag() {
     const double time_s = compass_.time_s(i);
     if (lag_tested_s_ && time_s <= *lag_tested_s_) continue;
     if (!rates_.settled(time_s)) return;
-    inclinometer_.update(time_s, compass_.value(i).head<2>());
+    inclinometer_.update(time_s, Eigen::Vector2d(compass_.value(i).head<2>()));
     lag_tested_s_ = time_s;
   }
 }
