@@ -65,7 +65,8 @@ TEST(InclinometerLag, AFluidLags) { EXPECT_TRUE(Drive{}.decides_for_lag()); }
 TEST(InclinometerLag, AnAccelerometerDoesNot) { EXPECT_FALSE(Drive{.lag_s = 0}.decides_for_lag()); }
 
 TEST(InclinometerLag, GyrosThatTellNothingAreNotUsed) {
-  EXPECT_FALSE(Drive{.gyros_tell = false, .bias_rad_s = 0}.decides_for_lag());
+  const Drive drive{.gyros_tell = false, .bias_rad_s = 0};
+  EXPECT_FALSE(drive.decides_for_lag());
 }
 
 TEST(InclinometerLag, StillWaterDecidesNothing) { EXPECT_TRUE(Drive{.motion = 0}.decides_for_lag()); }
