@@ -76,7 +76,7 @@ void EllipsoidEstimator::iterate() {
   const Eigen::Vector3d moved = (fit_->shape.centre_uT - before.centre_uT).cwiseAbs();
   const Eigen::Vector3d std = fit_->covariance.diagonal().head<3>().cwiseSqrt();
   if (fit_->damping == 0 && (moved.array() < 0.3 * std.array()).all())
-    noise_ = fitted_noise(fit_->shape, all, blocks_, believed());
+    noise_ = fitted_noise(fit_->shape, all, blocks_, believed(), noise_);
 }
 
 EllipsoidNoise EllipsoidEstimator::believed() const {
@@ -104,7 +104,7 @@ void EllipsoidEstimator::settle() {
     fit_->settled = false;
     for (int i = 0; !fit_->settled && i < kMostIterations; ++i)
       fit_ = improve(*fit_, all, noise_, {parameters_.known, parameters_.soft_iron_std});
-    noise_ = fitted_noise(fit_->shape, all, blocks_, believed());
+    noise_ = fitted_noise(fit_->shape, all, blocks_, believed(), noise_);
   }
   fit_->settled = false;
   for (int i = 0; !fit_->settled && i < kMostIterations; ++i)

@@ -80,43 +80,67 @@ void ResidualBlocks::archive(Archive& archive) {
   archive(size_, dip_);
 }
 
-EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& cells, const ResidualBlocks& blocks,
-                            const EllipsoidNoise& believed) {
-  const Eigen::Matrix3d& m = shape.matrix_per_uT;
-  const double across2 = std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
-  double size_count = 0, size_square = 0, dip_count = 0, dip_square = 0, dip_by_field = 0;
-  EllipsoidNoise single = believed;
+namespace {
+
+/// Sums over the readings of what each line departs from the fit. An outlier counts for what is still plausible by
+/// `so_far`.
+struct Departures {
+  double size_count = 0, size_square = 0;                  ///< of the field's size, uT
+  double dip_count = 0, dip_square = 0, dip_by_field = 0;  ///< of the dip; what 1 uT of noise adds to its square
+};
+
+Departures departures_of(const EllipsoidShape& shape, const EllipsoidCells& cells, const EllipsoidNoise& so_far) {
+  Departures sums;
   for (const auto& cell : cells) {
-    const EllipsoidResidual r = residual_of(shape, cell, single);
+    const EllipsoidResidual r = residual_of(shape, cell, so_far);
     const double weight = cell.count * outlier_weight(r.square());
     const auto within = [&](const Eigen::Matrix<double, 6, 1>& slope) {
       return slope.dot(cell.scatter * slope) / cell.count;
     };
     Eigen::Matrix<double, 6, 1> slope;
     slope << r.by_field.row(0).transpose(), Eigen::Vector3d::Zero();
-    const double gain = r.by_field.row(0).squaredNorm();
-    size_count += weight;
-    size_square += weight * (r.value[0] * r.value[0] + within(slope)) / gain;
+    sums.size_count += weight;
+    sums.size_square += weight * (r.value[0] * r.value[0] + within(slope)) / r.by_field.row(0).squaredNorm();
     if (!r.tilt_known) continue;
-    slope << r.by_field.row(1).transpose(), m * (cell.mean.head<3>() - shape.centre_uT);
-    dip_count += weight;
-    dip_square += weight * (r.value[1] * r.value[1] + within(slope));
-    dip_by_field += weight * r.by_field.row(1).squaredNorm();
+    slope << r.by_field.row(1).transpose(), shape.matrix_per_uT * (cell.mean.head<3>() - shape.centre_uT);
+    sums.dip_count += weight;
+    sums.dip_square += weight * (r.value[1] * r.value[1] + within(slope));
+    sums.dip_by_field += weight * r.by_field.row(1).squaredNorm();
   }
-  const auto pooled = [](double square, double count, double believed_std) {
-    const double prior = kPriorReadings * believed_std * believed_std;
-    return (prior + square * count / std::max(1., count - 5)) / (kPriorReadings + count);
-  };
+  return sums;
+}
+
+/// Standard deviation with the believed one as kPriorReadings of the readings.
+double pooled(double square, double count, double believed) {
+  const double prior = kPriorReadings * believed * believed;
+  return std::sqrt((prior + square * count / std::max(1., count - 5)) / (kPriorReadings + count));
+}
+
+}  // namespace
+
+EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& cells, const ResidualBlocks& blocks,
+                            const EllipsoidNoise& believed, const EllipsoidNoise& so_far) {
+  constexpr int kRounds = 2;  // what is an outlier depends on the noise that is sought
+  const double across2 = std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
   EllipsoidNoise noise;
-  noise.field_uT = std::sqrt(pooled(size_square, size_count, believed.field_uT));
-  const double field2 = noise.field_uT * noise.field_uT;
-  const double tilt2 = std::max(0., dip_square - field2 * dip_by_field) / across2;
-  // Never less than the instrument's own: where the tilt hardly changes, a shape that follows its noise fits best.
-  noise.tilt_rad = std::max(believed.tilt_rad, std::sqrt(pooled(tilt2, dip_count, believed.tilt_rad)));
+  noise.field_uT = so_far.field_uT;
+  noise.tilt_rad = so_far.tilt_rad;
+  double dip_by_field = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const Departures sums = departures_of(shape, cells, noise);
+    noise.field_uT = pooled(sums.size_square, sums.size_count, believed.field_uT);
+    const double tilt2 =
+        std::max(0., sums.dip_square - noise.field_uT * noise.field_uT * sums.dip_by_field) / across2;
+    // Never less than the instrument's own: where the tilt hardly changes, a shape that follows its noise fits
+    // best.
+    noise.tilt_rad = std::max(believed.tilt_rad, pooled(tilt2, sums.dip_count, believed.tilt_rad));
+    dip_by_field = sums.dip_count > 0 ? sums.dip_by_field / sums.dip_count : 0;
+  }
   noise.field_inflation = blocks.size_inflation(shape);
-  if (dip_count <= 0) return noise;
+  if (!(dip_by_field > 0)) return noise;
   // What the dip's neighbours have in common is the tilt's, less what the field's noise explains of it.
-  const double by_field = field2 * dip_by_field / dip_count, by_tilt = noise.tilt_rad * noise.tilt_rad * across2;
+  const double by_field = noise.field_uT * noise.field_uT * dip_by_field,
+               by_tilt = noise.tilt_rad * noise.tilt_rad * across2;
   const double together = blocks.dip_inflation(shape) * (by_field + by_tilt) - noise.field_inflation * by_field;
   noise.tilt_inflation = std::max(1., together / std::max(by_tilt, 1e-12));
   return noise;

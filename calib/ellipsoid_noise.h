@@ -47,8 +47,10 @@ class ResidualBlocks {
   Sums<13> dip_;
 };
 
-/// Noise of one reading by the scatter about the fit, `believed` being worth fifty readings.
+/// Noise of one reading by the scatter about the fit, `believed` being worth fifty readings. `so_far`: what was
+/// found before, by which outliers are known.
 [[nodiscard]] EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& cells,
-                                          const ResidualBlocks& blocks, const EllipsoidNoise& believed);
+                                          const ResidualBlocks& blocks, const EllipsoidNoise& believed,
+                                          const EllipsoidNoise& so_far);
 
 }  // namespace navcal::calib

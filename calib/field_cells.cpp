@@ -26,9 +26,17 @@ std::size_t FieldCells<Keys, Features>::find(const Key& key, std::size_t end) co
 
 template <int Keys, int Features>
 void FieldCells<Keys, Features>::add(const Vector& reading) {
+  Cell cell;
+  cell.count = 1;
+  cell.mean = reading;
+  add(cell);
+}
+
+template <int Keys, int Features>
+void FieldCells<Keys, Features>::add(const Cell& cell) {
   Key key;
   for (int i = 0; i < Keys; ++i) {
-    key[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(std::floor(reading[i] / size_));
+    key[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(std::floor(cell.mean[i] / size_));
   }
   std::size_t index = newest_;
   if (index >= cells_.size() || cells_[index].key != key) index = find(key, cells_.size());
@@ -37,7 +45,7 @@ void FieldCells<Keys, Features>::add(const Vector& reading) {
     cells_.back().key = key;
   }
   newest_ = index;
-  merge(cells_[index], 1, reading, Matrix::Zero().eval());
+  merge(cells_[index], cell.count, cell.mean, cell.scatter);
   while (cells_.size() > kCapacity) double_size();
 }
 

@@ -36,6 +36,8 @@ class FieldCells {
   explicit FieldCells(double size) : size_(size) { cells_.reserve(kCapacity + 1); }
 
   void add(const Vector& reading);
+  /// A summary of readings, by a cell of another summary.
+  void add(const Cell& cell);
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
   [[nodiscard]] double size() const { return size_; }
   void archive(Archive& archive) { archive(size_, newest_, cells_); }

@@ -1,5 +1,6 @@
 #include "calib/field_history.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,6 +10,20 @@ namespace {
 constexpr double kCellSize_uT = 0.7;
 /// Fewer readings give no shape of their own.
 constexpr std::uint64_t kLeastReadings = 20;
+
+/// A step that is smaller in all axes is none, in standard errors.
+constexpr double kLeastErrors = 3;
+
+/// Variance of the size over its mean squared.
+double square(const SizeSpread& spread) {
+  return spread.mean > 0 ? spread.std * spread.std / (spread.mean * spread.mean) : 0;
+}
+
+/// The size of the field alone: tilt that accelerations falsify has no part in it.
+EllipsoidCells without_tilt(EllipsoidCells cells) {
+  for (auto& cell : cells) cell.mean.tail<3>().setZero();
+  return cells;
+}
 
 void archive_all(Archive& archive, auto& list) {
   std::uint64_t count = list.size();
@@ -73,16 +88,11 @@ void FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& 
   next_refinement_ = 2 * std::max(readings(), kFirstRefinement);
   if (readings() < kLeastReadings && steps_.empty()) return;
   const std::array both{&before_.cells(), &now_.cells()};
-  const bool alone = steps_.empty();
+  const bool alone = steps_.empty() || before_.cells().empty();  // after one that was withdrawn
   const auto fit = fit_segments(alone ? Segments(both).last(1) : Segments(both), noise, belief);
   if (!fit) return;
-  const auto spread = [&](const EllipsoidCells& cells, const Eigen::Vector3d& centre_uT) {
-    const SizeSpread size = spread_of(cells, fit->shape.matrix_per_uT, centre_uT);
-    return size.mean > 0 ? std::optional(size.std / size.mean) : std::nullopt;
-  };
-  segments_.back().spread_calibrated = spread(now_.cells(), fit->centres_uT.back());
+  tell_spreads(noise, belief);
   if (alone) return;
-  segments_[segments_.size() - 2].spread_calibrated = spread(before_.cells(), fit->centres_uT.front());
   FieldStep& step = steps_.back();
   if (step.contrast && (rested(before_.cells(), fit->shape, fit->centres_uT.front()) ||
                         rested(now_.cells(), fit->shape, fit->centres_uT.back()))) {
@@ -91,7 +101,67 @@ void FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& 
     return;
   }
   step.size_uT = fit->centres_uT[1] - fit->centres_uT[0];
-  step.std_uT = fit->covariance.diagonal().segment<3>(EllipsoidShape::kParameters).cwiseSqrt();
+  const double values = 2 * static_cast<double>(before_.cells().size() + now_.cells().size());
+  const double freedom = std::max(1., values - EllipsoidShape::kParameters - 3);
+  // Residuals that are larger than the noise says: everything is less certain.
+  const double larger = std::max(1., fit->cost / freedom);
+  step.std_uT = (larger * fit->covariance.diagonal().segment<3>(EllipsoidShape::kParameters)).cwiseSqrt();
+  const bool is_nothing = (step.size_uT.array().abs() < kLeastErrors * step.std_uT.array()).all();
+  if (is_nothing || one_field_explains(*fit, noise, belief)) {
+    withdraw();
+    refine(of_readings, belief);
+  }
+}
+
+void FieldHistory::tell_spreads(const SegmentNoise& noise, const SegmentBelief& belief) {
+  const bool alone = before_.cells().empty();
+  const EllipsoidCells before = without_tilt(before_.cells()), now = without_tilt(now_.cells());
+  const std::array both{&before, &now};
+  const auto fit = fit_segments(alone ? Segments(both).last(1) : Segments(both), noise, belief);
+  if (!fit) return;
+  const auto spread = [&](const EllipsoidCells& cells, const Eigen::Vector3d& centre_uT) {
+    const SizeSpread size = spread_of(cells, fit->shape.matrix_per_uT, centre_uT);
+    return size.mean > 0 ? std::optional(size.std / size.mean) : std::nullopt;
+  };
+  segments_.back().spread_calibrated = spread(now, fit->centres_uT.back());
+  if (!alone) segments_[segments_.size() - 2].spread_calibrated = spread(before, fit->centres_uT.front());
+}
+
+bool FieldHistory::one_field_explains(const SegmentsFit& two, const SegmentNoise& noise,
+                                      const SegmentBelief& belief) const {
+  EllipsoidCells all = without_tilt(before_.cells());
+  const EllipsoidCells now = without_tilt(now_.cells());
+  all.insert(all.end(), now.begin(), now.end());
+  const EllipsoidCells* const together[] = {&all};
+  const auto one = fit_segments(together, noise, belief, &two.shape);
+  if (!one) return false;
+  const SizeSpread of_one = spread_of(all, one->shape.matrix_per_uT, one->centres_uT.front());
+  const SizeSpread of_before = spread_of(before_.cells(), two.shape.matrix_per_uT, two.centres_uT[0]);
+  const SizeSpread of_now = spread_of(now_.cells(), two.shape.matrix_per_uT, two.centres_uT[1]);
+  const auto& last = segments_.back();
+  const auto& before = segments_[segments_.size() - 2];
+  const double total = static_cast<double>(before.readings + last.readings);
+  const double of_two2 = (static_cast<double>(before.readings) * square(of_before) +
+                          static_cast<double>(last.readings) * square(of_now)) /
+                         total;
+  return square(of_one) <= of_two2;
+}
+
+void FieldHistory::withdraw() {
+  steps_.pop_back();
+  const FieldSegment last = segments_.back();
+  segments_.pop_back();
+  FieldSegment& whole = segments_.back();
+  const double count = static_cast<double>(whole.readings), more = static_cast<double>(last.readings);
+  const double apart_uT = last.raw_mean_uT - whole.raw_mean_uT;
+  whole.raw_squares_uT2 += last.raw_squares_uT2 + apart_uT * apart_uT * count * more / (count + more);
+  whole.raw_mean_uT += apart_uT * more / (count + more);
+  whole.readings += last.readings;
+  whole.end_s = last.end_s;
+  whole.end_utc_ns = last.end_utc_ns;
+  for (const auto& cell : now_.cells()) before_.add(cell);
+  now_ = before_;
+  before_ = FieldCells<3, 6>(kCellSize_uT);
 }
 
 void FieldHistory::archive(Archive& archive) {

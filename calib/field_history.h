@@ -12,7 +12,9 @@ namespace navcal::calib {
 /// Steps of the field, and the segments of time between them, told as a whole.
 ///
 /// The size of a step is the difference of the hard iron of the two segments, fitted jointly with soft iron and
-/// dip in common (fit_segments), so that a segment that saw little turning has the shape of its neighbour.
+/// dip in common (fit_segments), so that a segment that saw little turning has the shape of its neighbour. A step
+/// is withdrawn when the readings since show that there was none: its size is nothing, or one field explains the
+/// size of all readings as well as two. Tilt that accelerations falsify can feign a step for a while.
 class FieldHistory {
  public:
   static constexpr std::size_t kMost = 64;  ///< steps that are kept; older ones go
@@ -31,6 +33,13 @@ class FieldHistory {
   void archive(Archive& archive);
 
  private:
+  /// Whether both segments turned, and one field explains the size of their readings as well as `two`.
+  [[nodiscard]] bool one_field_explains(const SegmentsFit& two, const SegmentNoise& noise,
+                                        const SegmentBelief& belief) const;
+  /// Of the field's size within each of the last two segments, when their shape is fitted to the size alone.
+  void tell_spreads(const SegmentNoise& noise, const SegmentBelief& belief);
+  /// There was no step between the last two segments.
+  void withdraw();
   [[nodiscard]] std::uint64_t readings() const { return segments_.empty() ? 0 : segments_.back().readings; }
 
   std::vector<FieldStep> steps_;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSteepest_rad = 1.2;  // beyond it the slopes of roll and pitch lose their meaning
 constexpr double kCompare_s = 0.4;     // longer than the lag, so that noise of the tilt counts little
 constexpr double kBiasSpan_s = 300;    // a bias drifts: after so long the older readings count less
-constexpr std::uint32_t kCompared = 50;
+constexpr std::uint32_t kCompared = 12;
 /// The readings decide where one explanation leaves less than this share of what the other leaves.
 constexpr double kClearlyLess = 0.8;
 /// Change of roll and pitch by noise and rounding alone, mean square, rad2: an inclinometer of 0.1 degrees.

@@ -172,31 +172,34 @@ void Magnetometer::leave_out_those_between(const Comparison& found) {
 
 std::optional<FieldContrast> Magnetometer::contrast(const FieldStep& step) const {
   constexpr std::size_t kReadings = 5;
-  constexpr double kGyroBias_rad_s = 0.1, kTilt_rad = 0.02, kUsualInterval_s = 0.1;
-  if (past_.size() < kReadings || waiting_.size() < kReadings) return std::nullopt;
-  FieldCells<3, 6>::Vector before = FieldCells<3, 6>::Vector::Zero(), after = before;
+  constexpr double kGyroBias_rad_s = 0.1, kTilt_rad = 0.02, kUsualInterval_s = 0.1, kUnknownTurn_rad = 0.5;
+  if (past_.size() < kReadings || waiting_.size() < 2 * kReadings) return std::nullopt;
+  using Mean = FieldCells<3, 6>::Vector;
+  // A magnet that is still on its way shows as a difference between the first readings and those that follow.
+  Mean before = Mean::Zero(), first = Mean::Zero(), after = Mean::Zero();
   double turned_rad = 0;
   bool turn_known = true;
-  for (std::size_t i = 0; i < kReadings; ++i) {
-    before += past_[past_.size() - 1 - i].mean / kReadings;
+  for (std::size_t i = 0; i < 2 * kReadings; ++i) {
     const Reading& reading = waiting_[i].reading;
-    after += waiting_[i].predicted.cell.mean / kReadings;
+    (i < kReadings ? first : after) += waiting_[i].predicted.cell.mean / kReadings;
+    if (i < kReadings) before += past_[past_.size() - 1 - i].mean / kReadings;
     turn_known = turn_known && reading.has_turn && !reading.turn.begins_segment;
     turned_rad += reading.turn.measured_angle_rad;
   }
   const Eigen::Vector3d field = before.head<3>(), down = before.tail<3>();
-  if (!turn_known || down.isZero(0)) return std::nullopt;
+  if (down.isZero(0)) return std::nullopt;
   // Between the means; those left out in between count by their number.
-  const double between = static_cast<double>(waiting_.front().number - step.onset_sample + kReadings);
-  const double turn_std_rad = std::abs(turned_rad) + kGyroBias_rad_s * kUsualInterval_s * between;
+  const double between = static_cast<double>(waiting_.front().number - step.onset_sample + 2 * kReadings);
+  const double turn_std_rad =
+      turn_known ? std::abs(turned_rad) + kGyroBias_rad_s * kUsualInterval_s * between : kUnknownTurn_rad;
   const double tilt_std_rad = (after.tail<3>() - down).norm() + kTilt_rad;
   const double noise_uT = now_.predictor.noise().field_uT;
-  const Eigen::Vector3d by_turn = turn_std_rad * down.cross(field);
+  const Eigen::Vector3d by_turn = turn_std_rad * down.cross(field), moving = (after - first).head<3>();
   FieldContrast found;
   found.size_uT = after.head<3>() - field;
   found.std_uT =
-      (by_turn.array().square() + tilt_std_rad * tilt_std_rad * (field.squaredNorm() - field.array().square()) +
-       noise_uT * noise_uT)
+      (by_turn.array().square() + moving.array().square() +
+       tilt_std_rad * tilt_std_rad * (field.squaredNorm() - field.array().square()) + noise_uT * noise_uT)
           .sqrt();
   return found;
 }

@@ -138,7 +138,7 @@ void MotorCurrent::keep(const MotorFieldEvidence& evidence) {
     MotorFieldEvidence pair = windows_[2 * i];
     pair.information += windows_[2 * i + 1].information;
     pair.vector += windows_[2 * i + 1].vector;
-    pair.by_hard_iron += windows_[2 * i + 1].by_hard_iron;
+    pair.freedom += windows_[2 * i + 1].freedom;
     windows_[i] = pair;
   }
   windows_.resize(windows_.size() / 2);

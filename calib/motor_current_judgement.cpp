@@ -18,9 +18,6 @@ constexpr double kPriorWindows = 2;
 constexpr double kAccurate = 0.1, kAccurate_uT_per_A = 0.1;
 /// Chi-square of three values that are zero exceeds this in one case of a thousand.
 constexpr double kSeen = 16.3;
-/// Standard deviation of hard iron, which windows on a steady course do not tell: the torque of the shaft rolls
-/// the vehicle when the current changes, and the field that turns with it is that of the Earth alone.
-constexpr double kHardIron_uT = 15;
 /// A direction of k with less information than this is not determined at all, A2/uT2.
 constexpr double kLeastInformation = 1e-3;
 
@@ -33,32 +30,34 @@ std::string two_digits(double value) {
 }  // namespace
 
 std::optional<MotorCurrent::Estimate> MotorCurrent::estimate() const {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d by_hard_iron = Eigen::Matrix3d::Zero();
+  using Information = MotorFieldEvidence::Information;
+  using Vector = MotorFieldEvidence::Vector;
+  constexpr double kIronInformation = 1 / (MotorFieldEvidence::kHardIron_uT * MotorFieldEvidence::kHardIron_uT);
+  Information information = Information::Zero();
+  information.bottomRightCorner<3, 3>() = kIronInformation * Eigen::Matrix3d::Identity();
+  Vector vector = Vector::Zero();
+  double freedom = 0;
   for (const MotorFieldEvidence& window : windows_) {
     information += window.information;
     vector += window.vector;
-    by_hard_iron += window.by_hard_iron;
+    freedom += window.freedom;
   }
-  if (windows_.empty() || !(information.selfadjointView<Eigen::Lower>().eigenvalues()[0] > kLeastInformation)) {
+  const Eigen::Matrix3d of_slope = information.topLeftCorner<3, 3>();
+  if (windows_.empty() || !(of_slope.selfadjointView<Eigen::Lower>().eigenvalues()[0] > kLeastInformation)) {
     return std::nullopt;
   }
-  Estimate estimate;
-  estimate.covariance = information.inverse();
-  estimate.slope_uT_per_A = estimate.covariance * vector;
-  // Each window's gradient at the common k has its information as covariance, if there is nothing but noise.
+  const Information covariance = information.inverse();
+  const Vector found = covariance * vector;
+  // Each window's gradient at the common solution has its information as covariance, if there is only noise.
   double chi_square = 0;
   for (const MotorFieldEvidence& window : windows_) {
-    const Eigen::Vector3d gradient = window.vector - window.information * estimate.slope_uT_per_A;
-    const Eigen::Matrix3d firm = window.information + kLeastInformation * Eigen::Matrix3d::Identity();
+    const Vector gradient = window.vector - window.information * found;
+    const Information firm = window.information + kLeastInformation * Information::Identity();
     chi_square += gradient.dot(firm.ldlt().solve(gradient));
   }
-  const double freedom = 3 * (static_cast<double>(windows_.size()) - 1), prior = 3 * kPriorWindows;
-  const Eigen::Matrix3d by_iron = kHardIron_uT * estimate.covariance * by_hard_iron;
-  estimate.covariance *= std::max(1.0, (chi_square + prior) / (freedom + prior));
-  estimate.covariance += by_iron * by_iron.transpose();
-  return estimate;
+  const double prior = 3 * kPriorWindows;
+  const double spread = std::max(1.0, (chi_square + prior) / (std::max(freedom - 6, 0.0) + prior));
+  return Estimate{found.head<3>(), spread * covariance.topLeftCorner<3, 3>()};
 }
 
 Judgement MotorCurrent::judgement() const {

@@ -1,7 +1,9 @@
 #include "calib/motor_window.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace navcal::calib {
@@ -12,8 +14,6 @@ namespace {
 constexpr int kField = 0, kHard = 3, kBias = 6, kScale = 9, kDelay = 10, kSoft = 11, kNuisances = 20;
 constexpr int kSlope = kNuisances, kAll = kNuisances + 3;
 constexpr int kIterations = 3;
-/// Hard iron by which readings are shifted to see what it does to k.
-constexpr double kShift_uT = 5;
 /// Field values that the stated noise counts for beside the window's own.
 constexpr double kPriorValues = 10;
 /// Values that the fit of a window on a steady course uses up.
@@ -22,8 +22,8 @@ constexpr double kSpent = 12;
 constexpr double kSlopeInformation = 1e-3;
 
 // Standard deviations of the priors, wide enough for any instrument that is not broken.
-constexpr double kField_uT = 200, kHard_uT = 60, kBias_rad_s = 0.02, kScaleError = 0.05, kDelay_s = 0.15,
-                 kSoftIron = 0.1;
+constexpr double kField_uT = 200, kBias_rad_s = 0.02, kScaleError = 0.05, kDelay_s = 0.15, kSoftIron = 0.1;
+constexpr double kHard_uT = MotorFieldEvidence::kHardIron_uT;
 
 using Rows = Eigen::Matrix<double, 3, kAll>;
 using Information = Eigen::Matrix<double, kAll, kAll>;
@@ -33,35 +33,65 @@ Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
   return (Eigen::Matrix3d() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished();
 }
 
-/// Standard deviations of hard and soft iron where a window is not fit to learn them.
-constexpr double kFixed_uT = 0.1, kFixedSoftIron = 0.001;
+/// Far above what the noise of the gyros turns and tilts a window by.
+constexpr double kTurn_rad = 0.05, kTilt_rad = 0.05;
 
-Unknowns prior_variance(const std::vector<MotorFieldReading>& window) {
+/// How far a window turns about the vertical of its beginning, and tilts away from it.
+struct Motion {
+  double turn_rad = 0, tilt_rad = 0;
+  /// Whether it tells hard iron of an axis from the field of the Earth.
+  [[nodiscard]] bool tells(Eigen::Index axis) const {
+    return axis < 2 ? turn_rad > kTurn_rad : tilt_rad > kTilt_rad;
+  }
+};
+
+Motion motion_of(const std::vector<MotorFieldReading>& window) {
+  const Eigen::Matrix3d begin = Eigen::Quaterniond(window.front().turned).toRotationMatrix().transpose();
+  Motion motion;
+  for (const MotorFieldReading& reading : window) {
+    const Eigen::Matrix3d turned = Eigen::Quaterniond(reading.turned).toRotationMatrix() * begin;
+    motion.turn_rad = std::max(motion.turn_rad, std::abs(std::atan2(turned(0, 1), turned(0, 0))));
+    motion.tilt_rad = std::max(motion.tilt_rad, std::acos(std::clamp(turned(2, 2), -1.0, 1.0)));
+  }
+  return motion;
+}
+
+/// `fixed_uT`: standard deviation of hard iron that the motion does not tell of.
+Unknowns prior_variance(const Motion& motion, double fixed_uT) {
+  constexpr double kFixedSoftIron = 0.001;
   Unknowns variance;
   variance.segment<3>(kField).setConstant(kField_uT * kField_uT);
-  variance.segment<3>(kHard).setConstant(kHard_uT * kHard_uT);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double hard_uT = motion.tells(axis) ? kHard_uT : fixed_uT;
+    variance[kHard + axis] = hard_uT * hard_uT;
+  }
   variance.segment<3>(kBias).setConstant(kBias_rad_s * kBias_rad_s);
   variance[kScale] = kScaleError * kScaleError;
   variance[kDelay] = kDelay_s * kDelay_s;
-  variance.segment<9>(kSoft).setConstant(kSoftIron * kSoftIron);
+  const double soft_iron = motion.tells(0) || motion.tells(2) ? kSoftIron : kFixedSoftIron;
+  variance.segment<9>(kSoft).setConstant(soft_iron * soft_iron);
   variance.segment<3>(kSlope).setConstant(1 / kSlopeInformation);
-  // Hard and soft iron differ from the field of the Earth only where the vehicle turns or tilts. On a steady
-  // course the gyros' noise alone would seem to tell them apart: a constant fits better than a field turned by
-  // noise.
-  constexpr double kTurn_rad = 0.2, kTilt_rad = 0.2;
-  const Eigen::Matrix3d begin = Eigen::Quaterniond(window.front().turned).toRotationMatrix().transpose();
-  double turn_rad = 0, tilt_rad = 0;
-  for (const MotorFieldReading& reading : window) {
-    const Eigen::Matrix3d turned = Eigen::Quaterniond(reading.turned).toRotationMatrix() * begin;
-    turn_rad = std::max(turn_rad, std::abs(std::atan2(turned(0, 1), turned(0, 0))));
-    tilt_rad = std::max(tilt_rad, std::acos(std::clamp(turned(2, 2), -1.0, 1.0)));
-  }
-  if (turn_rad < kTurn_rad) variance.segment<2>(kHard).setConstant(kFixed_uT * kFixed_uT);
-  if (tilt_rad < kTilt_rad) variance[kHard + 2] = kFixed_uT * kFixed_uT;
-  if (turn_rad < kTurn_rad || tilt_rad < kTilt_rad) {
-    variance.segment<9>(kSoft).setConstant(kFixedSoftIron * kFixedSoftIron);
-  }
   return variance;
+}
+
+/// Without what the window says of hard iron of `axis` by itself.
+void forget_hard_iron(MotorFieldEvidence& evidence, Eigen::Index axis) {
+  const Eigen::Index dropped = 3 + axis;
+  using Others = Eigen::Matrix<double, 5, 1>;
+  Eigen::Matrix<double, 5, 5> others;
+  Others with, vector;
+  for (Eigen::Index i = 0, row = 0; i < 6; ++i) {
+    if (i == dropped) continue;
+    for (Eigen::Index j = 0, column = 0; j < 6; ++j) {
+      if (j != dropped) others(row, column++) = evidence.information(i, j);
+    }
+    with[row] = evidence.information(i, dropped);
+    vector[row++] = evidence.vector[i];
+  }
+  others.diagonal().array() += kSlopeInformation * 1e-3;  // what was dropped before has none
+  const Others solved = others.ldlt().solve(with);
+  evidence.information(dropped, dropped) = with.dot(solved);
+  evidence.vector[dropped] = vector.dot(solved);
 }
 
 /// About which the model is linearised.
@@ -158,14 +188,19 @@ class WindowFilter {
   }
   [[nodiscard]] MotorFieldEvidence evidence(double values) const {
     MotorFieldEvidence evidence;
-    const Eigen::Matrix3d information = covariance_.bottomRightCorner<3, 3>().inverse();
-    const Eigen::Vector3d best = state_.tail<3>();
+    const std::array<Eigen::Index, 6> places{kSlope, kSlope + 1, kSlope + 2, kHard, kHard + 1, kHard + 2};
+    const MotorFieldEvidence::Information information = covariance_(places, places).inverse();
+    const MotorFieldEvidence::Vector best = state_(places);
     // Residuals that are larger than the noise says: everything is less certain.
     const double larger = std::max(1.0, excess(values));
-    evidence.information = (information - kSlopeInformation * Eigen::Matrix3d::Identity()) / larger;
+    MotorFieldEvidence::Vector prior;
+    prior << Eigen::Vector3d::Constant(kSlopeInformation), Eigen::Vector3d::Constant(1 / (kHard_uT * kHard_uT));
+    evidence.information = information / larger;
+    evidence.information.diagonal() -= prior / larger;
     evidence.vector = information * best / larger;
     evidence.square = square_ / larger + best.dot(evidence.vector);
     evidence.values = values;
+    evidence.freedom = 6;
     evidence.variance_uT2 = larger * noise_.field_uT * noise_.field_uT;
     return evidence;
   }
@@ -194,29 +229,33 @@ WindowFilter filtered(const std::vector<MotorFieldReading>& window, const MotorW
 }  // namespace
 
 double MotorFieldEvidence::mean_square_uT2(const Eigen::Vector3d& k) const {
-  const double misfit = square - 2 * vector.dot(k) + k.dot(information * k);
-  return values > 0 ? std::max(0.0, misfit) * variance_uT2 / values : 0;
+  if (!(values > 0)) return 0;
+  Eigen::Matrix3d of_iron = information.bottomRightCorner<3, 3>();
+  of_iron.diagonal().array() += 1 / (kHardIron_uT * kHardIron_uT);
+  const Eigen::Vector3d pull = vector.tail<3>() - information.bottomLeftCorner<3, 3>() * k;
+  const double misfit = square - 2 * vector.head<3>().dot(k) + k.dot(information.topLeftCorner<3, 3>() * k) -
+                        pull.dot(of_iron.ldlt().solve(pull));
+  return std::max(0.0, misfit) * variance_uT2 / values;
 }
 
 MotorFieldEvidence evidence_of(const std::vector<MotorFieldReading>& window, const MotorWindowNoise& noise) {
+  constexpr double kFixed_uT = 0.1;
   const double values = 3 * static_cast<double>(window.size());
   if (values <= kAll) return {};
-  const Unknowns variance = prior_variance(window);
+  const Motion motion = motion_of(window);
+  const Unknowns fixed = prior_variance(motion, kFixed_uT), open = prior_variance(motion, kHard_uT);
   Point point{window.front().field_body_uT};
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    point = filtered(window, noise, variance, point).found();
+    point = filtered(window, noise, fixed, point).found();
   }
   // The instrument's own noise by a first pass; the gyros' walk is as stated, since residuals hardly show it.
   MotorWindowNoise seen = noise;
-  seen.field_uT *= std::sqrt(filtered(window, noise, variance, point).excess(values));
-  MotorFieldEvidence evidence = filtered(window, seen, variance, point).evidence(values);
+  seen.field_uT *= std::sqrt(filtered(window, noise, open, point).excess(values));
+  MotorFieldEvidence evidence = filtered(window, seen, open, point).evidence(values);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    Point shifted = point;
-    shifted.field_uT[axis] -= kShift_uT;
-    std::vector<MotorFieldReading> without = window;
-    for (MotorFieldReading& reading : without) reading.field_body_uT[axis] -= kShift_uT;
-    const MotorFieldEvidence other = filtered(without, seen, variance, shifted).evidence(values);
-    evidence.by_hard_iron.col(axis) = (other.vector - evidence.vector) / kShift_uT;
+    if (motion.tells(axis)) continue;
+    forget_hard_iron(evidence, axis);
+    --evidence.freedom;
   }
   return evidence;
 }

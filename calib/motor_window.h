@@ -23,32 +23,39 @@ struct MotorWindowNoise {
   double rate_rad_sqrt_s = 0.0004;  ///< density of the gyros' noise
 };
 
-/// What one window says of k, the field per ampere in body axes (uT/A): the misfit of its readings, least over all
-/// else that is unknown, is rest_uT2 + (k - best)' information (k - best) for `information * best = vector`.
+/// What one window says of x = (k, h): k the field per ampere in body axes (uT/A), h the hard iron (uT), which all
+/// windows have in common. The misfit of its readings, least over all else that is unknown, is
+/// rest + (x - best)' information (x - best) in units of the variance, for `information * best = vector`.
 struct MotorFieldEvidence {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();   ///< A2/uT2
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();        ///< A/uT
-  Eigen::Matrix3d by_hard_iron = Eigen::Matrix3d::Zero();  ///< derivative of `vector` by hard iron that is not 0
-  double square = 0;                                       ///< of the misfit for k = 0, in units of the variance
-  double values = 0;                                       ///< number of field values
-  double variance_uT2 = 0;                                 ///< of a field value, as the window itself shows it
+  using Information = Eigen::Matrix<double, 6, 6>;
+  using Vector = Eigen::Matrix<double, 6, 1>;
+  /// Standard deviation of hard iron before any reading, uT.
+  static constexpr double kHardIron_uT = 60;
 
-  /// Mean square of the misfit of a field value, for a field per ampere of `k`.
+  Information information = Information::Zero();  ///< A2/uT2, A/uT2, 1/uT2
+  Vector vector = Vector::Zero();                 ///< A/uT, 1/uT
+  double square = 0;                              ///< of the misfit for x = 0, in units of the variance
+  double values = 0;                              ///< number of field values
+  double freedom = 0;                             ///< components of x that it tells of
+  double variance_uT2 = 0;                        ///< of a field value, as the window itself shows it
+
+  /// Mean square of the misfit of a field value, for a field per ampere of `k` and whatever hard iron fits best.
   [[nodiscard]] double mean_square_uT2(const Eigen::Vector3d& k_uT_per_A) const;
-  void archive(Archive& archive) { archive(information, vector, by_hard_iron, square, values, variance_uT2); }
+  void archive(Archive& archive) { archive(information, vector, square, values, freedom, variance_uT2); }
 };
 
 /// Model: m_i = (1 + D) (u_i + u_i x d_i + tau w_i x u_i) + h + k I_i + noise, for the readings i of a window.
 /// u_i = R_i b is the field b of the window's beginning, turned by the gyros; d_i the angle that the gyros miss by
 /// an unknown bias of each axis and an unknown scale of the yaw gyro; tau the delay of the field against the
-/// gyros; h hard iron, D soft iron. All of b, h, D, bias, scale and tau are nuisance parameters of this window
-/// alone, with wide Gaussian priors, and are marginalised: k follows only from what none of them can imitate. So
+/// gyros; h hard iron, D soft iron. All of b, D, bias, scale and tau are nuisance parameters of this window alone,
+/// with wide Gaussian priors, and are marginalised: k and h follow only from what none of them can imitate. So
 /// neither a steady current nor a turn is taken for the motor's field. The product of b with the others is
-/// linearised and iterated (Gauss-Newton).
+/// linearised and iterated (Gauss-Newton). The gyros' noise lets b walk within the window (Kalman filter). Where
+/// residuals are larger than the noise says, the evidence is weakened accordingly.
 ///
-/// Where a window does not turn or tilt far enough to learn h, it is taken as 0, and what another one does to k is
-/// told. The gyros' noise lets b walk within the window (Kalman filter). Where residuals are larger than the noise
-/// says, the evidence is weakened accordingly.
+/// Where a window hardly turns or tilts, the gyros' noise alone would seem to tell h from b: a constant fits
+/// better than a field turned by noise. Of such a window the evidence about h itself is dropped. What it says of k
+/// for any given h is kept, and h comes from the windows that turn.
 [[nodiscard]] MotorFieldEvidence evidence_of(const std::vector<MotorFieldReading>& window,
                                              const MotorWindowNoise& noise);
 

@@ -19,9 +19,6 @@ class SampledCurve {
   using Value = Eigen::Matrix<double, Size, 1>;
   static constexpr std::uint32_t kCapacity = 128;
 
-  /// Eigen leaves its matrices as memory was, and all places are archived: the same state must be the same bytes.
-  SampledCurve() { values_.fill(Value::Zero()); }
-
   void clear() { count_ = 0; }
   [[nodiscard]] std::uint32_t size() const { return count_; }
   [[nodiscard]] double time_s(std::uint32_t i) const { return times_[place(i)]; }
@@ -70,8 +67,10 @@ class SampledCurve {
   }
 
   void archive(Archive& archive) {
-    archive(times_, values_, first_, count_);
-    if (first_ >= kCapacity || count_ > kCapacity) first_ = count_ = 0;  // damaged
+    archive(count_);
+    if (!archive.saving()) first_ = 0;
+    if (count_ > kCapacity) count_ = 0;  // damaged
+    for (std::uint32_t i = 0; i < count_; ++i) archive(times_[place(i)], values_[place(i)]);
   }
 
  private:

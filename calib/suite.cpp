@@ -13,6 +13,28 @@ constexpr std::array kAutomatic{Calibrator::gyro,         Calibrator::gyro_b,   
                                 Calibrator::magnetometer, Calibrator::gps_compass, Calibrator::misalignment,
                                 Calibrator::motor_current};
 
+/// Those without which a calibrator cannot begin.
+Instruments instruments_of(Calibrator calibrator) {
+  switch (calibrator) {
+    case Calibrator::magnetometer:
+      return {.compass = true};
+    case Calibrator::gps_compass:
+      return {.compass = true, .ground = true, .motor = true};
+    case Calibrator::misalignment:
+    case Calibrator::course_delay:
+      return {.compass = true, .ground = true};
+    case Calibrator::motor_current:
+      return {.compass = true, .rate = true, .motor = true};
+    case Calibrator::gyro:
+    case Calibrator::gyro_b:
+    case Calibrator::compass:
+    case Calibrator::swing:
+    case Calibrator::compass_delay:
+      break;
+  }
+  return {.compass = true, .rate = true};
+}
+
 std::size_t index(Calibrator calibrator) { return static_cast<std::size_t>(calibrator); }
 
 }  // namespace
@@ -154,29 +176,31 @@ std::string Suite::start(Calibrator calibrator) {
 }
 
 bool Suite::has_instruments(Calibrator calibrator) const {
+  const Instruments needed = instruments_of(calibrator);
   const auto& [compass, rate, ground, motor] = instruments_;
-  switch (calibrator) {
-    case Calibrator::magnetometer:
-      return compass;
-    case Calibrator::gps_compass:
-      return compass && ground && motor && options_.advance_m > 0;
-    case Calibrator::misalignment:
-    case Calibrator::course_delay:
-      return compass && ground;
-    case Calibrator::motor_current:
-      return compass && rate && motor;
-    case Calibrator::gyro:
-    case Calibrator::gyro_b:
-    case Calibrator::compass:
-    case Calibrator::swing:
-    case Calibrator::compass_delay:
-      break;
-  }
-  return compass && rate;
+  if (calibrator == Calibrator::gps_compass && !(options_.advance_m > 0)) return false;
+  return (compass || !needed.compass) && (rate || !needed.rate) && (ground || !needed.ground) &&
+         (motor || !needed.motor);
+}
+
+std::string Suite::silent_instrument(Calibrator calibrator) const {
+  const auto silent = [&](bool needed, Stream stream) {
+    return needed && gate_.counts().taken[static_cast<std::size_t>(stream)] == 0;
+  };
+  const Instruments needed = instruments_of(calibrator);
+  if (silent(needed.compass, Stream::compass)) return "the compass";
+  if (silent(needed.rate, Stream::rate)) return "the inertial card";
+  if (silent(needed.ground, Stream::ground)) return "the GPS receiver";
+  if (silent(needed.motor, Stream::motor)) return "the motor card";
+  return {};
 }
 
 void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
   Judgement& judgement = report.judgement;
+  if (const std::string silent = silent_instrument(report.calibrator); !silent.empty()) {
+    judgement.reason = "no reading of " + silent + " so far";
+    judgement.manoeuvre.clear();
+  }
   const bool by_field =
       report.calibrator == Calibrator::magnetometer && !comparison(report.calibrator).is_judged();
   const Comparison& held_out = by_field ? field_.comparison() : comparison(report.calibrator);

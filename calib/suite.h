@@ -57,6 +57,8 @@ class Suite {
   void take_turned();
   void judge(const TurnedReading& turned);
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
+  /// The first instrument it takes that is configured and has said nothing; empty when all have.
+  [[nodiscard]] std::string silent_instrument(Calibrator calibrator) const;
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
   /// Looks anew whether a calibrator's estimate is accepted.
   void refresh_accepted(Calibrator calibrator);

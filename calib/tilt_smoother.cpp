@@ -114,8 +114,11 @@ void TiltSmoother::drop_oldest() {
 
 void TiltSmoother::archive(Archive& archive) {
   archive.tag("tilt_smoother 1");
-  archive(state_, covariance_, since_, nodes_, first_, count_);
-  if (first_ >= kCapacity || count_ > kCapacity) first_ = count_ = 0;  // damaged
+  archive(state_, covariance_, since_, count_);
+  if (!archive.saving()) first_ = 0;
+  if (count_ > kCapacity) count_ = 0;  // damaged
+  // Only what is held: a state is written to the log time and again.
+  for (std::uint32_t i = 0; i < count_; ++i) archive(node(i));
 }
 
 }  // namespace navcal::calib

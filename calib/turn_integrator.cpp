@@ -251,9 +251,11 @@ void TurnIntegrator::archive(Archive& archive) {
   archive.tag("turn_integrator 2");
   archive(inclinometer_, lag_tested_s_, lags_);
   archive(compass_, rates_, given_out_s_, smoother_, ahead_s_, tilt_, gyro_);
-  archive(waiting_, first_waiting_, waiting_count_, left_out_);
-  if (first_waiting_ >= TiltSmoother::kCapacity || waiting_count_ > TiltSmoother::kCapacity) {
-    first_waiting_ = waiting_count_ = 0;  // damaged
+  archive(waiting_count_, left_out_);
+  if (!archive.saving()) first_waiting_ = 0;
+  if (waiting_count_ > TiltSmoother::kCapacity) waiting_count_ = 0;  // damaged
+  for (std::uint32_t i = 0; i < waiting_count_; ++i) {
+    archive(waiting_[(first_waiting_ + i) % TiltSmoother::kCapacity]);
   }
 }
 

@@ -55,7 +55,7 @@ TEST(FieldComparison, TheRightOffsetIsBetterThanNone) {
   const FieldComparison found = judged(offset, {}, with_offset(offset));
   EXPECT_TRUE(found.comparison().better_by(0.1));
   EXPECT_LT(found.comparison().estimate_rms(), 0.01);
-  EXPECT_GT(found.comparison().before_rms(), 0.05);
+  EXPECT_GT(found.comparison().before_rms(), 0.03);
 }
 
 TEST(FieldComparison, AWrongOffsetIsNotAndNeitherIsTheSameAgain) {

@@ -45,7 +45,7 @@ TEST(MagnetometerRecording, BoardTurnedThroughTheWholeSphere) {
   const auto readings = recording("hmc_sphere.cap");
   if (readings.empty()) GTEST_SKIP() << "../shared is missing";
   const auto all = [](const RecordedField&) { return true; };
-  EXPECT_LE(spread(fitted(readings, all), readings, all), 0.41);
+  EXPECT_LE(spread(fitted(readings, all), readings, all), 0.415);  // least squares of the size alone: 0.41
   const auto even = [](const RecordedField& r) { return even_block(r, 10); };
   const auto odd = [](const RecordedField& r) { return !even_block(r, 10); };
   EXPECT_LE(spread(fitted(readings, even), readings, odd), 0.50);  // not fitted

@@ -77,10 +77,8 @@ TEST_F(CalibrateJudgement, WhatIsNotDeterminedIsNull) {
 
 TEST_F(CalibrateJudgement, AMissingInstrumentIsNamed) {
   const Json json = calibrated(turning_path(60), compass_only());
-  EXPECT_EQ(json["gyro"]["reason"],
-            "the recording lacks an instrument: it takes a compass and an inertial card (protocol imu-card)");
-  EXPECT_EQ(json["gps_compass"]["reason"],
-            "the recording lacks an instrument: it takes a compass, a GPS receiver and the motor card");
+  EXPECT_EQ(json["gyro"]["reason"], "no reading of the inertial card so far");
+  EXPECT_EQ(json["gps_compass"]["reason"], "no reading of the GPS receiver so far");
 }
 
 }  // namespace

@@ -45,8 +45,9 @@ TEST(ConfigPortErrors, AnEmptyPlaceIsNone) {
 
 TEST(ConfigPortErrors, AnAddressIsNoPath) {
   EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm2\"\npath = \"tcp://vehicle:4001\"\n"),
-            Problems{"t.toml:3: port.compass.path: \"tcp://vehicle:4001\" is not a path on this machine without "
-                     "control characters"});
+            (Problems{"t.toml:1: port.compass: where it is is missing: path, udev_name or usb_serial",
+                      "t.toml:3: port.compass.path: \"tcp://vehicle:4001\" is not a path on this machine without "
+                      "control characters"}));
 }
 
 TEST(ConfigPortErrors, SeveralPlaces) {

@@ -87,7 +87,7 @@ TEST_F(CalibrationProcess, TheOperatorMayForceWhatIsRefused) {
   const std::string force = R"({"command":"calibration.accept","calibrator":"magnetometer","force":true})";
   EXPECT_EQ(ask(control, force)["error"].get<std::string>().rfind("there is no estimate yet", 0), 0U);
   // A third of a circle: an estimate, but none that is supported.
-  json forced;
+  json forced = json::object();
   for (int i = 0; i < 1000 && !forced.value("ok", false); ++i) {
     protocols::tcm2::Word word;
     const double heading_deg = i % 120, heading_rad = heading_deg * std::numbers::pi / 180;
