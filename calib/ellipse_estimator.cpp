@@ -59,6 +59,11 @@ void EllipseEstimator::update(const Eigen::Vector3d& field_body_uT, double roll_
   if (fit_) fit_ = improve(*fit_, cells_.cells(), parameters_.noise_uT);
 }
 
+void EllipseEstimator::absorb(const EllipseEstimator& other) {
+  for (const auto& cell : other.cells_.cells()) cells_.add(cell);
+  samples_ += other.samples_;
+}
+
 void EllipseEstimator::settle() {
   fit_ = started(cells_.cells());
   for (int i = 0; fit_ && !fit_->settled && i < kMostIterations; ++i) {

@@ -31,6 +31,8 @@ class EllipseEstimator {
 
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
   void settle();
+  /// Takes over the summary of readings of the same field.
+  void absorb(const EllipseEstimator& other);
 
   [[nodiscard]] std::optional<MagnetometerEstimate> estimate() const;
   [[nodiscard]] const std::optional<EllipseFit>& fit() const { return fit_; }

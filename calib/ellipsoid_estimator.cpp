@@ -95,6 +95,12 @@ void EllipsoidEstimator::begin() {
   }
 }
 
+void EllipsoidEstimator::absorb(const EllipsoidEstimator& other) {
+  for (const auto& cell : other.cells_.cells()) cells_.add(cell);
+  for (const auto& cell : other.tiltless_.cells()) tiltless_.add(cell);
+  samples_ += other.samples_;
+}
+
 void EllipsoidEstimator::settle() {
   begin();
   if (!fit_) return;

@@ -40,6 +40,8 @@ class EllipsoidEstimator {
   /// Roll or pitch not a number: the tilt is not known, the size of the field still tells.
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
   void settle();
+  /// Takes over the summary of readings of the same field.
+  void absorb(const EllipsoidEstimator& other);
 
   [[nodiscard]] std::optional<MagnetometerEstimate> estimate() const;
   [[nodiscard]] const std::optional<EllipsoidFit>& fit() const { return fit_; }

@@ -79,26 +79,26 @@ void FieldHistory::begin_segment(const FieldStep& step, const SegmentNoise& nois
   next_refinement_ = kFirstRefinement;
 }
 
-void FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& belief) {
+bool FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& belief) {
   // Lag, accelerations and whatever else no model describes are alike in neighbouring cells.
   constexpr double kAlike = 2.2;
   SegmentNoise noise = of_readings;
   noise.model_uT *= kAlike;
   noise.tilt_error_rad *= kAlike;
   next_refinement_ = 2 * std::max(readings(), kFirstRefinement);
-  if (readings() < kLeastReadings && steps_.empty()) return;
+  if (readings() < kLeastReadings && steps_.empty()) return false;
   const std::array both{&before_.cells(), &now_.cells()};
   const bool alone = steps_.empty() || before_.cells().empty();  // after one that was withdrawn
   const auto fit = fit_segments(alone ? Segments(both).last(1) : Segments(both), noise, belief);
-  if (!fit) return;
+  if (!fit) return false;
   tell_spreads(noise, belief);
-  if (alone) return;
+  if (alone) return false;
   FieldStep& step = steps_.back();
   if (step.contrast && (rested(before_.cells(), fit->shape, fit->centres_uT.front()) ||
                         rested(now_.cells(), fit->shape, fit->centres_uT.back()))) {
     step.size_uT = step.contrast->size_uT;
     step.std_uT = step.contrast->std_uT;
-    return;
+    return false;
   }
   step.size_uT = fit->centres_uT[1] - fit->centres_uT[0];
   const double values = 2 * static_cast<double>(before_.cells().size() + now_.cells().size());
@@ -107,10 +107,11 @@ void FieldHistory::refine(const SegmentNoise& of_readings, const SegmentBelief& 
   const double larger = std::max(1., fit->cost / freedom);
   step.std_uT = (larger * fit->covariance.diagonal().segment<3>(EllipsoidShape::kParameters)).cwiseSqrt();
   const bool is_nothing = (step.size_uT.array().abs() < kLeastErrors * step.std_uT.array()).all();
-  if (is_nothing || one_field_explains(*fit, noise, belief)) {
-    withdraw();
-    refine(of_readings, belief);
-  }
+  // A field that returned has its summary of before: nothing is made one there.
+  if (step.returned || !(is_nothing || one_field_explains(*fit, noise, belief))) return false;
+  withdraw();
+  refine(of_readings, belief);
+  return true;
 }
 
 void FieldHistory::tell_spreads(const SegmentNoise& noise, const SegmentBelief& belief) {

@@ -24,8 +24,9 @@ class FieldHistory {
   void add(const FieldCells<3, 6>::Cell& reading, double time_s, std::int64_t utc_ns);
   /// The field stepped: what comes belongs to another segment.
   void begin_segment(const FieldStep& step, const SegmentNoise& noise, const SegmentBelief& belief);
-  /// Fits the last two segments anew. To be called at the end, and now and then before.
-  void refine(const SegmentNoise& noise, const SegmentBelief& belief);
+  /// Fits the last two segments anew. To be called at the end, and now and then before. True: the last step is
+  /// withdrawn, and its two segments are one.
+  bool refine(const SegmentNoise& noise, const SegmentBelief& belief);
   [[nodiscard]] bool is_time_to_refine() const { return !steps_.empty() && readings() >= next_refinement_; }
 
   [[nodiscard]] const std::vector<FieldStep>& steps() const { return steps_; }

@@ -99,10 +99,18 @@ void Magnetometer::use(const Waiting& waiting) {
   turn_broken_ = false;
   now_.update(used, waiting.predicted);
   history_.add(waiting.predicted.cell, used.time_s, used.utc_ns);
-  if (history_.is_time_to_refine()) history_.refine(now_.predictor.noise(), now_.predictor.belief());
+  if (history_.is_time_to_refine()) refine_history();
   constexpr std::size_t kPast = 64;
   past_.push_back(waiting.predicted.cell);
   if (past_.size() > kPast) past_.pop_front();
+}
+
+void Magnetometer::refine_history() {
+  if (!history_.refine(now_.predictor.noise(), now_.predictor.belief()) || !before_) return;
+  // There was no step: the readings before it are of the same field.
+  now_.ellipse.absorb(before_->ellipse);
+  now_.ellipsoid.absorb(before_->ellipsoid);
+  before_.reset();
 }
 
 void Magnetometer::release() {
@@ -132,10 +140,10 @@ void Magnetometer::settle() {
   answer_.reset();
   release();
   watch_.reset();
+  refine_history();
   now_.ellipse.settle();
   now_.gyro.settle();
   now_.ellipsoid.settle();
-  history_.refine(now_.predictor.noise(), now_.predictor.belief());
 }
 
 void Magnetometer::archive(Archive& archive) {

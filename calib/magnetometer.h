@@ -113,6 +113,7 @@ class Magnetometer {
   void leave_out();
   void use(const Waiting& waiting);
   /// All that wait are of the field so far, but for those far off.
+  void refine_history();
   void release();
   /// Compares one field with a step, and does what follows.
   void decide();
