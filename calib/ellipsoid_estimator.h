@@ -31,14 +31,16 @@ class EllipsoidEstimator {
     double model_error = 0.002;        ///< of a cell, relative to the largest field measured
     double heading_std_rad = 0.02;     ///< the worst that is accepted, within
     double expected_tilt_rad = 0.175;  ///< this roll and pitch
-    double offset_std_uT =
-        3.0;  ///< the worst vertical offset that is accepted: its part in the heading is judged too
+    /// The worst vertical offset that is accepted, or a tenth of the horizontal one where that is more.
+    double offset_std_uT = 1.0;
   };
 
   explicit EllipsoidEstimator(const Parameters& parameters);
 
   /// Roll or pitch not a number: the tilt is not known, the size of the field still tells.
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
+  /// Of one reading, at least; the data correct it.
+  void set_tilt_noise(double tilt_noise_rad) { parameters_.tilt_noise_rad = tilt_noise_rad; }
   void settle();
   /// Takes over the summary of readings of the same field.
   void absorb(const EllipsoidEstimator& other);

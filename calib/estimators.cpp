@@ -159,6 +159,9 @@ void Estimators::learn_field(const TurnedReading& turned) {
   // Where the gyros are known, without the inclinometer's lag.
   field.roll_rad = turned.turn ? turned.turn->roll_rad : reading.roll_rad.value_or(NAN);
   field.pitch_rad = turned.turn ? turned.turn->pitch_rad : reading.pitch_rad.value_or(NAN);
+  // Smoothed tilt is several times as good as a reading of an inclinometer of 0.1 degrees.
+  constexpr double kRestoredTilt_rad = 0.0005, kShownTilt_rad = 0.0018;
+  if (turned.turn) magnetometer_.set_tilt_noise(turned.turn->tilt_restored ? kRestoredTilt_rad : kShownTilt_rad);
   field.has_turn = turned.turn.has_value();
   if (turned.turn) field.turn = *turned.turn;
   field.time_s = reading.time_s;

@@ -136,6 +136,11 @@ void Magnetometer::set_gyro(const GyroBelief& gyro) {
   if (before_) before_->gyro.set_gyro(gyro);
 }
 
+void Magnetometer::set_tilt_noise(double tilt_noise_rad) {
+  parameters_.ellipsoid.tilt_noise_rad = tilt_noise_rad;
+  now_.ellipsoid.set_tilt_noise(tilt_noise_rad);
+}
+
 void Magnetometer::settle() {
   answer_.reset();
   release();

@@ -58,6 +58,8 @@ class Magnetometer {
   void update(const Reading& reading);
   /// The gyro was calibrated meanwhile.
   void set_gyro(const GyroBelief& gyro);
+  /// Standard deviation of the tilt of the readings that come, as far as it is noise, rad.
+  void set_tilt_noise(double tilt_noise_rad);
   /// Iterates to the end what update() does in slices.
   void settle();
 

@@ -147,6 +147,7 @@ std::optional<TurnStep> TurnIntegrator::step(bool at_once) {
   step.heading_rad = heading_of(i);
   step.roll_rad = lags ? tilt_[kRoll] : compass_.value(i)[kRoll];
   step.pitch_rad = lags ? tilt_[kPitch] : compass_.value(i)[kPitch];
+  step.tilt_restored = lags;
   step.roll_lag_rad = lags ? tilt_[kRoll] - tilt_[TiltSmoother::kShownRoll] : 0;
   step.pitch_lag_rad = lags ? tilt_[kPitch] - tilt_[TiltSmoother::kShownPitch] : 0;
   given_out_s_ = time_s;

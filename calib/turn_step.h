@@ -14,10 +14,11 @@ struct TurnStep {
   double duration_s = 0;       ///< since the reading before
   double measured_angle_rad =
       0;  ///< S1: integral of F times gyro A's measured yaw rate, F = 1/(cos roll cos pitch)
-  double measured_angle_b_rad = 0;             ///< the same of gyro B
-  double bias_time_s = 0;                      ///< S2: integral of F
-  double tilt_angle_rad = 0;                   ///< T: integral of tan(roll)/cos(pitch) d(pitch)
-  double roll_rad = 0, pitch_rad = 0;          ///< at the reading, without the inclinometer's lag
+  double measured_angle_b_rad = 0;     ///< the same of gyro B
+  double bias_time_s = 0;              ///< S2: integral of F
+  double tilt_angle_rad = 0;           ///< T: integral of tan(roll)/cos(pitch) d(pitch)
+  double roll_rad = 0, pitch_rad = 0;  ///< at the reading, without the inclinometer's lag
+  bool tilt_restored = false;  ///< by the gyros, from an inclinometer that lags; else roll and pitch are as shown
   double roll_lag_rad = 0, pitch_lag_rad = 0;  ///< these less what the inclinometer shows, without its noise
 
   /// The same step as gyro B saw it.
@@ -28,7 +29,7 @@ struct TurnStep {
   }
   void archive(Archive& archive) {
     archive(time_s, heading_rad, begins_segment, duration_s, measured_angle_rad, measured_angle_b_rad, bias_time_s,
-            tilt_angle_rad, roll_rad, pitch_rad, roll_lag_rad, pitch_lag_rad);
+            tilt_angle_rad, roll_rad, pitch_rad, tilt_restored, roll_lag_rad, pitch_lag_rad);
   }
 };
 
