@@ -69,7 +69,7 @@ EllipsoidShape::Matrix stated_covariance(const EllipsoidFit& fit, const Ellipsoi
   // Where the tilt is slight, noise of the regressors shifts the vertical offset to second order, which the
   // information does not contain: on simulated missions the errors are up to 1.6 of those of first order.
   constexpr double kSlight_uT = 0.5, kShift = 0.6;
-  const double larger = 1 + kShift * std::min(1.0, std::sqrt(covariance(2, 2)) / kSlight_uT);
+  const double larger = 1 + kShift * std::min(1.0, std::sqrt(fit.covariance(2, 2)) / kSlight_uT);
   covariance.row(2) *= larger;
   covariance.col(2) *= larger;
   return covariance;
