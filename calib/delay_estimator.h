@@ -24,7 +24,7 @@ class DelayEstimator {
     CourseDelay::Parameters course;
     double tilt_lag_s = 0.3;  ///< of the compass's inclinometer
     double level_std_s =
-        0.0015;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
+        0.003;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
     double accepted_std_s = 0.002;  ///< compass
     double accepted_course_std_s = 0.15;
   };
