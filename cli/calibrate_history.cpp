@@ -25,6 +25,7 @@ TurnedSample joined(const TurnedSample& first, const TurnedSample& second) {
 
 CalibrateHistory::CalibrateHistory(const config::Settings& settings)
     : ports_(pipeline::calibrated_ports(settings)),
+      sources_(settings),
       gate_(pipeline::suite_options(settings, ports_).gate),
       turns_({.tilt_lag_s = settings.calibration.tilt_lag_s}) {}
 
@@ -34,8 +35,9 @@ double CalibrateHistory::seconds(const instruments::Sample& sample) {
 }
 
 void CalibrateHistory::on_sample(const instruments::Sample& sample) {
+  (void)sources_.take(sample);
   if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
-    if (sample.port != ports_.compass) return;
+    if (sources_.learnt().compass != sample.port || !pipeline::role_of(sample)) return;
     ++readings_;
     put(pipeline::calib_reading(*compass, sample.stamp, seconds(sample)));
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {

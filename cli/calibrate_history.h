@@ -14,6 +14,7 @@
 #include "config/settings.h"
 #include "pipeline/calibration_options.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/sources.h"
 
 namespace navcal::cli {
 
@@ -63,6 +64,7 @@ class CalibrateHistory final : public pipeline::Sink {
   [[nodiscard]] double seconds(const instruments::Sample& sample);
 
   pipeline::CalibratedPorts ports_;
+  pipeline::Sources sources_;
   calib::Gate gate_;
   calib::TurnIntegrator turns_;
   std::deque<calib::CompassReading> pending_;  ///< their turns are not known yet

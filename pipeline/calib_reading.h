@@ -9,7 +9,7 @@ namespace navcal::pipeline {
 /// out: calibrators learn magnetic ones.
 [[nodiscard]] calib::CompassReading calib_reading(const instruments::CompassSample& compass,
                                                   const instruments::Stamp& stamp, double time_s);
-[[nodiscard]] calib::RateReading calib_reading(const instruments::ImuSample& imu,
-                                               const instruments::Stamp& stamp, double time_s);
+[[nodiscard]] calib::RateReading calib_reading(const instruments::ImuSample& imu, const instruments::Stamp& stamp,
+                                               double time_s);
 
 }  // namespace navcal::pipeline

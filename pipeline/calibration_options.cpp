@@ -5,34 +5,12 @@
 namespace navcal::pipeline {
 namespace {
 
-using protocols::Protocol;
-
 /// The inertial card's own, where the configuration says no rate.
 constexpr double kUsualRate_Hz = 20;
 /// How well field and dip are known from a map.
 constexpr double kFieldShare = 0.01, kDipStd_rad = 0.01;
 
-std::optional<std::uint16_t> first_of(const config::Settings& settings, Protocol protocol) {
-  for (std::size_t i = 0; i < settings.ports.size(); ++i) {
-    if (settings.ports[i].protocol == protocol) return static_cast<std::uint16_t>(i);
-  }
-  return std::nullopt;
-}
-
 }  // namespace
-
-CalibratedPorts calibrated_ports(const config::Settings& settings) {
-  CalibratedPorts ports;
-  ports.compass = first_of(settings, Protocol::tcm2);
-  ports.imu = first_of(settings, Protocol::imu_card);
-  ports.gps = first_of(settings, Protocol::oncore);
-  ports.motor = first_of(settings, Protocol::motor_card);
-  // NMEA carries either; what a port of it gives is known only when it comes.
-  const auto nmea = first_of(settings, Protocol::nmea);
-  if (!ports.compass) ports.compass = nmea;
-  if (!ports.gps) ports.gps = nmea;
-  return ports;
-}
 
 calib::SuiteOptions suite_options(const config::Settings& settings, const CalibratedPorts& ports) {
   const auto& c = settings.calibration;

@@ -8,14 +8,14 @@
 
 namespace navcal::pipeline {
 
-/// The ports whose instruments are calibrated and help to it: the first of each kind, a TCM2 before other
-/// compasses.
+/// The ports that serve heading, rates, position and shaft speed.
 struct CalibratedPorts {
   std::optional<std::uint16_t> compass, imu, gps, motor;
   [[nodiscard]] calib::Instruments instruments() const {
     return {compass.has_value(), imu.has_value(), gps.has_value(), motor.has_value()};
   }
 };
+/// Before anything has come: the best of each kind by the configuration (Sources).
 [[nodiscard]] CalibratedPorts calibrated_ports(const config::Settings& settings);
 
 /// What the calibrators must know, in their units.

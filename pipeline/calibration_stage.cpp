@@ -60,6 +60,8 @@ void CalibrationStage::learn(const instruments::Sample& original, Sink& sink) {
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::CompassSample& compass) {
+  // NMEA's lines of tilt or rate of turn alone are no readings of a heading.
+  if (!compass.heading_rad && !compass.field_body_uT && !compass.error) return;
   if (sample.port == ports_.compass)
     suite_.put(calib_reading(compass, sample.stamp, seconds(sample.stamp.validity_ns)));
 }

@@ -38,6 +38,8 @@ class CalibrationStage {
   bool restore(std::string_view state);
   /// What was restored is of an earlier run, with another monotonic clock.
   void begin_run();
+  /// The ports that are learnt from, once it is known which deliver.
+  void use(const CalibratedPorts& ports) { ports_ = ports; }
 
  private:
   void learn_from(const instruments::Sample& sample, const instruments::CompassSample& compass);

@@ -28,6 +28,8 @@ class NavigationStage {
             Sink& sink);
   /// Everything begins anew.
   void begin_run();
+  /// Other ports serve from here on.
+  void use(const CalibratedPorts& ports) { ports_ = ports; }
 
  private:
   void feed(nav::Navigator& navigator, const instruments::Sample& sample,

@@ -1,10 +1,12 @@
 #include "pipeline/pipeline.h"
 
 #include <limits>
+#include <string>
 
 #include "pipeline/calibration_stage.h"
 #include "pipeline/navigation_stage.h"
 #include "pipeline/port_stream.h"
+#include "pipeline/sources.h"
 
 namespace navcal::pipeline {
 
@@ -14,9 +16,16 @@ namespace {
 /// calibrators learn from what came. Either stage may be absent.
 class Stages final : public Sink {
  public:
-  Stages(CalibrationStage* calibration, NavigationStage* navigation, const UtcMapping& mapping, Sink& next)
-      : calibration_(calibration), navigation_(navigation), mapping_(mapping), next_(next) {}
+  Stages(CalibrationStage* calibration, NavigationStage* navigation, Sources& sources,
+         const std::vector<config::PortSettings>& ports, const UtcMapping& mapping, Sink& next)
+      : calibration_(calibration),
+        navigation_(navigation),
+        sources_(sources),
+        ports_(ports),
+        mapping_(mapping),
+        next_(next) {}
   void on_sample(const instruments::Sample& sample) override {
+    take_source(sample);
     instruments::Sample corrected = sample;
     if (calibration_ != nullptr) calibration_->correct(corrected);
     next_.on_sample(corrected);
@@ -30,8 +39,23 @@ class Stages final : public Sink {
   void on_mapping(const UtcMapping& mapping) override { next_.on_mapping(mapping); }
 
  private:
+  void take_source(const instruments::Sample& sample) {
+    const auto change = sources_.take(sample);
+    if (calibration_ != nullptr) calibration_->use(sources_.learnt());
+    if (!change) return;
+    if (navigation_ != nullptr) navigation_->use(sources_.serving());
+    const std::string role(name_of(change->role)), name = "source." + role;
+    std::string message = "serves the " + role;
+    if (change->before)
+      message += (change->silent ? " while silent: " : " again instead of ") + ports_[*change->before].name;
+    next_.on_stream_event(
+        {change->port, sample.stamp.arrival_ns, change->silent ? "warning" : "info", name, message});
+  }
+
   CalibrationStage* calibration_;
   NavigationStage* navigation_;
+  Sources& sources_;
+  const std::vector<config::PortSettings>& ports_;
   const UtcMapping& mapping_;
   Sink& next_;
 };
@@ -44,12 +68,15 @@ struct Pipeline::State {
   std::vector<std::unique_ptr<PortStream>> ports;
   std::unique_ptr<CalibrationStage> calibration;
   std::unique_ptr<NavigationStage> navigation;
+  Sources sources;
+
+  explicit State(const config::Settings& given) : settings(given), sources(settings) {}
 
   /// `use(sink)` with the sink to which the ports' samples go.
   template <class Use>
   void through_stages(Sink& sink, Use use) {
     if (!calibration && !navigation) return use(sink);
-    Stages stages(calibration.get(), navigation.get(), mapping, sink);
+    Stages stages(calibration.get(), navigation.get(), sources, settings.ports, mapping, sink);
     use(stages);
   }
 
@@ -67,8 +94,7 @@ struct Pipeline::State {
   }
 };
 
-Pipeline::Pipeline(const config::Settings& settings) : state_(std::make_unique<State>()) {
-  state_->settings = settings;
+Pipeline::Pipeline(const config::Settings& settings) : state_(std::make_unique<State>(settings)) {
   for (std::size_t i = 0; i < settings.ports.size(); ++i) {
     state_->ports.push_back(
         std::make_unique<PortStream>(static_cast<std::uint16_t>(i), state_->settings.ports[i], state_->mapping));
@@ -153,7 +179,10 @@ void Pipeline::finish_calibration(Sink& sink) {
 }
 
 void Pipeline::begin_navigation_run() {
-  if (state_->navigation) state_->navigation->begin_run();
+  state_->sources.begin_run();
+  if (!state_->navigation) return;
+  state_->navigation->begin_run();
+  state_->navigation->use(state_->sources.serving());
 }
 
 PortStatistics Pipeline::statistics(std::uint16_t port) const { return state_->ports.at(port)->statistics(); }
