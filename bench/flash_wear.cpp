@@ -32,13 +32,27 @@ instruments::Sample sample_of(std::uint16_t port, std::int64_t now_ns) {
   sample.port = port;
   sample.stamp = {now_ns, now_ns - 50'000'000, 1'234'567, now_ns, now_ns - 50'000'000};
   const double value = static_cast<double>(now_ns % 1'000'003) * 1e-6;
-  if (port == 0)
-    sample.value =
-        instruments::CompassSample{value, false, value, value, instruments::Vector3{value, value, value}};
-  if (port == 1) sample.value = instruments::ImuSample{{value, value, value}, value, {value, value, value}, value};
-  if (port == 2)
-    sample.value = instruments::GpsSample{.latitude_rad = value, .longitude_rad = value, .speed_m_s = value};
-  if (port == 3) sample.value = instruments::MotorSample{value, value, {value, value, value}, value};
+  const instruments::Vector3 vector{value, value, value};
+  if (port == 0) {
+    instruments::CompassSample compass;
+    compass.heading_rad = compass.pitch_rad = compass.roll_rad = value;
+    compass.field_body_uT = vector;
+    sample.value = compass;
+  } else if (port == 1) {
+    instruments::ImuSample imu;
+    imu.rate_rad_s = imu.specific_force_m_s2 = vector;
+    imu.yaw_rate_b_rad_s = imu.depth_m = value;
+    sample.value = imu;
+  } else if (port == 2) {
+    instruments::GpsSample gps;
+    gps.latitude_rad = gps.longitude_rad = gps.speed_m_s = value;
+    sample.value = gps;
+  } else {
+    instruments::MotorSample motor;
+    motor.rpm_commanded = motor.rpm = motor.current_A = value;
+    motor.fins_rad = {value, value, value};
+    sample.value = motor;
+  }
   return sample;
 }
 
