@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -70,9 +72,28 @@ void Estimators::update(const CompassReading& measured, const Correction& in_for
   ++pending_count_;
 }
 
-void Estimators::update(const MotorReading& reading) {
-  surface_.update(reading);
+void Estimators::update(const MotorReading& reading, const Correction& in_force) {
+  wait(reading, in_force);
   motor_current_.update(reading);
+}
+
+void Estimators::wait(const Reading& reading, const Correction& in_force) {
+  if (beside_.size() == kBeside) release(beside_.front().key_s, in_force);
+  // The gate gives the motor card's word out ahead of its time.
+  auto place = beside_.end();
+  while (place != beside_.begin() && std::prev(place)->key_s > time_of(reading)) --place;
+  beside_.insert(place, {time_of(reading), reading});
+}
+
+void Estimators::release(double time_s, const Correction& in_force) {
+  for (; !beside_.empty() && beside_.front().key_s <= time_s; beside_.pop_front()) {
+    if (const auto* ground = std::get_if<GroundReading>(&beside_.front().reading)) {
+      surface_.update(*ground, in_force);
+      delays_.update(*ground);
+    } else if (const auto* motor = std::get_if<MotorReading>(&beside_.front().reading)) {
+      surface_.update(*motor);
+    }
+  }
 }
 
 void Estimators::finish() {
@@ -85,18 +106,15 @@ void Estimators::update(const RateReading& reading) {
   turns_.update(reading);
   delays_.update(reading);
   gyros_.update(reading);
-  yaw_rate_rad_s_ = reading.rate_rad_s.z();
 }
 
-void Estimators::update(const GroundReading& reading, const Correction& in_force) {
-  surface_.update(reading, in_force);
-  delays_.update(reading);
-}
+void Estimators::update(const GroundReading& reading, const Correction& in_force) { wait(reading, in_force); }
 
 std::optional<TurnedReading> Estimators::next(const Correction& in_force) {
   for (;;) {
     if (!turn_) turn_ = turns_.next(finishing_);
     if (pending_count_ == 0) {
+      if (finishing_) release(std::numeric_limits<double>::infinity(), in_force);
       turn_.reset();
       finishing_ = false;
       return std::nullopt;
@@ -110,6 +128,7 @@ std::optional<TurnedReading> Estimators::next(const Correction& in_force) {
       return std::nullopt;
     }
     const TurnedReading turned = take_pending(turn);
+    release(turned.reading.time_s, in_force);
     learn(turned, in_force);
     return turned;
   }
@@ -139,10 +158,12 @@ void Estimators::learn(const TurnedReading& turned, const Correction& in_force) 
   }
   learn_field(turned);
   double turn_rate_rad_s = 0;
-  if (yaw_rate_rad_s_) {
-    if (const auto gyro = known_gyro(in_force)) {
-      turn_rate_rad_s = (*gyro)(*yaw_rate_rad_s_);
-      turns_.set_gyro(gyro->scale, gyro->bias_rad_s);
+  if (const auto gyro = known_gyro(in_force)) {
+    turns_.set_gyro(gyro->scale, gyro->bias_rad_s);
+    if (const auto& turn = turned.turn; turn && !turn->begins_segment && turn->duration_s > 0) {
+      turn_rate_rad_s =
+          (gyro->scale * turn->measured_angle_rad + gyro->bias_rad_s * turn->bias_time_s + turn->tilt_angle_rad) /
+          turn->duration_s;
     }
   }
   const WaterTrackReading track = surface_.track_of(turned.reading, turn_rate_rad_s);
@@ -268,7 +289,11 @@ void Estimators::archive(Archive& archive) {
   archive(turns_, gyro_, gyro_b_, compass_, magnetometer_, surface_, delays_, gyros_, motor_current_, swing_,
           swing_reference_rad_, swing_heading_rad_, swing_anchored_);
   for (CompassReading& reading : pending_) calib::archive(archive, reading);
-  archive(first_pending_, pending_count_, yaw_rate_rad_s_, heading_seen_, finishing_);
+  archive(first_pending_, pending_count_, heading_seen_, finishing_);
+  std::uint64_t beside = beside_.size();
+  archive(beside);
+  if (!archive.saving()) beside_.resize(archive.ok() && beside <= kBeside ? beside : 0);
+  for (QueuedReading& reading : beside_) reading.archive(archive);
   bool has_turn = turn_.has_value();
   archive(has_turn);
   if (!archive.saving()) turn_ = has_turn ? std::optional(TurnStep{}) : std::nullopt;

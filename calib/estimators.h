@@ -35,7 +35,7 @@ class Estimators {
   void update(const CompassReading& reading, const Correction& in_force);
   void update(const RateReading& reading);
   void update(const GroundReading& reading, const Correction& in_force);
-  void update(const MotorReading& reading);
+  void update(const MotorReading& reading, const Correction& in_force);
   /// The next reading of the compass whose turn is known, or that will have none; it has been through all
   /// estimators. To be called until there is none.
   std::optional<TurnedReading> next(const Correction& in_force);
@@ -63,13 +63,17 @@ class Estimators {
   void archive(Archive& archive);
 
  private:
-  static constexpr std::size_t kPending = 64;
+  static constexpr std::size_t kPending = 64, kBeside = 512;
 
   [[nodiscard]] TurnPrior compass_prior() const;
   [[nodiscard]] const TurnCalibrator& turn_calibrator(Calibrator calibrator) const;
   /// Of what is in force, or estimated well enough to serve the other calibrators.
   [[nodiscard]] std::optional<RateCorrection> known_gyro(const Correction& in_force) const;
   TurnedReading take_pending(std::optional<TurnStep> turn);
+  /// A fix or a reading of the shaft waits for the readings of the compass before it, which wait for their turns.
+  void wait(const Reading& reading, const Correction& in_force);
+  /// Those up to `time_s` are learnt from.
+  void release(double time_s, const Correction& in_force);
   void learn(const TurnedReading& turned, const Correction& in_force);
   void tell_magnetometer_of_gyro();
   void learn_field(const TurnedReading& turned);
@@ -88,9 +92,9 @@ class Estimators {
   bool swing_anchored_ = false;
   std::array<CompassReading, kPending> pending_{};  ///< ring: their turns are not known yet
   std::size_t first_pending_ = 0, pending_count_ = 0;
-  std::optional<TurnStep> turn_;          ///< of a pending reading, or of a later one
-  std::optional<double> yaw_rate_rad_s_;  ///< newest, as measured
-  bool heading_seen_ = false;             ///< the compass says headings of its own
+  std::deque<QueuedReading> beside_;  ///< fixes and readings of the shaft, in the order of their times
+  std::optional<TurnStep> turn_;      ///< of a pending reading, or of a later one
+  bool heading_seen_ = false;         ///< the compass says headings of its own
   bool finishing_ = false;
 };
 

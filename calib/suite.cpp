@@ -65,7 +65,7 @@ void Suite::process(const Reading& reading) {
     estimators_.update(*ground, in_force_.correction());
     adopt_what_is_better();
   } else if (const auto* motor = std::get_if<MotorReading>(&reading)) {
-    estimators_.update(*motor);
+    estimators_.update(*motor, in_force_.correction());
   }
   take_turned();
 }
