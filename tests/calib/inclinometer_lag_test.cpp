@@ -12,7 +12,7 @@
 namespace navcal::calib {
 namespace {
 
-constexpr double kLag_s = 0.3, kPeriod_s = 0.1, kNoise_rad = 0.0017;
+constexpr double kLag_s = 0.3, kNoise_rad = 0.0017;
 
 /// A hull that rolls and pitches on a straight course.
 double roll(double t) { return 0.12 * std::sin(1.9 * t); }
