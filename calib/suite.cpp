@@ -195,10 +195,18 @@ std::string Suite::silent_instrument(Calibrator calibrator) const {
   return {};
 }
 
+bool Suite::gives_no_field() const {
+  constexpr std::uint64_t kEnough = 50;  // readings
+  return gate_.counts().taken[static_cast<std::size_t>(Stream::compass)] >= kEnough;
+}
+
 void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
   Judgement& judgement = report.judgement;
   if (const std::string silent = silent_instrument(report.calibrator); !silent.empty()) {
     judgement.reason = "no reading of " + silent + " so far";
+    judgement.manoeuvre.clear();
+  } else if (report.calibrator == Calibrator::magnetometer && judgement.samples == 0 && gives_no_field()) {
+    judgement.reason = "the compass gives headings without the field that it measures";
     judgement.manoeuvre.clear();
   }
   const bool by_field =

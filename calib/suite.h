@@ -59,6 +59,8 @@ class Suite {
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
   /// The first instrument it takes that is configured and has said nothing; empty when all have.
   [[nodiscard]] std::string silent_instrument(Calibrator calibrator) const;
+  /// Whether the compass has said so much that a field, if none has come so far, will not come.
+  [[nodiscard]] bool gives_no_field() const;
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
   /// Looks anew whether a calibrator's estimate is accepted.
   void refresh_accepted(Calibrator calibrator);

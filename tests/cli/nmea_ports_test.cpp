@@ -82,6 +82,12 @@ TEST_F(NmeaPorts, RateOfTurnAndTiltAloneAreNoReadingsOfAHeading) {
   EXPECT_EQ(json["left_out"]["compass"]["taken"], 1200) << json["left_out"];
 }
 
+TEST_F(NmeaPorts, ACompassWithoutFieldIsNotToldToTurn) {
+  write("a.cap", recording({"sounder", "receiver", "compass"}));
+  const auto json = calibrated("a.cap");
+  EXPECT_EQ(json["magnetometer"]["reason"], "the compass gives headings without the field that it measures");
+}
+
 TEST_F(NmeaPorts, ASecondCompassServesWhileTheFirstIsSilent) {
   write("a.cap", recording({"compass", "receiver", "spare", "sounder"}, 60, "spare"));
   const std::string out = output_of("replay a.cap");
