@@ -285,7 +285,7 @@ void Estimators::on_in_force(Calibrator calibrator, const Correction& in_force) 
 }
 
 void Estimators::archive(Archive& archive) {
-  archive.tag("estimators 2");
+  archive.tag("estimators 3");
   archive(turns_, gyro_, gyro_b_, compass_, magnetometer_, surface_, delays_, gyros_, motor_current_, swing_,
           swing_reference_rad_, swing_heading_rad_, swing_anchored_);
   for (CompassReading& reading : pending_) calib::archive(archive, reading);

@@ -46,8 +46,10 @@ class Stages final : public Sink {
     if (navigation_ != nullptr) navigation_->use(sources_.serving());
     const std::string role(name_of(change->role)), name = "source." + role;
     std::string message = "serves the " + role;
-    if (change->before)
-      message += (change->silent ? " while silent: " : " again instead of ") + ports_[*change->before].name;
+    if (change->before) {
+      const std::string& before = ports_[*change->before].name;
+      message += change->silent ? ", because " + before + " is silent" : " instead of " + before;
+    }
     next_.on_stream_event(
         {change->port, sample.stamp.arrival_ns, change->silent ? "warning" : "info", name, message});
   }

@@ -71,11 +71,12 @@ Sources::Sources(const config::Settings& settings) {
 void Sources::begin_run() {
   for (Service& service : services_) {
     service.newest_ns.assign(service.candidates.size(), std::nullopt);
+    service.interval_ns.assign(service.candidates.size(), 0);
     service.began_ns.reset();
     service.server.reset();
     if (!service.candidates.empty()) service.server = 0;
     service.learnt.reset();
-    if (service.is_certain) service.learnt = 0;
+    if (service.is_certain || service.candidates.size() == 1) service.learnt = 0;
   }
 }
 
@@ -88,15 +89,23 @@ std::optional<Sources::Change> Sources::take(const instruments::Sample& sample) 
   const auto place = static_cast<std::size_t>(found - service.candidates.begin());
   const std::int64_t now_ns = sample.stamp.arrival_ns;
   if (!service.began_ns) service.began_ns = now_ns;
-  if (!service.learnt) service.learnt = place;
-  service.newest_ns[place] = now_ns;
+  auto& newest_ns = service.newest_ns[place];
+  if (newest_ns) service.interval_ns[place] = now_ns - *newest_ns;
+  newest_ns = now_ns;
+  if (!service.learnt && now_ns - *service.began_ns >= kSilent_ns) {
+    const auto delivered = [](const auto& time_ns) { return time_ns.has_value(); };
+    const auto best = std::find_if(service.newest_ns.begin(), service.newest_ns.end(), delivered);
+    service.learnt = static_cast<std::size_t>(best - service.newest_ns.begin());
+  }
   if (place == *service.server) return std::nullopt;
 
   const auto& server_ns = service.newest_ns[*service.server];
   const bool is_better = place < *service.server;
   // A port of NMEA that has said nothing of the kind so far may never do so.
   const bool server_may_come = server_ns || (service.is_certain && *service.server == 0);
-  const bool is_silent = now_ns - server_ns.value_or(*service.began_ns) > kSilent_ns;
+  constexpr std::int64_t kIntervals = 5;
+  const std::int64_t patience_ns = std::max(kSilent_ns, kIntervals * service.interval_ns[*service.server]);
+  const bool is_silent = now_ns - server_ns.value_or(*service.began_ns) > patience_ns;
   if (!is_better && server_may_come && !is_silent) return std::nullopt;
   Change change{*role, sample.port, service.candidates[*service.server], !is_better && server_may_come};
   if (!server_may_come) change.before.reset();
@@ -115,9 +124,8 @@ CalibratedPorts Sources::serving() const {
 CalibratedPorts Sources::learnt() const {
   const auto of = [&](Role role) {
     const Service& service = services_[static_cast<std::size_t>(role)];
-    // Until a port delivers, the first that may: the calibrators say what they wait for.
-    const auto& place = service.learnt ? service.learnt : service.server;
-    return place ? std::optional(service.candidates[*place]) : std::nullopt;
+    return service.learnt && !service.candidates.empty() ? std::optional(service.candidates[*service.learnt])
+                                                         : std::nullopt;
   };
   return {of(Role::heading), of(Role::rates), of(Role::position), of(Role::shaft)};
 }

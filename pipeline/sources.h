@@ -26,11 +26,13 @@ inline constexpr std::array kRoles{Role::heading, Role::rates, Role::position, R
 [[nodiscard]] std::vector<std::uint16_t> candidates(const config::Settings& settings, Role role);
 
 /// Which port serves which role, by what the ports deliver. The best port that delivers serves. Another one takes
-/// over when it has been silent for kSilent_ns, and gives way as soon as it is back. Decided from samples and
+/// over when it has been silent for kSilent_ns and for five of its own intervals, and gives way as soon as it is
+/// back. Decided from samples and
 /// their arrivals alone, so live and replay agree.
 ///
 /// Calibrators learn from one instrument only: what they learn from does not fall over. It is the best port, where
-/// its protocol always says what it takes, and else the first NMEA port that delivers.
+/// its protocol always says what it takes or there is no other. Else it is the best that has delivered within
+/// kSilent_ns of the first one.
 class Sources {
  public:
   static constexpr std::int64_t kSilent_ns = 3'000'000'000;
@@ -58,6 +60,7 @@ class Sources {
   struct Service {
     std::vector<std::uint16_t> candidates;
     std::vector<std::optional<std::int64_t>> newest_ns;  ///< of each candidate
+    std::vector<std::int64_t> interval_ns;               ///< of each candidate: between its newest two
     std::optional<std::size_t> server;                   ///< place among the candidates
     std::optional<std::size_t> learnt;
     std::optional<std::int64_t> began_ns;  ///< the first sample of any candidate

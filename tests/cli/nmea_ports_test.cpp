@@ -79,7 +79,8 @@ TEST_F(NmeaPorts, EachServesWhatItDeliversInAnyOrder) {
 TEST_F(NmeaPorts, RateOfTurnAndTiltAloneAreNoReadingsOfAHeading) {
   write("a.cap", recording({"sounder", "receiver", "compass"}));
   const auto json = calibrated("a.cap");
-  EXPECT_EQ(json["left_out"]["compass"]["taken"], 1200) << json["left_out"];
+  EXPECT_GT(json["left_out"]["compass"]["taken"], 1160) << "less those before it is known which port delivers";
+  EXPECT_LE(json["left_out"]["compass"]["taken"], 1200);
 }
 
 TEST_F(NmeaPorts, ACompassWithoutFieldIsNotToldToTurn) {
@@ -92,7 +93,7 @@ TEST_F(NmeaPorts, ASecondCompassServesWhileTheFirstIsSilent) {
   write("a.cap", recording({"compass", "receiver", "spare", "sounder"}, 60, "spare"));
   const std::string out = output_of("replay a.cap");
   EXPECT_EQ(count(out, "\"source.heading\""), 1);
-  EXPECT_NE(out.find("serves the heading while silent: compass"), std::string::npos);
+  EXPECT_NE(out.find("serves the heading, because compass is silent"), std::string::npos);
 }
 
 }  // namespace

@@ -65,6 +65,8 @@ TEST(Sources, TheOrderOfTheConfigurationDecidesNothingThatADeviceDoesNotDeliver)
     EXPECT_TRUE(sources.take(fix(receiver, 0.1)));
     EXPECT_TRUE(sources.take(heading(compass, 0.2)));
     EXPECT_FALSE(sources.take(fix(receiver, 1.1)));
+    EXPECT_FALSE(sources.take(heading(compass, 3.5)));
+    EXPECT_FALSE(sources.take(fix(receiver, 3.6)));
     EXPECT_EQ(sources.serving().gps, receiver);
     EXPECT_EQ(sources.serving().compass, compass);
     EXPECT_EQ(sources.learnt().gps, receiver);
@@ -90,6 +92,26 @@ TEST(Sources, ASilentOneIsReplacedAndTakenBack) {
   EXPECT_EQ(back->port, 0);
   EXPECT_FALSE(back->silent);
   EXPECT_EQ(sources.serving().compass, 0);
+}
+
+TEST(Sources, CalibratorsWaitForTheBestThatDelivers) {
+  Sources sources(with({Protocol::nmea, Protocol::nmea}));
+  (void)sources.take(heading(1, 0.1));
+  EXPECT_FALSE(sources.learnt().compass) << "another one may be better";
+  EXPECT_TRUE(sources.take(heading(0, 0.5)));
+  (void)sources.take(heading(1, 3.2));
+  EXPECT_EQ(sources.learnt().compass, 0);
+  EXPECT_EQ(sources.serving().compass, 0);
+}
+
+TEST(Sources, ASlowReceiverIsNotTakenForSilent) {
+  Sources sources(with({Protocol::nmea, Protocol::nmea}));
+  int changes = 0;
+  for (int second = 0; second < 120; ++second) {
+    if (second % 5 == 0 && sources.take(fix(0, second))) ++changes;
+    if (sources.take(fix(1, second + 0.5))) ++changes;
+  }
+  EXPECT_LE(changes, 2) << "at most until its interval is known";
 }
 
 TEST(Sources, ACompassThatNeverComesIsWaitedForAWhile) {
