@@ -22,9 +22,8 @@ class DelayEstimator {
     HeadingDelay::Parameters heading;
     FieldDelay::Parameters field;
     CourseDelay::Parameters course;
-    double tilt_lag_s = 0.3;  ///< of the compass's inclinometer
-    double level_std_s =
-        0.003;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
+    double tilt_lag_s = 0.3;     ///< of the compass's inclinometer
+    double level_std_s = 0.003;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
     double accepted_std_s = 0.002;  ///< compass
     double accepted_course_std_s = 0.15;
   };

@@ -56,8 +56,7 @@ TEST_F(WrongUsage, NoOutputIsWrittenOverAnInput) {
 }
 
 TEST_F(WrongUsage, NoOutputIsWrittenOverAnother) {
-  expect_refused("simulate --mission survey --seconds 5 -o y.cap --truth y.cap", 2,
-                 "two outputs have this name");
+  expect_refused("simulate --mission survey --seconds 5 -o y.cap --truth y.cap", 2, "two outputs have this name");
   expect_refused("simulate --mission survey --seconds 5 -o y.cap --truth y.cap.part", 2,
                  "two outputs have this name");
   expect_refused("gap --json a.html --report a.html a.cap", 2, "two outputs have this name");
