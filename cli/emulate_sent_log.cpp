@@ -11,6 +11,12 @@ SentLog::SentLog(const std::filesystem::path& file, const std::vector<config::Po
   file_ << line_ << std::flush;
 }
 
+void SentLog::comment(std::string_view text) {
+  line_.clear();
+  record::CaptureWriter::comment(line_, text);
+  file_ << line_ << std::flush;
+}
+
 void SentLog::add(std::uint16_t port, record::Direction direction, std::int64_t utc_ns, protocols::Bytes bytes) {
   line_.clear();
   writer_.bytes(line_, port, direction, utc_ns, bytes);

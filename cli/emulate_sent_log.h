@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "record/capture_writer.h"
@@ -16,6 +17,8 @@ class SentLog {
  public:
   /// Throws Failure when the file cannot be made.
   SentLog(const std::filesystem::path& file, const std::vector<config::PortSettings>& ports);
+  /// "#TEXT", such as "event 12.5 dive begins".
+  void comment(std::string_view text);
   void add(std::uint16_t port, record::Direction direction, std::int64_t utc_ns, protocols::Bytes bytes);
 
  private:

@@ -9,7 +9,9 @@
 
 #include "cli/commands.h"
 #include "cli/emulate_motion.h"
+#include "cli/simulated_place.h"
 #include "ports/port.h"
+#include "sim/motion_in_field.h"
 #include "sim/motor_card.h"
 #include "sim/tcm2.h"
 
@@ -41,11 +43,15 @@ std::vector<config::PortSettings> port_lines(int compass_baud) {
 
 EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments)
     : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()) {
-  motion_ = emulate_motion(arguments, ports::monotonic_ns() + utc_minus_monotonic_ns_);
+  const std::int64_t start_ns = ports::monotonic_ns() + utc_minus_monotonic_ns_;
+  const SimulatedPlace place = simulated_place(arguments.where, start_ns);
+  motion_ = emulate_motion(arguments, start_ns);
+  motion_ = std::make_unique<sim::MotionInField>(std::move(motion_), place.field_world_uT);
   if (!arguments.sent_log.empty()) {
     auto lines = port_lines(arguments.compass_baud);
     if (arguments.gps == sim::Oncore::Kind::nmea) lines[2].protocol = protocols::Protocol::nmea;
     log_ = std::make_unique<SentLog>(arguments.sent_log, lines);
+    log_->comment(place.field_event());
   }
   sim::Noise seeds(arguments.seed);
   const auto seed = [&] { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); };
@@ -64,6 +70,7 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   add(arguments, "imu", std::move(card));
   sim::Oncore::Options gps;
   gps.kind = arguments.gps;
+  gps.receiver.origin = place.origin;
   gps.seed = seed();
   add(arguments, "gps", std::make_unique<sim::Oncore>(gps, *motion_));
   sim::MotorCard::Options motor;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/emulate_port.h"
+#include "cli/place_options.h"
 #include "sim/clock_factor.h"
 #include "sim/imu_card.h"
 #include "sim/oncore.h"
@@ -28,6 +29,7 @@ struct EmulateArguments {
   std::uint64_t seed = 1;
   std::optional<double> imu_ppm;
   std::vector<sim::ClockFactor> clocks;
+  PlaceArguments where;
   int compass_baud = 38400;
   sim::Oncore::Kind gps = sim::Oncore::Kind::twelve_channels;
   double noise = 0;

@@ -27,19 +27,19 @@ void run(const SimulateArguments& arguments) {
   sim::EffectSet effects = simulate_effects(arguments);
   const SimulatedRun run = simulate_motion(arguments, effects);
   std::optional<SimulateHistory> history;
-  if (!arguments.report.empty()) history.emplace(sim::recording_ports(), run.duration_s);
+  if (!arguments.report.empty()) history.emplace(sim::recording_ports(), arguments.begin_ns, run.duration_s);
   write_simulation(arguments, run, effects, history ? &*history : nullptr);
   if (history) {
     write_result(arguments.report, simulate_page(*history, arguments, run, effects));
   }
 }
 
-void simulate(const Options& options) {
+void simulate(Options& options) {
   if (options.list_effects) {
     std::fputs(sim::effects_text().c_str(), stdout);
     return;
   }
-  const auto& arguments = options.arguments;
+  auto& arguments = options.arguments;
   const int given = int{!arguments.path.empty()} + int{!arguments.drive.empty()} + int{!arguments.mission.empty()};
   if (given != 1) {
     throw Failure(Exit::usage, "one of --path, --drive and --mission says how the vehicle moves");
@@ -49,6 +49,8 @@ void simulate(const Options& options) {
   expect_no_overwriting(
       {arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.effects_file},
       {arguments.capture, arguments.truth, arguments.report});
+  arguments.begin_ns = arguments.where.day_ns().value_or(kSimulatedBegin_ns);
+  arguments.place = simulated_place(arguments.where, arguments.begin_ns);
   run(arguments);
 }
 
@@ -86,6 +88,9 @@ void add_simulate(CLI::App& app) {
                    "departures with exact parameters: a table [NAME] each, with from_s and until_s")
       ->option_text("FILE.toml");
   add_clock_option(command, arguments.clocks);
+  add_place_and_field(command, arguments.where);
+  command->add_option("--date", arguments.where.date, "day on which the mission begins, at 00:00 UTC")
+      ->option_text("YYYY-MM-DD");
   command->add_option("--seed", arguments.seed, "of noise, biases and directions")->capture_default_str();
   command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
   command->add_option("-o,--output", arguments.capture, "the recording")->option_text("FILE.cap");
@@ -96,7 +101,9 @@ void add_simulate(CLI::App& app) {
   command->add_flag("--list-effects", options->list_effects,
                     "all effects with equation, parameters, typical strength");
   command->footer(
-      "Time 0 of the mission is 2026-01-01, 00:00:00 UTC.\n\n"
+      "Without --date, time 0 of the mission is 2026-01-01, 00:00:00 UTC. Without --place and --field, the "
+      "vehicle\n"
+      "is on a lake in Virginia, in a reference field that belongs to no real place: 19.0,0.6,44.0.\n\n"
       "Example: navcal simulate --mission survey --effect motor_field=1 -o survey.cap --truth survey.csv");
   command->callback([options] { simulate(*options); });
 }

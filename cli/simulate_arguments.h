@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/place_options.h"
+#include "cli/simulated_place.h"
 #include "sim/clock_factor.h"
 
 namespace navcal::cli {
 
-/// A mission on the time scale of the simulated recordings begins here: 2026-01-01, 00:00:00 UTC.
+/// A mission on the time scale of the simulated recordings begins here, without --date: 2026-01-01, 00:00:00 UTC.
 inline constexpr std::int64_t kSimulatedBegin_ns = 1'767'225'600'000'000'000;
 
 struct SimulateArguments {
@@ -25,6 +27,10 @@ struct SimulateArguments {
   bool no_noise = false;
   std::optional<double> seconds;
   std::filesystem::path capture, truth, report;
+  PlaceArguments where;
+  // What `where` says; simulate() fills it in.
+  std::int64_t begin_ns = kSimulatedBegin_ns;
+  SimulatedPlace place;
 };
 
 }  // namespace navcal::cli

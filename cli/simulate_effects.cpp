@@ -74,7 +74,7 @@ void refuse_on_path(const sim::EffectSet& set) {
 
 sim::EffectSet simulate_effects(const SimulateArguments& arguments) {
   constexpr std::uint64_t kApartFromNoise = 0x5851f42d4c957f2d;
-  sim::EffectSet set(kSimulatedBegin_ns);
+  sim::EffectSet set(arguments.begin_ns);
   sim::Noise noise(arguments.seed ^ kApartFromNoise);
   for (const std::string& text : arguments.effects) add_by_strength(text, set, noise);
   if (!arguments.effects_file.empty()) add_from_file(arguments.effects_file, set);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "cli/simulate_plot.h"
@@ -26,8 +27,7 @@ std::optional<double> degrees(const std::optional<double>& rad) {
   return rad ? std::optional(*rad * kDegrees) : std::nullopt;
 }
 
-std::vector<Point> fixes_of(const SimulatedSeries& series) {
-  const sim::Origin origin;
+std::vector<Point> fixes_of(const SimulatedSeries& series, const sim::Origin& origin) {
   const auto corner = sim::geodetic(origin, {1000, 1000, 0});
   std::vector<Point> points;
   for (const auto& fix : series.gps) {
@@ -35,15 +35,15 @@ std::vector<Point> fixes_of(const SimulatedSeries& series) {
     if (fix.value.fix != instruments::Fix::fix_2d && fix.value.fix != instruments::Fix::fix_3d) continue;
     const double share_north =
         (*fix.value.latitude_rad * kDegrees - origin.latitude_deg) / (corner[0] - origin.latitude_deg);
-    const double share_east =
-        (*fix.value.longitude_rad * kDegrees - origin.longitude_deg) / (corner[1] - origin.longitude_deg);
+    const double share_east = std::remainder(*fix.value.longitude_rad * kDegrees - origin.longitude_deg, 360) /
+                              std::remainder(corner[1] - origin.longitude_deg, 360);
     points.push_back({1000 * share_east, 1000 * share_north});
   }
   return points;
 }
 
 /// A metre is as long to the north as to the east.
-Figure track(const SimulatedSeries& series) {
+Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
   constexpr double kSide = 460;
   std::vector<Point> way;
   std::vector<double> easts, norths;
@@ -59,17 +59,17 @@ Figure track(const SimulatedSeries& series) {
     *range = {middle - half, middle + half};
   }
   SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kSide});
-  plot.points(Ink::before, "GPS", fixes_of(series));
+  plot.points(Ink::before, "GPS", fixes_of(series, origin));
   plot.line(Ink::after, "truth", way);
   return {"Track", plot.svg(), "True track, and the fixes of the receiver."};
 }
 
 }  // namespace
 
-std::vector<Figure> motion_figures(const SimulatedSeries& series) {
+std::vector<Figure> motion_figures(const SimulatedSeries& series, const sim::Origin& origin) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   const auto& states = series.states;
-  std::vector<Figure> figures{track(series)};
+  std::vector<Figure> figures{track(series, origin)};
   figures.push_back(
       {"Heading",
        plot()

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <variant>
 
-#include "cli/simulate_arguments.h"
-
 namespace navcal::cli {
 namespace {
 
@@ -20,8 +18,9 @@ config::Settings settings_for(const std::vector<config::PortSettings>& ports) {
 
 }  // namespace
 
-SimulateHistory::SimulateHistory(const std::vector<config::PortSettings>& ports, double duration_s)
-    : pipeline_(settings_for(ports)), apart_s_(duration_s / kMost) {}
+SimulateHistory::SimulateHistory(const std::vector<config::PortSettings>& ports, std::int64_t begin_ns,
+                                 double duration_s)
+    : pipeline_(settings_for(ports)), begin_ns_(begin_ns), apart_s_(duration_s / kMost) {}
 
 void SimulateHistory::add(double time_s, const sim::State& state) { keep(series_.states, time_s, state); }
 
@@ -35,7 +34,7 @@ void SimulateHistory::keep(std::vector<Timed<Value>>& list, double time_s, const
 }
 
 void SimulateHistory::on_sample(const instruments::Sample& sample) {
-  const double time_s = static_cast<double>(sample.stamp.validity_ns - kSimulatedBegin_ns) * 1e-9;
+  const double time_s = static_cast<double>(sample.stamp.validity_ns - begin_ns_) * 1e-9;
   if (const auto* word = std::get_if<instruments::CompassSample>(&sample.value))
     keep(series_.compass, time_s, *word);
   if (const auto* record = std::get_if<instruments::ImuSample>(&sample.value)) keep(series_.imu, time_s, *record);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "config/settings.h"
@@ -31,7 +32,7 @@ struct SimulatedSeries {
 class SimulateHistory final : public pipeline::Sink {
  public:
   /// The first port is the compass's, then come card, receiver and motor card.
-  SimulateHistory(const std::vector<config::PortSettings>& ports, double duration_s);
+  SimulateHistory(const std::vector<config::PortSettings>& ports, std::int64_t begin_ns, double duration_s);
 
   void add(double time_s, const sim::State& state);
   void add(const sim::LineRead& read);
@@ -45,6 +46,7 @@ class SimulateHistory final : public pipeline::Sink {
 
   pipeline::Pipeline pipeline_;
   SimulatedSeries series_;
+  std::int64_t begin_ns_;
   double apart_s_;  ///< between what is kept
 };
 

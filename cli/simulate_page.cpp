@@ -43,6 +43,9 @@ void append_source(HtmlPage& page, const SimulateArguments& arguments, const Sim
   page.table({"", ""},
              {{"Motion", motion},
               {"Vehicle", arguments.vehicle.empty() ? "the reference vehicle" : arguments.vehicle.string()},
+              {"Place", fmt::format("{:.4f}, {:.4f}", arguments.place.origin.latitude_deg,
+                                    arguments.place.origin.longitude_deg)},
+              {"Field of the Earth", field_text(arguments.place.field_world_uT)},
               {"Duration", fmt::format("{:g} s", run.duration_s)},
               {"Seed", std::to_string(arguments.seed)},
               {"Noise", arguments.no_noise ? "none" : "as specified"},
@@ -56,7 +59,7 @@ std::string simulate_page(const SimulateHistory& history, const SimulateArgument
                           const SimulatedRun& run, const sim::EffectSet& effects) {
   HtmlPage page("Simulation: " + arguments.capture.filename().string());
   page.section("Motion");
-  page.figures(motion_figures(history.series()));
+  page.figures(motion_figures(history.series(), arguments.place.origin));
   page.section("Instruments");
   page.figures(instrument_figures(history.series()));
   append_effects(page, effects);

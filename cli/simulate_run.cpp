@@ -33,14 +33,17 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   record::CaptureWriter writer(sim::recording_ports());
   std::string text, rows;
   writer.begin(text);
+  record::CaptureWriter::comment(text, arguments.place.field_event());
   if (truth) sim::begin_truth(rows);
-  const std::int64_t end_ns = kSimulatedBegin_ns + std::llround(run.duration_s * 1e9);
-  sim::Recording::Options options{kSimulatedBegin_ns, !arguments.no_noise, arguments.seed, &effects};
+  const std::int64_t begin_ns = arguments.begin_ns;
+  const std::int64_t end_ns = begin_ns + std::llround(run.duration_s * 1e9);
+  sim::Recording::Options options{begin_ns, !arguments.no_noise, arguments.seed, &effects};
   options.clocks = arguments.clocks;
+  options.origin = arguments.place.origin;
   sim::Recording recording(options, *run.motion);
   std::vector<sim::LineRead> reads;
-  std::int64_t truth_ns = kSimulatedBegin_ns;
-  for (std::int64_t t_ns = kSimulatedBegin_ns; t_ns < end_ns;) {
+  std::int64_t truth_ns = begin_ns;
+  for (std::int64_t t_ns = begin_ns; t_ns < end_ns;) {
     if (Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
     t_ns = std::min(t_ns + kSecond_ns, end_ns);
     reads.clear();
@@ -51,7 +54,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
       if (history != nullptr) history->add(read);
     }
     for (; (truth || history != nullptr) && truth_ns <= t_ns; truth_ns += kTruthStep_ns) {
-      const double time_s = static_cast<double>(truth_ns - kSimulatedBegin_ns) * 1e-9;
+      const double time_s = static_cast<double>(truth_ns - begin_ns) * 1e-9;
       const sim::State state = run.motion->at(truth_ns);
       if (truth) sim::append_truth(rows, time_s, state);
       if (history != nullptr) history->add(time_s, state);
@@ -60,8 +63,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
     if (truth) truth->write(rows);
     text.clear();
     rows.clear();
-    progress.show(static_cast<double>(t_ns - kSimulatedBegin_ns) /
-                  static_cast<double>(end_ns - kSimulatedBegin_ns));
+    progress.show(static_cast<double>(t_ns - begin_ns) / static_cast<double>(end_ns - begin_ns));
   }
   capture.commit();
   if (truth) truth->commit();

@@ -14,7 +14,8 @@ struct Origin {
   double height_m = 562;
 };
 
-/// Latitude and longitude in degrees and height of a place near the origin; exact to a centimetre within some km.
+/// Latitude and longitude (within 180 degrees) in degrees and height of a place near the origin; exact to a
+/// centimetre within some km.
 [[nodiscard]] inline Vector3 geodetic(const Origin& origin, const Vector3& north_east_down_m) {
   constexpr double kSemiMajor_m = 6378137.0;
   constexpr double kEccentricity2 = 6.69437999014e-3;
@@ -24,7 +25,8 @@ struct Origin {
   const double meridian_m = kSemiMajor_m * (1 - kEccentricity2) / std::pow(1 - s2, 1.5) + origin.height_m;
   const double transverse_m = kSemiMajor_m / std::sqrt(1 - s2) + origin.height_m;
   return {origin.latitude_deg + north_east_down_m[0] / meridian_m * kDegrees,
-          origin.longitude_deg + north_east_down_m[1] / (transverse_m * std::cos(latitude)) * kDegrees,
+          std::remainder(
+              origin.longitude_deg + north_east_down_m[1] / (transverse_m * std::cos(latitude)) * kDegrees, 360),
           origin.height_m - north_east_down_m[2]};
 }
 

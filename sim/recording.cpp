@@ -81,6 +81,7 @@ Recording::Recording(const Options& options, const Motion& motion)
   auto receiver = receiver_options(options.noise);
   receiver.seed = seed();
   receiver.receiver.effects = &effects_;
+  receiver.receiver.origin = options.origin;
   if (options.sky_always_seen) {
     receiver.receiver.antenna_depth_m = std::numeric_limits<double>::infinity();
     receiver.receiver.least_search_s = receiver.receiver.longest_search_s = 0;

@@ -6,6 +6,7 @@
 
 #include "config/settings.h"
 #include "sim/clock_factor.h"
+#include "sim/geodesy.h"
 #include "sim/host_line.h"
 #include "sim/state.h"
 
@@ -27,6 +28,7 @@ class Recording {
     bool turn_on_bias = true;           ///< of the gyros
     bool sky_always_seen = false;       ///< fixes at every depth, from the first second on
     std::vector<ClockFactor> clocks{};  ///< of compass, imu and motor
+    Origin origin{};                    ///< where the fixes are
   };
   Recording(const Options& options, const Motion& motion);
 

@@ -1,0 +1,32 @@
+#include "cli/simulated_place.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cli/commands.h"
+
+namespace navcal::cli {
+
+std::string SimulatedPlace::field_event() const {
+  return "event simulated field of the Earth: " + field_text(field_world_uT);
+}
+
+SimulatedPlace simulated_place(const PlaceArguments& arguments, std::int64_t otherwise_ns) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  constexpr double kGreatestLatitude_deg = 89;
+  SimulatedPlace place;
+  if (const auto position = arguments.position()) {
+    place.origin = {position->latitude_rad * kDegrees, std::remainder(position->longitude_rad * kDegrees, 360),
+                    position->height_m};
+    if (!(std::abs(place.origin.latitude_deg) <= kGreatestLatitude_deg)) {
+      throw Failure(Exit::usage, fmt::format("--place {}: a simulated vehicle stays within 89 degrees of latitude",
+                                             *arguments.place));
+    }
+  }
+  place.field_world_uT = chosen_field_uT(arguments, otherwise_ns).value_or(place.field_world_uT);
+  return place;
+}
+
+}  // namespace navcal::cli

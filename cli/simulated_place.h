@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cli/place_options.h"
+#include "sim/geodesy.h"
+#include "sim/state.h"
+
+namespace navcal::cli {
+
+/// Where a simulated vehicle is.
+struct SimulatedPlace {
+  sim::Origin origin;
+  sim::Vector3 field_world_uT =
+      sim::State{}.field_world_uT;  ///< north, east, down; by default the reference field
+
+  /// What a recording says of it, as an `#event` line.
+  [[nodiscard]] std::string field_event() const;
+};
+
+/// What the arguments say; the model's field is that of --date, or of `otherwise_ns` (UTC) without it. Throws
+/// Failure for what cannot be read, and beyond 89 degrees of latitude, where the simulator's flat map ends.
+[[nodiscard]] SimulatedPlace simulated_place(const PlaceArguments& arguments, std::int64_t otherwise_ns);
+
+}  // namespace navcal::cli
