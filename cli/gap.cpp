@@ -16,6 +16,7 @@
 #include "cli/gap_text.h"
 #include "cli/gap_trial.h"
 #include "cli/output.h"
+#include "cli/place_options.h"
 #include "cli/progress.h"
 #include "cli/result_file.h"
 #include "config/vehicle_file.h"
@@ -28,6 +29,7 @@ namespace {
 
 struct Options {
   GapSource source;
+  PlaceArguments where;
   std::string json, report;
   std::filesystem::path cache;
   int bank_missions = gap::Request{}.bank_missions;
@@ -58,6 +60,7 @@ gap::Diagnosis diagnosis_of(const Options& options) {
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
   if (!options.source.vehicle.empty()) request.vehicle = config::load_vehicle(options.source.vehicle);
   request.excluded = options.source.excluded;
+  request.field_uT = options.where.field_uT();
   request.cache = options.cache.empty() ? usual_cache() : options.cache;
   request.bank_missions = options.bank_missions;
   request.bank_seed = options.bank_seed;
@@ -117,6 +120,11 @@ void add_gap(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("--vehicle", source.vehicle, "the nominal vehicle, if it is not the reference vehicle")
       ->option_text("FILE.toml");
+  command
+      ->add_option("--field", options->where.field,
+                   "the Earth's field in uT (north, east, down), instead of the World Magnetic Model's where the "
+                   "fixes are")
+      ->option_text("N,E,D");
   command->add_option("--exclude", source.excluded, "an effect that the library is to be without; repeatable")
       ->option_text("NAME")
       ->allow_extra_args(false);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -84,6 +85,21 @@ Json json_of(const gap::BankFacts& bank) {
           {"seconds", bank.seconds}};
 }
 
+Json json_of(const gap::EarthField& field) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  Json place, date;
+  if (field.place) {
+    place = {{"latitude_deg", field.place->latitude_rad * kDegrees},
+             {"longitude_deg", field.place->longitude_rad * kDegrees},
+             {"height_m", field.place->height_m}};
+  }
+  if (field.utc_ns) date = field.date();
+  return {{"source", gap::name_of(field.source)},
+          {"north_east_down_uT", field.north_east_down_uT},
+          {"place", std::move(place)},
+          {"date", std::move(date)}};
+}
+
 }  // namespace
 
 std::string gap_json(const gap::Diagnosis& diagnosis) {
@@ -101,6 +117,7 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"remarks", diagnosis.remarks},
       {"gyro_bias", {{"ax_rad_s", bias[0]}, {"az_rad_s", bias[1]}, {"by_rad_s", bias[2]}, {"bz_rad_s", bias[3]}}},
       {"changes", list_of(diagnosis.changes, convert)},
+      {"field", diagnosis.field ? json_of(*diagnosis.field) : Json()},
       {"bank", json_of(diagnosis.bank)},
       {"duration_s", diagnosis.duration_s},
       {"seconds", diagnosis.seconds}};

@@ -87,6 +87,7 @@ void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSou
   for (const auto& file : source.holdouts) rows.push_back({"Held out", file});
   rows.push_back({"Nominal vehicle", source.vehicle.empty() ? "the reference vehicle" : source.vehicle});
   for (const auto& name : source.excluded) rows.push_back({"Not in the library", name});
+  if (diagnosis.field) rows.push_back({"Field of the Earth", gap::text_of(*diagnosis.field)});
   rows.push_back({"Bank", bank_text(diagnosis.bank)});
   const auto& bias = diagnosis.gyro_bias_rad_s;
   rows.push_back(

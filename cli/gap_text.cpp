@@ -111,6 +111,7 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   append_lines(out, "to do", diagnosis.next);
   if (const auto hint = simulate_hint(diagnosis, source); !hint.empty()) append_lines(out, "to simulate", {hint});
   append_lines(out, "remarks", diagnosis.remarks);
+  if (diagnosis.field) append_lines(out, "Earth's field", {gap::text_of(*diagnosis.field)});
   append_lines(out, "made from",
                {duration_text(diagnosis.duration_s) + " of mission in " + duration_text(diagnosis.seconds) + "; " +
                 bank_text(diagnosis.bank)});

@@ -19,7 +19,7 @@ namespace navcal::cli {
 namespace {
 
 struct Options {
-  int cases = 0, minutes = 10, timeout_s = 600;
+  int cases = 0, minutes = 10, places = kTrialPlaces, timeout_s = 600;
   std::uint64_t seed = 1;
   std::vector<std::string> arms;
   std::vector<int> only;
@@ -71,7 +71,8 @@ std::vector<TrialCase> cases_of(const Options& options) {
   }
   std::vector<TrialCase> cases;
   cases.reserve(numbers.size());
-  for (const int number : numbers) cases.push_back(drawn_case(options.seed, number, options.minutes));
+  for (const int number : numbers)
+    cases.push_back(drawn_case(options.seed, number, options.minutes, options.places));
   return cases;
 }
 
@@ -131,6 +132,13 @@ void add_gap_trial(CLI::App& gap) {
   command->add_option("--seed", options->seed, "of effects, strengths, vehicles and noise")->capture_default_str();
   command->add_option("--minutes", options->minutes, "of a mission, where the arm has no length of its own")
       ->check(CLI::IsMember({3, 10}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--places", options->places,
+          "so many places, dates and waters are drawn, and one of them for each case; null missions of the "
+          "diagnosis serve one place each")
+      ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_option("--arms", options->arms, "only these: nulls, singles, pairs, triples, short, removed, ...")
       ->delimiter(',')

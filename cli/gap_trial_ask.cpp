@@ -66,9 +66,12 @@ std::string complaint_about(const ChildEnd& end, const std::string& errors, std:
 
 void diagnose(const TrialCase& drawn, const TrialAsking& asking, const fs::path& folder, TrialResult& result) {
   const auto files = write_recordings(drawn, folder);
+  // Whoever swims somewhere knows how salt its water is.
+  const fs::path vehicle = folder / "vehicle.toml";
+  std::ofstream(vehicle) << fmt::format("[water]\ndensity_kg_m3 = {}\n", drawn.place.waters.density_kg_m3);
   const fs::path json = folder / "answer.json", errors = folder / "errors.txt";
-  std::vector<std::string> arguments{"gap",       files[0], "--holdout", files[1],
-                                     "--holdout", files[2], "--json",    json};
+  std::vector<std::string> arguments{"gap",    files[0],    "--holdout", files[1], "--holdout",
+                                     files[2], "--vehicle", vehicle,     "--json", json};
   if (asking.bank_missions) arguments.insert(arguments.end(), {"--bank", std::to_string(*asking.bank_missions)});
   if (!drawn.excluded.empty()) arguments.insert(arguments.end(), {"--exclude", drawn.excluded});
   const ChildEnd end = run_child(asking.program, arguments, errors, asking.timeout);

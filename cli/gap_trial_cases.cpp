@@ -64,6 +64,25 @@ Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, trial::Dice& dic
   return kinds;
 }
 
+/// Clocks of cards without a crystal: off by up to a hundredth.
+trial::Specimen::Clocks drawn_clocks(trial::Dice& dice) {
+  constexpr double kGreatest = 0.01;
+  trial::Specimen::Clocks clocks;
+  for (double* const clock : {&clocks.compass, &clocks.card, &clocks.motor})
+    *clock = dice.uniform(-kGreatest, kGreatest);
+  return clocks;
+}
+
+nlohmann::ordered_json json_of(const TrialPlace& place) {
+  const auto& field_uT = place.waters.field_uT;
+  return {{"latitude_deg", place.anchorage.latitude_deg},
+          {"longitude_deg", place.anchorage.longitude_deg},
+          {"begin_ns", place.begin_ns},
+          {"field_uT", {field_uT.x(), field_uT.y(), field_uT.z()}},
+          {"water_C", place.waters.surface_C},
+          {"density_kg_m3", place.waters.density_kg_m3}};
+}
+
 nlohmann::ordered_json json_of(const trial::Effect& effect) {
   return {{"name", effect.name}, {"parameters", effect.parameters}};
 }
@@ -72,7 +91,7 @@ nlohmann::ordered_json json_of(const trial::Effect& effect) {
 
 bool TrialCase::in_library() const { return arm != TrialArm::foreign && arm != TrialArm::removed; }
 
-TrialCase drawn_case(std::uint64_t seed, int number, int minutes) {
+TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places) {
   TrialCase drawn;
   drawn.number = number;
   drawn.arm = arm_of_case(number);
@@ -87,6 +106,9 @@ TrialCase drawn_case(std::uint64_t seed, int number, int minutes) {
     drawn.effects.push_back(trial::drawn(*kind, facts.strength, dice));
     trial::add(drawn.effects.back(), drawn.vehicle.departures);
   }
+  drawn.vehicle.clocks = drawn_clocks(dice);
+  drawn.place_number = static_cast<int>(dice.bits() % static_cast<std::uint64_t>(places));
+  drawn.place = drawn_place(seed, drawn.place_number);
   if (drawn.arm == TrialArm::removed) drawn.excluded = drawn.effects.front().name;
   return drawn;
 }
@@ -114,6 +136,11 @@ std::string truth_text(const TrialCase& drawn, std::uint64_t seed) {
                                      {"excluded", drawn.excluded},
                                      {"drawn", effects},
                                      {"with_tolerance", real},
+                                     {"place", json_of(drawn.place)},
+                                     {"clocks",
+                                      {{"compass", drawn.vehicle.clocks.compass},
+                                       {"card", drawn.vehicle.clocks.card},
+                                       {"motor", drawn.vehicle.clocks.motor}}},
                                      {"mission_seeds", drawn.mission_seeds}};
   return truth.dump();
 }

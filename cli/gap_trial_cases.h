@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/gap_trial_arms.h"
+#include "cli/gap_trial_places.h"
 #include "trial/effects.h"
 #include "trial/run.h"
 
@@ -15,19 +16,21 @@ namespace navcal::cli {
 struct TrialCase {
   int number = 1;  ///< from 1
   TrialArm arm = TrialArm::nulls;
-  int minutes = 10;                              ///< of each mission
-  std::vector<trial::Effect> effects;            ///< as drawn, before the tolerance
-  std::string excluded;                          ///< effect that the library is to be without
-  trial::Specimen vehicle;                       ///< the effects and the tolerance
+  int minutes = 10;                    ///< of each mission
+  std::vector<trial::Effect> effects;  ///< as drawn, before the tolerance
+  std::string excluded;                ///< effect that the library is to be without
+  trial::Specimen vehicle;             ///< the effects and the tolerance
+  int place_number = 0;
+  TrialPlace place;                              ///< of all missions
   std::array<std::uint64_t, 3> mission_seeds{};  ///< of noise and turn-on biases, each mission its own
 
   /// Whether the library that the diagnosis has can name what is there (nothing, or effects).
   [[nodiscard]] bool in_library() const;
 };
 
-/// The same seed, number and minutes give the same case on every machine. `minutes` is that of the missions in
-/// arms that have no length of their own.
-[[nodiscard]] TrialCase drawn_case(std::uint64_t seed, int number, int minutes);
+/// The same seed, number, minutes and places give the same case on every machine. `minutes` is that of the
+/// missions in arms that have no length of their own; each case takes one of so many places.
+[[nodiscard]] TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places = kTrialPlaces);
 
 /// The parameters that the vehicle really has of an effect, tolerance and all, in the units of the keys.
 [[nodiscard]] trial::Effect true_parameters(const trial::Effect& effect, const trial::Specimen& vehicle);

@@ -10,8 +10,8 @@ namespace {
 
 using trial::kDegree;
 
-/// From 2026-11-10, 09:00 UTC on, an odd fraction after the second; the other missions a day later each.
-constexpr std::int64_t kBegin_ns = 1'794'301'200'370'000'000, kDay_ns = 86'400'000'000'000;
+/// The other missions begin a day later each.
+constexpr std::int64_t kDay_ns = 86'400'000'000'000;
 constexpr double kSurface_m = 0.15;  ///< the antenna needs 0.35
 
 /// Orders one after the other, each for some seconds; what a line leaves out stays as it was.
@@ -49,7 +49,7 @@ class Script {
   }
 
   [[nodiscard]] trial::Mission finish(double duration_s, int day) {
-    mission_.start_ns = kBegin_ns + day * kDay_ns;
+    mission_.start_ns = kTrialBegin_ns + day * kDay_ns;
     mission_.duration_s = duration_s;
     return std::move(mission_);
   }

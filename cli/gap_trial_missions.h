@@ -7,6 +7,9 @@
 
 namespace navcal::cli {
 
+/// 2026-11-10, 09:00 UTC, an odd fraction after the second: when the first mission begins that is nowhere else.
+inline constexpr std::int64_t kTrialBegin_ns = 1'794'301'200'370'000'000;
+
 /// A to be diagnosed, B and C to be held out: the same for every case of a kind, so that nothing in them tells of
 /// the case. The usual ones (10 or 3 minutes) are meant to excite what the specification's column "what breaks the
 /// tie" asks for: turns both ways at several rates and speeds, tilt of both signs, steps of speed at one heading,

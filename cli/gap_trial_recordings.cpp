@@ -74,7 +74,7 @@ std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
   std::array<std::future<void>, 3> written;
   for (std::size_t i = 0; i < files.size(); ++i) {
     written[i] = std::async(std::launch::async, [&, i] {
-      write_recording(missions[i], drawn.vehicle, drawn.mission_seeds[i], files[i]);
+      write_recording(at_place(missions[i], drawn.place), drawn.vehicle, drawn.mission_seeds[i], files[i]);
     });
   }
   for (auto& one : written) one.get();

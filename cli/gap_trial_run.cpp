@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "cli/gap_trial_ask.h"
@@ -71,10 +72,10 @@ class Asking {
 TrialRun ask_all(const std::vector<TrialCase>& cases, const std::vector<Seal>& seals, const TrialAsking& asking,
                  const std::function<void(const TrialResult&)>& answered) {
   Asking all(cases, seals, asking, answered);
-  std::set<std::pair<MissionKind, int>> begun;
+  std::set<std::tuple<MissionKind, int, int>> begun;
   std::vector<std::size_t> rest;
   for (std::size_t i = 0; i < cases.size() && !all.ends_early(); ++i) {
-    if (begun.emplace(facts_of(cases[i].arm).missions, cases[i].minutes).second)
+    if (begun.emplace(facts_of(cases[i].arm).missions, cases[i].minutes, cases[i].place_number).second)
       all.ask_one(i, true);
     else
       rest.push_back(i);

@@ -41,6 +41,14 @@ std::vector<double> fingerprint(const Replay& replay, const Course10Hz& course) 
   return all;
 }
 
+/// Whether the Earth's field is as good as the same: what compass and heading show differs by a hundredth or two.
+bool in_same_field(const KeptBank& kept, const EarthField& field) {
+  constexpr double kApart_uT = 0.5;
+  const auto &a = kept.field_uT, &b = field.north_east_down_uT;
+  return kept.field_is_fitted == (field.source == EarthField::Source::fitted) &&
+         std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kApart_uT;
+}
+
 /// Root mean square difference, in tolerances; infinite between missions of different lengths.
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
   const std::size_t longer = std::max(a.size(), b.size()), shorter = std::min(a.size(), b.size());
@@ -80,6 +88,7 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& 
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     auto kept = read_bank(text, model_, unknowns_);
     if (!kept || kept->bank.missions < options.missions * 9 / 10 || kept->bank.seed != options.seed) continue;
+    if (!in_same_field(*kept, replay.mission().field)) continue;
     const double apart = distance(wanted, kept->fingerprint);
     if (!(apart < best_distance)) continue;
     best = std::move(kept->bank);
@@ -90,9 +99,12 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& 
 
 std::string BankCache::keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const {
   if (folder_.empty()) return {};
+  const EarthField& field = replay.mission().field;
   try {
     std::filesystem::create_directories(folder_);
-    const std::string text = bank_text({fingerprint(replay, course), bank}, model_);
+    const std::string text = bank_text(
+        {fingerprint(replay, course), bank, field.north_east_down_uT, field.source == EarthField::Source::fitted},
+        model_);
     record::WholeFile file(folder_ / fmt::format("{}{:08x}.json", kPrefix, record::crc32c(text)));
     file.write(text);
     file.commit();

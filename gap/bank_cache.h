@@ -12,7 +12,8 @@
 namespace navcal::gap {
 
 /// Null banks of missions that were diagnosed before. A bank serves every mission that was steered alike: the same
-/// shaft speeds, turns, depths and fixes within a tolerance, by the same nominal vehicle, library and program.
+/// shaft speeds, turns, depths, fixes and field of the Earth within a tolerance, by the same nominal vehicle,
+/// library and program.
 class BankCache {
  public:
   /// Empty folder: nothing is kept.

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 17;
+constexpr int kFormat = 18;
 
 json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());
@@ -112,8 +112,12 @@ bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
 }  // namespace
 
 std::string bank_text(const KeptBank& kept, std::string_view model) {
-  return json{
-      {"format", kFormat}, {"model", model}, {"fingerprint", kept.fingerprint}, {"bank", bank_json(kept.bank)}}
+  return json{{"format", kFormat},
+              {"model", model},
+              {"fingerprint", kept.fingerprint},
+              {"field_uT", kept.field_uT},
+              {"field_is_fitted", kept.field_is_fitted},
+              {"bank", bank_json(kept.bank)}}
       .dump();
 }
 
@@ -121,7 +125,8 @@ std::optional<KeptBank> read_bank(std::string_view text, std::string_view model,
   try {
     const json all = json::parse(text);
     if (all.at("format") != kFormat || all.at("model") != model) return std::nullopt;
-    KeptBank kept{all.at("fingerprint").get<std::vector<double>>(), bank_from(all.at("bank"))};
+    KeptBank kept{all.at("fingerprint").get<std::vector<double>>(), bank_from(all.at("bank")),
+                  all.at("field_uT").get<Vector3>(), all.at("field_is_fitted").get<bool>()};
     if (!is_whole(kept.bank, unknowns)) return std::nullopt;
     return kept;
   } catch (const std::exception&) {

@@ -13,6 +13,8 @@ namespace navcal::gap {
 struct KeptBank {
   std::vector<double> fingerprint;  ///< of the mission that it was steered by
   NullBank bank;
+  Vector3 field_uT{};            ///< the Earth's
+  bool field_is_fitted = false;  ///< and not known
 };
 
 /// JSON. `model`: what a reader must have in common with the writer.

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gap/earth_field.h"
+
 // What a diagnosis says: the numbers behind `navcal gap --json`, the text and the page (docs/gap.md).
 namespace navcal::gap {
 
@@ -107,8 +109,9 @@ struct Diagnosis {
   std::vector<std::string> remarks;      ///< about the recording: gaps, missing instruments, what cannot be said
   std::array<double, 4> gyro_bias_rad_s{};  ///< A-x, A-z, B-y, B-z; a nuisance, never a cause
   std::vector<ChangePoint> changes;
-  std::optional<Scatter> scatter;  ///< of the strongest channel
-  std::vector<Course> courses;     ///< of each channel
+  std::optional<Scatter> scatter;   ///< of the strongest channel
+  std::vector<Course> courses;      ///< of each channel
+  std::optional<EarthField> field;  ///< of the nominal model in this mission
   BankFacts bank;
   double duration_s = 0;  ///< of the mission
   double seconds = 0;     ///< that the diagnosis took, without the bank

@@ -8,6 +8,7 @@
 #include "instruments/compass_error.h"
 #include "pipeline/local_plane.h"
 #include "protocols/motor_card.h"
+#include "record/flat_json.h"
 #include "record/recording.h"
 
 namespace navcal::gap {
@@ -89,8 +90,12 @@ void MissionGatherer::add(const instruments::GpsSample& sample, std::int64_t tim
     fix.velocity_m_s = {*sample.speed_m_s * std::cos(*sample.course_rad),
                         *sample.speed_m_s * std::sin(*sample.course_rad)};
   }
-  if (places_.empty()) places_.push_back({*sample.latitude_rad, *sample.longitude_rad});
-  const pipeline::LocalPlane plane(places_.front().latitude_rad, places_.front().longitude_rad);
+  auto& first = mission_.field.place;
+  if (!first) {
+    first = {*sample.latitude_rad, *sample.longitude_rad, sample.height_m.value_or(0)};
+    mission_.field.utc_ns = sample.time_utc_ns;
+  }
+  const pipeline::LocalPlane plane(first->latitude_rad, first->longitude_rad);
   fix.position_m = plane.position_m(*sample.latitude_rad, *sample.longitude_rad);
   mission_.fixes.push_back(fix);
   times_ns_[fixes].push_back(time_ns);
@@ -117,7 +122,21 @@ void MissionGatherer::add(const instruments::MotorSample& sample, std::int64_t t
   times_ns_[motor].push_back(time_ns);
 }
 
-Mission MissionGatherer::take(std::int64_t begin_ns) {
+EarthField MissionGatherer::field(const Said& said) const {
+  EarthField field = mission_.field;
+  if (!field.utc_ns && field.place) field.utc_ns = times_ns_[fixes].front() + said.utc_minus_stamps_ns;
+  if (said.field_uT) {
+    field.source = EarthField::Source::stated;
+    field.north_east_down_uT = *said.field_uT;
+    return field;
+  }
+  if (!field.place) return fitted_field(mission_.compass);
+  field.set_by_model();
+  return field;
+}
+
+Mission MissionGatherer::take(std::int64_t begin_ns, const Said& said) {
+  mission_.field = field(said);
   set_in_order(mission_.compass, times_ns_[compass], begin_ns);
   set_in_order(mission_.card, times_ns_[card], begin_ns);
   set_in_order(mission_.fixes, times_ns_[fixes], begin_ns);
@@ -145,6 +164,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
   std::optional<std::int64_t> begin_ns;
   std::vector<std::int64_t> orders_ns;
   std::optional<protocols::motor_card::Command> last_order;
+  MissionGatherer::Said said;
   while (const auto entry = recording->next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       if (!begin_ns) begin_ns = raw->time_ns;
@@ -156,12 +176,18 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
         orders_ns.push_back(raw->time_ns);
         last_order = order;
       }
+    } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry); event != nullptr && !said.field_uT) {
+      if (const auto json = record::FlatJson::parse(event->json))
+        said.field_uT = stated_field_uT(json->get("message"));
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, gatherer);
+      if (change->mapping.source != pipeline::UtcMapping::Source::none) {
+        said.utc_minus_stamps_ns = change->mapping.offset_ns;
+      }
     }
     progress(recording->progress());
   }
-  Mission mission = gatherer.take(begin_ns.value_or(0));
+  Mission mission = gatherer.take(begin_ns.value_or(0), said);
   for (const std::int64_t time_ns : orders_ns) {
     mission.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
   }

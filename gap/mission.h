@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "gap/earth_field.h"
 #include "instruments/samples.h"
 #include "pipeline/pipeline.h"
 #include "sim/state.h"
 
 namespace navcal::gap {
-
-using sim::Vector3;
 
 // Times are seconds since the recording's first byte, body axes x forward, y starboard, z down.
 
@@ -61,6 +60,7 @@ struct Mission {
   double duration_s = 0;
   std::uint64_t distorted = 0;  ///< words of the compass with its remark of magnetic distortion (E001)
   std::vector<std::string> remarks;
+  EarthField field;
 
   [[nodiscard]] std::vector<double> fix_times_s() const;
   /// Why nothing can be said from it ("no inertial card: ..."); empty: something can.
@@ -71,8 +71,13 @@ struct Mission {
 class MissionGatherer final : public pipeline::Sink {
  public:
   void on_sample(const instruments::Sample& sample) override;
+  /// What the recording says beside its readings.
+  struct Said {
+    std::optional<Vector3> field_uT{};     ///< the Earth's
+    std::int64_t utc_minus_stamps_ns = 0;  ///< by its mapping
+  };
   /// Sorted, with times from `begin_ns` (the scale of the stamps) on.
-  [[nodiscard]] Mission take(std::int64_t begin_ns);
+  [[nodiscard]] Mission take(std::int64_t begin_ns, const Said& said);
 
  private:
   void add(const instruments::CompassSample& sample, std::int64_t time_ns);
@@ -80,11 +85,9 @@ class MissionGatherer final : public pipeline::Sink {
   void add(const instruments::GpsSample& sample, std::int64_t time_ns);
   void add(const instruments::MotorSample& sample, std::int64_t time_ns);
 
-  struct Place {
-    double latitude_rad = 0, longitude_rad = 0;
-  };
+  [[nodiscard]] EarthField field(const Said& said) const;
+
   Mission mission_;
-  std::vector<Place> places_;  ///< of the fixes
   std::vector<std::int64_t> times_ns_[4];
 };
 

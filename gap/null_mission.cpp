@@ -5,6 +5,7 @@
 
 #include "gap/shadow_helm.h"
 #include "sim/effects/effect_table.h"
+#include "sim/motion_in_field.h"
 #include "sim/noise.h"
 #include "sim/recording.h"
 #include "sim/vehicle/simulated_motion.h"
@@ -68,7 +69,10 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
   auto helm = std::make_unique<ShadowHelm>(
       track.rows(), track.orders().drawn_servos_rad(track.rows().size(), ActuatorTrack::kStep_s, later_s, dice),
       course, vehicle.fins);
-  const sim::SimulatedMotion motion(vehicle, std::move(helm), {begin_ns, &effects, 20});
+  const EarthField& field = recorded.mission().field;
+  const sim::MotionInField motion(
+      std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), sim::MotionOptions{begin_ns, &effects, 20}),
+      field.north_east_down_uT);
   sim::Recording::Options options{begin_ns, true, seed, &effects, false, true};
   sim::Recording instruments(options, motion);
 
@@ -84,7 +88,9 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
       if (!read.sent) pipeline.bytes(static_cast<std::uint16_t>(read.of), read.time_ns, read.bytes, gatherer);
     }
   }
-  Mission mission = gatherer.take(begin_ns);
+  Mission mission = gatherer.take(begin_ns, {});
+  // A field that is fitted takes some of each vehicle's tolerances with it.
+  mission.field = field.source == EarthField::Source::fitted ? fitted_field(mission.compass) : field;
   keep_fixes(recorded.mission(), mission);
   for (const double time_s : track.orders().order_times_s()) mission.order_times_s.push_back(time_s + later_s);
   return mission;

@@ -60,6 +60,7 @@ Mission busiest_part(const Mission& mission) {
   part.fixes = within(mission.fixes, from_s, until_s);
   part.motor = within(mission.motor, from_s, until_s);
   part.duration_s = until_s;
+  part.field = mission.field;
   return part;
 }
 

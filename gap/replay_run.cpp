@@ -69,6 +69,7 @@ void ReplayRun::complete(sim::State& state, double time_s) {
   state.rpm = 60 * now.shaft_rps;
   state.motor_current_A = in_.current_A[row];
   state.current_m_s = influences_.current_m_s;
+  state.field_world_uT = in_.mission.field.north_east_down_uT;
 }
 
 void ReplayRun::begin(const CardReading& reading) {
@@ -76,8 +77,8 @@ void ReplayRun::begin(const CardReading& reading) {
     ++next_word_;
   }
   const CompassReading& word = in_.mission.compass[std::min(next_word_, in_.mission.compass.size() - 1)];
-  const sim::State nominal;
-  const double variation_rad = std::atan2(nominal.field_world_uT[1], nominal.field_world_uT[0]);
+  const Vector3& earth_uT = in_.mission.field.north_east_down_uT;
+  const double variation_rad = std::atan2(earth_uT[1], earth_uT[0]);
   const double heading_rad = word.heading_rad.value_or(heading_of(word.field_uT, word.roll_rad, word.pitch_rad));
   body_ = {};
   body_.euler_rad = {word.roll_rad, word.pitch_rad, heading_rad + variation_rad};

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "config/vehicle.h"
 #include "gap/diagnosis.h"
+#include "gap/earth_field.h"
 #include "record/recording.h"
 
 namespace navcal::gap {
@@ -18,6 +20,7 @@ struct Request {
   std::filesystem::path mission;
   std::vector<std::filesystem::path> holdouts;  ///< other missions of the same vehicle; may be none
   config::VehicleSettings vehicle;              ///< the nominal one
+  std::optional<Vector3> field_uT;              ///< the Earth's, for all missions, whatever they say of it
   std::vector<std::string> excluded;            ///< effects that the library is to be without
   std::filesystem::path cache;                  ///< folder of null banks; empty: none are kept
   int bank_missions = 100;

@@ -31,10 +31,10 @@ Eigen::Matrix3d iron(const CompassDepartures& departures) {
 
 }  // namespace
 
-Compass::Compass(const Fitting& fitting, const CompassDepartures& departures)
+Compass::Compass(const Fitting& fitting, const CompassDepartures& departures, const Vector3& field_uT)
     : Instrument(fitting, Port::compass, kPeriod_s, kLatency_s),
       departures_(departures),
-      field_world_uT_(Eigen::AngleAxisd(departures.declination_rad, Vector3::UnitZ()) * kField_uT),
+      field_world_uT_(Eigen::AngleAxisd(departures.declination_rad, Vector3::UnitZ()) * field_uT),
       iron_(iron(departures)) {}
 
 void Compass::sense(const Snapshot& s, double after_s) {

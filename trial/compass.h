@@ -16,7 +16,9 @@ namespace navcal::trial {
 ///     tau m' + m = ...         tau = lag + |l| + l . (cos psi, sin psi) (beyond the library: l)
 class Compass final : public Instrument {
  public:
-  Compass(const Fitting& fitting, const CompassDepartures& departures);
+  /// `field_uT`: the Earth's, north, east, down.
+  Compass(const Fitting& fitting, const CompassDepartures& departures,
+          const Vector3& field_uT = Waters{}.field_uT);
 
   /// What the helmsman last read, radians; heading is magnetic.
   struct Reading {

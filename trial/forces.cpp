@@ -49,16 +49,16 @@ Wrench hull_wrench(const Hull& hull, const Flow& flow, double axial_factor, doub
   const Stations::Column x = hull.length_m / 2 * stations.place;
   const Stations::Column across = v + x * r, down = w - x * q;
   const Stations::Column weight = stations.width * (across.square() + down.square()).sqrt();
-  const double strip = 0.5 * kWaterDensity_kg_m3 * hull.crossflow_drag * crossflow_factor * hull.diameter_m *
+  const double strip = 0.5 * hull.water_density_kg_m3 * hull.crossflow_drag * crossflow_factor * hull.diameter_m *
                        hull.length_m / (kStations - 1);
   Wrench wrench;
   wrench << 0, -strip * (weight * across).sum(), -strip * (weight * down).sum(), 0,
       strip * (weight * down * x).sum(), -strip * (weight * across * x).sum();
 
   const double frontal_m2 = std::numbers::pi / 4 * hull.diameter_m * hull.diameter_m;
-  wrench(0) -= 0.5 * kWaterDensity_kg_m3 * hull.axial_drag * axial_factor * frontal_m2 * std::abs(u) * u;
+  wrench(0) -= 0.5 * hull.water_density_kg_m3 * hull.axial_drag * axial_factor * frontal_m2 * std::abs(u) * u;
 
-  const double lift = -0.5 * kWaterDensity_kg_m3 * hull.lift_area_m2 * hull.lift_slope_per_rad * std::abs(u);
+  const double lift = -0.5 * hull.water_density_kg_m3 * hull.lift_area_m2 * hull.lift_slope_per_rad * std::abs(u);
   return wrench + at({hull.lift_station_m, 0, 0}, {0, lift * v, lift * w});
 }
 
@@ -75,7 +75,8 @@ Wrench fin_wrench(const Hull& hull, const Flow& flow, const Vector3& fins_rad, d
         -kAttackLimit_rad, kAttackLimit_rad);
     const double beyond = std::max(std::abs(attack) - kStall_rad, 0.0);
     const double lifting = attack - std::copysign(stall_loss * beyond, attack);
-    const double pressure_N = 0.5 * kWaterDensity_kg_m3 * hull.fin_area_m2 * (along * along + against * against);
+    const double pressure_N =
+        0.5 * hull.water_density_kg_m3 * hull.fin_area_m2 * (along * along + against * against);
     sum += at(place, pressure_N * (hull.fin_lift_slope_per_rad * lifting * normal -
                                    hull.fin_induced_drag * attack * attack * Vector3::UnitX()));
   }
@@ -89,7 +90,7 @@ Wrench propeller_wrench(const Hull& hull, double surge_m_s, double shaft_rev_s, 
   const double d = hull.propeller_diameter_m;
   const double advance = std::max(surge_m_s, 0.0) / (shaft_rev_s * d);
   const double thrust = std::max(hull.thrust_at_rest + hull.thrust_per_advance * advance, 0.0);
-  const double scale_N = kWaterDensity_kg_m3 * shaft_rev_s * shaft_rev_s * d * d * d * d;
+  const double scale_N = hull.water_density_kg_m3 * shaft_rev_s * shaft_rev_s * d * d * d * d;
   wrench(0) = scale_N * thrust * thrust_factor;
   wrench(3) = scale_N * d * hull.torque_coefficient * (hull.torque_share + torque_leak);
   return wrench;

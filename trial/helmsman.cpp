@@ -21,9 +21,8 @@ void gather(double& sum, double missed, double near) {
 Controls Helmsman::steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card) {
   double rudder = order.rudder_rad, elevator = order.elevator_rad;
   if (order.heading_rad) {
-    const double variation = std::atan2(kField_uT.y(), kField_uT.x());
     const double missed =
-        std::remainder(*order.heading_rad - compass.heading_rad - variation, 2 * std::numbers::pi);
+        std::remainder(*order.heading_rad - compass.heading_rad - variation_rad_, 2 * std::numbers::pi);
     gather(heading_sum_, missed, kNear_rad);
     rudder =
         std::clamp(0.35 * missed + 0.02 * heading_sum_ - 0.3 * card.yaw_rate_rad_s, -kFinRange_rad, kFinRange_rad);

@@ -19,11 +19,15 @@ struct Controls {
 ///     elevator = 0.8 (pitch wanted - pitch) - 0.4 q             both within 15 degrees
 class Helmsman {
  public:
+  /// `variation_rad`: of magnetic north from true north where it steers, as its charts have it.
+  explicit Helmsman(double variation_rad) : variation_rad_(variation_rad) {}
+
   static constexpr double kPeriod_s = 0.1;
 
   [[nodiscard]] Controls steer(const Order& order, const Compass::Reading& compass, const Card::Reading& card);
 
  private:
+  double variation_rad_;
   double heading_sum_ = 0, depth_sum_ = 0;  ///< integrals of what was missed
 };
 

@@ -8,7 +8,6 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 inline constexpr double kGravity_m_s2 = 9.81;
-inline constexpr double kWaterDensity_kg_m3 = 1000;
 
 /// The hull and what drives it, nominally. The numbers are those of config/vehicle.toml, written here a second
 /// time on purpose (docs/trial.md): a slip in either shows as a disagreement of the two realities.
@@ -44,6 +43,8 @@ struct Hull {
   double roll_damping_ratio = 0.25;
   double pitch_damping_ratio = 0.5;
   double yaw_damping_per_s = 0.15;
+
+  double water_density_kg_m3 = 1000;  ///< the vehicle is trimmed to swim in it
 };
 
 /// Mass with the water that moves along: momenta about the origin = inertia * (velocity, rate), body axes, SI.

@@ -15,7 +15,8 @@ struct Fitting {
   std::uint64_t seed = 0;
   bool noisy = true;
   std::int64_t start_ns = 0;     ///< UTC of time 0
-  double clock_ppm = 30;         ///< one standard deviation of how slow a card's clock runs
+  double clock_slow = 0;         ///< share by which a card's period is too long
+  double clock_ppm = 30;         ///< one standard deviation of how slow a card's clock runs beside
   double host_delay_s = 0.0001;  ///< mean of the exponential delay of a read
 };
 
@@ -29,7 +30,7 @@ class Instrument {
         dice_(fitting.seed, static_cast<std::uint64_t>(port)),
         port_(port),
         latency_s_(latency_s),
-        period_s_(period_s * (1 + dice_.normal(fitting.clock_ppm) * 1e-6)),
+        period_s_(period_s * (1 + fitting.clock_slow + dice_.normal(fitting.clock_ppm) * 1e-6)),
         phase_s_(dice_.uniform(0, period_s)) {}
   virtual ~Instrument() = default;
   Instrument(const Instrument&) = delete;

@@ -6,6 +6,7 @@
 
 #include "trial/receiver.h"
 #include "trial/vehicle.h"
+#include "trial/waters.h"
 
 namespace navcal::trial {
 
@@ -27,6 +28,7 @@ struct Mission {
   Start start;
   std::vector<Order> orders;  ///< in order of time; before the first nothing turns
   Anchorage anchorage;
+  Waters waters;
 };
 
 }  // namespace navcal::trial

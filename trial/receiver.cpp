@@ -25,8 +25,8 @@ protocols::oncore::Coordinates on_ellipsoid(const Anchorage& anchorage, const Ve
   const double north_radius = a * (1 - e2) / (root * root * root) + anchorage.height_m;
   const double east_radius = (a / root + anchorage.height_m) * std::cos(latitude);
   return {anchorage.latitude_deg + place_m.x() / north_radius / kDegree,
-          anchorage.longitude_deg + place_m.y() / east_radius / kDegree, anchorage.height_m - place_m.z(),
-          std::nullopt};
+          std::remainder(anchorage.longitude_deg + place_m.y() / east_radius / kDegree, 360),
+          anchorage.height_m - place_m.z(), std::nullopt};
 }
 
 void set_time(protocols::oncore::Position& position, std::int64_t utc_ns) {

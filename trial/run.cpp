@@ -53,13 +53,21 @@ std::optional<Lost> run(const Mission& mission, const Specimen& specimen, std::u
   check(mission);
   const Departures& departures = specimen.departures;
   const Fitting fitting{seed, specimen.noisy, mission.start_ns, specimen.clock_ppm, specimen.host_delay_s};
-  World world(Vehicle(specimen.hull, departures.vehicle, mission.start),
-              std::max(departures.card.latency_s, departures.gps.latency_s) + 1);
-  Compass compass(fitting, departures.compass);
-  Card card(fitting, departures.card);
+  const auto with_clock = [&](double slow) {
+    Fitting its_own = fitting;
+    its_own.clock_slow = slow;
+    return its_own;
+  };
+  const Waters& waters = mission.waters;
+  Hull hull = specimen.hull;
+  hull.water_density_kg_m3 = waters.density_kg_m3;
+  World world(Vehicle(hull, departures.vehicle, mission.start),
+              std::max(departures.card.latency_s, departures.gps.latency_s) + 1, waters.surface_C);
+  Compass compass(with_clock(specimen.clocks.compass), departures.compass, waters.field_uT);
+  Card card(with_clock(specimen.clocks.card), departures.card);
   Receiver receiver(fitting, departures.gps, mission.anchorage);
-  Motor motor(fitting);
-  Helmsman helmsman;
+  Motor motor(with_clock(specimen.clocks.motor));
+  Helmsman helmsman(std::atan2(waters.field_uT.y(), waters.field_uT.x()));
   Outbox outbox(sink);
   std::size_t following = 0;  // order
 

@@ -14,6 +14,11 @@ namespace navcal::trial {
 struct Specimen {
   Hull hull;
   Departures departures;
+  /// By how much the periods of these cards are too long, in shares, beside `clock_ppm`.
+  struct Clocks {
+    double compass = 0, card = 0, motor = 0;
+  };
+  Clocks clocks;
   double clock_ppm = 30;         ///< one standard deviation of how slow the clock of each card runs
   double host_delay_s = 0.0001;  ///< mean delay of a read
   bool noisy = true;

@@ -10,11 +10,12 @@ constexpr double kColderPerMetre_K = 0.25;
 constexpr double kSelfHeating_K = 8;
 constexpr double kWarming_s = 200;
 
-double water_C(double depth_m) { return kReferenceTemperature_C - kColderPerMetre_K * depth_m; }
-
 }  // namespace
 
-World::World(Vehicle vehicle, double memory_s) : vehicle_(std::move(vehicle)), memory_s_(memory_s) {
+double World::water_C(double depth_m) const { return surface_C_ - kColderPerMetre_K * depth_m; }
+
+World::World(Vehicle vehicle, double memory_s, double surface_C)
+    : vehicle_(std::move(vehicle)), memory_s_(memory_s), surface_C_(surface_C) {
   past_.push_back(vehicle_.snapshot());
   past_.back().electronics_C = water_C(past_.back().position_m.z());
 }

@@ -4,20 +4,20 @@
 
 #include "trial/snapshot.h"
 #include "trial/vehicle.h"
+#include "trial/waters.h"
 
 namespace navcal::trial {
 
-/// Earth's field where the vehicle swims: north, east, down.
-inline const Vector3 kField_uT{19.0, 0.6, 44.0};
+/// Effects of temperature are reckoned from here.
 inline constexpr double kReferenceTemperature_C = 15;
 
 /// The vehicle with its recent past, so that an instrument can ask what was at a time between two steps or some
-/// seconds ago. Electronics warm from the water's temperature at power-on (15 C, less 0.25 C a metre) towards 8 C
-/// above it: T' = (T_water(z) + 8 C - T) / 200 s.
+/// seconds ago. Electronics warm from the water's temperature at power-on (15 C at the surface unless said
+/// otherwise, less 0.25 C a metre) towards 8 C above it: T' = (T_water(z) + 8 C - T) / 200 s.
 class World {
  public:
   /// `memory_s`: how far back at() may reach.
-  World(Vehicle vehicle, double memory_s);
+  World(Vehicle vehicle, double memory_s, double surface_C = Waters{}.surface_C);
 
   /// A whole number of steps of the vehicle on.
   void advance(double to_s);
@@ -29,9 +29,11 @@ class World {
 
  private:
   void remember(double step_s);
+  [[nodiscard]] double water_C(double depth_m) const;
 
   Vehicle vehicle_;
   double memory_s_;
+  double surface_C_;
   std::deque<Snapshot> past_;
 };
 

@@ -62,7 +62,15 @@ TEST_F(GapCommand, AsksForWhatWasSaid) {
   EXPECT_EQ(asked->bank_missions, 30);
   EXPECT_EQ(asked->bank_seed, 7U);
   EXPECT_EQ(asked->cache, "here");
+  EXPECT_FALSE(asked->field_uT);
   EXPECT_EQ(outcome.output.find("explained"), 0U);
+}
+
+TEST_F(GapCommand, AFieldGoesIntoTheRequest) {
+  EXPECT_EQ(run({"a.cap", "--field", "19.0,0.6,-44.0"}).status, 0);
+  ASSERT_TRUE(asked && asked->field_uT);
+  EXPECT_EQ(*asked->field_uT, (gap::Vector3{19, 0.6, -44}));
+  EXPECT_EQ(run({"a.cap", "--field", "19.0,0.6"}).status, 2);
 }
 
 TEST_F(GapCommand, ItsCacheIsWhereCachesAre) {

@@ -21,7 +21,7 @@ TEST(GapJson, HasTheKeysOfTheContract) {
   const Json json = Json::parse(gap_json(test::explained_gap()));
   EXPECT_EQ(keys_of(json), (std::vector<std::string>{"verdict", "sentence", "where", "effects", "gap",
                                                      "unexplained", "candidates", "next", "remarks", "gyro_bias",
-                                                     "changes", "bank", "duration_s", "seconds"}));
+                                                     "changes", "field", "bank", "duration_s", "seconds"}));
   EXPECT_EQ(json["verdict"], "explained");
   EXPECT_EQ(keys_of(json["where"][0]),
             (std::vector<std::string>{"channel", "regime", "gap", "unit", "floor", "p_value"}));
@@ -48,6 +48,26 @@ TEST(GapJson, NumbersComeBackToTheLastBit) {
   EXPECT_TRUE(json["gap"]["channels"][2]["closed"].is_null());
   EXPECT_TRUE(json["gap"]["channels"][2]["closed_ci"].is_null());
   EXPECT_EQ(json["gyro_bias"]["az_rad_s"], -0.002);
+}
+
+TEST(GapJson, SaysWhichFieldOfTheEarthTheModelHas) {
+  auto diagnosis = test::explained_gap();
+  diagnosis.field.emplace().source = gap::EarthField::Source::given;
+  const Json given = Json::parse(gap_json(diagnosis))["field"];
+  EXPECT_EQ(keys_of(given), (std::vector<std::string>{"source", "north_east_down_uT", "place", "date"}));
+  EXPECT_EQ(given["source"], "given");
+  EXPECT_EQ(given["north_east_down_uT"], Json::array({19.0, 0.6, 44.0}));
+  EXPECT_TRUE(given["place"].is_null());
+  EXPECT_TRUE(given["date"].is_null());
+
+  diagnosis.field->place = {0.5, -1.0, 3};
+  diagnosis.field->utc_ns = 1'780'272'000'000'000'000;
+  diagnosis.field->set_by_model();
+  const Json by_model = Json::parse(gap_json(diagnosis))["field"];
+  EXPECT_EQ(by_model["source"], "model");
+  EXPECT_EQ(by_model["date"], "2026-06-01");
+  EXPECT_NEAR(by_model["place"]["latitude_deg"], 28.6479, 1e-4);
+  EXPECT_NEAR(by_model["place"]["longitude_deg"], -57.2958, 1e-4);
 }
 
 TEST(GapJson, NothingAtAllIsAnAnswer) {

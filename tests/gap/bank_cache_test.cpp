@@ -60,6 +60,18 @@ TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   EXPECT_TRUE(cache.find(replay, course, {20, 1, 1}));
 }
 
+TEST_F(BankCacheTest, AnotherFieldOfTheEarthNeedsAnother) {
+  const BankCache cache(folder_.path(), {}, library_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
+  mission_.field.north_east_down_uT[0] += 0.2;
+  EXPECT_TRUE(cache.find(replay_, course_, {20, 1, 1}));
+  mission_.field.north_east_down_uT[0] += 1;
+  EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
+  mission_.field.north_east_down_uT[0] -= 1;
+  mission_.field.source = EarthField::Source::fitted;
+  EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
+}
+
 TEST_F(BankCacheTest, AFolderThatCannotBeMadeIsToldAndNoMore) {
   std::ofstream(folder_ / "file") << "in the way";
   const BankCache cache(folder_ / "file" / "banks", {}, library_);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -59,13 +60,45 @@ TEST(Mission, AMotorCardWithoutShaftSpeedIsToldAsSuch) {
   instruments::Sample sample;
   sample.value = motor;
   gatherer.on_sample(sample);
-  Mission mission = gatherer.take(0);
+  Mission mission = gatherer.take(0, {});
   const Mission whole = simulated_mission("identification", "", 60, 1);
   mission.card = whole.card;
   mission.compass = whole.compass;
   mission.duration_s = whole.duration_s;
   EXPECT_EQ(mission.shortcoming(),
             "the motor card reports no shaft speed (rpm): what the vehicle was told to do is not known");
+}
+
+TEST(Mission, ItsFieldIsStatedOrTheModelsOrFitted) {
+  const navcal::test::TemporaryFolder folder;
+  const auto file = folder / "mission.cap";
+  test::write_mission(file, "identification", "", 60, 1);
+  const EarthField stated = load_mission(file, [](double) {}).field;
+  EXPECT_EQ(stated.source, EarthField::Source::stated);
+  EXPECT_EQ(stated.north_east_down_uT, (Vector3{19, 0.6, 44}));
+
+  std::ifstream lines(file);
+  std::string line, without_mark, without_fixes;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("#event")) continue;
+    without_mark += line + "\n";
+    if (line.find(" gps < ") == std::string::npos) without_fixes += line + "\n";
+  }
+  std::ofstream(file) << without_mark;
+  const EarthField model = load_mission(file, [](double) {}).field;
+  EXPECT_EQ(model.source, EarthField::Source::model);
+  EXPECT_EQ(model.date(), "2026-01-01");
+  const auto there = base::world_magnetic_field({37.0629 / 57.2957795, -80.6275 / 57.2957795, 562}, 2026.0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(model.north_east_down_uT[static_cast<std::size_t>(i)], there.north_east_down_uT[i], 0.01);
+  }
+
+  std::ofstream(file) << without_fixes;
+  const EarthField fitted = load_mission(file, [](double) {}).field;
+  EXPECT_EQ(fitted.source, EarthField::Source::fitted);
+  EXPECT_NEAR(fitted.north_east_down_uT[0], std::hypot(19, 0.6), 0.1);
+  EXPECT_EQ(fitted.north_east_down_uT[1], 0);
+  EXPECT_NEAR(fitted.north_east_down_uT[2], 44, 0.1);
 }
 
 TEST(Mission, SaysWhatItLacks) {

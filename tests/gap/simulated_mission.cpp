@@ -39,6 +39,8 @@ void write_mission(const std::filesystem::path& file, std::string_view mission, 
   record::CaptureWriter writer(sim::recording_ports());
   std::string text;
   writer.begin(text);
+  record::CaptureWriter::comment(text,
+                                 "event simulated field of the Earth: north 19.000, east 0.600, down 44.000 uT");
   std::vector<sim::LineRead> reads;
   // In short steps: the motion remembers its last seconds only.
   for (double until_s = 0; until_s < seconds; until_s += 1) {

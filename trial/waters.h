@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace navcal::trial {
+
+/// Where a vehicle swims, as far as it feels it. The defaults are a reference that belongs to no real place.
+struct Waters {
+  Eigen::Vector3d field_uT{19.0, 0.6, 44.0};  ///< the Earth's: north, east, down
+  double surface_C = 15;
+  double density_kg_m3 = 1000;
+};
+
+}  // namespace navcal::trial
