@@ -54,6 +54,25 @@ TEST(GapTrialCases, TheSameSeedAndNumberGiveTheSameCaseAndOthersOthers) {
   }
 }
 
+TEST(GapTrialCases, EachHasAPlaceOfTheTrialAndClocksOfItsOwn) {
+  std::set<int> places;
+  std::set<double> slow;
+  for (int number = 1; number <= 2 * kCasesPerRound; ++number) {
+    const TrialCase drawn = drawn_case(7, number, 10, 4);
+    places.insert(drawn.place_number);
+    EXPECT_EQ(drawn.place.begin_ns, drawn_place(7, drawn.place_number).begin_ns);
+    for (const double clock :
+         {drawn.vehicle.clocks.compass, drawn.vehicle.clocks.card, drawn.vehicle.clocks.motor}) {
+      EXPECT_LE(std::abs(clock), 0.01);
+      slow.insert(clock);
+    }
+    // The vehicle is the same, wherever it swims.
+    EXPECT_EQ(drawn_case(7, number, 10, 5).mission_seeds, drawn.mission_seeds);
+  }
+  EXPECT_EQ(places, (std::set<int>{0, 1, 2, 3}));
+  EXPECT_EQ(slow.size(), 6U * kCasesPerRound);
+}
+
 TEST(GapTrialCases, AnArmComesThroughAllEffectsBeforeOneComesAgain) {
   for (const TrialArm arm : {TrialArm::single, TrialArm::single_tenth, TrialArm::removed, TrialArm::foreign}) {
     const auto kinds = arm == TrialArm::foreign ? trial::foreign_effects() : trial::library_effects();

@@ -17,7 +17,7 @@ TEST(GapTrialProgram, NamesNothingThatIsNotThereAndAnswersEveryCase) {
   ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
   navcal::test::Process trial(
       {NAVCAL_PROGRAM, "gap", "trial", "--arms", "nulls,single-1,single-2", "--cases", "4", "--minutes", "3",
-       "--bank", "40", "--seed", "1903", "--json", folder / "trial.json"},
+       "--places", "1", "--bank", "40", "--seed", "1903", "--json", folder / "trial.json"},
       folder / "trial");
   const auto status = trial.wait(std::chrono::seconds(280));
   ::unsetenv("XDG_CACHE_HOME");

@@ -86,11 +86,11 @@ TEST_F(GapTrial, TheDiagnosisIsToldNamesOfFilesAndNoMore) {
   const std::string excluded = truth["excluded"];
   EXPECT_TRUE(told.starts_with("gap ")) << told;
   for (const std::string& part :
-       {std::string("/a.cap --holdout "), std::string("/b.cap --holdout "), std::string("/c.cap --json "),
+       {std::string("/a.cap --holdout "), std::string("/b.cap --holdout "), std::string("/c.cap --vehicle "),
         std::string(" --bank 30 --exclude ") + excluded}) {
     EXPECT_NE(told.find(part), std::string::npos) << part << " in " << told;
   }
-  EXPECT_NE(told.find("\na.cap\nb.cap\nc.cap\nerrors.txt\n"), std::string::npos) << told;
+  EXPECT_NE(told.find("\na.cap\nb.cap\nc.cap\nerrors.txt\nvehicle.toml\n"), std::string::npos) << told;
   for (const char* secret : {"987654", "removed", "trial"})
     EXPECT_EQ(told.find(secret), std::string::npos) << told;
 }

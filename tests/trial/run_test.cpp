@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -71,6 +72,39 @@ std::pair<std::size_t, std::size_t> frames_and_their_bytes(const std::vector<std
     bytes += frame.bytes.size();
   });
   return {frames, bytes};
+}
+
+TEST(Run, WatersAreFeltAndClocksKept) {
+  Mission mission = short_mission();
+  mission.anchorage = {-16.8, 179.9999, 0};
+  mission.waters.field_uT = {32, 7, -25};
+  mission.waters.surface_C = 5;
+  Specimen specimen;
+  specimen.clocks = {0.01, -0.01, 0.01};
+  const Kept sink = kept(mission, 1, specimen);
+  double size_uT = 0, coldest_C = 100;
+  std::size_t words = 0;
+  protocols::tcm2::Parser parser;
+  parser.feed(stream_of(sink, Port::compass), [&](const protocols::Frame& frame) {
+    const auto word = protocols::tcm2::decode_word(frame.bytes);
+    ASSERT_TRUE(word);
+    ++words;
+    size_uT += std::hypot(*word->x, *word->y, *word->z);
+    coldest_C = std::min(coldest_C, *word->temperature);
+  });
+  EXPECT_NEAR(size_uT / static_cast<double>(words), std::hypot(32, 7, 25), 0.05);
+  EXPECT_NEAR(coldest_C, 5, 0.7);
+  EXPECT_NEAR(static_cast<double>(words), 600 / 1.01, 1.5);
+  const auto card = frames_and_their_bytes<protocols::imu_card::Parser>(stream_of(sink, Port::imu));
+  EXPECT_NEAR(static_cast<double>(card.first), 1200 / 0.99, 2.5);
+}
+
+TEST(Run, ThrustAndDragGrowWithTheWatersDensityAlike) {
+  Mission mission = short_mission();
+  mission.orders.resize(1);
+  const double fresh_m_s = kept(mission, 1).truths.back().velocity_m_s.x();
+  mission.waters.density_kg_m3 = 1028;
+  EXPECT_NEAR(kept(mission, 1).truths.back().velocity_m_s.x(), fresh_m_s, 0.003);
 }
 
 TEST(Run, EveryByteIsPartOfAFrameAndEveryInstrumentKeepsItsPace) {
