@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -10,21 +13,61 @@
 #include <vector>
 
 #include "gap/mission.h"
-#include "sim/rotation.h"
 
 namespace navcal::gap {
-using sim::operator*;  // NOLINT(misc-unused-using-decls): of a matrix and a vector, which are std::array
-
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 /// No place on the Earth has more than 70 uT.
 constexpr double kGreatest_uT = 100;
 
+Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
+
+/// Unit vector downwards in body axes, by the reading's own tilt.
+Eigen::Vector3d downwards(const CompassReading& reading) {
+  const double sf = std::sin(reading.roll_rad), cf = std::cos(reading.roll_rad);
+  const double st = std::sin(reading.pitch_rad), ct = std::cos(reading.pitch_rad);
+  return {-st, ct * sf, ct * cf};
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// Least squares for the field's vertical part D, its size F and iron b along x and y that turns with the vehicle,
+/// which would move F: of each reading B, with g the unit vector downwards in body axes,
+///     g . B = D + g . b        |B|^2 = (F^2 - |b|^2) + 2 B . b
+/// Iron along z is left to the field: the noise of the tilt hides what would tell them apart. Where the vehicle
+/// hardly turned, b is taken to be small.
+std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassReading> readings) {
+  constexpr double kReading_uT = 10;  ///< lag of the tilt and noise, alike for many readings in a row
+  constexpr double kIron_uT = 3;
+  constexpr double kOutlier = 0.3;  ///< of the usual size
+  if (readings.empty()) return std::nullopt;
+  std::vector<double> sizes_uT;
+  for (const CompassReading& reading : readings) sizes_uT.push_back(vector_of(reading.field_uT).norm());
+  const double usual_uT = median(std::move(sizes_uT));
+  if (!(usual_uT > 0)) return std::nullopt;
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();  // of b, D, (F^2 - |b|^2) / (2 usual size)
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  normal.diagonal().head<2>().setConstant(kReading_uT * kReading_uT / (kIron_uT * kIron_uT));
+  const auto add = [&](const Eigen::Vector4d& row, double value) {
+    normal += row * row.transpose();
+    right += row * value;
+  };
+  for (const CompassReading& reading : readings) {
+    const Eigen::Vector3d B = vector_of(reading.field_uT);
+    if (std::abs(B.norm() - usual_uT) > kOutlier * usual_uT) continue;
+    const Eigen::Vector3d g = downwards(reading);
+    add({g.x(), g.y(), 1, 0}, g.dot(B));
+    add({B.x() / usual_uT, B.y() / usual_uT, 0, 1}, B.squaredNorm() / (2 * usual_uT));
+  }
+  const Eigen::Vector4d found = normal.ldlt().solve(right);
+  const double square_uT2 = 2 * usual_uT * found[3] + found.head<2>().squaredNorm();
+  if (!found.allFinite() || !(square_uT2 > 0)) return std::nullopt;
+  return std::array{found[2], std::sqrt(square_uT2)};
 }
 
 std::string place_text(const base::GeodeticPosition& place) {
@@ -130,15 +173,11 @@ std::optional<Vector3> stated_field_uT(std::string_view event) {
 
 EarthField fitted_field(std::span<const CompassReading> readings) {
   EarthField field;
-  if (readings.empty()) return field;
-  std::vector<double> horizontal, down;
-  for (const CompassReading& reading : readings) {
-    const Vector3 levelled = sim::R_world_from_body({reading.roll_rad, reading.pitch_rad, 0}) * reading.field_uT;
-    horizontal.push_back(std::hypot(levelled[0], levelled[1]));
-    down.push_back(levelled[2]);
-  }
+  const auto solved = vertical_and_size(readings);
+  if (!solved) return field;
+  const auto [down_uT, size_uT] = *solved;
   field.source = EarthField::Source::fitted;
-  field.north_east_down_uT = {median(std::move(horizontal)), 0, median(std::move(down))};
+  field.north_east_down_uT = {std::sqrt(std::max(size_uT * size_uT - down_uT * down_uT, 0.0)), 0, down_uT};
   return field;
 }
 

@@ -50,8 +50,8 @@ struct EarthField {
 /// down 44.000 uT". Nothing for any other text.
 [[nodiscard]] std::optional<Vector3> stated_field_uT(std::string_view event);
 
-/// The medians of the horizontal and vertical parts of the readings, levelled by their own tilt. North is magnetic
-/// north. Without readings: the reference field.
+/// Size and dip that make the readings, with their own tilt, those of one field and of iron along x and y.
+/// Iron along z is left to the field. North is magnetic north. Without readings: the reference field.
 [[nodiscard]] EarthField fitted_field(std::span<const CompassReading> readings);
 
 }  // namespace navcal::gap

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "gap/mission.h"
 #include "sim/rotation.h"
@@ -26,23 +27,40 @@ TEST(StatedField, IsReadFromTheMarkOfARecordingAlone) {
   }
 }
 
-TEST(FittedField, IsThatOfTheLevelledReadings) {
-  const Vector3 earth{12, 0, -50};
+/// Of a vehicle that circles in a field, with iron, pitching and rolling by so much.
+std::vector<CompassReading> circling(const Vector3& earth_uT, const Vector3& iron_uT, double tilt_rad) {
   std::vector<CompassReading> readings;
-  for (int i = 0; i < 200; ++i) {
-    const Vector3 euler{0.2 * std::sin(i), 0.3 * std::cos(2.0 * i), 0.1 * i};
+  for (int i = 0; i < 400; ++i) {
+    const Vector3 euler{0.3 * tilt_rad * std::sin(i), tilt_rad * std::cos(2.0 * i), 0.1 * i};
     CompassReading reading;
     reading.roll_rad = euler[0];
     reading.pitch_rad = euler[1];
-    const auto to_body = sim::transpose(sim::R_world_from_body(euler));
-    reading.field_uT = sim::operator*(to_body, earth);
+    reading.field_uT = sim::operator*(sim::transpose(sim::R_world_from_body(euler)), earth_uT);
+    for (std::size_t k = 0; k < 3; ++k) reading.field_uT[k] += iron_uT[k];
     readings.push_back(reading);
   }
-  const EarthField field = fitted_field(readings);
-  EXPECT_EQ(field.source, EarthField::Source::fitted);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(field.north_east_down_uT[i], earth[i], 1e-9);
-  EXPECT_NE(doubt_of(field).find("--field"), std::string::npos);
+  return readings;
+}
+
+TEST(FittedField, IsThatOfTheReadingsWhateverIronIsAcross) {
+  const auto close_to = [](const Vector3& uT, const EarthField& field, double within_uT) {
+    EXPECT_EQ(field.source, EarthField::Source::fitted);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(field.north_east_down_uT[i], uT[i], within_uT) << i;
+  };
+  close_to({12, 0, -50}, fitted_field(circling({12, 0, -50}, {}, 0.3)), 0.02);
+  close_to({20, 0, 40}, fitted_field(circling({12, 16, 40}, {2, -1, 0}, 0.3)), 0.2);
+  // Vertical iron belongs to the field.
+  close_to({20, 0, 41}, fitted_field(circling({20, 0, 40}, {2, -1, 1}, 0)), 0.2);
+
+  auto readings = circling({20, 0, 40}, {}, 0.3);
+  readings[7].field_uT = {500, 0, 0};
+  close_to({20, 0, 40}, fitted_field(readings), 0.02);
+  EXPECT_NE(doubt_of(fitted_field(readings)).find("--field"), std::string::npos);
+}
+
+TEST(FittedField, NeedsReadings) {
   EXPECT_EQ(fitted_field({}).source, EarthField::Source::reference);
+  EXPECT_EQ(fitted_field(std::vector<CompassReading>(3)).source, EarthField::Source::reference);
 }
 
 TEST(ModelField, IsToldWithPlaceAndDate) {
