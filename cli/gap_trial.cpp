@@ -77,8 +77,14 @@ std::vector<TrialCase> cases_of(const Options& options) {
 }
 
 TrialReport report_on(const Options& options, std::size_t asked_for, TrialRun run) {
-  TrialReport report{
-      options.seed, options.minutes, asked_for, std::move(run.ended_early), std::move(run.results), {}, {}};
+  TrialReport report{options.seed,
+                     options.minutes,
+                     options.places,
+                     asked_for,
+                     std::move(run.ended_early),
+                     std::move(run.results),
+                     {},
+                     {}};
   report.scores = trial_scores(report.results);
   report.confusion = trial_confusion(report.results);
   return report;

@@ -42,11 +42,9 @@ Json json_of(const TrialResult& result) {
 }  // namespace
 
 std::string trial_json(const TrialReport& report) {
-  Json json{{"seed", report.seed},
-            {"minutes", report.minutes},
-            {"asked_for", report.asked_for},
-            {"answered", report.results.size()},
-            {"ended_early", report.ended_early}};
+  Json json{
+      {"seed", report.seed},           {"minutes", report.minutes},         {"places", report.places},
+      {"asked_for", report.asked_for}, {"answered", report.results.size()}, {"ended_early", report.ended_early}};
   auto& scores = json["scores"] = Json::array();
   for (const TrialScore& score : report.scores.scores) scores.push_back(json_of(score));
   auto& power = json["power"] = Json::array();

@@ -19,8 +19,8 @@ void append_verdict(HtmlPage& page, const TrialReport& report) {
   }
   page.fact(missed ? "plain" : "good", "targets", targets_text(report.scores));
   page.fact("plain", "cases",
-            fmt::format("{} of {} answered; seed {}, missions of {} minutes.", report.results.size(),
-                        report.asked_for, report.seed, report.minutes));
+            fmt::format("{} of {} answered; seed {}, missions of {} minutes, {} places.", report.results.size(),
+                        report.asked_for, report.seed, report.minutes, report.places));
   if (!report.ended_early.empty()) page.fact("bad", "ended early", report.ended_early + ".");
 }
 

@@ -13,6 +13,7 @@ namespace navcal::cli {
 struct TrialReport {
   std::uint64_t seed = 0;
   int minutes = 10;
+  int places = kTrialPlaces;
   std::size_t asked_for = 0;  ///< cases
   std::string ended_early;    ///< why
   std::vector<TrialResult> results;

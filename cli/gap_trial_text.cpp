@@ -40,13 +40,14 @@ void append_mistakes(std::string& out, const TrialReport& report) {
 }  // namespace
 
 std::string rerun_command(const TrialReport& report, int number) {
-  return fmt::format("navcal gap trial --seed {} --minutes {} --only {} --keep DIR", report.seed, report.minutes,
-                     number > 0 ? std::to_string(number) : "CASE");
+  return fmt::format("navcal gap trial --seed {} --minutes {} --places {} --only {} --keep DIR", report.seed,
+                     report.minutes, report.places, number > 0 ? std::to_string(number) : "CASE");
 }
 
 std::string trial_text(const TrialReport& report) {
-  std::string out = fmt::format("\n{} of {} cases answered, seed {}, missions of {} minutes\n",
-                                report.results.size(), report.asked_for, report.seed, report.minutes);
+  std::string out =
+      fmt::format("\n{} of {} cases answered, seed {}, missions of {} minutes, {} places\n", report.results.size(),
+                  report.asked_for, report.seed, report.minutes, report.places);
   if (!report.ended_early.empty()) add(out, "Ended early: {}\n", report.ended_early);
   out += '\n';
   append_scores(out, report.scores);

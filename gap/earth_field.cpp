@@ -154,8 +154,8 @@ std::string doubt_of(const EarthField& field) {
   const bool is_near = std::abs(field.place->latitude_rad * kDegrees - kLatitude_deg) < kNear_deg &&
                        std::abs(field.place->longitude_rad * kDegrees - kLongitude_deg) < kNear_deg;
   if (!is_near) return {};
-  return "older simulated recordings of this place were made in a reference field; they are read with --field "
-         "19.0,0.6,44.0";
+  return "instruments simulated or emulated at this place are in a reference field unless told otherwise; their "
+         "recordings are read with --field 19.0,0.6,44.0";
 }
 
 std::optional<Vector3> stated_field_uT(std::string_view event) {
