@@ -77,8 +77,6 @@ class Diagnosing {
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
   /// A mission is held out only when it shares no readings with those before it.
   void expect_other_content(const std::string& name, const Mission& mission);
-  /// The Earth's field as it was asked for, else as the mission has it.
-  [[nodiscard]] EarthField field_in(const Mission& mission) const;
   void find_bank(Prepared& prepared, const std::string& name, Diagnosis& answer);
   [[nodiscard]] SearchResult search_by(const Priors& priors, const Prepared& a, const Linearised& nominal) const;
   /// A play is judged by vehicles that have it.
@@ -115,20 +113,12 @@ void Diagnosing::expect_other_content(const std::string& name, const Mission& mi
   contents_.emplace_back(name, std::move(content));
 }
 
-EarthField Diagnosing::field_in(const Mission& mission) const {
-  EarthField field = mission.field;
-  if (!request_.field_uT) return field;
-  field.source = EarthField::Source::given;
-  field.north_east_down_uT = *request_.field_uT;
-  return field;
-}
-
 std::unique_ptr<Prepared> Diagnosing::prepare(const std::filesystem::path& file, Diagnosis& answer) {
   auto prepared = std::make_unique<Prepared>();
   const std::string name = file.filename().string();
   prepared->mission = load_mission(file, [&](double done) { progress_("reading " + name, done); });
   expect_other_content(name, prepared->mission);
-  prepared->mission.field = field_in(prepared->mission);
+  if (request_.field_uT) prepared->mission.field.set_given(*request_.field_uT);
   if (!answer.field) answer.field = prepared->mission.field;
   for (const auto& remark : prepared->mission.remarks) answer.remarks.push_back(remark);
   const std::string doubt = doubt_of(prepared->mission.field);

@@ -31,6 +31,11 @@ struct EarthField {
 
   /// The model's field at `place` and `utc_ns`, which both must be there.
   void set_by_model();
+  /// Whatever the recording says of it.
+  void set_given(const Vector3& uT) {
+    source = Source::given;
+    north_east_down_uT = uT;
+  }
   /// Whether the field is the model's, but of a date outside of its years.
   [[nodiscard]] bool is_extrapolated() const;
   /// "2026-06-01"; empty: no date.
