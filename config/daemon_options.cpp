@@ -1,6 +1,7 @@
 #include "config/calibration_options.h"
 #include "config/navigation_options.h"
 #include "config/options.h"
+#include "config/role_options.h"
 #include "config/text_rules.h"
 
 namespace navcal::config {
@@ -116,6 +117,12 @@ std::vector<Option<S>> make() {
            .octal = true},
           [](auto& s) -> auto& { return s.control.mode; }),
 
+      boolean<S>(
+          {.table = "environment",
+           .key = "model",
+           .description = "Whether declination, field and dip that are 0 here follow from the World Magnetic "
+                          "Model, from the first fix on."},
+          [](auto& s) -> auto& { return s.environment.model; }),
       real<S>(
           {.table = "environment",
            .key = "declination_deg",
@@ -141,6 +148,7 @@ std::vector<Option<S>> make() {
            .high = 90},
           [](auto& s) -> auto& { return s.environment.dip_rad; }),
   };
+  for (auto& option : role_options()) options.push_back(std::move(option));
   for (auto& option : calibration_options()) options.push_back(std::move(option));
   for (auto& option : navigation_options()) options.push_back(std::move(option));
   return options;

@@ -19,6 +19,7 @@ Settings parse(std::string_view toml, std::string_view name, const Overrides& ov
   if (readable) {
     reader.take(entries);
     reader.check_ports();
+    reader.check_roles();
   }
   auto& found = reader.problems();
   problems.insert(problems.end(), found.begin(), found.end());

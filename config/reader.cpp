@@ -55,6 +55,10 @@ void Reader::take(const std::vector<Entry>& entries) {
 void Reader::take_daemon(const Entry& entry) {
   if (auto refused = take_entry(daemon_options(), settings_, entry, {std::string(kPort)}))
     complain(entry, std::move(*refused));
+  if (entry.keys.front() != "roles" || entry.keys.size() != 2) return;
+  for (const Role role : kRoles) {
+    if (entry.keys[1] == name_of(role)) role_lines_.at(static_cast<std::size_t>(role)) = entry.line;
+  }
 }
 
 void Reader::take_port(const std::string& name, const std::vector<const Entry*>& entries) {
@@ -149,6 +153,27 @@ void Reader::check_ports() {
       same("path", port.path, other.path);
       same("udev_name", port.udev_name, other.udev_name);
       same("usb_serial", port.usb_serial, other.usb_serial);
+    }
+  }
+}
+
+void Reader::check_roles() {
+  std::vector<std::string> names;
+  for (const PortSettings& port : settings_.ports) names.push_back(port.name);
+  for (const Role role : kRoles) {
+    const std::string& name = settings_.roles.port_name(role);
+    if (name.empty()) continue;
+    const auto problem = [&](std::string message) {
+      problems_.push_back({role_lines_.at(static_cast<std::size_t>(role)), fmt::format("roles.{}", name_of(role)),
+                           std::move(message)});
+    };
+    const auto port = std::find_if(settings_.ports.begin(), settings_.ports.end(),
+                                   [&](const PortSettings& known) { return known.name == name; });
+    if (port == settings_.ports.end()) {
+      problem(fmt::format("there is no port {}", name) + suggestion(name, names));
+    } else if (!can_deliver(port->protocol, role)) {
+      problem(fmt::format("port {} is of protocol {}, which has no {}", name, protocols::name_of(port->protocol),
+                          name_of(role)));
     }
   }
 }

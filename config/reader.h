@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ class Reader {
   void take(const std::vector<Entry>& entries);
   /// What concerns several settings at once: no ports, places missing, ambiguous or shared.
   void check_ports();
+  /// Roles given to ports that are missing or cannot deliver them.
+  void check_roles();
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] std::vector<Problem>& problems() { return problems_; }
@@ -26,7 +29,8 @@ class Reader {
   void complain(const Entry& entry, std::string message);
 
   Settings settings_;
-  std::vector<unsigned> port_lines_;  ///< where each port's table begins
+  std::vector<unsigned> port_lines_;                  ///< where each port's table begins
+  std::array<unsigned, kRoles.size()> role_lines_{};  ///< where each role was given last; 0: the command line
   std::vector<Problem> problems_;
 };
 

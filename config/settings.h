@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "config/roles.h"
 #include "protocols/frame.h"
 
 namespace navcal::config {
@@ -89,7 +90,10 @@ struct ControlSettings {
   bool operator==(const ControlSettings&) const = default;
 };
 
+/// The Earth's magnetic field where the vehicle is used. With `model`, declination, magnitude and dip that are 0
+/// follow from the World Magnetic Model once the position is known.
 struct EnvironmentSettings {
+  bool model = true;
   double declination_rad = 0;  ///< positive east
   double field_uT = 0;         ///< magnitude of the local field; 0: not known
   double dip_rad = 0;          ///< positive down
@@ -134,6 +138,7 @@ struct Settings {
   StatusSettings status;
   ControlSettings control;
   EnvironmentSettings environment;
+  RoleSettings roles;
   CalibrationSettings calibration;
   NavigationSettings navigation;
   std::vector<PortSettings> ports;

@@ -10,11 +10,13 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 10> kDescriptions{{
+constexpr std::array<Description, 11> kDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, for reading only."},
     {"control", "The control socket: what changes the daemon (calibrations, marks in the log)."},
     {"environment", "Where the vehicle is used."},
+    {"roles",
+     "Which port serves what, where several deliver the same. Another one takes over while it is silent."},
     {"calibration", "The calibrators of compass and gyros (docs/calibration.md)."},
     {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
     {"",

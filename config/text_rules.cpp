@@ -58,4 +58,6 @@ bool is_port_name(std::string_view text) {
   });
 }
 
+bool is_port_name_or_nothing(std::string_view text) { return text.empty() || is_port_name(text); }
+
 }  // namespace navcal::config

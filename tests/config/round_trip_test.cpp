@@ -77,12 +77,17 @@ PortSettings some_port(std::size_t index, Random& random) {
 Settings some_settings(Random& random) {
   Settings settings;
   for (const auto& option : daemon_options()) {
+    if (option.table == "roles") continue;  // of ports that are there, below
     Value value = some_value(option, random);
     EXPECT_EQ(option.adopt(value), std::nullopt) << option.name();
     option.set(settings, value);
   }
   const auto ports = 1 + random() % 6;
   for (std::size_t i = 0; i < ports; ++i) settings.ports.push_back(some_port(i, random));
+  for (const Role role : kRoles) {
+    const PortSettings& port = settings.ports[random() % settings.ports.size()];
+    if (can_deliver(port.protocol, role)) settings.roles.port_names.at(static_cast<std::size_t>(role)) = port.name;
+  }
   return settings;
 }
 

@@ -1,0 +1,38 @@
+#include "config/role_options.h"
+
+#include <array>
+
+#include "config/text_rules.h"
+
+namespace navcal::config {
+namespace {
+
+constexpr std::array<std::string_view, kRoles.size()> kDescriptions{
+    "Port whose compass gives the heading. Empty: the best that delivers, a TCM2 before NMEA.",
+    "Port whose magnetometer gives the magnetic field, which the calibrators learn from. Empty: as for heading.",
+    "Port whose gyros give the rates. Empty: the first that delivers.",
+    "Port whose accelerometers give the specific force. Empty: as for rates.",
+    "Port that gives the depth. Empty: as for rates.",
+    "Port of the receiver that gives the position. Empty: the one with the smaller stated error.",
+    "Port of the receiver that gives the velocity over ground. Empty: as for position.",
+    "Port that gives the speed of the propeller's shaft. Empty: the first that delivers.",
+};
+
+}  // namespace
+
+std::vector<Option<Settings>> role_options() {
+  std::vector<Option<Settings>> options;
+  for (const Role role : kRoles) {
+    const auto at = static_cast<std::size_t>(role);
+    options.push_back(text<Settings>(
+        {.table = "roles",
+         .key = name_of(role),
+         .description = kDescriptions.at(at),
+         .text_rule = "a port's name, or nothing",
+         .text_holds = is_port_name_or_nothing},
+        [at](auto& s) -> auto& { return s.roles.port_names.at(at); }));
+  }
+  return options;
+}
+
+}  // namespace navcal::config

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "config/option.h"
+#include "config/settings.h"
+
+namespace navcal::config {
+
+/// The options of [roles].
+[[nodiscard]] std::vector<Option<Settings>> role_options();
+
+}  // namespace navcal::config

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "protocols/frame.h"
+
+namespace navcal::config {
+
+/// What navigation and calibration want to know, each of one device.
+enum class Role : std::uint8_t { heading, field, rates, acceleration, depth, position, velocity, shaft };
+inline constexpr std::array kRoles{Role::heading, Role::field,    Role::rates,    Role::acceleration,
+                                   Role::depth,   Role::position, Role::velocity, Role::shaft};
+
+/// "heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft".
+[[nodiscard]] std::string_view name_of(Role role);
+
+/// Whether a device of that protocol can deliver it.
+[[nodiscard]] bool can_deliver(protocols::Protocol protocol, Role role);
+
+/// The role whose device, where the operator has chosen one, serves this role as well if it can: the field follows
+/// the heading, acceleration and depth follow the rates, the velocity follows the position. Any other follows
+/// itself.
+[[nodiscard]] Role leader_of(Role role);
+
+/// The operator's choice: a port's name for each role; empty: the best that delivers.
+struct RoleSettings {
+  std::array<std::string, kRoles.size()> port_names{};
+
+  [[nodiscard]] const std::string& port_name(Role role) const {
+    return port_names.at(static_cast<std::size_t>(role));
+  }
+  bool operator==(const RoleSettings&) const = default;
+};
+
+}  // namespace navcal::config
