@@ -33,6 +33,7 @@ struct CompassSample {
   std::optional<double> heading_calibrated_rad;  ///< magnetic, by the calibration in force; 0..2 pi
   std::optional<double> pitch_rad;               ///< positive nose-up
   std::optional<double> roll_rad;                ///< positive starboard-down
+  bool tilt_by_accelerometers = false;           ///< pitch and roll are not the compass's own
   std::optional<Vector3> field_body_uT;
   std::optional<double> dip_rad;          ///< as the device says it, where it does
   std::optional<double> turn_rate_rad_s;  ///< as the device says it (ROT), positive to starboard

@@ -36,6 +36,9 @@ bool within(const std::optional<double>& value, double most) { return !value || 
 bool plausible(const RateReading& r) {
   return (r.rate_rad_s.array().abs() <= kMostRate_rad_s).all() && within(r.depth_m, kMostDepth_m);
 }
+bool plausible(const TiltReading& r) {
+  return within(r.roll_rad, kMostAngle_rad) && within(r.pitch_rad, kMostAngle_rad);
+}
 bool plausible(const CompassReading& r) {
   return within(r.heading_rad, kMostAngle_rad) && within(r.pitch_rad, kMostAngle_rad) &&
          within(r.roll_rad, kMostAngle_rad);
@@ -75,7 +78,7 @@ void Navigator::take(const RateReading& reading) {
   // Others may have driven the time beyond the first frames after a pause.
   if (time_ns_ && reading.time_ns <= *time_ns_) return;
   advance(reading.time_ns, follows ? std::optional(mean_rate_rad_s) : std::nullopt);
-  depth_.correct(reading.depth_m);
+  if (reading.depth_m) depth_.correct(*reading.depth_m);
 }
 
 void Navigator::take(const CompassReading& reading) {
@@ -104,6 +107,21 @@ void Navigator::take(const CompassReading& reading) {
     heading_calibrated_ = reading.calibrated;
     drift_rad_ = 0;
   }
+}
+
+void Navigator::take(const TiltReading& reading) {
+  if (!is_new(tilt_reading_ns_, reading.time_ns, plausible(reading))) return;
+  drive(reading.time_ns);
+  const auto pose = past_.at(reading.time_ns);
+  if (!pose) {
+    ++left_out_;
+    return;
+  }
+  const double since_s = tilt_ns_ ? seconds(reading.time_ns - *tilt_ns_) : 0;
+  const Vector2d turned = attitude_.correct_tilt(wrapped(reading.roll_rad - pose->roll_rad),
+                                                 reading.pitch_rad - pose->pitch_rad, since_s);
+  past_.correct({turned.x(), turned.y(), 0});
+  tilt_ns_ = reading.time_ns;
 }
 
 void Navigator::take(const ShaftReading& reading) {

@@ -29,6 +29,8 @@ class Navigator {
 
   void take(const RateReading& reading);
   void take(const CompassReading& reading);
+  /// Of accelerometers, where no inclinometer is.
+  void take(const TiltReading& reading);
   void take(const ShaftReading& reading);
   void take(const FixReading& reading);
 
@@ -60,7 +62,7 @@ class Navigator {
   DeadReckoning reckoning_;
   PastPoses past_;
   std::optional<std::int64_t> time_ns_;
-  Last rates_ns_, compass_ns_, shaft_ns_, fix_ns_;
+  Last rates_ns_, compass_ns_, tilt_reading_ns_, shaft_ns_, fix_ns_;
   Eigen::Vector3d rate_rad_s_ = Eigen::Vector3d::Zero();
   double revolutions_per_s_ = 0;
   double speed_m_s_ = 0;

@@ -11,7 +11,15 @@ namespace navcal::nav {
 struct RateReading {
   std::int64_t time_ns = 0;
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
-  double depth_m = 0;
+  std::optional<double> depth_m = std::nullopt;
+  std::optional<Eigen::Vector3d> specific_force_m_s2 = std::nullopt;
+};
+
+/// Roll and pitch that are not those of an inclinometer with lag.
+struct TiltReading {
+  std::int64_t time_ns = 0;
+  double roll_rad = 0;   ///< positive starboard-down
+  double pitch_rad = 0;  ///< positive nose-up
 };
 
 struct CompassReading {

@@ -49,7 +49,7 @@ std::vector<Arrived> readings_along(const sim::Motion& motion, double duration_s
       RateReading reading{t_ns, Eigen::Vector3d(state.rate_rad_s.data()) + options.zero_rad_s,
                           state.position_m[2]};
       for (double& rate : reading.rate_rad_s) rate += noise(0.1 * kDegree);
-      reading.depth_m += noise(0.02);
+      *reading.depth_m += noise(0.02);
       put(reading);
     });
   }
