@@ -40,6 +40,7 @@ class EllipsoidEstimator {
   /// Roll or pitch not a number: the tilt is not known, the size of the field still tells.
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
   /// Of one reading, at least; the data correct it.
+  void set_known(const std::optional<KnownField>& known) { parameters_.known = known; }
   void set_tilt_noise(double tilt_noise_rad) { parameters_.tilt_noise_rad = tilt_noise_rad; }
   void settle();
   /// Takes over the summary of readings of the same field.

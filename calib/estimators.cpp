@@ -27,7 +27,7 @@ Magnetometer::Parameters field_parameters(const SuiteOptions& options) {
   parameters.gyro.noise_uT = options.field_noise_uT;
   parameters.gyro.rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s;
   parameters.ellipsoid.noise_uT = options.field_noise_uT;
-  parameters.ellipsoid.known = options.known_field;
+  parameters.ellipsoid.known = options.local_field.known;
   parameters.tilt_lag_s = std::max(options.tilt_lag_s, parameters.tilt_lag_s);
   return parameters;
 }
@@ -208,6 +208,12 @@ void Estimators::learn_swing(const TurnStep& turn, const Correction& in_force) {
   swing_anchored_ = true;
   swing_heading_rad_ = turn.heading_rad;
   swing_->update(turn.time_s, turn.heading_rad, swing_reference_rad_);
+}
+
+void Estimators::set_local_field(const LocalField& field) {
+  options_.local_field = field;
+  magnetometer_.set_known_field(field.known);
+  surface_.set_declination(field.declination_rad);
 }
 
 TurnPrior Estimators::compass_prior() const {

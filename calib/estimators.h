@@ -43,6 +43,8 @@ class Estimators {
   void finish();
   void settle() { magnetometer_.settle(); }
 
+  /// From here on.
+  void set_local_field(const LocalField& field);
   /// One calibrator forgets what it has seen; the compass keeps what is known of the gyro.
   void start(Calibrator calibrator);
   /// What is in force changed for one calibrator: those that build on it begin anew.

@@ -57,6 +57,9 @@ class GpsCompass {
   /// In the order of times with the track.
   void update(const GroundReading& ground);
 
+  /// From the next refit on.
+  void set_declination(double declination_rad) { parameters_.declination_rad = declination_rad; }
+
   /// Of the newest slice; nullopt before the first.
   [[nodiscard]] const std::optional<Estimate>& estimate() const { return estimate_; }
   /// The same from all that was summed up, now and from the very beginning: what the slices must come to.

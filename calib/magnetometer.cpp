@@ -141,6 +141,13 @@ void Magnetometer::set_tilt_noise(double tilt_noise_rad) {
   now_.ellipsoid.set_tilt_noise(tilt_noise_rad);
 }
 
+void Magnetometer::set_known_field(const std::optional<KnownField>& known) {
+  answer_.reset();
+  parameters_.ellipsoid.known = known;
+  now_.ellipsoid.set_known(known);
+  if (before_) before_->ellipsoid.set_known(known);
+}
+
 void Magnetometer::settle() {
   answer_.reset();
   release();

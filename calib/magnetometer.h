@@ -60,6 +60,8 @@ class Magnetometer {
   void set_gyro(const GyroBelief& gyro);
   /// Standard deviation of the tilt of the readings that come, as far as it is noise, rad.
   void set_tilt_noise(double tilt_noise_rad);
+  /// The Earth's field here became known, or is another one: the vehicle has moved.
+  void set_known_field(const std::optional<KnownField>& known);
   /// Iterates to the end what update() does in slices.
   void settle();
 

@@ -42,6 +42,11 @@ std::size_t index(Calibrator calibrator) { return static_cast<std::size_t>(calib
 Suite::Suite(const SuiteOptions& options, Instruments instruments)
     : options_(options), instruments_(instruments), gate_(options.gate), estimators_(options) {}
 
+void Suite::set_local_field(const LocalField& field) {
+  options_.local_field = field;
+  estimators_.set_local_field(field);
+}
+
 void Suite::put(const Reading& reading) {
   gate_.put(reading);
   while (const auto clean = gate_.take()) process(*clean);

@@ -43,6 +43,9 @@ class Suite {
   /// A step of the field that was found since the last call.
   std::optional<FieldStep> take_field_step();
 
+  /// The Earth's field here became known, or is another one: the vehicle has moved.
+  void set_local_field(const LocalField& field);
+
   // The operator's word. Each returns why it cannot be done; empty: it is done.
   /// `force`: also an estimate that is refused.
   std::string accept(Calibrator calibrator, bool force = false);

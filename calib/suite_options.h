@@ -7,6 +7,12 @@
 
 namespace navcal::calib {
 
+/// The Earth's field where the vehicle is.
+struct LocalField {
+  double declination_rad = 0;       ///< positive east
+  std::optional<KnownField> known;  ///< size and dip
+};
+
 /// What the suite must be told of vehicle, instruments and place.
 struct SuiteOptions {
   GateOptions gate;
@@ -17,8 +23,7 @@ struct SuiteOptions {
   double bias_walk_rad_s_sqrt_s = 3.5e-4;
   double field_noise_uT = 0.2;
   double tilt_lag_s = 0.3;
-  double declination_rad = 0;
-  std::optional<KnownField> known_field;
+  LocalField local_field;
   double position_noise_m = 1;
   double velocity_noise_m_s = 0.1;
   double current_m_s = 0.15;

@@ -31,7 +31,7 @@ Misalignment::Parameters misalignment_parameters(const SuiteOptions& options) {
 
 GpsCompass::Parameters gps_parameters(const SuiteOptions& options) {
   GpsCompass::Parameters parameters;
-  parameters.declination_rad = options.declination_rad;
+  parameters.declination_rad = options.local_field.declination_rad;
   parameters.current_std_m_s = options.current_m_s;
   parameters.summary.velocity_std_m_s = options.velocity_noise_m_s;
   parameters.summary.position_std_m = options.position_noise_m;
@@ -65,7 +65,7 @@ void SurfaceCalibrators::update(const CompassReading& reading, const WaterTrackR
                                 const Correction& in_force) {
   const auto heading_rad = best_heading(without_offset(in_force), reading);
   if (!heading_rad) return;
-  heading_rad_ = *heading_rad + options_.declination_rad;
+  heading_rad_ = *heading_rad + options_.local_field.declination_rad;
   heading_s_ = reading.time_s;
   turn_rate_rad_s_ = track.turn_rate_rad_s;
   misalignment_.update_heading(reading.time_s, *heading_rad_);
@@ -101,6 +101,11 @@ void SurfaceCalibrators::judge(const GroundReading& ground, const Correction& in
   if (++fixes_ < kFixes) return;
   comparison_.add(before_ / kFixes, in_force_ / kFixes, estimate_ / kFixes);
   fixes_ = 0;
+}
+
+void SurfaceCalibrators::set_declination(double declination_rad) {
+  options_.local_field.declination_rad = declination_rad;
+  gps_compass_.set_declination(declination_rad);
 }
 
 void SurfaceCalibrators::start(Calibrator calibrator) {

@@ -26,6 +26,7 @@ class SurfaceCalibrators {
   void update(const MotorReading& motor);
   void update(const GroundReading& ground, const Correction& in_force);
   void start(Calibrator calibrator);
+  void set_declination(double declination_rad);
 
   [[nodiscard]] const Misalignment& misalignment() const { return misalignment_; }
   [[nodiscard]] const GpsCompass& gps_compass() const { return gps_compass_; }

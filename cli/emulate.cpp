@@ -95,9 +95,8 @@ void add_emulate(CLI::App& app) {
       ->check(CLI::Range(-1e4, 1e4));
   add_clock_option(command, arguments->clocks);
   add_place_and_field(command, arguments->where);
-  command->add_option("--date", arguments->where.date, "day of the model's field at --place, instead of today")
-      ->option_text("YYYY-MM-DD")
-      ->needs("--place");
+  command->add_option("--date", arguments->where.date, "day of the model's field, instead of today")
+      ->option_text("YYYY-MM-DD");
   command->add_option("--sent-log", arguments->sent_log, "capture of exactly what went over the lines, both ways");
   const auto* const misbehaviour = "Misbehaviour";
   command->add_option("--noise", arguments->noise, "probability of a flipped bit in a frame or garbage before it")

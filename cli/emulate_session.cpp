@@ -44,7 +44,7 @@ std::vector<config::PortSettings> port_lines(int compass_baud) {
 EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments)
     : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()) {
   const std::int64_t start_ns = ports::monotonic_ns() + utc_minus_monotonic_ns_;
-  const SimulatedPlace place = simulated_place(arguments.where, start_ns);
+  const SimulatedPlace place = emulated_place(arguments.where, start_ns);
   motion_ = emulate_motion(arguments, start_ns);
   motion_ = std::make_unique<sim::MotionInField>(std::move(motion_), place.field_world_uT);
   if (!arguments.sent_log.empty()) {

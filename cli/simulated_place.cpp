@@ -29,4 +29,13 @@ SimulatedPlace simulated_place(const PlaceArguments& arguments, std::int64_t oth
   return place;
 }
 
+SimulatedPlace emulated_place(const PlaceArguments& arguments, std::int64_t now_ns) {
+  PlaceArguments where = arguments;
+  if (!where.place) {
+    constexpr sim::Origin kHome;
+    where.place = fmt::format("{},{},{}", kHome.latitude_deg, kHome.longitude_deg, kHome.height_m);
+  }
+  return simulated_place(where, now_ns);
+}
+
 }  // namespace navcal::cli

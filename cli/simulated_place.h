@@ -23,4 +23,8 @@ struct SimulatedPlace {
 /// Failure for what cannot be read, and beyond 89 degrees of latitude, where the simulator's flat map ends.
 [[nodiscard]] SimulatedPlace simulated_place(const PlaceArguments& arguments, std::int64_t otherwise_ns);
 
+/// Where emulated instruments are at `now_ns` (UTC). Without a field the model's at the place counts, also at the
+/// simulator's own place: a navcald that listens looks it up at the fixes.
+[[nodiscard]] SimulatedPlace emulated_place(const PlaceArguments& arguments, std::int64_t now_ns);
+
 }  // namespace navcal::cli

@@ -59,6 +59,7 @@ void WatchView::take(std::string_view line) {
 void WatchView::take_health(const Json& health) {
   alarms_ = health.value("alarms", Json::array());
   log_ = health.value("log", Json());
+  sources_ = health.value("sources", Json());
   uptime_s_ = number(health, "uptime_s");
   dropped_ = number(health, "dropped");
   const Json ports = health.value("ports", Json::array());
@@ -95,6 +96,24 @@ void WatchView::append_alarms(std::string& out, Colour colour) const {
   }
 }
 
+/// "heading and field by compass, position by gps".
+void WatchView::append_sources(std::string& out) const {
+  if (!sources_.is_object()) return;
+  std::string line, port;
+  for (const char* role :
+       {"heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft"}) {
+    const std::string server = text(sources_, role);
+    if (server.empty()) continue;
+    if (server == port) {
+      line.insert(line.rfind(" by "), std::string(" and ") + role);
+    } else {
+      line += fmt::format("{}{} by {}", line.empty() ? "" : ", ", role, server);
+      port = server;
+    }
+  }
+  if (!line.empty()) add(out, "{}\n", line);
+}
+
 void WatchView::append_ports(std::string& out) const {
   add(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s", "frames", "bad", "skipped",
       "lost", "reason");
@@ -112,9 +131,10 @@ void WatchView::append_attitude(std::string& out) const {
   if (found == last_.end()) return;
   for (const auto& [device, att] : found->second) {
     if (att.contains("heading")) {
-      add(out, "{:<12}heading {} deg true, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
-          shown(number(att, "heading"), 1), shown(number(att, "pitch"), 1), shown(number(att, "roll"), 1),
-          shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
+      const auto north = text(att, "north");
+      add(out, "{:<12}heading {} deg{}{}, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
+          shown(number(att, "heading"), 1), north.empty() ? "" : " ", north, shown(number(att, "pitch"), 1),
+          shown(number(att, "roll"), 1), shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
     }
     if (att.contains("depth")) {
       add(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device, shown(number(att, "depth"), 2),
@@ -164,6 +184,7 @@ std::string WatchView::page(Colour colour) const {
   std::string out;
   append_alarms(out, colour);
   append_ports(out);
+  append_sources(out);
   append_attitude(out);
   append_position(out);
   append_navigation(out, navigation_);

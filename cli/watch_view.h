@@ -29,6 +29,7 @@ class WatchView {
   void take_health(const Json& health);
   void append_alarms(std::string& out, Colour colour) const;
   void append_ports(std::string& out) const;
+  void append_sources(std::string& out) const;
   void append_attitude(std::string& out) const;
   void append_position(std::string& out) const;
   void append_motor(std::string& out) const;
@@ -37,6 +38,7 @@ class WatchView {
 
   Json alarms_ = Json::array();
   Json log_;
+  Json sources_;
   Json time_;
   Json navigation_;
   std::map<std::string, Json> ports_;                        ///< of HEALTH, by device

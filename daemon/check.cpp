@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 namespace navcal::daemon {
 namespace {
 
+using config::Role;
 constexpr std::uint64_t kMegabyte = 1'000'000;
 
 std::string place(const config::PortSettings& port) {
@@ -24,28 +26,37 @@ std::string place(const config::PortSettings& port) {
 }
 
 /// "compass", or "compass or gps" where the first that delivers serves; empty when there is none.
-std::string candidates_of(const config::Settings& settings, pipeline::Role role) {
+std::string candidates_of(const config::Settings& settings, Role role) {
   std::vector<std::string_view> names;
   for (const std::uint16_t port : pipeline::candidates(settings, role)) names.push_back(settings.ports[port].name);
   return fmt::format("{}", fmt::join(names, " or "));
 }
 
 /// The calibrators learn from one instrument: not from NMEA where another protocol always says it.
-std::string learnt_of(const config::Settings& settings, pipeline::Role role) {
-  const auto ports = pipeline::candidates(settings, role);
-  if (ports.empty() || settings.ports[ports.front()].protocol == protocols::Protocol::nmea)
-    return candidates_of(settings, role);
-  return settings.ports[ports.front()].name;
+std::string learnt_of(const config::Settings& settings, Role role) {
+  if (!pipeline::is_certain(settings, role)) return candidates_of(settings, role);
+  return settings.ports[pipeline::candidates(settings, role).front()].name;
 }
 
-/// Which port may serve what; the first that delivers does.
+/// "heading and field by compass, position by gps": which port may serve what; the first that delivers does.
 void append_sources(std::string& out, const config::Settings& settings) {
-  std::vector<std::string> roles;
-  for (const pipeline::Role role : pipeline::kRoles) {
-    if (const std::string ports = candidates_of(settings, role); !ports.empty())
-      roles.push_back(fmt::format("{} by {}", pipeline::name_of(role), ports));
+  std::vector<std::string> groups, missing;
+  std::string ports;
+  for (const Role role : config::kRoles) {
+    const std::string_view name = config::name_of(role);
+    const std::string own = candidates_of(settings, role);
+    if (own.empty()) {
+      missing.emplace_back(name);
+    } else if (own == ports) {
+      groups.back().insert(groups.back().rfind(" by "), fmt::format(" and {}", name));
+    } else {
+      groups.push_back(fmt::format("{} by {}", name, own));
+      ports = own;
+    }
   }
-  if (!roles.empty()) out += fmt::format("sources: {}\n", fmt::join(roles, ", "));
+  if (groups.empty()) return;
+  out += fmt::format("sources: {}", fmt::join(groups, ", "));
+  out += missing.empty() ? "\n" : fmt::format("; nothing gives {}\n", fmt::join(missing, ", "));
 }
 
 void append_calibration(std::string& out, const config::Settings& settings) {
@@ -54,15 +65,33 @@ void append_calibration(std::string& out, const config::Settings& settings) {
     out += settings.calibration.enabled ? "calibration: nothing to calibrate\n" : "calibration: off\n";
     return;
   }
-  out += fmt::format("calibration: of {}", learnt_of(settings, pipeline::Role::heading));
-  for (const auto role : {pipeline::Role::rates, pipeline::Role::position, pipeline::Role::shaft}) {
-    if (const std::string learnt = learnt_of(settings, role); !learnt.empty()) out += ", " + learnt;
+  const Role compass = pipeline::candidates(settings, Role::field).empty() ? Role::heading : Role::field;
+  std::vector<std::string> learnt;
+  for (const Role role : {compass, Role::rates, Role::position, Role::shaft}) {
+    std::string name = learnt_of(settings, role);
+    const bool is_new = std::find(learnt.begin(), learnt.end(), name) == learnt.end();
+    if (!name.empty() && is_new) learnt.push_back(std::move(name));
   }
+  out += fmt::format("calibration: of {}", fmt::join(learnt, ", "));
   if (settings.calibration.automatic) {
     out += fmt::format("; estimates come into force when better by {:.0f} %\n", settings.calibration.margin * 100);
   } else {
     out += "; estimates come into force by calibration.accept\n";
   }
+}
+
+void append_earth_field(std::string& out, const config::Settings& settings) {
+  const pipeline::EarthField field(settings.environment);
+  const bool is_known = field.declination_source != pipeline::EarthField::Source::none;
+  out += "field of the Earth: ";
+  if (is_known || !settings.environment.model) out += pipeline::words_for(field);
+  if (settings.environment.model) {
+    if (!is_known)
+      out += "by the World Magnetic Model from the first fix on";
+    else if (field.size_source == pipeline::EarthField::Source::none)
+      out += "; size and dip by the model";
+  }
+  out += "\n";
 }
 
 }  // namespace
@@ -85,6 +114,7 @@ std::string describe(const config::Settings& settings) {
     line(fmt::runtime("log: off"));
   }
   append_sources(out, settings);
+  append_earth_field(out, settings);
   append_calibration(out, settings);
   if (settings.navigation.enabled) {
     line(fmt::runtime("navigation: attitude, depth and position between fixes, every {} s"),

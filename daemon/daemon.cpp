@@ -141,6 +141,8 @@ void Daemon::on_field_step(const calib::FieldStep& step, std::int64_t now_ns) {
   event(now_ns, "warning", "field.step", "", calib::words_of(step));
 }
 
+void Daemon::on_earth_field(const pipeline::EarthField& field) { publisher_.set_earth_field(field); }
+
 void Daemon::on_navigation(const pipeline::NavigationSample& sample) {
   publisher_.navigation(sample);
   log_.navigation(sample);

@@ -49,6 +49,7 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   void on_field_step(const calib::FieldStep& step, std::int64_t now_ns) override;
   void on_navigation(const pipeline::NavigationSample& sample) override;
   void on_stream_event(const pipeline::StreamEvent& event) override;
+  void on_earth_field(const pipeline::EarthField& field) override;
   // PortOwner
   void on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) override;
   void on_port_sent(std::uint16_t port, std::int64_t now_ns, protocols::Bytes bytes) override;

@@ -180,27 +180,29 @@ std::optional<double> dip_of(const instruments::CompassSample& compass) {
   return std::atan2(down, std::hypot(forward, starboard));
 }
 
-void append_att(std::string& out, const instruments::CompassSample& compass, double declination_rad,
+void append_att(std::string& out, const instruments::CompassSample& compass, const pipeline::EarthField& field,
                 const instruments::Stamp& stamp, ReportSource source) {
   begin(out, "ATT", source.device);
   if (source.utc_known) time(out, stamp.validity_utc_ns, 6);
   const auto& heading_rad = compass.heading_calibrated_rad ? compass.heading_calibrated_rad : compass.heading_rad;
   if (heading_rad && std::isfinite(*heading_rad)) {
-    const double heading_deg = true_heading_deg(*heading_rad, compass.heading_is_true ? 0 : declination_rad);
+    const double heading_deg = true_heading_deg(*heading_rad, compass.heading_is_true ? 0 : field.declination_rad);
+    const bool is_true = compass.heading_is_true || field.declination_source != pipeline::EarthField::Source::none;
     fixed(out, "heading", heading_deg, 4);
     fixed(out, "yaw", heading_deg, 4);
+    out += is_true ? R"(,"north":"true")" : R"(,"north":"magnetic")";
   }
   if (compass.heading_calibrated_rad) fixed(out, "heading_device", compass.heading_rad, 4, kDegrees);
   fixed(out, "pitch", compass.pitch_rad, 4, kDegrees);
   fixed(out, "roll", compass.roll_rad, 4, kDegrees);
   fixed(out, "dip", dip_of(compass), 3, kDegrees);
   if (compass.field_body_uT) {
-    const auto& field = *compass.field_body_uT;
-    shortest(out, "mag_len", length(field), 4);
+    const auto& measured = *compass.field_body_uT;
+    shortest(out, "mag_len", length(measured), 4);
     // What a device said with two decimals comes back digit by digit.
-    shortest(out, "mag_x", field[0], 6);
-    shortest(out, "mag_y", field[1], 6);
-    shortest(out, "mag_z", field[2], 6);
+    shortest(out, "mag_x", measured[0], 6);
+    shortest(out, "mag_y", measured[1], 6);
+    shortest(out, "mag_z", measured[2], 6);
   }
   fixed(out, "gyro_z", compass.turn_rate_rad_s, 4, kDegrees);
   if (compass.temperature_C) shortest(out, "temp", *compass.temperature_C, 4);

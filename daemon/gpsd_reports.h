@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "instruments/samples.h"
+#include "pipeline/earth_field.h"
 #include "pipeline/navigation.h"
 
 namespace navcal::daemon {
@@ -31,11 +32,11 @@ void append_tpv(std::string& out, const pipeline::NavigationSample& sample, bool
 void append_sky(std::string& out, const instruments::SkySample& sky, const instruments::GpsSample* position,
                 const instruments::Stamp& stamp, ReportSource source);
 
-/// ATT of a compass. `declination_rad` (positive east) makes true north of the magnetic heading, which is that of
-/// the calibration in force where there is one; the device's own then stands beside it. Without, and with a
-/// declination of zero the heading is passed on as the device said it, even beyond 360: a mis-set unit stays
-/// visible.
-void append_att(std::string& out, const instruments::CompassSample& compass, double declination_rad,
+/// ATT of a compass. The declination makes true north of the magnetic heading, which is that of the calibration in
+/// force where there is one; the device's own then stands beside it. Without, and where the declination is not
+/// known, the heading is passed on as the device said it, even beyond 360: a mis-set unit stays visible. "north"
+/// says whether the heading is from true or from magnetic north.
+void append_att(std::string& out, const instruments::CompassSample& compass, const pipeline::EarthField& field,
                 const instruments::Stamp& stamp, ReportSource source);
 
 /// ATT of the inertial card: rates in deg/s, specific force in m/s2, depth in m.

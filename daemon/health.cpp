@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 
 #include "daemon/json_text.h"
 
 namespace navcal::daemon {
 namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
 
 void text(std::string& out, std::string_view key, std::string_view value) {
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"{}\":"), key);
@@ -83,6 +86,31 @@ void append_log(std::string& out, bool enabled, const DiskState& log) {
                  log.file_bytes, log.synced_bytes, log.queued_bytes, log.dropped);
 }
 
+/// The ports that serve, of those that have delivered, and what the headings are counted from.
+void append_sources(std::string& out, const Health& health) {
+  out += ",\"sources\":{";
+  const auto sources = health.pipeline->sources();
+  bool first = true;
+  for (const config::Role role : config::kRoles) {
+    if (!sources[role]) continue;
+    if (!first) out += ',';
+    first = false;
+    fmt::format_to(std::back_inserter(out), FMT_STRING("\"{}\":"), config::name_of(role));
+    append_quoted(out, health.ports[*sources[role]]->settings().name);
+  }
+  const pipeline::EarthField& field = health.pipeline->earth_field();
+  fmt::format_to(std::back_inserter(out), FMT_STRING("}},\"earth_field\":{{\"declination_source\":\"{}\""),
+                 pipeline::name_of(field.declination_source));
+  if (field.declination_source != pipeline::EarthField::Source::none)
+    number(out, "declination", field.declination_rad * kDegrees, 3);
+  text(out, "size_source", pipeline::name_of(field.size_source));
+  if (field.size_source != pipeline::EarthField::Source::none) {
+    number(out, "size_uT", field.size_uT, 3);
+    number(out, "dip", field.dip_rad * kDegrees, 3);
+  }
+  out += '}';
+}
+
 std::string beginning(const Health& health, std::size_t first, std::size_t last, std::size_t lines) {
   std::string out = "{\"class\":\"HEALTH\"";
   append_alarms(out, health);
@@ -95,6 +123,7 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
     fmt::format_to(std::back_inserter(out), FMT_STRING(",\"part\":{},\"parts\":{}"), first / kPortsPerHealth + 1,
                    lines);
   }
+  append_sources(out, health);
   out += ",\"ports\":[";
   for (std::size_t i = first; i < last; ++i) {
     if (i > first) out += ',';

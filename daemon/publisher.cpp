@@ -22,7 +22,7 @@ Overloaded(Ts...) -> Overloaded<Ts...>;
 }  // namespace
 
 Publisher::Publisher(const config::Settings& settings, StatusServer& server)
-    : settings_(settings), server_(server), last_(settings.ports.size()) {}
+    : settings_(settings), server_(server), earth_field_(settings.environment), last_(settings.ports.size()) {}
 
 void Publisher::sample(const instruments::Sample& sample) {
   auto& last = last_[sample.port];
@@ -59,7 +59,7 @@ void Publisher::append(const instruments::Sample& sample, ReportSource source) {
   const auto& stamp = sample.stamp;
   std::visit(Overloaded{
                  [&](const instruments::CompassSample& compass) {
-                   append_att(report_, compass, settings_.environment.declination_rad, stamp, source);
+                   append_att(report_, compass, earth_field_, stamp, source);
                  },
                  [&](const instruments::ImuSample& imu) { append_att(report_, imu, stamp, source); },
                  [&](const instruments::GpsSample& gps) { append_tpv(report_, gps, stamp, source); },

@@ -27,6 +27,7 @@ class Publisher {
   /// NAV to everybody; TPV too while no fix is current, for then the receivers' own say nothing.
   void navigation(const pipeline::NavigationSample& sample);
   /// Whether times in UTC mean anything yet.
+  void set_earth_field(const pipeline::EarthField& field) { earth_field_ = field; }
   void set_utc_known(bool known) { utc_known_ = known; }
   /// The answer to ?POLL;: the last position and satellites of every receiver, and the reckoned position while no
   /// fix is current.
@@ -47,6 +48,7 @@ class Publisher {
 
   const config::Settings& settings_;
   StatusServer& server_;
+  pipeline::EarthField earth_field_;
   std::vector<Last> last_;
   std::optional<pipeline::NavigationSample> last_navigation_;
   std::string report_;

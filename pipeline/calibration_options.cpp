@@ -7,10 +7,23 @@ namespace {
 
 /// The inertial card's own, where the configuration says no rate.
 constexpr double kUsualRate_Hz = 20;
-/// How well field and dip are known from a map.
+/// How well size and dip are known from the configuration. The model knows nothing of rock, quays and ships near
+/// the vehicle, so that it is trusted less.
 constexpr double kFieldShare = 0.01, kDipStd_rad = 0.01;
+constexpr double kModelShare = 0.05, kModelDipStd_rad = 0.05;
 
 }  // namespace
+
+calib::LocalField local_field(const EarthField& field) {
+  calib::LocalField local;
+  local.declination_rad = field.declination_rad;
+  if (field.size_uT > 0) {
+    const bool by_model = field.size_source == EarthField::Source::model;
+    local.known = {field.size_uT, field.dip_rad, (by_model ? kModelShare : kFieldShare) * field.size_uT,
+                   by_model ? kModelDipStd_rad : kDipStd_rad};
+  }
+  return local;
+}
 
 calib::SuiteOptions suite_options(const config::Settings& settings, const CalibratedPorts& ports) {
   const auto& c = settings.calibration;
@@ -24,10 +37,7 @@ calib::SuiteOptions suite_options(const config::Settings& settings, const Calibr
   options.bias_walk_rad_s_sqrt_s = c.bias_walk_rad_s;
   options.field_noise_uT = c.field_noise_uT;
   options.tilt_lag_s = c.tilt_lag_s;
-  options.declination_rad = settings.environment.declination_rad;
-  if (const double field_uT = settings.environment.field_uT; field_uT > 0) {
-    options.known_field = {field_uT, settings.environment.dip_rad, kFieldShare * field_uT, kDipStd_rad};
-  }
+  options.local_field = local_field(EarthField(settings.environment));
   options.position_noise_m = c.position_noise_m;
   options.velocity_noise_m_s = c.velocity_noise_m_s;
   options.current_m_s = c.current_m_s;

@@ -5,6 +5,7 @@
 
 #include "calib/suite.h"
 #include "config/settings.h"
+#include "pipeline/earth_field.h"
 
 namespace navcal::pipeline {
 
@@ -17,6 +18,9 @@ struct CalibratedPorts {
 };
 /// Before anything has come: the best of each kind by the configuration (Sources).
 [[nodiscard]] CalibratedPorts calibrated_ports(const config::Settings& settings);
+
+/// What the calibrators take of the Earth's field, with standard deviations.
+[[nodiscard]] calib::LocalField local_field(const EarthField& field);
 
 /// What the calibrators must know, in their units.
 [[nodiscard]] calib::SuiteOptions suite_options(const config::Settings& settings, const CalibratedPorts& ports);

@@ -28,6 +28,11 @@ std::unique_ptr<CalibrationStage> CalibrationStage::make(const config::Settings&
 CalibrationStage::CalibrationStage(const config::Settings& settings, const CalibratedPorts& ports)
     : suite_(suite_options(settings, ports), ports.instruments()), ports_(ports) {}
 
+void CalibrationStage::use(const EarthFieldWatch& field) {
+  suite_.set_local_field(local_field(field.field()));
+  field_place_ = field.place();
+}
+
 double CalibrationStage::seconds(std::int64_t validity_ns) {
   if (!origin_ns_) origin_ns_ = validity_ns;
   return static_cast<double>(validity_ns - *origin_ns_) * 1e-9;
@@ -164,9 +169,9 @@ void CalibrationStage::begin_run() {
 }
 
 void CalibrationStage::archive(calib::Archive& archive) {
-  archive.tag("calibration_stage 2");
+  archive.tag("calibration_stage 3");
   archive(suite_, newest_ns_, origin_ns_, origin_latitude_rad_, origin_longitude_rad_, motor_current_A_,
-          motor_current_ns_);
+          motor_current_ns_, field_place_, ports_.compass, ports_.imu, ports_.gps, ports_.motor);
 }
 
 }  // namespace navcal::pipeline

@@ -40,6 +40,11 @@ class CalibrationStage {
   void begin_run();
   /// The ports that are learnt from, once it is known which deliver.
   void use(const CalibratedPorts& ports) { ports_ = ports; }
+  [[nodiscard]] const CalibratedPorts& ports() const { return ports_; }
+  /// The Earth's field here became known, or is another one: the vehicle has moved.
+  void use(const EarthFieldWatch& field);
+  /// Of which the field was that of the model; it is restored with the rest.
+  [[nodiscard]] const std::optional<FieldPlace>& field_place() const { return field_place_; }
 
  private:
   void learn_from(const instruments::Sample& sample, const instruments::CompassSample& compass);
@@ -55,6 +60,7 @@ class CalibrationStage {
 
   calib::Suite suite_;
   CalibratedPorts ports_;
+  std::optional<FieldPlace> field_place_;
   std::int64_t newest_ns_ = 0;             ///< arrival of the newest sample
   std::optional<std::int64_t> origin_ns_;  ///< of the seconds that the suite is told
   std::optional<double> motor_current_A_;  ///< newest reading

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "instruments/compass_error.h"
+#include "pipeline/tilt_stage.h"
 
 namespace navcal::pipeline {
 namespace {
@@ -13,9 +14,10 @@ namespace {
 constexpr double kFixIsCurrent_s = 2.5;
 /// A receiver with a good sky has this dilution of precision; the noise of the configuration is meant for it.
 constexpr double kGoodDop = 2;
-constexpr double kSecondsPerMinute = 60;
-
-Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
+/// After such a pause of the inclinometer the accelerometers hold roll and pitch.
+constexpr std::int64_t kInclinometerPause_ns = 2'000'000'000;
+/// The velocity of another receiver is that of a fix when it lies no further from it.
+constexpr std::int64_t kVelocityAge_ns = 600'000'000;
 
 }  // namespace
 
@@ -32,14 +34,14 @@ nav::Options navigation_options(const config::Settings& settings) {
 }
 
 std::unique_ptr<NavigationStage> NavigationStage::make(const config::Settings& settings) {
-  const CalibratedPorts ports = calibrated_ports(settings);
-  const bool something = ports.compass || ports.imu || ports.gps;
+  const auto has = [&](Role role) { return !candidates(settings, role).empty(); };
+  const bool something = has(Role::heading) || has(Role::rates) || has(Role::position);
   if (!settings.navigation.enabled || !something) return nullptr;
-  return std::make_unique<NavigationStage>(settings, ports);
+  return std::make_unique<NavigationStage>(settings);
 }
 
-NavigationStage::NavigationStage(const config::Settings& settings, const CalibratedPorts& ports)
-    : ports_(ports),
+NavigationStage::NavigationStage(const config::Settings& settings)
+    : ports_(Sources(settings).serving()),
       options_(navigation_options(settings)),
       declination_rad_(settings.environment.declination_rad),
       position_noise_m_(settings.calibration.position_noise_m),
@@ -51,26 +53,38 @@ NavigationStage::NavigationStage(const config::Settings& settings, const Calibra
 void NavigationStage::begin_run() {
   calibrated_ = uncalibrated_ = nav::Navigator(options_);
   plane_.reset();
+  inclinometer_ns_.reset();
+  depth_m_.reset();
+  velocity_m_s_.reset();
   told_ = 0;
 }
 
 void NavigationStage::take(const instruments::Sample& original, const instruments::Sample& corrected,
-                           const UtcMapping& mapping, Sink& sink) {
+                           const std::optional<nav::TiltReading>& tilt, const UtcMapping& mapping, Sink& sink) {
   if (const auto* compass = std::get_if<instruments::CompassSample>(&corrected.value)) {
-    if (corrected.port != ports_.compass) return;
+    if (corrected.port != ports_[Role::heading]) return;
+    const bool shows_tilt = compass->pitch_rad && compass->roll_rad && !compass->tilt_by_accelerometers;
+    if (shows_tilt) inclinometer_ns_ = corrected.stamp.validity_ns;
     feed(calibrated_, corrected, *compass, true);
     feed(uncalibrated_, original, std::get<instruments::CompassSample>(original.value), false);
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&corrected.value)) {
-    if (corrected.port != ports_.imu) return;
+    if (corrected.port == ports_[Role::depth]) depth_m_ = imu->depth_m;
+    if (corrected.port != ports_[Role::rates]) return;
     feed(calibrated_, corrected, *imu, true);
     feed(uncalibrated_, original, std::get<instruments::ImuSample>(original.value), false);
+    depth_m_.reset();
+    if (tilt) feed_tilt(*tilt);
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&corrected.value)) {
-    if (corrected.port != ports_.motor || !motor->rpm) return;
-    const nav::ShaftReading reading{corrected.stamp.validity_ns, *motor->rpm / kSecondsPerMinute};
-    calibrated_.take(reading);
-    uncalibrated_.take(reading);
+    const auto reading = shaft_reading(corrected, *motor);
+    if (corrected.port != ports_[Role::shaft] || !reading) return;
+    calibrated_.take(*reading);
+    uncalibrated_.take(*reading);
   } else if (const auto* gps = std::get_if<instruments::GpsSample>(&corrected.value)) {
-    if (corrected.port != ports_.gps) return;
+    if (corrected.port == ports_[Role::velocity] && roles_of(corrected).has(Role::velocity)) {
+      velocity_m_s_ = *gps->speed_m_s * Eigen::Vector2d(std::cos(*gps->course_rad), std::sin(*gps->course_rad));
+      velocity_ns_ = corrected.stamp.validity_ns;
+    }
+    if (corrected.port != ports_[Role::position]) return;
     feed_fix(corrected, *gps);
   }
   tell(corrected, mapping, sink);
@@ -84,32 +98,38 @@ void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample&
   reading.calibrated = calibrated && compass.heading_calibrated_rad;
   reading.heading_rad = reading.calibrated ? compass.heading_calibrated_rad : compass.heading_rad;
   if (reading.heading_rad && !compass.heading_is_true) *reading.heading_rad += declination_rad_;
-  reading.pitch_rad = compass.pitch_rad;
-  reading.roll_rad = compass.roll_rad;
+  if (!compass.tilt_by_accelerometers) {
+    reading.pitch_rad = compass.pitch_rad;
+    reading.roll_rad = compass.roll_rad;
+  }
   navigator.take(reading);
 }
 
 void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample& sample,
-                           const instruments::ImuSample& imu, bool calibrated) const {
-  nav::RateReading reading;
-  reading.time_ns = sample.stamp.validity_ns;
-  reading.rate_rad_s = vector(imu.rate_rad_s);
+                           const instruments::ImuSample& imu, bool calibrated) {
+  nav::RateReading reading = rate_reading(sample, imu);
   if (calibrated && imu.yaw_rate_calibrated_rad_s) reading.rate_rad_s.z() = *imu.yaw_rate_calibrated_rad_s;
-  reading.depth_m = imu.depth_m;
+  reading.depth_m = depth_m_;
   navigator.take(reading);
 }
 
+/// While an inclinometer shows the tilt, the accelerometers are not needed.
+void NavigationStage::feed_tilt(const nav::TiltReading& tilt) {
+  if (inclinometer_ns_ && tilt.time_ns - *inclinometer_ns_ <= kInclinometerPause_ns) return;
+  calibrated_.take(tilt);
+  uncalibrated_.take(tilt);
+}
+
 void NavigationStage::feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps) {
-  const bool fixed = gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
-  if (!fixed || !gps.latitude_rad || !gps.longitude_rad) return;
+  if (!roles_of(sample).has(Role::position)) return;
   if (!plane_) plane_.emplace(*gps.latitude_rad, *gps.longitude_rad);
   const auto [north_m, east_m] = plane_->position_m(*gps.latitude_rad, *gps.longitude_rad);
   nav::FixReading reading;
   reading.time_ns = sample.stamp.validity_ns;
   reading.position_m = {north_m, east_m};
-  if (gps.speed_m_s && gps.course_rad) {
-    reading.velocity_m_s = *gps.speed_m_s * Eigen::Vector2d(std::cos(*gps.course_rad), std::sin(*gps.course_rad));
-  }
+  const bool fits = std::abs(sample.stamp.validity_ns - velocity_ns_) <= kVelocityAge_ns;
+  if (velocity_m_s_ && fits) reading.velocity_m_s = velocity_m_s_;
+  velocity_m_s_.reset();
   reading.velocity_std_m_s = velocity_noise_m_s_;
   reading.std_m = position_noise_m_ * std::max(1.0, gps.dop.value_or(kGoodDop) / kGoodDop);
   calibrated_.take(reading);

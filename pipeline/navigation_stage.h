@@ -11,6 +11,7 @@
 #include "pipeline/local_plane.h"
 #include "pipeline/navigation.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/sources.h"
 
 namespace navcal::pipeline {
 
@@ -21,31 +22,39 @@ class NavigationStage {
  public:
   /// Null when the configuration says not to, or has nothing to navigate by.
   static std::unique_ptr<NavigationStage> make(const config::Settings& settings);
-  NavigationStage(const config::Settings& settings, const CalibratedPorts& ports);
+  explicit NavigationStage(const config::Settings& settings);
 
-  /// `original` as it was before the calibration in force was put on it. The sink must have had the sample.
-  void take(const instruments::Sample& original, const instruments::Sample& corrected, const UtcMapping& mapping,
-            Sink& sink);
+  /// `original` as it was before the calibration in force was put on it; `tilt` by the accelerometers, where there
+  /// are any. The sink must have had the sample.
+  void take(const instruments::Sample& original, const instruments::Sample& corrected,
+            const std::optional<nav::TiltReading>& tilt, const UtcMapping& mapping, Sink& sink);
   /// Everything begins anew.
   void begin_run();
   /// Other ports serve from here on.
-  void use(const CalibratedPorts& ports) { ports_ = ports; }
+  void use(const RolePorts& ports) { ports_ = ports; }
+  void set_declination(double declination_rad) { declination_rad_ = declination_rad; }
 
  private:
   void feed(nav::Navigator& navigator, const instruments::Sample& sample,
             const instruments::CompassSample& compass, bool calibrated) const;
   void feed(nav::Navigator& navigator, const instruments::Sample& sample, const instruments::ImuSample& imu,
-            bool calibrated) const;
+            bool calibrated);
+  void feed_tilt(const nav::TiltReading& tilt);
   void feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps);
   void tell(const instruments::Sample& trigger, const UtcMapping& mapping, Sink& sink);
 
-  CalibratedPorts ports_;
+  RolePorts ports_;
   nav::Options options_;
   double declination_rad_;
   double position_noise_m_, velocity_noise_m_s_;
   std::int64_t interval_ns_;
   nav::Navigator calibrated_, uncalibrated_;
   std::optional<LocalPlane> plane_;
+  std::optional<std::int64_t> inclinometer_ns_;  ///< newest tilt of the compass
+  std::optional<double> depth_m_;                ///< of a card that does not give the rates
+  /// Of a receiver that does not give the position.
+  std::optional<Eigen::Vector2d> velocity_m_s_;
+  std::int64_t velocity_ns_ = 0;
   std::int64_t told_ = 0;  ///< intervals of the monotonic clock, up to the one that was last told of
 };
 

@@ -4,82 +4,25 @@
 #include <string>
 
 #include "pipeline/calibration_stage.h"
-#include "pipeline/navigation_stage.h"
 #include "pipeline/port_stream.h"
-#include "pipeline/sources.h"
+#include "pipeline/stages.h"
 
 namespace navcal::pipeline {
-
-namespace {
-
-/// Puts the calibration in force on samples that pass, lets the estimator of position see both, and the
-/// calibrators learn from what came. Either stage may be absent.
-class Stages final : public Sink {
- public:
-  Stages(CalibrationStage* calibration, NavigationStage* navigation, Sources& sources,
-         const std::vector<config::PortSettings>& ports, const UtcMapping& mapping, Sink& next)
-      : calibration_(calibration),
-        navigation_(navigation),
-        sources_(sources),
-        ports_(ports),
-        mapping_(mapping),
-        next_(next) {}
-  void on_sample(const instruments::Sample& sample) override {
-    take_source(sample);
-    instruments::Sample corrected = sample;
-    if (calibration_ != nullptr) calibration_->correct(corrected);
-    next_.on_sample(corrected);
-    if (navigation_ != nullptr) navigation_->take(sample, corrected, mapping_, next_);
-    if (calibration_ != nullptr) calibration_->learn(sample, next_);
-  }
-  void on_frame(std::uint16_t port, const protocols::Frame& frame, std::int64_t arrival_ns) override {
-    next_.on_frame(port, frame, arrival_ns);
-  }
-  void on_stream_event(const StreamEvent& event) override { next_.on_stream_event(event); }
-  void on_mapping(const UtcMapping& mapping) override { next_.on_mapping(mapping); }
-
- private:
-  void take_source(const instruments::Sample& sample) {
-    const auto change = sources_.take(sample);
-    if (calibration_ != nullptr) calibration_->use(sources_.learnt());
-    if (!change) return;
-    if (navigation_ != nullptr) navigation_->use(sources_.serving());
-    const std::string role(name_of(change->role)), name = "source." + role;
-    std::string message = "serves the " + role;
-    if (change->before) {
-      const std::string& before = ports_[*change->before].name;
-      message += change->silent ? ", because " + before + " is silent" : " instead of " + before;
-    }
-    next_.on_stream_event(
-        {change->port, sample.stamp.arrival_ns, change->silent ? "warning" : "info", name, message});
-  }
-
-  CalibrationStage* calibration_;
-  NavigationStage* navigation_;
-  Sources& sources_;
-  const std::vector<config::PortSettings>& ports_;
-  const UtcMapping& mapping_;
-  Sink& next_;
-};
-
-}  // namespace
 
 struct Pipeline::State {
   config::Settings settings;
   UtcMapping mapping;
   std::vector<std::unique_ptr<PortStream>> ports;
-  std::unique_ptr<CalibrationStage> calibration;
-  std::unique_ptr<NavigationStage> navigation;
-  Sources sources;
+  Stages stages;
 
-  explicit State(const config::Settings& given) : settings(given), sources(settings) {}
+  explicit State(const config::Settings& given) : settings(given), stages(settings) {}
 
   /// `use(sink)` with the sink to which the ports' samples go.
   template <class Use>
   void through_stages(Sink& sink, Use use) {
-    if (!calibration && !navigation) return use(sink);
-    Stages stages(calibration.get(), navigation.get(), sources, settings.ports, mapping, sink);
-    use(stages);
+    if (stages.are_none()) return use(sink);
+    StagesSink through(stages, mapping, sink);
+    use(through);
   }
 
   /// The port whose incomplete frame is to be given up first; its time in `deadline_ns`.
@@ -101,8 +44,6 @@ Pipeline::Pipeline(const config::Settings& settings) : state_(std::make_unique<S
     state_->ports.push_back(
         std::make_unique<PortStream>(static_cast<std::uint16_t>(i), state_->settings.ports[i], state_->mapping));
   }
-  state_->calibration = CalibrationStage::make(state_->settings);
-  state_->navigation = NavigationStage::make(state_->settings);
 }
 
 Pipeline::~Pipeline() = default;
@@ -135,30 +76,28 @@ void Pipeline::set_mapping(const UtcMapping& mapping, Sink& sink) {
 
 const UtcMapping& Pipeline::mapping() const { return state_->mapping; }
 
-bool Pipeline::calibrates() const { return state_->calibration != nullptr; }
+bool Pipeline::calibrates() const { return state_->stages.calibration() != nullptr; }
 
 std::string Pipeline::order_calibration(CalibrationOrder order, calib::Calibrator calibrator, std::int64_t now_ns,
                                         Sink& sink) {
-  if (!state_->calibration) return "the configuration has nothing to calibrate";
+  if (!state_->stages.calibration()) return "the configuration has nothing to calibrate";
   advance(now_ns, sink);  // what is due by then comes before it, live as in replay
-  return state_->calibration->order(order, calibrator, now_ns, sink);
+  return state_->stages.calibration()->order(order, calibrator, now_ns, sink);
 }
 
 calib::Report Pipeline::calibration_report() const {
-  return state_->calibration ? state_->calibration->report() : calib::Report{};
+  return state_->stages.calibration() ? state_->stages.calibration()->report() : calib::Report{};
 }
 
 CalibrationChange Pipeline::calibration_beginning(std::int64_t now_ns) {
-  return state_->calibration ? state_->calibration->beginning(now_ns) : CalibrationChange{};
+  return state_->stages.calibration() ? state_->stages.calibration()->beginning(now_ns) : CalibrationChange{};
 }
 
-bool Pipeline::restore_calibration(std::string_view state) {
-  return state_->calibration && state_->calibration->restore(state);
-}
+bool Pipeline::restore_calibration(std::string_view state) { return state_->stages.restore_calibration(state); }
 
 std::string Pipeline::replay_calibration(const CalibrationChange& change, Sink& sink) {
   using Cause = CalibrationChange::Cause;
-  if (!state_->calibration || change.cause == Cause::automatic) return {};
+  if (!state_->stages.calibration() || change.cause == Cause::automatic) return {};
   if (change.cause == Cause::begin) {
     advance(change.time_ns, sink);
     const bool restored = restore_calibration(change.state);
@@ -173,19 +112,17 @@ std::string Pipeline::replay_calibration(const CalibrationChange& change, Sink& 
 }
 
 void Pipeline::begin_calibration_run() {
-  if (state_->calibration) state_->calibration->begin_run();
+  if (state_->stages.calibration()) state_->stages.calibration()->begin_run();
 }
 
 void Pipeline::finish_calibration(Sink& sink) {
-  if (state_->calibration) state_->calibration->finish(sink);
+  if (state_->stages.calibration()) state_->stages.calibration()->finish(sink);
 }
 
-void Pipeline::begin_navigation_run() {
-  state_->sources.begin_run();
-  if (!state_->navigation) return;
-  state_->navigation->begin_run();
-  state_->navigation->use(state_->sources.serving());
-}
+void Pipeline::begin_navigation_run() { state_->stages.begin_navigation_run(); }
+
+RolePorts Pipeline::sources() const { return state_->stages.sources().delivering(); }
+const EarthField& Pipeline::earth_field() const { return state_->stages.earth_field(); }
 
 PortStatistics Pipeline::statistics(std::uint16_t port) const { return state_->ports.at(port)->statistics(); }
 const config::Settings& Pipeline::settings() const { return state_->settings; }

@@ -11,7 +11,9 @@
 #include "instruments/clock_state.h"
 #include "instruments/samples.h"
 #include "pipeline/calibration.h"
+#include "pipeline/earth_field.h"
 #include "pipeline/navigation.h"
+#include "pipeline/role_ports.h"
 #include "pipeline/utc_mapping.h"
 #include "protocols/frame.h"
 
@@ -41,6 +43,8 @@ class Sink {
   virtual void on_calibration(const CalibrationChange& /*change*/) {}
   /// The field of the compass stepped: a magnet near, a load, a motor.
   virtual void on_field_step(const calib::FieldStep& /*step*/, std::int64_t /*now_ns*/) {}
+  /// The Earth's field at the vehicle became known, or is another one.
+  virtual void on_earth_field(const EarthField& /*field*/) {}
   /// Where the vehicle is thought to be, at the interval of the configuration.
   virtual void on_navigation(const NavigationSample& /*sample*/) {}
 };
@@ -97,6 +101,10 @@ class Pipeline {
 
   /// The vehicle may have been anywhere since: position and attitude are estimated anew.
   void begin_navigation_run();
+
+  /// Which port serves which role now, of those that have delivered.
+  [[nodiscard]] RolePorts sources() const;
+  [[nodiscard]] const EarthField& earth_field() const;
 
   [[nodiscard]] PortStatistics statistics(std::uint16_t port) const;
   [[nodiscard]] const config::Settings& settings() const;

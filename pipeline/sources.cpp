@@ -5,129 +5,224 @@
 namespace navcal::pipeline {
 namespace {
 
-using protocols::Protocol;
+/// Share of a new statement in the average of a receiver's dilution of precision.
+constexpr double kNewShare = 0.1;
+/// Two receivers are compared by so many statements of each.
+constexpr std::uint32_t kLeastStatements = 10;
+/// So much smaller is the error of a receiver that takes over.
+constexpr double kSmaller = 0.7;
+/// The one that is preferred by its place comes back unless its error is so much larger.
+constexpr double kLarger = 1.2;
 
-Protocol certain_protocol(Role role) {
-  switch (role) {
-    case Role::heading:
-      return Protocol::tcm2;
-    case Role::rates:
-      return Protocol::imu_card;
-    case Role::position:
-      return Protocol::oncore;
-    case Role::shaft:
-      break;
+RoleSet roles_of(const instruments::CompassSample& compass) {
+  RoleSet roles;
+  if (compass.heading_rad) roles.add(Role::heading);
+  if (compass.field_body_uT) {
+    roles.add(Role::field);
+    roles.add(Role::heading);  // which follows from the field and the tilt
   }
-  return Protocol::motor_card;
+  return roles;
 }
 
-bool nmea_may_say(Role role) { return role == Role::heading || role == Role::position; }
+RoleSet roles_of(const instruments::ImuSample&) {
+  RoleSet roles;
+  for (const Role role : {Role::rates, Role::acceleration, Role::depth}) roles.add(role);
+  return roles;
+}
+
+RoleSet roles_of(const instruments::GpsSample& gps) {
+  RoleSet roles;
+  const bool fixed = gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
+  if (fixed && gps.latitude_rad && gps.longitude_rad) roles.add(Role::position);
+  if (fixed && gps.speed_m_s && gps.course_rad) roles.add(Role::velocity);
+  return roles;
+}
+
+RoleSet roles_of(const instruments::MotorSample& motor) {
+  RoleSet roles;
+  if (motor.rpm) roles.add(Role::shaft);
+  return roles;
+}
+
+template <class Other>
+RoleSet roles_of(const Other&) {
+  return {};
+}
+
+std::optional<double> stated_error(const instruments::Sample& sample) {
+  const auto* gps = std::get_if<instruments::GpsSample>(&sample.value);
+  return gps != nullptr ? gps->dop : std::nullopt;
+}
+
+/// The name that [roles] gives for a role, or for the one it follows.
+const std::string& chosen_name(const config::Settings& settings, Role role) {
+  const std::string& own = settings.roles.port_name(role);
+  return own.empty() ? settings.roles.port_name(config::leader_of(role)) : own;
+}
+
+bool is_chosen(const config::Settings& settings, std::uint16_t port, Role role) {
+  const std::string& name = chosen_name(settings, role);
+  return !name.empty() && settings.ports[port].name == name;
+}
+
+/// 0: chosen; 1: its protocol always says it; 2: it may.
+int rank(const config::Settings& settings, std::uint16_t port, Role role) {
+  if (is_chosen(settings, port, role)) return 0;
+  return settings.ports[port].protocol == protocols::Protocol::nmea ? 2 : 1;
+}
 
 }  // namespace
 
-std::string_view name_of(Role role) {
-  constexpr std::array<std::string_view, kRoles.size()> kNames{"heading", "rates", "position", "shaft"};
-  return kNames.at(static_cast<std::size_t>(role));
-}
-
-std::optional<Role> role_of(const instruments::Sample& sample) {
-  if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
-    if (compass->heading_rad || compass->field_body_uT) return Role::heading;
-  } else if (std::holds_alternative<instruments::ImuSample>(sample.value)) {
-    return Role::rates;
-  } else if (const auto* gps = std::get_if<instruments::GpsSample>(&sample.value)) {
-    const bool fixed = gps->fix == instruments::Fix::fix_2d || gps->fix == instruments::Fix::fix_3d;
-    if (fixed && gps->latitude_rad && gps->longitude_rad) return Role::position;
-  } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
-    if (motor->rpm) return Role::shaft;
-  }
-  return std::nullopt;
+RoleSet roles_of(const instruments::Sample& sample) {
+  return std::visit([](const auto& value) { return roles_of(value); }, sample.value);
 }
 
 std::vector<std::uint16_t> candidates(const config::Settings& settings, Role role) {
   std::vector<std::uint16_t> ports;
-  const auto add = [&](Protocol protocol) {
-    for (std::size_t i = 0; i < settings.ports.size(); ++i) {
-      if (settings.ports[i].protocol == protocol) ports.push_back(static_cast<std::uint16_t>(i));
-    }
-  };
-  add(certain_protocol(role));
-  if (nmea_may_say(role)) add(Protocol::nmea);
+  for (std::size_t i = 0; i < settings.ports.size(); ++i) {
+    if (config::can_deliver(settings.ports[i].protocol, role)) ports.push_back(static_cast<std::uint16_t>(i));
+  }
+  std::stable_sort(ports.begin(), ports.end(), [&](std::uint16_t a, std::uint16_t b) {
+    return rank(settings, a, role) < rank(settings, b, role);
+  });
   return ports;
 }
 
-CalibratedPorts calibrated_ports(const config::Settings& settings) { return Sources(settings).serving(); }
+bool is_certain(const config::Settings& settings, Role role) {
+  const auto ports = candidates(settings, role);
+  return !ports.empty() && rank(settings, ports.front(), role) < 2;
+}
+
+CalibratedPorts calibrated_ports(const config::Settings& settings) {
+  Sources sources(settings);
+  const RolePorts first = sources.serving();
+  return {first[Role::field] ? first[Role::field] : first[Role::heading], first[Role::rates],
+          first[Role::position], first[Role::shaft]};
+}
 
 Sources::Sources(const config::Settings& settings) {
   for (const Role role : kRoles) {
-    Service& service = services_[static_cast<std::size_t>(role)];
-    service.candidates = candidates(settings, role);
-    service.is_certain = !service.candidates.empty() &&
-                         settings.ports[service.candidates.front()].protocol == certain_protocol(role);
+    Service& service = services_.at(static_cast<std::size_t>(role));
+    for (const std::uint16_t port : pipeline::candidates(settings, role)) service.candidates.push_back({port});
+    service.is_certain = pipeline::is_certain(settings, role);
+    service.is_chosen =
+        !service.candidates.empty() && pipeline::is_chosen(settings, service.candidates.front().port, role);
+    if (service.is_certain || service.candidates.size() == 1) service.learnt = 0;
   }
   begin_run();
 }
 
 void Sources::begin_run() {
   for (Service& service : services_) {
-    service.newest_ns.assign(service.candidates.size(), std::nullopt);
-    service.interval_ns.assign(service.candidates.size(), 0);
+    for (Candidate& candidate : service.candidates) candidate = {candidate.port};
     service.began_ns.reset();
     service.server.reset();
     if (!service.candidates.empty()) service.server = 0;
-    service.learnt.reset();
-    if (service.is_certain || service.candidates.size() == 1) service.learnt = 0;
   }
 }
 
-std::optional<Sources::Change> Sources::take(const instruments::Sample& sample) {
-  const auto role = role_of(sample);
-  if (!role) return std::nullopt;
-  Service& service = services_[static_cast<std::size_t>(*role)];
-  const auto found = std::find(service.candidates.begin(), service.candidates.end(), sample.port);
+std::vector<Sources::Change> Sources::take(const instruments::Sample& sample) {
+  std::vector<Change> changes;
+  const RoleSet roles = roles_of(sample);
+  if (roles.is_empty()) return changes;
+  for (const Role role : kRoles) {
+    if (!roles.has(role)) continue;
+    if (const auto change = take(services_.at(static_cast<std::size_t>(role)), role, sample))
+      changes.push_back(*change);
+  }
+  return changes;
+}
+
+std::optional<Sources::Change> Sources::take(Service& service, Role role, const instruments::Sample& sample) {
+  const auto found = std::find_if(service.candidates.begin(), service.candidates.end(),
+                                  [&](const Candidate& candidate) { return candidate.port == sample.port; });
   if (found == service.candidates.end()) return std::nullopt;
+  Candidate& candidate = *found;
   const auto place = static_cast<std::size_t>(found - service.candidates.begin());
   const std::int64_t now_ns = sample.stamp.arrival_ns;
   if (!service.began_ns) service.began_ns = now_ns;
-  auto& newest_ns = service.newest_ns[place];
-  if (newest_ns) service.interval_ns[place] = now_ns - *newest_ns;
-  newest_ns = now_ns;
+  if (candidate.newest_ns) candidate.interval_ns = now_ns - *candidate.newest_ns;
+  candidate.newest_ns = now_ns;
+  if (const auto error = stated_error(sample)) {
+    const double share = candidate.error_statements == 0 ? 1 : kNewShare;
+    candidate.error += share * (*error - candidate.error);
+    ++candidate.error_statements;
+  }
   if (!service.learnt && now_ns - *service.began_ns >= kSilent_ns) {
-    const auto delivered = [](const auto& time_ns) { return time_ns.has_value(); };
-    const auto best = std::find_if(service.newest_ns.begin(), service.newest_ns.end(), delivered);
-    service.learnt = static_cast<std::size_t>(best - service.newest_ns.begin());
+    const auto best = std::find_if(service.candidates.begin(), service.candidates.end(),
+                                   [](const Candidate& other) { return other.newest_ns.has_value(); });
+    service.learnt = static_cast<std::size_t>(best - service.candidates.begin());
   }
   if (place == *service.server) return std::nullopt;
 
-  const auto& server_ns = service.newest_ns[*service.server];
-  const bool is_better = place < *service.server;
+  const Candidate& server = service.candidates[*service.server];
   // A port of NMEA that has said nothing of the kind so far may never do so.
-  const bool server_may_come = server_ns || (service.is_certain && *service.server == 0);
+  const bool server_may_come = server.newest_ns || (service.is_certain && *service.server == 0);
   constexpr std::int64_t kIntervals = 5;
-  const std::int64_t patience_ns = std::max(kSilent_ns, kIntervals * service.interval_ns[*service.server]);
-  const bool is_silent = now_ns - server_ns.value_or(*service.began_ns) > patience_ns;
-  if (!is_better && server_may_come && !is_silent) return std::nullopt;
-  Change change{*role, sample.port, service.candidates[*service.server], !is_better && server_may_come};
-  if (!server_may_come) change.before.reset();
+  const std::int64_t patience_ns = std::max(kSilent_ns, kIntervals * server.interval_ns);
+  const bool is_silent = now_ns - server.newest_ns.value_or(*service.began_ns) > patience_ns;
+  const bool takes_over = is_better(service, place);
+  if (!takes_over && server_may_come && !is_silent) return std::nullopt;
+  Change change{role, sample.port, server.port};
+  if (!server_may_come) {
+    change.before.reset();
+  } else if (is_silent) {
+    change.cause = Change::Cause::silence;
+  } else if (place > *service.server) {
+    change.cause = Change::Cause::error;
+  }
   service.server = place;
   return change;
 }
 
-CalibratedPorts Sources::serving() const {
-  const auto of = [&](Role role) {
-    const Service& service = services_[static_cast<std::size_t>(role)];
-    return service.server ? std::optional(service.candidates[*service.server]) : std::nullopt;
-  };
-  return {of(Role::heading), of(Role::rates), of(Role::position), of(Role::shaft)};
+/// Than the one that serves.
+bool Sources::is_better(const Service& service, std::size_t place) {
+  const Candidate& mine = service.candidates[place];
+  const Candidate& other = service.candidates[*service.server];
+  const bool by_error =
+      std::min(mine.error_statements, other.error_statements) >= kLeastStatements && !service.is_chosen;
+  if (place < *service.server) return !by_error || mine.error < kLarger * other.error;
+  return by_error && mine.error < kSmaller * other.error;
+}
+
+RolePorts Sources::serving() const {
+  RolePorts serving;
+  for (std::size_t i = 0; i < services_.size(); ++i) {
+    const Service& service = services_.at(i);
+    if (service.server) serving.ports.at(i) = service.candidates[*service.server].port;
+  }
+  return serving;
+}
+
+RolePorts Sources::delivering() const {
+  RolePorts delivering = serving();
+  for (std::size_t i = 0; i < services_.size(); ++i) {
+    const Service& service = services_.at(i);
+    if (service.server && !service.candidates[*service.server].newest_ns) delivering.ports.at(i).reset();
+  }
+  return delivering;
 }
 
 CalibratedPorts Sources::learnt() const {
   const auto of = [&](Role role) {
-    const Service& service = services_[static_cast<std::size_t>(role)];
-    return service.learnt && !service.candidates.empty() ? std::optional(service.candidates[*service.learnt])
-                                                         : std::nullopt;
+    const Service& it = service(role);
+    return it.learnt && !it.candidates.empty() ? std::optional(it.candidates[*it.learnt].port) : std::nullopt;
   };
-  return {of(Role::heading), of(Role::rates), of(Role::position), of(Role::shaft)};
+  const Role compass = service(Role::field).candidates.empty() ? Role::heading : Role::field;
+  return {of(compass), of(Role::rates), of(Role::position), of(Role::shaft)};
+}
+
+void Sources::go_on_with(const CalibratedPorts& learnt) {
+  const auto set = [&](Role role, std::optional<std::uint16_t> port) {
+    Service& service = services_.at(static_cast<std::size_t>(role));
+    for (std::size_t i = 0; i < service.candidates.size(); ++i) {
+      if (port && service.candidates[i].port == *port) service.learnt = i;
+    }
+  };
+  set(service(Role::field).candidates.empty() ? Role::heading : Role::field, learnt.compass);
+  set(Role::rates, learnt.imu);
+  set(Role::position, learnt.gps);
+  set(Role::shaft, learnt.motor);
 }
 
 }  // namespace navcal::pipeline

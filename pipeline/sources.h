@@ -9,26 +9,36 @@
 #include "config/settings.h"
 #include "instruments/samples.h"
 #include "pipeline/calibration_options.h"
+#include "pipeline/role_ports.h"
 
 namespace navcal::pipeline {
 
-/// What a port can give to navigation and calibration.
-enum class Role : std::uint8_t { heading, rates, position, shaft };
-inline constexpr std::array kRoles{Role::heading, Role::rates, Role::position, Role::shaft};
-[[nodiscard]] std::string_view name_of(Role role);
+/// The roles that a sample fills. NMEA's ROT and XDR lines are no headings, and a receiver without a fix has
+/// neither position nor velocity.
+class RoleSet {
+ public:
+  void add(Role role) { bits_ |= 1U << static_cast<unsigned>(role); }
+  [[nodiscard]] bool has(Role role) const { return (bits_ >> static_cast<unsigned>(role) & 1U) != 0; }
+  [[nodiscard]] bool is_empty() const { return bits_ == 0; }
 
-/// The role that a sample fills: a heading or a field, rates, a position, a shaft speed. nullopt where it has
-/// none of them: NMEA's ROT and XDR lines are no headings, and a receiver without a fix has no position.
-[[nodiscard]] std::optional<Role> role_of(const instruments::Sample& sample);
+ private:
+  unsigned bits_ = 0;
+};
+[[nodiscard]] RoleSet roles_of(const instruments::Sample& sample);
 
-/// Ports that can fill a role, the best first: an instrument whose protocol always says it before an NMEA port,
-/// and then in the order of the configuration.
+/// Ports that can fill a role, the best first: the one that [roles] names, then those whose protocol always says
+/// it, then NMEA ports; each kind in the order of the configuration.
 [[nodiscard]] std::vector<std::uint16_t> candidates(const config::Settings& settings, Role role);
 
-/// Which port serves which role, by what the ports deliver. The best port that delivers serves. Another one takes
-/// over when it has been silent for kSilent_ns and for five of its own intervals, and gives way as soon as it is
-/// back. Decided from samples and
-/// their arrivals alone, so live and replay agree.
+/// Whether the first candidate is waited for: [roles] names it, or its protocol always says it.
+[[nodiscard]] bool is_certain(const config::Settings& settings, Role role);
+
+/// Which port serves which role, by what the ports deliver. The best port that delivers serves. Of receivers the
+/// better is the one that states the smaller error: another one takes over when its dilution of precision,
+/// averaged over some ten fixes, is less than 0.7 of that of the one that serves. Any other is better by its place
+/// among the candidates. A port takes over, too, from one that has been silent for kSilent_ns and for five of its
+/// own intervals, and gives way as soon as that one is back. Decided from samples and their arrivals alone, so
+/// live and replay agree.
 ///
 /// Calibrators learn from one instrument only: what they learn from does not fall over. It is the best port, where
 /// its protocol always says what it takes or there is no other. Else it is the best that has delivered within
@@ -38,34 +48,53 @@ class Sources {
   static constexpr std::int64_t kSilent_ns = 3'000'000'000;
 
   struct Change {
+    enum class Cause : std::uint8_t {
+      delivers,  ///< it is the best that delivers
+      silence,   ///< of the one before
+      error,     ///< that it states is smaller
+    };
     Role role{};
     std::uint16_t port = 0;               ///< serves now
     std::optional<std::uint16_t> before;  ///< served until now
-    bool silent = false;                  ///< because that one fell silent
+    Cause cause = Cause::delivers;
   };
 
   explicit Sources(const config::Settings& settings);
 
   /// A sample, in the order of arrivals.
-  [[nodiscard]] std::optional<Change> take(const instruments::Sample& sample);
-  /// Nothing is known of what the ports deliver.
+  [[nodiscard]] std::vector<Change> take(const instruments::Sample& sample);
+  /// Nothing is known of what the ports deliver. The calibrators go on with the instruments they had.
   void begin_run();
 
   /// Those that serve navigation.
-  [[nodiscard]] CalibratedPorts serving() const;
-  /// Those that the calibrators learn from.
+  [[nodiscard]] RolePorts serving() const;
+  /// Those of them that have delivered.
+  [[nodiscard]] RolePorts delivering() const;
+  /// Those that the calibrators learn from. The compass is the one that gives the field, where there is one.
   [[nodiscard]] CalibratedPorts learnt() const;
+  /// The calibrators have learnt from these before; a port that is no candidate is passed over.
+  void go_on_with(const CalibratedPorts& learnt);
 
  private:
+  struct Candidate {
+    std::uint16_t port = 0;
+    std::optional<std::int64_t> newest_ns{};
+    std::int64_t interval_ns = 0;  ///< between its newest two
+    double error = 0;              ///< that it states, averaged
+    std::uint32_t error_statements = 0;
+  };
   struct Service {
-    std::vector<std::uint16_t> candidates;
-    std::vector<std::optional<std::int64_t>> newest_ns;  ///< of each candidate
-    std::vector<std::int64_t> interval_ns;               ///< of each candidate: between its newest two
-    std::optional<std::size_t> server;                   ///< place among the candidates
+    std::vector<Candidate> candidates;
+    std::optional<std::size_t> server;  ///< place among the candidates
     std::optional<std::size_t> learnt;
     std::optional<std::int64_t> began_ns;  ///< the first sample of any candidate
-    bool is_certain = false;               ///< the best candidate's protocol always says it
+    bool is_certain = false;
+    bool is_chosen = false;  ///< by [roles]
   };
+  [[nodiscard]] const Service& service(Role role) const { return services_.at(static_cast<std::size_t>(role)); }
+  static std::optional<Change> take(Service& service, Role role, const instruments::Sample& sample);
+  static bool is_better(const Service& service, std::size_t place);
+
   std::array<Service, kRoles.size()> services_;
 };
 

@@ -23,6 +23,8 @@ LoggedEvent mark(std::int64_t time_ns, const std::string& text) {
 CaptureRecording::CaptureRecording(std::unique_ptr<ByteSource> source, std::string name)
     : reader_(std::move(source), std::move(name)) {
   settings_.ports = reader_.ports();
+  // It does not say where its field is from: simulated recordings may be of a field that belongs to no real place.
+  settings_.environment.model = false;
 }
 
 std::optional<Entry> CaptureRecording::next() {

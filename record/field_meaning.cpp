@@ -20,6 +20,7 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "heading_is_true", "", "", "the device itself says the heading from true north"},
     FieldMeaning{"", "pitch_rad", "radian", "platform_pitch_fore_up", "pitch, positive nose up"},
     FieldMeaning{"", "roll_rad", "radian", "platform_roll_starboard_down", "roll, positive starboard down"},
+    FieldMeaning{"", "tilt_by_accelerometers", "", "", "pitch and roll are not the compass's own"},
     FieldMeaning{"", "field_body_uT", "uT", "", "magnetic field in body axes (forward, starboard, down)"},
     FieldMeaning{"", "dip_rad", "radian", "", "inclination of the magnetic field as the device said it"},
     FieldMeaning{"", "turn_rate_rad_s", "radian s-1", "platform_yaw_rate_fore_starboard",

@@ -78,7 +78,7 @@ std::vector<CostItem> suite_costs() {
   return {{"all calibrators together, 1/20 s of the vehicle (a core has 5 10^7 ns)",
            [] {
              SuiteOptions options;
-             options.known_field = KnownField{48, 1.16, 0.5, 0.01};
+             options.local_field.known = KnownField{48, 1.16, 0.5, 0.01};
              auto suite = std::make_shared<Suite>(options, Instruments{true, true, true, true});
              auto vehicle = std::make_shared<Vehicle>();
              return std::function<void(std::size_t)>([=](std::size_t) { vehicle->step(*suite); });

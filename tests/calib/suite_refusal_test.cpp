@@ -25,7 +25,7 @@ class SuiteRefusal : public testing::TestWithParam<Asked> {
   static Suite run(const std::vector<Attitude>& motion, const Iron& iron) {
     Random random(21);
     SuiteOptions options;
-    options.known_field = reference_field();
+    options.local_field.known = reference_field();
     options.tilt_lag_s = 0;
     Suite suite(options, GetParam().instruments);
     const auto field = field_on(motion, iron, random);

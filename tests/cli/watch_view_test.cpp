@@ -79,6 +79,25 @@ TEST(WatchView, EveryKindOfReportIsShown) {
   }
 }
 
+TEST(WatchView, ShowsWhichPortServesWhat) {
+  WatchView view;
+  view.take(R"({"class":"HEALTH","ports":[],"sources":{"heading":"compass","field":"compass","position":"gps",)"
+            R"("velocity":"gps","shaft":"motor"}})");
+  EXPECT_TRUE(
+      has(view.page(Colour::none), "heading and field by compass, position and velocity by gps, shaft by motor\n"))
+      << view.page(Colour::none);
+  view.take(R"({"class":"HEALTH","ports":[],"sources":{"heading":7}})");
+  EXPECT_FALSE(view.page(Colour::none).empty());
+}
+
+TEST(WatchView, SaysWhichNorthAHeadingIsFrom) {
+  WatchView view;
+  view.take(R"({"class":"ATT","device":"compass","heading":10,"north":"magnetic"})");
+  EXPECT_TRUE(has(view.page(Colour::none), "heading 10.0 deg magnetic,"));
+  view.take(R"({"class":"ATT","device":"compass","heading":10,"north":"true"})");
+  EXPECT_TRUE(has(view.page(Colour::none), "heading 10.0 deg true,"));
+}
+
 TEST(WatchView, ALostConnectionIsForgotten) {
   WatchView view;
   view.take(health(1, 20, R"([{"alarm":"leak_aft","device":"imu"}])"));

@@ -116,6 +116,43 @@ TEST(DaemonProcess, APortThatIsNotThereIsSaidAndNothingElseSuffers) {
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
 }
 
+TEST(DaemonProcess, AFixMakesHeadingsTrueAndHealthSaysWhoServesWhat) {
+  DaemonProcess daemon;
+  const auto client = watcher(daemon);
+  wait_until_open(*client);
+  daemon.line.sentence("HCHDM,100.5,M");
+  const json before = json::parse(client->line_with("\"class\":\"ATT\""));
+  EXPECT_EQ(before["heading"], 100.5);
+  EXPECT_EQ(before["north"], "magnetic");
+  // Stockholm, where the declination is some 8 degrees east.
+  daemon.line.sentence("GPRMC,120000.00,A,5920.0000,N,01804.0000,E,1.0,010.0,230626,,,A");
+  EXPECT_EQ(json::parse(client->line_with("\"class\":\"TPV\""))["mode"], 2);
+  daemon.line.sentence("HCHDM,100.5,M");
+  const json after = json::parse(client->line_with("\"class\":\"ATT\""));
+  EXPECT_NEAR(after["heading"].get<double>(), 108.5, 1);
+  EXPECT_EQ(after["north"], "true");
+  json health;
+  do {
+    health = json::parse(client->line_with("HEALTH"));
+  } while (!health["sources"].contains("position"));
+  EXPECT_EQ(health["sources"]["heading"], "compass");
+  EXPECT_EQ(health["sources"]["position"], "compass");
+  EXPECT_FALSE(health["sources"].contains("rates"));
+  EXPECT_EQ(health["earth_field"]["declination_source"], "model");
+  EXPECT_EQ(daemon.stop(SIGTERM), 0);
+  EXPECT_NE(daemon.diagnostics().find("earth_field: declination"), std::string::npos) << daemon.diagnostics();
+}
+
+TEST(DaemonProcess, CheckRefusesRolesThatNobodyCanFill) {
+  DaemonProcess daemon;
+  const auto [status, why] = daemon.run_another({"--check", "--set", "roles.depth=compass"});
+  EXPECT_EQ(status, 3);
+  EXPECT_NE(why.find("--set: roles.depth: port compass is of protocol nmea, which has no depth"),
+            std::string::npos)
+      << why;
+  EXPECT_EQ(daemon.stop(SIGTERM), 0);
+}
+
 // A pager that is not scrolled, a journal that stands still: with messages written by the loop itself all ports
 // stood still with them.
 TEST(DaemonProcess, AStandardErrorThatNobodyReadsHoldsNothingUp) {

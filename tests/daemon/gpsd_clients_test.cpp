@@ -59,7 +59,7 @@ bool installed(const char* program) {
 }
 
 TEST(GpsdClients, LibgpsReadsEveryReport) {
-  DaemonProcess daemon;
+  DaemonProcess daemon({"--set", "environment.model=false"});
   daemon.wait_until_ready();
   const Talking talking(daemon.line);
   auto data = std::make_unique<gps_data_t>();
@@ -112,7 +112,7 @@ TEST(GpsdClients, LibgpsPassesOverWhatItDoesNotKnow) {
 
 TEST(GpsdClients, GpspipeShowsPositionAndAttitude) {
   if (!installed("gpspipe")) GTEST_SKIP() << "gpspipe is not installed";
-  DaemonProcess daemon;
+  DaemonProcess daemon({"--set", "environment.model=false"});
   daemon.wait_until_ready();
   const Talking talking(daemon.line);
   const std::string out = output_of("timeout 60 gpspipe -w -n 60 127.0.0.1:" + std::to_string(daemon.port()));
@@ -123,7 +123,7 @@ TEST(GpsdClients, GpspipeShowsPositionAndAttitude) {
 
 TEST(GpsdClients, CgpsShowsTheFix) {
   if (!installed("cgps") || !installed("script")) GTEST_SKIP() << "cgps or script is not installed";
-  DaemonProcess daemon;
+  DaemonProcess daemon({"--set", "environment.model=false"});
   daemon.wait_until_ready();
   const Talking talking(daemon.line);
   const std::string screen =

@@ -30,7 +30,10 @@ std::string tpv(const GpsSample& gps) {
 
 std::string att(const CompassSample& compass, double declination_rad = 0) {
   std::string out;
-  append_att(out, compass, declination_rad, stamp_at(kFirstOfMarch2026_ns + 123'456'789), {"compass"});
+  config::EnvironmentSettings environment;
+  environment.declination_rad = declination_rad;
+  append_att(out, compass, pipeline::EarthField(environment), stamp_at(kFirstOfMarch2026_ns + 123'456'789),
+             {"compass"});
   return out;
 }
 
@@ -159,7 +162,7 @@ TEST(GpsdReports, AbsentQuantitiesAreAbsent) {
   const json report = json::parse(att(CompassSample{}));
   EXPECT_EQ(report.size(), 3U) << report.dump() << ": class, device, time and no more";
   std::string out;
-  append_att(out, CompassSample{}, 0, Stamp{}, {"compass", false});
+  append_att(out, CompassSample{}, {}, Stamp{}, {"compass", false});
   EXPECT_FALSE(json::parse(out).contains("time")) << "no mapping to UTC: no time";
 }
 

@@ -31,8 +31,7 @@ struct Told : Sink {
 /// A vehicle that runs north at 10 revolutions a second; time passes in steps of 50 ms.
 class NavigationStageTest : public testing::Test {
  protected:
-  explicit NavigationStageTest(const config::Settings& settings = vehicle())
-      : stage_(settings, calibrated_ports(settings)) {}
+  explicit NavigationStageTest(const config::Settings& settings = vehicle()) : stage_(settings) {}
 
   void give(Port port, const decltype(instruments::Sample::value)& value, instruments::CalibrationName name = {}) {
     instruments::Sample sample;
@@ -41,7 +40,7 @@ class NavigationStageTest : public testing::Test {
                     now_ns_ + mapping_.offset_ns};
     sample.calibration = name;
     sample.value = value;
-    stage_.take(sample, sample, mapping_, told_);
+    stage_.take(sample, sample, tilt_, mapping_, told_);
   }
   [[nodiscard]] instruments::GpsSample fix(double latitude_rad = kLatitude_rad) const {
     instruments::GpsSample gps;
@@ -73,7 +72,36 @@ class NavigationStageTest : public testing::Test {
   Told told_;
   std::int64_t now_ns_ = 500'000'000'000;
   bool heading_is_true_ = false;
+  std::optional<nav::TiltReading> tilt_;  ///< by the accelerometers
 };
+
+TEST_F(NavigationStageTest, AccelerometersHoldTheTiltWhereNoInclinometerDoes) {
+  for (int i = 0; i < 100; ++i) {
+    now_ns_ += 50 * kMs;
+    tilt_ = nav::TiltReading{now_ns_, 0.1, -0.05};
+    give(imu, instruments::ImuSample{});
+  }
+  EXPECT_NEAR(newest().estimate.roll_rad.value(), 0.1, 1e-3);
+  EXPECT_NEAR(newest().estimate.pitch_rad.value(), -0.05, 1e-3);
+  run(20, false);
+  EXPECT_NEAR(newest().estimate.roll_rad.value(), 0, 5e-3) << "the inclinometer comes first";
+}
+
+TEST_F(NavigationStageTest, DepthAndVelocityMayComeFromOtherPorts) {
+  RolePorts ports = Sources(vehicle()).serving();
+  ports.ports.at(static_cast<std::size_t>(Role::velocity)) = second_gps;
+  stage_.use(ports);
+  for (int i = 0; i < 10; ++i) {
+    run(0.5, false);
+    auto other = fix();
+    other.speed_m_s = 1.5;
+    other.course_rad = 0;
+    give(second_gps, other);
+    run(0.5, true);
+  }
+  // The shaft makes 0.872 m/s; what the velocity has over it is the set.
+  EXPECT_GT(newest().estimate.set_m_s.x(), 0.2);
+}
 
 TEST_F(NavigationStageTest, TellsAtTheInterval) {
   run(10, false);

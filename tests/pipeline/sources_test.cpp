@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace navcal::pipeline {
 namespace {
 
@@ -35,18 +37,32 @@ instruments::Sample fix(std::uint16_t port, double time_s) {
   sample.value = gps;
   return sample;
 }
+instruments::Sample fix_with(std::uint16_t port, double time_s, double dop) {
+  instruments::Sample sample = fix(port, time_s);
+  std::get<instruments::GpsSample>(sample.value).dop = dop;
+  return sample;
+}
+/// The change that a sample makes, if it is one.
+std::optional<Sources::Change> take(Sources& sources, const instruments::Sample& sample) {
+  const auto changes = sources.take(sample);
+  EXPECT_LE(changes.size(), 1U);
+  return changes.empty() ? std::nullopt : std::optional(changes.front());
+}
+using Cause = Sources::Change::Cause;
 
 TEST(Sources, LinesWithoutAHeadingAreNone) {
   instruments::Sample rate_of_turn = at(0, 0);
   instruments::CompassSample compass;
   compass.turn_rate_rad_s = 0.1;
   rate_of_turn.value = compass;
-  EXPECT_EQ(role_of(rate_of_turn), std::nullopt);
+  EXPECT_TRUE(roles_of(rate_of_turn).is_empty());
   instruments::Sample no_fix = at(0, 0);
   no_fix.value = instruments::GpsSample{};
-  EXPECT_EQ(role_of(no_fix), std::nullopt);
-  EXPECT_EQ(role_of(heading(0, 0)), Role::heading);
-  EXPECT_EQ(role_of(fix(0, 0)), Role::position);
+  EXPECT_TRUE(roles_of(no_fix).is_empty());
+  EXPECT_TRUE(roles_of(heading(0, 0)).has(Role::heading));
+  EXPECT_FALSE(roles_of(heading(0, 0)).has(Role::field));
+  EXPECT_TRUE(roles_of(fix(0, 0)).has(Role::position));
+  EXPECT_FALSE(roles_of(fix(0, 0)).has(Role::velocity)) << "it has none";
 }
 
 TEST(Sources, AnInstrumentThatAlwaysSaysItComesBeforeNmea) {
@@ -54,7 +70,7 @@ TEST(Sources, AnInstrumentThatAlwaysSaysItComesBeforeNmea) {
   EXPECT_EQ(candidates(settings, Role::heading), (std::vector<std::uint16_t>{1, 0, 2}));
   EXPECT_EQ(candidates(settings, Role::position), (std::vector<std::uint16_t>{0, 2}));
   EXPECT_TRUE(candidates(settings, Role::shaft).empty());
-  EXPECT_EQ(Sources(settings).serving().compass, 1);
+  EXPECT_EQ(Sources(settings).serving()[Role::heading], 1);
 }
 
 TEST(Sources, TheOrderOfTheConfigurationDecidesNothingThatADeviceDoesNotDeliver) {
@@ -62,13 +78,13 @@ TEST(Sources, TheOrderOfTheConfigurationDecidesNothingThatADeviceDoesNotDeliver)
   for (const std::uint16_t receiver : {std::uint16_t{1}, std::uint16_t{2}}) {
     const auto compass = static_cast<std::uint16_t>(3 - receiver);
     Sources sources(with({Protocol::nmea, Protocol::nmea, Protocol::nmea}));
-    EXPECT_TRUE(sources.take(fix(receiver, 0.1)));
-    EXPECT_TRUE(sources.take(heading(compass, 0.2)));
-    EXPECT_FALSE(sources.take(fix(receiver, 1.1)));
-    EXPECT_FALSE(sources.take(heading(compass, 3.5)));
-    EXPECT_FALSE(sources.take(fix(receiver, 3.6)));
-    EXPECT_EQ(sources.serving().gps, receiver);
-    EXPECT_EQ(sources.serving().compass, compass);
+    EXPECT_TRUE(take(sources, fix(receiver, 0.1)));
+    EXPECT_TRUE(take(sources, heading(compass, 0.2)));
+    EXPECT_FALSE(take(sources, fix(receiver, 1.1)));
+    EXPECT_FALSE(take(sources, heading(compass, 3.5)));
+    EXPECT_FALSE(take(sources, fix(receiver, 3.6)));
+    EXPECT_EQ(sources.serving()[Role::position], receiver);
+    EXPECT_EQ(sources.serving()[Role::heading], compass);
     EXPECT_EQ(sources.learnt().gps, receiver);
     EXPECT_EQ(sources.learnt().compass, compass);
   }
@@ -76,60 +92,120 @@ TEST(Sources, TheOrderOfTheConfigurationDecidesNothingThatADeviceDoesNotDeliver)
 
 TEST(Sources, ASilentOneIsReplacedAndTakenBack) {
   Sources sources(with({Protocol::tcm2, Protocol::nmea}));
-  EXPECT_FALSE(sources.take(heading(0, 1)));
-  EXPECT_FALSE(sources.take(heading(1, 1.5)));
-  EXPECT_FALSE(sources.take(heading(1, 3.9)));
-  const auto fallen = sources.take(heading(1, 4.1));
+  EXPECT_FALSE(take(sources, heading(0, 1)));
+  EXPECT_FALSE(take(sources, heading(1, 1.5)));
+  EXPECT_FALSE(take(sources, heading(1, 3.9)));
+  const auto fallen = take(sources, heading(1, 4.1));
   ASSERT_TRUE(fallen);
   EXPECT_EQ(fallen->port, 1);
   EXPECT_EQ(fallen->before, 0);
-  EXPECT_TRUE(fallen->silent);
-  EXPECT_EQ(sources.serving().compass, 1);
+  EXPECT_EQ(fallen->cause, Cause::silence);
+  EXPECT_EQ(sources.serving()[Role::heading], 1);
   EXPECT_EQ(sources.learnt().compass, 0) << "calibrators do not mix two compasses";
-  EXPECT_FALSE(sources.take(heading(1, 5)));
-  const auto back = sources.take(heading(0, 6));
+  EXPECT_FALSE(take(sources, heading(1, 5)));
+  const auto back = take(sources, heading(0, 6));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->port, 0);
-  EXPECT_FALSE(back->silent);
-  EXPECT_EQ(sources.serving().compass, 0);
+  EXPECT_EQ(back->cause, Cause::delivers);
+  EXPECT_EQ(sources.serving()[Role::heading], 0);
 }
 
 TEST(Sources, CalibratorsWaitForTheBestThatDelivers) {
   Sources sources(with({Protocol::nmea, Protocol::nmea}));
-  (void)sources.take(heading(1, 0.1));
+  (void)take(sources, heading(1, 0.1));
   EXPECT_FALSE(sources.learnt().compass) << "another one may be better";
-  EXPECT_TRUE(sources.take(heading(0, 0.5)));
-  (void)sources.take(heading(1, 3.2));
+  EXPECT_TRUE(take(sources, heading(0, 0.5)));
+  (void)take(sources, heading(1, 3.2));
   EXPECT_EQ(sources.learnt().compass, 0);
-  EXPECT_EQ(sources.serving().compass, 0);
+  EXPECT_EQ(sources.serving()[Role::heading], 0);
 }
 
 TEST(Sources, ASlowReceiverIsNotTakenForSilent) {
   Sources sources(with({Protocol::nmea, Protocol::nmea}));
   int changes = 0;
   for (int second = 0; second < 120; ++second) {
-    if (second % 5 == 0 && sources.take(fix(0, second))) ++changes;
-    if (sources.take(fix(1, second + 0.5))) ++changes;
+    if (second % 5 == 0 && take(sources, fix(0, second))) ++changes;
+    if (take(sources, fix(1, second + 0.5))) ++changes;
   }
   EXPECT_LE(changes, 2) << "at most until its interval is known";
 }
 
 TEST(Sources, ACompassThatNeverComesIsWaitedForAWhile) {
   Sources sources(with({Protocol::tcm2, Protocol::nmea}));
-  EXPECT_FALSE(sources.take(heading(1, 10)));
-  EXPECT_FALSE(sources.take(heading(1, 12)));
-  const auto fallen = sources.take(heading(1, 10 + 1e-9 * Sources::kSilent_ns + 0.1));
+  EXPECT_FALSE(take(sources, heading(1, 10)));
+  EXPECT_FALSE(take(sources, heading(1, 12)));
+  const auto fallen = take(sources, heading(1, 10 + 1e-9 * Sources::kSilent_ns + 0.1));
   ASSERT_TRUE(fallen);
-  EXPECT_TRUE(fallen->silent);
+  EXPECT_EQ(fallen->cause, Cause::silence);
+}
+
+TEST(Sources, TheReceiverThatStatesTheSmallerErrorServes) {
+  Sources sources(with({Protocol::oncore, Protocol::nmea}));
+  std::vector<Sources::Change> changes;
+  const auto drive = [&](int from_s, int to_s, double first_dop, double second_dop) {
+    for (int second = from_s; second < to_s; ++second) {
+      if (const auto change = take(sources, fix_with(0, second, first_dop))) changes.push_back(*change);
+      if (const auto change = take(sources, fix_with(1, second + 0.5, second_dop))) changes.push_back(*change);
+    }
+  };
+  drive(0, 30, 2.0, 1.8);
+  EXPECT_TRUE(changes.empty()) << "hardly better";
+  drive(30, 90, 6.0, 1.8);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes.front().port, 1);
+  EXPECT_EQ(changes.front().cause, Cause::error);
+  drive(90, 150, 2.0, 1.8);
+  ASSERT_EQ(changes.size(), 2U) << "as good again: the first of the configuration";
+  EXPECT_EQ(changes.back().port, 0);
+  EXPECT_EQ(sources.learnt().gps, 0) << "calibrators do not mix two receivers";
+}
+
+TEST(Sources, TheOperatorsChoiceComesFirstWhateverErrorsAreStated) {
+  auto settings = with({Protocol::oncore, Protocol::nmea, Protocol::tcm2});
+  settings.ports[0].name = "old";
+  settings.ports[1].name = "new";
+  settings.ports[2].name = "compass";
+  settings.roles.port_names.at(static_cast<std::size_t>(Role::position)) = "new";
+  settings.roles.port_names.at(static_cast<std::size_t>(Role::heading)) = "new";
+  EXPECT_EQ(candidates(settings, Role::position), (std::vector<std::uint16_t>{1, 0}));
+  EXPECT_EQ(candidates(settings, Role::velocity), (std::vector<std::uint16_t>{1, 0})) << "follows the position";
+  EXPECT_EQ(candidates(settings, Role::heading), (std::vector<std::uint16_t>{1, 2}));
+  EXPECT_EQ(candidates(settings, Role::field), (std::vector<std::uint16_t>{2})) << "NMEA has none";
+  Sources sources(settings);
+  for (int second = 0; second < 60; ++second) {
+    EXPECT_FALSE(take(sources, fix_with(1, second, 9)));
+    EXPECT_FALSE(take(sources, fix_with(0, second + 0.5, 1)));
+  }
+  EXPECT_EQ(sources.learnt().gps, 1);
+  EXPECT_EQ(sources.learnt().compass, 2) << "the calibrators want the field";
+  EXPECT_EQ(sources.serving()[Role::heading], 1);
+}
+
+TEST(Sources, OnlyWhatHasDeliveredIsSaidToDeliver) {
+  Sources sources(with({Protocol::tcm2, Protocol::oncore}));
+  EXPECT_EQ(sources.delivering(), RolePorts{});
+  (void)take(sources, heading(0, 1));
+  EXPECT_EQ(sources.delivering()[Role::heading], 0);
+  EXPECT_FALSE(sources.delivering()[Role::position]);
+}
+
+TEST(Sources, CalibratorsGoOnWithTheInstrumentsTheyHad) {
+  const auto settings = with({Protocol::nmea, Protocol::nmea});
+  Sources sources(settings);
+  sources.go_on_with({.compass = 1, .imu = {}, .gps = 7, .motor = {}});
+  sources.begin_run();
+  for (int second = 0; second < 10; ++second) (void)take(sources, heading(0, second));
+  EXPECT_EQ(sources.learnt().compass, 1);
+  EXPECT_FALSE(sources.learnt().gps) << "no such port";
 }
 
 TEST(Sources, OtherSamplesAndPortsChangeNothing) {
   Sources sources(with({Protocol::motor_card}));
-  EXPECT_FALSE(sources.take(heading(0, 1)));
-  EXPECT_FALSE(sources.take(fix(7, 1)));
-  EXPECT_FALSE(sources.serving().compass);
+  EXPECT_FALSE(take(sources, heading(0, 1)));
+  EXPECT_FALSE(take(sources, fix(7, 1)));
+  EXPECT_FALSE(sources.serving()[Role::heading]);
   sources.begin_run();
-  EXPECT_EQ(sources.serving().motor, 0);
+  EXPECT_EQ(sources.serving()[Role::shaft], 0);
   static_assert(Sources::kSilent_ns == 3 * kSecond_ns);
 }
 

@@ -1,0 +1,49 @@
+#include "daemon/check.h"
+
+#include <gtest/gtest.h>
+
+#include "config/load.h"
+
+namespace navcal::daemon {
+namespace {
+
+std::string port(const std::string& name, const std::string& protocol) {
+  return "[port." + name + "]\nprotocol = \"" + protocol + "\"\npath = \"/dev/" + name + "\"\n";
+}
+
+bool says(const std::string& toml, std::string_view line) {
+  const std::string words = describe(config::parse(toml, "t.toml", {}));
+  const bool found = words.find(line) != std::string::npos;
+  if (!found) ADD_FAILURE() << words;
+  return found;
+}
+
+TEST(Check, SaysWhichPortMayServeWhat) {
+  EXPECT_TRUE(
+      says(port("tcm", "tcm2") + port("imu", "imu-card") + port("gps", "oncore") + port("motor", "motor-card"),
+           "sources: heading and field by tcm, rates and acceleration and depth by imu, position and velocity "
+           "by gps, shaft by motor\n"));
+  EXPECT_TRUE(says(port("all", "nmea"),
+                   "sources: heading and position and velocity by all; nothing gives field, rates, acceleration, "
+                   "depth, shaft\n"));
+  EXPECT_TRUE(
+      says(port("a", "nmea") + port("b", "nmea"), "sources: heading and position and velocity by a or b;"));
+  EXPECT_TRUE(says("[roles]\nheading = \"b\"\n" + port("a", "tcm2") + port("b", "nmea"),
+                   "sources: heading by b or a, field by a,"));
+}
+
+TEST(Check, SaysWhatTheCalibratorsLearnFrom) {
+  EXPECT_TRUE(says(port("all", "nmea"), "calibration: of all;"));
+  EXPECT_TRUE(says("[roles]\nheading = \"b\"\n" + port("a", "tcm2") + port("b", "nmea"), "calibration: of a, b;"));
+}
+
+TEST(Check, SaysWhenceTheEarthsFieldIs) {
+  const std::string gps = port("gps", "oncore");
+  EXPECT_TRUE(says(gps, "field of the Earth: by the World Magnetic Model from the first fix on\n"));
+  EXPECT_TRUE(says("[environment]\ndeclination_deg = 3\n" + gps,
+                   "field of the Earth: declination 3.00 deg east as configured; size and dip by the model\n"));
+  EXPECT_TRUE(says("[environment]\nmodel = false\n" + gps, "field of the Earth: the declination is not known\n"));
+}
+
+}  // namespace
+}  // namespace navcal::daemon
