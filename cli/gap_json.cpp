@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "record/calibration_json.h"
+
 namespace navcal::cli {
 namespace {
 
@@ -105,7 +107,7 @@ Json json_of(const gap::EarthField& field) {
 std::string gap_json(const gap::Diagnosis& diagnosis) {
   const auto convert = [](const auto& element) { return json_of(element); };
   const auto& bias = diagnosis.gyro_bias_rad_s;
-  const Json json{
+  Json json{
       {"verdict", gap::name_of(diagnosis.verdict)},
       {"sentence", diagnosis.sentence},
       {"where", list_of(diagnosis.where, convert)},
@@ -121,6 +123,11 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"bank", json_of(diagnosis.bank)},
       {"duration_s", diagnosis.duration_s},
       {"seconds", diagnosis.seconds}};
+  if (diagnosis.instruments_alone) {
+    std::string alone;
+    record::append_calibrate_json(alone, *diagnosis.instruments_alone);
+    json["instruments_alone"] = Json::parse(alone);
+  }
   // A file's name in a remark may be no UTF-8.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -15,7 +15,7 @@
 namespace navcal::cli {
 namespace {
 
-constexpr std::string_view kArrow = "\u2192";
+constexpr std::string_view kArrow = "\u2192", kPlusMinus = "\u00b1";
 constexpr std::size_t kMostWhere = 5;
 
 std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
@@ -23,7 +23,10 @@ std::string joined(const std::vector<std::string>& parts) { return fmt::format("
 void append_summary(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSource& source) {
   const bool good = diagnosis.verdict != gap::Verdict::unknown;
   page.fact(good ? "good" : "bad", verdict_word(diagnosis.verdict), verdict_sentence(diagnosis));
-  if (!diagnosis.effects.empty()) {
+  if (diagnosis.instruments_alone) {
+    for (const auto& line : instruments_alone_lines(*diagnosis.instruments_alone, kPlusMinus))
+      page.fact("plain", "instruments", line);
+  } else if (!diagnosis.effects.empty()) {
     page.fact("plain", "closed",
               closed_text(diagnosis.gap.pooled) + " of the gap, " + judged_on(diagnosis.gap, source) + ".");
   } else {
@@ -105,8 +108,9 @@ void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSou
 std::string gap_page(const gap::Diagnosis& diagnosis, const GapSource& source) {
   HtmlPage page("Gap between model and " + std::filesystem::path(source.mission).filename().string());
   append_summary(page, diagnosis, source);
-  append_where(page, diagnosis);
-  if (diagnosis.verdict != gap::Verdict::no_gap) append_causes(page, diagnosis, source);
+  if (!diagnosis.instruments_alone) append_where(page, diagnosis);
+  if (!diagnosis.instruments_alone && diagnosis.verdict != gap::Verdict::no_gap)
+    append_causes(page, diagnosis, source);
   append_left_over(page, diagnosis);
   append_residuals(page, diagnosis);
   append_source(page, diagnosis, source);

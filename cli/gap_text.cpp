@@ -92,6 +92,11 @@ void append_closure(std::string& out, const gap::Gap& gap, const GapSource& sour
 std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   std::string out;
   append_lines(out, verdict_word(diagnosis.verdict), {verdict_sentence(diagnosis)});
+  if (diagnosis.instruments_alone) {
+    append_lines(out, "instruments", instruments_alone_lines(*diagnosis.instruments_alone, kPlusMinus));
+    append_lines(out, "remarks", diagnosis.remarks);
+    return out;
+  }
   append_where(out, diagnosis);
   if (!diagnosis.effects.empty()) {
     append_effects(out, "causes", diagnosis.effects, diagnosis.effects.size(), true);

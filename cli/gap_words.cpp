@@ -1,11 +1,13 @@
 #include "cli/gap_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "cli/calibrate_words.h"
 #include "cli/gap_units.h"
 #include "cli/shown_number.h"
 
@@ -153,6 +155,24 @@ std::vector<std::string> consequences(const gap::Gap& gap, std::string_view arro
 std::string text_of(const gap::ChangePoint& change, std::string_view arrow) {
   return fmt::format("{} at {}: {} {} {}", change.channel, amount(change.time_s, "s"), amount(change.before),
                      arrow, amount(change.after, change.unit));
+}
+
+std::vector<std::string> instruments_alone_lines(const calib::Report& report, std::string_view plus_minus) {
+  std::vector<std::string> lines;
+  for (const auto& calibrator : report.calibrators) {
+    std::string line = fmt::format("{}: ", title_of(calibrator.calibrator));
+    if (calibrator.outcome == calib::Outcome::refused) {
+      lines.push_back(line + "nothing can be said, " + objection_of(calibrator));
+      continue;
+    }
+    std::vector<std::string> pieces;
+    for (const ShownQuantity& quantity : shown(calibrator)) pieces.push_back(text_of(quantity, plus_minus));
+    line += fmt::format("{}", fmt::join(pieces, ", "));
+    if (const auto held_out = held_out_of(calibrator, "to"); !held_out.empty())
+      line += fmt::format("; on readings held out from {}", held_out);
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 std::string bank_text(const gap::BankFacts& bank) {

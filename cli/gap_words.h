@@ -56,6 +56,10 @@ inline constexpr std::string_view kNoneExplains =
 [[nodiscard]] std::string judged_on(const gap::Gap& gap, const GapSource& source);
 /// Heading and dead reckoning, before and after, one sentence each.
 [[nodiscard]] std::vector<std::string> consequences(const gap::Gap& gap, std::string_view arrow);
+/// Where causes cannot be sought: a line for each calibrator, what it found of its instruments or why it cannot
+/// say.
+[[nodiscard]] std::vector<std::string> instruments_alone_lines(const calib::Report& report,
+                                                               std::string_view plus_minus);
 /// "compass.field at 312 s: 0.1 -> 2.3 uT".
 [[nodiscard]] std::string text_of(const gap::ChangePoint& change, std::string_view arrow);
 [[nodiscard]] std::string bank_text(const gap::BankFacts& bank);

@@ -12,6 +12,7 @@
 #include "gap/biases.h"
 #include "gap/blocks.h"
 #include "gap/holdout.h"
+#include "gap/instruments_alone.h"
 #include "gap/null_gains.h"
 #include "gap/order_times.h"
 #include "gap/parallel.h"
@@ -91,6 +92,7 @@ class Diagnosing {
   [[nodiscard]] std::vector<WhereEntry> leftover_of(const Prepared& a, const Searched& result,
                                                     const Comparison& here, bool seen) const;
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
+  void say_without_causes(Diagnosis& answer);
 
   const Request& request_;
   const Progress& progress_;
@@ -338,6 +340,16 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   write_words(answer);
 }
 
+/// No model can be held against the recording; its instruments may still be held against each other.
+void Diagnosing::say_without_causes(Diagnosis& answer) {
+  const std::string why = answer.remarks.empty() ? std::string("the recording is empty") : answer.remarks.back();
+  answer.sentence = fmt::format("The causes of a gap cannot be found: {}.", why);
+  calib::Report report =
+      instruments_alone(request_.mission, answer.field.value_or(EarthField{}),
+                        [&](double done) { progress_("comparing the instruments with each other", done); });
+  if (!report.calibrators.empty()) answer.instruments_alone = std::move(report);
+}
+
 Diagnosis Diagnosing::run() {
   Diagnosis answer;
   const auto a = prepare(request_.mission, answer);
@@ -350,8 +362,7 @@ Diagnosis Diagnosing::run() {
   if (a) {
     diagnose(*a, holdouts, answer);
   } else {
-    answer.sentence = "Nothing can be said from this recording: " +
-                      (answer.remarks.empty() ? std::string("it is empty") : answer.remarks.back()) + ".";
+    say_without_causes(answer);
   }
   if (request_.holdouts.empty()) {
     answer.remarks.emplace_back(

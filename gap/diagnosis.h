@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calib/report.h"
 #include "gap/earth_field.h"
 
 // What a diagnosis says: the numbers behind `navcal gap --json`, the text and the page (docs/gap.md).
@@ -112,6 +113,8 @@ struct Diagnosis {
   std::optional<Scatter> scatter;   ///< of the strongest channel
   std::vector<Course> courses;      ///< of each channel
   std::optional<EarthField> field;  ///< of the nominal model in this mission
+  /// Where an instrument is missing that the search for causes needs: what the others show of each other.
+  std::optional<calib::Report> instruments_alone;
   BankFacts bank;
   double duration_s = 0;  ///< of the mission
   double seconds = 0;     ///< that the diagnosis took, without the bank

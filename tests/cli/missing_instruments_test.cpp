@@ -1,0 +1,153 @@
+// A recording without one or two of its four instruments, through `navcal replay`, `calibrate` and `gap`: each
+// says what the others show, and refuses nothing for ever.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/calibrate_program.h"
+
+namespace navcal::cli::test {
+namespace {
+
+using Names = std::vector<std::string>;
+constexpr std::array<const char*, 4> kPorts{"compass", "imu", "gps", "motor"};
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Each instrument alone, and each pair.
+std::vector<Names> omissions() {
+  std::vector<Names> all;
+  for (std::size_t i = 0; i < kPorts.size(); ++i) {
+    all.push_back({kPorts.at(i)});
+    for (std::size_t j = i + 1; j < kPorts.size(); ++j) all.push_back({kPorts.at(i), kPorts.at(j)});
+  }
+  return all;
+}
+
+class MissingInstruments : public CalibrateProgram, public testing::WithParamInterface<Names> {
+ protected:
+  void SetUp() override {
+    output_of("simulate --mission calibration_swing --seconds 240 --seed 7 -o all.cap");
+    std::ifstream all(folder_ / "all.cap");
+    std::string rest;
+    for (std::string line; std::getline(all, line);) {
+      std::istringstream words(line);
+      std::string first, port;
+      words >> first >> port;
+      const bool of_port = first == "#port" || !first.starts_with('#');
+      if (!of_port || !missing(port)) rest += line + "\n";
+    }
+    write("rest.cap", rest);
+  }
+  [[nodiscard]] static bool missing(const std::string& port) { return contains(GetParam(), port); }
+};
+
+TEST_P(MissingInstruments, NavigationGoesOnWithTheOthers) {
+  const std::string out = output_of("replay rest.cap");
+  nlohmann::json last;
+  int reports = 0;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("\"class\":\"NAV\"") == std::string::npos) continue;
+    last = nlohmann::json::parse(line);
+    ++reports;
+  }
+  ASSERT_GT(reports, 100);
+  EXPECT_EQ(last["heading_rad"].is_number(), !missing("compass")) << last;
+  EXPECT_EQ(last["roll_rad"].is_number(), !missing("compass") || !missing("imu")) << last;
+  EXPECT_EQ(last["lat"].is_number(), !missing("gps")) << last;
+  EXPECT_EQ(last["depth_m"].is_number(), !missing("imu")) << last;
+}
+
+TEST_P(MissingInstruments, EveryCalibratorWithInstrumentsSaysSomething) {
+  if (missing("compass")) GTEST_SKIP() << "without a compass there is nothing to calibrate";
+  const auto json = calibrated("rest.cap");
+  EXPECT_EQ(json.contains("gyro") && json["gyro"]["accepted"] == true, !missing("imu")) << json["gyro"];
+  for (const auto& [name, part] : json.items()) {
+    if (!part.is_object() || !part.contains("accepted")) continue;
+    const bool says = part["accepted"] == true || !part["reason"].get<std::string>().empty();
+    EXPECT_TRUE(says) << name << ": " << part;
+  }
+}
+
+TEST_P(MissingInstruments, TheDiagnosisSaysWhatTheOthersShow) {
+  if (GetParam() == Names{"gps"}) GTEST_SKIP() << "that is a whole diagnosis, which gap_test makes";
+  const auto json = nlohmann::json::parse(output_of("gap --json - rest.cap"));
+  EXPECT_EQ(json["verdict"], "unknown");
+  EXPECT_TRUE(json["effects"].empty());
+  const std::string sentence = json["sentence"];
+  EXPECT_NE(sentence.find("The causes of a gap cannot be found: "), std::string::npos) << sentence;
+  EXPECT_EQ(json.contains("instruments_alone"), !missing("compass")) << sentence;
+  if (!missing("compass") && !missing("imu")) {
+    EXPECT_EQ(json["instruments_alone"]["gyro"]["accepted"], true) << json["instruments_alone"]["gyro"];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, MissingInstruments, testing::ValuesIn(omissions()), [](const auto& omitted) {
+  std::string name;
+  for (const std::string& port : omitted.param) name += (name.empty() ? "" : "_and_") + port;
+  return name;
+});
+
+/// Without the compass nothing but the card tells of roll and pitch.
+class NoInclinometer : public CalibrateProgram {
+ protected:
+  static constexpr double kBegin_s = 1767225600;
+  /// Roll and pitch by the time since the beginning.
+  [[nodiscard]] std::map<double, std::array<double, 2>> truth_of(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    std::string line;
+    std::getline(file, line);  // t,x,y,z,phi,theta,...
+    std::map<double, std::array<double, 2>> truth;
+    while (std::getline(file, line)) {
+      std::array<double, 6> values{};
+      std::istringstream words(line);
+      std::string word;
+      for (double& value : values) {
+        std::getline(words, word, ',');
+        value = std::stod(word);
+      }
+      truth[values[0]] = {values[4], values[5]};
+    }
+    return truth;
+  }
+};
+
+TEST_F(NoInclinometer, RollAndPitchAreByTheAccelerometers) {
+  output_of("simulate --mission survey --seconds 120 --seed 7 -o all.cap --truth all.csv");
+  std::ifstream all(folder_ / "all.cap");
+  std::string rest;
+  for (std::string line; std::getline(all, line);) {
+    if (line.find(" compass ") == std::string::npos) rest += line + "\n";
+  }
+  write("rest.cap", rest);
+  const auto truth = truth_of("all.csv");
+  std::istringstream lines(output_of("replay rest.cap"));
+  double sum = 0;
+  int count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("\"class\":\"NAV\"") == std::string::npos) continue;
+    const auto nav = nlohmann::json::parse(line);
+    const double time_s = nav["time"].get<double>() - kBegin_s;
+    const auto at = truth.lower_bound(time_s);
+    if (time_s < 10 || at == truth.end()) continue;
+    sum += std::pow(nav["roll_rad"].get<double>() - at->second[0], 2) +
+           std::pow(nav["pitch_rad"].get<double>() - at->second[1], 2);
+    count += 2;
+  }
+  ASSERT_GT(count, 100);
+  EXPECT_LT(std::sqrt(sum / count) * 180 / std::numbers::pi, 0.6) << "degrees, root-mean-square under way";
+}
+
+}  // namespace
+}  // namespace navcal::cli::test
