@@ -29,12 +29,12 @@ constexpr std::array kCompass{Field{"time", number, "s"},
                               Field{"heading_is_true", boolean},
                               Field{"pitch_rad"},
                               Field{"roll_rad"},
-                              Field{"tilt_by_accelerometers", boolean},
                               Field{"field_body_uT", vector3},
                               Field{"dip_rad"},
                               Field{"turn_rate_rad_s"},
                               Field{"temperature_C"},
                               Field{"error", text},
+                              Field{"tilt_by_accelerometers", boolean},
                               Field{"calibration", text}};
 
 constexpr std::array kImu{Field{"time", number, "s"},

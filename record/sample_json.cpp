@@ -35,7 +35,6 @@ struct Body {
     json.boolean("heading_is_true", s.heading_is_true);
     json.number("pitch_rad", s.pitch_rad);
     json.number("roll_rad", s.roll_rad);
-    json.boolean("tilt_by_accelerometers", s.tilt_by_accelerometers);
     if (s.field_body_uT) {
       json.numbers("field_body_uT", *s.field_body_uT);
     } else {
@@ -49,6 +48,7 @@ struct Body {
     } else {
       json.null("error");
     }
+    json.boolean("tilt_by_accelerometers", s.tilt_by_accelerometers);
   }
 
   void operator()(const instruments::ImuSample& s) const {

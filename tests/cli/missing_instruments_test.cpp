@@ -70,7 +70,11 @@ TEST_P(MissingInstruments, NavigationGoesOnWithTheOthers) {
 }
 
 TEST_P(MissingInstruments, EveryCalibratorWithInstrumentsSaysSomething) {
-  if (missing("compass")) GTEST_SKIP() << "without a compass there is nothing to calibrate";
+  if (missing("compass")) {
+    const std::string words = output_of("calibrate rest.cap");
+    EXPECT_NE(words.find("the recording has no compass"), std::string::npos) << words;
+    return;
+  }
   const auto json = calibrated("rest.cap");
   EXPECT_EQ(json.contains("gyro") && json["gyro"]["accepted"] == true, !missing("imu")) << json["gyro"];
   for (const auto& [name, part] : json.items()) {
@@ -81,7 +85,7 @@ TEST_P(MissingInstruments, EveryCalibratorWithInstrumentsSaysSomething) {
 }
 
 TEST_P(MissingInstruments, TheDiagnosisSaysWhatTheOthersShow) {
-  if (GetParam() == Names{"gps"}) GTEST_SKIP() << "that is a whole diagnosis, which gap_test makes";
+  if (GetParam() == Names{"gps"}) return;  // a whole diagnosis, which gap_test makes
   const auto json = nlohmann::json::parse(output_of("gap --json - rest.cap"));
   EXPECT_EQ(json["verdict"], "unknown");
   EXPECT_TRUE(json["effects"].empty());

@@ -51,7 +51,8 @@ TEST(Json, ASampleReadsAsInTheContract) {
       "\"arrival\":1790000006.000000008,\"device\":\"compass\",\"heading_rad\":5.7334,"
       "\"heading_calibrated_rad\":null,\"heading_is_true\":false,\"pitch_rad\":0.1,\"roll_rad\":null,\"field_body_"
       "uT\":[55.11,12.33,-18.43],"
-      "\"dip_rad\":null,\"turn_rate_rad_s\":null,\"temperature_C\":null,\"error\":null,\"calibration\":null}");
+      "\"dip_rad\":null,\"turn_rate_rad_s\":null,\"temperature_C\":null,\"error\":null,\"tilt_by_accelerometers\":"
+      "false,\"calibration\":null}");
 }
 
 TEST(Json, EveryKindOfSampleIsJsonWithTheMembersOfItsTopic) {
