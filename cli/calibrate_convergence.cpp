@@ -65,8 +65,8 @@ Range late_range(const std::vector<std::span<const EstimatePoint>>& curves, doub
   return {least - margin, most + margin};
 }
 
-void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const EstimatePoint> curve, const TimeAxis& time,
-          double factor) {
+void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const EstimatePoint> curve,
+          const EarlyTimeAxis& time, double factor) {
   std::vector<Point> line, lower, upper;
   for (const EstimatePoint& point : curve) {
     const double t = time(point.time_s);
@@ -86,7 +86,7 @@ std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estim
     for (const auto& point : {points.front(), points.back()}) times_s.push_back(point.time_s);
   }
   std::sort(times_s.begin(), times_s.end());
-  const TimeAxis time(times_s);
+  const EarlyTimeAxis time(times_s);
   std::vector<Figure> figures;
   for (const Group& group : kGroups) {
     std::vector<std::span<const EstimatePoint>> curves;

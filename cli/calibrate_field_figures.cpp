@@ -94,6 +94,19 @@ SvgPlot square_plot(std::string_view title, int across, int up, const std::vecto
           {kSide, height}};
 }
 
+/// Where the bow pointed: with the bow to the east, north is to port. Just within the circle of the points, which
+/// are seen from above, starboard across and forward up.
+void mark_headings(SvgPlot& plot, const std::vector<Point>& points) {
+  if (points.empty()) return;
+  double radius = 0;
+  for (const Point& point : points) radius += std::hypot(point.x, point.y) / static_cast<double>(points.size());
+  radius *= 0.85;
+  plot.word({0, radius}, "N");
+  plot.word({-radius, 0}, "E");
+  plot.word({0, -radius}, "S");
+  plot.word({radius, 0}, "W");
+}
+
 double spread_percent(const std::vector<Eigen::Vector3d>& fields) {
   double mean = 0, squares = 0, count = 0;
   for (const auto& field : fields) {
@@ -152,9 +165,12 @@ std::vector<Figure> field_figures(const calib::Report& report, const std::vector
     SvgPlot calibrated = square_plot("Field calibrated", across, up, after, circle);
     calibrated.points(Ink::after, "calibrated", after);
     calibrated.line(Ink::fit, level ? "horizontal field" : "outline of the sphere", circle);
+    const bool from_above = across == 1 && up == 0;
+    if (from_above) mark_headings(calibrated, after);
     figures.push_back({"Field calibrated, " + from, calibrated.svg(),
-                       fmt::format("matrix * (measured - offset), {}; {} {:.1f} uT.", seen,
-                                   level ? "horizontal field" : "field", size->value)});
+                       fmt::format("matrix * (measured - offset), {}; {} {:.1f} uT.{}", seen,
+                                   level ? "horizontal field" : "field", size->value,
+                                   from_above ? " N, E, S, W: where the bow pointed." : "")});
   };
   add_view(1, 0, "from above");
   if (!level) add_view(0, 2, "from the side");

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/heading_axis.h"
 #include "cli/simulate_plot.h"
 #include "cli/svg_plot.h"
+#include "cli/time_axis.h"
 #include "sim/geodesy.h"
 
 namespace navcal::cli {
@@ -17,11 +19,6 @@ using sim::State;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::array kInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
-
-double heading_deg(double rad) {
-  const double deg = std::fmod(rad * kDegrees, 360);
-  return deg < 0 ? deg + 360 : deg;
-}
 
 std::optional<double> degrees(const std::optional<double>& rad) {
   return rad ? std::optional(*rad * kDegrees) : std::nullopt;
@@ -64,22 +61,33 @@ Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
   return {"Track", plot.svg(), "True track, and the fixes of the receiver."};
 }
 
+Figure heading_figure(const SimulatedSeries& series) {
+  std::vector<double> times_s, headings_deg;
+  for (const auto& state : series.states) {
+    times_s.push_back(state.time_s);
+    headings_deg.push_back(state.value.euler_rad[2] * kDegrees);
+  }
+  const TimeAxis time(times_s);
+  const HeadingAxis heading(headings_deg);
+  std::vector<Point> truth, compass;
+  for (std::size_t i = 0; i < times_s.size(); ++i) truth.push_back({time(times_s[i]), heading(headings_deg[i])});
+  for (const auto& word : series.compass) {
+    if (word.value.heading_rad)
+      compass.push_back({time(word.time_s), heading(*word.value.heading_rad * kDegrees)});
+  }
+  SvgPlot plot("Heading", time.axis(), heading.axis("heading"));
+  plot.points(Ink::before, "compass", compass);
+  plot.points(Ink::after, "truth", truth);
+  return {"Heading", plot.svg(), "True heading from true north, and the compass's, which is magnetic."};
+}
+
 }  // namespace
 
 std::vector<Figure> motion_figures(const SimulatedSeries& series, const sim::Origin& origin) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   const auto& states = series.states;
   std::vector<Figure> figures{track(series, origin)};
-  figures.push_back(
-      {"Heading",
-       plot()
-           .dots(Ink::before, "compass", series.compass,
-                 [](const auto& word) {
-                   return word.heading_rad ? std::optional(heading_deg(*word.heading_rad)) : std::nullopt;
-                 })
-           .dots(Ink::after, "truth", states, [](const State& state) { return heading_deg(state.euler_rad[2]); })
-           .svg("Heading", "degrees"),
-       "True heading from true north, and the compass's, which is magnetic."});
+  figures.push_back(heading_figure(series));
   figures.push_back({"Depth",
                      plot()
                          .dots(Ink::before, "card", series.imu, [](const auto& record) { return record.depth_m; })

@@ -35,7 +35,7 @@ class SimulatedPlot {
         for (const Point& point : curve.points) values.push_back(point.y);
       }
     }
-    SvgPlot plot(title, time_.axis(), {unit, range_of(std::move(values))});
+    SvgPlot plot(title, time_.axis(), {unit, whole_range_of(values)});
     for (const Curve& curve : dots_) plot.points(curve.ink, curve.name, curve.points);
     for (const Curve& curve : lines_) plot.line(curve.ink, curve.name, curve.points);
     return plot.svg();

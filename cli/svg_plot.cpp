@@ -51,6 +51,16 @@ std::vector<double> multiples(Range range, double step) {
 
 namespace {
 
+/// Those that are given, or numbers at about so many round values.
+std::vector<SvgPlot::Tick> ticks_of(const SvgPlot::Axis& axis, int about) {
+  if (!axis.ticks.empty()) return axis.ticks;
+  const auto values = axis.step > 0 ? multiples(axis.range, axis.step) : round_values(axis.range, about);
+  const double step = values.size() > 1 ? values[1] - values[0] : 1.0;
+  std::vector<SvgPlot::Tick> ticks;
+  for (const double value : values) ticks.push_back({value, tick_text(value, step)});
+  return ticks;
+}
+
 /// A value that lies further out than this many lengths of what is within it is an outlier.
 constexpr double kJump = 2;
 /// No axis is longer than this many times the range that holds the middle four fifths of the values.
@@ -74,6 +84,14 @@ Range without_outliers(const std::vector<double>& sorted) {
   return {sorted[low], sorted[high]};
 }
 
+Range with_margin(Range range) {
+  // What does not vary is drawn as such, not with ticks that differ in the seventh place.
+  const double size = std::abs(range.least);
+  const bool constant = range.length() <= 1e-6 * size;
+  const double margin = constant ? (size > 0 ? 0.01 * size : 1) : 0.06 * range.length();
+  return {range.least - margin, range.most + margin};
+}
+
 }  // namespace
 
 Range range_of(std::vector<double> values) {
@@ -81,12 +99,16 @@ Range range_of(std::vector<double> values) {
                values.end());
   if (values.empty()) return {-1, 1};
   std::sort(values.begin(), values.end());
-  const Range range = without_outliers(values);
-  // What does not vary is drawn as such, not with ticks that differ in the seventh place.
-  const double size = std::abs(range.least);
-  const bool constant = range.length() <= 1e-6 * size;
-  const double margin = constant ? (size > 0 ? 0.01 * size : 1) : 0.06 * range.length();
-  return {range.least - margin, range.most + margin};
+  return with_margin(without_outliers(values));
+}
+
+Range whole_range_of(const std::vector<double>& values) {
+  Range range{INFINITY, -INFINITY};
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    range = {std::min(range.least, value), std::max(range.most, value)};
+  }
+  return range.length() >= 0 ? with_margin(range) : Range{-1, 1};
 }
 
 std::vector<double> round_values(Range range, int about) {
@@ -179,6 +201,12 @@ void SvgPlot::level(double y) {
   add(body_, "<path class=\"grid strong\" d=\"M0 {:.1f}h{:.1f}\"/>\n", y_of(y), size_.width - kLeft - kRight);
 }
 
+void SvgPlot::word(const Point& at, std::string_view text) {
+  if (!visible(at)) return;
+  add(body_, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x_of(at.x),
+      y_of(at.y) + 4, escaped(text));
+}
+
 void SvgPlot::legend(Ink ink, Mark mark, std::string_view name) {
   if (name.empty()) return;
   switch (mark) {
@@ -199,25 +227,18 @@ void SvgPlot::legend(Ink ink, Mark mark, std::string_view name) {
 
 void SvgPlot::append_axes(std::string& out) const {
   const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
-  const auto ticks_of = [](const Axis& axis, int about) {
-    return axis.step > 0 ? multiples(axis.range, axis.step) : round_values(axis.range, about);
-  };
-  const auto step_of = [](const std::vector<double>& ticks) {
-    return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
-  };
-  const auto along = ticks_of(x_, 8), up = ticks_of(y_, 6);
   std::string grid, text;
-  for (const double tick : along) {
-    const double x = kLeft + x_of(tick);
+  for (const auto& [value, words] : ticks_of(x_, 8)) {
+    const double x = kLeft + x_of(value);
     add(grid, "M{:.1f} {:.1f}v{:.1f}", x, kTop, height);
     add(text, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x,
-        kTop + height + 15, tick_text(tick, step_of(along)));
+        kTop + height + 15, escaped(words));
   }
-  for (const double tick : up) {
-    const double y = kTop + y_of(tick);
+  for (const auto& [value, words] : ticks_of(y_, 6)) {
+    const double y = kTop + y_of(value);
     add(grid, "M{:.1f} {:.1f}h{:.1f}", kLeft, y, width);
     add(text, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft - 6, y + 4,
-        tick_text(tick, step_of(up)));
+        escaped(words));
   }
   add(out, "<path class=\"grid\" d=\"{}\"/>\n{}", grid, text);
   add(out, "<text text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft + width / 2,

@@ -21,6 +21,8 @@ struct Range {
 /// Around all finite values but the outermost few in a thousand on either side and outliers, which lie far from
 /// all others; with a margin; never empty.
 [[nodiscard]] Range range_of(std::vector<double> values);
+/// Around all finite values, outliers included; with a margin; never empty.
+[[nodiscard]] Range whole_range_of(const std::vector<double>& values);
 /// Round values within a range, about so many, 1, 2 or 5 apart in their leading digit.
 [[nodiscard]] std::vector<double> round_values(Range range, int about);
 
@@ -29,10 +31,15 @@ struct Range {
 /// without a JavaScript library in every page.
 class SvgPlot {
  public:
+  struct Tick {
+    double value = 0;
+    std::string text;
+  };
   struct Axis {
     std::string label;
     Range range;
-    double step = 0;  ///< between ticks; 0: round values
+    double step = 0;            ///< between ticks; 0: round values
+    std::vector<Tick> ticks{};  ///< instead of numbers
   };
   /// Colours of the page.
   enum class Ink { before, after, fit, first, second, third, fourth };
@@ -52,6 +59,8 @@ class SvgPlot {
   void line(Ink ink, std::string_view name, std::span<const Point> points);
   /// A thin level line.
   void level(double y);
+  /// A word at a point.
+  void word(const Point& at, std::string_view text);
 
   [[nodiscard]] std::string svg() const;
 

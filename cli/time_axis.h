@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/svg_plot.h"
@@ -30,6 +33,49 @@ class TimeAxis {
  private:
   double first_s_ = 0, length_s_ = 1, unit_s_ = 1;
   std::string label_ = "seconds";
+};
+
+/// Times since the first one, of which the first minute takes as much room as the ten after it: the place of t is
+/// log(1 + t / 20 s). For what changes much at first and little later.
+class EarlyTimeAxis {
+ public:
+  /// In seconds, increasing.
+  explicit EarlyTimeAxis(const std::vector<double>& times_s) {
+    if (times_s.empty()) return;
+    first_s_ = times_s.front();
+    length_s_ = std::max(times_s.back() - first_s_, 1e-3);
+  }
+  [[nodiscard]] double operator()(double time_s) const { return std::log1p((time_s - first_s_) / kEarly_s); }
+  [[nodiscard]] SvgPlot::Axis axis() const {
+    SvgPlot::Axis axis{"time since the beginning, the first minute enlarged", {0, (*this)(first_s_ + length_s_)}};
+    double last = -1;
+    for (const auto& [time_s, text] : kTicks) {
+      const double place = (*this)(first_s_ + time_s);
+      if (time_s > length_s_ || place - last < kApart * axis.range.most) continue;
+      axis.ticks.push_back({place, text});
+      last = place;
+    }
+    return axis;
+  }
+
+ private:
+  static constexpr double kEarly_s = 20, kApart = 0.07;
+  static constexpr std::array<std::pair<double, const char*>, 14> kTicks{{{0, "0"},
+                                                                          {10, "10 s"},
+                                                                          {20, "20 s"},
+                                                                          {40, "40 s"},
+                                                                          {60, "1 min"},
+                                                                          {120, "2 min"},
+                                                                          {300, "5 min"},
+                                                                          {600, "10 min"},
+                                                                          {1200, "20 min"},
+                                                                          {3600, "1 h"},
+                                                                          {7200, "2 h"},
+                                                                          {18000, "5 h"},
+                                                                          {43200, "12 h"},
+                                                                          {86400, "24 h"}}};
+
+  double first_s_ = 0, length_s_ = 1;
 };
 
 }  // namespace navcal::cli

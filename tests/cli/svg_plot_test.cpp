@@ -11,6 +11,27 @@
 namespace navcal::cli {
 namespace {
 
+TEST(SvgPlot, GivenTicksAndWordsAreWrittenAsTheyAre) {
+  SvgPlot plot("a", {"x", {0, 10}, 0, {{2, "N"}, {5, "<E>"}}}, {"y", {0, 1}});
+  plot.word({5, 0.5}, "bow");
+  plot.word({50, 0.5}, "outside");
+  const std::string svg = plot.svg();
+  EXPECT_NE(svg.find(">N</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">&lt;E&gt;</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">bow</text>"), std::string::npos);
+  EXPECT_EQ(svg.find("outside"), std::string::npos);
+}
+
+TEST(SvgPlot, AWholeRangeHoldsOutliersToo) {
+  std::vector<double> values(1000, 1.0);
+  values[500] = 100;
+  values[501] = NAN;
+  EXPECT_GE(whole_range_of(values).most, 100);
+  EXPECT_LT(range_of(values).most, 100);
+  EXPECT_GT(whole_range_of({}).length(), 0);
+  EXPECT_GT(whole_range_of({7}).length(), 0);
+}
+
 using test::count;
 using test::flaw_in;
 
