@@ -60,7 +60,10 @@ Judgement EllipseGyro::judgement() const {
   judgement.condition = condition_of(chain_.covariance);
   const FieldCoverage coverage(chain_.headings_rad);
   judgement.coverage = coverage.arc_rad() / kFullTurn_rad;
-  if (coverage.arc_rad() < kLeastArc_rad || chain_.shape.radius_uT() < 30 * parameters_.noise_uT) {
+  // Noise alone makes a small circle, on which headings lie anywhere.
+  if (chain_.shape.radius_uT() < 30 * parameters_.noise_uT)
+    return refuse("the field has hardly changed", "turn through a full circle");
+  if (coverage.arc_rad() < kLeastArc_rad) {
     return refuse(
         "headings within " + whole_degrees(coverage.arc_rad()) + " degrees do not tell the field's offset",
         coverage.manoeuvre(kFullTurn_rad / 3));

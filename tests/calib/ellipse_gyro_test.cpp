@@ -79,6 +79,21 @@ TEST(EllipseGyro, ShortArcsAsGoodAsTheThesisGoals) {
   }
 }
 
+TEST(EllipseGyro, AHullThatHardlyTurnedIsToldToTurnAndByHowMuch) {
+  for (const double degrees : {0.2, 1.0, 5.0, 30.0}) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      Random random(seed);
+      EllipseGyro estimator(parameters(true));
+      feed(estimator, level_field_on(arc(degrees), figure_4_11(), Noise{}, random));
+      estimator.settle();
+      const Judgement judgement = estimator.judgement();
+      if (judgement.accepted) continue;
+      EXPECT_NE(judgement.manoeuvre, "") << degrees;
+      EXPECT_EQ(judgement.manoeuvre.find("through 0 more"), std::string::npos) << judgement.manoeuvre;
+    }
+  }
+}
+
 TEST(EllipseGyro, InSlicesEqualsTheWholeOnItsSummary) {
   Random random(3);
   const auto readings = level_field_on(load_true_path("path4"), figure_4_11(), Noise{}, random);
