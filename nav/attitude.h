@@ -26,6 +26,9 @@ class Attitude {
   /// Likewise roll and pitch.
   Eigen::Vector2d correct_tilt(double roll_difference_rad, double pitch_difference_rad, double since_s);
 
+  /// All headings are counted from another north: they grow by this.
+  void turn_north(double change_rad) { set(roll_rad_, pitch_rad_, heading_rad_ + change_rad); }
+
   [[nodiscard]] bool heading_known() const { return heading_known_; }
   [[nodiscard]] bool tilt_known() const { return tilt_known_; }
   [[nodiscard]] double roll_rad() const { return roll_rad_; }

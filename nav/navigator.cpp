@@ -109,6 +109,11 @@ void Navigator::take(const CompassReading& reading) {
   }
 }
 
+void Navigator::turn_north(double change_rad) {
+  attitude_.turn_north(change_rad);
+  past_.correct({0, 0, change_rad});
+}
+
 void Navigator::take(const TiltReading& reading) {
   if (!is_new(tilt_reading_ns_, reading.time_ns, plausible(reading))) return;
   drive(reading.time_ns);

@@ -34,6 +34,9 @@ class Navigator {
   void take(const ShaftReading& reading);
   void take(const FixReading& reading);
 
+  /// Headings are counted from another north from here on (the declination became known): they grow by this.
+  void turn_north(double change_rad);
+
   /// Whether anything came yet.
   [[nodiscard]] bool started() const { return time_ns_.has_value(); }
   [[nodiscard]] std::int64_t time_ns() const { return time_ns_.value_or(0); }

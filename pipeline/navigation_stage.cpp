@@ -59,11 +59,20 @@ void NavigationStage::begin_run() {
   told_ = 0;
 }
 
+void NavigationStage::set_declination(double declination_rad) {
+  if (!heading_was_true_) {
+    for (nav::Navigator* navigator : {&calibrated_, &uncalibrated_})
+      navigator->turn_north(declination_rad - declination_rad_);
+  }
+  declination_rad_ = declination_rad;
+}
+
 void NavigationStage::take(const instruments::Sample& original, const instruments::Sample& corrected,
                            const std::optional<nav::TiltReading>& tilt, const UtcMapping& mapping, Sink& sink) {
   if (const auto* compass = std::get_if<instruments::CompassSample>(&corrected.value)) {
     if (corrected.port != ports_[Role::heading]) return;
     const bool shows_tilt = compass->pitch_rad && compass->roll_rad && !compass->tilt_by_accelerometers;
+    if (compass->heading_rad) heading_was_true_ = compass->heading_is_true;
     if (shows_tilt) inclinometer_ns_ = corrected.stamp.validity_ns;
     feed(calibrated_, corrected, *compass, true);
     feed(uncalibrated_, original, std::get<instruments::CompassSample>(original.value), false);

@@ -32,7 +32,8 @@ class NavigationStage {
   void begin_run();
   /// Other ports serve from here on.
   void use(const RolePorts& ports) { ports_ = ports; }
-  void set_declination(double declination_rad) { declination_rad_ = declination_rad; }
+  /// From here on.
+  void set_declination(double declination_rad);
 
  private:
   void feed(nav::Navigator& navigator, const instruments::Sample& sample,
@@ -46,6 +47,7 @@ class NavigationStage {
   RolePorts ports_;
   nav::Options options_;
   double declination_rad_;
+  bool heading_was_true_ = false;  ///< the newest one, by the device itself
   double position_noise_m_, velocity_noise_m_s_;
   std::int64_t interval_ns_;
   nav::Navigator calibrated_, uncalibrated_;

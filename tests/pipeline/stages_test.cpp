@@ -75,12 +75,26 @@ TEST_F(StagesTest, TheFirstFixMakesHeadingsTrue) {
   EXPECT_NEAR(declination_rad / kRadians, 15.5, 1.5) << "east, off Victoria";
   ASSERT_FALSE(told_.events.empty());
   EXPECT_EQ(told_.events.back().find("earth_field: declination 1"), 0U) << told_.events.back();
-  for (std::int64_t second = 3; second < 120; ++second) {
+  fix(stages, 3);
+  EXPECT_NEAR(told_.newest.estimate.heading_rad.value(), 1 + declination_rad, 1e-9) << "at once";
+  for (std::int64_t second = 4; second < 120; ++second) {
     heading(stages, first_compass, second);
     fix(stages, second);
   }
   EXPECT_NEAR(told_.newest.estimate.heading_rad.value(), 1 + declination_rad, 1e-3);
   EXPECT_EQ(told_.fields.size(), 1U) << "it did not move";
+}
+
+TEST_F(StagesTest, AHeadingThatIsTrueAlreadyStays) {
+  Stages stages(two_compasses_and_a_receiver());
+  instruments::CompassSample gyrocompass;
+  gyrocompass.heading_rad = 1;
+  gyrocompass.heading_is_true = true;
+  give(stages, first_compass, 1, gyrocompass);
+  fix(stages, 2);
+  fix(stages, 3);
+  ASSERT_EQ(told_.fields.size(), 1U);
+  EXPECT_NEAR(told_.newest.estimate.heading_rad.value(), 1, 1e-9);
 }
 
 TEST_F(StagesTest, ARestoredStateKeepsInstrumentAndPlace) {
