@@ -16,6 +16,8 @@ namespace navcal::cli {
 /// How much of the gap closes, altogether and by channel; nullopt when there is nothing to close it with.
 [[nodiscard]] std::optional<Figure> closure_figure(const gap::Diagnosis& diagnosis, const GapSource& source);
 
+/// The fixes, and the track of the model before and after; nullopt without a fix.
+[[nodiscard]] std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis);
 /// Residuals of the strongest channel against what drives them.
 [[nodiscard]] std::optional<Figure> scatter_figure(const gap::Diagnosis& diagnosis);
 /// Residuals over time, of the channels where the gap lies and of the others.

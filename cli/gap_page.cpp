@@ -50,7 +50,10 @@ void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {
     }
     page.table({"Channel", "Follows", "Gap", "Nominal vehicle", "By chance"}, rows);
   }
-  if (auto figure = map_figure(diagnosis)) page.figures({std::move(*figure)});
+  std::vector<Figure> figures;
+  if (auto figure = map_figure(diagnosis)) figures.push_back(std::move(*figure));
+  if (auto figure = track_figure(diagnosis)) figures.push_back(std::move(*figure));
+  if (!figures.empty()) page.figures(figures);
 }
 
 void append_causes(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSource& source) {

@@ -333,6 +333,8 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
   write_findings(found, library_, result.priors, answer);
   write_gap(compared, closure, !blocks, answer);
   answer.changes = change_points(here.nominal, a.course, here.fix_times_s, a.bank.followed);
+  answer.tracks = Tracks{track_of_fixes(a.mission), reckoned_track(a.course, a.mission),
+                         found.best.effects.empty() ? Track{} : reckoned_track(here.course, a.mission)};
   answer.courses = courses(here.nominal, here.improved, here.course, here.fix_times_s);
   if (!answer.where.empty()) {
     answer.scatter = scatter(answer.where.front(), here.nominal, here.improved, here.course, here.fix_times_s);

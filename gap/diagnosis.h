@@ -9,6 +9,7 @@
 
 #include "calib/report.h"
 #include "gap/earth_field.h"
+#include "gap/track.h"
 
 // What a diagnosis says: the numbers behind `navcal gap --json`, the text and the page (docs/gap.md).
 namespace navcal::gap {
@@ -113,6 +114,7 @@ struct Diagnosis {
   std::optional<Scatter> scatter;   ///< of the strongest channel
   std::vector<Course> courses;      ///< of each channel
   std::optional<EarthField> field;  ///< of the nominal model in this mission
+  std::optional<Tracks> tracks;
   /// Where an instrument is missing that the search for causes needs: what the others show of each other.
   std::optional<calib::Report> instruments_alone;
   BankFacts bank;

@@ -24,6 +24,16 @@ TEST(GapPage, IsWholeWhateverWasFound) {
   }
 }
 
+TEST(GapPage, TheTrackIsDrawnWithTheModelsBeforeAndAfter) {
+  const std::string explained = gap_page(test::explained_gap(), gap_source());
+  for (const char* name : {">fixes</text>", ">nominal model</text>", ">with the effects found</text>"})
+    EXPECT_NE(explained.find(name), std::string::npos) << name;
+  const std::string unknown = gap_page(test::unknown_gap(), gap_source());
+  EXPECT_NE(unknown.find(">nominal model</text>"), std::string::npos);
+  EXPECT_EQ(unknown.find(">with the effects found</text>"), std::string::npos);
+  EXPECT_EQ(gap_page(gap::Diagnosis{}, gap_source()).find(">nominal model</text>"), std::string::npos);
+}
+
 TEST(GapPage, AFilesNameIsOnlyAName) {
   const std::string name = "<script>alert(1)</script>&\"'\xff.cap";
   const std::string page = gap_page(test::explained_gap(), {name, {name}, name, {name}, name});

@@ -63,6 +63,8 @@ void fill_courses(gap::Diagnosis& diagnosis, bool explained) {
     scatter.after.push_back(explained ? noise_uT : 0.5 * (current_A - 1.1) + noise_uT);
   }
   diagnosis.scatter = std::move(scatter);
+  diagnosis.tracks = gap::Tracks{{{0, 60, 120}, {0, 50, 90}, {0, 2, 40}}, {{0, 60}, {0, 55}, {0, 9}}, {}};
+  if (explained) diagnosis.tracks->improved = {{0, 60}, {0, 51}, {0, 2}};
   for (const auto& channel : kChannels) {
     gap::Course course{channel.channel, channel.unit, {}, {}, {}};
     for (int i = 0; i < 120; ++i) {
@@ -173,6 +175,8 @@ gap::Diagnosis hostile_gap() {
   diagnosis.unexplained = diagnosis.next = diagnosis.remarks = {bad, ""};
   diagnosis.gyro_bias_rad_s.fill(kNan);
   diagnosis.changes = {{bad, kNan, kNan, kInfinity, bad}};
+  diagnosis.tracks =
+      gap::Tracks{{{0, 1}, {kNan, 1e300}, {kInfinity, 1}}, {{0}, {kNan}, {1}}, {{0}, {1}, {kInfinity}}};
   diagnosis.scatter = gap::Scatter{bad, bad, bad, bad, {kNan, 1, kInfinity}, {1, kNan}, {}};
   diagnosis.courses = {{bad, bad, {}, {}, {}},
                        {"x", "y", {0, kNan, 2}, {kNan, kNan, kNan}, {1, kInfinity, 1e300}}};
