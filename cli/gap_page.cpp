@@ -50,10 +50,9 @@ void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {
     }
     page.table({"Channel", "Follows", "Gap", "Nominal vehicle", "By chance"}, rows);
   }
-  std::vector<Figure> figures;
-  if (auto figure = map_figure(diagnosis)) figures.push_back(std::move(*figure));
-  if (auto figure = track_figure(diagnosis)) figures.push_back(std::move(*figure));
-  if (!figures.empty()) page.figures(figures);
+  // Side by side the map would be cut.
+  if (auto figure = map_figure(diagnosis)) page.figures({std::move(*figure)});
+  if (auto figure = track_figure(diagnosis)) page.figures({std::move(*figure)});
 }
 
 void append_causes(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSource& source) {
