@@ -34,7 +34,7 @@ void append_summary(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSo
   }
   if (const auto all = consequences(diagnosis.gap, kArrow); !all.empty()) page.fact("plain", "means", joined(all));
   for (const auto& step : diagnosis.next) page.fact("plain", "to do", step);
-  for (const auto& remark : diagnosis.remarks) page.fact("plain", "remark", remark);
+  for (const auto& remark : further_remarks(diagnosis)) page.fact("plain", "remark", remark);
 }
 
 void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {

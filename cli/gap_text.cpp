@@ -94,7 +94,7 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   append_lines(out, verdict_word(diagnosis.verdict), {verdict_sentence(diagnosis)});
   if (diagnosis.instruments_alone) {
     append_lines(out, "instruments", instruments_alone_lines(*diagnosis.instruments_alone, kPlusMinus));
-    append_lines(out, "remarks", diagnosis.remarks);
+    append_lines(out, "remarks", further_remarks(diagnosis));
     return out;
   }
   append_where(out, diagnosis);
@@ -115,7 +115,7 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   append_lines(out, "changed", changes);
   append_lines(out, "to do", diagnosis.next);
   if (const auto hint = simulate_hint(diagnosis, source); !hint.empty()) append_lines(out, "to simulate", {hint});
-  append_lines(out, "remarks", diagnosis.remarks);
+  append_lines(out, "remarks", further_remarks(diagnosis));
   if (diagnosis.field) append_lines(out, "Earth's field", {gap::text_of(*diagnosis.field)});
   append_lines(out, "made from",
                {duration_text(diagnosis.duration_s) + " of mission in " + duration_text(diagnosis.seconds) + "; " +

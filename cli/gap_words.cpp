@@ -45,6 +45,13 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
   return "Nothing in the library explains what was recorded.";
 }
 
+std::vector<std::string> further_remarks(const gap::Diagnosis& diagnosis) {
+  std::vector<std::string> remarks = diagnosis.remarks;
+  std::erase_if(remarks,
+                [&](const std::string& remark) { return diagnosis.sentence.find(remark) != std::string::npos; });
+  return remarks;
+}
+
 std::string nowhere_text(const gap::Diagnosis& diagnosis) {
   return diagnosis.map.empty() ? "Nothing was compared with the nominal vehicle."
                                : "Nowhere: no residuals stand clear of those of the nominal vehicle.";
@@ -160,6 +167,7 @@ std::string text_of(const gap::ChangePoint& change, std::string_view arrow) {
 std::vector<std::string> instruments_alone_lines(const calib::Report& report, std::string_view plus_minus) {
   std::vector<std::string> lines;
   for (const auto& calibrator : report.calibrators) {
+    if (calibrator.calibrator == calib::Calibrator::swing) continue;  // begun by the operator only
     std::string line = fmt::format("{}: ", title_of(calibrator.calibrator));
     if (calibrator.outcome == calib::Outcome::refused) {
       lines.push_back(line + "nothing can be said, " + objection_of(calibrator));

@@ -23,6 +23,9 @@ struct GapSource {
 [[nodiscard]] std::string_view verdict_word(gap::Verdict verdict);
 [[nodiscard]] std::string verdict_sentence(const gap::Diagnosis& diagnosis);
 
+/// Those that the sentence does not say already.
+[[nodiscard]] std::vector<std::string> further_remarks(const gap::Diagnosis& diagnosis);
+
 /// Where it lies if no place can be named.
 [[nodiscard]] std::string nowhere_text(const gap::Diagnosis& diagnosis);
 

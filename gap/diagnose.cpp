@@ -92,7 +92,7 @@ class Diagnosing {
   [[nodiscard]] std::vector<WhereEntry> leftover_of(const Prepared& a, const Searched& result,
                                                     const Comparison& here, bool seen) const;
   void diagnose(const Prepared& a, const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
-  void say_without_causes(Diagnosis& answer);
+  void say_without_causes(const std::string& why, Diagnosis& answer);
 
   const Request& request_;
   const Progress& progress_;
@@ -343,8 +343,7 @@ void Diagnosing::diagnose(const Prepared& a, const std::vector<std::unique_ptr<P
 }
 
 /// No model can be held against the recording; its instruments may still be held against each other.
-void Diagnosing::say_without_causes(Diagnosis& answer) {
-  const std::string why = answer.remarks.empty() ? std::string("the recording is empty") : answer.remarks.back();
+void Diagnosing::say_without_causes(const std::string& why, Diagnosis& answer) {
   answer.sentence = fmt::format("The causes of a gap cannot be found: {}.", why);
   calib::Report report =
       instruments_alone(request_.mission, answer.field.value_or(EarthField{}),
@@ -355,6 +354,8 @@ void Diagnosing::say_without_causes(Diagnosis& answer) {
 Diagnosis Diagnosing::run() {
   Diagnosis answer;
   const auto a = prepare(request_.mission, answer);
+  const std::string why_not =
+      answer.remarks.empty() ? std::string("the recording is empty") : answer.remarks.back();
   std::vector<std::unique_ptr<Prepared>> holdouts;
   for (const auto& file : request_.holdouts) {
     auto prepared = prepare(file, answer);
@@ -364,9 +365,9 @@ Diagnosis Diagnosing::run() {
   if (a) {
     diagnose(*a, holdouts, answer);
   } else {
-    say_without_causes(answer);
+    say_without_causes(why_not, answer);
   }
-  if (request_.holdouts.empty()) {
+  if (a && request_.holdouts.empty()) {
     answer.remarks.emplace_back(
         "no mission was held out: blocks of this one had to do, which is weaker (--holdout OTHER.cap)");
   }

@@ -27,6 +27,27 @@ void expect_narrow(const std::string& text) {
   for (std::string line; std::getline(in, line);) EXPECT_LE(line.size(), kLineWidth) << line;
 }
 
+TEST(GapText, WithoutCausesWhatTheInstrumentsShowIsListed) {
+  gap::Diagnosis diagnosis;
+  diagnosis.sentence = "The causes of a gap cannot be found: a.cap: no inertial card.";
+  diagnosis.remarks = {"a.cap: no inertial card", "12 words with E001"};
+  calib::CalibratorReport gyro;
+  gyro.calibrator = calib::Calibrator::gyro;
+  gyro.outcome = calib::Outcome::accepted;
+  gyro.estimate = {{"scale", 1.02, 0.001}};
+  calib::CalibratorReport misalignment;
+  misalignment.calibrator = calib::Calibrator::misalignment;
+  misalignment.judgement.reason = "all runs lead one way";
+  diagnosis.instruments_alone = calib::Report{};
+  diagnosis.instruments_alone->calibrators = {gyro, misalignment};
+  const std::string text = gap_text(diagnosis, test::gap_source());
+  EXPECT_NE(text.find("Gyro A: scale 1.0200 +- 0.0010"), std::string::npos) << text;
+  EXPECT_NE(text.find("Misalignment A: nothing can be said, all runs lead one way"), std::string::npos) << text;
+  EXPECT_NE(text.find("12 words with E001"), std::string::npos) << text;
+  EXPECT_EQ(text.find("how much"), std::string::npos) << text;
+  EXPECT_EQ(text.find("no inertial card"), text.rfind("no inertial card")) << text;
+}
+
 TEST(GapUnits, AreTakenOutOfEveryParametersName) {
   const auto expect = [](const char* parameter, const char* name, const char* unit) {
     const auto split = name_and_unit(parameter);
