@@ -26,7 +26,7 @@ FieldCoverage::FieldCoverage(std::vector<double> headings_rad) {
     gap = headings_rad[i] - headings_rad[i - 1];
     gap_begin_rad_ = headings_rad[i - 1];
   }
-  arc_rad_ = kTurn_rad - gap;
+  arc_rad_ = std::max(0.0, kTurn_rad - gap);  // a single heading: the gap is a turn, or rounded beyond it
 }
 
 std::string FieldCoverage::manoeuvre(double wanted_rad) const {

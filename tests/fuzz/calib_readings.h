@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 #include "calib/suite.h"
 #include "tests/fuzz/source.h"
@@ -53,16 +56,25 @@ inline Reading take_reading(Source& source, double& time_s) {
   }
 }
 
-/// Whatever came: what is in force and what is reported stay numbers.
+/// Whatever came: what is reported are numbers, or nothing where nothing is determined.
 inline void check(const Suite& suite) {
   const Report report = suite.report();
-  const auto require = [](bool holds) {
-    if (!holds) std::abort();
+  const auto require = [](bool holds, const CalibratorReport& of, std::string_view what, double value) {
+    if (holds) return;
+    std::fprintf(stderr, "%.*s: %.*s is %g; %s\n", static_cast<int>(name_of(of.calibrator).size()),
+                 name_of(of.calibrator).data(), static_cast<int>(what.size()), what.data(), value,
+                 of.judgement.reason.c_str());
+    std::abort();
   };
   for (const auto& one : report.calibrators) {
-    for (const auto& quantity : one.estimate) require(std::isfinite(quantity.value) && !(quantity.std < 0));
-    require(one.judgement.coverage >= 0 && one.judgement.coverage <= 1);
-    require(one.judgement.accepted || !one.judgement.reason.empty());
+    const Judgement& judgement = one.judgement;
+    for (const auto& [name, value, std] : one.estimate) {
+      require(!std::isinf(value), one, name, value);
+      require(std::isfinite(value), one, name, value);
+      require(!(std < 0), one, name, std);
+    }
+    require(judgement.coverage >= 0 && judgement.coverage <= 1, one, "coverage", judgement.coverage);
+    require(judgement.accepted || !judgement.reason.empty(), one, "a refusal without reason", 0);
   }
 }
 
