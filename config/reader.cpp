@@ -40,6 +40,7 @@ void Reader::take(const std::vector<Entry>& entries) {
       if (port == ports.end()) {
         if (entry.line == 0) {
           std::vector<std::string> names;
+          names.reserve(ports.size());
           for (const auto& known : ports) names.push_back(known.first);
           complain(entry, "the file has no port of this name" + suggestion(name, names));
           continue;
