@@ -29,12 +29,12 @@ std::vector<Point> paired(const std::vector<double>& x, const std::vector<double
   return points;
 }
 
-Range heights(const std::vector<Point>& before, const std::vector<Point>& after) {
+std::vector<double> heights(const std::vector<Point>& before, const std::vector<Point>& after) {
   std::vector<double> values{0};
   for (const auto* points : {&before, &after}) {
     for (const Point& point : *points) values.push_back(point.y);
   }
-  return range_of(std::move(values));
+  return values;
 }
 
 /// Means of groups of equal size, from left to right.
@@ -60,7 +60,8 @@ Figure course_figure(const gap::Course& course) {
   std::vector<double> times;
   for (const double time_s : course.time_s) times.push_back(time(time_s));
   const auto before = paired(times, course.before), after = paired(times, course.after);
-  SvgPlot plot(course.channel, time.axis(), {with_unit("residual", course.unit), heights(before, after)});
+  SvgPlot plot(course.channel, time.axis(),
+               {with_unit("residual", course.unit), whole_range_of(heights(before, after))});
   plot.level(0);
   plot.line(Ink::before, "before", before);
   plot.line(Ink::after, "after", after);
@@ -76,7 +77,7 @@ std::optional<Figure> scatter_figure(const gap::Diagnosis& diagnosis) {
   const auto after = paired(scatter.driver_value, scatter.after);
   const std::string driver = spaced(scatter.driver), title = scatter.channel + " against " + driver;
   SvgPlot plot(title, {with_unit(driver, scatter.driver_unit), range_of(scatter.driver_value)},
-               {with_unit("residual", scatter.unit), heights(before, after)});
+               {with_unit("residual", scatter.unit), range_of(heights(before, after))});
   plot.points(Ink::before, "before", before);
   plot.points(Ink::after, "after", after);
   plot.level(0);

@@ -47,6 +47,7 @@ figcaption { color:var(--soft); font-size:13px; margin-top:6px; }
 svg { max-width:100%; height:auto; display:block; margin:0 auto; font-size:12px; fill:var(--soft); }
 svg svg { overflow:hidden; }
 svg text.tick { font-size:11px; }
+svg text.halo { fill:var(--ink); stroke:var(--card); stroke-width:3px; paint-order:stroke; }
 .grid { stroke:var(--line); fill:none; stroke-width:1; }
 .grid.strong { stroke:var(--strong); stroke-dasharray:4 3; }
 .frame { stroke:var(--strong); fill:none; stroke-width:1; }
@@ -64,8 +65,9 @@ svg text.tick { font-size:11px; }
 .scroll { overflow-x:auto; }
 table { border-collapse:collapse; font-size:14px; font-variant-numeric:tabular-nums; }
 th, td { text-align:left; vertical-align:top; padding:5px 18px 5px 0; border-bottom:1px solid var(--line); }
+td.long { min-width:12em; overflow-wrap:anywhere; }
 th { color:var(--soft); font-weight:600; font-size:13px; }
-.scroll + .figures, .figures + p { margin-top:16px; }
+.scroll + .figures, .figures + .figures, .figures + p { margin-top:18px; }
 .map { width:100%; }
 .map th, .map td { padding:0; border:1px solid var(--card); font-size:12px; text-align:center; vertical-align:middle; }
 .map thead th { vertical-align:bottom; font-weight:400; }
@@ -89,8 +91,12 @@ th { color:var(--soft); font-weight:600; font-size:13px; }
 .bar .line-at { border-left:1px solid var(--ink); }
 .bar .whisker { top:4px; bottom:4px; border:solid var(--ink); border-width:0 2px; background:linear-gradient(var(--ink), var(--ink)) center/100% 2px no-repeat; }
 summary { margin:14px 0; color:var(--soft); cursor:pointer; }
+@media (max-width:900px) { th, td { padding-right:9px; } }
 @media (max-width:600px) { .ranks .detail { grid-column:1/-1; margin-top:-4px; } main { padding:20px 14px 36px; } }
 )";
+
+/// Longer cells break anywhere: digests and file names have no spaces.
+constexpr std::size_t kLongCell = 40;
 
 /// Length of the UTF-8 character at the beginning of `text`; 0 where there is none: a file's name may be anything.
 std::size_t utf8_length(std::string_view text) {
@@ -184,7 +190,8 @@ void HtmlPage::table(const std::vector<std::string>& heads, const std::vector<st
   html_ += "</tr></thead>\n<tbody>\n";
   for (const auto& row : rows) {
     html_ += "<tr>";
-    for (const auto& cell : row) html_ += "<td>" + escaped(cell) + "</td>";
+    for (const auto& cell : row)
+      html_ += (cell.size() > kLongCell ? "<td class=\"long\">" : "<td>") + escaped(cell) + "</td>";
     html_ += "</tr>\n";
   }
   html_ += "</tbody>\n</table></div>\n";

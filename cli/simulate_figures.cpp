@@ -49,16 +49,18 @@ Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
     easts.push_back(way.back().x);
     norths.push_back(way.back().y);
   }
-  Range east = range_of(easts), north = range_of(norths);
+  Range east = whole_range_of(easts), north = whole_range_of(norths);
   const double half = std::max({east.length(), north.length(), 2.0}) / 2;
   for (Range* range : {&east, &north}) {
     const double middle = (range->least + range->most) / 2;
     *range = {middle - half, middle + half};
   }
   SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kSide});
-  plot.points(Ink::before, "GPS", fixes_of(series, origin));
+  const auto fixes = fixes_of(series, origin);
+  plot.points(Ink::before, "GPS", fixes);
   plot.line(Ink::after, "truth", way);
-  return {"Track", plot.svg(), "True track, and the fixes of the receiver."};
+  return {"Track", plot.svg(),
+          fixes.empty() ? "True track; the receiver had no fix." : "True track, and the fixes of the receiver."};
 }
 
 Figure heading_figure(const SimulatedSeries& series) {

@@ -182,18 +182,35 @@ void SvgPlot::line(Ink ink, std::string_view name, std::span<const Point> points
 }
 
 void SvgPlot::mark_cut(const Point& point) {
-  if (!x_.range.contains(point.x) || !std::isfinite(point.y) || y_.range.contains(point.y)) return;
-  auto& at_px = point.y > y_.range.most ? cut_above_px_ : cut_below_px_;
-  at_px.insert(static_cast<int>(x_of(point.x)) / kCutMark_px * kCutMark_px);
+  if (!std::isfinite(point.x) || !std::isfinite(point.y) || visible(point)) return;
+  const bool to_the_side = !x_.range.contains(point.x);
+  Cut& cut = cuts_.at(to_the_side ? (point.x < x_.range.least ? left : right)
+                                  : (point.y > y_.range.most ? above : below));
+  ++cut.points;
+  const double along = to_the_side ? y_of(std::clamp(point.y, y_.range.least, y_.range.most)) : x_of(point.x);
+  cut.at_px.insert(static_cast<int>(along) / kCutMark_px * kCutMark_px);
 }
 
 void SvgPlot::append_cuts(std::string& out) const {
-  if (cut_above_px_.empty() && cut_below_px_.empty()) return;
-  const double height = size_.height - kTop - kBottom;
+  constexpr std::array<std::string_view, 4> kSides{"above", "below", "left", "right"};
+  std::string words;
+  for (std::size_t i = 0; i < cuts_.size(); ++i) {
+    if (cuts_[i].points > 0) add(words, "{}{} {}", words.empty() ? "" : ", ", cuts_[i].points, kSides[i]);
+  }
+  if (words.empty()) return;
+  const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
   std::string path;
-  for (const int x : cut_above_px_) add(path, "M{:.1f} {:.1f}l3 -5l3 5Z", kLeft + x, kTop + 6);
-  for (const int x : cut_below_px_) add(path, "M{:.1f} {:.1f}l3 5l3 -5Z", kLeft + x, kTop + height - 6);
-  add(out, "<path class=\"cut\" d=\"{}\"><title>values beyond the axis</title></path>\n", path);
+  for (const int x : cuts_[above].at_px) add(path, "M{:.1f} {:.1f}l3 -5l3 5Z", kLeft + x, kTop + 6);
+  for (const int x : cuts_[below].at_px) add(path, "M{:.1f} {:.1f}l3 5l3 -5Z", kLeft + x, kTop + height - 6);
+  for (const int y : cuts_[left].at_px) add(path, "M{:.1f} {:.1f}l-5 3l5 3Z", kLeft + 6, kTop + y);
+  for (const int y : cuts_[right].at_px) add(path, "M{:.1f} {:.1f}l5 3l-5 3Z", kLeft + width - 6, kTop + y);
+  add(out, "<path class=\"cut\" d=\"{}\"/>\n", path);
+  add(out, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">beyond the axes: {}</text>\n",
+      kLeft + width, size_.height + kCutWords - 6, words);
+}
+
+bool SvgPlot::any_cut() const {
+  return std::any_of(cuts_.begin(), cuts_.end(), [](const Cut& cut) { return cut.points > 0; });
 }
 
 void SvgPlot::level(double y) {
@@ -203,7 +220,7 @@ void SvgPlot::level(double y) {
 
 void SvgPlot::word(const Point& at, std::string_view text) {
   if (!visible(at)) return;
-  add(body_, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x_of(at.x),
+  add(body_, "<text class=\"tick halo\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x_of(at.x),
       y_of(at.y) + 4, escaped(text));
 }
 
@@ -251,7 +268,7 @@ std::string SvgPlot::svg() const {
   const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
   std::string out;
   add(out, "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
-      size_.width, size_.height);
+      size_.width, size_.height + (any_cut() ? kCutWords : 0));
   add(out, "<title>{}</title>\n", title_);
   append_axes(out);
   // A picture within the picture cuts off what lies outside the axes.

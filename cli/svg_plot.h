@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <set>
 #include <span>
 #include <string>
@@ -52,8 +54,8 @@ class SvgPlot {
   SvgPlot(std::string_view title, Axis x, Axis y) : SvgPlot(title, std::move(x), std::move(y), Size()) {}
 
   // What is drawn first lies below. A name enters the legend once; an empty one does not. Points that are not
-  // finite are left out and end a line; what lies outside the axes is cut off. Where points or lines lie above or
-  // below, a triangle at the edge says so.
+  // finite are left out and end a line; what lies outside the axes is cut off. A triangle at the edge says where
+  // points or lines lie outside, and a line of words how many. Bands are cut without a mark.
   void band(Ink ink, std::string_view name, std::span<const Point> lower, std::span<const Point> upper);
   void points(Ink ink, std::string_view name, std::span<const Point> points);
   void line(Ink ink, std::string_view name, std::span<const Point> points);
@@ -75,15 +77,22 @@ class SvgPlot {
   void legend(Ink ink, Mark mark, std::string_view name);
   void mark_cut(const Point& point);
   void append_cuts(std::string& out) const;
+  [[nodiscard]] bool any_cut() const;
 
-  static constexpr int kCutMark_px = 6;  ///< width of a triangle, so that they do not overlap
+  static constexpr double kCutWords = 16;  ///< height of the line that counts what lies outside
+  static constexpr int kCutMark_px = 6;    ///< width of a triangle, so that they do not overlap
 
   std::string title_;
   Axis x_, y_;
   Size size_;
   std::string body_, legend_;
   double legend_x_ = kLeft;
-  std::set<int> cut_above_px_, cut_below_px_;
+  enum Side { above, below, left, right };
+  struct Cut {
+    std::set<int> at_px;  ///< along the edge
+    std::size_t points = 0;
+  };
+  std::array<Cut, 4> cuts_;  ///< by side
 };
 
 }  // namespace navcal::cli

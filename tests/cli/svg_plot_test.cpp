@@ -93,6 +93,18 @@ TEST(SvgPlot, WhereDataAreCutATriangleSaysSo) {
   EXPECT_EQ(count(some.svg(), "class=\"cut\""), 1);
   EXPECT_EQ(count(some.svg(), "l3 -5l3 5Z"), 1);
   EXPECT_EQ(count(some.svg(), "l3 5l3 -5Z"), 1) << "two at one place are one mark";
+  EXPECT_NE(some.svg().find(">beyond the axes: 1 above, 2 below, 1 right</text>"), std::string::npos)
+      << some.svg();
+  EXPECT_EQ(flaw_in(some.svg()), "");
+}
+
+TEST(SvgPlot, WhatLiesToTheSidesIsMarkedAndCounted) {
+  SvgPlot some = plot();
+  const std::vector<Point> points{{-3, 0}, {-4, 9}, {12, 0.5}, {5, 0}, {NAN, 0}};
+  some.points(SvgPlot::Ink::before, "", points);
+  EXPECT_EQ(count(some.svg(), "l-5 3l5 3Z"), 2) << "to the left";
+  EXPECT_EQ(count(some.svg(), "l5 3l-5 3Z"), 1) << "to the right";
+  EXPECT_NE(some.svg().find(">beyond the axes: 2 left, 1 right</text>"), std::string::npos) << some.svg();
   EXPECT_EQ(flaw_in(some.svg()), "");
 }
 
@@ -180,6 +192,14 @@ TEST(HtmlPage, AnyTextIsWellFormed) {
   EXPECT_EQ(flaw_in(html), "");
   EXPECT_EQ(html.find('\xff'), std::string::npos) << "not UTF-8";
   EXPECT_NE(html.find("caf\xc3\xa9"), std::string::npos);
+}
+
+TEST(HtmlPage, LongCellsMayBreakAnywhere) {
+  HtmlPage page("title");
+  page.table({"digest", "name"}, {{std::string(64, 'a'), "short"}});
+  const std::string html = std::move(page).finish();
+  EXPECT_NE(html.find("<td class=\"long\">aaa"), std::string::npos);
+  EXPECT_NE(html.find("<td>short</td>"), std::string::npos);
 }
 
 TEST(HtmlPage, NeedsNoOtherFile) {
