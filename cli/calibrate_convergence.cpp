@@ -51,24 +51,48 @@ constexpr std::array kGroups{
 };
 constexpr std::array kInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
 
-/// What the second half of the time needs: the first estimates of all are anywhere.
+/// Where an error is this many times that of the end, the estimate has lost its support for a while.
+constexpr double kMuchWorse = 5;
+
+/// What the second half of the time needs: the first estimates of all are anywhere, and a short time of little
+/// support would leave no room for the rest.
 Range late_range(const std::vector<std::span<const EstimatePoint>>& curves, double factor) {
   double least = INFINITY, most = -INFINITY;
   for (const auto curve : curves) {
     for (const EstimatePoint& point : curve.subspan(curve.size() / 2)) {
-      const double band = std::isfinite(point.std) ? 2 * point.std : 0;
-      least = std::min(least, (point.value - band) * factor);
-      most = std::max(most, (point.value + band) * factor);
+      if (!(point.std <= kMuchWorse * curve.back().std)) continue;
+      least = std::min(least, (point.value - 2 * point.std) * factor);
+      most = std::max(most, (point.value + 2 * point.std) * factor);
     }
   }
   const double margin = std::max(0.4 * (most - least), 1e-9 + 1e-4 * std::abs(most));
   return {least - margin, most + margin};
 }
 
+/// From the first estimate of any curve on.
+EarlyTimeAxis time_axis(const std::vector<std::span<const EstimatePoint>>& curves) {
+  double first_s = INFINITY, last_s = 0;
+  for (const auto curve : curves) {
+    const auto first = std::find_if(curve.begin(), curve.end(), [](const EstimatePoint& point) {
+      return std::isfinite(point.value) && std::isfinite(point.std);
+    });
+    if (first != curve.end()) first_s = std::min(first_s, first->time_s);
+    last_s = std::max(last_s, curve.back().time_s);
+  }
+  return EarlyTimeAxis({std::min(first_s, last_s), last_s});
+}
+
+/// Points with an error: others are not determined, and shown as zero.
+std::size_t determined(const std::vector<EstimatePoint>& points) {
+  return static_cast<std::size_t>(std::count_if(
+      points.begin(), points.end(), [](const EstimatePoint& point) { return std::isfinite(point.std); }));
+}
+
 void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const EstimatePoint> curve,
           const EarlyTimeAxis& time, double factor) {
   std::vector<Point> line, lower, upper;
   for (const EstimatePoint& point : curve) {
+    if (!std::isfinite(point.std)) continue;
     const double t = time(point.time_s);
     line.push_back({t, point.value * factor});
     lower.push_back({t, (point.value - 2 * point.std) * factor});
@@ -81,27 +105,25 @@ void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const EstimatePoin
 }  // namespace
 
 std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estimates) {
-  std::vector<double> times_s;
-  for (const auto& [name, points] : estimates) {
-    for (const auto& point : {points.front(), points.back()}) times_s.push_back(point.time_s);
-  }
-  std::sort(times_s.begin(), times_s.end());
-  const EarlyTimeAxis time(times_s);
   std::vector<Figure> figures;
   for (const Group& group : kGroups) {
     std::vector<std::span<const EstimatePoint>> curves;
     std::vector<const char*> names;
     for (const Curve& curve : group.curves) {
       const auto found = curve.estimate != nullptr ? estimates.find(curve.estimate) : estimates.end();
-      if (found == estimates.end() || found->second.size() < kLeastPoints) continue;
-      if (!std::isfinite(found->second.back().std)) continue;  // not determined, and shown as zero
+      if (found == estimates.end() || determined(found->second) < kLeastPoints) continue;
+      if (!std::isfinite(found->second.back().std)) continue;
       curves.emplace_back(found->second);
       names.push_back(curve.name);
     }
     if (curves.empty()) continue;
+    const EarlyTimeAxis time = time_axis(curves);
     SvgPlot plot(group.title, time.axis(), {group.unit, late_range(curves, group.factor)});
     for (std::size_t i = 0; i < curves.size(); ++i) draw(plot, kInks[i], names[i], curves[i], time, group.factor);
-    figures.push_back({group.title, plot.svg(), "With two standard errors to either side."});
+    figures.push_back(
+        {group.title, plot.svg(),
+         "With two standard errors to either side; what the first estimates need is not shown. The first "
+         "minute is enlarged."});
   }
   return figures;
 }

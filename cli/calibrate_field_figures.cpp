@@ -9,6 +9,7 @@
 
 #include "calib/ellipse_shape.h"
 #include "cli/calibrate_figures.h"
+#include "cli/calibrate_words.h"
 #include "cli/svg_plot.h"
 #include "cli/time_axis.h"
 
@@ -21,10 +22,16 @@ constexpr std::size_t kMostDots = 1500;
 constexpr double kSide = 460;
 constexpr std::array<const char*, 3> kAxes{"forward, uT", "starboard, uT", "down, uT"};
 
+/// With more tilt, the vertical field shows in the horizontal axes as much as the heading does.
+constexpr double kLevel_rad = 15 * std::numbers::pi / 180;
+/// Share of the readings that may be steeper where headings are marked.
+constexpr double kMostSteep = 0.1;
+
 /// The readings of the field, levelled where a horizontal ellipse was fitted.
 struct Fields {
   std::vector<double> time_s;
   std::vector<Eigen::Vector3d> before, after;
+  std::size_t steep = 0;  ///< readings with more roll or pitch than kLevel_rad, or of unknown tilt
 };
 
 Eigen::Vector3d levelled3(const Eigen::Vector3d& field_uT, const calib::CompassReading& reading) {
@@ -39,6 +46,10 @@ Fields fields_of(const std::vector<TurnedSample>& samples, const std::optional<c
     const auto& reading = sample.reading;
     if (!reading.field_body_uT || (level && (!reading.roll_rad || !reading.pitch_rad))) continue;
     const auto placed = [&](const Eigen::Vector3d& field) { return level ? levelled3(field, reading) : field; };
+    const bool flat =
+        level || (reading.roll_rad && reading.pitch_rad && std::abs(*reading.roll_rad) < kLevel_rad &&
+                  std::abs(*reading.pitch_rad) < kLevel_rad);
+    if (!flat) ++fields.steep;
     fields.time_s.push_back(reading.time_s);
     fields.before.push_back(placed(*reading.field_body_uT));
     if (correction) fields.after.push_back(placed((*correction)(*reading.field_body_uT)));
@@ -74,14 +85,18 @@ std::vector<Point> outline(const calib::FieldCorrection& correction, double size
 
 SvgPlot square_plot(std::string_view title, int across, int up, const std::vector<Point>& points,
                     const std::vector<Point>& line) {
-  std::vector<double> x{0}, y{0};
-  for (const auto* list : {&points, &line}) {
-    for (const Point& point : *list) {
-      x.push_back(point.x);
-      y.push_back(point.y);
-    }
+  std::vector<double> x{0}, y{0}, line_x{0}, line_y{0};
+  for (const Point& point : points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
   }
-  const Range rx = range_of(x), ry = range_of(y);
+  for (const Point& point : line) {
+    line_x.push_back(point.x);
+    line_y.push_back(point.y);
+  }
+  // Readings may have outliers; the outline has none.
+  const auto both = [](Range a, Range b) { return Range{std::min(a.least, b.least), std::max(a.most, b.most)}; };
+  const Range rx = both(range_of(x), whole_range_of(line_x)), ry = both(range_of(y), whole_range_of(line_y));
   const double half = std::max(rx.length(), ry.length()) / 2;
   const auto around = [half](Range r) {
     const double middle = (r.least + r.most) / 2;
@@ -100,7 +115,7 @@ void mark_headings(SvgPlot& plot, const std::vector<Point>& points) {
   if (points.empty()) return;
   double radius = 0;
   for (const Point& point : points) radius += std::hypot(point.x, point.y) / static_cast<double>(points.size());
-  radius *= 0.85;
+  radius *= 0.75;
   plot.word({0, radius}, "N");
   plot.word({-radius, 0}, "E");
   plot.word({0, -radius}, "S");
@@ -149,6 +164,10 @@ std::vector<Figure> field_figures(const calib::Report& report, const std::vector
   const Fields fields = fields_of(samples, correction, level);
   if (fields.before.empty()) return {};
 
+  std::string field_text;
+  for (const ShownQuantity& quantity : shown(*magnetometer)) {
+    if (quantity.name == "field") field_text = text_of(quantity, "\u00b1");
+  }
   std::vector<Figure> figures;
   const std::string seen = level ? "levelled by pitch and roll" : "in the axes of the vehicle";
   const auto add_view = [&](int across, int up, const std::string& from) {
@@ -165,12 +184,12 @@ std::vector<Figure> field_figures(const calib::Report& report, const std::vector
     SvgPlot calibrated = square_plot("Field calibrated", across, up, after, circle);
     calibrated.points(Ink::after, "calibrated", after);
     calibrated.line(Ink::fit, level ? "horizontal field" : "outline of the sphere", circle);
-    const bool from_above = across == 1 && up == 0;
-    if (from_above) mark_headings(calibrated, after);
+    const bool flat = static_cast<double>(fields.steep) <= kMostSteep * static_cast<double>(fields.before.size());
+    const bool marked = across == 1 && up == 0 && flat;
+    if (marked) mark_headings(calibrated, after);
     figures.push_back({"Field calibrated, " + from, calibrated.svg(),
-                       fmt::format("matrix * (measured - offset), {}; {} {:.1f} uT.{}", seen,
-                                   level ? "horizontal field" : "field", size->value,
-                                   from_above ? " N, E, S, W: where the bow pointed." : "")});
+                       fmt::format("matrix * (measured - offset), {}; {}{}.{}", seen, level ? "horizontal " : "",
+                                   field_text, marked ? " N, E, S, W: where the bow pointed." : "")});
   };
   add_view(1, 0, "from above");
   if (!level) add_view(0, 2, "from the side");

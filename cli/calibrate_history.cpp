@@ -1,5 +1,6 @@
 #include "cli/calibrate_history.h"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -58,10 +59,12 @@ void CalibrateHistory::begin_recording() {
   origin_ns_.reset();
 }
 
-void CalibrateHistory::finish() {
+void CalibrateHistory::finish(const pipeline::Pipeline& pipeline) {
   gate_.flush();
   take_cleaned();
   take_turned(true);
+  next_look_ = 0;
+  look(pipeline);
 }
 
 void CalibrateHistory::take_cleaned() {
@@ -132,8 +135,10 @@ void CalibrateHistory::look(const pipeline::Pipeline& pipeline) {
 
 void CalibrateHistory::thin_estimates() {
   for (auto& [name, points] : estimates_) {
+    const EstimatePoint last = points.back();  // may be that of the report
     for (std::size_t i = 0; 2 * i + 1 < points.size(); ++i) points[i] = points[2 * i + 1];
-    points.resize(points.size() / 2);
+    points.resize(std::max<std::size_t>(points.size() / 2, 1));
+    points.back() = last;
   }
   look_every_ *= 2;
 }

@@ -48,8 +48,8 @@ class CalibrateHistory final : public pipeline::Sink {
   void look(const pipeline::Pipeline& pipeline);
   /// What comes is of another clock, after a pause of unknown length.
   void begin_recording();
-  /// No more samples come.
-  void finish();
+  /// No more samples come: takes down the last estimates, which are those of the report.
+  void finish(const pipeline::Pipeline& pipeline);
 
   /// Time in seconds from the first reading; a pause between recordings counts as the gate's.
   [[nodiscard]] const std::vector<TurnedSample>& samples() const { return samples_; }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calib/coverage.h"
 #include "cli/calibrate_figures.h"
 #include "cli/calibrate_words.h"
 #include "cli/html_page.h"
@@ -60,12 +61,14 @@ void append_heading(HtmlPage& page, const calib::Report& report, const Calibrate
   std::vector<Figure> figures;
   if (auto figure = deviation_figure(report, residuals)) figures.push_back(std::move(*figure));
   if (auto figure = residual_figure(report, residuals)) figures.push_back(std::move(*figure));
-  figures.push_back(rose_figure(report));
+  const bool any_heading = calib::visited(report.rose) > 0;
+  if (any_heading) figures.push_back(rose_figure(report));
   page.section("Heading");
   if (residuals.empty()) {
     page.paragraph("There is nothing to hold the heading against: that takes a calibrated gyro, and turns.");
   }
-  page.figures(figures);
+  if (!any_heading) page.paragraph("No headings in the recording.");
+  if (!figures.empty()) page.figures(figures);
 }
 
 void append_estimates(HtmlPage& page, const calib::Report& report) {
@@ -115,7 +118,8 @@ void append_left_out(HtmlPage& page, const calib::Report& report, const PageSour
   }
   page.section("What was left out");
   if (rows.empty()) {
-    page.paragraph("No readings came.");
+    page.paragraph(report.calibrators.empty() ? "Without a compass no readings were examined."
+                                              : "No readings came.");
   } else {
     page.table({"Instrument", "Readings", "Left out, and why", "Gaps"}, rows);
   }

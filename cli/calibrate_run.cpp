@@ -109,8 +109,7 @@ void CalibrateRun::take(const record::Entry& entry, const std::vector<int>& port
 calib::Report CalibrateRun::finish() {
   pipeline_->finish_calibration(sink_);
   if (history_ != nullptr) {
-    history_->finish();
-    history_->look(*pipeline_);
+    history_->finish(*pipeline_);
   }
   return pipeline_->calibration_report();
 }

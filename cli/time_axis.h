@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/shown_number.h"
 #include "cli/svg_plot.h"
 
 namespace navcal::cli {
@@ -35,11 +36,11 @@ class TimeAxis {
   std::string label_ = "seconds";
 };
 
-/// Times since the first one, of which the first minute takes as much room as the ten after it: the place of t is
-/// log(1 + t / 20 s). For what changes much at first and little later.
+/// Times since the first one, of which the first minute takes as much room as the four after it: the place of t
+/// is log(1 + t / 20 s). For what changes much at first and little later.
 class EarlyTimeAxis {
  public:
-  /// In seconds, increasing.
+  /// In seconds from the beginning of the recording, increasing.
   explicit EarlyTimeAxis(const std::vector<double>& times_s) {
     if (times_s.empty()) return;
     first_s_ = times_s.front();
@@ -47,7 +48,8 @@ class EarlyTimeAxis {
   }
   [[nodiscard]] double operator()(double time_s) const { return std::log1p((time_s - first_s_) / kEarly_s); }
   [[nodiscard]] SvgPlot::Axis axis() const {
-    SvgPlot::Axis axis{"time since the beginning, the first minute enlarged", {0, (*this)(first_s_ + length_s_)}};
+    SvgPlot::Axis axis{"time since the first estimate", {0, (*this)(first_s_ + length_s_)}};
+    if (first_s_ > 0) axis.label += ", " + duration_text(first_s_) + " from the beginning";
     double last = -1;
     for (const auto& [time_s, text] : kTicks) {
       const double place = (*this)(first_s_ + time_s);

@@ -1,5 +1,8 @@
+#include <cmath>
 #include <fstream>
 
+#include "cli/calibrate_run.h"
+#include "record/recording.h"
 #include "tests/cli/calibrate_command.h"
 #include "tests/cli/markup.h"
 #include "tests/cli/simulated_recording.h"
@@ -56,6 +59,52 @@ TEST_F(CalibrateReport, WhatCannotBeShownIsSaid) {
   const std::string nothing = page_of("#capture 1\n#port imu imu-card 57600\n");
   EXPECT_EQ(flaw_in(nothing), "");
   EXPECT_NE(nothing.find("no compass"), std::string::npos);
+  EXPECT_EQ(no_compass.find("No readings came"), std::string::npos) << "those of the card came";
+}
+
+TEST_F(CalibrateReport, CurvesEndAtTheEstimatesOfTheReport) {
+  for (const double duration_s : {33.0, 120.0}) {
+    RecordingOptions options;
+    options.duration_s = duration_s;
+    const auto capture = write("a.cap", simulated_recording(turning_path(duration_s), options));
+    const auto settings = record::Recording::open(capture)->settings();
+    CalibrateHistory history(settings);
+    CalibrateRun run(settings, &history);
+    run.play(capture);
+    const calib::Report report = run.finish();
+    for (const auto& calibrator : report.calibrators) {
+      for (const auto& quantity : calibrator.estimate) {
+        const std::string name =
+            std::string(calib::name_of(calibrator.calibrator)) + "." + std::string(quantity.name);
+        const auto found = history.estimates().find(name);
+        ASSERT_NE(found, history.estimates().end()) << name;
+        if (std::isfinite(quantity.value)) {
+          EXPECT_EQ(found->second.back().value, quantity.value) << name;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(CalibrateReport, APictureWithoutDataIsLeftOutWithAWord) {
+  // No heading, field only: words without C.
+  const std::string page = page_of("#capture 1\n#port compass tcm2 38400\n");
+  EXPECT_EQ(flaw_in(page), "");
+  EXPECT_EQ(page.find("Headings seen</h3>"), std::string::npos);
+  EXPECT_NE(page.find("No headings in the recording"), std::string::npos);
+}
+
+TEST_F(CalibrateReport, TheFieldHasOneFigure) {
+  RecordingOptions options;
+  options.duration_s = 120;
+  options.offset_uT = {4, -3, 2};
+  const std::string page = page_of(simulated_recording(turning_path(120), options));
+  const std::string row = "<td>field</td><td>";
+  const std::size_t at = page.find(row);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t begin = at + row.size();
+  const std::string field = page.substr(begin, page.find('<', begin) - begin);
+  EXPECT_NE(page.find("field " + field + " uT. N, E, S, W"), std::string::npos) << field;
 }
 
 TEST_F(CalibrateReport, AFailureLeavesNoHalfOfIt) {

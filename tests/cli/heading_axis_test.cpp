@@ -58,5 +58,13 @@ TEST(EarlyTimeAxis, TheFirstMinuteHasRoom) {
   EXPECT_TRUE(EarlyTimeAxis({}).axis().range.length() > 0);
 }
 
+TEST(EarlyTimeAxis, EstimatesThatBeginLateHaveTheirOwnFirstMinute) {
+  const EarlyTimeAxis time({303, 400});
+  EXPECT_EQ(time(303), 0);
+  EXPECT_EQ(time.axis().label, "time since the first estimate, 5 min 3 s from the beginning");
+  EXPECT_EQ(EarlyTimeAxis({5, 400}).axis().label, "time since the first estimate, 5.0 s from the beginning");
+  EXPECT_EQ(EarlyTimeAxis({0, 400}).axis().label, "time since the first estimate");
+}
+
 }  // namespace
 }  // namespace navcal::cli
