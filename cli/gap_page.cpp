@@ -87,18 +87,20 @@ void append_residuals(HtmlPage& page, const gap::Diagnosis& diagnosis) {
 
 void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSource& source) {
   constexpr double kDegrees = 180 / std::numbers::pi;
-  std::vector<std::vector<std::string>> rows{
-      {"Mission", fmt::format("{}, {}", source.mission, duration_text(diagnosis.duration_s))}};
+  std::vector<std::vector<std::string>> rows{{"Mission", source.mission}};
+  if (diagnosis.duration_s > 0) rows.back().back() += ", " + duration_text(diagnosis.duration_s);
   for (const auto& file : source.holdouts) rows.push_back({"Held out", file});
   rows.push_back({"Nominal vehicle", source.vehicle.empty() ? "the reference vehicle" : source.vehicle});
   for (const auto& name : source.excluded) rows.push_back({"Not in the library", name});
   if (diagnosis.field) rows.push_back({"Field of the Earth", gap::text_of(*diagnosis.field)});
-  rows.push_back({"Bank", bank_text(diagnosis.bank)});
-  const auto& bias = diagnosis.gyro_bias_rad_s;
-  rows.push_back(
-      {"Gyro biases, no cause",
-       fmt::format("A-x {}, A-z {}, B-y {}, B-z {}", amount(bias[0] * kDegrees), amount(bias[1] * kDegrees),
-                   amount(bias[2] * kDegrees), amount(bias[3] * kDegrees, "deg/s"))});
+  if (diagnosis.bank.missions > 0) {
+    rows.push_back({"Bank", bank_text(diagnosis.bank)});
+    const auto& bias = diagnosis.gyro_bias_rad_s;
+    rows.push_back(
+        {"Gyro biases, no cause",
+         fmt::format("A-x {}, A-z {}, B-y {}, B-z {}", amount(bias[0] * kDegrees), amount(bias[1] * kDegrees),
+                     amount(bias[2] * kDegrees), amount(bias[3] * kDegrees, "deg/s"))});
+  }
   rows.push_back({"Time taken", duration_text(diagnosis.seconds)});
   rows.push_back({"Program", "navcal " NAVCAL_VERSION});
   page.section("Made from");

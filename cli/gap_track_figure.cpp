@@ -40,7 +40,8 @@ std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kHeight});
   plot.points(Ink::fit, "fixes", points_of(tracks.fixes));
   plot.line(Ink::before, "nominal model", points_of(tracks.nominal));
-  if (!tracks.improved.time_s.empty()) plot.line(Ink::after, "with the effects found", points_of(tracks.improved));
+  const char* const after = diagnosis.effects.empty() ? "with the best candidates" : "with the effects found";
+  if (!tracks.improved.time_s.empty()) plot.line(Ink::after, after, points_of(tracks.improved));
   return Figure{
       "Track", plot.svg(),
       "What was measured, and where the model would have gone from the first fix on, by the recorded shaft "

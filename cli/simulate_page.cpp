@@ -18,6 +18,17 @@ std::string interval_text(const sim::Interval& when) {
   return fmt::format("{:g} to {:g} s", when.from_s, when.until_s);
 }
 
+/// Those with a picture; of the others one sentence.
+void append_figures(HtmlPage& page, std::vector<Figure> figures) {
+  std::string missing;
+  for (const Figure& figure : figures) {
+    if (figure.html.empty()) missing += (missing.empty() ? "" : ", ") + figure.title;
+  }
+  std::erase_if(figures, [](const Figure& figure) { return figure.html.empty(); });
+  if (!figures.empty()) page.figures(figures);
+  if (!missing.empty()) page.paragraph("No readings in the recording: " + missing + ".");
+}
+
 void append_effects(HtmlPage& page, const sim::EffectSet& effects) {
   page.section("Effects");
   if (effects.size() == 0) return page.paragraph("None: the nominal model.");
@@ -59,9 +70,9 @@ std::string simulate_page(const SimulateHistory& history, const SimulateArgument
                           const SimulatedRun& run, const sim::EffectSet& effects) {
   HtmlPage page("Simulation: " + arguments.capture.filename().string());
   page.section("Motion");
-  page.figures(motion_figures(history.series(), arguments.place.origin));
+  append_figures(page, motion_figures(history.series(), arguments.place.origin));
   page.section("Instruments");
-  page.figures(instrument_figures(history.series()));
+  append_figures(page, instrument_figures(history.series()));
   append_effects(page, effects);
   append_source(page, arguments, run);
   return std::move(page).finish();

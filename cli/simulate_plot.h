@@ -28,6 +28,7 @@ class SimulatedPlot {
     return *this;
   }
 
+  /// Empty without a value.
   [[nodiscard]] std::string svg(const char* title, const char* unit) const {
     std::vector<double> values;
     for (const auto* curves : {&dots_, &lines_}) {
@@ -35,6 +36,7 @@ class SimulatedPlot {
         for (const Point& point : curve.points) values.push_back(point.y);
       }
     }
+    if (values.empty()) return {};
     SvgPlot plot(title, time_.axis(), {unit, whole_range_of(values)});
     for (const Curve& curve : dots_) plot.points(curve.ink, curve.name, curve.points);
     for (const Curve& curve : lines_) plot.line(curve.ink, curve.name, curve.points);

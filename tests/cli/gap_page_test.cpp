@@ -28,10 +28,25 @@ TEST(GapPage, TheTrackIsDrawnWithTheModelsBeforeAndAfter) {
   const std::string explained = gap_page(test::explained_gap(), gap_source());
   for (const char* name : {">fixes</text>", ">nominal model</text>", ">with the effects found</text>"})
     EXPECT_NE(explained.find(name), std::string::npos) << name;
+  auto without_cause = test::explained_gap();
+  without_cause.verdict = gap::Verdict::unknown;
+  without_cause.effects.clear();
+  const std::string candidates = gap_page(without_cause, gap_source());
+  EXPECT_EQ(candidates.find(">with the effects found</text>"), std::string::npos) << "none was found";
+  EXPECT_NE(candidates.find(">with the best candidates</text>"), std::string::npos);
   const std::string unknown = gap_page(test::unknown_gap(), gap_source());
   EXPECT_NE(unknown.find(">nominal model</text>"), std::string::npos);
   EXPECT_EQ(unknown.find(">with the effects found</text>"), std::string::npos);
   EXPECT_EQ(gap_page(gap::Diagnosis{}, gap_source()).find(">nominal model</text>"), std::string::npos);
+}
+
+TEST(GapPage, WhatWasNotDoneHasNoFigures) {
+  gap::Diagnosis diagnosis;
+  diagnosis.verdict = gap::Verdict::unknown;
+  const std::string page = gap_page(diagnosis, gap_source());
+  for (const char* nothing : {", 0.0 s<", "Gyro biases", "no bank of nominal missions"})
+    EXPECT_EQ(page.find(nothing), std::string::npos) << nothing;
+  EXPECT_NE(gap_page(test::explained_gap(), gap_source()).find("Gyro biases"), std::string::npos);
 }
 
 TEST(GapPage, AFilesNameIsOnlyAName) {

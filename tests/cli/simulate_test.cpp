@@ -101,6 +101,15 @@ TEST_F(Simulate, ThePageIsWholeAndShowsMotionInstrumentsAndEffects) {
   expect_files({"a.cap", "a.html"});
 }
 
+TEST_F(Simulate, APictureWithoutReadingsIsLeftOutWithAWord) {
+  const auto outcome =
+      run("navcal simulate --path " + kPath + " --seconds 0.01 -o a.cap --report a.html && cat a.html");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(test::flaw_in(outcome.output), "");
+  EXPECT_NE(outcome.output.find("No readings in the recording: "), std::string::npos);
+  EXPECT_EQ(outcome.output.find("<h3>Shaft</h3>"), std::string::npos);
+}
+
 struct Refusal {
   const char* what;
   const char* command;
