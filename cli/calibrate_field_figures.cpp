@@ -96,16 +96,12 @@ SvgPlot square_plot(std::string_view title, int across, int up, const std::vecto
   }
   // Readings may have outliers; the outline has none.
   const auto both = [](Range a, Range b) { return Range{std::min(a.least, b.least), std::max(a.most, b.most)}; };
-  const Range rx = both(range_of(x), whole_range_of(line_x)), ry = both(range_of(y), whole_range_of(line_y));
-  const double half = std::max(rx.length(), ry.length()) / 2;
-  const auto around = [half](Range r) {
-    const double middle = (r.least + r.most) / 2;
-    return Range{middle - half, middle + half};
-  };
+  Range rx = both(range_of(x), whole_range_of(line_x)), ry = both(range_of(y), whole_range_of(line_y));
+  make_equally_long(rx, ry);
   const double height = kSide - SvgPlot::kLeft - SvgPlot::kRight + SvgPlot::kTop + SvgPlot::kBottom;
   return {title,
-          {kAxes[static_cast<std::size_t>(across)], around(rx)},
-          {kAxes[static_cast<std::size_t>(up)], around(ry)},
+          {kAxes[static_cast<std::size_t>(across)], rx},
+          {kAxes[static_cast<std::size_t>(up)], ry},
           {kSide, height}};
 }
 

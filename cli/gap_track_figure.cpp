@@ -1,5 +1,4 @@
 // Where the vehicle was, and where the model would have gone.
-#include <algorithm>
 #include <vector>
 
 #include "cli/gap_figures.h"
@@ -24,18 +23,14 @@ std::vector<Point> points_of(const gap::Track& track) {
 std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   if (!diagnosis.tracks || diagnosis.tracks->fixes.time_s.empty()) return std::nullopt;
   const gap::Tracks& tracks = *diagnosis.tracks;
+  constexpr double kSide = 460, kLeastLength_m = 2;
   std::vector<double> easts, norths;
   for (const gap::Track* track : {&tracks.fixes, &tracks.nominal, &tracks.improved}) {
     easts.insert(easts.end(), track->east_m.begin(), track->east_m.end());
     norths.insert(norths.end(), track->north_m.begin(), track->north_m.end());
   }
   Range east = whole_range_of(easts), north = whole_range_of(norths);
-  const double half = std::max({east.length(), north.length(), 2.0}) / 2;
-  for (Range* range : {&east, &north}) {
-    const double middle = (range->least + range->most) / 2;
-    *range = {middle - half, middle + half};
-  }
-  constexpr double kSide = 460;
+  make_equally_long(east, north, kLeastLength_m);
   constexpr double kHeight = kSide - SvgPlot::kLeft - SvgPlot::kRight + SvgPlot::kTop + SvgPlot::kBottom;
   SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kHeight});
   plot.points(Ink::fit, "fixes", points_of(tracks.fixes));

@@ -9,6 +9,7 @@
 #include "cli/simulate_plot.h"
 #include "cli/svg_plot.h"
 #include "cli/time_axis.h"
+#include "pipeline/nav_reading.h"
 #include "sim/geodesy.h"
 
 namespace navcal::cli {
@@ -28,8 +29,7 @@ std::vector<Point> fixes_of(const SimulatedSeries& series, const sim::Origin& or
   const auto corner = sim::geodetic(origin, {1000, 1000, 0});
   std::vector<Point> points;
   for (const auto& fix : series.gps) {
-    if (!fix.value.latitude_rad || !fix.value.longitude_rad) continue;
-    if (fix.value.fix != instruments::Fix::fix_2d && fix.value.fix != instruments::Fix::fix_3d) continue;
+    if (!pipeline::has_position(fix.value)) continue;
     const double share_north =
         (*fix.value.latitude_rad * kDegrees - origin.latitude_deg) / (corner[0] - origin.latitude_deg);
     const double share_east = std::remainder(*fix.value.longitude_rad * kDegrees - origin.longitude_deg, 360) /
@@ -41,7 +41,7 @@ std::vector<Point> fixes_of(const SimulatedSeries& series, const sim::Origin& or
 
 /// A metre is as long to the north as to the east.
 Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
-  constexpr double kSide = 460;
+  constexpr double kSide = 460, kLeastLength_m = 2;
   std::vector<Point> way;
   std::vector<double> easts, norths;
   for (const auto& state : series.states) {
@@ -50,11 +50,7 @@ Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
     norths.push_back(way.back().y);
   }
   Range east = whole_range_of(easts), north = whole_range_of(norths);
-  const double half = std::max({east.length(), north.length(), 2.0}) / 2;
-  for (Range* range : {&east, &north}) {
-    const double middle = (range->least + range->most) / 2;
-    *range = {middle - half, middle + half};
-  }
+  make_equally_long(east, north, kLeastLength_m);
   SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kSide});
   const auto fixes = fixes_of(series, origin);
   plot.points(Ink::before, "GPS", fixes);

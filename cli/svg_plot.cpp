@@ -111,6 +111,14 @@ Range whole_range_of(const std::vector<double>& values) {
   return range.length() >= 0 ? with_margin(range) : Range{-1, 1};
 }
 
+void make_equally_long(Range& x, Range& y, double least_length) {
+  const double half = std::max({x.length(), y.length(), least_length}) / 2;
+  for (Range* range : {&x, &y}) {
+    const double middle = (range->least + range->most) / 2;
+    *range = {middle - half, middle + half};
+  }
+}
+
 std::vector<double> round_values(Range range, int about) {
   if (!(range.length() > 0) || !std::isfinite(range.length())) return {};
   return multiples(range, round_step(range.length(), about));

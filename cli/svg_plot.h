@@ -25,6 +25,9 @@ struct Range {
 [[nodiscard]] Range range_of(std::vector<double> values);
 /// Around all finite values, outliers included; with a margin; never empty.
 [[nodiscard]] Range whole_range_of(const std::vector<double>& values);
+/// Both about their middles, as long as the longer one, and at least so long: a metre is as long to the north as
+/// to the east.
+void make_equally_long(Range& x, Range& y, double least_length = 0);
 /// Round values within a range, about so many, 1, 2 or 5 apart in their leading digit.
 [[nodiscard]] std::vector<double> round_values(Range range, int about);
 

@@ -28,21 +28,13 @@ std::string difference(std::string_view before, std::string_view now) {
 }  // namespace
 
 std::string describe_instruments(const config::Settings& settings) {
-  using config::Role;
-  // Those that may be learnt from: all candidates where the first is not certain to deliver.
-  const auto learnt = [&](Role role) {
-    auto ports = pipeline::candidates(settings, role);
-    if (pipeline::is_certain(settings, role)) ports.resize(1);
-    return ports;
-  };
   std::string out;
-  const bool has_field = !pipeline::candidates(settings, Role::field).empty();
-  for (const std::uint16_t place : learnt(has_field ? Role::field : Role::heading)) {
+  for (const std::uint16_t place : pipeline::learnable(settings, pipeline::compass_role(settings))) {
     const auto& port = settings.ports[place];
     out += fmt::format("compass {} {}, units {} {}\n", port.name, protocols::name_of(port.protocol),
                        static_cast<int>(port.compass.heading_unit), static_cast<int>(port.compass.tilt_unit));
   }
-  for (const std::uint16_t place : learnt(Role::rates)) {
+  for (const std::uint16_t place : pipeline::learnable(settings, config::Role::rates)) {
     const auto& port = settings.ports[place];
     out += fmt::format("imu {} {}, zeros {}, scales {}\n", port.name, protocols::name_of(port.protocol),
                        fmt::join(port.imu_card.zero_mV, " "), fmt::join(port.imu_card.scale, " "));

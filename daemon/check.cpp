@@ -26,16 +26,10 @@ std::string place(const config::PortSettings& port) {
 }
 
 /// "compass", or "compass or gps" where the first that delivers serves; empty when there is none.
-std::string candidates_of(const config::Settings& settings, Role role) {
+std::string names_of(const config::Settings& settings, const std::vector<std::uint16_t>& ports) {
   std::vector<std::string_view> names;
-  for (const std::uint16_t port : pipeline::candidates(settings, role)) names.push_back(settings.ports[port].name);
+  for (const std::uint16_t port : ports) names.push_back(settings.ports[port].name);
   return fmt::format("{}", fmt::join(names, " or "));
-}
-
-/// The calibrators learn from one instrument: not from NMEA where another protocol always says it.
-std::string learnt_of(const config::Settings& settings, Role role) {
-  if (!pipeline::is_certain(settings, role)) return candidates_of(settings, role);
-  return settings.ports[pipeline::candidates(settings, role).front()].name;
 }
 
 /// "heading and field by compass, position by gps": which port may serve what; the first that delivers does.
@@ -44,7 +38,7 @@ void append_sources(std::string& out, const config::Settings& settings) {
   std::string ports;
   for (const Role role : config::kRoles) {
     const std::string_view name = config::name_of(role);
-    const std::string own = candidates_of(settings, role);
+    const std::string own = names_of(settings, pipeline::candidates(settings, role));
     if (own.empty()) {
       missing.emplace_back(name);
     } else if (own == ports) {
@@ -65,10 +59,9 @@ void append_calibration(std::string& out, const config::Settings& settings) {
     out += settings.calibration.enabled ? "calibration: nothing to calibrate\n" : "calibration: off\n";
     return;
   }
-  const Role compass = pipeline::candidates(settings, Role::field).empty() ? Role::heading : Role::field;
   std::vector<std::string> learnt;
-  for (const Role role : {compass, Role::rates, Role::position, Role::shaft}) {
-    std::string name = learnt_of(settings, role);
+  for (const Role role : {pipeline::compass_role(settings), Role::rates, Role::position, Role::shaft}) {
+    std::string name = names_of(settings, pipeline::learnable(settings, role));
     const bool is_new = std::find(learnt.begin(), learnt.end(), name) == learnt.end();
     if (!name.empty() && is_new) learnt.push_back(std::move(name));
   }

@@ -29,7 +29,7 @@ class Navigator {
 
   void take(const RateReading& reading);
   void take(const CompassReading& reading);
-  /// Of accelerometers, where no inclinometer is.
+  /// The tilt by accelerometers, for a vehicle without an inclinometer.
   void take(const TiltReading& reading);
   void take(const ShaftReading& reading);
   void take(const FixReading& reading);

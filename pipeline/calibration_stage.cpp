@@ -6,6 +6,7 @@
 #include "pipeline/calib_reading.h"
 #include "pipeline/calibration_options.h"
 #include "pipeline/local_plane.h"
+#include "pipeline/nav_reading.h"
 
 namespace navcal::pipeline {
 namespace {
@@ -77,8 +78,7 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::GpsSample& gps) {
-  const bool fixed = gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
-  if (sample.port != ports_.gps || !fixed || !gps.latitude_rad || !gps.longitude_rad || !gps.speed_m_s) return;
+  if (sample.port != ports_.gps || !has_position(gps) || !gps.speed_m_s) return;
   if (!origin_latitude_rad_) {
     origin_latitude_rad_ = gps.latitude_rad;
     origin_longitude_rad_ = gps.longitude_rad;

@@ -43,7 +43,7 @@ class CalibrationStage {
   [[nodiscard]] const CalibratedPorts& ports() const { return ports_; }
   /// The Earth's field here became known, or is another one: the vehicle has moved.
   void use(const EarthFieldWatch& field);
-  /// Of which the field was that of the model; it is restored with the rest.
+  /// The place whose field by the model the calibrators know; it is restored with the rest.
   [[nodiscard]] const std::optional<FieldPlace>& field_place() const { return field_place_; }
 
  private:

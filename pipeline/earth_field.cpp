@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/world_magnetic_model.h"
+#include "pipeline/nav_reading.h"
 
 namespace navcal::pipeline {
 namespace {
@@ -60,8 +61,7 @@ EarthFieldWatch::EarthFieldWatch(const config::EnvironmentSettings& settings)
     : settings_(settings), field_(settings) {}
 
 bool EarthFieldWatch::take(const instruments::GpsSample& fix) {
-  const bool fixed = fix.fix == instruments::Fix::fix_2d || fix.fix == instruments::Fix::fix_3d;
-  if (!fixed || !fix.latitude_rad || !fix.longitude_rad || !fix.time_utc_ns) return false;
+  if (!has_position(fix) || !fix.time_utc_ns) return false;
   const FieldPlace here{*fix.latitude_rad, *fix.longitude_rad, *fix.time_utc_ns};
   if (place_) {
     const double north_rad = here.latitude_rad - place_->latitude_rad;

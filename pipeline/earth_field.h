@@ -51,7 +51,7 @@ class EarthFieldWatch {
   /// The vehicle was there before; whether the field is another one now.
   bool go_on_at(const FieldPlace& place);
   [[nodiscard]] const EarthField& field() const { return field_; }
-  /// Of which the model was asked last.
+  /// The place for which the model was asked last.
   [[nodiscard]] const std::optional<FieldPlace>& place() const { return place_; }
 
  private:

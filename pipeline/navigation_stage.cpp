@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "instruments/compass_error.h"
-#include "pipeline/tilt_stage.h"
+#include "pipeline/nav_reading.h"
 
 namespace navcal::pipeline {
 namespace {
@@ -89,8 +89,9 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
     calibrated_.take(*reading);
     uncalibrated_.take(*reading);
   } else if (const auto* gps = std::get_if<instruments::GpsSample>(&corrected.value)) {
-    if (corrected.port == ports_[Role::velocity] && roles_of(corrected).has(Role::velocity)) {
-      velocity_m_s_ = *gps->speed_m_s * Eigen::Vector2d(std::cos(*gps->course_rad), std::sin(*gps->course_rad));
+    const auto velocity_m_s = ground_velocity_m_s(*gps);
+    if (corrected.port == ports_[Role::velocity] && velocity_m_s) {
+      velocity_m_s_ = velocity_m_s;
       velocity_ns_ = corrected.stamp.validity_ns;
     }
     if (corrected.port != ports_[Role::position]) return;
@@ -130,7 +131,7 @@ void NavigationStage::feed_tilt(const nav::TiltReading& tilt) {
 }
 
 void NavigationStage::feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps) {
-  if (!roles_of(sample).has(Role::position)) return;
+  if (!has_position(gps)) return;
   if (!plane_) plane_.emplace(*gps.latitude_rad, *gps.longitude_rad);
   const auto [north_m, east_m] = plane_->position_m(*gps.latitude_rad, *gps.longitude_rad);
   nav::FixReading reading;

@@ -53,9 +53,8 @@ class NavigationStage {
   nav::Navigator calibrated_, uncalibrated_;
   std::optional<LocalPlane> plane_;
   std::optional<std::int64_t> inclinometer_ns_;  ///< newest tilt of the compass
-  std::optional<double> depth_m_;                ///< of a card that does not give the rates
-  /// Of a receiver that does not give the position.
-  std::optional<Eigen::Vector2d> velocity_m_s_;
+  std::optional<double> depth_m_;                ///< newest that is not used yet
+  std::optional<Eigen::Vector2d> velocity_m_s_;  ///< newest that is not used yet
   std::int64_t velocity_ns_ = 0;
   std::int64_t told_ = 0;  ///< intervals of the monotonic clock, up to the one that was last told of
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pipeline/nav_reading.h"
+
 namespace navcal::pipeline {
 namespace {
 
@@ -32,9 +34,8 @@ RoleSet roles_of(const instruments::ImuSample&) {
 
 RoleSet roles_of(const instruments::GpsSample& gps) {
   RoleSet roles;
-  const bool fixed = gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
-  if (fixed && gps.latitude_rad && gps.longitude_rad) roles.add(Role::position);
-  if (fixed && gps.speed_m_s && gps.course_rad) roles.add(Role::velocity);
+  if (has_position(gps)) roles.add(Role::position);
+  if (ground_velocity_m_s(gps)) roles.add(Role::velocity);
   return roles;
 }
 
@@ -93,14 +94,22 @@ bool is_certain(const config::Settings& settings, Role role) {
   return !ports.empty() && rank(settings, ports.front(), role) < 2;
 }
 
-CalibratedPorts calibrated_ports(const config::Settings& settings) {
-  Sources sources(settings);
-  const RolePorts first = sources.serving();
-  return {first[Role::field] ? first[Role::field] : first[Role::heading], first[Role::rates],
-          first[Role::position], first[Role::shaft]};
+std::vector<std::uint16_t> learnable(const config::Settings& settings, Role role) {
+  auto ports = candidates(settings, role);
+  if (is_certain(settings, role)) ports.resize(1);
+  return ports;
 }
 
-Sources::Sources(const config::Settings& settings) {
+Role compass_role(const config::Settings& settings) {
+  return candidates(settings, Role::field).empty() ? Role::heading : Role::field;
+}
+
+CalibratedPorts calibrated_ports(const config::Settings& settings) {
+  const RolePorts first = Sources(settings).serving();
+  return {first[compass_role(settings)], first[Role::rates], first[Role::position], first[Role::shaft]};
+}
+
+Sources::Sources(const config::Settings& settings) : compass_role_(pipeline::compass_role(settings)) {
   for (const Role role : kRoles) {
     Service& service = services_.at(static_cast<std::size_t>(role));
     for (const std::uint16_t port : pipeline::candidates(settings, role)) service.candidates.push_back({port});
@@ -208,8 +217,7 @@ CalibratedPorts Sources::learnt() const {
     const Service& it = service(role);
     return it.learnt && !it.candidates.empty() ? std::optional(it.candidates[*it.learnt].port) : std::nullopt;
   };
-  const Role compass = service(Role::field).candidates.empty() ? Role::heading : Role::field;
-  return {of(compass), of(Role::rates), of(Role::position), of(Role::shaft)};
+  return {of(compass_role_), of(Role::rates), of(Role::position), of(Role::shaft)};
 }
 
 void Sources::go_on_with(const CalibratedPorts& learnt) {
@@ -219,7 +227,7 @@ void Sources::go_on_with(const CalibratedPorts& learnt) {
       if (port && service.candidates[i].port == *port) service.learnt = i;
     }
   };
-  set(service(Role::field).candidates.empty() ? Role::heading : Role::field, learnt.compass);
+  set(compass_role_, learnt.compass);
   set(Role::rates, learnt.imu);
   set(Role::position, learnt.gps);
   set(Role::shaft, learnt.motor);

@@ -33,6 +33,11 @@ class RoleSet {
 /// Whether the first candidate is waited for: [roles] names it, or its protocol always says it.
 [[nodiscard]] bool is_certain(const config::Settings& settings, Role role);
 
+/// Ports that the calibrators may learn a role from: the first candidate where it is certain, else all.
+[[nodiscard]] std::vector<std::uint16_t> learnable(const config::Settings& settings, Role role);
+/// The role of the compass that is calibrated: the field where any port can give it, else the heading.
+[[nodiscard]] Role compass_role(const config::Settings& settings);
+
 /// Which port serves which role, by what the ports deliver. The best port that delivers serves. Of receivers the
 /// better is the one that states the smaller error: another one takes over when its dilution of precision,
 /// averaged over some ten fixes, is less than 0.7 of that of the one that serves. Any other is better by its place
@@ -96,6 +101,7 @@ class Sources {
   static bool is_better(const Service& service, std::size_t place);
 
   std::array<Service, kRoles.size()> services_;
+  Role compass_role_;
 };
 
 }  // namespace navcal::pipeline

@@ -39,11 +39,12 @@ Stages::Stages(const config::Settings& settings)
 void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, Sink& sink) {
   take_sources(sample, sink);
   take_field(sample, sink);
-  instruments::Sample original = sample;
+  std::optional<instruments::Sample> filled;
   if (tilt_) {
-    tilt_->take(sample, sources_.serving());
-    tilt_->fill(original);
+    tilt_->take(sample);
+    filled = tilt_->with_tilt(sample);
   }
+  const instruments::Sample& original = filled ? *filled : sample;
   instruments::Sample corrected = original;
   if (calibration_) calibration_->correct(corrected);
   sink.on_sample(corrected);
@@ -55,7 +56,7 @@ void Stages::take_sources(const instruments::Sample& sample, Sink& sink) {
   const auto changes = sources_.take(sample);
   if (calibration_) calibration_->use(sources_.learnt());
   if (changes.empty()) return;
-  if (navigation_) navigation_->use(sources_.serving());
+  use_sources();
   for (const auto& change : changes) {
     const std::string name = fmt::format("source.{}", config::name_of(change.role));
     sink.on_stream_event({change.port, sample.stamp.arrival_ns,
@@ -92,9 +93,13 @@ bool Stages::restore_calibration(std::string_view state) {
 void Stages::begin_navigation_run() {
   sources_.begin_run();
   if (tilt_) tilt_->begin_run();
-  if (!navigation_) return;
-  navigation_->begin_run();
-  navigation_->use(sources_.serving());
+  if (navigation_) navigation_->begin_run();
+  use_sources();
+}
+
+void Stages::use_sources() {
+  if (tilt_) tilt_->use(sources_.serving());
+  if (navigation_) navigation_->use(sources_.serving());
 }
 
 }  // namespace navcal::pipeline

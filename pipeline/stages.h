@@ -35,6 +35,7 @@ class Stages {
  private:
   void take_sources(const instruments::Sample& sample, Sink& sink);
   void take_field(const instruments::Sample& sample, Sink& sink);
+  void use_sources();
   void use_field();
 
   std::vector<std::string> port_names_;

@@ -20,22 +20,20 @@ class TiltStage {
   explicit TiltStage(const config::Settings& settings);
 
   /// Learns from a sample of a port that serves.
-  void take(const instruments::Sample& sample, const RolePorts& serving);
-  /// Of a compass: puts the tilt on it.
-  void fill(instruments::Sample& sample);
-  /// By the accelerometers; nullopt before their first reading.
+  void take(const instruments::Sample& sample);
+  /// The sample of a compass with the tilt by the accelerometers; nullopt where the sample stays as it is.
+  [[nodiscard]] std::optional<instruments::Sample> with_tilt(const instruments::Sample& sample);
+  /// The tilt by the accelerometers; nullopt before their first reading.
   [[nodiscard]] std::optional<nav::TiltReading> newest() const { return tilt_.newest(); }
+  /// Other ports serve from here on.
+  void use(const RolePorts& ports) { ports_ = ports; }
   void begin_run();
 
  private:
+  RolePorts ports_;
   nav::AccelerometerTiltOptions options_;
   nav::AccelerometerTilt tilt_;
   std::vector<bool> has_inclinometer_;  ///< of each port
 };
-
-/// As the estimators take them. `rate_reading` without depth.
-[[nodiscard]] nav::RateReading rate_reading(const instruments::Sample& sample, const instruments::ImuSample& imu);
-[[nodiscard]] std::optional<nav::ShaftReading> shaft_reading(const instruments::Sample& sample,
-                                                             const instruments::MotorSample& motor);
 
 }  // namespace navcal::pipeline

@@ -14,7 +14,7 @@ namespace navcal::trial {
 struct Specimen {
   Hull hull;
   Departures departures;
-  /// By how much the periods of these cards are too long, in shares, beside `clock_ppm`.
+  /// Share by which the period of each of these cards is too long, beside `clock_ppm`.
   struct Clocks {
     double compass = 0, card = 0, motor = 0;
   };

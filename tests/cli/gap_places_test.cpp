@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(FarApart, GapPlaces, testing::Values("78.22,15.63", "-0
 
 using GapField = GapPlaces;
 
-// Of so short a recording nothing else is said.
+// A recording so short allows no other statement.
 TEST_F(GapField, IsTheGivenOneBeforeTheStatedBeforeTheModels) {
   simulate("--seed 3 --place 59.33,18.07 --field 10,20,30", 20);
   EXPECT_EQ(gap()["field"]["source"], "model");

@@ -27,7 +27,7 @@ TEST(StatedField, IsReadFromTheMarkOfARecordingAlone) {
   }
 }
 
-/// Of a vehicle that circles in a field, with iron, pitching and rolling by so much.
+/// Readings of a vehicle that circles in a field, with iron, pitching and rolling by so much.
 std::vector<CompassReading> circling(const Vector3& earth_uT, const Vector3& iron_uT, double tilt_rad) {
   std::vector<CompassReading> readings;
   for (int i = 0; i < 400; ++i) {

@@ -28,11 +28,11 @@ instruments::Sample sample_of(std::uint16_t port, std::int64_t time_ns,
 }
 
 /// Nose up by a tenth of a radian, still, for ten seconds.
-void hold_still(TiltStage& stage, const RolePorts& serving) {
+void hold_still(TiltStage& stage) {
   for (int i = 0; i < 200; ++i) {
     instruments::ImuSample card;
     card.specific_force_m_s2 = {9.81 * std::sin(0.1), 0, -9.81 * std::cos(0.1)};
-    stage.take(sample_of(imu, i * kStep_ns, card), serving);
+    stage.take(sample_of(imu, i * kStep_ns, card));
   }
 }
 
@@ -44,9 +44,9 @@ instruments::CompassSample with_heading() {
 
 TEST(TiltStage, ACompassWithoutAnInclinometerGetsATilt) {
   TiltStage stage(vehicle());
-  hold_still(stage, Sources(vehicle()).serving());
+  hold_still(stage);
   auto sample = sample_of(compass, 199 * kStep_ns, with_heading());
-  stage.fill(sample);
+  sample = stage.with_tilt(sample).value_or(sample);
   const auto& filled = std::get<instruments::CompassSample>(sample.value);
   EXPECT_TRUE(filled.tilt_by_accelerometers);
   EXPECT_NEAR(filled.pitch_rad.value(), 0.1, 1e-6);
@@ -55,27 +55,27 @@ TEST(TiltStage, ACompassWithoutAnInclinometerGetsATilt) {
 
 TEST(TiltStage, ACompassWithATiltOfItsOwnKeepsIt) {
   TiltStage stage(vehicle());
-  hold_still(stage, Sources(vehicle()).serving());
+  hold_still(stage);
   auto word = with_heading();
   word.pitch_rad = word.roll_rad = 0.02;
   auto sample = sample_of(compass, 198 * kStep_ns, word);
-  stage.fill(sample);
+  sample = stage.with_tilt(sample).value_or(sample);
   EXPECT_EQ(std::get<instruments::CompassSample>(sample.value).pitch_rad, 0.02);
   auto without = sample_of(compass, 199 * kStep_ns, with_heading());
-  stage.fill(without);
+  without = stage.with_tilt(without).value_or(without);
   EXPECT_FALSE(std::get<instruments::CompassSample>(without.value).pitch_rad) << "it left it out for a reason";
 }
 
 TEST(TiltStage, WithoutReadingsOrForOtherLinesThereIsNone) {
   TiltStage stage(vehicle());
   auto sample = sample_of(compass, 0, with_heading());
-  stage.fill(sample);
+  sample = stage.with_tilt(sample).value_or(sample);
   EXPECT_FALSE(std::get<instruments::CompassSample>(sample.value).pitch_rad);
-  hold_still(stage, Sources(vehicle()).serving());
+  hold_still(stage);
   instruments::CompassSample rate_of_turn;
   rate_of_turn.turn_rate_rad_s = 0.1;
   auto line = sample_of(compass, 199 * kStep_ns, rate_of_turn);
-  stage.fill(line);
+  line = stage.with_tilt(line).value_or(line);
   EXPECT_FALSE(std::get<instruments::CompassSample>(line.value).pitch_rad);
   config::Settings no_card;
   no_card.ports.emplace_back().protocol = Protocol::tcm2;

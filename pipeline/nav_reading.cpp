@@ -1,0 +1,41 @@
+#include "pipeline/nav_reading.h"
+
+#include <cmath>
+
+namespace navcal::pipeline {
+namespace {
+
+constexpr double kSecondsPerMinute = 60;
+
+Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
+
+bool has_fix(const instruments::GpsSample& gps) {
+  return gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
+}
+
+}  // namespace
+
+bool has_position(const instruments::GpsSample& gps) {
+  return has_fix(gps) && gps.latitude_rad && gps.longitude_rad;
+}
+
+std::optional<Eigen::Vector2d> ground_velocity_m_s(const instruments::GpsSample& gps) {
+  if (!has_fix(gps) || !gps.speed_m_s || !gps.course_rad) return std::nullopt;
+  return *gps.speed_m_s * Eigen::Vector2d(std::cos(*gps.course_rad), std::sin(*gps.course_rad));
+}
+
+nav::RateReading rate_reading(const instruments::Sample& sample, const instruments::ImuSample& imu) {
+  nav::RateReading reading;
+  reading.time_ns = sample.stamp.validity_ns;
+  reading.rate_rad_s = vector(imu.rate_rad_s);
+  reading.specific_force_m_s2 = vector(imu.specific_force_m_s2);
+  return reading;
+}
+
+std::optional<nav::ShaftReading> shaft_reading(const instruments::Sample& sample,
+                                               const instruments::MotorSample& motor) {
+  if (!motor.rpm) return std::nullopt;
+  return nav::ShaftReading{sample.stamp.validity_ns, *motor.rpm / kSecondsPerMinute};
+}
+
+}  // namespace navcal::pipeline

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "instruments/samples.h"
+#include "nav/readings.h"
+
+// Samples as the estimators of position and tilt take them.
+namespace navcal::pipeline {
+
+/// Whether the receiver has a fix and states its latitude and longitude.
+[[nodiscard]] bool has_position(const instruments::GpsSample& gps);
+/// North and east over ground; nullopt without a fix, a speed or a course.
+[[nodiscard]] std::optional<Eigen::Vector2d> ground_velocity_m_s(const instruments::GpsSample& gps);
+/// Rates and specific force; the depth is left open.
+[[nodiscard]] nav::RateReading rate_reading(const instruments::Sample& sample, const instruments::ImuSample& imu);
+/// nullopt without a shaft speed.
+[[nodiscard]] std::optional<nav::ShaftReading> shaft_reading(const instruments::Sample& sample,
+                                                             const instruments::MotorSample& motor);
+
+}  // namespace navcal::pipeline
