@@ -7,8 +7,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "gap/bank_file.h"
 #include "record/checksum.h"
@@ -19,6 +22,23 @@ namespace {
 
 constexpr std::string_view kPrefix = "null-bank-";
 constexpr double kWindow_s = 10;
+
+/// The files of the folder that are banks, the one used last first. Empty where the folder cannot be read.
+std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder) {
+  std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> found;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with(kPrefix) || !name.ends_with(".json")) continue;
+    std::error_code unreadable;
+    const auto used = at->last_write_time(unreadable);
+    if (!unreadable) found.emplace_back(used, at->path());
+  }
+  std::sort(found.begin(), found.end(), std::greater<>());
+  std::vector<std::filesystem::path> files;
+  for (auto& [used, file] : found) files.push_back(std::move(file));
+  return files;
+}
 
 /// What of a mission's commands decides about its nulls, in units of what may differ: a row for each ten seconds.
 std::vector<double> fingerprint(const Replay& replay, const Course10Hz& course) {
@@ -77,14 +97,13 @@ BankCache::BankCache(std::filesystem::path folder, const config::VehicleSettings
 
 std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& course,
                                         const BankOptions& options) const {
-  std::error_code ignored;
-  if (folder_.empty() || !std::filesystem::is_directory(folder_, ignored)) return std::nullopt;
+  if (folder_.empty()) return std::nullopt;
   const auto wanted = fingerprint(replay, course);
   std::optional<NullBank> best;
+  std::filesystem::path best_file;
   double best_distance = 1;
-  for (const auto& file : std::filesystem::directory_iterator(folder_, ignored)) {
-    if (!file.path().filename().string().starts_with(kPrefix)) continue;
-    std::ifstream stream(file.path());
+  for (const auto& file : banks_in(folder_)) {
+    std::ifstream stream(file);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     auto kept = read_bank(text, model_, unknowns_);
     if (!kept || kept->bank.missions < options.missions * 9 / 10 || kept->bank.seed != options.seed) continue;
@@ -93,7 +112,10 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& 
     if (!(apart < best_distance)) continue;
     best = std::move(kept->bank);
     best_distance = apart;
+    best_file = file;
   }
+  std::error_code unchanged;  // of somebody else's: then it only looks older than it is
+  if (best) std::filesystem::last_write_time(best_file, std::filesystem::file_time_type::clock::now(), unchanged);
   return best;
 }
 
@@ -108,6 +130,8 @@ std::string BankCache::keep(const Replay& replay, const Course10Hz& course, cons
     record::WholeFile file(folder_ / fmt::format("{}{:08x}.json", kPrefix, record::crc32c(text)));
     file.write(text);
     file.commit();
+    const auto files = banks_in(folder_);
+    for (std::size_t i = kMostBanks; i < files.size(); ++i) std::filesystem::remove(files[i]);
   } catch (const std::system_error& error) {
     return error.what();
   }

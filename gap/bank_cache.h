@@ -13,9 +13,10 @@ namespace navcal::gap {
 
 /// Null banks of missions that were diagnosed before. A bank serves every mission that was steered alike: the same
 /// shaft speeds, turns, depths, fixes and field of the Earth within a tolerance, by the same nominal vehicle,
-/// library and program.
+/// library and program. The folder holds at most kMostBanks of them; the one that was not used for longest goes.
 class BankCache {
  public:
+  static constexpr std::size_t kMostBanks = 64;  ///< of about 0.3 MB each
   /// Empty folder: nothing is kept.
   BankCache(std::filesystem::path folder, const config::VehicleSettings& vehicle, const Library& library);
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "tests/gap/made_up_bank.h"
 #include "tests/gap/simulated_mission.h"
@@ -92,6 +95,31 @@ TEST_F(BankCacheTest, FilesThatAreNoBanksArePassedOver) {
     std::ofstream(folder_ / "null-bank-bad.json") << text;
     EXPECT_FALSE(cache.find(replay_, course_, {20, 1, 1}));
   }
+}
+
+TEST_F(BankCacheTest, KeepsTheBanksUsedLastAndNoMoreThanItsLimit) {
+  const BankCache cache(folder_.path(), {}, library_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
+  const auto now = std::filesystem::file_time_type::clock::now();
+  for (const auto& file : std::filesystem::directory_iterator(folder_.path()))
+    std::filesystem::last_write_time(file.path(), now - std::chrono::hours(1000));
+  std::ofstream(folder_ / "notes.txt") << "not a bank";
+  const auto made_up = [&](std::size_t i) {
+    return folder_ / ("null-bank-" + std::to_string(10'000'000 + i) + ".json");
+  };
+  for (std::size_t i = 0; i < BankCache::kMostBanks; ++i) {
+    std::ofstream(made_up(i)) << "an old bank";
+    std::filesystem::last_write_time(made_up(i), now - std::chrono::hours(i + 1));
+  }
+  EXPECT_TRUE(cache.find(replay_, course_, {20, 1, 1}));  // it counts as used now
+  bank_.seed = 2;
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
+  EXPECT_TRUE(cache.find(replay_, course_, {20, 1, 1}));
+  EXPECT_TRUE(cache.find(replay_, course_, {20, 2, 1}));
+  EXPECT_TRUE(std::filesystem::exists(made_up(BankCache::kMostBanks - 3)));
+  EXPECT_FALSE(std::filesystem::exists(made_up(BankCache::kMostBanks - 2)));
+  EXPECT_FALSE(std::filesystem::exists(made_up(BankCache::kMostBanks - 1)));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "notes.txt"));
 }
 
 }  // namespace
