@@ -145,6 +145,7 @@ TEST(DaemonProcess, AFixMakesHeadingsTrueAndHealthSaysWhoServesWhat) {
 
 TEST(DaemonProcess, CheckRefusesRolesThatNobodyCanFill) {
   DaemonProcess daemon;
+  daemon.wait_until_ready();  // before that SIGTERM ends it like any process
   const auto [status, why] = daemon.run_another({"--check", "--set", "roles.depth=compass"});
   EXPECT_EQ(status, 3);
   EXPECT_NE(why.find("--set: roles.depth: port compass is of protocol nmea, which has no depth"),
