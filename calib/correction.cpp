@@ -1,21 +1,15 @@
 #include "calib/correction.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kTurn_rad = 2 * std::numbers::pi;
-
 constexpr std::array<std::string_view, kCalibrators.size()> kNames{
     "gyro",  "gyro_b",       "compass",       "magnetometer", "gps_compass",
     "swing", "misalignment", "compass_delay", "course_delay", "motor_current"};
-
-double wrapped(double angle_rad) {
-  const double once = angle_rad - kTurn_rad * std::floor(angle_rad / kTurn_rad);
-  return once < kTurn_rad ? once : 0.0;
-}
 
 /// `visit(value)` with the optional of that calibrator.
 template <class Corrections, class Visit>
@@ -69,7 +63,7 @@ DeviationCorrection DeviationCorrection::without_offset() const {
 }
 
 double SwingCorrection::operator()(double measured_rad) const {
-  const double place = wrapped(measured_rad) / kTurn_rad * 8;
+  const double place = base::positive_angle(measured_rad) / base::kTurn_rad * 8;
   const auto sector = static_cast<std::size_t>(place) % 8;
   const double share = place - std::floor(place);
   return measured_rad - ((1 - share) * deviation_rad[sector] + share * deviation_rad[(sector + 1) % 8]);
@@ -94,7 +88,7 @@ double levelled_heading(const Eigen::Vector3d& field, double roll_rad, double pi
   const double across = field.y() * sin_roll + field.z() * cos_roll;
   const double forward = field.x() * std::cos(pitch_rad) + across * std::sin(pitch_rad);
   const double starboard = field.y() * cos_roll - field.z() * sin_roll;
-  return wrapped(std::atan2(-starboard, forward));
+  return base::positive_angle(std::atan2(-starboard, forward));
 }
 
 CompassReading without_motor_field(const Correction& correction, const CompassReading& reading,
@@ -106,7 +100,7 @@ CompassReading without_motor_field(const Correction& correction, const CompassRe
     const auto levelled = [&](const CompassReading& r) {
       return levelled_heading(*r.field_body_uT, *r.roll_rad, *r.pitch_rad);
     };
-    without.heading_rad = wrapped(*reading.heading_rad + levelled(without) - levelled(reading));
+    without.heading_rad = base::positive_angle(*reading.heading_rad + levelled(without) - levelled(reading));
   }
   return without;
 }
@@ -130,7 +124,7 @@ std::optional<double> corrected_heading(const Correction& correction, const Comp
   if (const auto offset_rad = correction.offset_rad())
     heading = heading.value_or(*reading.heading_rad) - *offset_rad;
   if (!heading) return std::nullopt;
-  return wrapped(*heading);
+  return base::positive_angle(*heading);
 }
 
 std::optional<double> best_heading(const Correction& correction, const CompassReading& reading) {

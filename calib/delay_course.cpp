@@ -4,11 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/square.h"
+
 namespace navcal::calib {
 namespace {
 
 constexpr int kLessSlip = 5;
-double square(double x) { return x * x; }
 
 }  // namespace
 
@@ -33,14 +34,14 @@ void CourseDelay::correct(const GroundReading& ground, const WaterTrackReading& 
   Vector row;
   row << 1, std::sin(psi), std::cos(psi), std::sin(2 * psi), std::cos(2 * psi), at.turn_rate_rad_s;
   const Vector response = covariance_ * row;
-  const double variance = row.dot(response) + square(parameters_.course_floor_rad) +
-                          square(parameters_.velocity_std_m_s / ground.speed_m_s);
+  const double variance = row.dot(response) + base::square(parameters_.course_floor_rad) +
+                          base::square(parameters_.velocity_std_m_s / ground.speed_m_s);
   const double innovation = std::remainder(psi - *ground.course_rad - row.dot(state_), 2 * std::numbers::pi);
   state_ += response * (innovation / variance);
   covariance_ -= response * response.transpose() / variance;
-  chi_squared_ += square(innovation) / variance;
+  chi_squared_ += base::square(innovation) / variance;
   rate_sum_ += at.turn_rate_rad_s;
-  rate_square_sum_ += square(at.turn_rate_rad_s);
+  rate_square_sum_ += base::square(at.turn_rate_rad_s);
   ++readings_;
 }
 
@@ -50,7 +51,7 @@ Delay CourseDelay::less_slip() const {
   return {.delay_s = state_[kLessSlip],
           .std_s = std::sqrt(covariance_(kLessSlip, kLessSlip) * std::max(1.0, chi_squared_ / n)),
           .readings = readings_,
-          .rate_spread_rad_s = std::sqrt(std::max(0.0, rate_square_sum_ / n - square(rate_sum_ / n)))};
+          .rate_spread_rad_s = std::sqrt(std::max(0.0, rate_square_sum_ / n - base::square(rate_sum_ / n)))};
 }
 
 Delay CourseDelay::estimate() const {

@@ -5,19 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/square.h"
+#include "base/vectors.h"
+
 namespace navcal::calib {
 namespace {
 
 constexpr double kFieldPrior_uT = 100;
 constexpr std::uint64_t kReadingsForNoise = 100;
-
-double square(double x) { return x * x; }
-
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 }  // namespace
 
@@ -34,7 +29,7 @@ FieldDelay::FieldDelay(const Parameters& parameters) : parameters_(parameters) {
 void FieldDelay::forget(int first, double std) {
   covariance_.middleRows<3>(first).setZero();
   covariance_.middleCols<3>(first).setZero();
-  covariance_.block<3, 3>(first, first) = square(std) * Eigen::Matrix3d::Identity();
+  covariance_.block<3, 3>(first, first) = base::square(std) * Eigen::Matrix3d::Identity();
 }
 
 void FieldDelay::update(const CompassReading& compass) {
@@ -78,7 +73,7 @@ void FieldDelay::advance(const Eigen::Vector3d& mean_rate_rad_s, double duration
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   // The body turns one way, the field in it the other.
   if (angle_rad > 0) turn = Eigen::AngleAxisd(-angle_rad, mean_rate_rad_s.normalized()).toRotationMatrix();
-  const Eigen::Matrix3d by_bias = duration_s * cross(last_field_uT_);
+  const Eigen::Matrix3d by_bias = duration_s * base::cross_product_matrix(last_field_uT_);
   auto field = state_.segment<3>(kField);
   field = (turn * field + by_bias * state_.segment<3>(kBias)).eval();
   const Eigen::Matrix<double, 3, kStates> rows =
@@ -88,18 +83,18 @@ void FieldDelay::advance(const Eigen::Vector3d& mean_rate_rad_s, double duration
   covariance_.middleRows<3>(kField) = rows;
   covariance_.middleCols<3>(kField) = rows.transpose();
   covariance_.block<3, 3>(kField, kField) = (corner + corner.transpose()) / 2;
-  covariance_.diagonal().segment<3>(kField).array() += square(parameters_.walk_uT_sqrt_s) * duration_s;
+  covariance_.diagonal().segment<3>(kField).array() += base::square(parameters_.walk_uT_sqrt_s) * duration_s;
 }
 
 void FieldDelay::correct(const Eigen::Vector3d& field_uT, const Eigen::Vector3d& rate_rad_s) {
   Eigen::Matrix<double, 3, kStates> rows = Eigen::Matrix<double, 3, kStates>::Zero();
   rows.middleCols<3>(kField).setIdentity();
   rows.middleCols<3>(kHardIron).setIdentity();
-  rows.middleCols<3>(kDelayIron) = -cross(rate_rad_s);
+  rows.middleCols<3>(kDelayIron) = -base::cross_product_matrix(rate_rad_s);
   rows.col(kDelay) = rate_rad_s.cross(field_uT);
   const Eigen::Matrix<double, kStates, 3> response = covariance_ * rows.transpose();
   const Eigen::Matrix3d variance =
-      rows * response + square(parameters_.field_noise_uT) * Eigen::Matrix3d::Identity();
+      rows * response + base::square(parameters_.field_noise_uT) * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d innovation = field_uT - rows * state_;
   const Eigen::LDLT<Eigen::Matrix3d> solver(variance);
   const double surprise = innovation.dot(solver.solve(innovation));

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
+#include "base/square.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kTurn_rad = 2 * std::numbers::pi;
 constexpr double kHeadingPrior_rad = 10;
-
-double square(double x) { return x * x; }
 
 }  // namespace
 
@@ -49,7 +48,7 @@ void HeadingDelay::update(const TurnStep& step, const TiltSlope& tilt) {
 void HeadingDelay::begin(const TurnStep& step) {
   covariance_.row(kPsi).setZero();
   covariance_.col(kPsi).setZero();
-  covariance_(kPsi, kPsi) = square(kHeadingPrior_rad);
+  covariance_(kPsi, kPsi) = base::square(kHeadingPrior_rad);
   state_[kPsi] = step.heading_rad;
 }
 
@@ -62,7 +61,7 @@ void HeadingDelay::predict(const TurnStep& step) {
   covariance_.row(kPsi) = row.transpose();
   covariance_.col(kPsi) = row;
   covariance_(kPsi, kPsi) = row[kPsi] + step.measured_angle_rad * row[kScale] + step.bias_time_s * row[kBias] +
-                            square(parameters_.rate_noise_rad_sqrt_s) * step.duration_s;
+                            base::square(parameters_.rate_noise_rad_sqrt_s) * step.duration_s;
 }
 
 void HeadingDelay::correct(const TurnStep& step, const TiltSlope& tilt, double measured_rate_rad_s) {
@@ -72,15 +71,15 @@ void HeadingDelay::correct(const TurnStep& step, const TiltSlope& tilt, double m
   row << 1, 0, 0, sine, cosine, std::sin(2 * psi), std::cos(2 * psi), -measured_rate_rad_s,
       tilt.pitch_rad_s * sine - tilt.roll_rad_s * cosine;
   const Vector response = covariance_ * row;
-  const double variance = row.dot(response) + square(parameters_.heading_noise_rad);
+  const double variance = row.dot(response) + base::square(parameters_.heading_noise_rad);
   // By the nearest turn: the state is not wrapped.
-  const double innovation = std::remainder(psi - row.dot(state_), kTurn_rad);
+  const double innovation = std::remainder(psi - row.dot(state_), base::kTurn_rad);
   state_ += response * (innovation / variance);
   covariance_ -= response * response.transpose() / variance;
-  chi_squared_ += square(innovation) / variance;
+  chi_squared_ += base::square(innovation) / variance;
   blocks_.update(state_[kDelay], covariance_(kDelay, kDelay));
   rate_sum_ += measured_rate_rad_s;
-  rate_square_sum_ += square(measured_rate_rad_s);
+  rate_square_sum_ += base::square(measured_rate_rad_s);
   ++readings_;
 }
 
@@ -95,7 +94,7 @@ Delay HeadingDelay::estimate() const {
   return {.delay_s = state_[kDelay] / scale,
           .std_s = std::hypot(noise_s, parameters_.level_std_s),
           .readings = readings_,
-          .rate_spread_rad_s = std::sqrt(std::max(0.0, rate_square_sum_ / n - square(rate_sum_ / n)))};
+          .rate_spread_rad_s = std::sqrt(std::max(0.0, rate_square_sum_ / n - base::square(rate_sum_ / n)))};
 }
 
 void HeadingDelay::archive(Archive& archive) {

@@ -7,19 +7,19 @@
 namespace navcal::calib {
 namespace {
 
-using Vector = EllipseChain::Vector;
-using Matrix = EllipseChain::Matrix;
+using ChainVector = EllipseChain::Vector;
+using ChainMatrix = EllipseChain::Matrix;
 
 /// The headings are eliminated from first to last: after that, heading k = right - coupling'(shape, gyro)
 /// - off * heading k+1, all divided by the pivot.
 struct Elimination {
   struct Row {
     double pivot = 0, off = 0, right = 0;
-    Vector coupling = Vector::Zero();
+    ChainVector coupling = ChainVector::Zero();
   };
   std::vector<Row> rows;
-  Matrix information = Matrix::Zero();
-  Vector gradient = Vector::Zero();
+  ChainMatrix information = ChainMatrix::Zero();
+  ChainVector gradient = ChainVector::Zero();
 };
 
 double turn_variance(const TurnGroup& from, const TurnGroup& to, double scale, double density) {
@@ -27,8 +27,8 @@ double turn_variance(const TurnGroup& from, const TurnGroup& to, double scale, d
   return scale * scale * density * density * std::max(to.time_s - from.time_s, 0.0) + kFloor;
 }
 
-Vector turn_slope(const TurnGroup& from, const TurnGroup& to) {
-  Vector slope = Vector::Zero();
+ChainVector turn_slope(const TurnGroup& from, const TurnGroup& to) {
+  ChainVector slope = ChainVector::Zero();
   slope[5] = to.measured_angle_rad - from.measured_angle_rad;
   slope[6] = to.bias_time_s - from.bias_time_s;
   return slope;
@@ -59,7 +59,7 @@ Elimination eliminate(const EllipseChain& chain, const std::vector<TurnGroup>& g
     const TurnGroup& before = groups[k - 1];
     const double link = 1 / turn_variance(before, group, belief.mean[0], noise.rate_rad_sqrt_s);
     const double left = chain.headings_rad[k] - chain.headings_rad[k - 1] - turn_rad(before, group, chain.gyro);
-    const Vector by_gyro = turn_slope(before, group);
+    const ChainVector by_gyro = turn_slope(before, group);
     Elimination::Row& last = e.rows[k - 1];
     row.pivot += link;
     last.pivot += link;
@@ -124,11 +124,12 @@ void improve(EllipseChain& chain, const std::vector<TurnGroup>& groups, const Gy
                                      : chain.shape.foot_rad(groups[k].field_uT));
   }
   const Elimination e = eliminate(chain, groups, belief, noise);
-  const Vector scale = e.information.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
-  const Matrix scaled =
-      scale.asDiagonal() * e.information * scale.asDiagonal() + 1e-14 * Matrix::Identity().eval();
-  const Matrix inverse = scale.asDiagonal() * scaled.ldlt().solve(Matrix::Identity()).eval() * scale.asDiagonal();
-  const Vector step = inverse * e.gradient;
+  const ChainVector scale = e.information.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
+  const ChainMatrix scaled =
+      scale.asDiagonal() * e.information * scale.asDiagonal() + 1e-14 * ChainMatrix::Identity().eval();
+  const ChainMatrix inverse =
+      scale.asDiagonal() * scaled.ldlt().solve(ChainMatrix::Identity()).eval() * scale.asDiagonal();
+  const ChainVector step = inverse * e.gradient;
 
   EllipseChain moved = chain;
   moved.shape = chain.shape.moved(step.head<5>());

@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "calib/ellipse_judgement.h"
+#include "calib/field_cells.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kCellSize_uT = 0.7;
-constexpr std::uint64_t kFirstFit = 20;  // readings
-constexpr double kJudged = 50;           // readings held against a fit before it may find others surprising
-constexpr int kMostIterations = 200;
+constexpr std::uint64_t kFirstEllipseFit = 20;  // readings
+constexpr int kMostEllipseIterations = 200;
 
 /// A beginning that depends on the summary alone; the scatter about it is where robust weights begin.
 std::optional<EllipseFit> started(const EllipseCells& cells) {
@@ -51,9 +50,10 @@ void EllipseEstimator::update(const Eigen::Vector3d& field_body_uT, double roll_
   reading << field, vertical_in_level(roll_rad, pitch_rad);
   cells_.add(reading);
   ++samples_;
-  if (samples_ < kFirstFit) return;
+  if (samples_ < kFirstEllipseFit) return;
   // Early beginnings are poor ones, on short arcs: begun anew each time the readings have doubled.
-  if (std::has_single_bit(samples_ / kFirstFit) && samples_ % kFirstFit == 0) fit_ = started(cells_.cells());
+  if (std::has_single_bit(samples_ / kFirstEllipseFit) && samples_ % kFirstEllipseFit == 0)
+    fit_ = started(cells_.cells());
   if (samples_ % static_cast<std::uint64_t>(parameters_.slice_samples) != 0) return;
   if (!fit_) fit_ = started(cells_.cells());
   if (fit_) fit_ = improve(*fit_, cells_.cells(), parameters_.noise_uT);
@@ -66,7 +66,7 @@ void EllipseEstimator::absorb(const EllipseEstimator& other) {
 
 void EllipseEstimator::settle() {
   fit_ = started(cells_.cells());
-  for (int i = 0; fit_ && !fit_->settled && i < kMostIterations; ++i) {
+  for (int i = 0; fit_ && !fit_->settled && i < kMostEllipseIterations; ++i) {
     fit_ = improve(*fit_, cells_.cells(), parameters_.noise_uT);
   }
 }

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "calib/ellipse_shape.h"
+
 namespace navcal::calib {
 namespace {
 
 constexpr double kOutlier = 6;         // cells further off, in standard deviations of one reading, count less
 constexpr double kPriorReadings = 20;  // what the noise believed beforehand is worth
-constexpr std::size_t kSectors = 36;
 
 struct Distance {
   double distance_uT = 0;
@@ -58,7 +59,7 @@ struct Sums {
   EllipseShape::Matrix information = EllipseShape::Matrix::Zero();
   EllipseShape::Vector gradient = EllipseShape::Vector::Zero();
   double cost = 0, count = 0, square = 0;
-  std::array<double, kSectors> sector_count{}, sector_sum{};
+  std::array<double, kSharedSectors> sector_count{}, sector_sum{};
 
   Sums(const EllipseShape& shape, const EllipseCells& cells, double scale_uT) {
     for (const auto& cell : cells) {
@@ -72,7 +73,7 @@ struct Sums {
       square += weight * (d.distance_uT * d.distance_uT +
                           d.normal.dot(cell.scatter.topLeftCorner<2, 2>() * d.normal) / cell.count);
       const double turns = std::atan2(-d.foot.y(), d.foot.x()) / (2 * std::numbers::pi);
-      const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
+      const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSharedSectors) % kSharedSectors;
       sector_count[sector] += weight;
       sector_sum[sector] += weight * d.distance_uT;
     }
@@ -80,7 +81,7 @@ struct Sums {
 
   [[nodiscard]] double misfit(double variance_uT2) const {
     double sectors = 0, square_sum = 0;
-    for (std::size_t i = 0; i < kSectors; ++i) {
+    for (std::size_t i = 0; i < kSharedSectors; ++i) {
       if (sector_count[i] < 3) continue;
       sectors += 1;
       square_sum += sector_sum[i] * sector_sum[i] / sector_count[i];

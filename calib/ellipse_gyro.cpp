@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kGroupTurn_rad = 0.035;
 constexpr double kGroupTime_s = 1;
-constexpr std::size_t kFirstFit = 20;  // groups
-constexpr int kMostIterations = 200;
+constexpr std::size_t kFirstChainFit = 20;  // groups
+constexpr int kMostChainIterations = 200;
 
 }  // namespace
 
@@ -39,7 +39,8 @@ void EllipseGyro::update(const Eigen::Vector3d& field_body_uT, double roll_rad, 
   add(field, vertical_in_level(roll_rad, pitch_rad), way, turn.begins_segment || broken_);
   broken_ = false;
   ++samples_;
-  if (groups_.size() < kFirstFit || samples_ % static_cast<std::uint64_t>(parameters_.slice_samples) != 0) return;
+  if (groups_.size() < kFirstChainFit || samples_ % static_cast<std::uint64_t>(parameters_.slice_samples) != 0)
+    return;
   if (!shape_found_ || std::has_single_bit(samples_ / static_cast<std::uint64_t>(parameters_.slice_samples))) {
     shape_found_ = start(chain_, groups_, parameters_.gyro);
   }
@@ -91,8 +92,8 @@ void EllipseGyro::iterate() {
 void EllipseGyro::set_gyro(const GyroBelief& gyro) { parameters_.gyro = gyro; }
 
 void EllipseGyro::settle() {
-  shape_found_ = groups_.size() >= kFirstFit && start(chain_, groups_, parameters_.gyro);
-  for (int i = 0; shape_found_ && !chain_.settled && i < kMostIterations; ++i) iterate();
+  shape_found_ = groups_.size() >= kFirstChainFit && start(chain_, groups_, parameters_.gyro);
+  for (int i = 0; shape_found_ && !chain_.settled && i < kMostChainIterations; ++i) iterate();
 }
 
 EllipseGyro::Matrix EllipseGyro::covariance() const { return chain_.covariance; }

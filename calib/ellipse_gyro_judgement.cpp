@@ -7,26 +7,23 @@
 #include <string>
 #include <vector>
 
+#include "base/angles.h"
 #include "calib/ellipse_gyro.h"
 #include "calib/ellipse_judgement.h"
+#include "calib/ellipse_shape.h"
 #include "calib/field_coverage.h"
 
 namespace navcal::calib {
-namespace {
-
-constexpr std::size_t kSectors = 36;
-
-}  // namespace
 
 /// In both components, unlike the ellipse's: the gyro says where on the ellipse one should be.
 EllipseShape::Matrix EllipseGyro::stated_covariance(double model_error_uT) const {
   using Columns = Eigen::Matrix<double, EllipseShape::kParameters, 2>;
-  std::array<Columns, kSectors> sums;
+  std::array<Columns, kSharedSectors> sums;
   sums.fill(Columns::Zero());
   EllipseShape::Vector by_vertical = EllipseShape::Vector::Zero();
   for (std::size_t k = 0; k < std::min(groups_.size(), chain_.headings_rad.size()); ++k) {
     const double turns = chain_.headings_rad[k] / (2 * std::numbers::pi);
-    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
+    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSharedSectors) % kSharedSectors;
     const double weight = groups_[k].count / (parameters_.noise_uT * parameters_.noise_uT);
     const Columns slope = weight * EllipseShape::slope(chain_.headings_rad[k]).transpose();
     sums[sector] += slope;
@@ -45,8 +42,7 @@ EllipseShape::Matrix EllipseGyro::stated_covariance(double model_error_uT) const
 
 Judgement EllipseGyro::judgement() const {
   constexpr double kFullTurn_rad = 2 * std::numbers::pi;
-  constexpr double kDegree = std::numbers::pi / 180;
-  constexpr double kLeastArc_rad = 45 * kDegree;
+  constexpr double kLeastArc_rad = 45 * base::kRadiansPerDegree;
   constexpr double kMostMisfit = 4;  // a gyro of another scale or bias than believed shows here
   Judgement judgement;
   judgement.samples = samples_;
@@ -76,9 +72,9 @@ Judgement EllipseGyro::judgement() const {
   const double worst_rad = worst_heading_std_rad(chain_.shape, stated_covariance(parameters_.model_error_uT));
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(chain_.shape))) {
-    return refuse(
-        "the heading would be uncertain by " + rounded(worst_rad / kDegree, 1) + " degrees where it is worst",
-        coverage.manoeuvre(kFullTurn_rad));
+    return refuse("the heading would be uncertain by " + rounded(worst_rad / base::kRadiansPerDegree, 1) +
+                      " degrees where it is worst",
+                  coverage.manoeuvre(kFullTurn_rad));
   }
   judgement.accepted = true;
   return judgement;

@@ -8,13 +8,13 @@
 #include <numbers>
 #include <vector>
 
+#include "base/symmetric_eigen.h"
 #include "calib/ellipse_estimator.h"
+#include "calib/ellipse_shape.h"
 #include "calib/field_coverage.h"
 
 namespace navcal::calib {
 namespace {
-
-constexpr std::size_t kSectors = 36;
 
 double squares(const EllipseShape& shape, const EllipseCells& cells) {
   double sum = 0;
@@ -28,14 +28,14 @@ double squares(const EllipseShape& shape, const EllipseCells& cells) {
 }  // namespace
 
 EllipseShape::Matrix stated_covariance(const EllipseFit& fit, const EllipseCells& cells, double model_error_uT) {
-  std::array<EllipseShape::Vector, kSectors> sums;
+  std::array<EllipseShape::Vector, kSharedSectors> sums;
   sums.fill(EllipseShape::Vector::Zero());
   EllipseShape::Vector by_vertical = EllipseShape::Vector::Zero();
   const Eigen::Matrix2d inverse = fit.shape.axes_uT.inverse();
   for (const auto& cell : cells) {
     const Eigen::Vector2d u = fit.shape.foot(cell.mean.head<2>());
     const double turns = std::atan2(-u.y(), u.x()) / (2 * std::numbers::pi);
-    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors) % kSectors;
+    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSharedSectors) % kSharedSectors;
     const Eigen::Vector2d normal = (inverse * u).normalized();
     const EllipseShape::Vector row = cell.count * EllipseShape::slope(u).transpose() * normal;
     sums[sector] += row;
@@ -53,10 +53,9 @@ EllipseShape::Matrix stated_covariance(const EllipseFit& fit, const EllipseCells
 }
 
 double curvature_of(const EllipseFit& fit, const EllipseCells& cells) {
-  const Eigen::SelfAdjointEigenSolver<EllipseShape::Matrix> eigen(fit.covariance);
+  const base::SymmetricEigen eigen = base::symmetric_eigen(fit.covariance);
   constexpr int kLargest = EllipseShape::kParameters - 1;
-  const EllipseShape::Vector move =
-      2 * std::sqrt(eigen.eigenvalues()[kLargest]) * eigen.eigenvectors().col(kLargest);
+  const EllipseShape::Vector move = 2 * std::sqrt(eigen.values[kLargest]) * eigen.vectors.col(kLargest);
   const double expected = 4 * fit.residual_uT * fit.residual_uT;
   const double here = squares(fit.shape, cells);
   double worst = 1;
@@ -76,9 +75,9 @@ double condition_of(const Eigen::Matrix<double, N, N>& covariance) {
   }
   const Eigen::Matrix<double, N, 1> scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix<double, N, N> scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> eigen(scaled, Eigen::EigenvaluesOnly);
-  const double least = eigen.eigenvalues()[0];
-  return least > 0 ? eigen.eigenvalues()[N - 1] / least : std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd values = base::symmetric_eigenvalues(scaled);
+  const double least = values[0];
+  return least > 0 ? values[N - 1] / least : std::numeric_limits<double>::infinity();
 }
 template double condition_of(const Eigen::Matrix<double, 5, 5>&);
 template double condition_of(const Eigen::Matrix<double, 7, 7>&);

@@ -8,6 +8,9 @@
 
 namespace navcal::calib {
 
+/// Sectors of heading within which neighbouring readings share their error.
+inline constexpr std::size_t kSharedSectors = 36;
+
 /// Model: levelled field = centre + S u(psi), u = (cos psi, -sin psi), psi the magnetic heading; uT, forward and
 /// starboard, S symmetric: its size is the horizontal field's, its departure from a multiple of the unit matrix
 /// soft iron. THESIS 4.18 turned round, without its rotation by the sampling.

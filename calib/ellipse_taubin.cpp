@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "base/symmetric_eigen.h"
 #include "calib/ellipse_fit.h"
 
 namespace navcal::calib {
@@ -29,7 +30,7 @@ std::optional<Frame> frame_of(const EllipseCells& cells) {
     const Eigen::Vector2d off = cell.mean.head<2>() - frame.origin_uT;
     scatter += cell.count * off * off.transpose();
   }
-  const Eigen::Vector2d extent = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvalues();
+  const Eigen::Vector2d extent = base::symmetric_eigenvalues(scatter);
   if (!(extent[0] > 1e-8 * extent[1])) return std::nullopt;
   frame.scale_uT = std::sqrt(scatter.trace() / frame.count);
   return frame;
@@ -42,11 +43,12 @@ std::optional<EllipseShape> ellipse_of(const Conic& q, double constant, const Fr
   if (!(form.determinant() > 1e-12 * form.squaredNorm())) return std::nullopt;
   const Eigen::Vector2d centre = -0.5 * form.inverse() * q.tail<2>();
   const double level = centre.dot(form * centre) - constant;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(form / level);
-  if (!(axes.eigenvalues()[0] > 0)) return std::nullopt;
+  const base::SymmetricEigen axes = base::symmetric_eigen(form / level);
+  if (!(axes.values[0] > 0)) return std::nullopt;
   EllipseShape shape;
   shape.centre_uT = frame.origin_uT + frame.scale_uT * centre;
-  shape.axes_uT = frame.scale_uT * axes.operatorInverseSqrt();
+  shape.axes_uT = frame.scale_uT * axes.vectors * axes.values.cwiseSqrt().cwiseInverse().asDiagonal() *
+                  axes.vectors.transpose();
   return shape.sane() ? std::optional(shape) : std::nullopt;
 }
 
@@ -89,8 +91,8 @@ std::optional<EllipseShape> taubin_ellipse(const EllipseCells& cells) {
   }
   values -= mean * mean.transpose();
   gradients += 1e-12 * gradients.trace() * ConicMatrix::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<ConicMatrix> eigen(values, gradients);
-  const Conic q = eigen.eigenvectors().col(0);
+  const base::SymmetricEigen eigen = base::generalized_symmetric_eigen(values, gradients);
+  const Conic q = eigen.vectors.col(0);
   if (q.allFinite()) {
     if (auto shape = ellipse_of(q, -q.dot(mean), *frame)) return shape;
   }

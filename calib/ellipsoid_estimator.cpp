@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "calib/ellipsoid_judgement.h"
+#include "calib/field_cells.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kCellSize_uT = 0.7;
-constexpr std::uint64_t kFirstFit = 40;  // readings
-constexpr int kMostIterations = 50;      // ten or so where the data determine the shape
-constexpr double kJudged = 50;           // readings held against a fit before it may find others surprising
+constexpr std::uint64_t kFirstEllipsoidFit = 40;  // readings
+constexpr int kMostEllipsoidIterations = 50;      // ten or so where the data determine the shape
 
 }  // namespace
 
@@ -60,9 +59,9 @@ void EllipsoidEstimator::update(const Eigen::Vector3d& field_body_uT, double rol
   (tilt_known ? cells_ : tiltless_).add(reading);
   blocks_.update(field_body_uT, reading.tail<3>());
   ++samples_;
-  if (samples_ < kFirstFit) return;
+  if (samples_ < kFirstEllipsoidFit) return;
   // As with the ellipse: early beginnings are poor ones.
-  if (std::has_single_bit(samples_ / kFirstFit) && samples_ % kFirstFit == 0) begin();
+  if (std::has_single_bit(samples_ / kFirstEllipsoidFit) && samples_ % kFirstEllipsoidFit == 0) begin();
   if (samples_ % static_cast<std::uint64_t>(parameters_.slice_samples) != 0) return;
   if (!fit_) begin();
   if (fit_) iterate();
@@ -108,12 +107,12 @@ void EllipsoidEstimator::settle() {
   // Weights and shape in turn; three rounds change either by less than a tenth of its error.
   for (int round = 0; round < 3; ++round) {
     fit_->settled = false;
-    for (int i = 0; !fit_->settled && i < kMostIterations; ++i)
+    for (int i = 0; !fit_->settled && i < kMostEllipsoidIterations; ++i)
       fit_ = improve(*fit_, all, noise_, {parameters_.known, parameters_.soft_iron_std});
     noise_ = fitted_noise(fit_->shape, all, blocks_, believed(), noise_);
   }
   fit_->settled = false;
-  for (int i = 0; !fit_->settled && i < kMostIterations; ++i)
+  for (int i = 0; !fit_->settled && i < kMostEllipsoidIterations; ++i)
     fit_ = improve(*fit_, all, noise_, {parameters_.known, parameters_.soft_iron_std});
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/angles.h"
 #include "calib/ellipse_judgement.h"
 #include "calib/ellipsoid_estimator.h"
 #include "calib/field_coverage.h"
@@ -59,7 +60,6 @@ double EllipsoidEstimator::tilt_seen_rad() const {
 Judgement EllipsoidEstimator::judgement() const {
   constexpr double kFullTurn_rad = 2 * std::numbers::pi;
   constexpr double kLeastArc_rad = 3.5;
-  constexpr double kDegree = std::numbers::pi / 180;
   Judgement judgement;
   judgement.samples = samples_;
   judgement.condition = std::numeric_limits<double>::infinity();
@@ -88,7 +88,7 @@ Judgement EllipsoidEstimator::judgement() const {
   const bool all_round = is_all_round(all, fit_->shape);
   judgement.coverage = all_round ? 1 : coverage.arc_rad() / kFullTurn_rad;
   const std::string tilt_more = "turn through a full circle with roll or pitch beyond ";
-  if (coverage.arc_rad() < kLeastArc_rad && tilt_rad < 60 * kDegree && !all_round) {
+  if (coverage.arc_rad() < kLeastArc_rad && tilt_rad < 60 * base::kRadiansPerDegree && !all_round) {
     return refuse("headings within " + whole_degrees(coverage.arc_rad()) + " degrees, tilt within " +
                       whole_degrees(tilt_rad) + " degrees do not tell the field's offset from its size",
                   coverage.manoeuvre(kFullTurn_rad));
@@ -99,7 +99,7 @@ Judgement EllipsoidEstimator::judgement() const {
   const double relative = parameters_.model_error * (1 + centre / field);
   const auto covariance = stated_covariance(*fit_, all, noise_, relative);
   const double vertical_uT = std::sqrt(covariance(2, 2));
-  if (centre - 2 * vertical_uT > field && tilt_rad < 45 * kDegree) {
+  if (centre - 2 * vertical_uT > field && tilt_rad < 45 * base::kRadiansPerDegree) {
     return refuse("the hard iron of " + rounded(centre, 0) + " uT exceeds the Earth's field, and tilt within " +
                       whole_degrees(tilt_rad) + " degrees does not determine it",
                   tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
@@ -116,7 +116,8 @@ Judgement EllipsoidEstimator::judgement() const {
   if (worst_rad >
       accepted_heading_std_rad(parameters_.heading_std_rad, worst_raw_heading_error_rad(fit_->shape))) {
     return refuse(
-        "the heading would be uncertain by " + rounded(worst_rad / kDegree, 1) + " degrees where it is worst",
+        "the heading would be uncertain by " + rounded(worst_rad / base::kRadiansPerDegree, 1) +
+            " degrees where it is worst",
         coverage.arc_rad() < 0.9 * kFullTurn_rad ? coverage.manoeuvre(kFullTurn_rad) : tilt_manoeuvre(tilt_rad));
   }
   judgement.accepted = true;

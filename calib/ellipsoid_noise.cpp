@@ -8,10 +8,10 @@
 namespace navcal::calib {
 namespace {
 
-constexpr double kUnit_uT = 50;        // of the monomials, so that they are of the order of one
-constexpr double kLeastBlocks = 30;    // fewer do not tell a variance
-constexpr double kAbsorbed = 7;        // block sums that the parameters of a line make small
-constexpr double kPriorReadings = 50;  // what the noise believed beforehand is worth
+constexpr double kUnit_uT = 50;                 // of the monomials, so that they are of the order of one
+constexpr double kLeastBlocks = 30;             // fewer do not tell a variance
+constexpr double kAbsorbed = 7;                 // block sums that the parameters of a line make small
+constexpr double kEllipsoidPriorReadings = 50;  // what the noise believed beforehand is worth
 
 }  // namespace
 
@@ -110,10 +110,10 @@ Departures departures_of(const EllipsoidShape& shape, const EllipsoidCells& cell
   return sums;
 }
 
-/// Standard deviation with the believed one as kPriorReadings of the readings.
+/// Standard deviation with the believed one as kEllipsoidPriorReadings of the readings.
 double pooled(double square, double count, double believed) {
-  const double prior = kPriorReadings * believed * believed;
-  return std::sqrt((prior + square * count / std::max(1., count - 5)) / (kPriorReadings + count));
+  const double prior = kEllipsoidPriorReadings * believed * believed;
+  return std::sqrt((prior + square * count / std::max(1., count - 5)) / (kEllipsoidPriorReadings + count));
 }
 
 }  // namespace

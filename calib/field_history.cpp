@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "calib/field_cells.h"
+
 namespace navcal::calib {
 namespace {
 
-constexpr double kCellSize_uT = 0.7;
 /// Fewer readings give no shape of their own.
 constexpr std::uint64_t kLeastReadings = 20;
 

@@ -10,9 +10,9 @@ namespace {
 constexpr double kMemory = 300;        // readings of which the noise is learnt
 constexpr double kPriorReadings = 50;  // weight of the noise believed beforehand
 constexpr double kTiltNoise_rad = 0.01;
-constexpr std::uint64_t kLeastReadings = 20;  // between two fits
-constexpr std::uint64_t kFitShare = 20;       // a fit each time the readings grew by one in so many
-constexpr double kWellKnown = 0.25;           // variance of the fit over that of the noise
+constexpr std::uint64_t kLeastPredicted = 20;  // between two fits
+constexpr std::uint64_t kFitShare = 20;        // a fit each time the readings grew by one in so many
+constexpr double kWellKnown = 0.25;            // variance of the fit over that of the noise
 
 double pooled(double believed, double weight, double found_square) {
   return std::sqrt((kPriorReadings * believed * believed + weight * found_square) / (kPriorReadings + weight));
@@ -80,7 +80,7 @@ void FieldPredictor::learn_noise(const PredictedReading& reading) {
 }
 
 void FieldPredictor::fit(const EllipsoidCells& cells) {
-  next_fit_ = samples_ + std::max(kLeastReadings, samples_ / kFitShare);
+  next_fit_ = samples_ + std::max(kLeastPredicted, samples_ / kFitShare);
   const EllipsoidCells* const all[] = {&cells};
   const bool early = samples_ < 4 * kFirstFit;  // early shapes are poor beginnings
   if (const auto fit = fit_segments(all, noise(), belief_, fitted_ && !early ? &shape_ : nullptr)) set_fit(*fit);

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "calib/coverage.h"
 #include "calib/gps_coefficients.h"
 
@@ -14,7 +14,6 @@ namespace {
 using Unknowns = GpsCompass::Vector;
 
 constexpr int kHeadings = 36;  // at which the uncertainty is looked at
-constexpr double kTurn_rad = 2 * std::numbers::pi;
 constexpr int kMostSteps = 20;
 constexpr double kStepDone = 1e-12;
 
@@ -100,14 +99,14 @@ GpsCompass::Estimate GpsCompass::iterate(Vector x, int steps) const {
     }
     estimate.converged = change.cwiseAbs().maxCoeff() < kStepDone;
   }
-  x[0] = std::remainder(x[0], kTurn_rad);
+  x[0] = std::remainder(x[0], base::kTurn_rad);
   estimate.unknowns = x;
   estimate.fixes = summary_.fixes();
   // Each fix has a velocity and, but for the first, a position, of two axes.
   estimate.reduced_chi_squared = now / (4.0 * static_cast<double>(summary_.fixes()));
   estimate.covariance *= std::max(1.0, estimate.reduced_chi_squared);
   for (int p = 0; p < kHeadings; ++p) {
-    const double heading_rad = kTurn_rad * p / kHeadings;
+    const double heading_rad = base::kTurn_rad * p / kHeadings;
     const auto row = deviation_harmonics(heading_rad);
     const double std_rad = std::sqrt(row.dot(estimate.covariance.topLeftCorner<5, 5>() * row));
     if (std_rad <= estimate.worst_std_rad) continue;

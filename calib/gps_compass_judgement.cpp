@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 
+#include "base/symmetric_eigen.h"
 #include "calib/coverage.h"
 #include "calib/gps_compass.h"
 
@@ -23,8 +23,7 @@ Judgement GpsCompass::judgement() const {
   const Vector std = estimate_->covariance.diagonal().cwiseSqrt();
   const Matrix correlation =
       std.cwiseInverse().asDiagonal() * estimate_->covariance * std.cwiseInverse().asDiagonal();
-  const Vector eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix>(correlation, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector eigenvalues = base::symmetric_eigenvalues(correlation);
   if (eigenvalues[0] > 0) judgement.condition = eigenvalues[kUnknowns - 1] / eigenvalues[0];
   judgement.accepted = estimate_->converged && estimate_->worst_std_rad <= parameters_.accepted_std_rad;
   if (judgement.accepted) return judgement;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::calib {
 namespace {
@@ -11,8 +12,6 @@ namespace {
 constexpr double kForgetting = 0.9;
 /// A block that turns by less does not tell deviations apart.
 constexpr double kLeastTurn_rad = 0.5;
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
 /// `base` with the estimate of one calibrator.
 Correction with(const Correction& base, const Correction& estimates, Calibrator calibrator) {
@@ -71,7 +70,7 @@ bool Comparison::contradicts() const {
 
 void HeldOut::Scatter::add(double residual_rad) {
   // About the mean so far, so that a residual near plus or minus pi is no leap.
-  const double departure = wrapped(residual_rad - mean);
+  const double departure = base::wrapped(residual_rad - mean);
   ++count;
   mean += departure / count;
   sum += departure * departure * (count - 1) / count;

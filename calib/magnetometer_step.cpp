@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "calib/field_cells.h"
 #include "calib/magnetometer.h"
 
 namespace navcal::calib {
@@ -24,7 +25,6 @@ constexpr std::uint64_t kLeastWaiting = 20;
 constexpr double kMostSquare = 36;
 /// The step must explain this share of what the readings are off.
 constexpr double kLeastShare = 0.5;
-constexpr double kCellSize_uT = 0.7;
 
 double squares_of(const EllipsoidCells& cells, EllipsoidShape shape, const Eigen::Vector3d& centre_uT,
                   const SegmentNoise& noise) {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/vectors.h"
+
 namespace navcal::calib {
 namespace {
 
@@ -28,10 +30,6 @@ constexpr double kHard_uT = MotorFieldEvidence::kHardIron_uT;
 using Rows = Eigen::Matrix<double, 3, kAll>;
 using Information = Eigen::Matrix<double, kAll, kAll>;
 using Unknowns = Eigen::Matrix<double, kAll, 1>;
-
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  return (Eigen::Matrix3d() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished();
-}
 
 /// Far above what the noise of the gyros turns and tilts a window by.
 constexpr double kTurn_rad = 0.05, kTilt_rad = 0.05;
@@ -130,7 +128,7 @@ class Turning {
     Rows rows;
     rows.middleCols<3>(kField) = turned_;
     rows.middleCols<3>(kHard).setIdentity();
-    rows.middleCols<3>(kBias) = cross(u) * turned_ * bias_;
+    rows.middleCols<3>(kBias) = base::cross_product_matrix(u) * turned_ * bias_;
     rows.col(kScale) = u.cross(turned_ * scale_);
     rows.col(kDelay) = before_.rate_rad_s.cross(u);
     for (int i = 0; i < 3; ++i) rows.middleCols<3>(kSoft + 3 * i) = Eigen::Matrix3d::Identity() * u[i];

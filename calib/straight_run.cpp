@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kTurn_rad = 2 * std::numbers::pi;
 constexpr double kRateMemory_s = 1;
 constexpr double kFixesForJumps = 5;
 constexpr std::uint32_t kJumpsToEnd = 3;  // it is not the fixes that are wrong
@@ -42,12 +42,12 @@ std::optional<StraightRun::Line> StraightRun::update_heading(double time_s, doub
     straight_since_s_ = time_s;
     first_heading_rad_ = heading_rad;
   } else {
-    const double turn_rad = std::remainder(heading_rad - heading_rad_, kTurn_rad);
+    const double turn_rad = std::remainder(heading_rad - heading_rad_, base::kTurn_rad);
     steered_ += duration_s * direction(heading_rad_ + turn_rad / 2);
     turn_rate_rad_s_ -= std::expm1(-duration_s / kRateMemory_s) * (turn_rad / duration_s - turn_rate_rad_s_);
     const bool turning =
         std::abs(turn_rate_rad_s_) > parameters_.turn_rate_limit_rad_s ||
-        std::abs(std::remainder(heading_rad - first_heading_rad_, kTurn_rad)) > parameters_.band_rad;
+        std::abs(std::remainder(heading_rad - first_heading_rad_, base::kTurn_rad)) > parameters_.band_rad;
     if (turning) {
       ended = end();
       straight_since_s_ = time_s;

@@ -3,24 +3,21 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/angles.h"
 #include "calib/gps_coefficients.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kTurn_rad = 2 * std::numbers::pi;
-constexpr double kSector_rad = kTurn_rad / Swing::kHeadings;
+constexpr double kSector_rad = base::kTurn_rad / Swing::kHeadings;
 constexpr std::size_t kLeastForFit = 5;
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, kTurn_rad); }
 
 double nominal_rad(std::size_t sector) { return kSector_rad * static_cast<double>(sector); }
 
-std::size_t sector_of(double heading_rad) {
-  const double turns = heading_rad / kTurn_rad;
+std::size_t swing_sector(double heading_rad) {
+  const double turns = heading_rad / base::kTurn_rad;
   return static_cast<std::size_t>(std::lround((turns - std::floor(turns)) * Swing::kHeadings)) % Swing::kHeadings;
 }
 
@@ -31,8 +28,8 @@ Swing::Swing(const Parameters& parameters) : parameters_(parameters) {}
 void Swing::update(double time_s, double measured_heading_rad, double reference_heading_rad) {
   if (!std::isfinite(time_s + measured_heading_rad + reference_heading_rad)) return;
   if (rest_ && time_s <= rest_->last_s) return;
-  const std::size_t sector = sector_of(measured_heading_rad);
-  const double heading_rad = wrapped(measured_heading_rad - nominal_rad(sector));
+  const std::size_t sector = swing_sector(measured_heading_rad);
+  const double heading_rad = base::wrapped(measured_heading_rad - nominal_rad(sector));
   const bool goes_on = rest_ && sector == rest_->sector && time_s - rest_->last_s <= parameters_.longest_gap_s &&
                        std::abs(heading_rad - rest_->mean_rad) <= parameters_.band_rad;
   if (rest_ && !goes_on) {
@@ -40,13 +37,13 @@ void Swing::update(double time_s, double measured_heading_rad, double reference_
     rest_.reset();
   }
   if (std::abs(heading_rad) > parameters_.sector_rad) return;
-  const double deviation_rad = wrapped(measured_heading_rad - reference_heading_rad);
+  const double deviation_rad = base::wrapped(measured_heading_rad - reference_heading_rad);
   if (!rest_) rest_ = Rest{.sector = sector, .begin_s = time_s, .about_rad = deviation_rad};
   rest_->last_s = time_s;
   rest_->mean_rad += (heading_rad - rest_->mean_rad) / static_cast<double>(++rest_->of_mean);
   if (time_s - rest_->begin_s < parameters_.settle_s) return;
   rest_->heading += heading_rad;
-  rest_->deviation += wrapped(deviation_rad - rest_->about_rad);
+  rest_->deviation += base::wrapped(deviation_rad - rest_->about_rad);
   ++rest_->readings;
 }
 
@@ -59,7 +56,7 @@ void Swing::add(const Rest& rest, std::array<Sums, kHeadings>& sums) const {
   if (sum.rests == 0) sum.about_rad = rest.about_rad;
   sum.weight += weight;
   sum.heading += weight * rest.heading / readings;
-  sum.deviation += weight * wrapped(rest.about_rad + rest.deviation / readings - sum.about_rad);
+  sum.deviation += weight * base::wrapped(rest.about_rad + rest.deviation / readings - sum.about_rad);
   ++sum.rests;
   sum.readings += rest.readings;
 }
@@ -76,9 +73,9 @@ std::array<Swing::Heading, Swing::kHeadings> Swing::headings() const {
   for (std::size_t i = 0; i < kHeadings; ++i) {
     const Sums& sum = all[i];
     if (sum.rests == 0) continue;
-    const double heading_rad = wrapped(nominal_rad(i) + sum.heading / sum.weight);
-    headings[i] = {.heading_rad = heading_rad < 0 ? heading_rad + kTurn_rad : heading_rad,
-                   .deviation_rad = wrapped(sum.about_rad + sum.deviation / sum.weight),
+    const double heading_rad = base::wrapped(nominal_rad(i) + sum.heading / sum.weight);
+    headings[i] = {.heading_rad = heading_rad < 0 ? heading_rad + base::kTurn_rad : heading_rad,
+                   .deviation_rad = base::wrapped(sum.about_rad + sum.deviation / sum.weight),
                    .std_rad = 1 / std::sqrt(sum.weight),
                    .rests = sum.rests,
                    .readings = sum.readings};
@@ -106,18 +103,18 @@ std::optional<Swing::Estimate> Swing::estimate() const {
     const Coefficients f = deviation_harmonics(heading.heading_rad);
     const double weight = 1 / (heading.std_rad * heading.std_rad);
     information += weight * f * f.transpose();
-    right += weight * f * wrapped(heading.deviation_rad - about_rad);
+    right += weight * f * base::wrapped(heading.deviation_rad - about_rad);
   }
   const Eigen::LDLT<Matrix> solver(information);
   Estimate estimate;
   estimate.deviation = solver.solve(right);
-  estimate.deviation[0] = wrapped(estimate.deviation[0] + about_rad);
+  estimate.deviation[0] = base::wrapped(estimate.deviation[0] + about_rad);
   estimate.covariance = solver.solve(Matrix::Identity());
   double square = 0;
   for (const Heading& heading : seen) {
     if (heading.rests == 0) continue;
     const double off_rad =
-        wrapped(heading.deviation_rad - deviation_harmonics(heading.heading_rad).dot(estimate.deviation));
+        base::wrapped(heading.deviation_rad - deviation_harmonics(heading.heading_rad).dot(estimate.deviation));
     square += off_rad * off_rad;
   }
   estimate.residual_rad = std::sqrt(square / static_cast<double>(count));
@@ -131,7 +128,7 @@ std::optional<std::array<double, Swing::kHeadings>> Swing::table_rad() const {
   std::array<double, kHeadings> table{};
   for (std::size_t i = 0; i < kHeadings; ++i) {
     const Coefficients way = deviation_harmonics(nominal_rad(i)) - deviation_harmonics(seen[i].heading_rad);
-    table[i] = wrapped(seen[i].deviation_rad + way.dot(fitted));
+    table[i] = base::wrapped(seen[i].deviation_rad + way.dot(fitted));
   }
   return table;
 }
@@ -139,12 +136,12 @@ std::optional<std::array<double, Swing::kHeadings>> Swing::table_rad() const {
 std::optional<double> Swing::deviation_rad(double measured_heading_rad) const {
   const auto table = table_rad();
   if (!table || !std::isfinite(measured_heading_rad)) return std::nullopt;
-  const double turns = measured_heading_rad / kTurn_rad;
+  const double turns = measured_heading_rad / base::kTurn_rad;
   const double place = (turns - std::floor(turns)) * kHeadings;
   const double below = std::floor(place);
   const std::size_t i = static_cast<std::size_t>(below) % kHeadings;
-  const double rise_rad = wrapped((*table)[(i + 1) % kHeadings] - (*table)[i]);
-  return wrapped((*table)[i] + (place - below) * rise_rad);
+  const double rise_rad = base::wrapped((*table)[(i + 1) % kHeadings] - (*table)[i]);
+  return base::wrapped((*table)[i] + (place - below) * rise_rad);
 }
 
 std::optional<double> Swing::remaining_s() const {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/square.h"
+
 namespace navcal::calib {
 namespace {
 
@@ -15,13 +17,11 @@ constexpr double kSlopeStd_rad_s = 0.1;
 /// Keeps the covariance regular where the fluid has settled; far below any inclinometer's resolution.
 constexpr double kSettledVariance_rad2 = 1e-12;
 
-double square(double x) { return x * x; }
-
 }  // namespace
 
 TiltSmoother::TiltSmoother(const Parameters& parameters) : parameters_(parameters) {
-  covariance_(kBiasX, kBiasX) = covariance_(kBiasY, kBiasY) = square(parameters.bias_std_rad_s);
-  covariance_(kScaleX, kScaleX) = covariance_(kScaleY, kScaleY) = square(parameters.scale_std);
+  covariance_(kBiasX, kBiasX) = covariance_(kBiasY, kBiasY) = base::square(parameters.bias_std_rad_s);
+  covariance_(kScaleX, kScaleX) = covariance_(kScaleY, kScaleY) = base::square(parameters.scale_std);
 }
 
 void TiltSmoother::start(const Eigen::Vector2d& shown_rad, const Eigen::Vector2d& slope_rad_s) {
@@ -30,8 +30,8 @@ void TiltSmoother::start(const Eigen::Vector2d& shown_rad, const Eigen::Vector2d
   state_.segment<2>(kRoll) = shown_rad + parameters_.lag_s * slope_rad_s;
   covariance_.topRows<4>().setZero();
   covariance_.leftCols<4>().setZero();
-  const double shown_variance = square(parameters_.tilt_noise_rad);
-  const double tilt_variance = shown_variance + square(kSlopeStd_rad_s * parameters_.lag_s);
+  const double shown_variance = base::square(parameters_.tilt_noise_rad);
+  const double tilt_variance = shown_variance + base::square(kSlopeStd_rad_s * parameters_.lag_s);
   for (const int i : {kRoll, kPitch}) {
     covariance_(i, i) = tilt_variance;
     covariance_(i + 2, i + 2) = covariance_(i, i + 2) = covariance_(i + 2, i) = shown_variance;
@@ -67,7 +67,7 @@ void TiltSmoother::predict(const Eigen::Vector3d& rate_rad_s, double duration_s)
 
   Covariance transition = Covariance::Identity();
   Eigen::Matrix<double, 2, kStates> by_state;
-  by_state.row(0) << tan_pitch * along, across * (1 + square(tan_pitch)), 0, 0, 1, tan_pitch * sin_roll,
+  by_state.row(0) << tan_pitch * along, across * (1 + base::square(tan_pitch)), 0, 0, 1, tan_pitch * sin_roll,
       rate_rad_s.x(), tan_pitch * sin_roll * rate_rad_s.y();
   by_state.row(1) << -across, 0, 0, 0, 0, cos_roll, 0, cos_roll * rate_rad_s.y();
   transition.topRows<2>() += duration_s * by_state;
@@ -77,12 +77,12 @@ void TiltSmoother::predict(const Eigen::Vector3d& rate_rad_s, double duration_s)
   }
   since_ = (transition * since_).eval();
   covariance_ = (transition * covariance_ * transition.transpose()).eval();
-  const double angle_variance = square(parameters_.rate_noise_rad_sqrt_s) * duration_s;
-  covariance_(kRoll, kRoll) += angle_variance * (1 + square(tan_pitch));
+  const double angle_variance = base::square(parameters_.rate_noise_rad_sqrt_s) * duration_s;
+  covariance_(kRoll, kRoll) += angle_variance * (1 + base::square(tan_pitch));
   covariance_(kPitch, kPitch) += angle_variance;
   for (const int i : {kShownRoll, kShownPitch}) covariance_(i, i) += kSettledVariance_rad2;
   for (const int i : {kBiasX, kBiasY}) {
-    covariance_(i, i) += square(parameters_.bias_walk_rad_s_sqrt_s) * duration_s;
+    covariance_(i, i) += base::square(parameters_.bias_walk_rad_s_sqrt_s) * duration_s;
   }
 }
 
@@ -90,7 +90,7 @@ void TiltSmoother::correct(const Eigen::Vector2d& shown_rad) {
   node(count_ - 1).gain = covariance_.ldlt().solve(since_).transpose();
   const Eigen::Matrix<double, kStates, 2> with_shown = covariance_.middleCols<2>(kShownRoll);
   Eigen::Matrix2d variance = with_shown.middleRows<2>(kShownRoll);
-  variance.diagonal().array() += square(parameters_.tilt_noise_rad);
+  variance.diagonal().array() += base::square(parameters_.tilt_noise_rad);
   const Eigen::Matrix<double, kStates, 2> gain = with_shown * variance.inverse();
   const State change = gain * (shown_rad - state_.segment<2>(kShownRoll));
   state_ += change;

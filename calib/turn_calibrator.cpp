@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/angles.h"
 #include "calib/coverage.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 /// Fewer sectors than this, and the vehicle has only yawed about a heading.
 constexpr std::size_t kNoTurn = 4;
 
@@ -95,7 +95,7 @@ void TurnCalibrator::judge_gyro(Judgement& judgement) const {
     refuse(judgement, said("the scale is known to %.1f %% only: the rate hardly changed", scale_std * 100),
            "turn the other way, or at another rate, too");
   } else if (!(bias_std <= limits_.bias_std_rad_s)) {
-    refuse(judgement, said("the bias is known to %.2f deg/s only", bias_std * kDegrees),
+    refuse(judgement, said("the bias is known to %.2f deg/s only", bias_std * base::kDegreesPerRadian),
            "go on for longer, straight and turning");
   }
 }
@@ -104,7 +104,8 @@ void TurnCalibrator::judge_compass(Judgement& judgement) const {
   const double heading_std = worst_heading_std_rad();
   if (heading_std <= limits_.heading_std_rad) return;
   const std::string missing = missing_turn(rose_);
-  refuse(judgement, said("the corrected heading would be known to %.1f degrees only", heading_std * kDegrees),
+  refuse(judgement,
+         said("the corrected heading would be known to %.1f degrees only", heading_std * base::kDegreesPerRadian),
          missing.empty() ? "turn slowly through the circle once more" : missing);
 }
 

@@ -1,7 +1,7 @@
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <limits>
 
+#include "base/symmetric_eigen.h"
 #include "calib/turn_filter.h"
 
 namespace navcal::calib {
@@ -27,8 +27,7 @@ double TurnFilter::condition() const {
   }
   const Eigen::Matrix<double, 6, 1> unit = information.diagonal().cwiseSqrt().cwiseInverse();
   information = (unit.asDiagonal() * information * unit.asDiagonal()).eval();
-  const Eigen::Matrix<double, 6, 1> eigenvalues =
-      Eigen::SelfAdjointEigenSolver<TurnCovariance>(information, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Matrix<double, 6, 1> eigenvalues = base::symmetric_eigenvalues(information);
   if (!(eigenvalues[0] > 0)) return kInfinity;
   return eigenvalues[5] / eigenvalues[0];
 }

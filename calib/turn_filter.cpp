@@ -4,12 +4,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::calib {
 namespace {
 
-constexpr double kTurn_rad = 2 * std::numbers::pi;
 /// Scales and biases (rad/s) are hardly more wrong than this; for weights and unwrapping only.
 constexpr double kLikelyError = 0.05;
 
@@ -19,8 +19,6 @@ double shrunk(double departure, double variance) {
 }
 
 constexpr int kConstants[] = {kScale, kB, kC, kD, kE};
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, kTurn_rad); }
 
 /// Fewer do not tell how large the noise is.
 constexpr std::uint64_t kEnoughInnovations = 50;
@@ -96,9 +94,9 @@ void TurnFilter::unwrap(const TurnStep& step) {
   const double bias =
       prior_.mean[kBias] + shrunk(estimate()[kBias] - prior_.mean[kBias], unscaled_covariance()(kBias, kBias));
   const double turn = scale * step.measured_angle_rad + bias * step.bias_time_s + step.tilt_angle_rad;
-  unwrapped_rad_ += turn + wrapped(step.heading_rad - measured_rad_ - turn);
+  unwrapped_rad_ += turn + base::wrapped(step.heading_rad - measured_rad_ - turn);
   // Whole turns are dropped, lest digits be lost over a long mission.
-  const double whole = unwrapped_rad_ - wrapped(unwrapped_rad_);
+  const double whole = unwrapped_rad_ - base::wrapped(unwrapped_rad_);
   unwrapped_rad_ -= whole;
   track_(0, 0) += whole;
 }
@@ -106,7 +104,7 @@ void TurnFilter::unwrap(const TurnStep& step) {
 void TurnFilter::start(const TurnStep& step) {
   const double heading_variance = parameters_.heading_noise_rad * parameters_.heading_noise_rad;
   const double pause_s = readings_ > 0 ? std::max(step.time_s - time_s_, 0.0) : 0;
-  unwrapped_rad_ = wrapped(step.heading_rad);
+  unwrapped_rad_ = base::wrapped(step.heading_rad);
   const Reading first = reading(step.heading_rad);
   track_.row(0) = -first.row.transpose();
   covariance_(0, 0) = heading_variance;
@@ -222,7 +220,7 @@ TurnCovariance TurnFilter::covariance() const {
 }
 
 double TurnFilter::heading_rad() const {
-  return wrapped(-track_(0, 0) + track_.row(0).tail<5>().dot(solution_.departure));
+  return base::wrapped(-track_(0, 0) + track_.row(0).tail<5>().dot(solution_.departure));
 }
 
 double TurnFilter::heading_variance_rad2() const {

@@ -4,14 +4,14 @@ namespace navcal::calib {
 namespace {
 
 /// Far beyond any scale, bias (rad/s) or deviation (rad), and still no limit to the accuracy of doubles.
-constexpr double kUnknown = 10;
+constexpr double kUnknownStd = 10;
 
 }  // namespace
 
 TurnPrior TurnPrior::unknown_gyro() {
   TurnPrior prior;
   for (int i : {kScale, kBias}) {
-    prior.covariance(i, i) = kUnknown * kUnknown;
+    prior.covariance(i, i) = kUnknownStd * kUnknownStd;
     prior.sought[static_cast<std::size_t>(i)] = true;
   }
   return prior;
@@ -28,7 +28,7 @@ TurnPrior TurnPrior::unknown_compass(double scale, double bias_rad_s, const Eige
 
 TurnPrior TurnPrior::unknown_both() {
   TurnPrior prior;
-  prior.covariance.diagonal().setConstant(kUnknown * kUnknown);
+  prior.covariance.diagonal().setConstant(kUnknownStd * kUnknownStd);
   prior.sought.fill(true);
   return prior;
 }

@@ -19,13 +19,13 @@
 namespace navcal::cli {
 namespace {
 
-struct Options {
+struct CalibrateCommandOptions {
   std::vector<std::string> files;
   std::string config, report;
   bool json = false;
 };
 
-void calibrate(const Options& options) {
+void calibrate(const CalibrateCommandOptions& options) {
   try {
     if (!options.report.empty()) expect_folder_of(options.report);
     std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
@@ -66,7 +66,7 @@ void calibrate(const Options& options) {
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateCommandOptions>();
   auto* command =
       app.add_subcommand("calibrate", "what a recording says of compass and gyros, and how sure it is");
   command

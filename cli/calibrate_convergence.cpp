@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string_view>
 
+#include "base/angles.h"
 #include "cli/calibrate_figures.h"
 #include "cli/svg_plot.h"
 #include "cli/time_axis.h"
@@ -15,7 +15,6 @@ namespace {
 
 using Ink = SvgPlot::Ink;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kLeastPoints = 4;
 
 struct Curve {
@@ -31,10 +30,13 @@ struct Group {
 };
 constexpr std::array kGroups{
     Group{"Gyros: scale", "scale", 1, {{{"gyro.scale", "A"}, {"gyro_b.scale", "B"}, {}, {}}}},
-    Group{"Gyros: bias", "deg/s", kDegrees, {{{"gyro.bias_rad_s", "A"}, {"gyro_b.bias_rad_s", "B"}, {}, {}}}},
+    Group{"Gyros: bias",
+          "deg/s",
+          base::kDegreesPerRadian,
+          {{{"gyro.bias_rad_s", "A"}, {"gyro_b.bias_rad_s", "B"}, {}, {}}}},
     Group{"Compass deviation",
           "degrees",
-          kDegrees,
+          base::kDegreesPerRadian,
           {{{"compass.B_rad", "B"}, {"compass.C_rad", "C"}, {"compass.D_rad", "D"}, {"compass.E_rad", "E"}}}},
     Group{"Magnetometer: offset",
           "uT",
@@ -45,11 +47,11 @@ constexpr std::array kGroups{
             {}}}},
     Group{"Misalignment",
           "degrees",
-          kDegrees,
+          base::kDegreesPerRadian,
           {{{"misalignment.A_rad", "A"}, {"gps_compass.A_rad", "A with B to E"}, {}, {}}}},
     Group{"Delay of the compass", "milliseconds", 1000, {{{"compass_delay.delay_s", "delay"}, {}, {}, {}}}},
 };
-constexpr std::array kInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
+constexpr std::array kCalibratorInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
 
 /// Where an error is this many times that of the end, the estimate has lost its support for a while.
 constexpr double kMuchWorse = 5;
@@ -119,7 +121,8 @@ std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estim
     if (curves.empty()) continue;
     const EarlyTimeAxis time = time_axis(curves);
     SvgPlot plot(group.title, time.axis(), {group.unit, late_range(curves, group.factor)});
-    for (std::size_t i = 0; i < curves.size(); ++i) draw(plot, kInks[i], names[i], curves[i], time, group.factor);
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      draw(plot, kCalibratorInks[i], names[i], curves[i], time, group.factor);
     figures.push_back(
         {group.title, plot.svg(),
          "With two standard errors to either side; what the first estimates need is not shown. The first "

@@ -18,7 +18,7 @@ namespace {
 
 using Ink = SvgPlot::Ink;
 
-constexpr std::size_t kMostDots = 1500;
+constexpr std::size_t kMostFieldDots = 1500;
 constexpr double kSide = 460;
 constexpr std::array<const char*, 3> kAxes{"forward, uT", "starboard, uT", "down, uT"};
 
@@ -60,7 +60,7 @@ Fields fields_of(const std::vector<TurnedSample>& samples, const std::optional<c
 /// Components `across` and `up` of every so many.
 std::vector<Point> projected(const std::vector<Eigen::Vector3d>& fields, int across, int up) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < fields.size(); i += fields.size() / kMostDots + 1) {
+  for (std::size_t i = 0; i < fields.size(); i += fields.size() / kMostFieldDots + 1) {
     points.push_back({fields[i][across], fields[i][up]});
   }
   return points;
@@ -132,7 +132,7 @@ Figure size_figure(const Fields& fields, bool level) {
   const TimeAxis time(fields.time_s);
   std::vector<Point> before, after;
   std::vector<double> heights;
-  for (std::size_t i = 0; i < fields.before.size(); i += fields.before.size() / kMostDots + 1) {
+  for (std::size_t i = 0; i < fields.before.size(); i += fields.before.size() / kMostFieldDots + 1) {
     before.push_back({time(fields.time_s[i]), fields.before[i].norm()});
     heights.push_back(before.back().y);
     if (fields.after.empty()) continue;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "calib/coverage.h"
 #include "cli/calibrate_words.h"
 #include "cli/svg_plot.h"
@@ -16,7 +17,6 @@ namespace {
 
 using Ink = SvgPlot::Ink;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kMostDots = 1500;
 /// A curve that is known no better is not worth a picture.
 constexpr double kWorstCurve_rad = 0.3;
@@ -28,7 +28,8 @@ std::size_t stride_for(std::size_t count) { return count / kMostDots + 1; }
 std::vector<Point> over_heading(const std::vector<HeadingResidual>& residuals, double HeadingResidual::*which) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < residuals.size(); i += stride_for(residuals.size())) {
-    points.push_back({residuals[i].heading_rad * kDegrees, residuals[i].*which * kDegrees});
+    points.push_back(
+        {residuals[i].heading_rad * base::kDegreesPerRadian, residuals[i].*which * base::kDegreesPerRadian});
   }
   return points;
 }
@@ -53,14 +54,14 @@ std::optional<Figure> deviation_figure(const calib::Report& report,
   if (compass == nullptr || !report.estimates.compass) return std::nullopt;
   std::vector<Point> curve, lower, upper;
   for (int degrees = 0; degrees <= 360; degrees += 4) {
-    const double heading_rad = degrees / kDegrees;
+    const double heading_rad = degrees / base::kDegreesPerRadian;
     const double deviation_rad =
         std::remainder(heading_rad - (*report.estimates.compass)(heading_rad), 2 * std::numbers::pi);
     const double band_rad = 2 * deviation_std_rad(*compass, heading_rad);
     if (!(band_rad < kWorstCurve_rad)) return std::nullopt;
-    curve.push_back({double(degrees), deviation_rad * kDegrees});
-    lower.push_back({double(degrees), (deviation_rad - band_rad) * kDegrees});
-    upper.push_back({double(degrees), (deviation_rad + band_rad) * kDegrees});
+    curve.push_back({double(degrees), deviation_rad * base::kDegreesPerRadian});
+    lower.push_back({double(degrees), (deviation_rad - band_rad) * base::kDegreesPerRadian});
+    upper.push_back({double(degrees), (deviation_rad + band_rad) * base::kDegreesPerRadian});
   }
   const auto measured = over_heading(residuals, &HeadingResidual::deviation_rad);
   std::vector<double> heights;
@@ -90,8 +91,8 @@ std::optional<Figure> residual_figure(const calib::Report& report, const std::ve
   std::string caption = fmt::format(
       "Heading less the integrated gyro, by blocks of turning. Root-mean-square {:.2f} degrees, "
       "calibrated {:.2f}. These readings had a part in the estimates; the figures on top had none.",
-      root_mean_square(residuals, &HeadingResidual::before_rad) * kDegrees,
-      root_mean_square(residuals, &HeadingResidual::after_rad) * kDegrees);
+      root_mean_square(residuals, &HeadingResidual::before_rad) * base::kDegreesPerRadian,
+      root_mean_square(residuals, &HeadingResidual::after_rad) * base::kDegreesPerRadian);
   const auto accepted = accepted_estimates(report);
   if (!accepted.magnetometer && !accepted.compass) caption += " No calibration of the heading was accepted.";
   return Figure{"Residual", plot.svg(), caption};

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "calib/coverage.h"
 #include "cli/calibrate_figures.h"
 #include "cli/calibrate_words.h"
@@ -15,8 +15,6 @@
 
 namespace navcal::cli {
 namespace {
-
-constexpr std::string_view kPlusMinus = "\u00b1", kArrow = "\u2192";
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -129,7 +127,6 @@ void append_left_out(HtmlPage& page, const calib::Report& report, const PageSour
 }
 
 void append_source(HtmlPage& page, const PageSource& source) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const auto& calibration = source.settings.calibration;
   const auto& environment = source.settings.environment;
   std::vector<std::vector<std::string>> rows;
@@ -139,13 +136,15 @@ void append_source(HtmlPage& page, const PageSource& source) {
   rows.push_back(
       {"Noise reckoned with",
        fmt::format("heading {:.2g} deg, gyro {:.2g} deg/s, field {:.2g} uT, gyro bias {:.2g} deg/s in a second",
-                   calibration.heading_noise_rad * kDegrees, calibration.gyro_noise_rad_s * kDegrees,
-                   calibration.field_noise_uT, calibration.bias_walk_rad_s * kDegrees)});
+                   calibration.heading_noise_rad * base::kDegreesPerRadian,
+                   calibration.gyro_noise_rad_s * base::kDegreesPerRadian, calibration.field_noise_uT,
+                   calibration.bias_walk_rad_s * base::kDegreesPerRadian)});
   rows.push_back({"Local field", environment.field_uT > 0
                                      ? fmt::format("{:.4g} uT, dip {:.4g} deg", environment.field_uT,
-                                                   environment.dip_rad * kDegrees)
+                                                   environment.dip_rad * base::kDegreesPerRadian)
                                      : std::string("not configured")});
-  rows.push_back({"Declination", fmt::format("{:.2f} deg", environment.declination_rad * kDegrees)});
+  rows.push_back(
+      {"Declination", fmt::format("{:.2f} deg", environment.declination_rad * base::kDegreesPerRadian)});
   rows.push_back({"Program", "navcal " NAVCAL_VERSION});
   page.section("Made from");
   page.table({"", ""}, rows);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::cli {
 namespace {
@@ -10,8 +11,6 @@ namespace {
 /// Long enough to turn far, short enough that the gyro's drift does not show.
 constexpr double kBlock_s = 20, kEnoughTurn_rad = 1, kLeastTurn_rad = 0.5, kLongestBlock_s = 60;
 constexpr std::size_t kLeastSamples = 8;
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
 /// Samples that follow each other without a gap.
 class Block {
@@ -31,10 +30,11 @@ class Block {
     least_rad_ = std::min(least_rad_, turn_rad);
     most_rad_ = std::max(most_rad_, turn_rad);
     end_s_ = reading.time_s;
-    const double curve_rad = estimates_.compass ? wrapped(heading_rad - (*estimates_.compass)(heading_rad)) : 0;
+    const double curve_rad =
+        estimates_.compass ? base::wrapped(heading_rad - (*estimates_.compass)(heading_rad)) : 0;
     // From the first on, so that a residual near half a turn is no leap.
-    residuals_.push_back({heading_rad, wrapped(heading_rad - turn_rad - first_before_rad_),
-                          wrapped(after_rad - turn_rad - first_after_rad_), curve_rad});
+    residuals_.push_back({heading_rad, base::wrapped(heading_rad - turn_rad - first_before_rad_),
+                          base::wrapped(after_rad - turn_rad - first_after_rad_), curve_rad});
   }
 
   [[nodiscard]] bool long_enough() const {

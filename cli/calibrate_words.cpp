@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "base/angles.h"
 #include "cli/shown_number.h"
 
 namespace navcal::cli {
@@ -15,7 +15,6 @@ namespace {
 
 using calib::Calibrator;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::array<std::string_view, calib::kCalibrators.size()> kTitles{
     "Gyro A",         "Gyro B",         "Compass deviation", "Magnetometer",        "Compass by GPS",
     "Eight headings", "Misalignment A", "Delay of compass",  "Delay of GPS course", "Motor current"};
@@ -29,8 +28,8 @@ struct Unit {
   double unknown;
 };
 constexpr double kScaleUnknown = 1;
-constexpr std::array kUnits{Unit{"_rad_s", kDegrees, "deg/s", 100},
-                            Unit{"_rad", kDegrees, "deg", 180},
+constexpr std::array kUnits{Unit{"_rad_s", base::kDegreesPerRadian, "deg/s", 100},
+                            Unit{"_rad", base::kDegreesPerRadian, "deg", 180},
                             Unit{"_uT", 1, "uT", 1000},
                             Unit{"_uT_per_A", 1, "uT/A", 1000},
                             Unit{"_m_s", 1, "m/s", 100},
@@ -117,7 +116,8 @@ std::string held_out_of(const calib::CalibratorReport& report, std::string_view 
   const double before = report.judgement.held_out_before, after = report.judgement.held_out_after;
   switch (report.judgement.held_out_quantity) {
     case calib::HeldOutQuantity::heading:
-      return fmt::format("{:.2f} {} {:.2f} deg of heading", before * kDegrees, arrow, after * kDegrees);
+      return fmt::format("{:.2f} {} {:.2f} deg of heading", before * base::kDegreesPerRadian, arrow,
+                         after * base::kDegreesPerRadian);
     case calib::HeldOutQuantity::field:
       return fmt::format("{:.2f} {} {:.2f} % of the field's size", before * 100, arrow, after * 100);
     case calib::HeldOutQuantity::motor_field:
@@ -136,7 +136,7 @@ std::string sentence_of(const calib::HeadingCheck& heading) {
   return fmt::format(
       "Heading against the calibrated gyro, on readings that had no part in the estimates: {:.2f} deg as the "
       "compass says it, {:.2f} deg calibrated (root-mean-square over {} blocks of turns).",
-      heading.before_rad * kDegrees, heading.after_rad * kDegrees, heading.blocks);
+      heading.before_rad * base::kDegreesPerRadian, heading.after_rad * base::kDegreesPerRadian, heading.blocks);
 }
 
 std::vector<std::string> field_history_of(const calib::Report& report) {

@@ -54,21 +54,21 @@ std::string doctor_text(const Findings& findings) {
 }
 
 std::string doctor_json(const Findings& findings, const std::string& account, const std::string& configuration) {
-  using Json = nlohmann::ordered_json;
-  Json list = Json::array();
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson list = OrderedJson::array();
   for (const Finding& finding : findings) {
     list.push_back({{"severity", word_of(finding.severity)},
                     {"topic", finding.topic},
                     {"found", finding.found},
-                    {"mend", finding.mend.empty() ? Json(nullptr) : Json(finding.mend)}});
+                    {"mend", finding.mend.empty() ? OrderedJson(nullptr) : OrderedJson(finding.mend)}});
   }
-  const Json all{{"class", "DOCTOR"},
-                 {"account", account},
-                 {"configuration", configuration},
-                 {"findings", list},
-                 {"faults", count_of(findings, Finding::Severity::fault)},
-                 {"warnings", count_of(findings, Finding::Severity::warning)}};
-  return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const OrderedJson all{{"class", "DOCTOR"},
+                        {"account", account},
+                        {"configuration", configuration},
+                        {"findings", list},
+                        {"faults", count_of(findings, Finding::Severity::fault)},
+                        {"warnings", count_of(findings, Finding::Severity::warning)}};
+  return all.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace navcal::cli

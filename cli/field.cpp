@@ -2,8 +2,8 @@
 
 #include <chrono>
 #include <memory>
-#include <numbers>
 
+#include "base/angles.h"
 #include "base/world_magnetic_model.h"
 #include "cli/commands.h"
 #include "cli/place_options.h"
@@ -11,9 +11,7 @@
 namespace navcal::cli {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-
-struct Options {
+struct FieldCommandOptions {
   PlaceArguments where;
   bool json = false;
 };
@@ -24,7 +22,7 @@ double year_of(const PlaceArguments& where) {
   return base::decimal_year(where.day_ns().value_or(today.count()));
 }
 
-void show_field(const Options& options) {
+void show_field(const FieldCommandOptions& options) {
   const base::GeodeticPosition place = options.where.position().value_or(base::GeodeticPosition{});
   const double year = year_of(options.where);
   const base::MagneticField field = base::world_magnetic_field(place, year);
@@ -34,22 +32,23 @@ void show_field(const Options& options) {
     fmt::print(
         "{{\"class\":\"FIELD\",\"model\":\"WMM2025\",\"year\":{:.4f},\"valid\":{},\"field_uT\":[{:.4f},{:.4f},"
         "{:.4f}],\"declination_deg\":{:.4f},\"dip_deg\":{:.4f},\"total_uT\":{:.4f},\"horizontal_uT\":{:.4f}}}\n",
-        year, base::wmm_covers(year), uT.x(), uT.y(), uT.z(), field.declination_rad() * kDegrees,
-        field.dip_rad() * kDegrees, field.total_uT(), field.horizontal_uT());
+        year, base::wmm_covers(year), uT.x(), uT.y(), uT.z(), field.declination_rad() * base::kDegreesPerRadian,
+        field.dip_rad() * base::kDegreesPerRadian, field.total_uT(), field.horizontal_uT());
     return;
   }
   fmt::print(
       "# World Magnetic Model 2025, {:.6f},{:.6f}, height {:.0f} m, {:.2f}\n"
       "# north {:.3f} uT, east {:.3f} uT, down {:.3f} uT, horizontal {:.3f} uT\n"
       "[environment]\ndeclination_deg = {:.2f}\nfield_uT = {:.2f}\ndip_deg = {:.2f}\n",
-      place.latitude_rad * kDegrees, place.longitude_rad * kDegrees, place.height_m, year, uT.x(), uT.y(), uT.z(),
-      field.horizontal_uT(), field.declination_rad() * kDegrees, field.total_uT(), field.dip_rad() * kDegrees);
+      place.latitude_rad * base::kDegreesPerRadian, place.longitude_rad * base::kDegreesPerRadian, place.height_m,
+      year, uT.x(), uT.y(), uT.z(), field.horizontal_uT(), field.declination_rad() * base::kDegreesPerRadian,
+      field.total_uT(), field.dip_rad() * base::kDegreesPerRadian);
 }
 
 }  // namespace
 
 void add_field(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FieldCommandOptions>();
   auto* const command =
       app.add_subcommand("field", "the Earth's magnetic field at a place, as lines for navcald.toml");
   command->add_option("--place", options->where.place, "degrees north and east, and metres above the ellipsoid")

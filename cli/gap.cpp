@@ -27,7 +27,7 @@
 namespace navcal::cli {
 namespace {
 
-struct Options {
+struct GapCommandOptions {
   GapSource source;
   PlaceArguments where;
   std::string json, report;
@@ -54,7 +54,7 @@ void expect_effects(const std::vector<std::string>& names) {
   }
 }
 
-gap::Diagnosis diagnosis_of(const Options& options) {
+gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   gap::Request request;
   request.mission = options.source.mission;
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
@@ -74,7 +74,7 @@ void write_to_output(std::string_view text) {
   output.flush();
 }
 
-void write_answers(const gap::Diagnosis& diagnosis, const Options& options) {
+void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
   const auto& source = options.source;
   if (!source.effects_file.empty()) write_result(source.effects_file, gap_effects_file(diagnosis));
   if (!options.report.empty()) write_result(options.report, gap_page(diagnosis, source));
@@ -83,7 +83,7 @@ void write_answers(const gap::Diagnosis& diagnosis, const Options& options) {
   write_to_output(gap_text(diagnosis, source));
 }
 
-void find_gap(const Options& options) {
+void find_gap(const GapCommandOptions& options) {
   try {
     expect_effects(options.source.excluded);
     const auto& source = options.source;
@@ -110,7 +110,7 @@ void find_gap(const Options& options) {
 void add_gap(CLI::App& app) {
   auto* command = app.add_subcommand(
       "gap", "what a recording shows that the model does not: where, from which effect, how much");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
   command->add_option("FILE", source.mission, "the mission to be diagnosed: a capture (.cap) or a log (.mcap)");
   command

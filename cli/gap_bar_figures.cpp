@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "cli/gap_figures.h"
+#include "cli/html_page.h"
 #include "cli/svg_plot.h"
 
 namespace navcal::cli {
 namespace {
 
-constexpr std::string_view kPlusMinus = "\u00b1", kArrow = "\u2192";
 constexpr std::size_t kMostCauses = 8;
 
 /// A part of the range in percent of its length, for a style.

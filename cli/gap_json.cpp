@@ -2,38 +2,38 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/angles.h"
 #include "record/calibration_json.h"
 
 namespace navcal::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 template <class Element, class Convert>
-Json list_of(const std::vector<Element>& elements, Convert convert) {
-  Json list = Json::array();
+OrderedJson list_of(const std::vector<Element>& elements, Convert convert) {
+  OrderedJson list = OrderedJson::array();
   for (const Element& element : elements) list.push_back(convert(element));
   return list;
 }
 
-Json json_of(const gap::WhereEntry& where) {
+OrderedJson json_of(const gap::WhereEntry& where) {
   return {{"channel", where.channel}, {"regime", where.regime}, {"gap", where.gap},
           {"unit", where.unit},       {"floor", where.floor},   {"p_value", where.p_value}};
 }
 
-Json json_of(const gap::Confusion& confusion) {
+OrderedJson json_of(const gap::Confusion& confusion) {
   return {{"name", confusion.name},
           {"tie_breaker", confusion.tie_breaker},
           {"separation_nats", confusion.separation_nats}};
 }
 
-Json json_of(const gap::EffectFinding& effect) {
-  Json parameters = Json::object(), errors = Json::object();
+OrderedJson json_of(const gap::EffectFinding& effect) {
+  OrderedJson parameters = OrderedJson::object(), errors = OrderedJson::object();
   for (const auto& parameter : effect.parameters) {
     parameters[parameter.name] = parameter.value;
     errors[parameter.name] = parameter.std_error;
@@ -45,23 +45,23 @@ Json json_of(const gap::EffectFinding& effect) {
           {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}};
 }
 
-Json json_of(const gap::Closure& closure, const std::string& unit) {
-  Json closed, interval;
+OrderedJson json_of(const gap::Closure& closure, const std::string& unit) {
+  OrderedJson closed, interval;
   if (closure.closed) closed = *closure.closed;
   if (closure.closed_ci) interval = *closure.closed_ci;
   return {{"before", closure.before},    {"after", closure.after},           {"floor", closure.floor},
           {"closed", std::move(closed)}, {"closed_ci", std::move(interval)}, {"unit", unit}};
 }
 
-Json before_and_after(const std::optional<std::array<double, 2>>& values) {
+OrderedJson before_and_after(const std::optional<std::array<double, 2>>& values) {
   if (!values) return nullptr;
   return {{"before", values->front()}, {"after", values->back()}};
 }
 
-Json json_of(const gap::Gap& gap) {
-  Json json = json_of(gap.pooled, "noise power");
+OrderedJson json_of(const gap::Gap& gap) {
+  OrderedJson json = json_of(gap.pooled, "noise power");
   json["channels"] = list_of(gap.channels, [](const gap::ChannelClosure& channel) {
-    Json one = Json::object();
+    OrderedJson one = OrderedJson::object();
     one["channel"] = channel.channel;
     one.update(json_of(channel.closure, channel.unit));
     return one;
@@ -72,7 +72,7 @@ Json json_of(const gap::Gap& gap) {
   return json;
 }
 
-Json json_of(const gap::ChangePoint& change) {
+OrderedJson json_of(const gap::ChangePoint& change) {
   return {{"channel", change.channel},
           {"time_s", change.time_s},
           {"before", change.before},
@@ -80,19 +80,18 @@ Json json_of(const gap::ChangePoint& change) {
           {"unit", change.unit}};
 }
 
-Json json_of(const gap::BankFacts& bank) {
+OrderedJson json_of(const gap::BankFacts& bank) {
   return {{"missions", bank.missions},
           {"seed", bank.seed},
           {"from_cache", bank.from_cache},
           {"seconds", bank.seconds}};
 }
 
-Json json_of(const gap::EarthField& field) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  Json place, date;
+OrderedJson json_of(const gap::EarthField& field) {
+  OrderedJson place, date;
   if (field.place) {
-    place = {{"latitude_deg", field.place->latitude_rad * kDegrees},
-             {"longitude_deg", field.place->longitude_rad * kDegrees},
+    place = {{"latitude_deg", field.place->latitude_rad * base::kDegreesPerRadian},
+             {"longitude_deg", field.place->longitude_rad * base::kDegreesPerRadian},
              {"height_m", field.place->height_m}};
   }
   if (field.utc_ns) date = field.date();
@@ -107,7 +106,7 @@ Json json_of(const gap::EarthField& field) {
 std::string gap_json(const gap::Diagnosis& diagnosis) {
   const auto convert = [](const auto& element) { return json_of(element); };
   const auto& bias = diagnosis.gyro_bias_rad_s;
-  Json json{
+  OrderedJson json{
       {"verdict", gap::name_of(diagnosis.verdict)},
       {"sentence", diagnosis.sentence},
       {"where", list_of(diagnosis.where, convert)},
@@ -119,17 +118,17 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"remarks", diagnosis.remarks},
       {"gyro_bias", {{"ax_rad_s", bias[0]}, {"az_rad_s", bias[1]}, {"by_rad_s", bias[2]}, {"bz_rad_s", bias[3]}}},
       {"changes", list_of(diagnosis.changes, convert)},
-      {"field", diagnosis.field ? json_of(*diagnosis.field) : Json()},
+      {"field", diagnosis.field ? json_of(*diagnosis.field) : OrderedJson()},
       {"bank", json_of(diagnosis.bank)},
       {"duration_s", diagnosis.duration_s},
       {"seconds", diagnosis.seconds}};
   if (diagnosis.instruments_alone) {
     std::string alone;
     record::append_calibrate_json(alone, *diagnosis.instruments_alone);
-    json["instruments_alone"] = Json::parse(alone);
+    json["instruments_alone"] = OrderedJson::parse(alone);
   }
   // A file's name in a remark may be no UTF-8.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace navcal::cli

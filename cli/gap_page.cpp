@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
+#include "base/angles.h"
 #include "cli/gap_figures.h"
 #include "cli/html_page.h"
 #include "cli/shown_number.h"
@@ -15,8 +15,7 @@
 namespace navcal::cli {
 namespace {
 
-constexpr std::string_view kArrow = "\u2192", kPlusMinus = "\u00b1";
-constexpr std::size_t kMostWhere = 5;
+constexpr std::size_t kMostWhereRows = 5;
 
 std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
 
@@ -43,7 +42,7 @@ void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {
     page.paragraph(nowhere_text(diagnosis));
   } else {
     std::vector<std::vector<std::string>> rows;
-    for (std::size_t i = 0; i < std::min(diagnosis.where.size(), kMostWhere); ++i) {
+    for (std::size_t i = 0; i < std::min(diagnosis.where.size(), kMostWhereRows); ++i) {
       const auto& entry = diagnosis.where[i];
       rows.push_back({entry.channel, spaced(entry.regime), amount(entry.gap, entry.unit),
                       amount(entry.floor, entry.unit), chance_text(entry.p_value)});
@@ -86,7 +85,6 @@ void append_residuals(HtmlPage& page, const gap::Diagnosis& diagnosis) {
 }
 
 void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSource& source) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   std::vector<std::vector<std::string>> rows{{"Mission", source.mission}};
   if (diagnosis.duration_s > 0) rows.back().back() += ", " + duration_text(diagnosis.duration_s);
   for (const auto& file : source.holdouts) rows.push_back({"Held out", file});
@@ -98,8 +96,9 @@ void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSou
     const auto& bias = diagnosis.gyro_bias_rad_s;
     rows.push_back(
         {"Gyro biases, no cause",
-         fmt::format("A-x {}, A-z {}, B-y {}, B-z {}", amount(bias[0] * kDegrees), amount(bias[1] * kDegrees),
-                     amount(bias[2] * kDegrees), amount(bias[3] * kDegrees, "deg/s"))});
+         fmt::format("A-x {}, A-z {}, B-y {}, B-z {}", amount(bias[0] * base::kDegreesPerRadian),
+                     amount(bias[1] * base::kDegreesPerRadian), amount(bias[2] * base::kDegreesPerRadian),
+                     amount(bias[3] * base::kDegreesPerRadian, "deg/s"))});
   }
   rows.push_back({"Time taken", duration_text(diagnosis.seconds)});
   rows.push_back({"Program", "navcal " NAVCAL_VERSION});

@@ -1,29 +1,23 @@
 #include "cli/gap_text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <string_view>
 #include <vector>
 
+#include "cli/append_format.h"
 #include "cli/shown_number.h"
 #include "cli/wrapped_text.h"
 
 namespace navcal::cli {
 namespace {
 
+constexpr std::string_view kPlusMinusText = "+-", kArrowText = "->";
 constexpr std::size_t kTitle = 17;  ///< column where what is said begins
 constexpr std::size_t kMostWhere = 5, kMostCandidates = 5;
-constexpr std::string_view kPlusMinus = "+-", kArrow = "->";
-
-template <class... Arguments>
-void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
-}
 
 /// A title in the left column; on the lines below it is empty.
-void begin(std::string& out, std::string_view title) { add(out, "{:<{}}", title, kTitle); }
+void begin(std::string& out, std::string_view title) { append_format(out, "{:<{}}", title, kTitle); }
 
 void append_lines(std::string& out, std::string_view title, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
@@ -37,16 +31,16 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
   const auto& where = diagnosis.where;
   if (where.empty()) return append_lines(out, "where", {nowhere_text(diagnosis)});
   begin(out, "where");
-  add(out, "{:<20}{:<24}{:<18}{:<12}{}\n", "channel", "follows", "gap", "nominal", "by chance");
+  append_format(out, "{:<20}{:<24}{:<18}{:<12}{}\n", "channel", "follows", "gap", "nominal", "by chance");
   for (std::size_t i = 0; i < std::min(where.size(), kMostWhere); ++i) {
     const auto& entry = where[i];
     begin(out, {});
-    add(out, "{:<19} {:<23} {:<17} {:<11} {}\n", entry.channel, spaced(entry.regime),
-        amount(entry.gap, entry.unit), amount(entry.floor), chance_text(entry.p_value));
+    append_format(out, "{:<19} {:<23} {:<17} {:<11} {}\n", entry.channel, spaced(entry.regime),
+                  amount(entry.gap, entry.unit), amount(entry.floor), chance_text(entry.p_value));
   }
   if (where.size() > kMostWhere) {
     begin(out, {});
-    add(out, "and {} more, in --json and --report\n", where.size() - kMostWhere);
+    append_format(out, "and {} more, in --json and --report\n", where.size() - kMostWhere);
   }
 }
 
@@ -54,10 +48,10 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
 void append_effect(std::string& out, const gap::EffectFinding& effect, bool with_probability) {
   constexpr std::size_t kIndent = kTitle + 2;
   out += effect.name;
-  if (with_probability) add(out, ", {}", probability_text(effect.probability));
+  if (with_probability) append_format(out, ", {}", probability_text(effect.probability));
   out += '\n';
   std::vector<std::string> pieces;
-  for (const auto& parameter : effect.parameters) pieces.push_back(text_of(parameter, kPlusMinus));
+  for (const auto& parameter : effect.parameters) pieces.push_back(text_of(parameter, kPlusMinusText));
   if (!pieces.empty()) {
     out.append(kIndent, ' ');
     append_wrapped(out, kIndent, pieces, ",  ");
@@ -78,12 +72,12 @@ void append_effects(std::string& out, std::string_view title, const std::vector<
 
 void append_closure(std::string& out, const gap::Gap& gap, const GapSource& source) {
   append_lines(out, "closed",
-               {closed_text(gap.pooled) + ": noise power " + levels_text(gap.pooled, {}, kArrow) + "; " +
+               {closed_text(gap.pooled) + ": noise power " + levels_text(gap.pooled, {}, kArrowText) + "; " +
                 judged_on(gap, source)});
   for (const auto& channel : gap.channels) {
     begin(out, {});
-    add(out, "{:<19} {:<24} {}\n", channel.channel, closed_text(channel.closure),
-        levels_text(channel.closure, channel.unit, kArrow));
+    append_format(out, "{:<19} {:<24} {}\n", channel.channel, closed_text(channel.closure),
+                  levels_text(channel.closure, channel.unit, kArrowText));
   }
 }
 
@@ -93,7 +87,7 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   std::string out;
   append_lines(out, verdict_word(diagnosis.verdict), {verdict_sentence(diagnosis)});
   if (diagnosis.instruments_alone) {
-    append_lines(out, "instruments", instruments_alone_lines(*diagnosis.instruments_alone, kPlusMinus));
+    append_lines(out, "instruments", instruments_alone_lines(*diagnosis.instruments_alone, kPlusMinusText));
     append_lines(out, "remarks", further_remarks(diagnosis));
     return out;
   }
@@ -108,10 +102,10 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
     if (any) append_lines(out, "not convincing", {std::string(kNoneExplains)});
     append_effects(out, any ? "" : "not convincing", diagnosis.candidates, kMostCandidates, !unknown);
   }
-  append_lines(out, "what it means", consequences(diagnosis.gap, kArrow));
+  append_lines(out, "what it means", consequences(diagnosis.gap, kArrowText));
   append_lines(out, "left over", diagnosis.unexplained);
   std::vector<std::string> changes;
-  for (const auto& change : diagnosis.changes) changes.push_back(text_of(change, kArrow));
+  for (const auto& change : diagnosis.changes) changes.push_back(text_of(change, kArrowText));
   append_lines(out, "changed", changes);
   append_lines(out, "to do", diagnosis.next);
   if (const auto hint = simulate_hint(diagnosis, source); !hint.empty()) append_lines(out, "to simulate", {hint});

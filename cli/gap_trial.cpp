@@ -18,7 +18,7 @@
 namespace navcal::cli {
 namespace {
 
-struct Options {
+struct GapTrialCommandOptions {
   int cases = 0, minutes = 10, places = kTrialPlaces, timeout_s = 600;
   std::uint64_t seed = 1;
   std::vector<std::string> arms;
@@ -31,7 +31,7 @@ struct Options {
 /// Opened before the first case is asked: hours later is too late to learn that a file cannot be written.
 class Outputs {
  public:
-  explicit Outputs(const Options& options) : options_(options) {
+  explicit Outputs(const GapTrialCommandOptions& options) : options_(options) {
     if (!options.json.empty() && options.json != "-") json_.emplace(options.json);
     if (!options.report.empty()) page_.emplace(options.report);
     if (!options.asking.keep.empty()) std::filesystem::create_directories(options.asking.keep);
@@ -56,11 +56,11 @@ class Outputs {
     file.write(text);
     file.commit();
   }
-  const Options& options_;
+  const GapTrialCommandOptions& options_;
   std::optional<record::WholeFile> json_, page_;
 };
 
-std::vector<TrialCase> cases_of(const Options& options) {
+std::vector<TrialCase> cases_of(const GapTrialCommandOptions& options) {
   std::vector<int> numbers = options.only;
   if (numbers.empty()) {
     try {
@@ -76,7 +76,7 @@ std::vector<TrialCase> cases_of(const Options& options) {
   return cases;
 }
 
-TrialReport report_on(const Options& options, std::size_t asked_for, TrialRun run) {
+TrialReport report_on(const GapTrialCommandOptions& options, std::size_t asked_for, TrialRun run) {
   TrialReport report{options.seed,
                      options.minutes,
                      options.places,
@@ -90,7 +90,7 @@ TrialReport report_on(const Options& options, std::size_t asked_for, TrialRun ru
   return report;
 }
 
-void run(Options options) {
+void run(GapTrialCommandOptions options) {
   if ((options.cases > 0) == !options.only.empty())
     throw Failure(Exit::usage, "either --cases N or --only CASE says which cases are asked");
   options.asking.timeout = std::chrono::seconds(options.timeout_s);
@@ -130,7 +130,7 @@ void run(Options options) {
 
 void add_gap_trial(CLI::App& gap) {
   auto* command = gap.add_subcommand("trial", "checks the diagnosis on effects that are withheld from it");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GapTrialCommandOptions>();
   auto& asking = options->asking;
   command->add_option("--cases", options->cases, "so many; each has three missions of one vehicle")
       ->check(CLI::Range(1, 100000))

@@ -7,7 +7,7 @@
 namespace navcal::cli {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 [[noreturn]] void fail(const std::string& why) { throw std::runtime_error("the answer is malformed: " + why); }
 
@@ -18,30 +18,30 @@ TrialVerdict verdict_of(const std::string& name) {
   fail("there is no verdict \"" + name + "\"");
 }
 
-std::optional<double> number(const json& object, const char* key) {
+std::optional<double> number(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || found->is_null()) return std::nullopt;
   if (!found->is_number()) fail(std::string(key) + " is not a number");
   return found->get<double>();
 }
 
-TrialFinding finding_of(const json& object, std::vector<std::string>& twins) {
+TrialFinding finding_of(const Json& object, std::vector<std::string>& twins) {
   TrialFinding finding{object.at("name").get<std::string>(), object.at("probability").get<double>(), {}};
   if (!(finding.probability >= 0 && finding.probability <= 1))
     fail("the probability of " + finding.name + " does not lie between 0 and 1");
-  const json nothing = json::object();
-  const json& errors = object.contains("std_errors") ? object.at("std_errors") : nothing;
-  const json& parameters = object.contains("parameters") ? object.at("parameters") : nothing;
+  const Json nothing = Json::object();
+  const Json& errors = object.contains("std_errors") ? object.at("std_errors") : nothing;
+  const Json& parameters = object.contains("parameters") ? object.at("parameters") : nothing;
   for (const auto& [key, value] : parameters.items())
     finding.parameters[key] = {value.get<double>(), number(errors, key.c_str())};
-  for (const json& twin : object.value("confused_with", json::array()))
+  for (const Json& twin : object.value("confused_with", Json::array()))
     twins.push_back(twin.at("name").get<std::string>());
   return finding;
 }
 
-std::vector<TrialFinding> findings_of(const json& list, std::vector<std::string>& twins) {
+std::vector<TrialFinding> findings_of(const Json& list, std::vector<std::string>& twins) {
   std::vector<TrialFinding> findings;
-  for (const json& object : list) findings.push_back(finding_of(object, twins));
+  for (const Json& object : list) findings.push_back(finding_of(object, twins));
   for (auto finding = findings.begin(); finding != findings.end(); ++finding) {
     const auto same = [&](const TrialFinding& other) { return other.name == finding->name; };
     if (std::any_of(findings.begin(), finding, same)) fail(finding->name + " is named twice");
@@ -51,7 +51,7 @@ std::vector<TrialFinding> findings_of(const json& list, std::vector<std::string>
   return findings;
 }
 
-void read_closure(const json& gap, TrialAnswer& answer) {
+void read_closure(const Json& gap, TrialAnswer& answer) {
   answer.closed = number(gap, "closed");
   const auto interval = gap.find("closed_ci");
   if (interval == gap.end() || interval->is_null()) return;
@@ -75,14 +75,14 @@ std::string_view name_of(TrialVerdict verdict) {
 TrialAnswer read_answer(std::string_view text) {
   TrialAnswer answer;
   try {
-    const json object = json::parse(text);
+    const Json object = Json::parse(text);
     answer.verdict = verdict_of(object.at("verdict").get<std::string>());
-    for (const json& entry : object.at("where")) answer.channels.push_back(entry.at("channel").get<std::string>());
+    for (const Json& entry : object.at("where")) answer.channels.push_back(entry.at("channel").get<std::string>());
     answer.effects = findings_of(object.at("effects"), answer.twins);
-    answer.candidates = findings_of(object.value("candidates", json::array()), answer.twins);
+    answer.candidates = findings_of(object.value("candidates", Json::array()), answer.twins);
     read_closure(object.at("gap"), answer);
     answer.seconds = number(object, "seconds");
-  } catch (const json::exception& error) {
+  } catch (const Json::exception& error) {
     fail(error.what());
   }
   if ((answer.verdict == TrialVerdict::explained) == answer.effects.empty()) {

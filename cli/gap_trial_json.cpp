@@ -5,15 +5,15 @@
 namespace navcal::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 template <class Value>
-Json or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json();
+OrderedJson or_null(const std::optional<Value>& value) {
+  return value ? OrderedJson(*value) : OrderedJson();
 }
 
-Json json_of(const TrialScore& score) {
-  Json json{{"name", score.name}, {"value", or_null(score.value)}, {"cases", score.cases}};
+OrderedJson json_of(const TrialScore& score) {
+  OrderedJson json{{"name", score.name}, {"value", or_null(score.value)}, {"cases", score.cases}};
   // A share is told as it is, 0 to 1.
   if (score.unit == "s") json["unit"] = score.unit;
   if (score.interval) {
@@ -26,14 +26,14 @@ Json json_of(const TrialScore& score) {
   return json;
 }
 
-Json json_of(const TrialResult& result) {
+OrderedJson json_of(const TrialResult& result) {
   const TrialJudgement judgement = judged(result);
-  Json json{{"case", result.drawn.number},  {"arm", facts_of(result.drawn.arm).name},
-            {"sha256", result.seal.digest}, {"truth", result.seal.truth},
-            {"salt", result.seal.salt},     {"outcome", name_of(judgement.outcome)},
-            {"right", judgement.right},     {"seconds", result.seconds}};
+  OrderedJson json{{"case", result.drawn.number},  {"arm", facts_of(result.drawn.arm).name},
+                   {"sha256", result.seal.digest}, {"truth", result.seal.truth},
+                   {"salt", result.seal.salt},     {"outcome", name_of(judgement.outcome)},
+                   {"right", judgement.right},     {"seconds", result.seconds}};
   // What was read once may be written as it was read; what could not be read is told as text.
-  json["answer"] = result.answer ? Json::parse(result.answer_json) : Json();
+  json["answer"] = result.answer ? OrderedJson::parse(result.answer_json) : OrderedJson();
   if (!result.failure.empty()) json["failure"] = result.failure;
   if (!result.answer && !result.answer_json.empty()) json["answer_text"] = result.answer_json;
   return json;
@@ -42,29 +42,29 @@ Json json_of(const TrialResult& result) {
 }  // namespace
 
 std::string trial_json(const TrialReport& report) {
-  Json json{
+  OrderedJson json{
       {"seed", report.seed},           {"minutes", report.minutes},         {"places", report.places},
       {"asked_for", report.asked_for}, {"answered", report.results.size()}, {"ended_early", report.ended_early}};
-  auto& scores = json["scores"] = Json::array();
+  auto& scores = json["scores"] = OrderedJson::array();
   for (const TrialScore& score : report.scores.scores) scores.push_back(json_of(score));
-  auto& power = json["power"] = Json::array();
+  auto& power = json["power"] = OrderedJson::array();
   for (const TrialPower& point : report.scores.power)
     power.push_back({{"strength", point.strength}, {"exact", point.hits}, {"cases", point.cases}});
-  auto& bins = json["calibration"] = Json::array();
+  auto& bins = json["calibration"] = OrderedJson::array();
   for (const TrialCalibrationBin& bin : report.scores.calibration) {
     if (bin.bets == 0) continue;
     bins.push_back({{"probability", bin.mean_probability}, {"right", bin.share_right}, {"count", bin.bets}});
   }
   json["closures"] = report.scores.closures;
-  auto& confusion = json["confusion"] = Json::object();
+  auto& confusion = json["confusion"] = OrderedJson::object();
   for (const std::string& truth : report.confusion.truths) {
     for (const std::string& answer : report.confusion.answers) {
       if (const int count = report.confusion.count(truth, answer); count > 0) confusion[truth][answer] = count;
     }
   }
-  auto& cases = json["cases"] = Json::array();
+  auto& cases = json["cases"] = OrderedJson::array();
   for (const TrialResult& result : report.results) cases.push_back(json_of(result));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
 }
 
 }  // namespace navcal::cli

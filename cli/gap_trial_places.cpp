@@ -1,8 +1,8 @@
 #include "cli/gap_trial_places.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "base/world_magnetic_model.h"
 #include "cli/gap_trial_missions.h"
 #include "trial/dice.h"
@@ -10,7 +10,6 @@
 namespace navcal::cli {
 
 TrialPlace drawn_place(std::uint64_t seed, int number) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   constexpr double kGreatestLatitude_deg = 80;
   /// Apart from the cases and their orders of drawing.
   constexpr std::uint64_t kPlaceStream = 1ULL << 40U;
@@ -18,18 +17,18 @@ TrialPlace drawn_place(std::uint64_t seed, int number) {
   constexpr std::int64_t kFrom_ns = 20'089 * kDay_ns, kUntil_ns = 21'910 * kDay_ns;  // 2025-01-01, 2029-12-27
   trial::Dice dice(seed, kPlaceStream + static_cast<std::uint64_t>(number));
   TrialPlace place;
-  const double sine = std::sin(kGreatestLatitude_deg / kDegrees);
-  place.anchorage = {std::asin(dice.uniform(-sine, sine)) * kDegrees, dice.uniform(-180, 180), 0};
+  const double sine = std::sin(kGreatestLatitude_deg / base::kDegreesPerRadian);
+  place.anchorage = {std::asin(dice.uniform(-sine, sine)) * base::kDegreesPerRadian, dice.uniform(-180, 180), 0};
   const auto day = static_cast<std::int64_t>(
       dice.uniform(static_cast<double>(kFrom_ns / kDay_ns), static_cast<double>(kUntil_ns / kDay_ns)));
   place.begin_ns = day * kDay_ns + kTrialBegin_ns % kDay_ns;
   place.waters.surface_C = dice.uniform(2, 28);
   place.waters.density_kg_m3 = dice.uniform(998, 1028);
-  place.waters.field_uT =
-      base::world_magnetic_field({place.anchorage.latitude_deg / kDegrees,
-                                  place.anchorage.longitude_deg / kDegrees, place.anchorage.height_m},
-                                 base::decimal_year(place.begin_ns))
-          .north_east_down_uT;
+  place.waters.field_uT = base::world_magnetic_field(
+                              {place.anchorage.latitude_deg / base::kDegreesPerRadian,
+                               place.anchorage.longitude_deg / base::kDegreesPerRadian, place.anchorage.height_m},
+                              base::decimal_year(place.begin_ns))
+                              .north_east_down_uT;
   return place;
 }
 

@@ -2,16 +2,12 @@
 
 #include <iterator>
 
+#include "cli/append_format.h"
 #include "cli/gap_trial_report.h"
 #include "cli/gap_trial_words.h"
 
 namespace navcal::cli {
 namespace {
-
-template <class... Arguments>
-void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
-}
 
 void append_scores(std::string& out, const TrialScores& scores) {
   constexpr const char* kRow = "{:<42}{:>9}  {:<16}{:<13}{:<16}{}\n";
@@ -30,11 +26,11 @@ void append_mistakes(std::string& out, const TrialReport& report) {
   for (const TrialResult& result : report.results) {
     if (!is_mistake(result) || ++mistakes > kShown) continue;
     if (mistakes == 1) out += "\nMistakes:\n";
-    add(out, "  case {} ({}): {}; answered {}\n", result.drawn.number, facts_of(result.drawn.arm).name,
-        truth_words(result.drawn), answer_words(result));
+    append_format(out, "  case {} ({}): {}; answered {}\n", result.drawn.number, facts_of(result.drawn.arm).name,
+                  truth_words(result.drawn), answer_words(result));
   }
-  if (mistakes > kShown) add(out, "  and {} more, which --json and --report list\n", mistakes - kShown);
-  if (mistakes > 0) add(out, "One of them again: {}\n", rerun_command(report, 0));
+  if (mistakes > kShown) append_format(out, "  and {} more, which --json and --report list\n", mistakes - kShown);
+  if (mistakes > 0) append_format(out, "One of them again: {}\n", rerun_command(report, 0));
 }
 
 }  // namespace
@@ -48,7 +44,7 @@ std::string trial_text(const TrialReport& report) {
   std::string out =
       fmt::format("\n{} of {} cases answered, seed {}, missions of {} minutes, {} places\n", report.results.size(),
                   report.asked_for, report.seed, report.minutes, report.places);
-  if (!report.ended_early.empty()) add(out, "Ended early: {}\n", report.ended_early);
+  if (!report.ended_early.empty()) append_format(out, "Ended early: {}\n", report.ended_early);
   out += '\n';
   append_scores(out, report.scores);
   append_mistakes(out, report);

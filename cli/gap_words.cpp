@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "cli/calibrate_words.h"
 #include "cli/gap_units.h"
 #include "cli/shown_number.h"
@@ -14,7 +14,6 @@
 namespace navcal::cli {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::string_view kNoNumber = "-";
 
 /// As a shell takes it.
@@ -148,8 +147,8 @@ std::vector<std::string> consequences(const gap::Gap& gap, std::string_view arro
   std::vector<std::string> sentences;
   if (gap.heading_error_rad) {
     sentences.push_back(fmt::format("heading error {} {} {} RMS",
-                                    amount(kDegrees * gap.heading_error_rad->front()), arrow,
-                                    amount(kDegrees * gap.heading_error_rad->back(), "deg")));
+                                    amount(base::kDegreesPerRadian * gap.heading_error_rad->front()), arrow,
+                                    amount(base::kDegreesPerRadian * gap.heading_error_rad->back(), "deg")));
   }
   if (gap.dead_reckoning_m_per_100m) {
     sentences.push_back(fmt::format("position error {} {} {} in 100 m between fixes",

@@ -6,6 +6,9 @@
 
 namespace navcal::cli {
 
+/// Characters of a page, in UTF-8.
+inline constexpr std::string_view kPlusMinus = "\u00b1", kArrow = "\u2192";
+
 /// Text with the characters that mean something in HTML or XML written out; control characters become spaces.
 [[nodiscard]] std::string escaped(std::string_view text);
 

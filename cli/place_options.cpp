@@ -7,15 +7,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <vector>
 
+#include "base/angles.h"
 #include "cli/commands.h"
 
 namespace navcal::cli {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 /// Iron beside the vehicle aside, no place on the Earth has more than 70 uT.
 constexpr double kGreatestField_uT = 100;
 
@@ -53,7 +52,8 @@ std::optional<base::GeodeticPosition> PlaceArguments::position() const {
   if (!(std::abs(height_m) <= 1e6)) {
     throw Failure(Exit::usage, fmt::format("--place {}: the height is at most 1000 km from 0", *place));
   }
-  return base::GeodeticPosition{numbers[0] / kDegrees, numbers[1] / kDegrees, height_m};
+  return base::GeodeticPosition{numbers[0] / base::kDegreesPerRadian, numbers[1] / base::kDegreesPerRadian,
+                                height_m};
 }
 
 std::optional<std::int64_t> PlaceArguments::day_ns() const {

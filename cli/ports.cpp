@@ -10,13 +10,17 @@
 namespace navcal::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json json_of(const ports::PortInfo& port) {
-  const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
-  const auto number = [](const std::optional<int>& value) { return value ? Json(*value) : Json(nullptr); };
+OrderedJson json_of(const ports::PortInfo& port) {
+  const auto text = [](const std::string& value) {
+    return value.empty() ? OrderedJson(nullptr) : OrderedJson(value);
+  };
+  const auto number = [](const std::optional<int>& value) {
+    return value ? OrderedJson(*value) : OrderedJson(nullptr);
+  };
   const auto id = [](const std::optional<int>& value) {
-    return value ? Json(fmt::format("{:04x}", *value)) : Json(nullptr);
+    return value ? OrderedJson(fmt::format("{:04x}", *value)) : OrderedJson(nullptr);
   };
   return {{"class", "PORT"},
           {"path", port.path},
@@ -35,7 +39,7 @@ void run(bool json) {
   const auto list = ports::list_ports();
   for (const ports::PortInfo& port : list) {
     if (json) {
-      fmt::print("{}\n", json_of(port).dump(-1, ' ', false, Json::error_handler_t::replace));
+      fmt::print("{}\n", json_of(port).dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
     } else {
       fmt::print("{}  {}\n", port.path, ports::describe(port));
     }

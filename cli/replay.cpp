@@ -22,7 +22,7 @@
 namespace navcal::cli {
 namespace {
 
-struct Options {
+struct ReplayCommandOptions {
   std::vector<std::string> files;
   std::string config;
   bool json = false;  // the only form there is; accepted because scripts say it
@@ -96,7 +96,7 @@ void play(record::Recording& recording, const std::string& file, pipeline::Pipel
     std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), remark.c_str());
 }
 
-void replay(const Options& options) {
+void replay(const ReplayCommandOptions& options) {
   try {
     auto recording = record::Recording::open(options.files.front());
     const auto settings = options.config.empty() ? recording->settings() : config::load(options.config);
@@ -119,7 +119,7 @@ void replay(const Options& options) {
 }  // namespace
 
 void add_replay(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayCommandOptions>();
   auto* command = app.add_subcommand("replay", "runs a recording through the pipeline: one JSON line a sample");
   command
       ->add_option("FILE", options->files, "log (.mcap) or capture (.cap); several of one series in their order")

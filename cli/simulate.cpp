@@ -18,7 +18,7 @@
 namespace navcal::cli {
 namespace {
 
-struct Options {
+struct SimulateCommandOptions {
   SimulateArguments arguments;
   bool list_effects = false;
 };
@@ -34,7 +34,7 @@ void run(const SimulateArguments& arguments) {
   }
 }
 
-void simulate(Options& options) {
+void simulate(SimulateCommandOptions& options) {
   if (options.list_effects) {
     std::fputs(sim::effects_text().c_str(), stdout);
     return;
@@ -58,7 +58,7 @@ void simulate(Options& options) {
 
 void add_simulate(CLI::App& app) {
   auto* command = app.add_subcommand("simulate", "a recording from the simulator, with the truth beside it");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateCommandOptions>();
   auto& arguments = options->arguments;
   const auto* const motion = "How the vehicle moves (one of these)";
   command

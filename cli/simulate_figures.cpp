@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "cli/heading_axis.h"
 #include "cli/simulate_plot.h"
 #include "cli/svg_plot.h"
@@ -18,11 +18,10 @@ namespace {
 using Ink = SvgPlot::Ink;
 using sim::State;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr std::array kInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
+constexpr std::array kSimulatedInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
 
 std::optional<double> degrees(const std::optional<double>& rad) {
-  return rad ? std::optional(*rad * kDegrees) : std::nullopt;
+  return rad ? std::optional(*rad * base::kDegreesPerRadian) : std::nullopt;
 }
 
 std::vector<Point> fixes_of(const SimulatedSeries& series, const sim::Origin& origin) {
@@ -30,10 +29,11 @@ std::vector<Point> fixes_of(const SimulatedSeries& series, const sim::Origin& or
   std::vector<Point> points;
   for (const auto& fix : series.gps) {
     if (!pipeline::has_position(fix.value)) continue;
-    const double share_north =
-        (*fix.value.latitude_rad * kDegrees - origin.latitude_deg) / (corner[0] - origin.latitude_deg);
-    const double share_east = std::remainder(*fix.value.longitude_rad * kDegrees - origin.longitude_deg, 360) /
-                              std::remainder(corner[1] - origin.longitude_deg, 360);
+    const double share_north = (*fix.value.latitude_rad * base::kDegreesPerRadian - origin.latitude_deg) /
+                               (corner[0] - origin.latitude_deg);
+    const double share_east =
+        std::remainder(*fix.value.longitude_rad * base::kDegreesPerRadian - origin.longitude_deg, 360) /
+        std::remainder(corner[1] - origin.longitude_deg, 360);
     points.push_back({1000 * share_east, 1000 * share_north});
   }
   return points;
@@ -63,7 +63,7 @@ Figure heading_figure(const SimulatedSeries& series) {
   std::vector<double> times_s, headings_deg;
   for (const auto& state : series.states) {
     times_s.push_back(state.time_s);
-    headings_deg.push_back(state.value.euler_rad[2] * kDegrees);
+    headings_deg.push_back(state.value.euler_rad[2] * base::kDegreesPerRadian);
   }
   const TimeAxis time(times_s);
   const HeadingAxis heading(headings_deg);
@@ -71,7 +71,7 @@ Figure heading_figure(const SimulatedSeries& series) {
   for (std::size_t i = 0; i < times_s.size(); ++i) truth.push_back({time(times_s[i]), heading(headings_deg[i])});
   for (const auto& word : series.compass) {
     if (word.value.heading_rad)
-      compass.push_back({time(word.time_s), heading(*word.value.heading_rad * kDegrees)});
+      compass.push_back({time(word.time_s), heading(*word.value.heading_rad * base::kDegreesPerRadian)});
   }
   SvgPlot plot("Heading", time.axis(), heading.axis("heading"));
   plot.points(Ink::before, "compass", compass);
@@ -102,7 +102,8 @@ std::vector<Figure> motion_figures(const SimulatedSeries& series, const sim::Ori
   auto fins = plot();
   constexpr std::array<const char*, 3> kFins{"1", "2", "3"};
   for (std::size_t i = 0; i < 3; ++i) {
-    fins.line(kInks[i], kFins[i], series.motor, [i](const auto& status) { return degrees(status.fins_rad[i]); });
+    fins.line(kSimulatedInks[i], kFins[i], series.motor,
+              [i](const auto& status) { return degrees(status.fins_rad[i]); });
   }
   figures.push_back({"Fins", fins.svg("Fins", "degrees"), "As the motor card reports the servos' shafts."});
   return figures;
@@ -114,20 +115,24 @@ std::vector<Figure> instrument_figures(const SimulatedSeries& series) {
   auto field = plot(), force = plot(), rates = plot(), tilt = plot();
   constexpr std::array<const char*, 3> kGyros{"A-x", "B-y", "A-z"};
   for (std::size_t i = 0; i < 3; ++i) {
-    field.line(kInks[i], kAxes[i], series.compass, [i](const auto& word) {
+    field.line(kSimulatedInks[i], kAxes[i], series.compass, [i](const auto& word) {
       return word.field_body_uT ? std::optional((*word.field_body_uT)[i]) : std::nullopt;
     });
-    force.line(kInks[i], kAxes[i], series.imu, [i](const auto& record) { return record.specific_force_m_s2[i]; });
-    rates.line(kInks[i], kGyros[i], series.imu,
-               [i](const auto& record) { return record.rate_rad_s[i] * kDegrees; });
+    force.line(kSimulatedInks[i], kAxes[i], series.imu,
+               [i](const auto& record) { return record.specific_force_m_s2[i]; });
+    rates.line(kSimulatedInks[i], kGyros[i], series.imu,
+               [i](const auto& record) { return record.rate_rad_s[i] * base::kDegreesPerRadian; });
   }
-  rates.line(kInks[3], "B-z", series.imu, [](const auto& record) { return record.yaw_rate_b_rad_s * kDegrees; });
-  tilt.line(kInks[0], "roll", series.compass, [](const auto& word) { return degrees(word.roll_rad); })
-      .line(kInks[1], "pitch", series.compass, [](const auto& word) { return degrees(word.pitch_rad); });
-  const auto shaft = plot().line(kInks[0], "", series.motor, [](const auto& status) { return status.rpm; });
+  rates.line(kSimulatedInks[3], "B-z", series.imu,
+             [](const auto& record) { return record.yaw_rate_b_rad_s * base::kDegreesPerRadian; });
+  tilt.line(kSimulatedInks[0], "roll", series.compass, [](const auto& word) { return degrees(word.roll_rad); })
+      .line(kSimulatedInks[1], "pitch", series.compass, [](const auto& word) { return degrees(word.pitch_rad); });
+  const auto shaft =
+      plot().line(kSimulatedInks[0], "", series.motor, [](const auto& status) { return status.rpm; });
   const auto current =
-      plot().line(kInks[0], "", series.motor, [](const auto& status) { return status.current_A; });
-  const auto warm = plot().line(kInks[0], "", series.compass, [](const auto& word) { return word.temperature_C; });
+      plot().line(kSimulatedInks[0], "", series.motor, [](const auto& status) { return status.current_A; });
+  const auto warm =
+      plot().line(kSimulatedInks[0], "", series.compass, [](const auto& word) { return word.temperature_C; });
   return {{"Field", field.svg("Compass: field", "uT"), "In body axes."},
           {"Tilt", tilt.svg("Compass: tilt", "degrees"), "Of the inclinometer, whose fluid lags."},
           {"Temperature", warm.svg("Compass: temperature", "C"), "Of the electronics."},

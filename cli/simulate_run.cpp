@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/durations.h"
 #include "cli/commands.h"
 #include "cli/interruptible.h"
 #include "cli/progress.h"
@@ -17,7 +18,6 @@
 namespace navcal::cli {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kTruthStep_ns = 10'000'000;
 
 }  // namespace
@@ -45,7 +45,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   std::int64_t truth_ns = begin_ns;
   for (std::int64_t t_ns = begin_ns; t_ns < end_ns;) {
     if (Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
-    t_ns = std::min(t_ns + kSecond_ns, end_ns);
+    t_ns = std::min(t_ns + base::kSecond_ns, end_ns);
     reads.clear();
     recording.advance(t_ns, reads);
     for (const sim::LineRead& read : reads) {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "cli/commands.h"
 
 namespace navcal::cli {
@@ -14,12 +14,11 @@ std::string SimulatedPlace::field_event() const {
 }
 
 SimulatedPlace simulated_place(const PlaceArguments& arguments, std::int64_t otherwise_ns) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   constexpr double kGreatestLatitude_deg = 89;
   SimulatedPlace place;
   if (const auto position = arguments.position()) {
-    place.origin = {position->latitude_rad * kDegrees, std::remainder(position->longitude_rad * kDegrees, 360),
-                    position->height_m};
+    place.origin = {position->latitude_rad * base::kDegreesPerRadian,
+                    std::remainder(position->longitude_rad * base::kDegreesPerRadian, 360), position->height_m};
     if (!(std::abs(place.origin.latitude_deg) <= kGreatestLatitude_deg)) {
       throw Failure(Exit::usage, fmt::format("--place {}: a simulated vehicle stays within 89 degrees of latitude",
                                              *arguments.place));

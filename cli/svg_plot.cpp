@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "cli/append_format.h"
 #include "cli/html_page.h"
 
 namespace navcal::cli {
@@ -15,11 +16,6 @@ namespace {
 
 constexpr double kLetterWidth = 6.3;  // of the legend's type, on the average
 constexpr std::array<std::string_view, 7> kInks{"before", "after", "fit", "first", "second", "third", "fourth"};
-
-template <class... Arguments>
-void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
-}
 
 std::string_view name_of(SvgPlot::Ink ink) { return kInks[static_cast<std::size_t>(ink)]; }
 
@@ -147,8 +143,8 @@ void SvgPlot::append_path(std::string& path, std::span<const Point> points, bool
       begun = false;
       continue;
     }
-    add(path, "{}{:.1f} {:.1f}", begun ? 'L' : 'M', std::clamp(x, -9999.0, 9999.0),
-        std::clamp(y, -9999.0, 9999.0));
+    append_format(path, "{}{:.1f} {:.1f}", begun ? 'L' : 'M', std::clamp(x, -9999.0, 9999.0),
+                  std::clamp(y, -9999.0, 9999.0));
     begun = true;
   }
 }
@@ -163,7 +159,7 @@ void SvgPlot::band(Ink ink, std::string_view name, std::span<const Point> lower,
   std::string path;
   bool begun = false;
   append_path(path, around, begun);
-  add(body_, "<path class=\"area {}\" d=\"{}Z\"/>\n", name_of(ink), path);
+  append_format(body_, "<path class=\"area {}\" d=\"{}Z\"/>\n", name_of(ink), path);
   legend(ink, Mark::area, name);
 }
 
@@ -172,10 +168,10 @@ void SvgPlot::points(Ink ink, std::string_view name, std::span<const Point> poin
   for (const Point& point : points) {
     mark_cut(point);
     // A line of no length with round ends is a dot, in a third of the bytes of a circle.
-    if (visible(point)) add(path, "M{:.1f} {:.1f}h0", x_of(point.x), y_of(point.y));
+    if (visible(point)) append_format(path, "M{:.1f} {:.1f}h0", x_of(point.x), y_of(point.y));
   }
   if (path.empty()) return;
-  add(body_, "<path class=\"dots {}\" d=\"{}\"/>\n", name_of(ink), path);
+  append_format(body_, "<path class=\"dots {}\" d=\"{}\"/>\n", name_of(ink), path);
   legend(ink, Mark::dot, name);
 }
 
@@ -185,7 +181,7 @@ void SvgPlot::line(Ink ink, std::string_view name, std::span<const Point> points
   bool begun = false;
   append_path(path, points, begun);
   if (path.empty()) return;
-  add(body_, "<path class=\"line {}\" d=\"{}\"/>\n", name_of(ink), path);
+  append_format(body_, "<path class=\"line {}\" d=\"{}\"/>\n", name_of(ink), path);
   legend(ink, Mark::stroke, name);
 }
 
@@ -203,18 +199,22 @@ void SvgPlot::append_cuts(std::string& out) const {
   constexpr std::array<std::string_view, 4> kSides{"above", "below", "left", "right"};
   std::string words;
   for (std::size_t i = 0; i < cuts_.size(); ++i) {
-    if (cuts_[i].points > 0) add(words, "{}{} {}", words.empty() ? "" : ", ", cuts_[i].points, kSides[i]);
+    if (cuts_[i].points > 0)
+      append_format(words, "{}{} {}", words.empty() ? "" : ", ", cuts_[i].points, kSides[i]);
   }
   if (words.empty()) return;
   const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
   std::string path;
-  for (const int x : cuts_[above].at_px) add(path, "M{:.1f} {:.1f}l3 -5l3 5Z", kLeft + x, kTop + 6);
-  for (const int x : cuts_[below].at_px) add(path, "M{:.1f} {:.1f}l3 5l3 -5Z", kLeft + x, kTop + height - 6);
-  for (const int y : cuts_[left].at_px) add(path, "M{:.1f} {:.1f}l-5 3l5 3Z", kLeft + 6, kTop + y);
-  for (const int y : cuts_[right].at_px) add(path, "M{:.1f} {:.1f}l5 3l-5 3Z", kLeft + width - 6, kTop + y);
-  add(out, "<path class=\"cut\" d=\"{}\"/>\n", path);
-  add(out, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">beyond the axes: {}</text>\n",
-      kLeft + width, size_.height + kCutWords - 6, words);
+  for (const int x : cuts_[above].at_px) append_format(path, "M{:.1f} {:.1f}l3 -5l3 5Z", kLeft + x, kTop + 6);
+  for (const int x : cuts_[below].at_px)
+    append_format(path, "M{:.1f} {:.1f}l3 5l3 -5Z", kLeft + x, kTop + height - 6);
+  for (const int y : cuts_[left].at_px) append_format(path, "M{:.1f} {:.1f}l-5 3l5 3Z", kLeft + 6, kTop + y);
+  for (const int y : cuts_[right].at_px)
+    append_format(path, "M{:.1f} {:.1f}l5 3l-5 3Z", kLeft + width - 6, kTop + y);
+  append_format(out, "<path class=\"cut\" d=\"{}\"/>\n", path);
+  append_format(out,
+                "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">beyond the axes: {}</text>\n",
+                kLeft + width, size_.height + kCutWords - 6, words);
 }
 
 bool SvgPlot::any_cut() const {
@@ -223,30 +223,31 @@ bool SvgPlot::any_cut() const {
 
 void SvgPlot::level(double y) {
   if (!y_.range.contains(y)) return;
-  add(body_, "<path class=\"grid strong\" d=\"M0 {:.1f}h{:.1f}\"/>\n", y_of(y), size_.width - kLeft - kRight);
+  append_format(body_, "<path class=\"grid strong\" d=\"M0 {:.1f}h{:.1f}\"/>\n", y_of(y),
+                size_.width - kLeft - kRight);
 }
 
 void SvgPlot::word(const Point& at, std::string_view text) {
   if (!visible(at)) return;
-  add(body_, "<text class=\"tick halo\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x_of(at.x),
-      y_of(at.y) + 4, escaped(text));
+  append_format(body_, "<text class=\"tick halo\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                x_of(at.x), y_of(at.y) + 4, escaped(text));
 }
 
 void SvgPlot::legend(Ink ink, Mark mark, std::string_view name) {
   if (name.empty()) return;
   switch (mark) {
     case Mark::dot:
-      add(legend_, "<path class=\"dots {}\" style=\"stroke-width:6\" d=\"M{:.0f} 14h0\"/>", name_of(ink),
-          legend_x_ + 8);
+      append_format(legend_, "<path class=\"dots {}\" style=\"stroke-width:6\" d=\"M{:.0f} 14h0\"/>", name_of(ink),
+                    legend_x_ + 8);
       break;
     case Mark::stroke:
-      add(legend_, "<path class=\"line {}\" d=\"M{:.0f} 14h16\"/>", name_of(ink), legend_x_);
+      append_format(legend_, "<path class=\"line {}\" d=\"M{:.0f} 14h16\"/>", name_of(ink), legend_x_);
       break;
     case Mark::area:
-      add(legend_, "<path class=\"area {}\" d=\"M{:.0f} 9h16v10h-16Z\"/>", name_of(ink), legend_x_);
+      append_format(legend_, "<path class=\"area {}\" d=\"M{:.0f} 9h16v10h-16Z\"/>", name_of(ink), legend_x_);
       break;
   }
-  add(legend_, "<text x=\"{:.0f}\" y=\"18\">{}</text>\n", legend_x_ + 21, escaped(name));
+  append_format(legend_, "<text x=\"{:.0f}\" y=\"18\">{}</text>\n", legend_x_ + 21, escaped(name));
   legend_x_ += 36 + kLetterWidth * static_cast<double>(name.size());
 }
 
@@ -255,35 +256,35 @@ void SvgPlot::append_axes(std::string& out) const {
   std::string grid, text;
   for (const auto& [value, words] : ticks_of(x_, 8)) {
     const double x = kLeft + x_of(value);
-    add(grid, "M{:.1f} {:.1f}v{:.1f}", x, kTop, height);
-    add(text, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x,
-        kTop + height + 15, escaped(words));
+    append_format(grid, "M{:.1f} {:.1f}v{:.1f}", x, kTop, height);
+    append_format(text, "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x,
+                  kTop + height + 15, escaped(words));
   }
   for (const auto& [value, words] : ticks_of(y_, 6)) {
     const double y = kTop + y_of(value);
-    add(grid, "M{:.1f} {:.1f}h{:.1f}", kLeft, y, width);
-    add(text, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft - 6, y + 4,
-        escaped(words));
+    append_format(grid, "M{:.1f} {:.1f}h{:.1f}", kLeft, y, width);
+    append_format(text, "<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                  kLeft - 6, y + 4, escaped(words));
   }
-  add(out, "<path class=\"grid\" d=\"{}\"/>\n{}", grid, text);
-  add(out, "<text text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft + width / 2,
-      size_.height - 7, escaped(x_.label));
-  add(out, "<text text-anchor=\"middle\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>\n",
-      kTop + height / 2, escaped(y_.label));
+  append_format(out, "<path class=\"grid\" d=\"{}\"/>\n{}", grid, text);
+  append_format(out, "<text text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kLeft + width / 2,
+                size_.height - 7, escaped(x_.label));
+  append_format(out, "<text text-anchor=\"middle\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>\n",
+                kTop + height / 2, escaped(y_.label));
 }
 
 std::string SvgPlot::svg() const {
   const double width = size_.width - kLeft - kRight, height = size_.height - kTop - kBottom;
   std::string out;
-  add(out, "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
-      size_.width, size_.height + (any_cut() ? kCutWords : 0));
-  add(out, "<title>{}</title>\n", title_);
+  append_format(out, "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
+                size_.width, size_.height + (any_cut() ? kCutWords : 0));
+  append_format(out, "<title>{}</title>\n", title_);
   append_axes(out);
   // A picture within the picture cuts off what lies outside the axes.
-  add(out, "<svg x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n", kLeft, kTop, width,
-      height, body_);
-  add(out, "<path class=\"frame\" d=\"M{:.1f} {:.1f}h{:.1f}v{:.1f}h-{:.1f}Z\"/>\n", kLeft, kTop, width, height,
-      width);
+  append_format(out, "<svg x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n", kLeft, kTop,
+                width, height, body_);
+  append_format(out, "<path class=\"frame\" d=\"M{:.1f} {:.1f}h{:.1f}v{:.1f}h-{:.1f}Z\"/>\n", kLeft, kTop, width,
+                height, width);
   append_cuts(out);
   return out + legend_ + "</svg>\n";
 }

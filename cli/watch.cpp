@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kRefresh = std::chrono::milliseconds(200);
 constexpr auto kLineInterval = std::chrono::seconds(1);
 
-struct Options {
+struct WatchCommandOptions {
   std::string host = "127.0.0.1";
   int port = 2947;
   bool json = false;
@@ -53,13 +53,13 @@ class Screen {
   }
 };
 
-Clock::time_point end_of(const Options& options) {
+Clock::time_point end_of(const WatchCommandOptions& options) {
   if (options.seconds <= 0) return Clock::time_point::max();
   return Clock::now() +
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
 }
 
-std::string title(const Options& options, const WatchStream& stream) {
+std::string title(const WatchCommandOptions& options, const WatchStream& stream) {
   std::string text = fmt::format("navcald at {} port {}", options.host, options.port);
   if (!stream.connected()) text += fmt::format(": not connected ({}), trying again", stream.problem());
   return text + "\n\n";
@@ -75,7 +75,7 @@ void pass_on(WatchStream& stream, Clock::time_point end) {
   }
 }
 
-void show(const Options& options, WatchStream& stream, Clock::time_point end, bool terminal) {
+void show(const WatchCommandOptions& options, WatchStream& stream, Clock::time_point end, bool terminal) {
   const auto screen = terminal ? std::make_unique<Screen>() : nullptr;
   const auto interval = terminal ? Clock::duration(kRefresh) : Clock::duration(kLineInterval);
   WatchView view;
@@ -98,7 +98,7 @@ void show(const Options& options, WatchStream& stream, Clock::time_point end, bo
   }
 }
 
-void watch(const Options& options) {
+void watch(const WatchCommandOptions& options) {
   struct sigaction action {};
   action.sa_handler = on_signal;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
@@ -122,7 +122,7 @@ void watch(const Options& options) {
 
 void add_watch(CLI::App& app) {
   auto* command = app.add_subcommand("watch", "live view of a running navcald");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WatchCommandOptions>();
   command->add_option("--host", options->host, "where it runs")->capture_default_str();
   command->add_option("--port", options->port, "its status port")
       ->check(CLI::Range(1, 65535))

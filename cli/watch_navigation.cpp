@@ -4,14 +4,12 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
+#include "base/angles.h"
 #include "cli/watch_text.h"
 
 namespace navcal::cli {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 bool is_reckoned(const nlohmann::json& nav) { return text(nav, "position") == "reckoned"; }
 
@@ -31,8 +29,8 @@ void append_navigation(std::string& out, const nlohmann::json& nav) {
                    shown(number(nav, "lon"), 7), shown(error_m(nav), 1));
   }
   fmt::format_to(std::back_inserter(out), ", heading {} deg true, {} m/s, depth {} m",
-                 shown(number(nav, "heading_rad") * kDegrees, 1), shown(number(nav, "speed_m_s"), 2),
-                 shown(number(nav, "depth_m"), 2));
+                 shown(number(nav, "heading_rad") * base::kDegreesPerRadian, 1),
+                 shown(number(nav, "speed_m_s"), 2), shown(number(nav, "depth_m"), 2));
   if (is_reckoned(nav)) {
     fmt::format_to(std::back_inserter(out), ", RECKONED: {} s and {} m since the last fix",
                    shown(number(nav, "since_fix_s"), 0), shown(number(nav, "since_fix_m"), 0));

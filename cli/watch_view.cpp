@@ -4,8 +4,9 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
+#include "base/angles.h"
+#include "cli/append_format.h"
 #include "cli/watch_navigation.h"
 #include "cli/watch_text.h"
 
@@ -15,12 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view kRed = "\x1b[1;37;41m", kPlain = "\x1b[0m";
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-template <class... Arguments>
-void add(std::string& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
-}
 
 std::string log_state(const Json& log) {
   if (!log.is_object()) return "log: -";
@@ -28,8 +23,9 @@ std::string log_state(const Json& log) {
   if (const auto reason = text(log, "reason"); !reason.empty()) out += " (" + reason + ")";
   const auto file = text(log, "file");
   if (!file.empty()) out += " " + file.substr(file.rfind('/') + 1);
-  add(out, ", {} MB, {} kB queued", shown(number(log, "bytes") * 1e-6, 1), shown(number(log, "queued") * 1e-3, 0));
-  if (number(log, "lost") > 0) add(out, ", {} records LOST", shown(number(log, "lost"), 0));
+  append_format(out, ", {} MB, {} kB queued", shown(number(log, "bytes") * 1e-6, 1),
+                shown(number(log, "queued") * 1e-3, 0));
+  if (number(log, "lost") > 0) append_format(out, ", {} records LOST", shown(number(log, "lost"), 0));
   return out;
 }
 
@@ -89,9 +85,9 @@ void WatchView::append_alarms(std::string& out, Colour colour) const {
     if (!alarm.is_object()) continue;
     const auto words = fmt::format(" ALARM {} ({}) ", text(alarm, "alarm"), text(alarm, "device"));
     if (colour == Colour::ansi) {
-      add(out, "{}{}{}\n", kRed, words, kPlain);
+      append_format(out, "{}{}{}\n", kRed, words, kPlain);
     } else {
-      add(out, "{}\n", words);
+      append_format(out, "{}\n", words);
     }
   }
 }
@@ -111,18 +107,18 @@ void WatchView::append_sources(std::string& out) const {
       port = server;
     }
   }
-  if (!line.empty()) add(out, "{}\n", line);
+  if (!line.empty()) append_format(out, "{}\n", line);
 }
 
 void WatchView::append_ports(std::string& out) const {
-  add(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s", "frames", "bad", "skipped",
-      "lost", "reason");
+  append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s", "frames", "bad",
+                "skipped", "lost", "reason");
   for (const auto& [device, port] : ports_) {
     const auto rate = frames_per_s_.find(device);
-    add(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
-        shown(rate == frames_per_s_.end() ? NAN : rate->second, 1), shown(number(port, "frames"), 0),
-        shown(number(port, "bad"), 0), shown(number(port, "skipped"), 0), shown(number(port, "lost"), 0),
-        text(port, "reason"));
+    append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
+                  shown(rate == frames_per_s_.end() ? NAN : rate->second, 1), shown(number(port, "frames"), 0),
+                  shown(number(port, "bad"), 0), shown(number(port, "skipped"), 0), shown(number(port, "lost"), 0),
+                  text(port, "reason"));
   }
 }
 
@@ -132,13 +128,15 @@ void WatchView::append_attitude(std::string& out) const {
   for (const auto& [device, att] : found->second) {
     if (att.contains("heading")) {
       const auto north = text(att, "north");
-      add(out, "{:<12}heading {} deg{}{}, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
-          shown(number(att, "heading"), 1), north.empty() ? "" : " ", north, shown(number(att, "pitch"), 1),
-          shown(number(att, "roll"), 1), shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
+      append_format(out, "{:<12}heading {} deg{}{}, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
+                    shown(number(att, "heading"), 1), north.empty() ? "" : " ", north,
+                    shown(number(att, "pitch"), 1), shown(number(att, "roll"), 1),
+                    shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
     }
     if (att.contains("depth")) {
-      add(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device, shown(number(att, "depth"), 2),
-          shown(number(att, "gyro_x"), 2), shown(number(att, "gyro_y"), 2), shown(number(att, "gyro_z"), 2));
+      append_format(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device, shown(number(att, "depth"), 2),
+                    shown(number(att, "gyro_x"), 2), shown(number(att, "gyro_y"), 2),
+                    shown(number(att, "gyro_z"), 2));
     }
   }
 }
@@ -148,36 +146,36 @@ void WatchView::append_position(std::string& out) const {
   if (found == last_.end()) return;
   for (const auto& [device, tpv] : found->second) {
     const double mode = number(tpv, "mode");
-    add(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device,
-        mode >= 3   ? "3D"
-        : mode >= 2 ? "2D"
-                    : "no fix",
-        shown(number(tpv, "lat"), 7), shown(number(tpv, "lon"), 7), shown(number(tpv, "speed"), 2),
-        shown(number(tpv, "track"), 1), text(tpv, "time"));
+    append_format(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device,
+                  mode >= 3   ? "3D"
+                  : mode >= 2 ? "2D"
+                              : "no fix",
+                  shown(number(tpv, "lat"), 7), shown(number(tpv, "lon"), 7), shown(number(tpv, "speed"), 2),
+                  shown(number(tpv, "track"), 1), text(tpv, "time"));
   }
 }
 
 void WatchView::append_motor(std::string& out) const {
   if (const auto found = last_.find("MOTOR"); found != last_.end()) {
     for (const auto& [device, motor] : found->second) {
-      add(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0),
-          shown(number(motor, "current_A"), 2));
+      append_format(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0),
+                    shown(number(motor, "current_A"), 2));
       const Json fins = motor.value("fins_rad", Json::array());
       for (const Json& fin : fins) {
-        add(out, " {}", shown(fin.is_number() ? fin.get<double>() * kDegrees : NAN, 1));
+        append_format(out, " {}", shown(fin.is_number() ? fin.get<double>() * base::kDegreesPerRadian : NAN, 1));
       }
       out += " deg\n";
     }
   }
 }
 
-void WatchView::append_log(std::string& out) const { add(out, "{}\n", log_state(log_)); }
+void WatchView::append_log(std::string& out) const { append_format(out, "{}\n", log_state(log_)); }
 
 void WatchView::append_time(std::string& out) const {
   if (!time_.is_object()) return;
   const double bound = number(time_, "bound");
-  add(out, "UTC from {}, {}\n", text(time_, "source"),
-      std::isfinite(bound) ? fmt::format("to within {:.6f} s", bound) : "to within an unknown bound");
+  append_format(out, "UTC from {}, {}\n", text(time_, "source"),
+                std::isfinite(bound) ? fmt::format("to within {:.6f} s", bound) : "to within an unknown bound");
 }
 
 std::string WatchView::page(Colour colour) const {
@@ -192,7 +190,7 @@ std::string WatchView::page(Colour colour) const {
   append_log(out);
   append_time(out);
   calibration_.append(out);
-  if (dropped_ > 0) add(out, "this view missed {:.0f} reports\n", dropped_);
+  if (dropped_ > 0) append_format(out, "this view missed {:.0f} reports\n", dropped_);
   return out;
 }
 
@@ -200,27 +198,27 @@ std::string WatchView::line() const {
   std::string out;
   if (alarms_.is_array()) {
     for (const Json& alarm : alarms_) {
-      if (alarm.is_object()) add(out, "ALARM {} ({}); ", text(alarm, "alarm"), text(alarm, "device"));
+      if (alarm.is_object()) append_format(out, "ALARM {} ({}); ", text(alarm, "alarm"), text(alarm, "device"));
     }
   }
   for (const auto& [device, port] : ports_) {
     const auto rate = frames_per_s_.find(device);
-    add(out, "{} {} {}/s; ", device, text(port, "state"),
-        shown(rate == frames_per_s_.end() ? NAN : rate->second, 1));
+    append_format(out, "{} {} {}/s; ", device, text(port, "state"),
+                  shown(rate == frames_per_s_.end() ? NAN : rate->second, 1));
   }
   for (const char* kind : {"ATT", "TPV"}) {
     const auto found = last_.find(kind);
     if (found == last_.end()) continue;
     for (const auto& [device, report] : found->second) {
-      if (report.contains("heading")) add(out, "heading {}; ", shown(number(report, "heading"), 1));
-      if (report.contains("depth")) add(out, "depth {}; ", shown(number(report, "depth"), 2));
+      if (report.contains("heading")) append_format(out, "heading {}; ", shown(number(report, "heading"), 1));
+      if (report.contains("depth")) append_format(out, "depth {}; ", shown(number(report, "depth"), 2));
       if (report.contains("lat")) {
-        add(out, "{} {}; ", shown(number(report, "lat"), 7), shown(number(report, "lon"), 7));
+        append_format(out, "{} {}; ", shown(number(report, "lat"), 7), shown(number(report, "lon"), 7));
       }
     }
   }
-  if (const auto words = reckoned_words(navigation_); !words.empty()) add(out, "{}; ", words);
-  if (!calibration_.name().empty()) add(out, "calibration {}; ", calibration_.name());
+  if (const auto words = reckoned_words(navigation_); !words.empty()) append_format(out, "{}; ", words);
+  if (!calibration_.name().empty()) append_format(out, "calibration {}; ", calibration_.name());
   return out + log_state(log_);
 }
 

@@ -3,6 +3,7 @@ option(NAVCAL_TESTS "build the tests" ON)
 option(NAVCAL_BENCH "build the benchmarks" OFF)
 option(NAVCAL_FUZZ "build the libFuzzer targets (needs clang)" OFF)
 option(NAVCAL_PRECOMPILE "precompile the large headers of libraries; off in the fuzz build, where a missing include shows" ON)
+option(NAVCAL_UNITY "compile the sources of a room in batches; off in the presets debug and fuzz, where a missing include shows" ON)
 set(NAVCAL_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,undefined")
 # The preset "sanitize" leaves out those of pointers, which doubled the time to build and to run and which the address
 # sanitizer mostly makes again at the access itself; the preset "fuzz" has them all.
@@ -29,6 +30,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wno-mismatched-new-delete)
   # g++ 12 sees overlapping copies in "text" + std::string at -O2 and above (GCC bug 105651).
   add_compile_options(-Wno-restrict)
+  # A fifth of the time of a large source goes into g++'s garbage collection of its own memory; without it a source needs up to
+  # a quarter more memory (1.5 GB for the largest).
+  add_compile_options(--param=ggc-min-expand=1000 --param=ggc-min-heapsize=4000000)
+  # g++ 12 warns of a coroutine's lambda in a source that a batch includes, as if it stood in a header.
+  if(NAVCAL_UNITY)
+    add_compile_options(-Wno-subobject-linkage)
+  endif()
 endif()
 
 if(NAVCAL_SANITIZE)
@@ -50,14 +58,31 @@ endif()
 # Coverage of these libraries too: without it the fuzzer sees nothing of what it feeds.
 set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record sim gap daemon)
 
-include_directories(${CMAKE_SOURCE_DIR})
+# navcal_batches(TARGET SIZE): compiles the sources of a target in batches of that size, in the order in which they are listed.
+# Most of the time of a build is spent on headers, which a batch reads once (docs/building.md). Names in anonymous namespaces
+# must be unique within a batch; the compiler says so where they are not.
+function(navcal_batches target size)
+  if(NAVCAL_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+  endif()
+endfunction()
 
-# navcal_room(NAME SOURCES... ): the library of one folder, linked as navcal::NAME.
+# navcal_room(NAME [FOLDER room] [BATCH size] SOURCES... USES...): the library of one folder, linked as navcal::NAME. USES are libraries of
+# others; the rooms that it links are those that it may include (cmake/rooms.cmake). BATCH: sources compiled together, 16 unless given.
 function(navcal_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "FOLDER;BATCH" "SOURCES;USES" ${ARGN})
+  if(NOT ROOM_FOLDER)
+    set(ROOM_FOLDER ${name})
+  endif()
+  if(NOT ROOM_BATCH)
+    set(ROOM_BATCH 16)
+  endif()
   add_library(navcal_${name} STATIC ${ROOM_SOURCES})
   add_library(navcal::${name} ALIAS navcal_${name})
-  target_link_libraries(navcal_${name} PUBLIC ${ROOM_USES})
+  navcal_batches(navcal_${name} ${ROOM_BATCH})
+  navcal_include_rooms(navcal_${name} ${ROOM_FOLDER})
+  list(TRANSFORM NAVCAL_MAY_INCLUDE_${ROOM_FOLDER} PREPEND navcal:: OUTPUT_VARIABLE rooms)
+  target_link_libraries(navcal_${name} PUBLIC ${rooms} ${ROOM_USES})
   if(NAVCAL_FUZZ AND name IN_LIST NAVCAL_FUZZED_ROOMS)
     target_compile_options(navcal_${name} PRIVATE -fsanitize=fuzzer-no-link)
   endif()

@@ -9,7 +9,7 @@ namespace {
 
 using S = Settings;
 
-std::vector<Option<S>> make() {
+std::vector<Option<S>> make_daemon_options() {
   std::vector<Option<S>> options{
       text<S>(
           {.table = "log",
@@ -157,7 +157,7 @@ std::vector<Option<S>> make() {
 }  // namespace
 
 const std::vector<Option<S>>& daemon_options() {
-  static const std::vector<Option<S>> options = make();
+  static const std::vector<Option<S>> options = make_daemon_options();
   return options;
 }
 

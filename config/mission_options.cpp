@@ -6,21 +6,21 @@ namespace navcal::config {
 namespace {
 
 using M = Mission;
-using S = MissionStep;
+using Step = MissionStep;
 
-Option<S> number(std::string_view key, std::optional<double> S::*value, Unit unit, double low, double high,
-                 std::string_view description) {
+Option<Step> number(std::string_view key, std::optional<double> Step::*value, Unit unit, double low, double high,
+                    std::string_view description) {
   OptionInfo info{
       .key = key, .description = description, .kind = Kind::real, .unit = unit, .low = low, .high = high};
-  return {std::move(info), {}, [value, unit](S& step, const Value& given) {
+  return {std::move(info), {}, [value, unit](Step& step, const Value& given) {
             step.*value = to_inside<double>(std::get<double>(given), unit);
           }};
 }
 
-Option<S> count(std::string_view key, std::optional<int> S::*value, double low, double high,
-                std::string_view description) {
+Option<Step> count(std::string_view key, std::optional<int> Step::*value, double low, double high,
+                   std::string_view description) {
   OptionInfo info{.key = key, .description = description, .kind = Kind::integer, .low = low, .high = high};
-  return {std::move(info), {}, [value](S& step, const Value& given) {
+  return {std::move(info), {}, [value](Step& step, const Value& given) {
             step.*value = static_cast<int>(std::get<std::int64_t>(given));
           }};
 }
@@ -70,37 +70,38 @@ std::vector<Option<M>> make_mission_options() {
   };
 }
 
-std::vector<Option<S>> make_step_options() {
+std::vector<Option<Step>> make_step_options() {
   return {
-      choice<S>(
+      choice<Step>(
           {.key = "do",
            .description = "What is done.",
            .choices = {"leg", "turn", "circle", "spiral", "zigzag", "pirouette", "dive", "surface", "speed",
                        "swing", "doublet", "direct"}},
           [](auto& s) -> auto& { return s.kind; }),
-      choice<S>(
+      choice<Step>(
           {.key = "on",
            .description = "What a doublet moves.",
            .choices = {"rudder", "elevator", "fin1", "fin2", "fin3"}},
           [](auto& s) -> auto& { return s.on; }),
-      number("heading_deg", &S::heading_rad, kDegrees, -360, 360, "True heading; the shorter way round."),
-      number("by_deg", &S::by_rad, kDegrees, -36000, 36000, "Change of heading, to starboard."),
-      number("turns", &S::turns, kNoUnit, -1000, 1000, "Turns, to starboard."),
-      number("rate_deg_s", &S::rate_rad_s, kDegreesPerSecond, 0.1, 90, "Rate of turn."),
-      number("depth_m", &S::depth_m, kMetres, 0, 1000, "Depth."),
-      number("shaft_rpm", &S::shaft_rps, kRpm, 0, 60000, "Shaft speed, from now on."),
-      number("speed_m_s", &S::speed_m_s, kMetresPerSecond, 0.05, 10, "Speed to be held, from now on."),
-      number("seconds", &S::seconds, kSeconds, 0.1, 1e6, "How long."),
-      number("metres", &S::metres, kMetres, 0.1, 1e6, "How far."),
-      number("rudder_deg", &S::rudder_rad, kDegrees, -50, 50, "Rudder, positive to starboard."),
-      number("elevator_deg", &S::elevator_rad, kDegrees, -50, 50, "Elevator, positive nose up."),
-      number("fin1_deg", &S::fin1_rad, kDegrees, -80, 80, "Angle of the fin."),
-      number("fin2_deg", &S::fin2_rad, kDegrees, -80, 80, "Angle of the fin."),
-      number("fin3_deg", &S::fin3_rad, kDegrees, -80, 80, "Angle of the fin."),
-      number("reach_deg", &S::reach_rad, kDegrees, 1, 170, "How far the heading goes either way."),
-      number("amplitude_deg", &S::amplitude_rad, kDegrees, -50, 50, "How far the surface goes from where it is."),
-      count("times", &S::times, 1, 10000, "How often."),
-      count("stations", &S::stations, 2, 360, "Headings, evenly all round."),
+      number("heading_deg", &Step::heading_rad, kDegrees, -360, 360, "True heading; the shorter way round."),
+      number("by_deg", &Step::by_rad, kDegrees, -36000, 36000, "Change of heading, to starboard."),
+      number("turns", &Step::turns, kNoUnit, -1000, 1000, "Turns, to starboard."),
+      number("rate_deg_s", &Step::rate_rad_s, kDegreesPerSecond, 0.1, 90, "Rate of turn."),
+      number("depth_m", &Step::depth_m, kMetres, 0, 1000, "Depth."),
+      number("shaft_rpm", &Step::shaft_rps, kRpm, 0, 60000, "Shaft speed, from now on."),
+      number("speed_m_s", &Step::speed_m_s, kMetresPerSecond, 0.05, 10, "Speed to be held, from now on."),
+      number("seconds", &Step::seconds, kSeconds, 0.1, 1e6, "How long."),
+      number("metres", &Step::metres, kMetres, 0.1, 1e6, "How far."),
+      number("rudder_deg", &Step::rudder_rad, kDegrees, -50, 50, "Rudder, positive to starboard."),
+      number("elevator_deg", &Step::elevator_rad, kDegrees, -50, 50, "Elevator, positive nose up."),
+      number("fin1_deg", &Step::fin1_rad, kDegrees, -80, 80, "Angle of the fin."),
+      number("fin2_deg", &Step::fin2_rad, kDegrees, -80, 80, "Angle of the fin."),
+      number("fin3_deg", &Step::fin3_rad, kDegrees, -80, 80, "Angle of the fin."),
+      number("reach_deg", &Step::reach_rad, kDegrees, 1, 170, "How far the heading goes either way."),
+      number("amplitude_deg", &Step::amplitude_rad, kDegrees, -50, 50,
+             "How far the surface goes from where it is."),
+      count("times", &Step::times, 1, 10000, "How often."),
+      count("stations", &Step::stations, 2, 360, "Headings, evenly all round."),
   };
 }
 
@@ -111,8 +112,8 @@ const std::vector<Option<M>>& mission_options() {
   return options;
 }
 
-const std::vector<Option<S>>& step_options() {
-  static const std::vector<Option<S>> options = make_step_options();
+const std::vector<Option<Step>>& step_options() {
+  static const std::vector<Option<Step>> options = make_step_options();
   return options;
 }
 

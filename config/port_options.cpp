@@ -20,7 +20,7 @@ std::vector<std::string_view> protocol_names() {
   return names;
 }
 
-std::vector<Option<P>> make() {
+std::vector<Option<P>> make_port_options() {
   return {
       choice<P>(
           {.key = "protocol", .description = "What the device speaks.", .choices = protocol_names()},
@@ -139,7 +139,7 @@ std::vector<Option<P>> make() {
 }  // namespace
 
 const std::vector<Option<P>>& port_options() {
-  static const std::vector<Option<P>> options = make();
+  static const std::vector<Option<P>> options = make_port_options();
   return options;
 }
 

@@ -26,7 +26,7 @@ char32_t take_character(std::string_view& text) {
 }
 
 /// Beyond ASCII everything is escaped: see document_bounds.h.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   while (!text.empty()) {
     const char32_t c = take_character(text);
@@ -50,7 +50,7 @@ struct Words {
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(std::int64_t value) const { return fmt::format("the number {}", value); }
   std::string operator()(double value) const { return fmt::format("the number {}", value); }
-  std::string operator()(const std::string& value) const { return "the text " + quoted(value); }
+  std::string operator()(const std::string& value) const { return "the text " + in_quotes(value); }
   std::string operator()(const std::vector<double>& value) const {
     return fmt::format("an array of {} numbers", value.size());
   }
@@ -62,7 +62,7 @@ struct Toml {
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
   std::string operator()(double value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& value) const { return quoted(value); }
+  std::string operator()(const std::string& value) const { return in_quotes(value); }
   std::string operator()(const std::vector<double>& value) const {
     return fmt::format("[{}]", fmt::join(value, ", "));
   }

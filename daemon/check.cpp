@@ -17,7 +17,7 @@ namespace navcal::daemon {
 namespace {
 
 using config::Role;
-constexpr std::uint64_t kMegabyte = 1'000'000;
+constexpr std::uint64_t kMB = 1'000'000;
 
 std::string place(const config::PortSettings& port) {
   if (!port.path.empty()) return port.path;
@@ -101,8 +101,8 @@ std::string describe(const config::Settings& settings) {
   }
   if (settings.log.enabled) {
     line(fmt::runtime("log: in {}, synced every {} s, a new file every {} MB or {} h, {} MB kept free"),
-         settings.log.directory.string(), settings.log.sync_interval_s, settings.log.rotate_bytes / kMegabyte,
-         settings.log.rotate_age_s / 3600, settings.log.free_floor_bytes / kMegabyte);
+         settings.log.directory.string(), settings.log.sync_interval_s, settings.log.rotate_bytes / kMB,
+         settings.log.rotate_age_s / 3600, settings.log.free_floor_bytes / kMB);
   } else {
     line(fmt::runtime("log: off"));
   }

@@ -9,7 +9,7 @@
 namespace navcal::daemon {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr std::array<std::pair<std::string_view, ControlCommand>, 7> kCommands{{
     {"event", ControlCommand::event},
@@ -38,7 +38,7 @@ std::optional<ControlCommand> command_named(const std::string& text) {
 }
 
 /// The string at `key`; empty when it is not there, nullopt when it is something else.
-std::optional<std::string> text_at(const json& object, const char* key) {
+std::optional<std::string> text_at(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) return std::string();
   if (!found->is_string()) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<std::string> text_at(const json& object, const char* key) {
 }  // namespace
 
 std::variant<ControlRequest, std::string> parse_control(std::string_view line) {
-  const json object = json::parse(line, nullptr, false);
+  const Json object = Json::parse(line, nullptr, false);
   if (!object.is_object()) return "not a JSON object; for example {\"command\":\"status\"}";
   const auto name = text_at(object, "command");
   const auto command = name ? command_named(*name) : std::nullopt;

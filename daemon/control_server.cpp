@@ -11,12 +11,12 @@
 #include <boost/asio/write.hpp>
 
 #include "daemon/line_reader.h"
+#include "ports/no_throw.h"
 
 namespace navcal::daemon {
 namespace asio = boost::asio;
 namespace {
 
-constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kMaxClients = 16;
 constexpr auto kAcceptPause = std::chrono::milliseconds(500);
 
@@ -41,12 +41,12 @@ void ControlServer::stop() {
 
 asio::awaitable<void> ControlServer::accept_clients() {
   while (acceptor_.is_open()) {
-    auto [error, accepted] = co_await acceptor_.async_accept(kNoThrow);
+    auto [error, accepted] = co_await acceptor_.async_accept(ports::kNoThrow);
     if (!acceptor_.is_open()) co_return;
     if (error) {
       spdlog::warn("control socket: cannot accept: {}", error.message());
       asio::steady_timer pause(acceptor_.get_executor(), kAcceptPause);
-      co_await pause.async_wait(kNoThrow);
+      co_await pause.async_wait(ports::kNoThrow);
       continue;
     }
     // More than these are not people at work: the connection is closed at once.
@@ -64,12 +64,13 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket) {
   std::array<char, 1024> chunk{};
   LineReader lines(kMaxControlLength);
   for (;;) {
-    const auto [error, n] = co_await socket->async_read_some(asio::buffer(chunk), kNoThrow);
+    const auto [error, n] = co_await socket->async_read_some(asio::buffer(chunk), ports::kNoThrow);
     if (error) co_return;
     std::string answers;
     const bool accepted = lines.feed({chunk.data(), n}, [&](std::string_view line) { answers += answer(line); });
     if (!accepted) answers += control_error("line too long");
-    const auto [write_error, written] = co_await asio::async_write(*socket, asio::buffer(answers), kNoThrow);
+    const auto [write_error, written] =
+        co_await asio::async_write(*socket, asio::buffer(answers), ports::kNoThrow);
     if (write_error || !accepted) co_return;
   }
 }

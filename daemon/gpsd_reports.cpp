@@ -6,6 +6,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "base/angles.h"
+#include "base/durations.h"
 #include "daemon/json_text.h"
 #include "record/sample_json.h"
 
@@ -14,8 +16,6 @@ namespace {
 
 using instruments::Fix;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::string_view kEnd = "}\n";
 
 void begin(std::string& out, std::string_view report, std::string_view device) {
@@ -79,9 +79,9 @@ double length(const instruments::Vector3& v) { return std::sqrt(v[0] * v[0] + v[
 
 /// Degrees from true north.
 double true_heading_deg(double heading_rad, double declination_rad) {
-  const double heading_deg = heading_rad * kDegrees;
+  const double heading_deg = heading_rad * base::kDegreesPerRadian;
   if (declination_rad == 0) return heading_deg;
-  const double wrapped = std::fmod(heading_deg + declination_rad * kDegrees, 360.0);
+  const double wrapped = std::fmod(heading_deg + declination_rad * base::kDegreesPerRadian, 360.0);
   return wrapped < 0 ? wrapped + 360.0 : wrapped;
 }
 
@@ -100,17 +100,17 @@ void append_tpv(std::string& out, const instruments::GpsSample& gps, const instr
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"mode\":{}"), fix.mode);
   if (fix.status != 0) fmt::format_to(std::back_inserter(out), FMT_STRING(",\"status\":{}"), fix.status);
   if (gps.time_utc_ns) {
-    time(out, *gps.time_utc_ns, *gps.time_utc_ns % kMillisecond_ns == 0 ? 3 : 9);
+    time(out, *gps.time_utc_ns, *gps.time_utc_ns % base::kMillisecond_ns == 0 ? 3 : 9);
   } else if (source.utc_known) {
     time(out, stamp.validity_utc_ns, 3);
   }
   if (fix.mode >= 2) {
-    fixed(out, "lat", gps.latitude_rad, 9, kDegrees);
-    fixed(out, "lon", gps.longitude_rad, 9, kDegrees);
+    fixed(out, "lat", gps.latitude_rad, 9, base::kDegreesPerRadian);
+    fixed(out, "lon", gps.longitude_rad, 9, base::kDegreesPerRadian);
     fixed(out, "altHAE", gps.height_m, 4);
     fixed(out, "altMSL", gps.height_msl_m, 4);
     fixed(out, "alt", gps.height_msl_m, 4);
-    fixed(out, "track", gps.course_rad, 4, kDegrees);
+    fixed(out, "track", gps.course_rad, 4, base::kDegreesPerRadian);
     fixed(out, "speed", gps.speed_m_s, 3);
     fixed(out, "climb", gps.climb_m_s, 3);
   }
@@ -125,8 +125,8 @@ void append_tpv(std::string& out, const pipeline::NavigationSample& sample, bool
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"mode\":{},\"status\":{}"), kReckoned.mode,
                  kReckoned.status);
   if (utc_known) time(out, sample.stamp.validity_utc_ns, 3);
-  fixed(out, "lat", sample.latitude_rad, 9, kDegrees);
-  fixed(out, "lon", sample.longitude_rad, 9, kDegrees);
+  fixed(out, "lat", sample.latitude_rad, 9, base::kDegreesPerRadian);
+  fixed(out, "lon", sample.longitude_rad, 9, base::kDegreesPerRadian);
   const auto& std_m = estimate.position_std_m;
   fixed(out, "epx", std_m.y(), 3);
   fixed(out, "epy", std_m.x(), 3);
@@ -136,7 +136,8 @@ void append_tpv(std::string& out, const pipeline::NavigationSample& sample, bool
     // Where nothing moves there is no direction.
     if (speed_m_s > kStandstill_m_s) {
       const double track_rad = std::atan2(velocity->y(), velocity->x());
-      fixed(out, "track", track_rad < 0 ? track_rad + 2 * std::numbers::pi : track_rad, 4, kDegrees);
+      fixed(out, "track", track_rad < 0 ? track_rad + 2 * std::numbers::pi : track_rad, 4,
+            base::kDegreesPerRadian);
     }
     fixed(out, "speed", speed_m_s, 3);
     fixed(out, "climb", -velocity->z(), 3);
@@ -192,10 +193,11 @@ void append_att(std::string& out, const instruments::CompassSample& compass, con
     fixed(out, "yaw", heading_deg, 4);
     out += is_true ? R"(,"north":"true")" : R"(,"north":"magnetic")";
   }
-  if (compass.heading_calibrated_rad) fixed(out, "heading_device", compass.heading_rad, 4, kDegrees);
-  fixed(out, "pitch", compass.pitch_rad, 4, kDegrees);
-  fixed(out, "roll", compass.roll_rad, 4, kDegrees);
-  fixed(out, "dip", dip_of(compass), 3, kDegrees);
+  if (compass.heading_calibrated_rad)
+    fixed(out, "heading_device", compass.heading_rad, 4, base::kDegreesPerRadian);
+  fixed(out, "pitch", compass.pitch_rad, 4, base::kDegreesPerRadian);
+  fixed(out, "roll", compass.roll_rad, 4, base::kDegreesPerRadian);
+  fixed(out, "dip", dip_of(compass), 3, base::kDegreesPerRadian);
   if (compass.field_body_uT) {
     const auto& measured = *compass.field_body_uT;
     shortest(out, "mag_len", length(measured), 4);
@@ -204,7 +206,7 @@ void append_att(std::string& out, const instruments::CompassSample& compass, con
     shortest(out, "mag_y", measured[1], 6);
     shortest(out, "mag_z", measured[2], 6);
   }
-  fixed(out, "gyro_z", compass.turn_rate_rad_s, 4, kDegrees);
+  fixed(out, "gyro_z", compass.turn_rate_rad_s, 4, base::kDegreesPerRadian);
   if (compass.temperature_C) shortest(out, "temp", *compass.temperature_C, 4);
   if (compass.error) fmt::format_to(std::back_inserter(out), FMT_STRING(",\"error\":\"{:03X}\""), *compass.error);
   calibration(out, source);
@@ -221,12 +223,12 @@ void append_att(std::string& out, const instruments::ImuSample& imu, const instr
   fixed(out, "acc_x", force[0], 4);
   fixed(out, "acc_y", force[1], 4);
   fixed(out, "acc_z", force[2], 4);
-  fixed(out, "gyro_x", rate[0], 4, kDegrees);
-  fixed(out, "gyro_y", rate[1], 4, kDegrees);
-  fixed(out, "gyro_z", rate[2], 4, kDegrees);
-  fixed(out, "gyro_b_z", imu.yaw_rate_b_rad_s, 4, kDegrees);
-  fixed(out, "gyro_z_calibrated", imu.yaw_rate_calibrated_rad_s, 4, kDegrees);
-  fixed(out, "gyro_b_z_calibrated", imu.yaw_rate_b_calibrated_rad_s, 4, kDegrees);
+  fixed(out, "gyro_x", rate[0], 4, base::kDegreesPerRadian);
+  fixed(out, "gyro_y", rate[1], 4, base::kDegreesPerRadian);
+  fixed(out, "gyro_z", rate[2], 4, base::kDegreesPerRadian);
+  fixed(out, "gyro_b_z", imu.yaw_rate_b_rad_s, 4, base::kDegreesPerRadian);
+  fixed(out, "gyro_z_calibrated", imu.yaw_rate_calibrated_rad_s, 4, base::kDegreesPerRadian);
+  fixed(out, "gyro_b_z_calibrated", imu.yaw_rate_b_calibrated_rad_s, 4, base::kDegreesPerRadian);
   fixed(out, "depth", imu.depth_m, 4);
   calibration(out, source);
   out += kEnd;

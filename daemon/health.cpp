@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numbers>
 
+#include "base/angles.h"
 #include "daemon/json_text.h"
 
 namespace navcal::daemon {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 void text(std::string& out, std::string_view key, std::string_view value) {
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"{}\":"), key);
@@ -102,11 +100,11 @@ void append_sources(std::string& out, const Health& health) {
   fmt::format_to(std::back_inserter(out), FMT_STRING("}},\"earth_field\":{{\"declination_source\":\"{}\""),
                  pipeline::name_of(field.declination_source));
   if (field.declination_source != pipeline::EarthField::Source::none)
-    number(out, "declination", field.declination_rad * kDegrees, 3);
+    number(out, "declination", field.declination_rad * base::kDegreesPerRadian, 3);
   text(out, "size_source", pipeline::name_of(field.size_source));
   if (field.size_source != pipeline::EarthField::Source::none) {
     number(out, "size_uT", field.size_uT, 3);
-    number(out, "dip", field.dip_rad * kDegrees, 3);
+    number(out, "dip", field.dip_rad * base::kDegreesPerRadian, 3);
   }
   out += '}';
 }

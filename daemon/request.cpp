@@ -7,7 +7,7 @@
 namespace navcal::daemon {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr std::string_view kSpace = " \t\r\n";
 /// As much of a bad request as is repeated to its sender.
@@ -71,7 +71,7 @@ Request unrecognised(std::string_view command) {
 
 /// The value of `key`, if it is there and of type T; an error message when it is of another type.
 template <class T>
-bool take(const json& object, const char* key, std::optional<T>& value) {
+bool take(const Json& object, const char* key, std::optional<T>& value) {
   const auto found = object.find(key);
   if (found == object.end()) return true;
   if constexpr (std::is_same_v<T, bool>) {
@@ -83,7 +83,7 @@ bool take(const json& object, const char* key, std::optional<T>& value) {
   return true;
 }
 
-Request watch(const json& object) {
+Request watch(const Json& object) {
   WatchChange change;
   std::optional<bool> enable;
   if (!take(object, "enable", enable)) return not_understood("Invalid WATCH: enable is true or false");
@@ -96,7 +96,7 @@ Request watch(const json& object) {
   return request;
 }
 
-Request device(const json& object) {
+Request device(const Json& object) {
   Request request;
   request.kind = Request::Kind::device;
   if (!take(object, "path", request.device)) return not_understood("Invalid DEVICE: path is a string");
@@ -122,7 +122,7 @@ Request parse(std::string_view command) {
     return request.kind == Kind::not_understood ? unrecognised(command) : request;
   }
   if (name != "WATCH" && name != "DEVICE") return unrecognised(command);
-  const json object = json::parse(command.substr(equals + 1), nullptr, false);
+  const Json object = Json::parse(command.substr(equals + 1), nullptr, false);
   if (!object.is_object()) return not_understood(fmt::format("Invalid {}: not a JSON object", name));
   return name == "WATCH" ? watch(object) : device(object);
 }

@@ -12,12 +12,12 @@
 
 #include "daemon/gpsd_replies.h"
 #include "daemon/line_reader.h"
+#include "ports/no_throw.h"
 
 namespace navcal::daemon {
 namespace asio = boost::asio;
 namespace {
 
-constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
 /// Together with the queue this bounds what one client may hold; the kernel books twice what is asked for.
 constexpr int kSendBuffer_bytes = 32 << 10;
 constexpr auto kFarewell = std::chrono::seconds(2);
@@ -56,7 +56,7 @@ asio::awaitable<void> StatusClient::read_requests() {
   std::array<char, 1024> chunk{};
   LineReader lines(kMaxRequestLength);
   for (;;) {
-    const auto [error, n] = co_await socket_.async_read_some(asio::buffer(chunk), kNoThrow);
+    const auto [error, n] = co_await socket_.async_read_some(asio::buffer(chunk), ports::kNoThrow);
     if (error) co_return;
     if (!lines.feed({chunk.data(), n}, [this](std::string_view line) { take_line(line); })) {
       co_await refuse("Request line too long");
@@ -83,7 +83,7 @@ asio::awaitable<void> StatusClient::refuse(std::string_view reason) {
   });
   std::array<char, 4096> discarded{};
   for (;;) {
-    const auto [error, n] = co_await socket_.async_read_some(asio::buffer(discarded), kNoThrow);
+    const auto [error, n] = co_await socket_.async_read_some(asio::buffer(discarded), ports::kNoThrow);
     if (error) break;
   }
   give_up_.cancel();

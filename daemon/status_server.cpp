@@ -11,12 +11,12 @@
 #include <boost/asio/use_awaitable.hpp>
 
 #include "daemon/gpsd_replies.h"
+#include "ports/no_throw.h"
 
 namespace navcal::daemon {
 namespace asio = boost::asio;
 namespace {
 
-constexpr auto kNoThrow = asio::as_tuple(asio::use_awaitable);
 /// Out of descriptors or memory: accepting again at once would only spin.
 constexpr auto kAcceptPause = std::chrono::milliseconds(500);
 
@@ -37,14 +37,14 @@ void StatusServer::stop() {
 
 asio::awaitable<void> StatusServer::accept_clients() {
   while (acceptor_.is_open()) {
-    auto [error, socket] = co_await acceptor_.async_accept(kNoThrow);
+    auto [error, socket] = co_await acceptor_.async_accept(ports::kNoThrow);
     if (!acceptor_.is_open()) co_return;
     if (!error) {
       welcome(std::move(socket));
     } else if (error != asio::error::connection_aborted) {
       spdlog::warn("status socket: cannot accept: {}", error.message());
       pause_.expires_after(kAcceptPause);
-      co_await pause_.async_wait(kNoThrow);
+      co_await pause_.async_wait(ports::kNoThrow);
     }
   }
 }

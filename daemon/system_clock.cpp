@@ -4,18 +4,18 @@
 
 #include <ctime>
 
+#include "base/durations.h"
 #include "ports/port.h"
 
 namespace navcal::daemon {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kMicrosecond_ns = 1'000;
 
 std::int64_t realtime_ns() {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
-  return now.tv_sec * kSecond_ns + now.tv_nsec;
+  return now.tv_sec * base::kSecond_ns + now.tv_nsec;
 }
 
 }  // namespace

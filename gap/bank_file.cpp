@@ -8,16 +8,16 @@
 namespace navcal::gap {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr int kFormat = 18;
 
-json numbers(const Eigen::MatrixXd& matrix) {
+Json numbers(const Eigen::MatrixXd& matrix) {
   std::vector<double> values(matrix.data(), matrix.data() + matrix.size());
   return {{"rows", matrix.rows()}, {"cols", matrix.cols()}, {"values", std::move(values)}};
 }
 
-Eigen::MatrixXd matrix(const json& from) {
+Eigen::MatrixXd matrix(const Json& from) {
   const auto rows = from.at("rows").get<Eigen::Index>(), cols = from.at("cols").get<Eigen::Index>();
   const auto values = from.at("values").get<std::vector<double>>();
   // By division: the product of what a damaged file says may be no number.
@@ -28,18 +28,18 @@ Eigen::MatrixXd matrix(const json& from) {
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), rows, cols);
 }
 
-json statistics_json(const RegimeStatistics& of_nulls) {
+Json statistics_json(const RegimeStatistics& of_nulls) {
   return {{"mean_square", numbers(of_nulls.mean_square)}, {"variance", numbers(of_nulls.variance)}};
 }
 
-RegimeStatistics statistics(const json& from) {
+RegimeStatistics statistics(const Json& from) {
   RegimeStatistics of_nulls;
   of_nulls.mean_square = matrix(from.at("mean_square"));
   of_nulls.variance = matrix(from.at("variance"));
   return of_nulls;
 }
 
-json bank_json(const NullBank& bank) {
+Json bank_json(const NullBank& bank) {
   return {{"missions", bank.missions},
           {"seed", bank.seed},
           {"seconds", bank.seconds},
@@ -54,7 +54,7 @@ json bank_json(const NullBank& bank) {
           {"left", statistics_json(bank.left)}};
 }
 
-NullBank bank_from(const json& from) {
+NullBank bank_from(const Json& from) {
   NullBank bank;
   bank.missions = from.at("missions");
   bank.seed = from.at("seed");
@@ -112,7 +112,7 @@ bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
 }  // namespace
 
 std::string bank_text(const KeptBank& kept, std::string_view model) {
-  return json{{"format", kFormat},
+  return Json{{"format", kFormat},
               {"model", model},
               {"fingerprint", kept.fingerprint},
               {"field_uT", kept.field_uT},
@@ -123,7 +123,7 @@ std::string bank_text(const KeptBank& kept, std::string_view model) {
 
 std::optional<KeptBank> read_bank(std::string_view text, std::string_view model, Eigen::Index unknowns) {
   try {
-    const json all = json::parse(text);
+    const Json all = Json::parse(text);
     if (all.at("format") != kFormat || all.at("model") != model) return std::nullopt;
     KeptBank kept{all.at("fingerprint").get<std::vector<double>>(), bank_from(all.at("bank")),
                   all.at("field_uT").get<Vector3>(), all.at("field_is_fitted").get<bool>()};

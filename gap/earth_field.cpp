@@ -9,19 +9,17 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <vector>
 
+#include "base/angles.h"
+#include "base/vectors.h"
 #include "gap/mission.h"
 
 namespace navcal::gap {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 /// No place on the Earth has more than 70 uT.
 constexpr double kGreatest_uT = 100;
-
-Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
 /// Unit vector downwards in body axes, by the reading's own tilt.
 Eigen::Vector3d downwards(const CompassReading& reading) {
@@ -47,7 +45,7 @@ std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassRe
   constexpr double kOutlier = 0.3;  ///< of the usual size
   if (readings.empty()) return std::nullopt;
   std::vector<double> sizes_uT;
-  for (const CompassReading& reading : readings) sizes_uT.push_back(vector_of(reading.field_uT).norm());
+  for (const CompassReading& reading : readings) sizes_uT.push_back(base::vector_of(reading.field_uT).norm());
   const double usual_uT = median(std::move(sizes_uT));
   if (!(usual_uT > 0)) return std::nullopt;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();  // of b, D, (F^2 - |b|^2) / (2 usual size)
@@ -58,7 +56,7 @@ std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassRe
     right += row * value;
   };
   for (const CompassReading& reading : readings) {
-    const Eigen::Vector3d B = vector_of(reading.field_uT);
+    const Eigen::Vector3d B = base::vector_of(reading.field_uT);
     if (std::abs(B.norm() - usual_uT) > kOutlier * usual_uT) continue;
     const Eigen::Vector3d g = downwards(reading);
     add({g.x(), g.y(), 1, 0}, g.dot(B));
@@ -71,8 +69,8 @@ std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassRe
 }
 
 std::string place_text(const base::GeodeticPosition& place) {
-  const double latitude_deg = place.latitude_rad * kDegrees;
-  const double longitude_deg = std::remainder(place.longitude_rad * kDegrees, 360);
+  const double latitude_deg = place.latitude_rad * base::kDegreesPerRadian;
+  const double longitude_deg = std::remainder(place.longitude_rad * base::kDegreesPerRadian, 360);
   return fmt::format("{:.2f} {} {:.2f} {}", std::abs(latitude_deg), latitude_deg < 0 ? 'S' : 'N',
                      std::abs(longitude_deg), longitude_deg < 0 ? 'W' : 'E');
 }
@@ -151,8 +149,8 @@ std::string doubt_of(const EarthField& field) {
   if (field.source != EarthField::Source::model) return {};
   // Where navcal simulate and its forerunners put recordings by default.
   constexpr double kLatitude_deg = 37.0629, kLongitude_deg = -80.6275, kNear_deg = 0.2;
-  const bool is_near = std::abs(field.place->latitude_rad * kDegrees - kLatitude_deg) < kNear_deg &&
-                       std::abs(field.place->longitude_rad * kDegrees - kLongitude_deg) < kNear_deg;
+  const bool is_near = std::abs(field.place->latitude_rad * base::kDegreesPerRadian - kLatitude_deg) < kNear_deg &&
+                       std::abs(field.place->longitude_rad * base::kDegreesPerRadian - kLongitude_deg) < kNear_deg;
   if (!is_near) return {};
   return "instruments simulated or emulated at this place are in a reference field unless told otherwise; their "
          "recordings are read with --field 19.0,0.6,44.0";

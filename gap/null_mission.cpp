@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/durations.h"
 #include "gap/shadow_helm.h"
 #include "sim/effects/effect_table.h"
 #include "sim/motion_in_field.h"
@@ -13,9 +14,8 @@
 namespace navcal::gap {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// 2026-01-01: any full second would do.
-constexpr std::int64_t kSomeSecond_ns = 1'767'225'600 * kSecond_ns;
+constexpr std::int64_t kSomeSecond_ns = 1'767'225'600 * base::kSecond_ns;
 /// A receiver's noise is settled after so many fixes.
 constexpr int kPoorFixes = 8;
 
@@ -81,7 +81,7 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
   std::vector<sim::LineRead> reads;
   const std::int64_t end_ns = begin_ns + std::llround(recorded.mission().duration_s * 1e9);
   for (std::int64_t t_ns = begin_ns; t_ns < end_ns;) {
-    t_ns = std::min(t_ns + kSecond_ns, end_ns);
+    t_ns = std::min(t_ns + base::kSecond_ns, end_ns);
     reads.clear();
     instruments.advance(t_ns, reads);
     for (const sim::LineRead& read : reads) {

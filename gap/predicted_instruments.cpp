@@ -1,7 +1,6 @@
 #include "gap/predicted_instruments.h"
 
-#include <numbers>
-
+#include "base/angles.h"
 #include "config/settings.h"
 #include "sim/rotation.h"
 
@@ -10,7 +9,6 @@ using sim::operator*;  // NOLINT(misc-unused-using-decls): of a matrix and a vec
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFluidLag_s = 0.3;
 
 }  // namespace
@@ -29,7 +27,9 @@ PredictedInstruments::Card PredictedInstruments::card(double time_s, const sim::
 
   static const config::ImuCardSettings kCard;
   sim::CardVoltages_mV voltages{};
-  const auto unit = [](std::size_t i) { return i < 4 ? kDegree : i < 7 ? sim::kGravity_m_s2 : 1.0; };
+  const auto unit = [](std::size_t i) {
+    return i < 4 ? base::kRadiansPerDegree : i < 7 ? sim::kGravity_m_s2 : 1.0;
+  };
   const auto signal = [&](std::size_t i) -> double& {
     return i < 4 ? said.gyro_rad_s[i] : i < 7 ? said.force_m_s2[i - 4] : said.depth_m;
   };

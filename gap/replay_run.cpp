@@ -5,8 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/angles.h"
+#include "base/vectors.h"
 #include "calib/correction.h"
-#include "nav/angles.h"
 #include "sim/rotation.h"
 
 namespace navcal::gap {
@@ -23,7 +24,6 @@ constexpr double kLongestStep_s = 0.06;
 constexpr double kLongestPart_s = 0.026;
 constexpr double kSubmerged_s = 10;
 
-Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 Eigen::Vector3d euler_rates(const Eigen::Vector3d& euler_rad, const Eigen::Vector3d& rate_rad_s) {
@@ -37,7 +37,7 @@ Vector3 about_axes(const std::array<double, 4>& gyros) { return {gyros[0], gyros
 
 /// Magnetic, of the compass's own field and tilt.
 double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
-  return calib::levelled_heading(vector_of(field), roll_rad, pitch_rad);
+  return calib::levelled_heading(base::vector_of(field), roll_rad, pitch_rad);
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void ReplayRun::begin(const CardReading& reading) {
   body_.velocity[0] = kAdvance_m * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
   gyro_said_rad_s_ = about_axes(reading.gyro_rad_s);
   gyro_error_rad_s_ = gyro_error_at_rest_rad_s_;
-  body_.velocity.tail<3>() = vector_of(gyro_said_rad_s_) - vector_of(gyro_error_rad_s_);
+  body_.velocity.tail<3>() = base::vector_of(gyro_said_rad_s_) - base::vector_of(gyro_error_rad_s_);
   if (!in_.electronics_C.empty()) {
     instruments_.set_electronics(in_.electronics_C[std::min(next_word_, in_.electronics_C.size() - 1)]);
   }
@@ -101,7 +101,7 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
   influences_ = {};
   effects_.influence(from_s, influences_);
   const Eigen::Vector3d euler = body_.euler_rad;
-  const Eigen::Vector3d rate = vector_of(gyro_rad_s);
+  const Eigen::Vector3d rate = base::vector_of(gyro_rad_s);
   const int parts = std::max(1, static_cast<int>(std::ceil(step_s / kLongestPart_s)));
   const double part_s = step_s / parts;
   for (int i = 0; i < parts; ++i) {
@@ -170,7 +170,7 @@ void ReplayRun::take_card(const CardReading& reading) {
 
 void ReplayRun::take_word(const CompassReading& reading, const sim::State& state) {
   const auto said = instruments_.word(reading.time_s, state);
-  const double heading_missed = nav::wrapped(
+  const double heading_missed = base::wrapped(
       reading.heading_rad.value_or(heading_of(reading.field_uT, reading.roll_rad, reading.pitch_rad)) -
       heading_of(said.field_uT, said.tilt.roll_rad, said.tilt.pitch_rad));
   const double roll_missed = reading.roll_rad - said.tilt.roll_rad;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
+
 namespace navcal::gap {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kSettling_s = 20;
 /// Correction of the estimator's depth a second, for each metre that it is off: turns a depth into a rate.
 constexpr double kDepthGain_per_s = 0.6;
@@ -30,16 +31,16 @@ enum Reported : std::size_t {
 }  // namespace
 
 const std::vector<ReportedChannel>& reported_channels() {
-  static const std::vector<ReportedChannel> kAll{{"compass.heading", "deg", kDegrees},
+  static const std::vector<ReportedChannel> kAll{{"compass.heading", "deg", base::kDegreesPerRadian},
                                                  {"compass.field", "uT", 1},
-                                                 {"compass.tilt", "deg", kDegrees},
-                                                 {"imu.gyro", "deg/s", kDegrees},
+                                                 {"compass.tilt", "deg", base::kDegreesPerRadian},
+                                                 {"imu.gyro", "deg/s", base::kDegreesPerRadian},
                                                  {"imu.accel", "m/s2", 1},
                                                  {"imu.depth", "m", 1},
                                                  {"gps.position", "m", 1},
                                                  {"gps.velocity", "m/s", 1},
-                                                 {"vehicle.yaw_rate", "deg/s", kDegrees},
-                                                 {"vehicle.pitch_rate", "deg/s", kDegrees},
+                                                 {"vehicle.yaw_rate", "deg/s", base::kDegreesPerRadian},
+                                                 {"vehicle.pitch_rate", "deg/s", base::kDegreesPerRadian},
                                                  {"vehicle.speed", "m/s", 1},
                                                  {"vehicle.depth_rate", "m/s", 1}};
   return kAll;

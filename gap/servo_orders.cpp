@@ -6,10 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/angles.h"
+
 namespace navcal::gap {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 /// Steps on either side whose size says what one of them may be.
 constexpr std::ptrdiff_t kAround = 15;
 /// Of servo and command at the first report.
@@ -76,7 +77,8 @@ struct Habit {
 
 /// From those of a restless helm to hardly any. Where the noise of the reports hides steps, rounds change little,
 /// and the evidence tells which beginning was right.
-constexpr std::array<double, 4> kFirst_rad{0.2 * kDegree, 0.05 * kDegree, 0.01 * kDegree, 0.002 * kDegree};
+constexpr std::array<double, 4> kFirst_rad{0.2 * base::kRadiansPerDegree, 0.05 * base::kRadiansPerDegree,
+                                           0.01 * base::kRadiansPerDegree, 0.002 * base::kRadiansPerDegree};
 constexpr int kRounds = 8;
 
 }  // namespace

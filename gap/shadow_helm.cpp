@@ -5,16 +5,16 @@
 #include <numbers>
 #include <utility>
 
+#include "base/angles.h"
 #include "sim/vehicle/autopilot.h"
 
 namespace navcal::gap {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Weak, so that what the vehicle does follows from what was reported.
 constexpr double kRudderPerHeading = 0.3, kRudderPerRate_s = 0.15;
 constexpr double kPitchPerDepth_m = 0.15, kElevatorPerPitch = 0.4, kElevatorPerRate_s = 0.2;
-constexpr double kMostPitch_rad = 8 * kDegree, kMost_rad = 6 * kDegree;
+constexpr double kMostPitch_rad = 8 * base::kRadiansPerDegree, kMost_rad = 6 * base::kRadiansPerDegree;
 
 double bounded(double value, double bound) { return std::clamp(value, -bound, bound); }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
+#include "base/angles.h"
 #include "gap/level_changes.h"
 
 namespace navcal::gap {
@@ -74,22 +74,21 @@ struct Driver {
   double per_si;
   const std::vector<double> Course10Hz::*values;
 };
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr Driver kDrivers[] = {
-    {"heading_once", "heading", "deg", kDegrees, &Course10Hz::heading_rad},
-    {"heading_twice", "heading", "deg", kDegrees, &Course10Hz::heading_rad},
-    {"heading_thrice", "heading", "deg", kDegrees, &Course10Hz::heading_rad},
-    {"turn_rate", "yaw rate", "deg/s", kDegrees, &Course10Hz::yaw_rate_rad_s},
-    {"turn_rate_size", "yaw rate", "deg/s", kDegrees, &Course10Hz::yaw_rate_rad_s},
-    {"roll", "roll", "deg", kDegrees, &Course10Hz::roll_rad},
-    {"pitch", "pitch", "deg", kDegrees, &Course10Hz::pitch_rad},
+    {"heading_once", "heading", "deg", base::kDegreesPerRadian, &Course10Hz::heading_rad},
+    {"heading_twice", "heading", "deg", base::kDegreesPerRadian, &Course10Hz::heading_rad},
+    {"heading_thrice", "heading", "deg", base::kDegreesPerRadian, &Course10Hz::heading_rad},
+    {"turn_rate", "yaw rate", "deg/s", base::kDegreesPerRadian, &Course10Hz::yaw_rate_rad_s},
+    {"turn_rate_size", "yaw rate", "deg/s", base::kDegreesPerRadian, &Course10Hz::yaw_rate_rad_s},
+    {"roll", "roll", "deg", base::kDegreesPerRadian, &Course10Hz::roll_rad},
+    {"pitch", "pitch", "deg", base::kDegreesPerRadian, &Course10Hz::pitch_rad},
     {"motor_current", "motor current", "A", 1, &Course10Hz::current_A},
     {"temperature", "electronics above 15 C", "C", 1, &Course10Hz::warmth_C},
     {"depth", "depth", "m", 1, &Course10Hz::depth_m},
     {"speed", "speed", "m/s", 1, &Course10Hz::surge_m_s},
     {"surface", "depth", "m", 1, &Course10Hz::depth_m},
-    {"rudder", "rudder", "deg", kDegrees, &Course10Hz::rudder_rad},
-    {"elevator", "elevator", "deg", kDegrees, &Course10Hz::elevator_rad},
+    {"rudder", "rudder", "deg", base::kDegreesPerRadian, &Course10Hz::rudder_rad},
+    {"elevator", "elevator", "deg", base::kDegreesPerRadian, &Course10Hz::elevator_rad},
 };
 
 }  // namespace

@@ -3,7 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::gap {
 namespace {
@@ -125,8 +126,8 @@ Whitening::Whitening(std::span<const Innovations> noise, std::span<const Layout>
 }
 
 Whitening Whitening::nominal() {
-  constexpr double kDegree = std::numbers::pi / 180;
-  const double gyro = 0.1 * kDegree / std::sqrt(2.0), force = 0.02 / std::sqrt(2.0), tilt = 0.1 * kDegree;
+  const double gyro = 0.1 * base::kRadiansPerDegree / std::sqrt(2.0), force = 0.02 / std::sqrt(2.0),
+               tilt = 0.1 * base::kRadiansPerDegree;
   Whitening result;
   result.fix_filter = Eigen::MatrixXd::Zero(0, kFixChannels);
   Eigen::VectorXd grid(kEvidenceChannels);

@@ -31,7 +31,6 @@ constexpr int kRegularFitsMost = 96;      // runs of 32 frames
 constexpr double kShareGain = 1.0 / 24;   // per frame
 constexpr double kBurstGain = 1.0 / 256;  // per frame: a stall of some seconds is no change of rhythm
 constexpr double kBurstMargin = 0.5;      // periods beyond a burst's length, before frames are thought lost
-constexpr double kShort = 0.3;            // of the period: frames closer than that came in a burst
 constexpr double kBurstsBegin = 0.3, kBurstsEnd = 0.15;  // share of such intervals
 constexpr double kLeastStep = 0.1;                       // of the period, between two times of validity
 constexpr std::int64_t kLeastStep_ns = 1000;
@@ -220,7 +219,7 @@ TimeEstimate FrameClock::track(const FrameObservation& frame) {
 
 void FrameClock::watch_intervals(const FrameObservation& frame) {
   const double interval_s = static_cast<double>(frame.observed_ns - observed_ns_) * 1e-9;
-  const double is_short = interval_s < kShort * model_.period_s() ? 1 : 0;
+  const double is_short = interval_s < kBurstInterval * model_.period_s() ? 1 : 0;
   burst_share_ += kBurstGain * (is_short - burst_share_);
   if (burst_share_ > kBurstsBegin) timing_ = Timing::bursts;
   if (burst_share_ < kBurstsEnd) timing_ = Timing::periodic;

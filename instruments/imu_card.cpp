@@ -1,5 +1,6 @@
 #include "instruments/imu_card.h"
 
+#include "base/angles.h"
 #include "instruments/units.h"
 #include "protocols/imu_card.h"
 
@@ -14,8 +15,9 @@ Instrument::Verdict ImuCard::read(const protocols::Frame& frame, Receiver& recei
     return (record->raw[channel] / 16.0 - settings_.zero_mV[channel]) / settings_.scale[channel];
   };
   ImuSample sample;
-  sample.rate_rad_s = {scaled(0) * kRadPerDeg, scaled(2) * kRadPerDeg, scaled(1) * kRadPerDeg};
-  sample.yaw_rate_b_rad_s = scaled(3) * kRadPerDeg;
+  sample.rate_rad_s = {scaled(0) * base::kRadiansPerDegree, scaled(2) * base::kRadiansPerDegree,
+                       scaled(1) * base::kRadiansPerDegree};
+  sample.yaw_rate_b_rad_s = scaled(3) * base::kRadiansPerDegree;
   sample.specific_force_m_s2 = {scaled(4) * kGravity_m_s2, scaled(5) * kGravity_m_s2, scaled(6) * kGravity_m_s2};
   sample.depth_m = scaled(7);
   sample.sequence = record->sequence;

@@ -1,5 +1,6 @@
 #include "instruments/motor_card.h"
 
+#include "base/angles.h"
 #include "instruments/units.h"
 #include "protocols/motor_card.h"
 
@@ -13,7 +14,7 @@ Instrument::Verdict MotorCard::read(const protocols::Frame& frame, Receiver& rec
   sample.rpm_commanded = status->rpm_commanded;
   sample.rpm = status->rpm;
   for (std::size_t i = 0; i < sample.fins_rad.size(); ++i) {
-    if (status->fins_deg[i]) sample.fins_rad[i] = *status->fins_deg[i] * kRadPerDeg;
+    if (status->fins_deg[i]) sample.fins_rad[i] = *status->fins_deg[i] * base::kRadiansPerDegree;
   }
   sample.current_A = status->current_A;
   sample.sequence = status->sequence;

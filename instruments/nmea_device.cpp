@@ -1,5 +1,6 @@
 #include "instruments/nmea_device.h"
 
+#include "base/angles.h"
 #include "instruments/units.h"
 #include "protocols/nmea_attitude.h"
 
@@ -30,7 +31,7 @@ Verdict read_rot(const nmea::Sentence& sentence, Receiver& receiver) {
   if (!rot) return Verdict::out_of_range;
   if (!rot->valid || !rot->rate_deg_min) return Verdict::ignored;
   CompassSample sample;
-  sample.turn_rate_rad_s = rot->rate_deg_min->value() * kRadPerDeg / 60;
+  sample.turn_rate_rad_s = rot->rate_deg_min->value() * base::kRadiansPerDegree / 60;
   return hand_over(sample, false, receiver);
 }
 
@@ -43,7 +44,7 @@ Verdict read_xdr(const nmea::Sentence& sentence, Receiver& receiver) {
   for (std::size_t i = 0; i < xdr->count; ++i) {
     const auto& transducer = xdr->transducers[i];
     if (transducer.type != 'A' || transducer.unit != 'D' || !transducer.value) continue;
-    const double angle_rad = transducer.value->value() * kRadPerDeg;
+    const double angle_rad = transducer.value->value() * base::kRadiansPerDegree;
     if (transducer.name == "PITCH" || transducer.name == "PTCH") sample.pitch_rad = angle_rad;
     if (transducer.name == "ROLL") sample.roll_rad = angle_rad;
   }
@@ -108,7 +109,7 @@ Verdict NmeaDevice::read_heading(const nmea::Sentence& sentence, nmea::Type type
   if (!heading) return Verdict::out_of_range;
   if (!heading->heading_deg || heading->mode == 'V') return Verdict::ignored;
   CompassSample sample;
-  sample.heading_rad = heading->heading_deg->value() * kRadPerDeg;
+  sample.heading_rad = heading->heading_deg->value() * base::kRadiansPerDegree;
   sample.heading_is_true = heading->is_true;
   return hand_over(sample, true, receiver);
 }

@@ -1,5 +1,6 @@
 #include "instruments/nmea_epoch.h"
 
+#include "base/angles.h"
 #include "instruments/units.h"
 
 namespace navcal::instruments {
@@ -104,15 +105,16 @@ void NmeaEpoch::set_date(const protocols::Date& date) {
 
 void NmeaEpoch::set_place(const std::optional<nmea::LatLon>& place) {
   if (!place) return;
-  open_.latitude_rad = place->latitude_deg * kRadPerDeg;
-  open_.longitude_rad = place->longitude_deg * kRadPerDeg;
+  open_.latitude_rad = place->latitude_deg * base::kRadiansPerDegree;
+  open_.longitude_rad = place->longitude_deg * base::kRadiansPerDegree;
 }
 
 void NmeaEpoch::set_motion(const std::optional<protocols::nmea::Decimal>& speed_kn,
                            const std::optional<protocols::nmea::Decimal>& course_deg) {
   if (!speed_kn) return;
   open_.speed_m_s = speed_kn->value() * protocols::kMetresPerSecondPerKnot;
-  if (course_deg && *open_.speed_m_s >= course_gate_m_s_) open_.course_rad = course_deg->value() * kRadPerDeg;
+  if (course_deg && *open_.speed_m_s >= course_gate_m_s_)
+    open_.course_rad = course_deg->value() * base::kRadiansPerDegree;
 }
 
 GpsSample NmeaEpoch::complete() const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/angles.h"
 #include "instruments/units.h"
 #include "protocols/oncore.h"
 
@@ -53,15 +54,16 @@ Instrument::Verdict OncoreReceiver::read_position(const oncore::Position& positi
   sample.visible = position.visible;
   sample.tracked = position.tracked;
   if (has_position(position.fix)) {
-    sample.latitude_rad = position.filtered.latitude_deg * kRadPerDeg;
-    sample.longitude_rad = position.filtered.longitude_deg * kRadPerDeg;
+    sample.latitude_rad = position.filtered.latitude_deg * base::kRadiansPerDegree;
+    sample.longitude_rad = position.filtered.longitude_deg * base::kRadiansPerDegree;
     sample.height_m = position.filtered.height_m;
     // Many receivers know no geoid and send exactly 0 (ICD section 2): that is no height.
     if (position.filtered.height_msl_m != 0) sample.height_msl_m = position.filtered.height_msl_m;
   }
   if (position.fix == Fix::fix_2d || position.fix == Fix::fix_3d || position.fix == Fix::propagated) {
     sample.speed_m_s = position.speed_m_s;
-    if (position.speed_m_s >= settings_.course_gate_m_s) sample.course_rad = position.heading_deg * kRadPerDeg;
+    if (position.speed_m_s >= settings_.course_gate_m_s)
+      sample.course_rad = position.heading_deg * base::kRadiansPerDegree;
     sample.dop = position.dop;
   }
 

@@ -17,7 +17,6 @@ constexpr double kLostMost = 0.5;        // of the ticks
 constexpr double kEarlyMargin = 0.25;    // of a period, by which a frame may lie before the tick it is given
 constexpr double kLostCost = 2;          // nats, for each tick without a frame
 constexpr double kDelayLeast = 1e-3;     // of the period: smaller delays do not make a period more likely
-constexpr double kShort = 0.3;           // of the period: frames closer than that came in a burst
 constexpr double kBurstShare = 0.3;      // of the intervals
 constexpr double kSpreadIgnored = 0.02;  // of the period: a line that misses by less is good whatever its misses
 constexpr double kDelayMost = 0.4;       // of the period: beyond, ticks cannot be told apart by time
@@ -217,7 +216,7 @@ void PeriodFinder::describe(const Ticks& ticks, PeriodFit& fit) const {
   fit.roughness = fit.spread_s > 0 ? difference_s / fit.spread_s : 2;
   int shorts = 0;
   for (std::size_t i = 1; i <= last; ++i)
-    shorts += time_s_[i] - time_s_[i - 1] < kShort * fit.line.slope_s ? 1 : 0;
+    shorts += time_s_[i] - time_s_[i - 1] < kBurstInterval * fit.line.slope_s ? 1 : 0;
   fit.burst_share = static_cast<double>(shorts) / static_cast<double>(last);
 }
 

@@ -10,6 +10,9 @@
 
 namespace navcal::instruments {
 
+/// Two frames closer together than this share of the period came in a burst.
+inline constexpr double kBurstInterval = 0.3;
+
 /// What a run of frames tells about the device's ticks, with no more than a rough idea of their period.
 struct PeriodFit {
   bool found = false;  ///< enough frames for a line

@@ -1,5 +1,6 @@
 #include "instruments/start_up_oncore.h"
 
+#include "base/durations.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_command.h"
 
@@ -8,11 +9,10 @@ namespace {
 
 namespace oncore = protocols::oncore;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// The receiver reads its input once a second and answers in the next but one; half a second for the wire.
-constexpr std::int64_t kAnswer_ns = 3 * kSecond_ns + kSecond_ns / 2;
-constexpr std::int64_t kStopped_ns = 3 * kSecond_ns;
-constexpr std::int64_t kCycle_ns = 10 * kSecond_ns;
+constexpr std::int64_t kAnswer_ns = 3 * base::kSecond_ns + base::kSecond_ns / 2;
+constexpr std::int64_t kOncoreStopped_ns = 3 * base::kSecond_ns;
+constexpr std::int64_t kCycle_ns = 10 * base::kSecond_ns;
 constexpr std::uint8_t kEverySecond = 1;
 
 /// Sentences have talker and type, at least five letters; the receiver's own messages have two.
@@ -54,7 +54,7 @@ void StartUpOncore::run_on(Source source, std::int64_t now_ns) {
   if (source < source_) return;
   phase_ = Phase::running;
   source_ = source;
-  due_ns_ = now_ns + kStopped_ns;
+  due_ns_ = now_ns + kOncoreStopped_ns;
   fruitless_ = 0;
 }
 

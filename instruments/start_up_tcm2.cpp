@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/durations.h"
+#include "instruments/tcm2_dialogue.h"
 #include "protocols/decimal.h"
 #include "protocols/tcm2.h"
 
@@ -14,16 +16,7 @@ namespace tcm2 = protocols::tcm2;
 using tcm2::Parameter;
 using tcm2::Verb;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr std::int64_t kBetweenHalts_ns = 100 * kMillisecond_ns;  // ICD section 1: "twice 100 ms apart"
-/// After the second `h`: a word under way and the replies to both are over (75 bytes take 78 ms at 9600 baud).
-constexpr std::int64_t kSettle_ns = 200 * kMillisecond_ns;
-/// A reply waits for the end of a word under way; at 5 Hz the device looks at its input five times a second.
-constexpr std::int64_t kReplyTimeout_ns = 400 * kMillisecond_ns;
-constexpr std::int64_t kStopped_ns = 3 * kSecond_ns;
-constexpr std::int64_t kMostPatience_ns = 10 * kSecond_ns;
-constexpr int kAttempts = 3;  // the command and two repetitions
+constexpr std::int64_t kMostPatience_ns = 10 * base::kSecond_ns;
 
 /// `clock=` and `sp=` that come nearest to a rate. Of equals the pair with sp = rate wins, for it means the same
 /// to a TCM2 (clock divided by sp) and to a TCM2.5 (sp in Hz); then the smallest divider.
@@ -83,9 +76,9 @@ void add_to_list(std::string& list, const std::string& item) {
 }  // namespace
 
 StartUpTcm2::StartUpTcm2(const config::PortSettings& settings)
-    : settings_(settings_for(settings)), stopped_after_ns_(kStopped_ns) {
+    : settings_(settings_for(settings)), stopped_after_ns_(kTcm2Stopped_ns) {
   if (settings.rate_Hz > 0) {
-    stopped_after_ns_ = std::max(kStopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
+    stopped_after_ns_ = std::max(kTcm2Stopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
   }
   patience_ns_ = stopped_after_ns_;
 }

@@ -4,6 +4,9 @@
 #include <numbers>
 #include <utility>
 
+#include "base/angles.h"
+#include "base/durations.h"
+#include "instruments/tcm2_dialogue.h"
 #include "instruments/units.h"
 #include "protocols/decimal.h"
 #include "protocols/tcm2.h"
@@ -16,20 +19,13 @@ namespace tcm2 = protocols::tcm2;
 using tcm2::Parameter;
 using tcm2::Verb;
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
-// As at start-up (start_up_tcm2.cpp).
-constexpr std::int64_t kBetweenHalts_ns = 100 * kMillisecond_ns;
-constexpr std::int64_t kSettle_ns = 200 * kMillisecond_ns;
-constexpr std::int64_t kReplyTimeout_ns = 400 * kMillisecond_ns;
-constexpr std::int64_t kStopped_ns = 3000 * kMillisecond_ns;
-constexpr int kAttempts = 3;  // the command and two repetitions
 /// A longer silence of the gyro is not turned over.
-constexpr std::int64_t kLongestRateGap_ns = 500 * kMillisecond_ns;
+constexpr std::int64_t kLongestRateGap_ns = 500 * base::kMillisecond_ns;
 
 tcm2::Command multipoint(char letter) { return tcm2::set(Parameter::multipoint_calibration, letter); }
 
-std::string degrees(double angle_rad) { return std::to_string(std::lround(angle_rad / kRadPerDeg)); }
+std::string degrees(double angle_rad) { return std::to_string(std::lround(angle_rad / base::kRadiansPerDegree)); }
 
 std::string text_of(const tcm2::CalibrationScore& score) {
   tcm2::Reply reply;
@@ -42,9 +38,9 @@ std::string text_of(const tcm2::CalibrationScore& score) {
 }  // namespace
 
 Tcm2Calibration::Tcm2Calibration(const config::PortSettings& settings, const Limits& limits)
-    : heading_unit_(settings.compass.heading_unit), limits_(limits), stopped_after_ns_(kStopped_ns) {
+    : heading_unit_(settings.compass.heading_unit), limits_(limits), stopped_after_ns_(kTcm2Stopped_ns) {
   if (settings.rate_Hz > 0) {
-    stopped_after_ns_ = std::max(kStopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
+    stopped_after_ns_ = std::max(kTcm2Stopped_ns, static_cast<std::int64_t>(3e9 / settings.rate_Hz));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "instruments/tcm2_compass.h"
 
+#include "base/angles.h"
 #include "instruments/compass_error.h"
 #include "instruments/units.h"
 #include "protocols/tcm2.h"
@@ -26,7 +27,7 @@ Instrument::Verdict Tcm2Compass::read(const protocols::Frame& frame, Receiver& r
   } else if (frame.id == tcm2::kHchdm) {
     const auto heading_deg = tcm2::decode_hchdm(frame.bytes);
     if (!heading_deg) return Verdict::out_of_range;
-    sample.heading_rad = *heading_deg * kRadPerDeg;
+    sample.heading_rad = *heading_deg * base::kRadiansPerDegree;
   } else {
     return Verdict::ignored;
   }

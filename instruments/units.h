@@ -2,18 +2,18 @@
 
 #include <numbers>
 
+#include "base/angles.h"
 #include "config/settings.h"
 
 namespace navcal::instruments {
 
-inline constexpr double kRadPerDeg = std::numbers::pi / 180;
 /// The g of the accelerometers' scale (docs/simulator.md).
 inline constexpr double kGravity_m_s2 = 9.81;
 
 [[nodiscard]] constexpr double radians_of(double angle, config::AngleUnit unit) {
   switch (unit) {
     case config::AngleUnit::deg:
-      return angle * kRadPerDeg;
+      return angle * base::kRadiansPerDegree;
     case config::AngleUnit::mils:
       return angle * (2 * std::numbers::pi / 6400);
     case config::AngleUnit::counts16:

@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nav/angles.h"
+#include "base/angles.h"
+#include "base/durations.h"
+#include "nav/reading_pauses.h"
 
 namespace navcal::nav {
 namespace {
 
 using Eigen::Vector3d;
 
-/// As in Navigator: after a longer pause the turn within it is not known, and a shaft may have stopped.
-constexpr double kRatePause_s = 0.5, kShaftPause_s = 2, kFixPause_s = 3;
+/// A velocity by fixes that is older says nothing of the speed now.
+constexpr double kFixPause_s = 3;
 /// Gravity that is left must be gravity: within so much of 9.81 m/s2. A blow or a fall says nothing of the tilt.
 constexpr double kGravity_m_s2 = 9.81, kGravityWithin_m_s2 = 1.5;
-constexpr double kMostRate_rad_s = 100;
-
-double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
 
 AttitudeOptions attitude_options(const AccelerometerTiltOptions& options) {
   AttitudeOptions attitude;
@@ -34,7 +33,7 @@ void AccelerometerTilt::take(const RateReading& reading) {
   if (!reading.specific_force_m_s2 || (time_ns_ && reading.time_ns <= *time_ns_)) return;
   const Vector3d& force_m_s2 = *reading.specific_force_m_s2;
   if (!(reading.rate_rad_s.array().abs() <= kMostRate_rad_s).all() || !force_m_s2.allFinite()) return;
-  const double duration_s = time_ns_ ? seconds(reading.time_ns - *time_ns_) : 0;
+  const double duration_s = time_ns_ ? base::seconds(reading.time_ns - *time_ns_) : 0;
   if (time_ns_ && duration_s <= kRatePause_s) {
     attitude_.turn((rate_rad_s_ + reading.rate_rad_s) / 2, duration_s);
   } else {
@@ -50,7 +49,7 @@ void AccelerometerTilt::take(const RateReading& reading) {
   if (std::abs(gravity.norm() - kGravity_m_s2) <= kGravityWithin_m_s2) {
     const double roll_rad = std::atan2(gravity.y(), gravity.z());
     const double pitch_rad = std::atan2(-gravity.x(), std::hypot(gravity.y(), gravity.z()));
-    const Eigen::Vector2d turned = attitude_.correct_tilt(wrapped(roll_rad - attitude_.roll_rad()),
+    const Eigen::Vector2d turned = attitude_.correct_tilt(base::wrapped(roll_rad - attitude_.roll_rad()),
                                                           pitch_rad - attitude_.pitch_rad(), duration_s);
     past_.correct({turned.x(), turned.y(), 0});
   }
@@ -70,7 +69,8 @@ void AccelerometerTilt::take(const FixReading& reading) {
 
 void AccelerometerTilt::move_speed(std::int64_t time_ns, double duration_s) {
   acceleration_m_s2_ = 0;
-  const bool by_shaft = options_.advance_m > 0 && shaft_ns_ && seconds(time_ns - *shaft_ns_) <= kShaftPause_s;
+  const bool by_shaft =
+      options_.advance_m > 0 && shaft_ns_ && base::seconds(time_ns - *shaft_ns_) <= kShaftPause_s;
   if (by_shaft) {
     const double target_m_s = options_.advance_m * std::max(shaft_per_s_, 0.0);
     if (speed_by_shaft_ && options_.speed_lag_s > 0) {
@@ -81,7 +81,7 @@ void AccelerometerTilt::move_speed(std::int64_t time_ns, double duration_s) {
       speed_m_s_ = target_m_s;
     }
   } else {
-    const bool by_fixes = ground_ns_ && seconds(time_ns - *ground_ns_) <= kFixPause_s;
+    const bool by_fixes = ground_ns_ && base::seconds(time_ns - *ground_ns_) <= kFixPause_s;
     speed_m_s_ = by_fixes ? ground_speed_m_s_ : 0;
   }
   speed_by_shaft_ = by_shaft;

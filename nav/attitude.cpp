@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nav/angles.h"
+#include "base/angles.h"
 
 namespace navcal::nav {
 namespace {

@@ -5,7 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "nav/angles.h"
+#include "base/angles.h"
+#include "base/durations.h"
+#include "nav/reading_pauses.h"
 
 namespace navcal::nav {
 namespace {
@@ -13,11 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A longer pause between two frames of the card says that nothing is known of the turns within it.
-constexpr double kRatePause_s = 0.5;
-/// A shaft that was not heard of for so long may have stopped.
-constexpr double kShaftPause_s = 2;
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// A turn within the second before a fix makes its velocity so many times worse than the reckoned one changed.
 constexpr double kChangeShare = 2;
 /// How a heading that no compass holds gets lost: by a zero of the gyros not known, and with no gyros at all.
@@ -25,10 +22,8 @@ constexpr double kGyroDrift_rad_s = 0.005, kBlindDrift_rad_s = 0.2;
 /// A heading of which nothing is known: uniform around the circle.
 const double kAnyHeading_rad = std::numbers::pi / std::sqrt(3.0);
 
-double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
-
 /// Beyond these an instrument has lost its mind, whatever it is. What is no number is beyond everything.
-constexpr double kMostRate_rad_s = 100, kMostDepth_m = 12'000, kMostAngle_rad = 100, kMostShaft_per_s = 1000;
+constexpr double kMostDepth_m = 12'000, kMostAngle_rad = 100, kMostShaft_per_s = 1000;
 constexpr double kMostPosition_m = 2e7, kMostVelocity_m_s = 1e4, kLeastFixStd_m = 1e-3, kMostFixStd_m = 1e5;
 
 bool within(double value, double most) { return std::abs(value) <= most; }
@@ -66,13 +61,13 @@ bool Navigator::is_new(Last& last, std::int64_t time_ns, bool plausible) {
 }
 
 bool Navigator::rates_come(std::int64_t time_ns) const {
-  return rates_ns_ && seconds(time_ns - *rates_ns_) <= kRatePause_s;
+  return rates_ns_ && base::seconds(time_ns - *rates_ns_) <= kRatePause_s;
 }
 
 void Navigator::take(const RateReading& reading) {
   const Last before_ns = rates_ns_;
   if (!is_new(rates_ns_, reading.time_ns, plausible(reading))) return;
-  const bool follows = before_ns && seconds(reading.time_ns - *before_ns) <= kRatePause_s;
+  const bool follows = before_ns && base::seconds(reading.time_ns - *before_ns) <= kRatePause_s;
   const Vector3d mean_rate_rad_s = (rate_rad_s_ + reading.rate_rad_s) / 2;
   rate_rad_s_ = reading.rate_rad_s;
   // Others may have driven the time beyond the first frames after a pause.
@@ -93,15 +88,16 @@ void Navigator::take(const CompassReading& reading) {
     // The fluid shows the tilt of some time ago.
     const std::int64_t felt_ns = reading.time_ns - std::llround(options_.attitude.tilt_lag_s * 1e9);
     const Pose felt = past_.at(felt_ns).value_or(*pose);
-    const double since_s = tilt_ns_ ? seconds(reading.time_ns - *tilt_ns_) : 0;
-    const Vector2d turned = attitude_.correct_tilt(wrapped(*reading.roll_rad - felt.roll_rad),
+    const double since_s = tilt_ns_ ? base::seconds(reading.time_ns - *tilt_ns_) : 0;
+    const Vector2d turned = attitude_.correct_tilt(base::wrapped(*reading.roll_rad - felt.roll_rad),
                                                    *reading.pitch_rad - felt.pitch_rad, since_s);
     past_.correct({turned.x(), turned.y(), 0});
     tilt_ns_ = reading.time_ns;
   }
   if (reading.heading_rad) {
-    const double since_s = heading_ns_ ? seconds(reading.time_ns - *heading_ns_) : 0;
-    const double turned = attitude_.correct_heading(wrapped(*reading.heading_rad - pose->heading_rad), since_s);
+    const double since_s = heading_ns_ ? base::seconds(reading.time_ns - *heading_ns_) : 0;
+    const double turned =
+        attitude_.correct_heading(base::wrapped(*reading.heading_rad - pose->heading_rad), since_s);
     past_.correct({0, 0, turned});
     heading_ns_ = reading.time_ns;
     heading_calibrated_ = reading.calibrated;
@@ -122,8 +118,8 @@ void Navigator::take(const TiltReading& reading) {
     ++left_out_;
     return;
   }
-  const double since_s = tilt_ns_ ? seconds(reading.time_ns - *tilt_ns_) : 0;
-  const Vector2d turned = attitude_.correct_tilt(wrapped(reading.roll_rad - pose->roll_rad),
+  const double since_s = tilt_ns_ ? base::seconds(reading.time_ns - *tilt_ns_) : 0;
+  const Vector2d turned = attitude_.correct_tilt(base::wrapped(reading.roll_rad - pose->roll_rad),
                                                  reading.pitch_rad - pose->pitch_rad, since_s);
   past_.correct({turned.x(), turned.y(), 0});
   tilt_ns_ = reading.time_ns;
@@ -143,15 +139,15 @@ void Navigator::take(const FixReading& reading) {
     ++left_out_;
     return;
   }
-  if (const auto outage = reckoning_.fix(reading, pose->reckoned_m, seconds(*time_ns_ - reading.time_ns)))
+  if (const auto outage = reckoning_.fix(reading, pose->reckoned_m, base::seconds(*time_ns_ - reading.time_ns)))
     outage_ = outage;
   if (reading.velocity_m_s && speed_known_ && attitude_.heading_known()) observe_set(reading);
 }
 
 /// A receiver's velocity is a mean over about the second before: what changed within it is no measure of the set.
 void Navigator::observe_set(const FixReading& reading) {
-  const auto now = past_.at(reading.time_ns), half = past_.at(reading.time_ns - kSecond_ns / 2),
-             full = past_.at(reading.time_ns - kSecond_ns);
+  const auto now = past_.at(reading.time_ns), half = past_.at(reading.time_ns - base::kSecond_ns / 2),
+             full = past_.at(reading.time_ns - base::kSecond_ns);
   if (!now || !half || !full) return;
   const Vector2d newer_m = now->reckoned_m - half->reckoned_m, older_m = half->reckoned_m - full->reckoned_m;
   const double change_m_s = 2 * (newer_m - older_m).norm();
@@ -165,7 +161,7 @@ void Navigator::drive(std::int64_t time_ns) {
 }
 
 void Navigator::advance(std::int64_t time_ns, const std::optional<Vector3d>& mean_rate_rad_s) {
-  const double duration_s = time_ns_ ? seconds(time_ns - *time_ns_) : 0;
+  const double duration_s = time_ns_ ? base::seconds(time_ns - *time_ns_) : 0;
   time_ns_ = time_ns;
   Way way;
   way.duration_s = duration_s;
@@ -191,7 +187,7 @@ void Navigator::advance(std::int64_t time_ns, const std::optional<Vector3d>& mea
 
 /// The vehicle's speed follows its shaft's; a propeller that turns backwards gives nothing.
 void Navigator::move_speed(double duration_s) {
-  const bool shaft_comes = shaft_ns_ && seconds(*time_ns_ - *shaft_ns_) <= kShaftPause_s;
+  const bool shaft_comes = shaft_ns_ && base::seconds(*time_ns_ - *shaft_ns_) <= kShaftPause_s;
   const bool known = shaft_comes && options_.advance_m > 0;
   const double target_m_s = known ? options_.advance_m * std::max(revolutions_per_s_, 0.0) : 0;
   if (known && speed_known_ && options_.speed_lag_s > 0) {
@@ -218,7 +214,7 @@ Estimate Navigator::estimate() const {
   Estimate estimate;
   estimate.time_ns = time_ns();
   estimate.heading_std_rad = heading_std_rad();
-  if (attitude_.heading_known()) estimate.heading_rad = as_heading(attitude_.heading_rad());
+  if (attitude_.heading_known()) estimate.heading_rad = base::as_heading(attitude_.heading_rad());
   if (attitude_.tilt_known()) {
     estimate.pitch_rad = attitude_.pitch_rad();
     estimate.roll_rad = attitude_.roll_rad();

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "nav/angles.h"
+#include "base/angles.h"
 
 namespace navcal::nav {
 namespace {
@@ -11,9 +11,9 @@ Pose between(const Pose& a, const Pose& b, std::int64_t time_ns) {
   const double share = static_cast<double>(time_ns - a.time_ns) / static_cast<double>(b.time_ns - a.time_ns);
   Pose pose;
   pose.time_ns = time_ns;
-  pose.roll_rad = a.roll_rad + share * wrapped(b.roll_rad - a.roll_rad);
+  pose.roll_rad = a.roll_rad + share * base::wrapped(b.roll_rad - a.roll_rad);
   pose.pitch_rad = a.pitch_rad + share * (b.pitch_rad - a.pitch_rad);
-  pose.heading_rad = a.heading_rad + share * wrapped(b.heading_rad - a.heading_rad);
+  pose.heading_rad = a.heading_rad + share * base::wrapped(b.heading_rad - a.heading_rad);
   pose.reckoned_m = a.reckoned_m + share * (b.reckoned_m - a.reckoned_m);
   return pose;
 }

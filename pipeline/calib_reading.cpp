@@ -1,14 +1,9 @@
 #include "pipeline/calib_reading.h"
 
+#include "base/vectors.h"
 #include "instruments/compass_error.h"
 
 namespace navcal::pipeline {
-namespace {
-
-Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
-
-}  // namespace
-
 calib::CompassReading calib_reading(const instruments::CompassSample& compass, const instruments::Stamp& stamp,
                                     double time_s) {
   const instruments::CompassError error(compass.error);
@@ -18,7 +13,7 @@ calib::CompassReading calib_reading(const instruments::CompassSample& compass, c
   if (!compass.heading_is_true) reading.heading_rad = compass.heading_rad;
   reading.pitch_rad = compass.pitch_rad;
   reading.roll_rad = compass.roll_rad;
-  if (compass.field_body_uT) reading.field_body_uT = vector(*compass.field_body_uT);
+  if (compass.field_body_uT) reading.field_body_uT = base::vector_of(*compass.field_body_uT);
   reading.utc_ns = stamp.validity_utc_ns;
   reading.distorted = error.distortion;
   reading.tilt_out_of_range = error.tilt_out_of_range;
@@ -32,9 +27,9 @@ calib::RateReading calib_reading(const instruments::ImuSample& imu, const instru
   calib::RateReading reading;
   reading.time_s = time_s;
   reading.time_std_s = 1e-9 * static_cast<double>(stamp.std_ns);
-  reading.rate_rad_s = vector(imu.rate_rad_s);
+  reading.rate_rad_s = base::vector_of(imu.rate_rad_s);
   reading.yaw_rate_b_rad_s = imu.yaw_rate_b_rad_s;
-  reading.specific_force_m_s2 = vector(imu.specific_force_m_s2);
+  reading.specific_force_m_s2 = base::vector_of(imu.specific_force_m_s2);
   reading.saturated = imu.over_range;
   return reading;
 }

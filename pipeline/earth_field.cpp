@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "base/world_magnetic_model.h"
 #include "pipeline/nav_reading.h"
 
 namespace navcal::pipeline {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 /// The model is asked anew after so far, or so long: the declination changes by some 0.1 degrees.
 constexpr double kStep_rad = 0.0016;
 constexpr std::int64_t kStep_ns = 30LL * 86'400 * 1'000'000'000;
@@ -47,11 +47,12 @@ std::string words_for(const EarthField& field) {
     return source == Source::model ? "by the World Magnetic Model" : "as configured";
   };
   if (field.declination_source == Source::none) return "the declination is not known";
-  const double declination_deg = field.declination_rad * kDegrees;
+  const double declination_deg = field.declination_rad * base::kDegreesPerRadian;
   std::string words = fmt::format("declination {:.2f} deg {} {}", std::abs(declination_deg),
                                   declination_deg < 0 ? "west" : "east", whence(field.declination_source));
   if (field.size_source != Source::none) {
-    words += fmt::format("; field {:.2f} uT, dip {:.2f} deg", field.size_uT, field.dip_rad * kDegrees);
+    words +=
+        fmt::format("; field {:.2f} uT, dip {:.2f} deg", field.size_uT, field.dip_rad * base::kDegreesPerRadian);
     if (field.size_source != field.declination_source) words += fmt::format(" {}", whence(field.size_source));
   }
   return words;

@@ -3,17 +3,16 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/durations.h"
 #include "pipeline/system_clock_watch.h"
 
 namespace navcal::pipeline {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kGap_s = 600;  // longer without time: the phase is found anew
 constexpr double kJump_s = 0.9;       // of what is stated against what is observed
 constexpr int kJumpsToBelieve = 4;    // in a row
 constexpr double kEarly_s = 0.1;
-constexpr std::int64_t kRefreshAge_ns = 60 * kSecond_ns;
 constexpr double kBoundSigmas = 3;
 
 }  // namespace
@@ -21,8 +20,8 @@ constexpr double kBoundSigmas = 3;
 std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::int64_t observed_ns,
                                                const UtcMapping& in_force) {
   if (in_force.source == UtcMapping::Source::file) return std::nullopt;
-  if (stated_utc_ns % kSecond_ns != 0) return std::nullopt;  // faster than 1 Hz: the whole seconds suffice
-  const std::int64_t second = stated_utc_ns / kSecond_ns;
+  if (stated_utc_ns % base::kSecond_ns != 0) return std::nullopt;  // faster than 1 Hz: the whole seconds suffice
+  const std::int64_t second = stated_utc_ns / base::kSecond_ns;
   if (!model_.empty()) {
     const std::int64_t steps = second - last_second_;
     if (steps == 0) return std::nullopt;
@@ -48,7 +47,7 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
       std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns)));
   candidate.at_ns = observed_ns;
   const bool ours = in_force.source == UtcMapping::Source::gps;
-  const bool old = observed_ns - in_force.at_ns > kRefreshAge_ns;
+  const bool old = observed_ns - in_force.at_ns > kMappingRefreshAge_ns;
   const bool disagrees = std::abs(candidate.offset_ns - in_force.offset_ns) > candidate.bound_ns;
   if (ours ? (old || disagrees) : candidate.bound_ns < bound_at(in_force, observed_ns)) return candidate;
   return std::nullopt;

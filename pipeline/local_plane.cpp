@@ -1,15 +1,14 @@
 #include "pipeline/local_plane.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::pipeline {
 namespace {
 
 /// WGS84.
 constexpr double kEquator_m = 6'378'137, kEccentricity2 = 6.69437999014e-3;
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
 }  // namespace
 
@@ -23,11 +22,11 @@ LocalPlane::LocalPlane(double latitude_rad, double longitude_rad)
 }
 
 std::array<double, 2> LocalPlane::position_m(double latitude_rad, double longitude_rad) const {
-  return {north_m_ * (latitude_rad - latitude_rad_), east_m_ * wrapped(longitude_rad - longitude_rad_)};
+  return {north_m_ * (latitude_rad - latitude_rad_), east_m_ * base::wrapped(longitude_rad - longitude_rad_)};
 }
 
 LocalPlane::Place LocalPlane::place(double north_m, double east_m) const {
-  return {latitude_rad_ + north_m / north_m_, wrapped(longitude_rad_ + east_m / east_m_)};
+  return {latitude_rad_ + north_m / north_m_, base::wrapped(longitude_rad_ + east_m / east_m_)};
 }
 
 }  // namespace navcal::pipeline

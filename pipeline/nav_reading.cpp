@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "base/vectors.h"
+
 namespace navcal::pipeline {
 namespace {
 
 constexpr double kSecondsPerMinute = 60;
-
-Eigen::Vector3d vector(const instruments::Vector3& v) { return {v[0], v[1], v[2]}; }
 
 bool has_fix(const instruments::GpsSample& gps) {
   return gps.fix == instruments::Fix::fix_2d || gps.fix == instruments::Fix::fix_3d;
@@ -27,8 +27,8 @@ std::optional<Eigen::Vector2d> ground_velocity_m_s(const instruments::GpsSample&
 nav::RateReading rate_reading(const instruments::Sample& sample, const instruments::ImuSample& imu) {
   nav::RateReading reading;
   reading.time_ns = sample.stamp.validity_ns;
-  reading.rate_rad_s = vector(imu.rate_rad_s);
-  reading.specific_force_m_s2 = vector(imu.specific_force_m_s2);
+  reading.rate_rad_s = base::vector_of(imu.rate_rad_s);
+  reading.specific_force_m_s2 = base::vector_of(imu.specific_force_m_s2);
   return reading;
 }
 

@@ -8,7 +8,6 @@ namespace {
 constexpr std::int64_t kDrift_ppm = 50;             // a crystal without compensation, over temperature
 constexpr std::int64_t kStepLeast_ns = 10'000'000;  // slewing moves at most 0.5 ms in a second
 constexpr std::int64_t kSlewLimit_ppm = 1000;
-constexpr std::int64_t kRefreshAge_ns = 60'000'000'000;
 
 }  // namespace
 
@@ -42,7 +41,7 @@ SystemClockWatch::Outcome SystemClockWatch::update(const SystemClockReading& rea
     // What is in force is at least as good.
   } else {
     const bool better_kind = in_force.source != candidate.source;
-    const bool old = reading.monotonic_ns - in_force.at_ns > kRefreshAge_ns;
+    const bool old = reading.monotonic_ns - in_force.at_ns > kMappingRefreshAge_ns;
     const bool agrees = std::abs(candidate.offset_ns - in_force.offset_ns) <= bound_now_ns;
     if (better_kind || (old && agrees)) outcome.mapping = candidate;
   }

@@ -3,7 +3,12 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/durations.h"
+
 namespace navcal::pipeline {
+
+/// A mapping to UTC that is older is replaced, even where the new one differs by nothing.
+inline constexpr std::int64_t kMappingRefreshAge_ns = 60 * base::kSecond_ns;
 
 /// utc = monotonic + offset, to within `bound`. It is recorded, so that replay maps as the daemon did.
 struct UtcMapping {

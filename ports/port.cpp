@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "ports/finder.h"
+#include "ports/no_throw.h"
 #include "ports/tty.h"
 
 namespace navcal::ports {
@@ -27,7 +28,6 @@ namespace asio = boost::asio;
 using asio::awaitable;
 using std::chrono::milliseconds;
 
-constexpr auto kWait = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kReadBytes = 4096;
 constexpr std::size_t kSendBytes = 4096;
 constexpr milliseconds kLookAgain{200};  // a device that is not there
@@ -116,12 +116,12 @@ void Port::State::tell(const std::string& reason) {
 
 awaitable<void> Port::State::pause(milliseconds duration) {
   timer.expires_after(duration);
-  co_await timer.async_wait(kWait);
+  co_await timer.async_wait(kNoThrow);
 }
 
 awaitable<std::string> Port::State::read_until_lost() {
   while (!stopped) {
-    const auto [error] = co_await descriptor.async_wait(asio::posix::stream_descriptor::wait_read, kWait);
+    const auto [error] = co_await descriptor.async_wait(asio::posix::stream_descriptor::wait_read, kNoThrow);
     const std::int64_t arrival_ns = monotonic_ns();
     if (stopped) break;
     if (error) co_return error.message();

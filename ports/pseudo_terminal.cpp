@@ -16,7 +16,7 @@ namespace navcal::ports {
 
 PseudoTerminal make_pseudo_terminal(int baud) {
   const auto failed = [](const char* what) { throw std::system_error(errno, std::generic_category(), what); };
-  PseudoTerminal made{Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)), {}};
+  PseudoTerminal made{base::Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)), {}};
   if (!made.master) failed("no pseudo-terminal to be had");
   if (::grantpt(made.master.get()) != 0 || ::unlockpt(made.master.get()) != 0)
     failed("unlocking a pseudo-terminal");
@@ -27,7 +27,7 @@ PseudoTerminal make_pseudo_terminal(int baud) {
   }
   made.slave_name = name.data();
   // Opened and closed once: its settings stay, and from now on the master knows that nobody is there.
-  const Descriptor slave(::open(name.data(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  const base::Descriptor slave(::open(name.data(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!slave || !set_raw(slave.get(), baud)) failed("setting up a pseudo-terminal");
   return made;
 }

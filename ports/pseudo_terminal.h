@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <string>
 
-#include "ports/descriptor.h"
+#include "base/descriptor.h"
 
 namespace navcal::ports {
 
 /// A pair of pseudo-terminal ends: we hold the master, clients open `slave_name`. Raw from the start.
 struct PseudoTerminal {
-  Descriptor master;
+  base::Descriptor master;
   std::string slave_name;
 };
 

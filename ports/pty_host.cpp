@@ -16,6 +16,7 @@
 #include <cerrno>
 #include <chrono>
 
+#include "ports/no_throw.h"
 #include "ports/port.h"
 #include "ports/pseudo_terminal.h"
 #include "ports/raw_mode.h"
@@ -24,7 +25,6 @@ namespace navcal::ports {
 namespace {
 
 namespace asio = boost::asio;
-constexpr auto kWait = asio::as_tuple(asio::use_awaitable);
 /// While nobody has the line open its master is "ready" without end, so it is looked at now and then instead.
 constexpr std::chrono::milliseconds kLookForClient{20};
 
@@ -80,7 +80,7 @@ bool PtyHost::State::has_client() const {
 
 /// A closed port forgets what was received for it; the next client shall not find the last one's leavings.
 void PtyHost::State::forget_unread() const {
-  const Descriptor slave(::open(terminal.slave_name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  const base::Descriptor slave(::open(terminal.slave_name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (slave) ::tcflush(slave.get(), TCIFLUSH);
 }
 
@@ -88,14 +88,14 @@ asio::awaitable<void> PtyHost::State::read(std::shared_ptr<State> /*self: keeps 
                                            unsigned my_plugging) {
   while (pluggings == my_plugging) {
     if (has_client()) {
-      co_await descriptor.async_wait(asio::posix::stream_descriptor::wait_read, kWait);
+      co_await descriptor.async_wait(asio::posix::stream_descriptor::wait_read, kNoThrow);
       if (pluggings != my_plugging) break;
       if (take_what_is_there(my_plugging)) continue;
       if (pluggings != my_plugging) break;
       if (!has_client()) forget_unread();
     }
     timer.expires_after(kLookForClient);
-    co_await timer.async_wait(kWait);
+    co_await timer.async_wait(kNoThrow);
     // A client may have come, written and gone in between.
     if (pluggings == my_plugging && !has_client()) take_what_is_there(my_plugging);
   }
@@ -143,7 +143,8 @@ bool PtyHost::has_client() const { return state_->has_client(); }
 
 std::size_t PtyHost::unread() const {
   if (!has_client()) return 0;
-  const Descriptor slave(::open(state_->terminal.slave_name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  const base::Descriptor slave(
+      ::open(state_->terminal.slave_name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   int count = 0;
   if (!slave || ::ioctl(slave.get(), FIONREAD, &count) != 0) return 0;
   return static_cast<std::size_t>(count);

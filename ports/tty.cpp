@@ -61,7 +61,7 @@ std::variant<Tty, std::string> Tty::open(const Found& found, int baud, bool low_
   Tty tty;
   tty.info_.path = found.path;
   tty.info_.description = found.description;
-  tty.device_ = Descriptor(::open(found.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  tty.device_ = base::Descriptor(::open(found.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!tty.device_) return refusal(found.path, errno);
   if (tcgetattr(tty.device_.get(), &tty.former_) != 0) return fmt::format("{}: is no serial port", found.path);
   if (!lock_device(tty.device_.get())) return refusal(found.path, EBUSY);

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "ports/descriptor.h"
+#include "base/descriptor.h"
 #include "ports/finder.h"
 #include "ports/low_latency.h"
 #include "ports/port.h"
@@ -40,7 +40,7 @@ class Tty {
   std::string open_serial(int baud, bool low_latency);
   std::string open_pseudo_terminal(int baud);
 
-  Descriptor device_;  ///< holds the lock; for a pseudo-terminal it is read and written too
+  base::Descriptor device_;  ///< holds the lock; for a pseudo-terminal it is read and written too
   std::unique_ptr<sp_port, CloseSerial> serial_;
   int fd_ = -1;
   termios former_{};

@@ -5,11 +5,10 @@
 
 #include "protocols/checked_line.h"
 #include "protocols/oncore.h"
+#include "protocols/units.h"
 
 namespace navcal::protocols::oncore {
 namespace {
-
-constexpr double kMasPerDegree = 3'600'000;
 
 class Data {
  public:
@@ -39,8 +38,8 @@ class Data {
 };
 
 void put(Data& data, const Coordinates& place) {
-  data.scaled_i32(place.latitude_deg, kMasPerDegree);
-  data.scaled_i32(place.longitude_deg, kMasPerDegree);
+  data.scaled_i32(place.latitude_deg, kMilliarcsecondsPerDegree);
+  data.scaled_i32(place.longitude_deg, kMilliarcsecondsPerDegree);
   data.scaled_i32(place.height_m, 100);
   data.scaled_i32(place.height_msl_m.value_or(0), 100);
 }

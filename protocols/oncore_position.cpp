@@ -5,19 +5,19 @@
 #include "protocols/big_endian.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_ascii.h"
+#include "protocols/units.h"
 
 namespace navcal::protocols::oncore {
 namespace {
 
-constexpr double kMasPerDegree = 3'600'000;
 constexpr std::int64_t kMaxLatitude_mas = 324'000'000;
 constexpr std::int64_t kMaxLongitude_mas = 648'000'000;
 constexpr unsigned kMaxHeading = 3599;  // tenths of a degree
 constexpr unsigned kMaxDop = 999;       // tenths
 
 Coordinates coordinates(const std::uint8_t* p) {
-  return {read_i32(p) / kMasPerDegree, read_i32(p + 4) / kMasPerDegree, read_i32(p + 8) / 100.0,
-          read_i32(p + 12) / 100.0};
+  return {read_i32(p) / kMilliarcsecondsPerDegree, read_i32(p + 4) / kMilliarcsecondsPerDegree,
+          read_i32(p + 8) / 100.0, read_i32(p + 12) / 100.0};
 }
 
 bool place_in_range(const std::uint8_t* p) {

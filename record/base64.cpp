@@ -5,7 +5,7 @@
 namespace navcal::record {
 namespace {
 
-constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::size_t kGroup = 4;  ///< digits of three bytes
 
 }  // namespace
@@ -20,7 +20,7 @@ std::string base64(std::string_view bytes) {
       bits = bits << 8 | (k < part.size() ? static_cast<unsigned char>(part[k]) : 0U);
     }
     for (std::size_t k = 0; k < kGroup; ++k) {
-      text += k <= part.size() ? kDigits[bits >> (18 - 6 * k) & 0x3FU] : '=';
+      text += k <= part.size() ? kBase64Digits[bits >> (18 - 6 * k) & 0x3FU] : '=';
     }
   }
   return text;
@@ -36,7 +36,7 @@ std::optional<std::string> from_base64(std::string_view text) {
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < kGroup; ++k) {
       const bool padded = i + k >= text.size() - padding;
-      const auto digit = padded ? 0 : kDigits.find(text[i + k]);
+      const auto digit = padded ? 0 : kBase64Digits.find(text[i + k]);
       if (digit == std::string_view::npos) return std::nullopt;
       bits = bits << 6 | static_cast<std::uint32_t>(digit);
     }

@@ -1,6 +1,6 @@
 // The answer of `navcal calibrate`.
-#include <numbers>
 
+#include "base/angles.h"
 #include "record/calibration_json.h"
 #include "record/correction_json.h"
 
@@ -10,7 +10,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using calib::Calibrator;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::array<const char*, 5> kCoefficients{"A", "B", "C", "D", "E"};
 
 Json value_of(const calib::CalibratorReport* report, std::string_view name, double calib::Quantity::*which,
@@ -57,7 +56,7 @@ Json held_out_json(const calib::CalibratorReport* report) {
   if (quantity == calib::HeldOutQuantity::none) return nullptr;
   const bool heading = quantity == calib::HeldOutQuantity::heading;
   const bool field = quantity == calib::HeldOutQuantity::field;
-  const double unit = heading ? kDegrees : field ? 100 : 1;
+  const double unit = heading ? base::kDegreesPerRadian : field ? 100 : 1;
   Json json;
   json["before"] = number_json(report->judgement.held_out_before * unit);
   json["after"] = number_json(report->judgement.held_out_after * unit);
@@ -92,8 +91,8 @@ Json deviation_answer(const calib::Report& whole, Calibrator calibrator, Calibra
   Json value, std;
   for (const std::string name : kCoefficients) {
     const auto* source = name == "A" ? whole.find(a) : report;
-    value[name] = value_of(source, name + "_rad", &calib::Quantity::value, kDegrees);
-    std[name] = value_of(source, name + "_rad", &calib::Quantity::std, kDegrees);
+    value[name] = value_of(source, name + "_rad", &calib::Quantity::value, base::kDegreesPerRadian);
+    std[name] = value_of(source, name + "_rad", &calib::Quantity::std, base::kDegreesPerRadian);
   }
   Json json;
   json["deviation_deg"] = std::move(value);
@@ -114,7 +113,8 @@ Json magnetometer_json(const calib::Report& report) {
   json["std"]["matrix"] = {{std("matrix_xx"), std("matrix_xy"), std("matrix_xz")},
                            {std("matrix_xy"), std("matrix_yy"), std("matrix_yz")},
                            {std("matrix_xz"), std("matrix_yz"), std("matrix_zz")}};
-  json["std"]["worst_heading_deg"] = value_of(magnetometer, "worst_heading_rad", &calib::Quantity::std, kDegrees);
+  json["std"]["worst_heading_deg"] =
+      value_of(magnetometer, "worst_heading_rad", &calib::Quantity::std, base::kDegreesPerRadian);
   json["field_scale"] = value_of(magnetometer, "field_scale", &calib::Quantity::value);
   json["std"]["field_scale"] = std("field_scale");
   json["field_uT"] = value_of(magnetometer, "field_uT", &calib::Quantity::value);
@@ -150,8 +150,10 @@ Json beside(const calib::Report& report, Calibrator calibrator) {
 
 Json heading_json(const calib::HeadingCheck& heading) {
   Json json;
-  json["before_rms_deg"] = heading.blocks > 0 ? number_json(heading.before_rad * kDegrees) : Json(nullptr);
-  json["after_rms_deg"] = heading.blocks > 0 ? number_json(heading.after_rad * kDegrees) : Json(nullptr);
+  json["before_rms_deg"] =
+      heading.blocks > 0 ? number_json(heading.before_rad * base::kDegreesPerRadian) : Json(nullptr);
+  json["after_rms_deg"] =
+      heading.blocks > 0 ? number_json(heading.after_rad * base::kDegreesPerRadian) : Json(nullptr);
   json["held_out"] = true;
   json["blocks"] = heading.blocks;
   return json;

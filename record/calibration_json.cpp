@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <numbers>
 
+#include "base/angles.h"
 #include "record/correction_json.h"
 #include "record/json_object.h"
 
@@ -13,7 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// libgps reads lines of up to 10 kB.
 constexpr std::size_t kLongestLine = 9000;
 
@@ -31,8 +30,10 @@ Json calibrator_json(const calib::CalibratorReport& report, const calib::Correct
   json["judgement"] = calib::name_of(report.outcome);
   const bool judged = judgement.held_out_quantity == calib::HeldOutQuantity::heading;
   const bool by_field = judgement.held_out_quantity == calib::HeldOutQuantity::field;
-  json["held_out_before_deg"] = judged ? number_json(judgement.held_out_before * kDegrees) : Json(nullptr);
-  json["held_out_after_deg"] = judged ? number_json(judgement.held_out_after * kDegrees) : Json(nullptr);
+  json["held_out_before_deg"] =
+      judged ? number_json(judgement.held_out_before * base::kDegreesPerRadian) : Json(nullptr);
+  json["held_out_after_deg"] =
+      judged ? number_json(judgement.held_out_after * base::kDegreesPerRadian) : Json(nullptr);
   json["held_out_before_percent"] = by_field ? number_json(judgement.held_out_before * 100) : Json(nullptr);
   json["held_out_after_percent"] = by_field ? number_json(judgement.held_out_after * 100) : Json(nullptr);
   json["estimate"] = values_json(report.estimate, &calib::Quantity::value);
@@ -43,9 +44,9 @@ Json calibrator_json(const calib::CalibratorReport& report, const calib::Correct
   return json;
 }
 
-Json heading_json(const calib::HeadingCheck& heading) {
+Json heading_in_force_json(const calib::HeadingCheck& heading) {
   const auto degrees = [&](double rad) {
-    return heading.blocks > 0 ? number_json(rad * kDegrees) : Json(nullptr);
+    return heading.blocks > 0 ? number_json(rad * base::kDegreesPerRadian) : Json(nullptr);
   };
   Json json;
   json["blocks"] = heading.blocks;
@@ -73,7 +74,7 @@ std::vector<std::string> calib_lines(const calib::Report& report, std::optional<
                                      std::string_view tcm2) {
   const std::string common = beginning(report, utc_ns);
   Json whole;
-  whole["heading"] = heading_json(report.heading);
+  whole["heading"] = heading_in_force_json(report.heading);
   whole["rose"] = report.rose;
   if (!report.steps.empty()) whole["field_step"] = steps_json({report.steps.back()}).front();
   whole["left_out"] = gate_json(report.gate);

@@ -23,7 +23,7 @@ constexpr std::string_view kPort = "#port ";
 constexpr std::string_view kEvent = "#event ";
 
 constexpr std::uint8_t kNoDigit = 0xFF;
-constexpr std::array<std::uint8_t, 256> kDigits = [] {
+constexpr std::array<std::uint8_t, 256> kHexadecimal = [] {
   std::array<std::uint8_t, 256> digits{};
   digits.fill(kNoDigit);
   for (std::uint8_t i = 0; i < 10; ++i) digits['0' + i] = i;
@@ -147,8 +147,8 @@ void CaptureReader::parse_read(std::string_view line, RawRead& read) {
   read.bytes.resize(rest.size() / 2);
   unsigned bad = 0;
   for (std::size_t i = 0; i < read.bytes.size(); ++i) {
-    const std::uint8_t high = kDigits[static_cast<unsigned char>(rest[2 * i])];
-    const std::uint8_t low = kDigits[static_cast<unsigned char>(rest[2 * i + 1])];
+    const std::uint8_t high = kHexadecimal[static_cast<unsigned char>(rest[2 * i])];
+    const std::uint8_t low = kHexadecimal[static_cast<unsigned char>(rest[2 * i + 1])];
     bad |= (high | low) & 0x80U;
     read.bytes[i] = static_cast<std::uint8_t>(high << 4 | low);
   }

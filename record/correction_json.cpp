@@ -1,7 +1,8 @@
 #include "record/correction_json.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::record {
 namespace {
@@ -9,19 +10,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 using calib::Calibrator;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
 Json rate_json(const std::optional<calib::RateCorrection>& rate) {
   if (!rate) return nullptr;
   Json json;
   json["scale"] = rate->scale;
-  json["bias_deg_s"] = rate->bias_rad_s * kDegrees;
+  json["bias_deg_s"] = rate->bias_rad_s * base::kDegreesPerRadian;
   return json;
 }
 
 Json swing_json(const calib::SwingCorrection& swing) {
   Json json;
-  for (const double deviation_rad : swing.deviation_rad) json["deviation_deg"].push_back(deviation_rad * kDegrees);
+  for (const double deviation_rad : swing.deviation_rad)
+    json["deviation_deg"].push_back(deviation_rad * base::kDegreesPerRadian);
   return json;
 }
 
@@ -50,7 +50,7 @@ double in_degrees(std::string& name) {
   const auto at = name.rfind(kRadians);
   if (at == std::string::npos) return 1;
   name.replace(at, kRadians.size(), "_deg");
-  return kDegrees;
+  return base::kDegreesPerRadian;
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ Json deviation_json(const calib::DeviationCorrection& deviation) {
   Json json;
   std::string name = "A_deg";
   for (const double coefficient_rad : deviation.coefficients_rad) {
-    json[name] = coefficient_rad * kDegrees;
+    json[name] = coefficient_rad * base::kDegreesPerRadian;
     ++name.front();
   }
   return json;
@@ -90,7 +90,7 @@ Json correction_json(const calib::Correction& correction, Calibrator calibrator)
     case Calibrator::swing:
       return correction.swing ? swing_json(*correction.swing) : Json(nullptr);
     case Calibrator::misalignment:
-      return named("A_deg", correction.misalignment_rad, kDegrees);
+      return named("A_deg", correction.misalignment_rad, base::kDegreesPerRadian);
     case Calibrator::compass_delay:
       return named("delay_s", correction.compass_delay_s, 1);
     case Calibrator::course_delay:

@@ -9,37 +9,23 @@
 #include <cerrno>
 #include <utility>
 
+#include "base/descriptor.h"
+
 namespace navcal::record {
 namespace {
 
-std::error_code last_error() { return {errno, std::system_category()}; }
-std::error_code check(int result) { return result == 0 ? std::error_code{} : last_error(); }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  [[nodiscard]] int get() const { return fd_; }
-  [[nodiscard]] bool valid() const { return fd_ >= 0; }
-
- private:
-  int fd_;
-};
+std::error_code check(int result) { return result == 0 ? std::error_code{} : base::last_error(); }
 
 class PosixFile final : public DiskFile {
  public:
-  explicit PosixFile(Descriptor fd) : fd_(std::move(fd)) {}
+  explicit PosixFile(base::Descriptor fd) : fd_(std::move(fd)) {}
 
   std::error_code write_at(std::uint64_t offset, std::string_view bytes) override {
     while (!bytes.empty()) {
       const ssize_t written = ::pwrite(fd_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
       if (written < 0) {
         if (errno == EINTR) continue;
-        return last_error();
+        return base::last_error();
       }
       offset += static_cast<std::uint64_t>(written);
       bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -63,26 +49,26 @@ class PosixFile final : public DiskFile {
   }
 
  private:
-  Descriptor fd_;
+  base::Descriptor fd_;
 };
 
 class PosixLock final : public DiskLock {
  public:
-  explicit PosixLock(Descriptor fd) : fd_(std::move(fd)) {}
+  explicit PosixLock(base::Descriptor fd) : fd_(std::move(fd)) {}
 
  private:
-  Descriptor fd_;
+  base::Descriptor fd_;
 };
 
 /// Opens and locks; -1 and `error` when either fails.
-Descriptor open_locked(const std::filesystem::path& file, int flags, std::error_code& error) {
-  Descriptor fd(::open(file.c_str(), flags | O_CLOEXEC, 0644));
-  if (!fd.valid()) {
-    error = last_error();
+base::Descriptor open_locked(const std::filesystem::path& file, int flags, std::error_code& error) {
+  base::Descriptor fd(::open(file.c_str(), flags | O_CLOEXEC, 0644));
+  if (!fd) {
+    error = base::last_error();
     return fd;
   }
   error = check(::flock(fd.get(), LOCK_EX | LOCK_NB));
-  return error ? Descriptor(-1) : std::move(fd);
+  return error ? base::Descriptor(-1) : std::move(fd);
 }
 
 class PosixDisk final : public Disk {
@@ -103,8 +89,8 @@ class PosixDisk final : public Disk {
   }
   std::error_code remove(const std::filesystem::path& file) override { return check(::unlink(file.c_str())); }
   std::error_code sync_folder(const std::filesystem::path& folder) override {
-    const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    return fd.valid() ? check(::fsync(fd.get())) : last_error();
+    const base::Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    return fd ? check(::fsync(fd.get())) : base::last_error();
   }
   std::vector<DiskEntry> list(const std::filesystem::path& folder, std::error_code& error) override {
     std::vector<DiskEntry> entries;
@@ -124,32 +110,32 @@ class PosixDisk final : public Disk {
     return error ? 0 : static_cast<std::uint64_t>(status.f_bavail) * status.f_frsize;
   }
   std::unique_ptr<DiskLock> lock(const std::filesystem::path& file, std::error_code& error) override {
-    Descriptor fd = open_locked(file, O_RDWR | O_CREAT, error);
-    return fd.valid() ? std::make_unique<PosixLock>(std::move(fd)) : nullptr;
+    base::Descriptor fd = open_locked(file, O_RDWR | O_CREAT, error);
+    return fd ? std::make_unique<PosixLock>(std::move(fd)) : nullptr;
   }
 
  private:
-  static std::unique_ptr<DiskFile> file_of(Descriptor fd) {
-    return fd.valid() ? std::make_unique<PosixFile>(std::move(fd)) : nullptr;
+  static std::unique_ptr<DiskFile> file_of(base::Descriptor fd) {
+    return fd ? std::make_unique<PosixFile>(std::move(fd)) : nullptr;
   }
 };
 
 class FileSource final : public ByteSource {
  public:
-  FileSource(Descriptor fd, std::uint64_t size, std::string name)
+  FileSource(base::Descriptor fd, std::uint64_t size, std::string name)
       : fd_(std::move(fd)), size_(size), name_(std::move(name)) {}
 
   std::size_t read(char* to, std::size_t n) override {
     for (;;) {
       const ssize_t got = ::read(fd_.get(), to, n);
       if (got >= 0) return static_cast<std::size_t>(got);
-      if (errno != EINTR) throw std::system_error(last_error(), name_);
+      if (errno != EINTR) throw std::system_error(base::last_error(), name_);
     }
   }
   [[nodiscard]] std::uint64_t size() const override { return size_; }
 
  private:
-  Descriptor fd_;
+  base::Descriptor fd_;
   std::uint64_t size_;
   std::string name_;
 };
@@ -157,9 +143,9 @@ class FileSource final : public ByteSource {
 }  // namespace
 
 std::unique_ptr<ByteSource> open_file(const std::filesystem::path& file) {
-  Descriptor fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  base::Descriptor fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status {};
-  if (!fd.valid() || ::fstat(fd.get(), &status) != 0) throw std::system_error(last_error(), file.string());
+  if (!fd || ::fstat(fd.get(), &status) != 0) throw std::system_error(base::last_error(), file.string());
   if (S_ISDIR(status.st_mode)) {
     throw std::system_error(std::make_error_code(std::errc::is_a_directory), file.string());
   }

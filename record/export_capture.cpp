@@ -9,7 +9,7 @@
 namespace navcal::record {
 namespace {
 
-constexpr std::uint64_t kProgressEvery = 1024;
+constexpr std::uint64_t kCaptureProgressEvery = 1024;
 
 /// An operator's mark; what the daemon says of itself belongs to the log alone.
 void append_mark(std::string& text, const LoggedEvent& event) {
@@ -37,7 +37,7 @@ Exported export_capture(const std::filesystem::path& recording_file, const std::
       writer.bytes(text, read->port, read->direction, mapping.to_utc(read->time_ns), read->bytes);
     }
     if (const auto* event = std::get_if<LoggedEvent>(&*entry)) append_mark(text, *event);
-    if (++entries % kProgressEvery == 0) {
+    if (++entries % kCaptureProgressEvery == 0) {
       progress(recording->progress());
       file.write(text);
       text.clear();

@@ -16,7 +16,7 @@
 namespace navcal::record {
 namespace {
 
-constexpr std::uint64_t kProgressEvery = 1024;
+constexpr std::uint64_t kCsvProgressEvery = 1024;
 constexpr std::size_t kFlushBytes = 64 << 10;
 
 /// One file of the export.
@@ -132,7 +132,7 @@ Exported export_csv(const std::filesystem::path& log_file, const std::filesystem
   std::uint64_t messages = 0;
   while (const auto message = log.next()) {
     exporter.take(*message);
-    if (++messages % kProgressEvery == 0) progress(log.progress());
+    if (++messages % kCsvProgressEvery == 0) progress(log.progress());
   }
   Exported exported = exporter.commit();
   for (const auto& remark : log.remarks()) exported.remarks.push_back(log.name() + ": " + remark);

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "base/durations.h"
 #include "record/export.h"
 #include "record/field_meaning.h"
 #include "record/log_tables.h"
@@ -14,8 +15,7 @@
 namespace navcal::record {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
+constexpr std::int64_t kDay_ns = 86'400 * base::kSecond_ns;
 
 /// Midnight before the log's first time: seconds since then are exact to the nanosecond in a double, for months,
 /// and in units that every reader of dates knows.
@@ -26,7 +26,7 @@ std::int64_t reference_of(const std::vector<TopicTable>& tables) {
 }
 
 std::string units_since(std::int64_t reference_ns) {
-  return fmt::format("seconds since {:%Y-%m-%d} 00:00:00", fmt::gmtime(reference_ns / kSecond_ns));
+  return fmt::format("seconds since {:%Y-%m-%d} 00:00:00", fmt::gmtime(reference_ns / base::kSecond_ns));
 }
 
 int netcdf_type(const TopicTable::Values& values) {
@@ -120,7 +120,7 @@ class TopicGroup {
     std::vector<double> seconds(times.rows.size());
     std::ranges::transform(times.rows, seconds.begin(), [this](std::int64_t ns) {
       if (ns == NanosecondColumn::kAbsent) return std::numeric_limits<double>::quiet_NaN();
-      return static_cast<double>(ns - reference_ns_) / static_cast<double>(kSecond_ns);
+      return static_cast<double>(ns - reference_ns_) / static_cast<double>(base::kSecond_ns);
     });
     return seconds;
   }

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/durations.h"
+
 namespace navcal::record {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 void append_double(std::string& out, double value) {
   if (!std::isfinite(value)) {
@@ -48,8 +48,8 @@ void append_seconds(std::string& out, std::int64_t ns) {
     magnitude = 0 - magnitude;
   }
   std::array<char, 32> digits;
-  out.append(digits.data(), fmt::format_to(digits.data(), FMT_COMPILE("{}.{:09}"), magnitude / kSecond_ns,
-                                           magnitude % kSecond_ns));
+  out.append(digits.data(), fmt::format_to(digits.data(), FMT_COMPILE("{}.{:09}"), magnitude / base::kSecond_ns,
+                                           magnitude % base::kSecond_ns));
 }
 
 JsonObject::JsonObject(std::string& out, std::string_view class_name) : out_(out) {

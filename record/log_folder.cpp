@@ -8,6 +8,8 @@
 #include <ctime>
 #include <optional>
 
+#include "base/durations.h"
+
 namespace navcal::record {
 namespace {
 
@@ -102,8 +104,7 @@ LogFolder::Space LogFolder::keep_free(std::uint64_t floor_bytes) {
 }
 
 std::string log_name(std::int64_t utc_ns, std::uint64_t counter) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  const auto second = static_cast<std::time_t>(std::max<std::int64_t>(0, utc_ns) / kSecond_ns);
+  const auto second = static_cast<std::time_t>(std::max<std::int64_t>(0, utc_ns) / base::kSecond_ns);
   return fmt::format("{}{:%Y%m%dT%H%M%SZ}-{:06}{}", kPrefix, fmt::gmtime(second), counter, kSuffix);
 }
 

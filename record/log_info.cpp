@@ -9,7 +9,7 @@ namespace navcal::record {
 namespace {
 
 constexpr std::size_t kMaxEvents = 100;
-constexpr std::uint64_t kProgressEvery = 4096;
+constexpr std::uint64_t kInfoProgressEvery = 4096;
 constexpr std::int64_t kGap_ns = 2'000'000'000;
 constexpr double kGapPeriods = 10;
 
@@ -62,7 +62,7 @@ void read_entries(Recording& recording, RecordingInfo& info, const Progress& pro
     info.end_utc_ns = utc_ns;
   };
   while (const auto entry = recording.next()) {
-    if (++entries % kProgressEvery == 0) progress(recording.progress());
+    if (++entries % kInfoProgressEvery == 0) progress(recording.progress());
     if (const auto* read = std::get_if<RawRead>(&*entry)) {
       at(read->time_ns);
       tally(info.ports[read->port], settings[read->port].rate_Hz, read->direction, mapping.to_utc(read->time_ns),
@@ -80,7 +80,7 @@ void read_entries(Recording& recording, RecordingInfo& info, const Progress& pro
 void read_messages(LogReader& log, RecordingInfo& info, const Progress& progress) {
   std::uint64_t messages = 0;
   while (log.next()) {
-    if (++messages % kProgressEvery == 0) progress(log.progress());
+    if (++messages % kInfoProgressEvery == 0) progress(log.progress());
   }
   for (const auto& [id, channel] : log.channels()) {
     if (channel.messages > 0) info.topics[channel.topic] = {channel.messages, channel.bytes};

@@ -4,22 +4,22 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "base/durations.h"
 #include "record/json_object.h"
 #include "record/log_info.h"
 
 namespace navcal::record {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 /// Time of day of people, or seconds where the recording never learnt UTC.
 std::string when(std::int64_t utc_ns) {
-  constexpr std::int64_t kYear2000_ns = 946'684'800LL * kSecond_ns;
+  constexpr std::int64_t kYear2000_ns = 946'684'800LL * base::kSecond_ns;
   if (utc_ns < kYear2000_ns) return fmt::format("{:.3f} s (monotonic: UTC was not known)", seconds(utc_ns));
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(static_cast<std::time_t>(utc_ns / kSecond_ns)),
-                     utc_ns % kSecond_ns / 1'000'000);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                     fmt::gmtime(static_cast<std::time_t>(utc_ns / base::kSecond_ns)),
+                     utc_ns % base::kSecond_ns / 1'000'000);
 }
 
 std::string exact(std::int64_t ns) {

@@ -14,7 +14,7 @@
 namespace navcal::record {
 namespace {
 
-constexpr std::size_t kMaxRemarks = 100;
+constexpr std::size_t kMaxRecordingRemarks = 100;
 
 }  // namespace
 
@@ -122,7 +122,7 @@ std::optional<Entry> LogRecording::raw_entry(const LogMessage& message) {
 }
 
 void LogRecording::remark(const LogMessage& message, std::string_view what) {
-  if (remarks_.size() >= kMaxRemarks) return;
+  if (remarks_.size() >= kMaxRecordingRemarks) return;
   remarks_.push_back(fmt::format("{}: byte {}: {}", reader_.name(), message.offset, what));
 }
 

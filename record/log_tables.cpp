@@ -12,7 +12,7 @@
 namespace navcal::record {
 namespace {
 
-constexpr std::uint64_t kProgressEvery = 1024;
+constexpr std::uint64_t kTablesProgressEvery = 1024;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ LogTables read_tables(const std::filesystem::path& log_file, const Progress& pro
   std::uint64_t unreadable = 0;
   std::uint64_t messages = 0;
   while (const auto message = log.next()) {
-    if (++messages % kProgressEvery == 0) progress(log.progress());
+    if (++messages % kTablesProgressEvery == 0) progress(log.progress());
     const LogChannel& channel = log.channels().at(message->channel);
     if (channel.raw) continue;
     if (channel.topic == "/config") {

@@ -10,9 +10,9 @@ using enum FieldKind;
 
 constexpr std::array kConfig{Field{"time", number, "s"}, Field{"monotonic", number, "s"}, Field{"toml", text}};
 
-constexpr std::array kTime{Field{"time", number, "s"},  Field{"monotonic", number, "s"},
-                           Field{"source", text},       Field{"offset", number, "s"},
-                           Field{"bound", number, "s"}, Field{"at", number, "s"}};
+constexpr std::array kTimeFields{Field{"time", number, "s"},  Field{"monotonic", number, "s"},
+                                 Field{"source", text},       Field{"offset", number, "s"},
+                                 Field{"bound", number, "s"}, Field{"at", number, "s"}};
 
 constexpr std::array kEvent{Field{"time", number, "s"}, Field{"monotonic", number, "s"},
                             Field{"severity", text},    Field{"name", text},
@@ -116,7 +116,7 @@ constexpr std::array kNav{Field{"time", number, "s"},
 
 constexpr std::array kTopics{
     Topic{topic::kConfig, "/config", "navcal.Config", kConfig},
-    Topic{topic::kTime, "/time", "navcal.Time", kTime},
+    Topic{topic::kTime, "/time", "navcal.Time", kTimeFields},
     Topic{topic::kEvent, "/event", "navcal.Event", kEvent},
     Topic{topic::kHealth, "/health", "navcal.Health", kSomeJson},
     Topic{topic::kCalib, "/calib", "navcal.Calib", kSomeJson},

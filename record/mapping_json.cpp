@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 
+#include "base/durations.h"
 #include "record/flat_json.h"
 #include "record/json_object.h"
 
@@ -10,8 +11,6 @@ namespace navcal::record {
 namespace {
 
 using pipeline::UtcMapping;
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 std::optional<UtcMapping::Source> source_named(std::string_view name) {
   using enum UtcMapping::Source;
@@ -75,8 +74,8 @@ std::optional<std::int64_t> nanoseconds(std::string_view seconds) {
   const auto s = digits(whole.data(), whole.data() + whole.size());
   const auto ns = digits(padded.data(), padded.data() + padded.size());
   // The greatest whole second of a 64-bit nanosecond count, less one, so that the sum below cannot overflow.
-  if (!s || !ns || *s >= INT64_MAX / kSecond_ns) return std::nullopt;
-  const auto total = static_cast<std::int64_t>(*s * kSecond_ns + *ns);
+  if (!s || !ns || *s >= INT64_MAX / base::kSecond_ns) return std::nullopt;
+  const auto total = static_cast<std::int64_t>(*s * base::kSecond_ns + *ns);
   return negative ? -total : total;
 }
 

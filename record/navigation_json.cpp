@@ -1,18 +1,15 @@
 #include "record/navigation_json.h"
 
-#include <numbers>
-
+#include "base/angles.h"
 #include "record/json_object.h"
 #include "record/sample_head.h"
 
 namespace navcal::record {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
 std::optional<double> degrees(const std::optional<double>& rad) {
   if (!rad) return std::nullopt;
-  return *rad * kDegreesPerRadian;
+  return *rad * base::kDegreesPerRadian;
 }
 
 /// What is said of a position, where there is one.

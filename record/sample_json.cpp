@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "base/angles.h"
 #include "record/json_object.h"
 #include "record/sample_head.h"
 
 namespace navcal::record {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
 std::optional<double> degrees(const std::optional<double>& rad) {
   if (!rad) return std::nullopt;
-  return *rad * kDegreesPerRadian;
+  return *rad * base::kDegreesPerRadian;
 }
 
 void append_count(JsonObject& json, std::string_view key, const std::optional<std::uint8_t>& count) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "sim/rotation.h"
 
 namespace navcal::sim {
@@ -40,8 +41,8 @@ struct Ease {
   double value, rate, rate_change;
 };
 Ease ease(double s) {
-  constexpr double kTurn = 2 * std::numbers::pi;
-  return {s - std::sin(kTurn * s) / kTurn, 1 - std::cos(kTurn * s), kTurn * std::sin(kTurn * s)};
+  return {s - std::sin(base::kTurn_rad * s) / base::kTurn_rad, 1 - std::cos(base::kTurn_rad * s),
+          base::kTurn_rad * std::sin(base::kTurn_rad * s)};
 }
 
 /// Everything but the position; yaw from `yaw` at the beginning of the leg.

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "sim/state.h"
 
 namespace navcal::sim {
@@ -19,14 +19,14 @@ struct Origin {
 [[nodiscard]] inline Vector3 geodetic(const Origin& origin, const Vector3& north_east_down_m) {
   constexpr double kSemiMajor_m = 6378137.0;
   constexpr double kEccentricity2 = 6.69437999014e-3;
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  const double latitude = origin.latitude_deg / kDegrees;
+  const double latitude = origin.latitude_deg / base::kDegreesPerRadian;
   const double s2 = kEccentricity2 * std::sin(latitude) * std::sin(latitude);
   const double meridian_m = kSemiMajor_m * (1 - kEccentricity2) / std::pow(1 - s2, 1.5) + origin.height_m;
   const double transverse_m = kSemiMajor_m / std::sqrt(1 - s2) + origin.height_m;
-  return {origin.latitude_deg + north_east_down_m[0] / meridian_m * kDegrees,
-          std::remainder(
-              origin.longitude_deg + north_east_down_m[1] / (transverse_m * std::cos(latitude)) * kDegrees, 360),
+  return {origin.latitude_deg + north_east_down_m[0] / meridian_m * base::kDegreesPerRadian,
+          std::remainder(origin.longitude_deg +
+                             north_east_down_m[1] / (transverse_m * std::cos(latitude)) * base::kDegreesPerRadian,
+                         360),
           origin.height_m - north_east_down_m[2]};
 }
 

@@ -7,8 +7,8 @@
 namespace navcal::sim {
 namespace {
 
-namespace wire = protocols::imu_card;
-constexpr double kPeriod_s = 0.05;
+namespace card = protocols::imu_card;
+constexpr double kImuPeriod_s = 0.05;
 constexpr double kFullScale = 65520;
 constexpr double kCountsPer_mV = 16;
 
@@ -21,7 +21,7 @@ ImuCard::ImuCard(const Options& options, const Motion& motion)
       noise_(options.seed) {}
 
 void ImuCard::power_on(std::int64_t t_ns) {
-  ticks_ = Ticks(t_ns, kPeriod_s, options_.clock_ppm);
+  ticks_ = Ticks(t_ns, kImuPeriod_s, options_.clock_ppm);
   electronics_.power_on(t_ns, motion_);
   sequence_ = 0;
   for (double& bias : bias_deg_s_) bias = noise_.normal(options_.turn_on_bias_deg_s);
@@ -32,7 +32,7 @@ void ImuCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
     const std::int64_t sent_ns = ticks_.next_ns();
     const double time_s = effects_.time_s(sent_ns);
     const double latency_s = options_.latency_s + effects_.delays(time_s).card_s;
-    const auto frame = wire::encode_record(measure(sent_ns - std::llround(latency_s * 1e9)));
+    const auto frame = card::encode_record(measure(sent_ns - std::llround(latency_s * 1e9)));
     line_.put(sent_ns, options_.baud, {frame.begin(), frame.end()}, out);
     ticks_.pass(effects_.slow_ppm(Instrument::imu, time_s));
   }
@@ -61,7 +61,7 @@ std::array<double, 8> ImuCard::signals(const Instant& now) {
   return signals;
 }
 
-wire::Record ImuCard::measure(std::int64_t t_ns) {
+card::Record ImuCard::measure(std::int64_t t_ns) {
   const State state = motion_.at(t_ns);
   const Instant now = effects_.instant(t_ns, state, electronics_.temperature_C(t_ns, motion_));
   CardVoltages_mV voltages = signals(now);
@@ -69,12 +69,12 @@ wire::Record ImuCard::measure(std::int64_t t_ns) {
     voltages[i] = options_.card.zero_mV[i] + options_.card.scale[i] * voltages[i];
   }
   effects_.card_voltages(now, voltages);
-  wire::Record record;
+  card::Record record;
   record.sequence = sequence_++;
   record.status = status_;
   for (std::size_t i = 0; i < voltages.size(); ++i) {
     const double reading = std::round(kCountsPer_mV * voltages[i]);
-    if (reading < 0 || reading > kFullScale) record.status |= wire::over_range;
+    if (reading < 0 || reading > kFullScale) record.status |= card::over_range;
     record.raw[i] = static_cast<std::uint16_t>(std::clamp(reading, 0.0, kFullScale));
   }
   return record;

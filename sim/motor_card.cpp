@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "sim/vehicle/propeller.h"
 
 namespace navcal::sim {
 namespace {
 
-namespace wire = protocols::motor_card;
-constexpr double kPeriod_s = 0.1;
-constexpr double kDegrees = 180 / std::numbers::pi;
+namespace motor = protocols::motor_card;
+constexpr double kStatusPeriod_s = 0.1;
 
 }  // namespace
 
@@ -22,7 +21,7 @@ MotorCard::MotorCard(const Options& options, const Motion& motion)
       noise_(options.seed) {}
 
 void MotorCard::power_on(std::int64_t t_ns) {
-  ticks_ = Ticks(t_ns, kPeriod_s, options_.clock_ppm);
+  ticks_ = Ticks(t_ns, kStatusPeriod_s, options_.clock_ppm);
   parser_ = {};
   command_.reset();
   sequence_ = 0;
@@ -30,10 +29,10 @@ void MotorCard::power_on(std::int64_t t_ns) {
 
 void MotorCard::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
   parser_.feed(bytes, [&](const protocols::Frame& frame) {
-    if (frame.id != wire::kMcc) return;
-    const auto wanted = wire::decode_command(frame.bytes);
+    if (frame.id != motor::kMcc) return;
+    const auto wanted = motor::decode_command(frame.bytes);
     if (!wanted) return;
-    const auto beyond = [](double fin) { return std::abs(fin) > wire::kFinLimit_deg; };
+    const auto beyond = [](double fin) { return std::abs(fin) > motor::kFinLimit_deg; };
     if (std::any_of(wanted->fins_deg.begin(), wanted->fins_deg.end(), beyond)) {
       ++refused_;
       return;
@@ -48,7 +47,7 @@ void MotorCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
   while (ticks_.next_ns() <= t_ns) {
     const std::int64_t sent_ns = ticks_.next_ns();
     const auto status = measure(sent_ns - std::llround(options_.latency_s * 1e9));
-    line_.put(sent_ns, options_.baud, wire::encode_status(status), out);
+    line_.put(sent_ns, options_.baud, motor::encode_status(status), out);
     ticks_.pass(effects_.slow_ppm(Instrument::motor, effects_.time_s(sent_ns)));
   }
 }
@@ -57,7 +56,7 @@ MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
   if (!command_) {
     const State state = motion_.at(t_ns);
     Actuators now{state.rpm, {}, state.motor_current_A};
-    for (std::size_t i = 0; i < 3; ++i) now.fins_deg[i] = state.fins_rad[i] * kDegrees;
+    for (std::size_t i = 0; i < 3; ++i) now.fins_deg[i] = state.fins_rad[i] * base::kDegreesPerRadian;
     return now;
   }
   const double since_s = std::max(0.0, static_cast<double>(t_ns - commanded_ns_) * 1e-9);
@@ -73,10 +72,10 @@ MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
   return now;
 }
 
-wire::Status MotorCard::measure(std::int64_t t_ns) {
+motor::Status MotorCard::measure(std::int64_t t_ns) {
   const Actuators now = actuators_at(t_ns);
   const double louder = effects_.noise(Instrument::motor, effects_.time_s(t_ns));
-  wire::Status status;
+  motor::Status status;
   status.sequence = sequence_++;
   status.rpm_commanded =
       command_ ? command_->rpm : static_cast<std::int32_t>(std::lround(motion_.at(t_ns).rpm_commanded));

@@ -2,14 +2,14 @@
 
 #include <cmath>
 
+#include "base/durations.h"
 #include "sim/oncore_messages.h"
 
 namespace navcal::sim {
 namespace {
 
-namespace wire = protocols::oncore;
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kWeek_ns = 7 * 86400LL * kSecond_ns;
+namespace oncore = protocols::oncore;
+constexpr std::int64_t kWeek_ns = 7 * 86400LL * base::kSecond_ns;
 constexpr std::size_t kInputBytes = 1024;
 
 }  // namespace
@@ -24,7 +24,7 @@ void Oncore::power_on(std::int64_t t_ns) {
   input_.clear();
   parser_ = {};
   requests_.clear();
-  second_ns_ = (t_ns / kSecond_ns + 1) * kSecond_ns;
+  second_ns_ = (t_ns / base::kSecond_ns + 1) * base::kSecond_ns;
 }
 
 void Oncore::on_bytes(std::int64_t /*t_ns*/, protocols::Bytes bytes) {
@@ -35,32 +35,32 @@ void Oncore::on_bytes(std::int64_t /*t_ns*/, protocols::Bytes bytes) {
 }
 
 bool Oncore::knows(protocols::FrameId id) const {
-  if (id == wire::kHa) return options_.kind == Kind::twelve_channels;
-  return id == wire::kEa || id == wire::kBb || id == wire::kBo || id == wire::kCj;
+  if (id == oncore::kHa) return options_.kind == Kind::twelve_channels;
+  return id == oncore::kEa || id == oncore::kBb || id == oncore::kBo || id == oncore::kCj;
 }
 
 void Oncore::read_input() {
   parser_.feed(input_, [&](const protocols::Frame& frame) {
-    const auto command = wire::parse_command(frame.bytes);
+    const auto command = oncore::parse_command(frame.bytes);
     if (command && knows(command->id)) requests_[command->id] = {command->rate.value_or(0), 0};
   });
   input_.clear();
 }
 
 std::vector<std::uint8_t> Oncore::message(protocols::FrameId id, const GpsReading& reading) const {
-  const std::int64_t ahead_ns = options_.leap_seconds_known ? 0 : options_.leap_seconds * kSecond_ns;
+  const std::int64_t ahead_ns = options_.leap_seconds_known ? 0 : options_.leap_seconds * base::kSecond_ns;
   const ReceiverTime time{reading.utc_ns + ahead_ns - options_.weeks_early * kWeek_ns, options_.leap_seconds,
                           options_.leap_seconds_known};
   if (options_.kind == Kind::nmea) return nmea_sentences(reading, time);
-  if (id == wire::kHa) return ha_message(reading, time);
-  if (id == wire::kEa) return ea_message(reading, time);
-  if (id == wire::kBb) return bb_message();
-  if (id == wire::kBo) return bo_message(time);
+  if (id == oncore::kHa) return ha_message(reading, time);
+  if (id == oncore::kEa) return ea_message(reading, time);
+  if (id == oncore::kBb) return bb_message();
+  if (id == oncore::kBo) return bo_message(time);
   return cj_message();
 }
 
 void Oncore::advance(std::int64_t t_ns, std::vector<Emission>& out) {
-  for (; next_event_ns() <= t_ns; second_ns_ += kSecond_ns) {
+  for (; next_event_ns() <= t_ns; second_ns_ += base::kSecond_ns) {
     const std::int64_t sent_ns = next_event_ns();
     const GpsReading reading = receiver_.measure(second_ns_);
     if (options_.kind == Kind::nmea) {
@@ -71,7 +71,7 @@ void Oncore::advance(std::int64_t t_ns, std::vector<Emission>& out) {
     read_input();
     // The position first: it is what is waited for.
     const auto is_position = [](const auto& entry) {
-      return entry.first == wire::kHa || entry.first == wire::kEa;
+      return entry.first == oncore::kHa || entry.first == oncore::kEa;
     };
     for (const bool positions : {true, false}) {
       for (auto& entry : requests_) {

@@ -9,7 +9,7 @@
 namespace navcal::sim {
 namespace {
 
-namespace wire = protocols::oncore;
+namespace oncore = protocols::oncore;
 
 constexpr std::uint8_t kUsedForPosition = 8;
 
@@ -24,8 +24,8 @@ protocols::Fix fix_of(const GpsReading& reading) {
   return is_flat(reading) ? protocols::Fix::fix_2d : protocols::Fix::fix_3d;
 }
 
-wire::Position position_of(const GpsReading& reading, const ReceiverTime& time) {
-  wire::Position position;
+oncore::Position position_of(const GpsReading& reading, const ReceiverTime& time) {
+  oncore::Position position;
   position.date = date_of(time.reported_ns);
   position.time = time_of(time.reported_ns);
   position.filtered = {reading.latitude_deg, reading.longitude_deg, reading.height_m, std::nullopt};
@@ -38,7 +38,7 @@ wire::Position position_of(const GpsReading& reading, const ReceiverTime& time) 
   position.visible = static_cast<std::uint8_t>(kSky.size());
   position.tracked = reading.fixed ? (flat ? kSkyUsedFlat : kSkyUsed) : std::uint8_t{0};
   position.fix = reading.fixed ? fix_of(reading) : protocols::Fix::acquiring;
-  position.antenna = wire::Antenna::ok;
+  position.antenna = oncore::Antenna::ok;
   position.channel_count = kSky.size();
   for (std::size_t i = 0; i < kSky.size(); ++i) {
     position.channels[i].satellite = kSky[i].prn;
@@ -47,38 +47,39 @@ wire::Position position_of(const GpsReading& reading, const ReceiverTime& time) 
     position.channels[i].cn0 = kSky[i].cn0_dBHz;
   }
   position.temperature_C = 25;
-  position.utc = wire::UtcState{true, time.leap_seconds_known,
-                                static_cast<std::int8_t>(time.leap_seconds_known ? time.leap_seconds : 0)};
+  position.utc = oncore::UtcState{true, time.leap_seconds_known,
+                                  static_cast<std::int8_t>(time.leap_seconds_known ? time.leap_seconds : 0)};
   return position;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> ha_message(const GpsReading& reading, const ReceiverTime& time) {
-  return wire::encode_ha(position_of(reading, time));
+  return oncore::encode_ha(position_of(reading, time));
 }
 
 std::vector<std::uint8_t> ea_message(const GpsReading& reading, const ReceiverTime& time) {
-  return wire::encode_ea(position_of(reading, time));
+  return oncore::encode_ea(position_of(reading, time));
 }
 
 std::vector<std::uint8_t> bb_message() {
-  wire::VisibleSatellites satellites;
+  oncore::VisibleSatellites satellites;
   satellites.visible = static_cast<std::uint8_t>(kSky.size());
   satellites.count = kSky.size();
   std::transform(kSky.begin(), kSky.end(), satellites.satellites.begin(), [](const SkySatellite& satellite) {
-    return wire::VisibleSatellites::Satellite{satellite.prn, 0, satellite.elevation_deg, satellite.azimuth_deg, 0};
+    return oncore::VisibleSatellites::Satellite{satellite.prn, 0, satellite.elevation_deg, satellite.azimuth_deg,
+                                                0};
   });
-  return wire::encode_bb(satellites);
+  return oncore::encode_bb(satellites);
 }
 
 std::vector<std::uint8_t> bo_message(const ReceiverTime& time) {
-  if (!time.leap_seconds_known) return wire::encode_bo({});
-  return wire::encode_bo({static_cast<std::int8_t>(time.leap_seconds)});
+  if (!time.leap_seconds_known) return oncore::encode_bo({});
+  return oncore::encode_bo({static_cast<std::int8_t>(time.leap_seconds)});
 }
 
 std::vector<std::uint8_t> cj_message() {
-  return wire::encode_cj(
+  return oncore::encode_cj(
       "COPYRIGHT: NONE        \r\nSFTW P/N # EMULATED    \r\nSOFTWARE VER # 1       \r\n"
       "SOFTWARE REV # 0       \r\nMODEL #    NAVCAL      \r\nSERIAL #   00000001    \r\n");
 }

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "protocols/tcm2_word.h"
 
 namespace navcal::sim {
 namespace {
 
-namespace wire = protocols::tcm2;
-using wire::Parameter;
-using wire::Verb;
+namespace tcm2 = protocols::tcm2;
+using tcm2::Parameter;
+using tcm2::Verb;
 
 constexpr std::int64_t kThinks_ns = 2'000'000;      // from a command to the first byte of its answer
 constexpr std::int64_t kStartsUp_ns = 200'000'000;  // from power to the banner
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kMils = 3200 / std::numbers::pi;
 constexpr std::string_view kBanner = "TCM2 emulated, navcal\r\n";
 
@@ -89,20 +89,20 @@ void Tcm2::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
 }
 
 void Tcm2::obey(std::int64_t t_ns, std::string_view line) {
-  const auto parsed = wire::parse_command(line);
-  if (const auto* refusal = std::get_if<wire::Refusal>(&parsed)) {
-    wire::Reply reply;
-    reply.kind = wire::Reply::Kind::refused;
+  const auto parsed = tcm2::parse_command(line);
+  if (const auto* refusal = std::get_if<tcm2::Refusal>(&parsed)) {
+    tcm2::Reply reply;
+    reply.kind = tcm2::Reply::Kind::refused;
     reply.error = refusal->error;
     return answer(t_ns, reply);
   }
-  obey(t_ns, std::get<wire::Command>(parsed));
+  obey(t_ns, std::get<tcm2::Command>(parsed));
 }
 
-void Tcm2::obey(std::int64_t t_ns, const wire::Command& command) {
+void Tcm2::obey(std::int64_t t_ns, const tcm2::Command& command) {
   Settings only{
       false, false, false, false, false, settings_.heading_in_mils, settings_.tilt_in_mils, settings_.fahrenheit};
-  wire::Reply reply;
+  tcm2::Reply reply;
   switch (command.verb) {
     case Verb::go:
       start(t_ns);
@@ -128,7 +128,7 @@ void Tcm2::obey(std::int64_t t_ns, const wire::Command& command) {
       score_.clear();
       [[fallthrough]];
     case Verb::calibration_score:
-      reply.kind = wire::Reply::Kind::calibration;
+      reply.kind = tcm2::Reply::Kind::calibration;
       reply.score = score_.score();
       break;
     case Verb::warm_restart:
@@ -136,11 +136,11 @@ void Tcm2::obey(std::int64_t t_ns, const wire::Command& command) {
     case Verb::set:
       if (const bool ends = command.parameter == Parameter::multipoint_calibration && command.letter == 'd';
           ends && calibrating_) {
-        reply.kind = wire::Reply::Kind::calibration;
+        reply.kind = tcm2::Reply::Kind::calibration;
         reply.score = score_.score();
       }
       if (const std::uint32_t error = set(command); error != 0) {
-        reply.kind = wire::Reply::Kind::refused;
+        reply.kind = tcm2::Reply::Kind::refused;
         reply.error = error;
       }
       break;
@@ -148,7 +148,7 @@ void Tcm2::obey(std::int64_t t_ns, const wire::Command& command) {
   answer(t_ns, reply);
 }
 
-std::uint32_t Tcm2::set(const wire::Command& command) {
+std::uint32_t Tcm2::set(const tcm2::Command& command) {
   const bool on = command.letter == 'e';
   switch (command.parameter) {
     case Parameter::output_heading:
@@ -176,11 +176,11 @@ std::uint32_t Tcm2::set(const wire::Command& command) {
       settings_.fahrenheit = command.letter == 'f';
       break;
     case Parameter::output_format:
-      if (command.letter == 'r') return wire::error::kBadParameter;  // no source at hand describes raw words
+      if (command.letter == 'r') return tcm2::error::kBadParameter;  // no source at hand describes raw words
       settings_.nmea = command.letter == 'n';
       break;
     case Parameter::baud:
-      next_baud_ = wire::kBauds[command.number];
+      next_baud_ = tcm2::kBauds[command.number];
       break;
     case Parameter::clock:
       settings_.clock_Hz = command.number;
@@ -202,7 +202,7 @@ void Tcm2::answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes) {
   answers_.push_back({t_ns + kThinks_ns, std::move(bytes)});
 }
 
-void Tcm2::answer(std::int64_t t_ns, const wire::Reply& reply) { answer(t_ns, wire::encode_reply(reply)); }
+void Tcm2::answer(std::int64_t t_ns, const tcm2::Reply& reply) { answer(t_ns, tcm2::encode_reply(reply)); }
 
 void Tcm2::answer_word(std::int64_t t_ns, const Settings& fields) {
   answers_.push_back({t_ns + kThinks_ns + latency_ns(), fields});
@@ -213,13 +213,13 @@ std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) 
   measured_ns_ = std::max(measured_ns_, t_ns - latency_ns());
   const Tcm2Reading reading = sensor_.measure(measured_ns_);
   if (calibrating_) score_.add(reading);
-  if (fields.nmea) return wire::encode_hchdm(wrapped(reading.heading_rad * kDegrees, 360, 0.1));
-  wire::Word out;
+  if (fields.nmea) return tcm2::encode_hchdm(wrapped(reading.heading_rad * base::kDegreesPerRadian, 360, 0.1));
+  tcm2::Word out;
   if (fields.heading) {
     out.heading = fields.heading_in_mils ? wrapped(reading.heading_rad * kMils, 6400, 1)
-                                         : wrapped(reading.heading_rad * kDegrees, 360, 0.1);
+                                         : wrapped(reading.heading_rad * base::kDegreesPerRadian, 360, 0.1);
   }
-  const double tilt_scale = fields.tilt_in_mils ? kMils : kDegrees;
+  const double tilt_scale = fields.tilt_in_mils ? kMils : base::kDegreesPerRadian;
   const double tilt_resolution = fields.tilt_in_mils ? 1 : 0.1;
   if (fields.pitch) out.pitch = rounded(reading.pitch_rad * tilt_scale, tilt_resolution);
   if (fields.roll) out.roll = rounded(reading.roll_rad * tilt_scale, tilt_resolution);
@@ -231,10 +231,10 @@ std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) 
   if (fields.temperature) {
     out.temperature = fields.fahrenheit ? reading.temperature_C * 1.8 + 32 : reading.temperature_C;
   }
-  const std::uint32_t error = (reading.distorted ? wire::error::kDistortion : 0U) |
-                              (reading.tilt_out_of_range ? wire::error::kInclinometerOutOfRange : 0U);
+  const std::uint32_t error = (reading.distorted ? tcm2::error::kDistortion : 0U) |
+                              (reading.tilt_out_of_range ? tcm2::error::kInclinometerOutOfRange : 0U);
   if (error != 0) out.error = error;
-  return wire::encode_word(out);
+  return tcm2::encode_word(out);
 }
 
 }  // namespace navcal::sim

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "sim/rotation.h"
 
 namespace navcal::sim {
 namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
-constexpr double kRadians = std::numbers::pi / 180;
 
 double norm(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 
@@ -54,10 +54,10 @@ Tcm2Reading Tcm2Sensor::measure(std::int64_t t_ns) {
   Tcm2Reading reading;
   reading.field_uT = field_body_uT_;
   for (double& component : reading.field_uT) component += noise_.normal(options_.field_noise_uT * louder);
-  reading.pitch_rad = said.pitch_rad + noise_.normal(options_.tilt_noise_deg * louder * kRadians);
-  reading.roll_rad = said.roll_rad + noise_.normal(options_.tilt_noise_deg * louder * kRadians);
-  reading.tilt_out_of_range =
-      std::max(std::abs(reading.pitch_rad), std::abs(reading.roll_rad)) > options_.tilt_range_deg * kRadians;
+  reading.pitch_rad = said.pitch_rad + noise_.normal(options_.tilt_noise_deg * louder * base::kRadiansPerDegree);
+  reading.roll_rad = said.roll_rad + noise_.normal(options_.tilt_noise_deg * louder * base::kRadiansPerDegree);
+  reading.tilt_out_of_range = std::max(std::abs(reading.pitch_rad), std::abs(reading.roll_rad)) >
+                              options_.tilt_range_deg * base::kRadiansPerDegree;
   const double earth_uT = norm(state.field_world_uT);
   reading.distorted = std::abs(norm(reading.field_uT) - earth_uT) > options_.distortion_share * earth_uT;
   // Levelling: Mach's thesis (2003), eq. 2.2.

@@ -9,7 +9,7 @@
 namespace navcal::trial {
 namespace {
 
-constexpr double kPeriod_s = 0.1, kLatency_s = 0.05;
+constexpr double kCompassPeriod_s = 0.1, kCompassLatency_s = 0.05;
 constexpr double kFluid_s = 0.3;
 constexpr double kMemory_s = 60;
 constexpr double kSubstep_s = 0.004;
@@ -32,7 +32,7 @@ Eigen::Matrix3d iron(const CompassDepartures& departures) {
 }  // namespace
 
 Compass::Compass(const Fitting& fitting, const CompassDepartures& departures, const Vector3& field_uT)
-    : Instrument(fitting, Port::compass, kPeriod_s, kLatency_s),
+    : Instrument(fitting, Port::compass, kCompassPeriod_s, kCompassLatency_s),
       departures_(departures),
       field_world_uT_(Eigen::AngleAxisd(departures.declination_rad, Vector3::UnitZ()) * field_uT),
       iron_(iron(departures)) {}

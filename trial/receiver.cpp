@@ -9,7 +9,7 @@
 namespace navcal::trial {
 namespace {
 
-constexpr double kLatency_s = 0.3;
+constexpr double kReceiverLatency_s = 0.3;
 constexpr double kAntennaUnder_m = 0.35;
 constexpr double kLeastSearch_s = 2, kLongestSearch_s = 10;
 constexpr double kPositionNoise_m = 1.0, kVelocityNoise_m_s = 0.1;
@@ -46,7 +46,7 @@ void set_time(protocols::oncore::Position& position, std::int64_t utc_ns) {
 }  // namespace
 
 Receiver::Receiver(const Fitting& fitting, const GpsDepartures& departures, const Anchorage& anchorage)
-    : Instrument(fitting, Port::gps, 1, kLatency_s),
+    : Instrument(fitting, Port::gps, 1, kReceiverLatency_s),
       departures_(departures),
       anchorage_(anchorage),
       start_ns_(fitting.start_ns) {

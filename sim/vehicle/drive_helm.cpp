@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "base/vectors.h"
+
 namespace navcal::sim {
 namespace {
 
-Eigen::Vector3d vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
-
-Actuators actuators_of(const PathRow& row) { return {vector_of(row.fins_rad), row.rpm / 60, row.rpm / 60}; }
+Actuators actuators_of(const PathRow& row) { return {base::vector_of(row.fins_rad), row.rpm / 60, row.rpm / 60}; }
 
 }  // namespace
 
@@ -15,8 +15,8 @@ DriveHelm::DriveHelm(std::vector<PathRow> rows) : rows_(std::move(rows)) {}
 
 Body DriveHelm::start() const {
   const PathRow& first = rows_.front();
-  Body body{vector_of(first.position_m), vector_of(first.euler_rad), {}};
-  body.velocity << vector_of(first.velocity_body_m_s), vector_of(first.rate_rad_s);
+  Body body{base::vector_of(first.position_m), base::vector_of(first.euler_rad), {}};
+  body.velocity << base::vector_of(first.velocity_body_m_s), base::vector_of(first.rate_rad_s);
   return body;
 }
 

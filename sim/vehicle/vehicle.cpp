@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "sim/vehicle/mass.h"
 
 namespace navcal::sim {
@@ -85,10 +85,9 @@ Body Vehicle::midpoint_step(const Body& body, const Controls& first_half, const 
 }
 
 void check_stable(const Body& body, double time_s) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   constexpr double kFastest_m_s = 50;
   constexpr double kFastest_rad_s = 50;
-  constexpr double kSteepest_rad = 88 / kDegrees;
+  constexpr double kSteepest_rad = 88 / base::kDegreesPerRadian;
   const char* why = nullptr;
   // Written so that NaN fails.
   if (!body.position_m.allFinite() || !(body.velocity.head<3>().norm() < kFastest_m_s) ||
@@ -99,12 +98,12 @@ void check_stable(const Body& body, double time_s) {
   }
   if (why == nullptr) return;
   const auto& v = body.velocity;
-  throw UnstableVehicle(
-      fmt::format("the vehicle {} at t = {:.2f} s: roll {:.1f}, pitch {:.1f}, yaw {:.1f} deg, u, v, w = {:.3g}, "
-                  "{:.3g}, {:.3g} "
-                  "m/s, p, q, r = {:.3g}, {:.3g}, {:.3g} rad/s, depth {:.2f} m",
-                  why, time_s, body.euler_rad[0] * kDegrees, body.euler_rad[1] * kDegrees,
-                  body.euler_rad[2] * kDegrees, v[0], v[1], v[2], v[3], v[4], v[5], body.position_m.z()));
+  throw UnstableVehicle(fmt::format(
+      "the vehicle {} at t = {:.2f} s: roll {:.1f}, pitch {:.1f}, yaw {:.1f} deg, u, v, w = {:.3g}, "
+      "{:.3g}, {:.3g} "
+      "m/s, p, q, r = {:.3g}, {:.3g}, {:.3g} rad/s, depth {:.2f} m",
+      why, time_s, body.euler_rad[0] * base::kDegreesPerRadian, body.euler_rad[1] * base::kDegreesPerRadian,
+      body.euler_rad[2] * base::kDegreesPerRadian, v[0], v[1], v[2], v[3], v[4], v[5], body.position_m.z()));
 }
 
 }  // namespace navcal::sim

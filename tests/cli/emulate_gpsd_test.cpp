@@ -30,7 +30,7 @@ sockaddr_in loopback(std::uint16_t port) {
 }
 
 std::uint16_t free_port() {
-  const ports::Descriptor probe(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const base::Descriptor probe(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in address = loopback(0);
   socklen_t length = sizeof address;
   ::bind(probe.get(), reinterpret_cast<sockaddr*>(&address), sizeof address);
@@ -56,7 +56,7 @@ class Gpsd {
   /// The first TPV with a position within the time; null otherwise.
   [[nodiscard]] nlohmann::json position(std::chrono::seconds limit) const {
     const auto end = std::chrono::steady_clock::now() + limit;
-    const ports::Descriptor client = connected(end);
+    const base::Descriptor client = connected(end);
     const std::string watch = "?WATCH={\"enable\":true,\"json\":true};\n";
     if (!client || ::write(client.get(), watch.data(), watch.size()) < 0) return nullptr;
     const timeval patience{1, 0};
@@ -77,9 +77,9 @@ class Gpsd {
   }
 
  private:
-  [[nodiscard]] ports::Descriptor connected(std::chrono::steady_clock::time_point end) const {
+  [[nodiscard]] base::Descriptor connected(std::chrono::steady_clock::time_point end) const {
     while (std::chrono::steady_clock::now() < end) {
-      ports::Descriptor client(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+      base::Descriptor client(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
       const sockaddr_in address = loopback(port_);
       if (::connect(client.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return client;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -14,10 +14,10 @@
 namespace navcal::cli::testing {
 namespace {
 
-std::array<ports::Descriptor, 2> make_pipe() {
+std::array<base::Descriptor, 2> make_pipe() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-  return {ports::Descriptor(ends[0]), ports::Descriptor(ends[1])};
+  return {base::Descriptor(ends[0]), base::Descriptor(ends[1])};
 }
 
 }  // namespace

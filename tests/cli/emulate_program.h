@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ports/descriptor.h"
+#include "base/descriptor.h"
 
 namespace navcal::cli::testing {
 
@@ -29,7 +29,7 @@ class Program {
 
  private:
   pid_t pid_ = -1;
-  ports::Descriptor input_, output_, errors_;
+  base::Descriptor input_, output_, errors_;
 };
 
 /// A client's end of a line, at the speed at which the line was made.
@@ -48,7 +48,7 @@ class Client {
  private:
   bool read_some();
 
-  ports::Descriptor fd_;
+  base::Descriptor fd_;
   std::string read_;
   bool hung_up_ = false;
 };

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/angles.h"
 #include "instruments/units.h"
 #include "tests/instruments/collector.h"
 
@@ -33,11 +34,11 @@ TEST_F(NmeaDeviceTest, OneSampleAnEpochWithAllThatItsSentencesSay) {
   ASSERT_EQ(samples.size(), 5U);  // the first by its RMC, the others when their GGA has come
   const GpsSample& gps = samples[3];
   EXPECT_EQ(gps.fix, Fix::fix_3d);
-  EXPECT_NEAR(*gps.latitude_rad / kRadPerDeg, 57.71283, 1e-9);
+  EXPECT_NEAR(*gps.latitude_rad / base::kRadiansPerDegree, 57.71283, 1e-9);
   EXPECT_NEAR(*gps.height_m, 86.4, 1e-9);
   EXPECT_NEAR(*gps.height_msl_m, 49.4, 1e-9);
   EXPECT_NEAR(*gps.speed_m_s, 5.14444, 1e-4);
-  EXPECT_NEAR(*gps.course_rad, 54.7 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(*gps.course_rad, 54.7 * base::kRadiansPerDegree, 1e-12);
   EXPECT_NEAR(*gps.dop, 1.94, 1e-12);
   EXPECT_EQ(*gps.time_utc_ns - *samples[2].time_utc_ns, 1'000'000'000);
 }
@@ -87,8 +88,8 @@ TEST_F(NmeaDeviceTest, CompassesAndEchoSounders) {
   ASSERT_EQ(compass.size(), 4U);
   EXPECT_FALSE(compass[0].heading_is_true);
   EXPECT_TRUE(compass[1].heading_is_true);
-  EXPECT_NEAR(*compass[2].pitch_rad, 0.135 * kRadPerDeg, 1e-12);
-  EXPECT_NEAR(*compass[3].turn_rate_rad_s, 1 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(*compass[2].pitch_rad, 0.135 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(*compass[3].turn_rate_rad_s, 1 * base::kRadiansPerDegree, 1e-12);
   ASSERT_EQ(collector_.all<AltimeterSample>().size(), 1U);
   EXPECT_EQ(collector_.all<AltimeterSample>()[0].altitude_m, 12.5);
 }
@@ -101,8 +102,8 @@ TEST(NmeaDevice, CountsOfSixteenBitsAreASetUpOfTheDevice) {
   collector.feed<Parser>("$PTNTHTM,14223,N,169,N,-43,N,13641,2454*15\r\n");
   const auto samples = collector.all<CompassSample>();
   ASSERT_EQ(samples.size(), 1U);
-  EXPECT_NEAR(*samples[0].heading_rad / kRadPerDeg, 78.13, 0.01);
-  EXPECT_NEAR(*samples[0].dip_rad / kRadPerDeg, 74.93, 0.01);
+  EXPECT_NEAR(*samples[0].heading_rad / base::kRadiansPerDegree, 78.13, 0.01);
+  EXPECT_NEAR(*samples[0].dip_rad / base::kRadiansPerDegree, 74.93, 0.01);
 }
 
 TEST(NmeaDevice, ReadsTheRecordedReceivers) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/angles.h"
 #include "instruments/units.h"
 #include "protocols/gps_stream.h"
 #include "protocols/oncore_encode.h"
@@ -45,11 +46,11 @@ TEST_F(OncoreReceiverTest, PositionInSi) {
   feed(oncore::encode_ea(position()));
   const auto samples = collector_.all<GpsSample>();
   ASSERT_EQ(samples.size(), 1U);
-  EXPECT_NEAR(*samples[0].latitude_rad, 57.7128 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(*samples[0].latitude_rad, 57.7128 * base::kRadiansPerDegree, 1e-9);
   EXPECT_NEAR(*samples[0].height_m, 123.45, 1e-9);
   EXPECT_FALSE(samples[0].height_msl_m) << "a receiver without a geoid sends 0";
   EXPECT_NEAR(*samples[0].speed_m_s, 1.25, 1e-9);
-  EXPECT_NEAR(*samples[0].course_rad, 32 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(*samples[0].course_rad, 32 * base::kRadiansPerDegree, 1e-9);
   EXPECT_EQ(*samples[0].time_utc_ns, 1772366405'000000000);
   EXPECT_FALSE(samples[0].time_corrected);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "nav/angles.h"
+#include "base/angles.h"
 
 namespace navcal::nav::test {
 namespace {
@@ -59,7 +59,7 @@ std::vector<Arrived> readings_along(const sim::Motion& motion, double duration_s
       // The fluid's lag, as a delay.
       const auto felt = motion.at(t_ns - 300'000'000);
       CompassReading reading{t_ns, {}, {}, {}, false};
-      reading.heading_rad = as_heading(options.compass_says(state.euler_rad[2]) + noise(0.5 * kDegree));
+      reading.heading_rad = base::as_heading(options.compass_says(state.euler_rad[2]) + noise(0.5 * kDegree));
       reading.pitch_rad = felt.euler_rad[1] + noise(0.1 * kDegree);
       reading.roll_rad = felt.euler_rad[0] + noise(0.1 * kDegree);
       put(reading);
@@ -110,7 +110,7 @@ double position_error_m(const Navigator& navigator, const sim::Motion& motion,
 
 double heading_error_rad(const Navigator& navigator, const sim::Motion& motion) {
   const auto estimate = navigator.estimate();
-  return wrapped(estimate.heading_rad.value() - motion.at(estimate.time_ns).euler_rad[2]);
+  return base::wrapped(estimate.heading_rad.value() - motion.at(estimate.time_ns).euler_rad[2]);
 }
 
 sim::PathMotion level_way(double duration_s, double speed_m_s, const std::function<double(double)>& rate_rad_s,

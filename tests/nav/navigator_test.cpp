@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "nav/angles.h"
+#include "base/angles.h"
 #include "tests/nav/drive.h"
 
 namespace navcal::nav::test {
@@ -66,7 +66,7 @@ TEST(Navigator, GoesRoundAndRoundWithoutAJumpAtNorthOrSouth) {
     ASSERT_GE(*estimate.heading_rad, 0);
     ASSERT_LT(*estimate.heading_rad, 2 * std::numbers::pi);
     if (std::isfinite(before_rad)) {
-      ASSERT_LT(std::abs(wrapped(*estimate.heading_rad - before_rad)), 0.03);
+      ASSERT_LT(std::abs(base::wrapped(*estimate.heading_rad - before_rad)), 0.03);
     }
     before_rad = *estimate.heading_rad;
     ASSERT_NEAR(heading_error_rad(navigator, way), 0, 0.1 * kDegree);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "nav/angles.h"
+#include "base/angles.h"
 
 namespace navcal::nav::test {
 namespace {
@@ -36,7 +36,7 @@ TEST(PastPoses, GoesTheShortWayRoundTheCircle) {
   PastPoses past;
   past.push(pose(0, 3.1));
   past.push(pose(100, -3.1));
-  EXPECT_NEAR(std::abs(wrapped(past.at(50 * kMillisecond_ns)->heading_rad)), std::numbers::pi, 1e-9);
+  EXPECT_NEAR(std::abs(base::wrapped(past.at(50 * kMillisecond_ns)->heading_rad)), std::numbers::pi, 1e-9);
 }
 
 TEST(PastPoses, ReachesBackFiveSecondsHoweverOftenItIsTold) {

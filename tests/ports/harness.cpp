@@ -49,8 +49,8 @@ config::PortSettings settings_for(const fs::path& path, int baud) {
   return settings;
 }
 
-Descriptor open_client(const fs::path& path) {
-  Descriptor client(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+base::Descriptor open_client(const fs::path& path) {
+  base::Descriptor client(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!client || !set_raw(client.get(), 9600)) throw std::runtime_error("cannot open " + path.string());
   return client;
 }

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ports/descriptor.h"
+#include "base/descriptor.h"
 #include "ports/port.h"
 #include "ports/pty_host.h"
 #include "tests/support/temporary_folder.h"
@@ -43,7 +43,7 @@ class Recorder : public PortListener {
 config::PortSettings settings_for(const std::filesystem::path& path, int baud = 9600);
 
 /// A client's end of a pseudo-terminal, opened raw.
-Descriptor open_client(const std::filesystem::path& path);
+base::Descriptor open_client(const std::filesystem::path& path);
 std::size_t open_descriptors();
 /// CPU time that this process has used.
 std::chrono::microseconds cpu_time();

@@ -60,7 +60,7 @@ TEST_F(PortBytes, OneWakeUpForOneRecord) {
 }
 
 TEST_F(PortBytes, WhatCameWhileTheLineWasOpenedIsKept) {
-  const Descriptor other = open_client(host.link());  // somebody has it open, so that the host is heard
+  const base::Descriptor other = open_client(host.link());  // somebody has it open, so that the host is heard
   host.write(bytes_of("early"));
   Port port(io.get_executor(), settings_for(host.link()), recorder);
   port.start();
@@ -69,7 +69,7 @@ TEST_F(PortBytes, WhatCameWhileTheLineWasOpenedIsKept) {
 
 TEST_F(PortBytes, TheLineIsRawAtTheConfiguredSpeedAndGivenBackAsItWas) {
   {
-    const Descriptor client = open_client(host.link());
+    const base::Descriptor client = open_client(host.link());
     termios cooked{};
     ASSERT_EQ(tcgetattr(client.get(), &cooked), 0);
     cooked.c_lflag |= ICANON;

@@ -44,7 +44,7 @@ TEST_F(PortIdle, ADeviceThatComesAndGoesUnopenedCostsNothing) {
 
 TEST_F(PortIdle, ReadsOfZeroBytesDoNotSpinAndHealThemselves) {
   // Somebody sets the line to lines-and-keys; every end-of-file key then reads as zero bytes from a living device.
-  const Descriptor other = open_client(host.link());
+  const base::Descriptor other = open_client(host.link());
   termios cooked{};
   ASSERT_EQ(tcgetattr(other.get(), &cooked), 0);
   cooked.c_lflag |= ICANON;

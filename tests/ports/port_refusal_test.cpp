@@ -32,7 +32,7 @@ TEST_F(PortRefusal, ASecondOpenerIsToldWhoHoldsThePort) {
   ASSERT_EQ(::pipe(ready.data()), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    const Descriptor held = open_client(host.link());
+    const base::Descriptor held = open_client(host.link());
     const bool locked = lock_device(held.get());
     if (::write(ready[1], locked ? "y" : "n", 1) != 1) ::_exit(1);
     for (;;) ::pause();

@@ -20,7 +20,7 @@ struct PtyHostTest : ::testing::Test {
   PtyHost host{io.get_executor(), link, 9600,
                [this](std::int64_t, protocols::Bytes bytes) { heard.append(bytes.begin(), bytes.end()); }};
 
-  std::string read_some(const Descriptor& client) {
+  std::string read_some(const base::Descriptor& client) {
     std::array<char, 8192> buffer{};
     std::string text;
     run_until(io, [&] {
@@ -59,7 +59,7 @@ TEST_F(PtyHostTest, ALinkThatAnotherHasTakenIsNotRemoved) {
 TEST_F(PtyHostTest, WhatNobodyHearsIsLostAndCounted) {
   EXPECT_FALSE(host.has_client());
   EXPECT_EQ(host.write(bytes_of("into the void")), 0U);
-  const Descriptor client = open_client(link);
+  const base::Descriptor client = open_client(link);
   EXPECT_TRUE(host.has_client());
   EXPECT_EQ(host.write(bytes_of("hello")), 5U);
   EXPECT_EQ(read_some(client), "hello");
@@ -69,7 +69,7 @@ TEST_F(PtyHostTest, WhatNobodyHearsIsLostAndCounted) {
 }
 
 TEST_F(PtyHostTest, AClientThatDoesNotReadOverrunsAndNeverBlocks) {
-  const Descriptor client = open_client(link);
+  const base::Descriptor client = open_client(link);
   const std::string block(1000, 'b');
   for (int i = 0; i < 1000; ++i) host.write(bytes_of(block));
   EXPECT_GT(host.tally().overrun, 900'000U);
@@ -78,12 +78,12 @@ TEST_F(PtyHostTest, AClientThatDoesNotReadOverrunsAndNeverBlocks) {
 
 TEST_F(PtyHostTest, TheNextClientDoesNotFindTheLastOnesLeavings) {
   {
-    const Descriptor client = open_client(link);
+    const base::Descriptor client = open_client(link);
     run_for(io, std::chrono::milliseconds(50));
     host.write(bytes_of("unread"));
   }
   run_for(io, std::chrono::milliseconds(100));
-  const Descriptor client = open_client(link);
+  const base::Descriptor client = open_client(link);
   host.write(bytes_of("fresh"));
   EXPECT_EQ(read_some(client), "fresh");
 }
@@ -91,7 +91,7 @@ TEST_F(PtyHostTest, TheNextClientDoesNotFindTheLastOnesLeavings) {
 TEST_F(PtyHostTest, ClientsComeAndGoAndAreHeard) {
   std::string said;
   for (int i = 0; i < 5; ++i) {
-    const Descriptor client = open_client(link);
+    const base::Descriptor client = open_client(link);
     const std::string line = "client " + std::to_string(i);
     ASSERT_EQ(::write(client.get(), line.data(), line.size()), static_cast<ssize_t>(line.size()));
     said += line;
@@ -103,7 +103,7 @@ TEST_F(PtyHostTest, ClientsComeAndGoAndAreHeard) {
 }
 
 TEST_F(PtyHostTest, UnreadBytesAreSeenUntilTheyAreRead) {
-  const Descriptor client = open_client(link);
+  const base::Descriptor client = open_client(link);
   host.write(bytes_of("12345"));
   ASSERT_TRUE(run_until(io, [&] { return host.unread() == 5; }));
   read_some(client);
@@ -111,14 +111,14 @@ TEST_F(PtyHostTest, UnreadBytesAreSeenUntilTheyAreRead) {
 }
 
 TEST_F(PtyHostTest, UnpluggingHangsUpAndReplugingBringsANewLine) {
-  const Descriptor client = open_client(link);
+  const base::Descriptor client = open_client(link);
   host.unplug();
   EXPECT_FALSE(host.plugged());
   EXPECT_EQ(host.write(bytes_of("x")), 0U);
   char byte = 0;
   EXPECT_EQ(::read(client.get(), &byte, 1), 0) << "end of file";
   host.replug();
-  const Descriptor again = open_client(link);
+  const base::Descriptor again = open_client(link);
   host.write(bytes_of("back"));
   EXPECT_EQ(read_some(again), "back");
 }

@@ -3,16 +3,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kParameters{
+constexpr std::array<EffectParameter, 3> kAccelBiasParameters{
     {{"x_m_s2", 0.12, -20, 20}, {"y_m_s2", 0.12, -20, 20}, {"z_m_s2", 0.12, -20, 20}}};
 
-constexpr EffectDescription kDescription{
-    .name = "accel_bias", .equation = "f += b", .parameters = kParameters, .vector = 3};
+constexpr EffectDescription kAccelBias{
+    .name = "accel_bias", .equation = "f += b", .parameters = kAccelBiasParameters, .vector = 3};
 
 /// The accelerometers' zeros are off.
 class AccelBias final : public EffectOf<AccelBias, 3> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kAccelBias; }
   void accelerometers(const Instant&, Vector3& force_m_s2) override { add_scaled(force_m_s2, 1, vector()); }
 };
 

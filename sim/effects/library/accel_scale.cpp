@@ -3,15 +3,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kParameters{
+constexpr std::array<EffectParameter, 3> kAccelScaleParameters{
     {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}}};
 
-constexpr EffectDescription kDescription{.name = "accel_scale", .equation = "f += s f", .parameters = kParameters};
+constexpr EffectDescription kAccelScale{
+    .name = "accel_scale", .equation = "f += s f", .parameters = kAccelScaleParameters};
 
 /// Each accelerometer's scale is off.
 class AccelScale final : public EffectOf<AccelScale, 3> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kAccelScale; }
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     for (std::size_t i = 0; i < 3; ++i) force_m_s2[i] += p_[i] * now.state.specific_force_m_s2[i];
   }

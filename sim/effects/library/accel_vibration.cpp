@@ -3,16 +3,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kParameters{
+constexpr std::array<EffectParameter, 3> kAccelVibrationParameters{
     {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}}};
 
-constexpr EffectDescription kDescription{
-    .name = "accel_vibration", .equation = "f += k I^2", .parameters = kParameters, .vector = 3};
+constexpr EffectDescription kAccelVibration{
+    .name = "accel_vibration", .equation = "f += k I^2", .parameters = kAccelVibrationParameters, .vector = 3};
 
 /// The motor's vibration is rectified by the accelerometers.
 class AccelVibration final : public EffectOf<AccelVibration, 3> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kAccelVibration; }
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     const double current_A = now.state.motor_current_A;
     add_scaled(force_m_s2, current_A * current_A, vector());

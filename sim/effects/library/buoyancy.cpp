@@ -3,17 +3,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"force_N", 0.4, -20, 20}}};
+constexpr std::array<EffectParameter, 1> kBuoyancyParameters{{{"force_N", 0.4, -20, 20}}};
 
-constexpr EffectDescription kDescription{.name = "buoyancy",
-                                         .equation = "Z_world -= F at the origin",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::vehicle};
+constexpr EffectDescription kBuoyancy{.name = "buoyancy",
+                                      .equation = "Z_world -= F at the origin",
+                                      .parameters = kBuoyancyParameters,
+                                      .place = EffectPlace::vehicle};
 
 /// The vehicle is not of the water's weight.
 class Buoyancy final : public EffectOf<Buoyancy, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kBuoyancy; }
   void influence(Influences& on) override { on.buoyancy_N += p_[0]; }
 };
 

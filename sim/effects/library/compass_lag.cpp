@@ -4,18 +4,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 0.2, 0, 10}}};
+constexpr std::array<EffectParameter, 1> kCompassLagParameters{{{"tau_s", 0.2, 0, 10}}};
 
-constexpr EffectDescription kDescription{.name = "compass_lag",
-                                         .equation = "tau m' + m = field",
-                                         .parameters = kParameters,
-                                         .order = 4,
-                                         .kind = EffectKind::lag};
+constexpr EffectDescription kCompassLag{.name = "compass_lag",
+                                        .equation = "tau m' + m = field",
+                                        .parameters = kCompassLagParameters,
+                                        .order = 4,
+                                        .kind = EffectKind::lag};
 
 /// The compass filters its magnetometers, hence its heading.
 class CompassLag final : public EffectOf<CompassLag, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kCompassLag; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     field_body_uT = filter_.at(now.time_s, field_body_uT, p_[0]);
   }

@@ -1,32 +1,30 @@
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "sim/effects/effect.h"
 
 namespace navcal::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
-
-constexpr std::array<EffectParameter, 3> kParameters{
+constexpr std::array<EffectParameter, 3> kCompassMisalignmentParameters{
     {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}}};
 
-constexpr EffectDescription kDescription{.name = "compass_misalignment",
-                                         .equation = "m = (1 - [a]x) m, as a rotation",
-                                         .parameters = kParameters,
-                                         .vector = 3,
-                                         .order = 1};
+constexpr EffectDescription kCompassMisalignment{.name = "compass_misalignment",
+                                                 .equation = "m = (1 - [a]x) m, as a rotation",
+                                                 .parameters = kCompassMisalignmentParameters,
+                                                 .vector = 3,
+                                                 .order = 1};
 
 /// The triad of magnetometers is turned by the vector a against body and inclinometer.
 class CompassMisalignment final : public EffectOf<CompassMisalignment, 3> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kCompassMisalignment; }
   void body_field(const Instant&, Vector3& field_body_uT) override {
-    const double angle = std::hypot(p_[0], p_[1], p_[2]) * kRadians;
+    const double angle = std::hypot(p_[0], p_[1], p_[2]) * base::kRadiansPerDegree;
     if (angle == 0) return;
     const Vector3 m = field_body_uT;
     Vector3 axis{};
-    add_scaled(axis, kRadians / angle, vector());
+    add_scaled(axis, base::kRadiansPerDegree / angle, vector());
     const double along = axis[0] * m[0] + axis[1] * m[1] + axis[2] * m[2];
     // Rodrigues' formula, backwards.
     for (double& component : field_body_uT) component *= std::cos(angle);

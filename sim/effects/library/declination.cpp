@@ -1,24 +1,22 @@
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "sim/effects/effect.h"
 
 namespace navcal::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr std::array<EffectParameter, 1> kDeclinationParameters{{{"angle_deg", 4, -180, 180}}};
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"angle_deg", 4, -180, 180}}};
-
-constexpr EffectDescription kDescription{
-    .name = "declination", .equation = "B = Rz(d) B", .parameters = kParameters};
+constexpr EffectDescription kDeclination{
+    .name = "declination", .equation = "B = Rz(d) B", .parameters = kDeclinationParameters};
 
 /// The earth's field is turned about the vertical, positive to the east.
 class Declination final : public EffectOf<Declination, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kDeclination; }
   void earth_field(const Instant&, Vector3& field_world_uT) override {
-    const double c = std::cos(p_[0] * kRadians), s = std::sin(p_[0] * kRadians);
+    const double c = std::cos(p_[0] * base::kRadiansPerDegree), s = std::sin(p_[0] * base::kRadiansPerDegree);
     const auto [north, east, down] = field_world_uT;
     field_world_uT = {c * north - s * east, s * north + c * east, down};
   }

@@ -3,14 +3,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"scale", 0.06, -0.9, 1}}};
+constexpr std::array<EffectParameter, 1> kDepthScaleParameters{{{"scale", 0.06, -0.9, 1}}};
 
-constexpr EffectDescription kDescription{.name = "depth_scale", .equation = "z += s z", .parameters = kParameters};
+constexpr EffectDescription kDepthScale{
+    .name = "depth_scale", .equation = "z += s z", .parameters = kDepthScaleParameters};
 
 /// The pressure gauge's scale is off.
 class DepthScale final : public EffectOf<DepthScale, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kDepthScale; }
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.state.position_m[2]; }
 };
 

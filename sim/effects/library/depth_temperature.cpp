@@ -3,15 +3,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"m_per_C", 0.025, -1, 1}}};
+constexpr std::array<EffectParameter, 1> kDepthTemperatureParameters{{{"m_per_C", 0.025, -1, 1}}};
 
-constexpr EffectDescription kDescription{
-    .name = "depth_temperature", .equation = "z += c T, T above 15 C", .parameters = kParameters};
+constexpr EffectDescription kDepthTemperature{
+    .name = "depth_temperature", .equation = "z += c T, T above 15 C", .parameters = kDepthTemperatureParameters};
 
 /// The pressure gauge's zero moves as the electronics warm up.
 class DepthTemperature final : public EffectOf<DepthTemperature, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kDepthTemperature; }
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.warmth_C(); }
 };
 

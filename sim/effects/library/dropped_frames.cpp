@@ -4,20 +4,20 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kParameters{{{"compass_probability", 0.02, 0, 1},
-                                                      {"imu_probability", 0.02, 0, 1},
-                                                      {"gps_probability", 0.02, 0, 1},
-                                                      {"motor_probability", 0.02, 0, 1}}};
+constexpr std::array<EffectParameter, 4> kDroppedFramesParameters{{{"compass_probability", 0.02, 0, 1},
+                                                                   {"imu_probability", 0.02, 0, 1},
+                                                                   {"gps_probability", 0.02, 0, 1},
+                                                                   {"motor_probability", 0.02, 0, 1}}};
 
-constexpr EffectDescription kDescription{.name = "dropped_frames",
-                                         .equation = "lost with probability p",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::lines};
+constexpr EffectDescription kDroppedFrames{.name = "dropped_frames",
+                                           .equation = "lost with probability p",
+                                           .parameters = kDroppedFramesParameters,
+                                           .place = EffectPlace::lines};
 
 /// Frames are lost on their way to the host.
 class DroppedFrames final : public EffectOf<DroppedFrames, 4> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kDroppedFrames; }
   void reseed(std::uint64_t seed) override { noise_.reseed(seed); }
   void line(Instrument of, double, Transmission& way) override {
     if (noise_[of].uniform(0, 1) < p_[static_cast<std::size_t>(of)]) way.copies = 0;

@@ -5,17 +5,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"angle_deg", 1, -20, 20}}};
+constexpr std::array<EffectParameter, 1> kElevatorOffsetParameters{{{"angle_deg", 1, -20, 20}}};
 
-constexpr EffectDescription kDescription{.name = "elevator_offset",
-                                         .equation = "d += mixed elevator o",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::vehicle};
+constexpr EffectDescription kElevatorOffset{.name = "elevator_offset",
+                                            .equation = "d += mixed elevator o",
+                                            .parameters = kElevatorOffsetParameters,
+                                            .place = EffectPlace::vehicle};
 
 /// The fins stand off in the sense of an elevator command, between servo and fin.
 class ElevatorOffset final : public EffectOf<ElevatorOffset, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kElevatorOffset; }
   void link_fins(double, Vector3& fins_rad) override {
     const double elevator_rad = p_[0] * std::numbers::pi / 180;
     constexpr double kShare = std::numbers::sqrt3 / 2;  // docs/simulator.md: how rudder and elevator mix

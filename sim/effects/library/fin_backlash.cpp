@@ -5,11 +5,11 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"width_deg", 2, 0, 30}}};
+constexpr std::array<EffectParameter, 1> kFinBacklashParameters{{{"width_deg", 2, 0, 30}}};
 
-constexpr EffectDescription kDescription{.name = "fin_backlash",
+constexpr EffectDescription kFinBacklash{.name = "fin_backlash",
                                          .equation = "d stays within b/2 of the servo",
-                                         .parameters = kParameters,
+                                         .parameters = kFinBacklashParameters,
                                          .place = EffectPlace::vehicle,
                                          .order = 2,
                                          .kind = EffectKind::play};
@@ -17,7 +17,7 @@ constexpr EffectDescription kDescription{.name = "fin_backlash",
 /// Play of total width b between the servo that is reported and the fin.
 class FinBacklash final : public EffectOf<FinBacklash, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kFinBacklash; }
   void link_fins(double, Vector3& fins_rad) override {
     if (!begun_) fins_rad_ = fins_rad;
     begun_ = true;

@@ -3,18 +3,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"scale", 0.08, -0.9, 1}}};
+constexpr std::array<EffectParameter, 1> kFinGainParameters{{{"scale", 0.08, -0.9, 1}}};
 
-constexpr EffectDescription kDescription{.name = "fin_gain",
-                                         .equation = "d *= 1 + k",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::vehicle,
-                                         .order = 0};
+constexpr EffectDescription kFinGain{.name = "fin_gain",
+                                     .equation = "d *= 1 + k",
+                                     .parameters = kFinGainParameters,
+                                     .place = EffectPlace::vehicle,
+                                     .order = 0};
 
 /// The fin turns further than the servo that is reported.
 class FinGain final : public EffectOf<FinGain, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kFinGain; }
   void link_fins(double, Vector3& fins_rad) override {
     for (double& fin_rad : fins_rad) fin_rad *= 1 + p_[0];
   }

@@ -4,19 +4,19 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 0.2, 0, 5}}};
+constexpr std::array<EffectParameter, 1> kFinLagParameters{{{"tau_s", 0.2, 0, 5}}};
 
-constexpr EffectDescription kDescription{.name = "fin_lag",
-                                         .equation = "tau d' + d = servo",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::vehicle,
-                                         .order = 1,
-                                         .kind = EffectKind::lag};
+constexpr EffectDescription kFinLag{.name = "fin_lag",
+                                    .equation = "tau d' + d = servo",
+                                    .parameters = kFinLagParameters,
+                                    .place = EffectPlace::vehicle,
+                                    .order = 1,
+                                    .kind = EffectKind::lag};
 
 /// A further lag between the servo that is reported and the fin.
 class FinLag final : public EffectOf<FinLag, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kFinLag; }
   void link_fins(double step_s, Vector3& fins_rad) override {
     elapsed_s_ += step_s;
     fins_rad = filter_.at(elapsed_s_, fins_rad, p_[0]);

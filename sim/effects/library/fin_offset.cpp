@@ -5,17 +5,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"angle_deg", 1, -20, 20}}};
+constexpr std::array<EffectParameter, 1> kFinOffsetParameters{{{"angle_deg", 1, -20, 20}}};
 
-constexpr EffectDescription kDescription{.name = "fin_offset",
-                                         .equation = "d += mixed rudder o",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::vehicle};
+constexpr EffectDescription kFinOffset{.name = "fin_offset",
+                                       .equation = "d += mixed rudder o",
+                                       .parameters = kFinOffsetParameters,
+                                       .place = EffectPlace::vehicle};
 
 /// The fins stand off in the sense of a rudder command, between servo and fin.
 class FinOffset final : public EffectOf<FinOffset, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kFinOffset; }
   void link_fins(double, Vector3& fins_rad) override {
     const double rudder_rad = p_[0] * std::numbers::pi / 180;
     add_scaled(fins_rad, rudder_rad, {-1, 0.5, 0.5});  // docs/simulator.md: how rudder and elevator mix

@@ -3,17 +3,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 1, 0, 10}}};
+constexpr std::array<EffectParameter, 1> kGpsLatencyParameters{{{"tau_s", 1, 0, 10}}};
 
-constexpr EffectDescription kDescription{.name = "gps_latency",
-                                         .equation = "p(t - tau), v(t - tau)",
-                                         .parameters = kParameters,
-                                         .kind = EffectKind::lag};
+constexpr EffectDescription kGpsLatency{.name = "gps_latency",
+                                        .equation = "p(t - tau), v(t - tau)",
+                                        .parameters = kGpsLatencyParameters,
+                                        .kind = EffectKind::lag};
 
 /// Position and velocity are older than the second that the message states.
 class GpsLatency final : public EffectOf<GpsLatency, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kGpsLatency; }
   void delays(Delays& more) override { more.gps_s += p_[0]; }
 };
 

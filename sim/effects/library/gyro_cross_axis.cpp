@@ -3,22 +3,22 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 8> kParameters{{{"ax_from_y", 0.03, -0.5, 0.5},
-                                                      {"ax_from_z", 0.03, -0.5, 0.5},
-                                                      {"az_from_x", 0.03, -0.5, 0.5},
-                                                      {"az_from_y", 0.03, -0.5, 0.5},
-                                                      {"by_from_x", 0.03, -0.5, 0.5},
-                                                      {"by_from_z", 0.03, -0.5, 0.5},
-                                                      {"bz_from_x", 0.03, -0.5, 0.5},
-                                                      {"bz_from_y", 0.03, -0.5, 0.5}}};
+constexpr std::array<EffectParameter, 8> kGyroCrossAxisParameters{{{"ax_from_y", 0.03, -0.5, 0.5},
+                                                                   {"ax_from_z", 0.03, -0.5, 0.5},
+                                                                   {"az_from_x", 0.03, -0.5, 0.5},
+                                                                   {"az_from_y", 0.03, -0.5, 0.5},
+                                                                   {"by_from_x", 0.03, -0.5, 0.5},
+                                                                   {"by_from_z", 0.03, -0.5, 0.5},
+                                                                   {"bz_from_x", 0.03, -0.5, 0.5},
+                                                                   {"bz_from_y", 0.03, -0.5, 0.5}}};
 
-constexpr EffectDescription kDescription{
-    .name = "gyro_cross_axis", .equation = "w_i += k w_j", .parameters = kParameters};
+constexpr EffectDescription kGyroCrossAxis{
+    .name = "gyro_cross_axis", .equation = "w_i += k w_j", .parameters = kGyroCrossAxisParameters};
 
 /// Each gyro feels the rates about the two other axes.
 class GyroCrossAxis final : public EffectOf<GyroCrossAxis, 8> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kGyroCrossAxis; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const double* factor = p_.data();
     for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {

@@ -1,37 +1,37 @@
-#include <numbers>
-
+#include "base/angles.h"
 #include "sim/effects/effect.h"
 
 namespace navcal::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr std::array<EffectParameter, 12> kGyroGSensitivityParameters{{{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"az_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"az_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"az_z_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"by_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"by_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"by_z_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                                       {"bz_z_deg_per_s_per_g", 0.6, -50, 50}}};
 
-constexpr std::array<EffectParameter, 12> kParameters{{{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"az_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"az_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"az_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"by_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"by_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"by_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                       {"bz_z_deg_per_s_per_g", 0.6, -50, 50}}};
-
-constexpr EffectDescription kDescription{
-    .name = "gyro_g_sensitivity", .equation = "w_i += G_i . f", .parameters = kParameters, .vector = 3};
+constexpr EffectDescription kGyroGSensitivity{.name = "gyro_g_sensitivity",
+                                              .equation = "w_i += G_i . f",
+                                              .parameters = kGyroGSensitivityParameters,
+                                              .vector = 3};
 
 /// Each gyro feels the specific force, too.
 class GyroGSensitivity final : public EffectOf<GyroGSensitivity, 12> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kGyroGSensitivity; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const Vector3& force = now.state.specific_force_m_s2;
     for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {
       const Vector3 g = vector(3 * i);
-      rate_rad_s[i] += (g[0] * force[0] + g[1] * force[1] + g[2] * force[2]) * kRadians / kGravity_m_s2;
+      rate_rad_s[i] +=
+          (g[0] * force[0] + g[1] * force[1] + g[2] * force[2]) * base::kRadiansPerDegree / kGravity_m_s2;
     }
   }
 };

@@ -1,29 +1,27 @@
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "sim/effects/effect.h"
 
 namespace navcal::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr std::array<EffectParameter, 4> kGyroNonlinearityParameters{{{"s_per_deg_ax", 0.0008, -0.01, 0.01},
+                                                                      {"s_per_deg_az", 0.0008, -0.01, 0.01},
+                                                                      {"s_per_deg_by", 0.0008, -0.01, 0.01},
+                                                                      {"s_per_deg_bz", 0.0008, -0.01, 0.01}}};
 
-constexpr std::array<EffectParameter, 4> kParameters{{{"s_per_deg_ax", 0.0008, -0.01, 0.01},
-                                                      {"s_per_deg_az", 0.0008, -0.01, 0.01},
-                                                      {"s_per_deg_by", 0.0008, -0.01, 0.01},
-                                                      {"s_per_deg_bz", 0.0008, -0.01, 0.01}}};
-
-constexpr EffectDescription kDescription{
-    .name = "gyro_nonlinearity", .equation = "w += k w |w|", .parameters = kParameters};
+constexpr EffectDescription kGyroNonlinearity{
+    .name = "gyro_nonlinearity", .equation = "w += k w |w|", .parameters = kGyroNonlinearityParameters};
 
 /// Each gyro's scale grows with the rate.
 class GyroNonlinearity final : public EffectOf<GyroNonlinearity, 4> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kGyroNonlinearity; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const double rate = now.state.rate_rad_s[kGyroAxes[i]];
-      rate_rad_s[i] += p_[i] / kRadians * rate * std::abs(rate);
+      rate_rad_s[i] += p_[i] / base::kRadiansPerDegree * rate * std::abs(rate);
     }
   }
 };

@@ -1,35 +1,33 @@
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "base/angles.h"
 #include "sim/effects/effect.h"
 #include "sim/noise.h"
 
 namespace navcal::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr std::array<EffectParameter, 4> kGyroRandomWalkParameters{{{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
+                                                                    {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
+                                                                    {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
+                                                                    {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}}};
 
-constexpr std::array<EffectParameter, 4> kParameters{{{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
-                                                      {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
-                                                      {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
-                                                      {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}}};
-
-constexpr EffectDescription kDescription{.name = "gyro_random_walk",
-                                         .equation = "w += integral of white noise",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::lines};
+constexpr EffectDescription kGyroRandomWalk{.name = "gyro_random_walk",
+                                            .equation = "w += integral of white noise",
+                                            .parameters = kGyroRandomWalkParameters,
+                                            .place = EffectPlace::lines};
 
 /// Each gyro's zero walks at random.
 class GyroRandomWalk final : public EffectOf<GyroRandomWalk, 4> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kGyroRandomWalk; }
   void reseed(std::uint64_t seed) override { noise_ = Noise(seed); }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const double root = std::sqrt(std::max(0.0, now.time_s - time_s_.value_or(now.time_s)));
     time_s_ = now.time_s;
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      walk_rad_s_[i] += noise_.normal(p_[i] * kRadians * root);
+      walk_rad_s_[i] += noise_.normal(p_[i] * base::kRadiansPerDegree * root);
       rate_rad_s[i] += walk_rad_s_[i];
     }
   }

@@ -3,17 +3,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kParameters{{{"scale_ax", 0.03, -0.9, 1},
-                                                      {"scale_az", 0.03, -0.9, 1},
-                                                      {"scale_by", 0.03, -0.9, 1},
-                                                      {"scale_bz", 0.03, -0.9, 1}}};
+constexpr std::array<EffectParameter, 4> kGyroScaleParameters{{{"scale_ax", 0.03, -0.9, 1},
+                                                               {"scale_az", 0.03, -0.9, 1},
+                                                               {"scale_by", 0.03, -0.9, 1},
+                                                               {"scale_bz", 0.03, -0.9, 1}}};
 
-constexpr EffectDescription kDescription{.name = "gyro_scale", .equation = "w += k w", .parameters = kParameters};
+constexpr EffectDescription kGyroScale{
+    .name = "gyro_scale", .equation = "w += k w", .parameters = kGyroScaleParameters};
 
 /// Each gyro's scale is off.
 class GyroScale final : public EffectOf<GyroScale, 4> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kGyroScale; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * now.state.rate_rad_s[kGyroAxes[i]];
   }

@@ -3,16 +3,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kParameters{
+constexpr std::array<EffectParameter, 3> kHardIronParameters{
     {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}}};
 
-constexpr EffectDescription kDescription{
-    .name = "hard_iron", .equation = "m += b", .parameters = kParameters, .vector = 3};
+constexpr EffectDescription kHardIron{
+    .name = "hard_iron", .equation = "m += b", .parameters = kHardIronParameters, .vector = 3};
 
 /// Permanent magnetism of the vehicle.
 class HardIron final : public EffectOf<HardIron, 3> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kHardIron; }
   void body_field(const Instant&, Vector3& field_body_uT) override { add_scaled(field_body_uT, 1, vector()); }
 };
 

@@ -3,15 +3,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"tau_s", 0.05, 0, 1}}};
+constexpr std::array<EffectParameter, 1> kImuLatencyParameters{{{"tau_s", 0.05, 0, 1}}};
 
-constexpr EffectDescription kDescription{
-    .name = "imu_latency", .equation = "x(t - tau)", .parameters = kParameters, .kind = EffectKind::lag};
+constexpr EffectDescription kImuLatency{
+    .name = "imu_latency", .equation = "x(t - tau)", .parameters = kImuLatencyParameters, .kind = EffectKind::lag};
 
 /// All channels of the inertial card are older than nominal.
 class ImuLatency final : public EffectOf<ImuLatency, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kImuLatency; }
   void delays(Delays& more) override { more.card_s += p_[0]; }
 };
 

@@ -3,16 +3,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kParameters{
+constexpr std::array<EffectParameter, 3> kMagTemperatureParameters{
     {{"x_uT_per_C", 0.15, -10, 10}, {"y_uT_per_C", 0.15, -10, 10}, {"z_uT_per_C", 0.15, -10, 10}}};
 
-constexpr EffectDescription kDescription{
-    .name = "mag_temperature", .equation = "m += c T, T above 15 C", .parameters = kParameters, .vector = 3};
+constexpr EffectDescription kMagTemperature{.name = "mag_temperature",
+                                            .equation = "m += c T, T above 15 C",
+                                            .parameters = kMagTemperatureParameters,
+                                            .vector = 3};
 
 /// The magnetometers' zeros move as the electronics warm up.
 class MagTemperature final : public EffectOf<MagTemperature, 3> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kMagTemperature; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, now.warmth_C(), vector());
   }

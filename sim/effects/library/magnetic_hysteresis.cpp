@@ -6,15 +6,17 @@ namespace {
 
 constexpr double kMemory_s = 60;
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"gain", 0.06, -0.03, 1}}};
+constexpr std::array<EffectParameter, 1> kMagneticHysteresisParameters{{{"gain", 0.06, -0.03, 1}}};
 
-constexpr EffectDescription kDescription{
-    .name = "magnetic_hysteresis", .equation = "m += k lowpass(m, 60 s)", .parameters = kParameters, .order = 2};
+constexpr EffectDescription kMagneticHysteresis{.name = "magnetic_hysteresis",
+                                                .equation = "m += k lowpass(m, 60 s)",
+                                                .parameters = kMagneticHysteresisParameters,
+                                                .order = 2};
 
 /// Iron that remembers the field of the last minute.
 class MagneticHysteresis final : public EffectOf<MagneticHysteresis, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kMagneticHysteresis; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, p_[0], memory_.at(now.time_s, field_body_uT, kMemory_s));
   }

@@ -3,16 +3,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kParameters{
+constexpr std::array<EffectParameter, 3> kMotorFieldParameters{
     {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}}};
 
-constexpr EffectDescription kDescription{
-    .name = "motor_field", .equation = "m += k I", .parameters = kParameters, .vector = 3};
+constexpr EffectDescription kMotorField{
+    .name = "motor_field", .equation = "m += k I", .parameters = kMotorFieldParameters, .vector = 3};
 
 /// The motor's supply makes a field of its own.
 class MotorField final : public EffectOf<MotorField, 3> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kMotorField; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, now.state.motor_current_A, vector());
   }

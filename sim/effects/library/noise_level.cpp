@@ -3,16 +3,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kParameters{
+constexpr std::array<EffectParameter, 4> kNoiseLevelParameters{
     {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}}};
 
-constexpr EffectDescription kDescription{
-    .name = "noise_level", .equation = "sigma *= 1 + k", .parameters = kParameters, .place = EffectPlace::lines};
+constexpr EffectDescription kNoiseLevel{.name = "noise_level",
+                                        .equation = "sigma *= 1 + k",
+                                        .parameters = kNoiseLevelParameters,
+                                        .place = EffectPlace::lines};
 
 /// Every instrument's noise is stronger.
 class NoiseLevel final : public EffectOf<NoiseLevel, 4> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kNoiseLevel; }
   void noise(Instrument of, double& factor) override { factor *= 1 + p_[static_cast<std::size_t>(of)]; }
 };
 

@@ -3,17 +3,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"scale", 0.08, -0.9, 1}}};
+constexpr std::array<EffectParameter, 1> kThrustScaleParameters{{{"scale", 0.08, -0.9, 1}}};
 
-constexpr EffectDescription kDescription{.name = "thrust_scale",
+constexpr EffectDescription kThrustScale{.name = "thrust_scale",
                                          .equation = "thrust *= 1 + k",
-                                         .parameters = kParameters,
+                                         .parameters = kThrustScaleParameters,
                                          .place = EffectPlace::vehicle};
 
 /// The propeller pushes more than nominal.
 class ThrustScale final : public EffectOf<ThrustScale, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kThrustScale; }
   void influence(Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
 };
 

@@ -1,24 +1,22 @@
-#include <numbers>
-
+#include "base/angles.h"
 #include "sim/effects/effect.h"
 
 namespace navcal::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr std::array<EffectParameter, 2> kTiltOffsetParameters{
+    {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}}};
 
-constexpr std::array<EffectParameter, 2> kParameters{{{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}}};
-
-constexpr EffectDescription kDescription{
-    .name = "tilt_offset", .equation = "tilt += o", .parameters = kParameters};
+constexpr EffectDescription kTiltOffset{
+    .name = "tilt_offset", .equation = "tilt += o", .parameters = kTiltOffsetParameters};
 
 /// The inclinometer is mounted askew.
 class TiltOffset final : public EffectOf<TiltOffset, 2> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kTiltOffset; }
   void tilt_said(const Instant&, Tilt& tilt) override {
-    tilt.roll_rad += p_[0] * kRadians;
-    tilt.pitch_rad += p_[1] * kRadians;
+    tilt.roll_rad += p_[0] * base::kRadiansPerDegree;
+    tilt.pitch_rad += p_[1] * base::kRadiansPerDegree;
   }
 };
 

@@ -3,18 +3,19 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 2> kParameters{{{"north_m_s", 0.06, -5, 5}, {"east_m_s", 0.06, -5, 5}}};
+constexpr std::array<EffectParameter, 2> kWaterCurrentParameters{
+    {{"north_m_s", 0.06, -5, 5}, {"east_m_s", 0.06, -5, 5}}};
 
-constexpr EffectDescription kDescription{.name = "water_current",
-                                         .equation = "v_world += c",
-                                         .parameters = kParameters,
-                                         .place = EffectPlace::vehicle,
-                                         .vector = 2};
+constexpr EffectDescription kWaterCurrent{.name = "water_current",
+                                          .equation = "v_world += c",
+                                          .parameters = kWaterCurrentParameters,
+                                          .place = EffectPlace::vehicle,
+                                          .vector = 2};
 
 /// The water moves over the ground.
 class WaterCurrent final : public EffectOf<WaterCurrent, 2> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kWaterCurrent; }
   void influence(Influences& on) override {
     on.current_m_s[0] += p_[0];
     on.current_m_s[1] += p_[1];

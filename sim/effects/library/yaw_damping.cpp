@@ -3,15 +3,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kParameters{{{"per_s", 0.3, -0.15, 10}}};
+constexpr std::array<EffectParameter, 1> kYawDampingParameters{{{"per_s", 0.3, -0.15, 10}}};
 
-constexpr EffectDescription kDescription{
-    .name = "yaw_damping", .equation = "N -= k M66 r", .parameters = kParameters, .place = EffectPlace::vehicle};
+constexpr EffectDescription kYawDamping{.name = "yaw_damping",
+                                        .equation = "N -= k M66 r",
+                                        .parameters = kYawDampingParameters,
+                                        .place = EffectPlace::vehicle};
 
 /// The hull resists turning more than nominal.
 class YawDamping final : public EffectOf<YawDamping, 1> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDescription; }
+  [[nodiscard]] const EffectDescription& description() const override { return kYawDamping; }
   void influence(Influences& on) override { on.yaw_damping_per_s += p_[0]; }
 };
 

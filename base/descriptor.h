@@ -2,11 +2,13 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <system_error>
 #include <utility>
 
-namespace navcal::ports {
+namespace navcal::base {
 
-/// Owns a file descriptor.
+/// Owns a file descriptor and closes it.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -27,4 +29,7 @@ class Descriptor {
   int fd_ = -1;
 };
 
-}  // namespace navcal::ports
+/// The error of the system call that has just failed.
+[[nodiscard]] inline std::error_code last_error() { return {errno, std::system_category()}; }
+
+}  // namespace navcal::base

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace navcal::base {
+
+[[nodiscard]] constexpr double square(double x) { return x * x; }
+
+}  // namespace navcal::base

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/use_awaitable.hpp>
+
+namespace navcal::ports {
+
+/// For co_await: an operation that fails gives its error code with its result, and throws nothing.
+inline constexpr auto kNoThrow = boost::asio::as_tuple(boost::asio::use_awaitable);
+
+}  // namespace navcal::ports

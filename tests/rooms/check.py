@@ -1,0 +1,99 @@
+"""Compares every #include between rooms with cmake/rooms.cmake, and the table of ARCHITECTURE.md with it.
+
+usage: check.py SOURCE_FOLDER
+Prints each difference as file:line: what is wrong. Exit status 1 if there is one.
+"""
+
+import pathlib
+import re
+import sys
+
+# Folders that may include every room, and folders without C++ of ours.
+FREE = {"tests", "bench", "build"}
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+
+
+def table_of(text):
+    """{room: set of rooms it may include} from the text of rooms.cmake."""
+    rooms = re.search(r"set\(NAVCAL_ROOMS ([^)]*)\)", text).group(1).split()
+    allowed = {}
+    for room, names in re.findall(r"set\(NAVCAL_MAY_INCLUDE_(\w+)([^)]*)\)", text):
+        allowed[room] = set(names.split())
+    return rooms, allowed
+
+
+def problems_of_table(rooms, allowed):
+    for room in rooms:
+        if room not in allowed:
+            yield f"cmake/rooms.cmake: no line NAVCAL_MAY_INCLUDE_{room}"
+    for room, names in allowed.items():
+        if room not in rooms:
+            yield f"cmake/rooms.cmake: NAVCAL_ROOMS does not have {room}"
+            continue
+        for name in sorted(names):
+            if name not in rooms:
+                yield f"cmake/rooms.cmake: {room} may include {name}, which NAVCAL_ROOMS does not have"
+            elif rooms.index(name) >= rooms.index(room):
+                yield f"cmake/rooms.cmake: {room} may include {name}, which stands after it"
+
+
+def sources(root):
+    for pattern in ("*.h", "*.cpp", "*.h.in", "*.cpp.in"):
+        for path in sorted(root.glob(f"*/**/{pattern}")):
+            room = path.relative_to(root).parts[0]
+            if room not in FREE and not room.startswith("."):
+                yield room, path
+
+
+def problems_of_includes(root, rooms, allowed):
+    used = {room: set() for room in rooms}
+    for room, path in sources(root):
+        name = path.relative_to(root)
+        if room not in rooms:
+            yield f"{name}:1: the folder {room} is no room of cmake/rooms.cmake"
+            continue
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            found = INCLUDE.match(line)
+            if not found:
+                continue
+            other = found.group(1).split("/")[0]
+            if "/" not in found.group(1) or other not in rooms:
+                yield f'{name}:{number}: "{found.group(1)}" is not in a room of cmake/rooms.cmake'
+            elif other != room and other not in allowed.get(room, set()):
+                yield f"{name}:{number}: {room} may not include {other} (cmake/rooms.cmake)"
+            else:
+                used[room].add(other)
+    for room in rooms:
+        for other in sorted(allowed.get(room, set()) - used[room]):
+            yield f"cmake/rooms.cmake: {room} may include {other}, and does not"
+
+
+def problems_of_page(text, rooms, allowed):
+    """ARCHITECTURE.md: one row `| `room/` | ... | rooms, libraries |` for each room, with the same rooms."""
+    rows = {}
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        name = re.match(r"`(\w+)/`$", cells[0])
+        if name and len(cells) == 3:
+            rows[name.group(1)] = {word for word in re.findall(r"\b[a-z]+\b", cells[2]) if word in rooms}
+    for room in rooms:
+        if room not in rows:
+            yield f"ARCHITECTURE.md: no row for {room}"
+        elif rows[room] != allowed.get(room, set()):
+            yield f"ARCHITECTURE.md: the row of {room} should name {', '.join(sorted(allowed[room])) or 'no room'}"
+
+
+def check(root):
+    rooms, allowed = table_of((root / "cmake/rooms.cmake").read_text())
+    return [
+        *problems_of_table(rooms, allowed),
+        *problems_of_includes(root, rooms, allowed),
+        *problems_of_page((root / "ARCHITECTURE.md").read_text(), rooms, allowed),
+    ]
+
+
+if __name__ == "__main__":
+    found = check(pathlib.Path(sys.argv[1]))
+    for problem in found:
+        print(problem)
+    sys.exit(1 if found else 0)
