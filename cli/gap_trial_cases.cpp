@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "cli/gap_trial_missions.h"
 #include "cli/gap_trial_twins.h"
 
 namespace navcal::cli {
 namespace {
 
 constexpr double kTolerance = 0.02, kLooseTolerance = 0.06;
-constexpr int kBriefMinutes = 3;
 /// Orders of drawing lie apart from the cases themselves.
 constexpr std::uint64_t kOrderStream = 1ULL << 32U;
 

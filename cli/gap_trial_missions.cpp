@@ -11,7 +11,6 @@ namespace {
 using trial::kDegree;
 
 /// The other missions begin a day later each.
-constexpr std::int64_t kDay_ns = 86'400'000'000'000;
 constexpr double kSurface_m = 0.15;  ///< the antenna needs 0.35
 
 /// Orders one after the other, each for some seconds; what a line leaves out stays as it was.
@@ -143,7 +142,6 @@ trial::Mission straight(double heading_deg, double speed_m_s, double depth_m, do
 }  // namespace
 
 std::array<trial::Mission, 3> trial_missions(MissionKind kind, int minutes) {
-  constexpr int kBriefMinutes = 3;
   if (kind == MissionKind::poor) {
     const double duration_s = 60.0 * minutes;
     return {straight(40, 1.2, 1, duration_s, 0), straight(160, 1.2, 1, duration_s, 1),

@@ -13,7 +13,6 @@ TrialPlace drawn_place(std::uint64_t seed, int number) {
   constexpr double kGreatestLatitude_deg = 80;
   /// Apart from the cases and their orders of drawing.
   constexpr std::uint64_t kPlaceStream = 1ULL << 40U;
-  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
   constexpr std::int64_t kFrom_ns = 20'089 * kDay_ns, kUntil_ns = 21'910 * kDay_ns;  // 2025-01-01, 2029-12-27
   trial::Dice dice(seed, kPlaceStream + static_cast<std::uint64_t>(number));
   TrialPlace place;

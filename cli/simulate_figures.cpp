@@ -100,9 +100,9 @@ std::vector<Figure> motion_figures(const SimulatedSeries& series, const sim::Ori
                          .svg("Speed", "m/s"),
                      "The receiver's is over ground, and zero where it has none."});
   auto fins = plot();
-  constexpr std::array<const char*, 3> kFins{"1", "2", "3"};
+  constexpr std::array<const char*, 3> kFinNames{"1", "2", "3"};
   for (std::size_t i = 0; i < 3; ++i) {
-    fins.line(kSimulatedInks[i], kFins[i], series.motor,
+    fins.line(kSimulatedInks[i], kFinNames[i], series.motor,
               [i](const auto& status) { return degrees(status.fins_rad[i]); });
   }
   figures.push_back({"Fins", fins.svg("Fins", "degrees"), "As the motor card reports the servos' shafts."});

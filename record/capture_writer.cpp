@@ -21,7 +21,7 @@ void CaptureWriter::begin(std::string& out) const {
 
 void CaptureWriter::bytes(std::string& out, std::uint16_t port, Direction direction, std::int64_t utc_ns,
                           protocols::Bytes bytes) {
-  constexpr std::size_t kMaxBytes = 4096;
+  constexpr std::size_t kMostBytesOfALine = 4096;
   constexpr std::string_view kDigits = "0123456789abcdef";
   if (utc_ns < last_ns_) {
     utc_ns = last_ns_;
@@ -29,7 +29,7 @@ void CaptureWriter::bytes(std::string& out, std::uint16_t port, Direction direct
   }
   last_ns_ = utc_ns;
   while (!bytes.empty()) {
-    const protocols::Bytes part = bytes.first(std::min(bytes.size(), kMaxBytes));
+    const protocols::Bytes part = bytes.first(std::min(bytes.size(), kMostBytesOfALine));
     append_seconds(out, utc_ns);
     out += ' ';
     out += ports_[port].name;
