@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "config/load.h"
-#include "record/log_encoder.h"
-#include "record/log_file.h"
+#include "record/log/log_encoder.h"
+#include "record/log/log_file.h"
 
 namespace {
 

@@ -7,14 +7,14 @@
 #include <system_error>
 #include <vector>
 
-#include "cli/calibrate_page.h"
-#include "cli/calibrate_run.h"
-#include "cli/calibrate_text.h"
+#include "report/calibrate_page.h"
+#include "analysis/calibrate_run.h"
+#include "report/calibrate_text.h"
 #include "cli/commands.h"
-#include "cli/output.h"
+#include "analysis/output.h"
 #include "cli/result_file.h"
 #include "config/load.h"
-#include "record/calibration_json.h"
+#include "record/json/calibration_json.h"
 
 namespace navcal::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "sim/clock_factor.h"
+#include "sim/instruments/clock_factor.h"
 
 namespace navcal::cli {
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/decode_describe.h"
+#include "analysis/decode_describe.h"
 #include "cli/decode_input.h"
 #include "cli/decode_port.h"
-#include "cli/decode_stream.h"
-#include "cli/progress.h"
+#include "analysis/decode_stream.h"
+#include "analysis/progress.h"
 #include "protocols/imu_card.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "cli/commands.h"
-#include "record/mcap_format.h"
+#include "record/log/mcap_format.h"
 
 namespace navcal::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/progress.h"
+#include "analysis/progress.h"
 #include "protocols/frame.h"
 
 namespace navcal::cli {

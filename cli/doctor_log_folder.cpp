@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "cli/doctor_checks.h"
-#include "record/disk.h"
+#include "record/log/disk.h"
 
 namespace navcal::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "cli/commands.h"
 #include "cli/emulate_console.h"
 #include "cli/emulate_input.h"
-#include "cli/emulate_session.h"
+#include "analysis/emulate_session.h"
 #include "config/mission_file.h"
 #include "sim/path.h"
 #include "sim/vehicle/vehicle.h"

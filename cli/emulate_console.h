@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/emulate_session.h"
+#include "analysis/emulate_session.h"
 
 namespace navcal::cli {
 

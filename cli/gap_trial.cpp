@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "cli/commands.h"
-#include "cli/gap_trial_report.h"
-#include "cli/gap_trial_run.h"
-#include "cli/gap_trial_words.h"
-#include "cli/interruptible.h"
-#include "cli/progress.h"
+#include "validation/report.h"
+#include "validation/run.h"
+#include "report/validation_words.h"
+#include "base/interruptible.h"
+#include "analysis/progress.h"
 #include "record/whole_file.h"
 
 namespace navcal::cli {

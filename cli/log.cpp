@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/interruptible.h"
-#include "cli/log_import.h"
-#include "cli/progress.h"
+#include "base/interruptible.h"
+#include "analysis/log_import.h"
+#include "analysis/progress.h"
 #include "cli/result_file.h"
-#include "record/export.h"
-#include "record/log_info.h"
-#include "record/log_repair.h"
+#include "record/export/export.h"
+#include "record/log/log_info.h"
+#include "record/log/log_repair.h"
 #include "record/recording.h"
 
 namespace navcal::cli {

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/play_session.h"
+#include "analysis/play_session.h"
 
 namespace navcal::cli {
 namespace {

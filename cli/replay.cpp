@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/output.h"
-#include "cli/port_matching.h"
-#include "cli/progress.h"
+#include "analysis/output.h"
+#include "analysis/port_matching.h"
+#include "analysis/progress.h"
 #include "cli/watch_text.h"
 #include "config/load.h"
 #include "pipeline/pipeline.h"
-#include "record/event_json.h"
-#include "record/navigation_json.h"
+#include "record/json/event_json.h"
+#include "record/json/navigation_json.h"
 #include "record/recording.h"
-#include "record/sample_json.h"
+#include "record/json/sample_json.h"
 
 namespace navcal::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "base/angles.h"
-#include "cli/append_format.h"
+#include "report/append_format.h"
 #include "cli/watch_navigation.h"
 #include "cli/watch_text.h"
 

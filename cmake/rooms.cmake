@@ -1,7 +1,8 @@
 # Which room (folder) may include which: the only table. Links and include folders follow it (navcal_room), the test
 # tests/rooms compares it with every #include, and the table of ARCHITECTURE.md is compared with it. In the order in which
-# the rooms may use each other; each line names all rooms that are included directly.
-set(NAVCAL_ROOMS base protocols config instruments calib nav pipeline record ports sim gap trial share daemon cli)
+# the rooms may use each other; each line names all rooms that are included directly. A folder within a room can be a room of
+# its own (validation/reference); the room around it then does not contain it.
+set(NAVCAL_ROOMS base protocols config instruments calib nav pipeline record ports sim gap analysis validation/reference validation report share daemon cli)
 set(NAVCAL_MAY_INCLUDE_base)
 set(NAVCAL_MAY_INCLUDE_protocols)
 set(NAVCAL_MAY_INCLUDE_config protocols)
@@ -13,15 +14,19 @@ set(NAVCAL_MAY_INCLUDE_record base protocols config instruments calib pipeline)
 set(NAVCAL_MAY_INCLUDE_ports base protocols config)
 set(NAVCAL_MAY_INCLUDE_sim base protocols config)
 set(NAVCAL_MAY_INCLUDE_gap base protocols config instruments calib pipeline record sim)
-set(NAVCAL_MAY_INCLUDE_trial protocols)
+set(NAVCAL_MAY_INCLUDE_analysis base protocols config calib pipeline record ports sim)
+set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
+set(NAVCAL_MAY_INCLUDE_validation base config record analysis validation/reference)
+set(NAVCAL_MAY_INCLUDE_report base config calib pipeline record sim gap analysis validation)
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config instruments pipeline record ports share)
-set(NAVCAL_MAY_INCLUDE_cli base protocols config calib pipeline record ports sim gap trial share)
+set(NAVCAL_MAY_INCLUDE_cli base protocols config pipeline record ports sim gap analysis validation report share)
 
 # navcal_include_rooms(TARGET ROOM): gives a target the headers of a room, and of what that room may include with what their
 # headers include in turn. No others: a folder of links in the build folder is the target's only include folder of ours.
 function(navcal_include_rooms target room)
-  set(folder ${CMAKE_BINARY_DIR}/rooms/${room})
+  string(REPLACE / _ folder ${room})
+  set(folder ${CMAKE_BINARY_DIR}/rooms/${folder})
   set(todo ${room})
   set(done)
   while(todo)
@@ -35,7 +40,8 @@ function(navcal_include_rooms target room)
     list(APPEND done ${next})
     list(APPEND todo ${NAVCAL_MAY_INCLUDE_${next}})
     if(NOT EXISTS ${folder}/${next})
-      file(MAKE_DIRECTORY ${folder})
+      cmake_path(GET next PARENT_PATH parent)
+      file(MAKE_DIRECTORY ${folder}/${parent})
       file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${next} ${folder}/${next} SYMBOLIC)
     endif()
   endwhile()

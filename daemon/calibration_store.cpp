@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "pipeline/sources.h"
-#include "record/checked_file.h"
+#include "record/log/checked_file.h"
 
 namespace navcal::daemon {
 namespace {

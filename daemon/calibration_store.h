@@ -14,7 +14,7 @@
 namespace navcal::daemon {
 
 /// Keeps the state of the calibrators, with the calibration in force, across restarts: one checked file in the log
-/// folder (record/checked_file.h). Written by a thread of its own, since a disk may take seconds; of several
+/// folder (record/log/checked_file.h). Written by a thread of its own, since a disk may take seconds; of several
 /// states that wait only the newest is written. A file that is damaged, or of instruments that were changed since,
 /// is kept aside and told of; the calibrators then begin anew.
 class CalibrationStore {

@@ -1,7 +1,7 @@
 #include "daemon/calibrations.h"
 
 #include "daemon/json_text.h"
-#include "record/calibration_json.h"
+#include "record/json/calibration_json.h"
 
 namespace navcal::daemon {
 namespace {

@@ -8,7 +8,7 @@
 #include "daemon/health.h"
 #include "daemon/listeners.h"
 #include "daemon/system_clock.h"
-#include "record/mapping_json.h"
+#include "record/json/mapping_json.h"
 
 namespace navcal::daemon {
 namespace asio = boost::asio;

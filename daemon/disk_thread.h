@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/log_folder.h"
+#include "record/log/log_folder.h"
 
 namespace navcal::daemon {
 

@@ -13,7 +13,7 @@
 #include "instruments/samples.h"
 #include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
-#include "record/log_encoder.h"
+#include "record/log/log_encoder.h"
 
 namespace navcal::daemon {
 

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "daemon/json_text.h"
-#include "record/navigation_json.h"
-#include "record/sample_json.h"
+#include "record/json/navigation_json.h"
+#include "record/json/sample_json.h"
 
 namespace navcal::daemon {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "calib/correction.h"
-#include "calib/in_force.h"
+#include "calib/suite/in_force.h"
 
 namespace navcal::pipeline {
 

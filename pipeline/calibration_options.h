@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "calib/suite.h"
+#include "calib/suite/suite.h"
 #include "config/settings.h"
 #include "pipeline/earth_field.h"
 

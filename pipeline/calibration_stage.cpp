@@ -5,7 +5,7 @@
 
 #include "pipeline/calib_reading.h"
 #include "pipeline/calibration_options.h"
-#include "pipeline/local_plane.h"
+#include "base/local_plane.h"
 #include "pipeline/nav_reading.h"
 
 namespace navcal::pipeline {

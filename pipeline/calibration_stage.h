@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "calib/suite.h"
+#include "calib/suite/suite.h"
 #include "config/settings.h"
 #include "instruments/samples.h"
 #include "pipeline/calibration.h"

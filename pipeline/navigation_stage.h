@@ -8,7 +8,7 @@
 #include "instruments/samples.h"
 #include "nav/navigator.h"
 #include "pipeline/calibration_options.h"
-#include "pipeline/local_plane.h"
+#include "base/local_plane.h"
 #include "pipeline/navigation.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sources.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "calib/report.h"
+#include "calib/suite/report.h"
 #include "config/settings.h"
 #include "instruments/clock_state.h"
 #include "instruments/samples.h"

@@ -1,8 +1,8 @@
 #include "record/recording.h"
 
-#include "record/capture_recording.h"
-#include "record/log_recording.h"
-#include "record/mcap_format.h"
+#include "record/capture/capture_recording.h"
+#include "record/log/log_recording.h"
+#include "record/log/mcap_format.h"
 
 namespace navcal::record {
 namespace {

@@ -12,7 +12,7 @@
 #include "config/settings.h"
 #include "pipeline/calibration.h"
 #include "pipeline/utc_mapping.h"
-#include "record/log_encoder.h"
+#include "record/log/log_encoder.h"
 
 namespace navcal::record {
 

@@ -8,10 +8,10 @@
 #include "config/load.h"
 #include "protocols/motor_card.h"
 #include "protocols/oncore_command.h"
-#include "sim/imu_card.h"
-#include "sim/motor_card.h"
-#include "sim/oncore.h"
-#include "sim/tcm2.h"
+#include "sim/instruments/imu_card.h"
+#include "sim/instruments/motor_card.h"
+#include "sim/instruments/oncore.h"
+#include "sim/instruments/tcm2.h"
 
 namespace navcal::sim {
 namespace {

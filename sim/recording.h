@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "config/settings.h"
-#include "sim/clock_factor.h"
+#include "sim/instruments/clock_factor.h"
 #include "sim/geodesy.h"
-#include "sim/host_line.h"
+#include "sim/instruments/host_line.h"
 #include "sim/state.h"
 
 namespace navcal::sim {

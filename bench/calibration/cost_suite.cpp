@@ -6,7 +6,7 @@
 
 #include "bench/calibration/cost.h"
 #include "calib/correction.h"
-#include "calib/suite.h"
+#include "calib/suite/suite.h"
 
 namespace navcal::bench {
 

@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "bench/calibration/cost.h"
-#include "calib/gyro_pair.h"
-#include "calib/turn_filter.h"
-#include "calib/turn_integrator.h"
+#include "calib/turn/gyro_pair.h"
+#include "calib/turn/turn_filter.h"
+#include "calib/turn/turn_integrator.h"
 
 namespace navcal::bench {
 

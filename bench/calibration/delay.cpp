@@ -5,9 +5,9 @@
 #include <cstdio>
 
 #include "bench/calibration/gps_delay_tables.h"
-#include "calib/delay_estimator.h"
-#include "tests/calib/delay_motion.h"
-#include "tests/calib/delay_recording.h"
+#include "calib/delay/delay_estimator.h"
+#include "tests/calib/delay/delay_motion.h"
+#include "tests/calib/delay/delay_recording.h"
 
 namespace navcal::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bench/calibration/turn_monte_carlo.h"
 #include "bench/calibration/turn_tables.h"
-#include "calib/turn_integrator.h"
+#include "calib/turn/turn_integrator.h"
 
 namespace navcal::bench {
 

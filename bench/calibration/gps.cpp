@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "bench/calibration/gps_delay_tables.h"
-#include "calib/gps_compass.h"
-#include "calib/gps_course_fit.h"
+#include "calib/gps/gps_compass.h"
+#include "calib/gps/gps_course_fit.h"
 #include "tests/calib/gps_paths.h"
 
 namespace navcal::bench {

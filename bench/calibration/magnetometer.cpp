@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bench/calibration/magnetometer_bound.h"
-#include "calib/ellipse_estimator.h"
-#include "calib/ellipse_gyro.h"
+#include "calib/magnetometer/ellipse_estimator.h"
+#include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/thesis/circle_moments.h"
 #include "tests/calib/magnetometer_paths.h"
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "calib/ellipse_estimator.h"
-#include "calib/ellipse_gyro.h"
+#include "calib/magnetometer/ellipse_estimator.h"
+#include "calib/magnetometer/ellipse_gyro.h"
 #include "tests/calib/thesis_paths.h"
 
 /// What the noise of the thesis lets one know of an ellipse: root-mean-square error of heading over the circle by

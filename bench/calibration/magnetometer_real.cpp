@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "bench/calibration/magnetometer.h"
-#include "calib/ellipsoid_estimator.h"
-#include "calib/magnetometer.h"
-#include "tests/calib/magnetometer_recording.h"
+#include "calib/magnetometer/ellipsoid_estimator.h"
+#include "calib/magnetometer/magnetometer.h"
+#include "tests/calib/magnetometer/magnetometer_recording.h"
 
 namespace navcal::bench {
 

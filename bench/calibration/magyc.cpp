@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/calibration/magnetometer.h"
-#include "calib/ellipsoid_estimator.h"
+#include "calib/magnetometer/ellipsoid_estimator.h"
 
 /// Rodríguez-Martínez and Troni, "Full magnetometer and gyroscope bias estimation using angular rates" (2024):
 /// 6000 readings at 25 Hz on sinusoidal motions of three widths, field (227.2, 51.8, 411.7) mG, noise 10 mG.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/calib/filtered_turns.h"
+#include "tests/calib/turn/filtered_turns.h"
 
 namespace navcal::bench {
 

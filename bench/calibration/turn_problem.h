@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "calib/turn_filter.h"
+#include "calib/turn/turn_filter.h"
 #include "tests/calib/thesis_paths.h"
 
 /// The three problems of turns on one of the reference paths: what our filter finds, and what could be found.

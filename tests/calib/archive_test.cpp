@@ -6,8 +6,8 @@
 #include <limits>
 #include <new>
 
-#include "calib/sampled_curve.h"
-#include "calib/turn_integrator.h"
+#include "calib/turn/sampled_curve.h"
+#include "calib/turn/turn_integrator.h"
 
 namespace navcal::calib {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "calib/gps_track.h"
+#include "calib/gps/gps_track.h"
 #include "calib/readings.h"
 #include "tests/calib/thesis_paths.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calib/turn_integrator.h"
+#include "calib/turn/turn_integrator.h"
 
 namespace navcal::calib::test {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "calib/ellipse_shape.h"
-#include "calib/magnetometer_estimate.h"
-#include "calib/turn_step.h"
+#include "calib/magnetometer/ellipse_shape.h"
+#include "calib/magnetometer/magnetometer_estimate.h"
+#include "calib/turn/turn_step.h"
 #include "tests/calib/thesis_paths.h"
 
 /// The magnetometer distortions of the thesis carried on its paths (THESIS 11.4), and motions in the Earth's field

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "cli/calibrate_run.h"
+#include "analysis/calibrate_run.h"
 #include "record/recording.h"
 #include "tests/cli/calibrate_command.h"
-#include "tests/cli/markup.h"
+#include "tests/report/markup.h"
 #include "tests/cli/simulated_recording.h"
 
 namespace navcal::cli::test {

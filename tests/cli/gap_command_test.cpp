@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "cli/gap_trial.h"
-#include "gap/request.h"
+#include "gap/verdict/request.h"
 #include "tests/cli/command_outcome.h"
-#include "tests/cli/gap_samples.h"
+#include "tests/report/gap_samples.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "cli/gap_trial_seal.h"
+#include "validation/commitment.h"
 #include "tests/support/process.h"
 
 namespace navcal::cli {

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/gap_trial.h"
-#include "cli/gap_trial_seal.h"
+#include "validation/commitment.h"
 #include "tests/cli/command_outcome.h"
-#include "tests/cli/markup.h"
+#include "tests/report/markup.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 

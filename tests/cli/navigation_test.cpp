@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "pipeline/local_plane.h"
+#include "base/local_plane.h"
 #include "pipeline/pipeline.h"
 #include "record/recording.h"
 #include "sim/geodesy.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/world_magnetic_model.h"
-#include "gap/mission.h"
+#include "gap/data/mission.h"
 #include "pipeline/pipeline.h"
 #include "record/recording.h"
 #include "tests/cli/command_outcome.h"

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/cli/markup.h"
+#include "tests/report/markup.h"
 #include "tests/support/temporary_folder.h"
 
 // The program itself, run by a shell as people run it.

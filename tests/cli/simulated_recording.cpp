@@ -9,11 +9,11 @@
 #include "protocols/oncore.h"
 #include "protocols/oncore_command.h"
 #include "protocols/tcm2.h"
-#include "record/capture_writer.h"
-#include "sim/imu_card.h"
-#include "sim/motor_card.h"
-#include "sim/oncore.h"
-#include "sim/tcm2.h"
+#include "record/capture/capture_writer.h"
+#include "sim/instruments/imu_card.h"
+#include "sim/instruments/motor_card.h"
+#include "sim/instruments/oncore.h"
+#include "sim/instruments/tcm2.h"
 
 namespace navcal::cli::test {
 namespace {

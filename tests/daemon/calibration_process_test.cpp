@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "protocols/tcm2_word.h"
-#include "record/log_reader.h"
+#include "record/log/log_reader.h"
 #include "tests/daemon/daemon_process.h"
 
 namespace navcal::daemon {

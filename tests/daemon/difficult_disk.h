@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "record/disk.h"
+#include "record/log/disk.h"
 
 namespace navcal::daemon {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "record/log_reader.h"
+#include "record/log/log_reader.h"
 #include "record/recording.h"
 #include "tests/support/process.h"
 

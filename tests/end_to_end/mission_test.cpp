@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "record/capture_reader.h"
-#include "record/log_reader.h"
+#include "record/capture/capture_reader.h"
+#include "record/log/log_reader.h"
 #include "record/recording.h"
 #include "tests/support/process.h"
 

@@ -1,5 +1,5 @@
 // What the exports as one file do besides being right, which readers of others judge (check).
-#include "record/export.h"
+#include "record/export/export.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <csignal>
 
-#include "record/field_meaning.h"
-#include "record/topic_columns.h"
-#include "record/topic_table.h"
+#include "record/export/field_meaning.h"
+#include "record/export/topic_columns.h"
+#include "record/export/topic_table.h"
 #include "tests/record/sample_log.h"
 #include "tests/record/temporary_folder.h"
 

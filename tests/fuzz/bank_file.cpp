@@ -1,13 +1,13 @@
 // Any bytes as a null bank's file, or a good one in which some are changed: nothing, or a bank that can be used.
-#include "gap/bank_file.h"
+#include "gap/nulls/bank_file.h"
 
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
-#include "gap/regimes.h"
+#include "gap/replay/regimes.h"
 #include "tests/fuzz/source.h"
-#include "tests/gap/made_up_bank.h"
+#include "tests/gap/nulls/made_up_bank.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "calib/suite.h"
+#include "calib/suite/suite.h"
 #include "tests/fuzz/source.h"
 
 namespace navcal::calib::fuzz {

@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "record/capture_reader.h"
-#include "record/capture_writer.h"
+#include "record/capture/capture_reader.h"
+#include "record/capture/capture_writer.h"
 
 // Whatever the reader accepts, the writer writes so that it reads the same again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

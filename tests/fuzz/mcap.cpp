@@ -2,9 +2,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "record/log_encoder.h"
-#include "record/log_reader.h"
-#include "record/log_recording.h"
+#include "record/log/log_encoder.h"
+#include "record/log/log_reader.h"
+#include "record/log/log_recording.h"
 
 namespace {
 

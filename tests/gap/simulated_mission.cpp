@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "config/mission_file.h"
-#include "record/capture_writer.h"
+#include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
 #include "sim/effects/document.h"
 #include "sim/recording.h"

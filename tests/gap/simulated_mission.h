@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "gap/mission.h"
+#include "gap/data/mission.h"
 
 namespace navcal::gap::test {
 

@@ -6,7 +6,7 @@
 
 #include "instruments/tcm2_calibration.h"
 #include "protocols/tcm2.h"
-#include "sim/tcm2.h"
+#include "sim/instruments/tcm2.h"
 
 // The calibration dialogue against the emulated compass, on simulated time, over a line that may lose or delay.
 namespace navcal::instruments::test {

@@ -12,9 +12,9 @@
 #include "config/load.h"
 #include "pipeline/pipeline.h"
 #include "protocols/imu_card.h"
-#include "record/calibration_json.h"
+#include "record/json/calibration_json.h"
 #include "record/recording.h"
-#include "record/sample_json.h"
+#include "record/json/sample_json.h"
 #include "temporary_folder.h"
 
 namespace navcal::record {

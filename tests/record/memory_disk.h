@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "record/disk.h"
+#include "record/log/disk.h"
 
 namespace navcal::record::testing {
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "config/load.h"
-#include "record/capture_recording.h"
-#include "record/log_recording.h"
+#include "record/capture/capture_recording.h"
+#include "record/log/log_recording.h"
 #include "sample_log.h"
 #include "temporary_folder.h"
 

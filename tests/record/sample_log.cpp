@@ -1,7 +1,7 @@
 #include "sample_log.h"
 
 #include "config/load.h"
-#include "record/mcap_format.h"
+#include "record/log/mcap_format.h"
 
 namespace navcal::record::testing {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "config/settings.h"
-#include "record/log_encoder.h"
+#include "record/log/log_encoder.h"
 
 namespace navcal::record::testing {
 

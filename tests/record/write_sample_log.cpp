@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "record/log_file.h"
-#include "record/log_repair.h"
+#include "record/log/log_file.h"
+#include "record/log/log_repair.h"
 #include "sample_log.h"
 
 namespace {

@@ -17,7 +17,7 @@ def table_of(text):
     """{room: set of rooms it may include} from the text of rooms.cmake."""
     rooms = re.search(r"set\(NAVCAL_ROOMS ([^)]*)\)", text).group(1).split()
     allowed = {}
-    for room, names in re.findall(r"set\(NAVCAL_MAY_INCLUDE_(\w+)([^)]*)\)", text):
+    for room, names in re.findall(r"set\(NAVCAL_MAY_INCLUDE_([\w/]+)([^)]*)\)", text):
         allowed[room] = set(names.split())
     return rooms, allowed
 
@@ -37,17 +37,23 @@ def problems_of_table(rooms, allowed):
                 yield f"cmake/rooms.cmake: {room} may include {name}, which stands after it"
 
 
-def sources(root):
+def room_of(name, rooms):
+    """The innermost room in which a file lies, else its top-level folder."""
+    inside = [room for room in rooms if name.startswith(room + "/")]
+    return max(inside, key=len) if inside else name.split("/")[0]
+
+
+def sources(root, rooms):
     for pattern in ("*.h", "*.cpp", "*.h.in", "*.cpp.in"):
         for path in sorted(root.glob(f"*/**/{pattern}")):
-            room = path.relative_to(root).parts[0]
-            if room not in FREE and not room.startswith("."):
-                yield room, path
+            folder = path.relative_to(root).parts[0]
+            if folder not in FREE and not folder.startswith("."):
+                yield room_of(path.relative_to(root).as_posix(), rooms), path
 
 
 def problems_of_includes(root, rooms, allowed):
     used = {room: set() for room in rooms}
-    for room, path in sources(root):
+    for room, path in sources(root, rooms):
         name = path.relative_to(root)
         if room not in rooms:
             yield f"{name}:1: the folder {room} is no room of cmake/rooms.cmake"
@@ -56,7 +62,7 @@ def problems_of_includes(root, rooms, allowed):
             found = INCLUDE.match(line)
             if not found:
                 continue
-            other = found.group(1).split("/")[0]
+            other = room_of(found.group(1), rooms)
             if "/" not in found.group(1) or other not in rooms:
                 yield f'{name}:{number}: "{found.group(1)}" is not in a room of cmake/rooms.cmake'
             elif other != room and other not in allowed.get(room, set()):
@@ -73,9 +79,9 @@ def problems_of_page(text, rooms, allowed):
     rows = {}
     for line in text.splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        name = re.match(r"`(\w+)/`$", cells[0])
+        name = re.match(r"`([\w/]+)/`$", cells[0])
         if name and len(cells) == 3:
-            rows[name.group(1)] = {word for word in re.findall(r"\b[a-z]+\b", cells[2]) if word in rooms}
+            rows[name.group(1)] = {word for word in re.findall(r"[a-z/]+", cells[2]) if word in rooms}
     for room in rooms:
         if room not in rows:
             yield f"ARCHITECTURE.md: no row for {room}"

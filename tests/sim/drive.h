@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/device.h"
+#include "sim/instruments/device.h"
 #include "sim/state.h"
 
 namespace navcal::sim::testing {

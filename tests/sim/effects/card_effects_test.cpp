@@ -6,7 +6,7 @@
 
 #include "protocols/imu_card.h"
 #include "sim/effects/effect_set.h"
-#include "sim/imu_card.h"
+#include "sim/instruments/imu_card.h"
 #include "tests/sim/drive.h"
 #include "tests/sim/effects/at_rest.h"
 

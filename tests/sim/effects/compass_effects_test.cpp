@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "sim/effects/effect_set.h"
-#include "sim/tcm2_sensor.h"
+#include "sim/instruments/tcm2_sensor.h"
 #include "tests/sim/drive.h"
 #include "tests/sim/effects/at_rest.h"
 

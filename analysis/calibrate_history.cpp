@@ -1,0 +1,146 @@
+#include "analysis/calibrate_history.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "pipeline/calib_reading.h"
+
+namespace navcal::cli {
+namespace {
+
+/// Readings of the compass that wait for the gyro; more wait in vain.
+constexpr std::size_t kMostPending = 64;
+
+/// Two that followed each other as one.
+TurnedSample joined(const TurnedSample& first, const TurnedSample& second) {
+  TurnedSample both = second;
+  both.has_turn = first.has_turn && second.has_turn;
+  both.measured_rad += first.measured_rad;
+  both.bias_time_s += first.bias_time_s;
+  both.tilt_rad += first.tilt_rad;
+  return both;
+}
+
+}  // namespace
+
+CalibrateHistory::CalibrateHistory(const config::Settings& settings)
+    : ports_(pipeline::calibrated_ports(settings)),
+      sources_(settings),
+      gate_(pipeline::suite_options(settings, ports_).gate),
+      turns_({.tilt_lag_s = settings.calibration.tilt_lag_s}) {}
+
+double CalibrateHistory::seconds(const instruments::Sample& sample) {
+  if (!origin_ns_) origin_ns_ = sample.stamp.validity_ns;
+  return static_cast<double>(sample.stamp.validity_ns - *origin_ns_) * 1e-9;
+}
+
+void CalibrateHistory::on_sample(const instruments::Sample& sample) {
+  (void)sources_.take(sample);
+  if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
+    if (sources_.learnt().compass != sample.port || pipeline::roles_of(sample).is_empty()) return;
+    ++readings_;
+    put(pipeline::calib_reading(*compass, sample.stamp, seconds(sample)));
+  } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
+    if (sample.port == ports_.imu) put(pipeline::calib_reading(*imu, sample.stamp, seconds(sample)));
+  } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
+    if (sample.port == ports_.motor && motor->rpm)
+      put(calib::MotorReading{seconds(sample), *motor->rpm, motor->current_A});
+  }
+}
+
+void CalibrateHistory::put(const calib::Reading& reading) {
+  gate_.put(reading);
+  take_cleaned();
+}
+
+void CalibrateHistory::begin_recording() {
+  gate_.restart();
+  origin_ns_.reset();
+}
+
+void CalibrateHistory::finish(const pipeline::Pipeline& pipeline) {
+  gate_.flush();
+  take_cleaned();
+  take_turned(true);
+  next_look_ = 0;
+  look(pipeline);
+}
+
+void CalibrateHistory::take_cleaned() {
+  while (const auto clean = gate_.take()) {
+    if (const auto* compass = std::get_if<calib::CompassReading>(&*clean)) {
+      newest_s_ = compass->time_s;
+      pending_.push_back(*compass);
+      turns_.update(*compass);
+    } else if (const auto* rate = std::get_if<calib::RateReading>(&*clean)) {
+      turns_.update(*rate);
+    }
+    take_turned(false);
+  }
+}
+
+void CalibrateHistory::take_turned(bool to_the_end) {
+  while (!pending_.empty()) {
+    if (!turn_) turn_ = turns_.next();
+    const double time_s = pending_.front().time_s;
+    if (!turn_ && pending_.size() < kMostPending && !to_the_end) return;
+    if (turn_ && turn_->time_s < time_s) {
+      turn_.reset();  // of a reading that was given up
+      continue;
+    }
+    TurnedSample sample;
+    sample.reading = pending_.front();
+    pending_.pop_front();
+    if (turn_ && turn_->time_s <= time_s) {
+      const calib::TurnStep turn = *std::exchange(turn_, std::nullopt);
+      sample.has_turn = !turn.begins_segment;
+      sample.measured_rad = turn.measured_angle_rad;
+      sample.bias_time_s = turn.bias_time_s;
+      sample.tilt_rad = turn.tilt_angle_rad;
+    }
+    keep(sample);
+  }
+}
+
+void CalibrateHistory::keep(const TurnedSample& sample) {
+  if (samples_.empty() || readings_in_last_ == readings_per_sample_) {
+    samples_.push_back(sample);
+    readings_in_last_ = 1;
+  } else {
+    samples_.back() = joined(samples_.back(), sample);
+    ++readings_in_last_;
+  }
+  if (samples_.size() < kMostSamples || readings_in_last_ < readings_per_sample_) return;
+  for (std::size_t i = 0; i + 1 < samples_.size(); i += 2) samples_[i / 2] = joined(samples_[i], samples_[i + 1]);
+  samples_.resize(samples_.size() / 2);
+  readings_per_sample_ *= 2;
+  readings_in_last_ = readings_per_sample_;
+}
+
+void CalibrateHistory::look(const pipeline::Pipeline& pipeline) {
+  if (readings_ < next_look_) return;
+  next_look_ = readings_ + look_every_;
+  bool full = false;
+  for (const auto& calibrator : pipeline.calibration_report().calibrators) {
+    for (const auto& quantity : calibrator.estimate) {
+      std::string name(calib::name_of(calibrator.calibrator));
+      auto& points = estimates_[name.append(".").append(quantity.name)];
+      points.push_back({newest_s_, quantity.value, quantity.std});
+      full = full || points.size() >= kMostPoints;
+    }
+  }
+  if (full) thin_estimates();
+}
+
+void CalibrateHistory::thin_estimates() {
+  for (auto& [name, points] : estimates_) {
+    const EstimatePoint last = points.back();  // may be that of the report
+    for (std::size_t i = 0; 2 * i + 1 < points.size(); ++i) points[i] = points[2 * i + 1];
+    points.resize(std::max<std::size_t>(points.size() / 2, 1));
+    points.back() = last;
+  }
+  look_every_ *= 2;
+}
+
+}  // namespace navcal::cli

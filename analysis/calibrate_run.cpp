@@ -1,0 +1,117 @@
+#include "analysis/calibrate_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+
+#include "analysis/port_matching.h"
+#include "analysis/progress.h"
+
+namespace navcal::cli {
+namespace {
+
+/// A file that begins so soon after the end of the last is the next of its series.
+constexpr std::int64_t kSeriesGap_ns = 60'000'000'000;
+
+/// Whoever calibrates from a recording wants all that it supports, whatever the vehicle was told to do by itself.
+config::Settings with_calibration(config::Settings settings) {
+  settings.calibration.enabled = true;
+  settings.calibration.automatic = true;
+  settings.navigation.enabled = false;  // nobody asks here where it was
+  return settings;
+}
+
+class Nobody final : public pipeline::Sink {
+ public:
+  void on_sample(const instruments::Sample&) override {}
+};
+
+pipeline::Sink& nobody() {
+  static Nobody sink;
+  return sink;
+}
+
+/// Monotonic, or UTC in a capture.
+std::int64_t time_of(const record::Entry& entry) {
+  return std::visit([](const auto& e) { return e.time_ns; }, entry);
+}
+
+}  // namespace
+
+CalibrateRun::CalibrateRun(const config::Settings& settings, CalibrateHistory* history)
+    : settings_(with_calibration(settings)),
+      history_(history),
+      sink_(history != nullptr ? static_cast<pipeline::Sink&>(*history) : nobody()),
+      pipeline_(std::make_unique<pipeline::Pipeline>(settings_)) {}
+
+void CalibrateRun::play(const std::string& file) {
+  const auto recording = record::Recording::open(file);
+  const auto ports = match_ports(recording->settings(), settings_, file);
+  Progress progress("calibrate");
+  file_begins_ = true;
+  while (const auto entry = recording->next()) {
+    at(file, time_of(*entry));
+    take(*entry, ports);
+    if (history_ != nullptr) history_->look(*pipeline_);
+    progress.show(recording->progress());
+  }
+  pipeline_->advance(newest_ns_, sink_);
+  for (const auto& remark : recording->remarks()) remarks_.push_back(fmt::format("{}: {}", file, remark));
+}
+
+void CalibrateRun::at(const std::string& file, std::int64_t time_ns) {
+  if (file_begins_) {
+    const bool first = newest_ns_ == 0;
+    if (first || time_ns < newest_ns_ || time_ns > newest_ns_ + kSeriesGap_ns) {
+      if (!first) begin_recording(file, time_ns);
+      newest_ns_ = time_ns;
+    }
+    if (first) begin_swing();
+    file_begins_ = false;
+  }
+  if (time_ns <= newest_ns_) return;
+  duration_ns_ += time_ns - newest_ns_;
+  newest_ns_ = time_ns;
+}
+
+void CalibrateRun::begin_recording(const std::string& file, std::int64_t time_ns) {
+  const std::string state = pipeline_->calibration_beginning(newest_ns_).state;
+  pipeline_ = std::make_unique<pipeline::Pipeline>(settings_);
+  if (pipeline_->calibrates() && pipeline_->restore_calibration(state)) {
+    pipeline_->begin_calibration_run();
+  } else if (pipeline_->calibrates()) {
+    remarks_.push_back(file + ": what the files before it taught was lost");
+  }
+  if (history_ != nullptr) history_->begin_recording();
+  newest_ns_ = time_ns;
+}
+
+/// A swing shows by its rests; nobody has to say that one begins.
+void CalibrateRun::begin_swing() {
+  pipeline_->order_calibration(pipeline::CalibrationOrder::start, calib::Calibrator::swing, newest_ns_, sink_);
+}
+
+void CalibrateRun::take(const record::Entry& entry, const std::vector<int>& ports) {
+  if (const auto* raw = std::get_if<record::RawRead>(&entry)) {
+    const int port = ports.at(raw->port);
+    if (raw->direction != record::Direction::received || port < 0) return;
+    pipeline_->bytes(static_cast<std::uint16_t>(port), newest_ns_, raw->bytes, sink_);
+  } else if (const auto* change = std::get_if<record::MappingChange>(&entry)) {
+    pipeline_->set_mapping(change->mapping, sink_);
+  } else if (const auto* order = std::get_if<pipeline::CalibrationChange>(&entry)) {
+    const bool swing =
+        order->cause == pipeline::CalibrationChange::Cause::start && order->calibrator == calib::Calibrator::swing;
+    if (swing) begin_swing();
+  }
+}
+
+calib::Report CalibrateRun::finish() {
+  pipeline_->finish_calibration(sink_);
+  if (history_ != nullptr) {
+    history_->finish(*pipeline_);
+  }
+  return pipeline_->calibration_report();
+}
+
+}  // namespace navcal::cli

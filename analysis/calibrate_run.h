@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calib/suite/report.h"
+#include "analysis/calibrate_history.h"
+#include "config/settings.h"
+#include "pipeline/pipeline.h"
+#include "record/recording.h"
+
+namespace navcal::cli {
+
+/// Recordings one after the other through the calibrators. Files of one series go on where the last ended; another
+/// recording is another run of the instruments, whose clocks begin anew while the calibrators go on learning. What
+/// was in force on the vehicle has no part in it, nor have the orders of its operator, but for the beginning of a
+/// swing.
+class CalibrateRun {
+ public:
+  /// `history` may be null: nothing is kept for pictures then.
+  CalibrateRun(const config::Settings& settings, CalibrateHistory* history);
+
+  /// Throws record::BadRecording.
+  void play(const std::string& file);
+  /// No more files come.
+  [[nodiscard]] calib::Report finish();
+
+  [[nodiscard]] const config::Settings& settings() const { return settings_; }
+  /// Of all files, pauses between them left out.
+  [[nodiscard]] double duration_s() const { return static_cast<double>(duration_ns_) * 1e-9; }
+  /// What was not as it should be, each with its file.
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+
+ private:
+  void begin_recording(const std::string& file, std::int64_t time_ns);
+  void take(const record::Entry& entry, const std::vector<int>& ports);
+  void at(const std::string& file, std::int64_t time_ns);
+  void begin_swing();
+
+  config::Settings settings_;
+  CalibrateHistory* history_;
+  pipeline::Sink& sink_;
+  std::unique_ptr<pipeline::Pipeline> pipeline_;
+  bool file_begins_ = true;
+  std::int64_t newest_ns_ = 0;
+  std::int64_t duration_ns_ = 0;
+  std::vector<std::string> remarks_;
+};
+
+}  // namespace navcal::cli

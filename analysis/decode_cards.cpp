@@ -1,0 +1,42 @@
+#include "analysis/decode_describe.h"
+#include "protocols/imu_card.h"
+#include "protocols/motor_card.h"
+
+namespace navcal::cli {
+
+using protocols::Date;
+using protocols::Frame;
+
+void describe_imu_card(FieldWriter& fields, const Frame& frame, const std::optional<Date>&) {
+  const auto record = protocols::imu_card::decode_record(frame.bytes);
+  if (!record) return write_out_of_range(fields);
+  fields.number("sequence", record->sequence);
+  fields.number("status", record->status);
+  fields.begin_list("channels");
+  for (const std::uint16_t raw : record->raw) fields.number({}, raw / 16.0, 4);
+  fields.end_list();
+}
+
+void describe_motor_card(FieldWriter& fields, const Frame& frame, const std::optional<Date>&) {
+  namespace motor_card = protocols::motor_card;
+  if (frame.id == motor_card::kMcc) {
+    const auto command = motor_card::decode_command(frame.bytes);
+    if (!command) return write_out_of_range(fields);
+    fields.number("rpm_commanded", command->rpm);
+    fields.begin_list("fins_deg");
+    for (const double fin : command->fins_deg) fields.number({}, fin);
+    return fields.end_list();
+  }
+  const auto decoded = motor_card::decode_status(frame.bytes);
+  const motor_card::Status status = decoded.value_or(motor_card::Status{});
+  fields.number("sequence", status.sequence);
+  fields.number("rpm_commanded", status.rpm_commanded);
+  fields.number("rpm", status.rpm);
+  fields.begin_list("fins_deg");
+  for (const auto& fin : status.fins_deg) fields.number({}, fin);
+  fields.end_list();
+  fields.number("current_A", status.current_A);
+  if (!decoded) write_out_of_range(fields);
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,34 @@
+#include "analysis/decode_describe.h"
+
+namespace navcal::cli {
+
+void write_position(FieldWriter& fields, const PositionFields& position,
+                    const std::optional<protocols::Date>& pivot) {
+  if (position.date && position.time) {
+    const auto date = pivot ? protocols::correct_rollover(*position.date, *pivot)
+                            : protocols::CorrectedDate{*position.date, false};
+    fields.time("time", date.date, *position.time);
+    fields.flag("time_corrected", date.corrected);
+  } else {
+    fields.null("time");
+    fields.flag("time_corrected", false);
+  }
+  fields.number("lat", position.lat, 9);
+  fields.number("lon", position.lon, 9);
+  fields.number("height_m", position.height_m, 3);
+  fields.number("height_msl_m", position.height_msl_m, 3);
+  fields.number("speed_m_s", position.speed_m_s, 4);
+  fields.number("heading_deg", position.heading_deg, 3);
+  fields.number("dop", position.dop, 2);
+  fields.number("visible", position.visible);
+  fields.number("tracked", position.tracked);
+  if (position.fix) {
+    fields.text("fix", name_of(*position.fix));
+  } else {
+    fields.null("fix");
+  }
+}
+
+void write_out_of_range(FieldWriter& fields) { fields.flag("out_of_range", true); }
+
+}  // namespace navcal::cli

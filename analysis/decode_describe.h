@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/decode_fields.h"
+#include "protocols/frame.h"
+#include "protocols/gps_fix.h"
+#include "protocols/utc.h"
+
+namespace navcal::cli {
+
+/// Writes the decoded fields of one frame, with the keys of docs/cli.md. `pivot`: dates before it are moved up by
+/// whole epochs of 1024 weeks; nullopt: dates as sent.
+using Describe = void (*)(FieldWriter& fields, const protocols::Frame& frame,
+                          const std::optional<protocols::Date>& pivot);
+
+void describe_tcm2(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_imu_card(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_motor_card(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_oncore(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_nmea(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+
+/// The keys that every message with a position has, whatever its protocol.
+struct PositionFields {
+  std::optional<protocols::Date> date;
+  std::optional<protocols::TimeOfDay> time;
+  std::optional<double> lat, lon;      ///< degrees
+  std::optional<double> height_m;      ///< above the ellipsoid
+  std::optional<double> height_msl_m;  ///< above mean sea level
+  std::optional<double> speed_m_s, heading_deg, dop;
+  std::optional<std::uint8_t> visible, tracked;
+  std::optional<protocols::Fix> fix;
+};
+void write_position(FieldWriter& fields, const PositionFields& position,
+                    const std::optional<protocols::Date>& pivot);
+
+/// The frame is intact, but its content cannot be.
+void write_out_of_range(FieldWriter& fields);
+
+}  // namespace navcal::cli

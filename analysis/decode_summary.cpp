@@ -1,0 +1,35 @@
+#include "analysis/decode_summary.h"
+
+#include <fmt/format.h>
+
+namespace navcal::cli {
+
+void write_json(Output& output, const DecodeSummary& summary) {
+  const auto& counters = summary.counters;
+  output.append(fmt::format(R"({{"class":"SUMMARY","bytes":{},"frames":{{)", counters.bytes));
+  bool first = true;
+  for (const auto& [id, count] : summary.frames) {
+    output.append(fmt::format(R"({}"{}":{})", first ? "" : ",", id.view(), count));
+    first = false;
+  }
+  output.append(fmt::format(R"(}},"bad_checksum":{},"framed_bytes":{},"skipped_bytes":{},"incomplete_bytes":{}}})"
+                            "\n",
+                            counters.bad_checksum, counters.framed_bytes, summary.skipped_bytes(),
+                            summary.incomplete_bytes));
+}
+
+void write_text(Output& output, const DecodeSummary& summary) {
+  const auto& counters = summary.counters;
+  output.append(fmt::format("\n{} frames", counters.frames));
+  const char* separator = ": ";
+  for (const auto& [id, count] : summary.frames) {
+    output.append(fmt::format("{}{} {}", separator, id.view(), count));
+    separator = ", ";
+  }
+  output.append(fmt::format("\n{} bytes: {} in frames, {} skipped, {} of an unfinished frame at the end\n",
+                            counters.bytes, counters.framed_bytes, summary.skipped_bytes(),
+                            summary.incomplete_bytes));
+  if (counters.bad_checksum > 0) output.append(fmt::format("{} bad checksums\n", counters.bad_checksum));
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "analysis/output.h"
+#include "protocols/frame.h"
+
+namespace navcal::cli {
+
+/// What a stream consisted of: bytes = framed + skipped + incomplete.
+struct DecodeSummary {
+  protocols::Counters counters;
+  /// Behind the last frame, from where a frame began that the end of the input cut.
+  std::uint64_t incomplete_bytes = 0;
+  std::map<protocols::FrameId, std::uint64_t> frames;
+
+  [[nodiscard]] std::uint64_t skipped_bytes() const { return counters.skipped_bytes - incomplete_bytes; }
+};
+
+/// The SUMMARY line of docs/cli.md.
+void write_json(Output& output, const DecodeSummary& summary);
+/// The same for people.
+void write_text(Output& output, const DecodeSummary& summary);
+
+}  // namespace navcal::cli

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/emulate_misbehaviour.h"
+#include "analysis/emulate_sent_log.h"
+#include "ports/paced_writer.h"
+#include "ports/pty_host.h"
+#include "sim/instruments/device.h"
+
+namespace navcal::cli {
+
+/// One emulated instrument, live: the device's behaviour, its line at its pace, and a pseudo-terminal at the end.
+class EmulatedPort {
+ public:
+  struct Place {
+    std::filesystem::path dir;
+    std::string name;
+    std::uint16_t index = 0;
+    std::int64_t utc_minus_monotonic_ns =
+        0;  ///< fixed at the start: steps of the system clock do not reach the devices
+    std::uint64_t seed = 1;
+  };
+  /// `log` may be nullptr.
+  EmulatedPort(const boost::asio::any_io_executor& executor, const Place& place,
+               std::unique_ptr<sim::Device> device, SentLog* log);
+
+  [[nodiscard]] const std::string& name() const { return place_.name; }
+  [[nodiscard]] const ports::PtyHost& host() const { return host_; }
+  [[nodiscard]] sim::Device& device() { return *device_; }
+  [[nodiscard]] Misbehaviour& misbehaviour() { return misbehaviour_; }
+
+  void power_cycle();
+  void unplug();
+  void replug();
+  /// Bytes are held back so long and then come all at once.
+  void stall(double seconds);
+
+ private:
+  [[nodiscard]] std::int64_t utc_ns(std::int64_t monotonic_ns) const {
+    return monotonic_ns + place_.utc_minus_monotonic_ns;
+  }
+  void on_host_bytes(std::int64_t now_ns, protocols::Bytes bytes);
+  void advance();
+  void wait();
+  void put(std::int64_t now_ns, protocols::Bytes piece);
+  void deliver(std::int64_t now_ns, protocols::Bytes bytes);
+  /// A client set to another speed hears, and is heard as, garbage.
+  [[nodiscard]] int client_baud() const;
+
+  Place place_;
+  std::unique_ptr<sim::Device> device_;
+  SentLog* log_;
+  Misbehaviour misbehaviour_;
+  ports::PtyHost host_;
+  ports::PacedWriter writer_;
+  boost::asio::steady_timer timer_;
+  boost::asio::steady_timer stall_timer_;
+  std::vector<sim::Emission> emissions_;
+  std::vector<std::uint8_t> held_back_;
+  bool stalled_ = false;
+};
+
+}  // namespace navcal::cli

@@ -1,0 +1,144 @@
+#include "analysis/emulate_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+
+#include "analysis/failure.h"
+#include "analysis/emulate_motion.h"
+#include "analysis/simulated_place.h"
+#include "ports/port.h"
+#include "sim/motion_in_field.h"
+#include "sim/instruments/motor_card.h"
+#include "sim/instruments/tcm2.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr double kGreatest_ppm = 200;  // ICD section 3: what the card's clock may be off by
+
+std::int64_t utc_minus_monotonic() {
+  using namespace std::chrono;
+  const auto utc = duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+  return utc - ports::monotonic_ns();
+}
+
+std::vector<config::PortSettings> port_lines(int compass_baud) {
+  using protocols::Protocol;
+  const auto port = [](std::string name, Protocol protocol, int baud) {
+    config::PortSettings settings;
+    settings.name = std::move(name);
+    settings.protocol = protocol;
+    settings.baud = baud;
+    return settings;
+  };
+  return {port("compass", Protocol::tcm2, compass_baud), port("imu", Protocol::imu_card, 57600),
+          port("gps", Protocol::oncore, 9600), port("motor", Protocol::motor_card, 19200)};
+}
+
+}  // namespace
+
+EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments)
+    : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()) {
+  const std::int64_t start_ns = ports::monotonic_ns() + utc_minus_monotonic_ns_;
+  const SimulatedPlace place = emulated_place(arguments.where, start_ns);
+  motion_ = emulate_motion(arguments, start_ns);
+  motion_ = std::make_unique<sim::MotionInField>(std::move(motion_), place.field_world_uT);
+  if (!arguments.sent_log.empty()) {
+    auto lines = port_lines(arguments.compass_baud);
+    if (arguments.gps == sim::Oncore::Kind::nmea) lines[2].protocol = protocols::Protocol::nmea;
+    log_ = std::make_unique<SentLog>(arguments.sent_log, lines);
+    log_->comment(place.field_event());
+  }
+  sim::Noise seeds(arguments.seed);
+  const auto seed = [&] { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); };
+
+  sim::Tcm2::Options compass;
+  compass.baud = arguments.compass_baud;
+  compass.seed = seed();
+  compass.clock_ppm = sim::clock_ppm(arguments.clocks, "compass", compass.clock_ppm);
+  add(arguments, "compass", std::make_unique<sim::Tcm2>(compass, *motion_));
+  sim::ImuCard::Options imu;
+  imu.seed = seed();
+  imu.clock_ppm = arguments.imu_ppm.value_or(seeds.uniform(-kGreatest_ppm, kGreatest_ppm));
+  imu.clock_ppm = sim::clock_ppm(arguments.clocks, "imu", imu.clock_ppm);
+  auto card = std::make_unique<sim::ImuCard>(imu, *motion_);
+  imu_ = card.get();
+  add(arguments, "imu", std::move(card));
+  sim::Oncore::Options gps;
+  gps.kind = arguments.gps;
+  gps.receiver.origin = place.origin;
+  gps.seed = seed();
+  add(arguments, "gps", std::make_unique<sim::Oncore>(gps, *motion_));
+  sim::MotorCard::Options motor;
+  motor.seed = seed();
+  motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
+  add(arguments, "motor", std::make_unique<sim::MotorCard>(motor, *motion_));
+
+  for (const StallPlan& plan : arguments.stalls) stall_regularly(plan);
+  for (const UnplugPlan& plan : arguments.unplugs) {
+    EmulatedPort* port = find(plan.port);
+    if (port == nullptr) throw Failure(Exit::usage, fmt::format("--unplug: there is no port {}", plan.port));
+    after(plan.at_s, [port] { port->unplug(); });
+    after(plan.at_s + plan.duration_s, [port] { port->replug(); });
+  }
+  if (arguments.seconds > 0) after(arguments.seconds, [this] { stop(); });
+}
+
+void EmulateSession::add(const EmulateArguments& arguments, std::string name,
+                         std::unique_ptr<sim::Device> device) {
+  const auto index = static_cast<std::uint16_t>(ports_.size());
+  const EmulatedPort::Place place{arguments.dir, std::move(name), index, utc_minus_monotonic_ns_,
+                                  arguments.seed + index};
+  ports_.push_back(std::make_unique<EmulatedPort>(io_.get_executor(), place, std::move(device), log_.get()));
+  ports_.back()->misbehaviour().set_noise(arguments.noise);
+  ports_.back()->misbehaviour().set_drop(arguments.drop);
+}
+
+EmulatedPort* EmulateSession::find(std::string_view name) const {
+  const auto found =
+      std::find_if(ports_.begin(), ports_.end(), [&](const auto& port) { return port->name() == name; });
+  return found == ports_.end() ? nullptr : found->get();
+}
+
+void EmulateSession::after(double seconds, std::function<void()> what) {
+  timers_.push_back(std::make_unique<boost::asio::steady_timer>(io_));
+  timers_.back()->expires_after(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds)));
+  timers_.back()->async_wait([what = std::move(what)](const boost::system::error_code& error) {
+    if (!error) what();
+  });
+}
+
+void EmulateSession::stall_regularly(const StallPlan& plan) {
+  timers_.push_back(std::make_unique<boost::asio::steady_timer>(io_));
+  boost::asio::steady_timer& timer = *timers_.back();
+  const auto every =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(plan.every_s));
+  timer.expires_after(every);
+  const auto again = std::make_shared<std::function<void()>>();
+  *again = [this, plan, every, &timer, weak = std::weak_ptr(again)] {
+    timer.async_wait([this, plan, every, &timer, self = weak.lock()](const boost::system::error_code& error) {
+      if (error) return;
+      for (const auto& port : ports_) port->stall(plan.duration_s);
+      timer.expires_at(timer.expiry() + every);
+      (*self)();
+    });
+  };
+  (*again)();
+}
+
+void EmulateSession::report() const {
+  for (const auto& port : ports_) {
+    const auto& tally = port->host().tally();
+    fmt::print(stderr, "{}: {} bytes taken, {} sent while nobody had it open", port->name(), tally.taken,
+               tally.unheard);
+    if (tally.overrun > 0) fmt::print(stderr, ", {} lost because the reader did not keep up", tally.overrun);
+    fmt::print(stderr, "\n");
+  }
+}
+
+}  // namespace navcal::cli

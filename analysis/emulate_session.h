@@ -1,0 +1,69 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/emulate_port.h"
+#include "analysis/place_arguments.h"
+#include "sim/instruments/clock_factor.h"
+#include "sim/instruments/imu_card.h"
+#include "sim/instruments/oncore.h"
+#include "sim/state.h"
+
+namespace navcal::cli {
+
+struct EmulateArguments {
+  std::filesystem::path dir;
+  std::filesystem::path path;     ///< empty, and no mission: the path that comes with it
+  std::string mission;            ///< name of a shipped one, or a file
+  std::filesystem::path vehicle;  ///< of the mission; empty: the reference vehicle
+  std::filesystem::path sent_log;
+  double seconds = 0;  ///< 0: until it is stopped
+  std::uint64_t seed = 1;
+  std::optional<double> imu_ppm;
+  std::vector<sim::ClockFactor> clocks;
+  PlaceArguments where;
+  int compass_baud = 38400;
+  sim::Oncore::Kind gps = sim::Oncore::Kind::twelve_channels;
+  double noise = 0;
+  double drop = 0;
+  std::vector<StallPlan> stalls;
+  std::vector<UnplugPlan> unplugs;
+};
+
+/// The four instruments of the vehicle, live.
+class EmulateSession {
+ public:
+  /// Makes the ports. Throws sim::BadPath, config::Error, Failure, or what ports::PtyHost throws.
+  EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments);
+
+  [[nodiscard]] const std::vector<std::unique_ptr<EmulatedPort>>& ports() const { return ports_; }
+  /// nullptr when there is none of this name.
+  [[nodiscard]] EmulatedPort* find(std::string_view name) const;
+  void set_imu_status(std::uint8_t status) { imu_->set_status(status); }
+  void stop() { io_.stop(); }
+  /// To standard error: what became of the bytes.
+  void report() const;
+
+ private:
+  void add(const EmulateArguments& arguments, std::string name, std::unique_ptr<sim::Device> device);
+  void after(double seconds, std::function<void()> what);
+  void stall_regularly(const StallPlan& plan);
+
+  boost::asio::io_context& io_;
+  std::int64_t utc_minus_monotonic_ns_;
+  std::unique_ptr<sim::Motion> motion_;
+  std::unique_ptr<SentLog> log_;
+  sim::ImuCard* imu_ = nullptr;
+  std::vector<std::unique_ptr<EmulatedPort>> ports_;
+  std::vector<std::unique_ptr<boost::asio::steady_timer>> timers_;
+};
+
+}  // namespace navcal::cli

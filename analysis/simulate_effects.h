@@ -1,0 +1,11 @@
+#pragma once
+
+#include "analysis/simulate_arguments.h"
+#include "sim/effects/effect_set.h"
+
+namespace navcal::cli {
+
+/// The effects asked for, by strength and from the file. Throws Failure.
+[[nodiscard]] sim::EffectSet simulate_effects(const SimulateArguments& arguments);
+
+}  // namespace navcal::cli

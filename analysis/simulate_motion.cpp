@@ -1,0 +1,54 @@
+#include "analysis/simulate_motion.h"
+
+#include <utility>
+
+#include "analysis/failure.h"
+#include "config/mission_file.h"
+#include "config/vehicle_file.h"
+#include "sim/motion_in_field.h"
+#include "sim/path.h"
+#include "sim/vehicle/drive_helm.h"
+#include "sim/vehicle/mission_helm.h"
+#include "sim/vehicle/simulated_motion.h"
+
+namespace navcal::cli {
+namespace {
+
+SimulatedRun along_path(const SimulateArguments& arguments) {
+  auto path = std::make_unique<sim::PathMotion>(sim::load_path(arguments.path), arguments.begin_ns);
+  const double duration_s = arguments.seconds.value_or(path->duration_s());
+  return {std::move(path), duration_s};
+}
+
+SimulatedRun under_way(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer) {
+  const auto vehicle =
+      arguments.vehicle.empty() ? config::VehicleSettings{} : config::load_vehicle(arguments.vehicle);
+  std::unique_ptr<sim::Helm> helm;
+  if (!arguments.drive.empty()) {
+    helm = std::make_unique<sim::DriveHelm>(sim::load_path(arguments.drive));
+  } else {
+    helm = std::make_unique<sim::MissionHelm>(vehicle, config::load_mission(arguments.mission));
+  }
+  sim::MotionOptions options;
+  options.start_ns = arguments.begin_ns;
+  options.influencer = &influencer;
+  auto motion = std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), options);
+  const double duration_s = arguments.seconds ? *arguments.seconds : motion->duration_s();
+  return {std::move(motion), duration_s};
+}
+
+}  // namespace
+
+SimulatedRun simulate_motion(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer) {
+  try {
+    SimulatedRun run = arguments.path.empty() ? under_way(arguments, influencer) : along_path(arguments);
+    run.motion = std::make_unique<sim::MotionInField>(std::move(run.motion), arguments.place.field_world_uT);
+    return run;
+  } catch (const sim::BadPath& error) {
+    throw Failure(Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw Failure(Exit::bad_input, error.what());
+  }
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "analysis/simulate_arguments.h"
+#include "sim/state.h"
+#include "sim/vehicle/influences.h"
+
+namespace navcal::cli {
+
+struct SimulatedRun {
+  std::unique_ptr<sim::Motion> motion;
+  double duration_s = 0;
+};
+
+/// How the vehicle moves, and for how long. `influencer` must outlive the motion. Throws Failure.
+[[nodiscard]] SimulatedRun simulate_motion(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer);
+
+}  // namespace navcal::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "analysis/simulate_arguments.h"
+#include "analysis/simulate_history.h"
+#include "analysis/simulate_motion.h"
+#include "sim/effects/effect_set.h"
+
+namespace navcal::cli {
+
+/// Writes the capture, and the truth if it is wanted: both whole or not at all. `history` may be null. Throws
+/// Failure, std::system_error.
+void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
+                      SimulateHistory* history);
+
+}  // namespace navcal::cli

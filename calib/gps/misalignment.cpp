@@ -1,0 +1,85 @@
+#include "calib/gps/misalignment.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace navcal::calib {
+
+Misalignment::Misalignment(const Parameters& parameters) : parameters_(parameters), run_(parameters.run) {}
+
+void Misalignment::update_heading(double time_s, double heading_rad) {
+  if (const auto line = run_.update_heading(time_s, heading_rad)) add(*line, closed_);
+}
+
+void Misalignment::update(const GroundReading& ground) {
+  if (const auto line = run_.update(ground)) add(*line, closed_);
+}
+
+void Misalignment::add(const StraightRun::Line& line, Sum& sum) const {
+  const double offset_rad = line.heading_rad - line.course_rad;
+  if (sum.runs == 0) sum.about_rad = std::remainder(offset_rad, 2 * std::numbers::pi);
+  const double sine = std::sin(line.heading_rad), cosine = std::cos(line.heading_rad);
+  const Eigen::Vector3d row(1, sine / line.speed_m_s, -cosine / line.speed_m_s);
+  const double weight =
+      1 / (line.course_std_rad * line.course_std_rad + parameters_.run_std_rad * parameters_.run_std_rad);
+  sum.information += weight * row * row.transpose();
+  sum.right += weight * row * std::remainder(offset_rad - sum.about_rad, 2 * std::numbers::pi);
+  sum.directions += weight * Eigen::Vector2d(cosine, sine);
+  sum.length_m += line.length_m;
+  ++sum.runs;
+}
+
+std::optional<Misalignment::Estimate> Misalignment::estimate() const {
+  Sum sum = closed_;
+  if (const auto line = run_.line()) add(*line, sum);
+  if (sum.runs == 0) return std::nullopt;
+  Eigen::Matrix3d information = sum.information;
+  information.diagonal().tail<2>().array() += 1 / (parameters_.current_std_m_s * parameters_.current_std_m_s);
+  const Eigen::LDLT<Eigen::Matrix3d> solver(information);
+  const Eigen::Vector3d solution = solver.solve(sum.right);
+  const Eigen::Matrix3d covariance = solver.solve(Eigen::Matrix3d::Identity());
+  Estimate estimate;
+  estimate.offset_rad = std::remainder(sum.about_rad + solution[0], 2 * std::numbers::pi);
+  estimate.offset_std_rad = std::sqrt(covariance(0, 0));
+  estimate.offset_std_without_current_rad = 1 / std::sqrt(sum.information(0, 0));
+  // Seen from headings that are all off by A, the current is turned by as much.
+  estimate.current_m_s = Eigen::Rotation2Dd(-estimate.offset_rad) * solution.tail<2>();
+  estimate.current_std_m_s = covariance.diagonal().tail<2>().cwiseSqrt();
+  estimate.runs = sum.runs;
+  estimate.length_m = sum.length_m;
+  estimate.direction_balance = 1 - sum.directions.norm() / sum.information(0, 0);
+  return estimate;
+}
+
+Judgement Misalignment::judgement() const {
+  Judgement judgement;
+  const auto found = estimate();
+  if (!found) {
+    judgement.reason = "no straight run at the surface yet";
+    judgement.manoeuvre = "run straight at the surface, 100 m or more, then the same way back";
+    return judgement;
+  }
+  judgement.samples = found->runs;
+  judgement.coverage = found->direction_balance;
+  const double least = found->offset_std_without_current_rad;
+  judgement.condition = found->offset_std_rad / least;
+  judgement.accepted = found->offset_std_rad <= parameters_.accepted_std_rad;
+  if (judgement.accepted) return judgement;
+  if (least <= parameters_.accepted_std_rad) {
+    judgement.reason = "all runs lead one way: a current could feign the misalignment";
+    judgement.manoeuvre = "run straight the other way, as long again";
+  } else {
+    judgement.reason = "the runs are too short for fixes of this accuracy";
+    judgement.manoeuvre = "run straight at the surface, 100 m or more, both ways";
+  }
+  return judgement;
+}
+
+void Misalignment::archive(Archive& archive) {
+  archive.tag("misalignment 1");
+  archive(run_, closed_);
+}
+
+}  // namespace navcal::calib

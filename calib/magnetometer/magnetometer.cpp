@@ -1,0 +1,183 @@
+#include "calib/magnetometer/magnetometer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navcal::calib {
+
+void Magnetometer::Reading::archive(Archive& archive) {
+  archive(field_body_uT, roll_rad, pitch_rad, has_turn, turn.time_s, turn.heading_rad, turn.begins_segment);
+  archive(turn.duration_s, turn.measured_angle_rad, turn.measured_angle_b_rad, turn.bias_time_s,
+          turn.tilt_angle_rad);
+  archive(time_s, utc_ns);
+}
+
+void Magnetometer::Waiting::archive(Archive& archive) {
+  archive(reading, predicted.cell, predicted.tilt_error_rad, number);
+}
+
+Magnetometer::Estimators::Estimators(const Parameters& parameters)
+    : ellipse(parameters.ellipse),
+      gyro(parameters.gyro),
+      ellipsoid(parameters.ellipsoid),
+      predictor(parameters.ellipsoid.noise_uT, parameters.ellipsoid.known) {}
+
+void Magnetometer::Estimators::update(const Reading& reading, const PredictedReading& predicted) {
+  ellipse.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
+  ellipsoid.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
+  if (reading.has_turn) gyro.update(reading.field_body_uT, reading.roll_rad, reading.pitch_rad, reading.turn);
+  predictor.update(predicted, [this] { return ellipsoid.cells(); });
+}
+
+void Magnetometer::Estimators::archive(Archive& archive) { archive(ellipse, gyro, ellipsoid, predictor); }
+
+Magnetometer::Magnetometer(const Parameters& parameters) : parameters_(parameters), now_(parameters) {}
+
+void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad) {
+  Reading reading;
+  reading.field_body_uT = field_body_uT;
+  reading.roll_rad = roll_rad;
+  reading.pitch_rad = pitch_rad;
+  update(reading);
+}
+
+void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad,
+                          const TurnStep& turn) {
+  Reading reading;
+  reading.field_body_uT = field_body_uT;
+  reading.roll_rad = roll_rad;
+  reading.pitch_rad = pitch_rad;
+  reading.has_turn = true;
+  reading.turn = turn;
+  reading.time_s = turn.time_s;
+  update(reading);
+}
+
+PredictedReading Magnetometer::predicted_of(const Reading& reading) const {
+  // Without times: those of a compass at its usual rate.
+  constexpr double kUsualInterval_s = 0.1, kLongestInterval_s = 2;
+  PredictedReading predicted;
+  predicted.cell = cell_of(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);
+  const Eigen::Vector3d down = predicted.cell.mean.tail<3>();
+  if (!last_down_ || down.isZero(0)) return predicted;
+  const double since_s = reading.time_s - last_time_s_;
+  const double interval_s = since_s > 0 ? std::min(since_s, kLongestInterval_s) : kUsualInterval_s;
+  predicted.tilt_error_rad = parameters_.tilt_lag_s * (down - *last_down_).norm() / interval_s;
+  return predicted;
+}
+
+void Magnetometer::update(const Reading& reading) {
+  ++readings_;
+  answer_.reset();
+  if (!reading.field_body_uT.allFinite() || reading.field_body_uT.cwiseAbs().maxCoeff() > kHighestField_uT) {
+    leave_out();
+    return;
+  }
+  const Waiting next{reading, predicted_of(reading), readings_};
+  if (const Eigen::Vector3d down = next.predicted.cell.mean.tail<3>(); !down.isZero(0)) {
+    last_down_ = down;
+    last_time_s_ = reading.time_s;
+  }
+  waiting_.push_back(next);
+  const bool suspicious = watch_.update(now_.predictor.surprise(next.predicted));
+  if (watch_.since_onset() == 0) {
+    release();
+  } else if (suspicious && waiting_.size() >= std::min<std::size_t>(next_decision_, FieldStepWatch::kLongest)) {
+    decide();
+  }
+}
+
+void Magnetometer::leave_out() {
+  ++left_out_;
+  turn_broken_ = true;
+}
+
+void Magnetometer::use(const Waiting& waiting) {
+  // The turn over readings that were left out is not the one since the last that was used.
+  Reading used = waiting.reading;
+  used.turn.begins_segment = used.turn.begins_segment || turn_broken_;
+  turn_broken_ = false;
+  now_.update(used, waiting.predicted);
+  history_.add(waiting.predicted.cell, used.time_s, used.utc_ns);
+  if (history_.is_time_to_refine()) refine_history();
+  constexpr std::size_t kPast = 64;
+  past_.push_back(waiting.predicted.cell);
+  if (past_.size() > kPast) past_.pop_front();
+}
+
+void Magnetometer::refine_history() {
+  if (!history_.refine(now_.predictor.noise(), now_.predictor.belief()) || !before_) return;
+  // There was no step: the readings before it are of the same field.
+  now_.ellipse.absorb(before_->ellipse);
+  now_.ellipsoid.absorb(before_->ellipsoid);
+  before_.reset();
+}
+
+void Magnetometer::release() {
+  for (const Waiting& waiting : waiting_) {
+    if (FieldStepWatch::is_off(now_.predictor.surprise(waiting.predicted))) {
+      leave_out();
+    } else {
+      use(waiting);
+    }
+  }
+  waiting_.clear();
+  next_decision_ = 0;
+}
+
+std::optional<FieldStep> Magnetometer::last_step() const {
+  return history_.steps().empty() ? std::nullopt : std::optional(history_.steps().back());
+}
+
+void Magnetometer::set_gyro(const GyroBelief& gyro) {
+  answer_.reset();
+  parameters_.gyro.gyro = gyro;
+  now_.gyro.set_gyro(gyro);
+  if (before_) before_->gyro.set_gyro(gyro);
+}
+
+void Magnetometer::set_tilt_noise(double tilt_noise_rad) {
+  parameters_.ellipsoid.tilt_noise_rad = tilt_noise_rad;
+  now_.ellipsoid.set_tilt_noise(tilt_noise_rad);
+}
+
+void Magnetometer::set_known_field(const std::optional<KnownField>& known) {
+  answer_.reset();
+  parameters_.ellipsoid.known = known;
+  now_.ellipsoid.set_known(known);
+  if (before_) before_->ellipsoid.set_known(known);
+}
+
+void Magnetometer::settle() {
+  answer_.reset();
+  release();
+  watch_.reset();
+  refine_history();
+  now_.ellipse.settle();
+  now_.gyro.settle();
+  now_.ellipsoid.settle();
+}
+
+void Magnetometer::archive(Archive& archive) {
+  archive.tag("magnetometer 2");
+  answer_.reset();
+  archive(parameters_.gyro.gyro, now_, watch_, history_, field_steps_, readings_, left_out_, turn_broken_);
+  archive(last_down_, last_time_s_, next_decision_);
+  const auto archive_list = [&](auto& list) {
+    std::uint64_t count = list.size();
+    archive(count);
+    if (!archive.saving()) list.assign(archive.ok() && count <= FieldStepWatch::kLongest ? count : 0, {});
+    for (auto& one : list) archive(one);
+  };
+  archive_list(waiting_);
+  archive_list(past_);
+  bool has_before = before_.has_value();
+  archive(has_before);
+  if (!archive.saving()) {
+    before_.reset();
+    if (archive.ok() && has_before) before_.emplace(parameters_);
+  }
+  if (before_) archive(*before_);
+}
+
+}  // namespace navcal::calib

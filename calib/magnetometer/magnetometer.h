@@ -1,0 +1,153 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "calib/magnetometer/ellipse_estimator.h"
+#include "calib/magnetometer/ellipse_gyro.h"
+#include "calib/magnetometer/ellipsoid_estimator.h"
+#include "calib/magnetometer/field_history.h"
+#include "calib/magnetometer/field_predictor.h"
+#include "calib/magnetometer/field_step_watch.h"
+#include "calib/judgement.h"
+#include "calib/magnetometer/magnetometer_estimate.h"
+#include "calib/turn/turn_step.h"
+
+namespace navcal::calib {
+
+/// Model: measured = offset + S u, S symmetric and positive definite, u the Earth's field in body axes; uT, x
+/// forward, y starboard, z down. The rotation that a magnetometer's mounting adds cannot be told from the field
+/// alone: it is the misalignment A.
+///
+/// Runs the three estimators side by side, the ellipse of the levelled field, the same aided by the gyro, the
+/// ellipsoid, and names the one whose heading is best of those that accept.
+///
+/// A field that steps: FieldPredictor says how surprising each reading is. When a cumulative sum of surprise rises
+/// (FieldStepWatch) readings wait, and two models are compared on all that is known: one field (the readings tell
+/// something new about it), or the same soft iron with another hard iron since the onset. A step is the second,
+/// where its likelihood is much the greater, and where the change came at once. A new summary begins then; the old
+/// one is kept, and goes on should the old field return. Single readings far off are left out.
+class Magnetometer {
+ public:
+  struct Parameters {
+    EllipseEstimator::Parameters ellipse;
+    EllipseGyro::Parameters gyro;
+    EllipsoidEstimator::Parameters ellipsoid;
+    double tilt_lag_s = 0.3;  ///< of the inclinometer: how far off its tilt may be while the hull rolls
+  };
+  enum class Method : std::uint8_t { none, ellipse, gyro_aided, ellipsoid };
+
+  explicit Magnetometer(const Parameters& parameters);
+
+  void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
+  /// With the turn since the reading before, by the gyro.
+  void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad, const TurnStep& turn);
+  /// With its time, which steps of the field are told by. Roll or pitch not a number: the tilt is not known.
+  struct Reading {
+    Eigen::Vector3d field_body_uT = Eigen::Vector3d::Zero();
+    double roll_rad = 0, pitch_rad = 0;
+    bool has_turn = false;
+    TurnStep turn;
+    double time_s = 0;
+    std::int64_t utc_ns = 0;  ///< 0: not known
+    void archive(Archive& archive);
+  };
+  void update(const Reading& reading);
+  /// The gyro was calibrated meanwhile.
+  void set_gyro(const GyroBelief& gyro);
+  /// Standard deviation of the tilt of the readings that come, as far as it is noise, rad.
+  void set_tilt_noise(double tilt_noise_rad);
+  /// The Earth's field here became known, or is another one: the vehicle has moved.
+  void set_known_field(const std::optional<KnownField>& known);
+  /// Iterates to the end what update() does in slices.
+  void settle();
+
+  [[nodiscard]] Method method() const { return answer().method; }  ///< none: nothing is accepted
+  /// Of method(); of the best guess when nothing is accepted; nullopt when there is none.
+  [[nodiscard]] const std::optional<MagnetometerEstimate>& estimate() const { return answer().estimate; }
+  /// Of the same.
+  [[nodiscard]] const Judgement& judgement() const { return answer().judgement; }
+
+  [[nodiscard]] const EllipseEstimator& ellipse() const { return now_.ellipse; }
+  [[nodiscard]] const EllipseGyro& gyro_aided() const { return now_.gyro; }
+  [[nodiscard]] const EllipsoidEstimator& ellipsoid() const { return now_.ellipsoid; }
+
+  [[nodiscard]] std::uint32_t field_steps() const { return field_steps_; }
+  [[nodiscard]] std::optional<FieldStep> last_step() const;
+  /// Steps, and the segments between them.
+  [[nodiscard]] const FieldHistory& history() const { return history_; }
+  [[nodiscard]] std::uint64_t readings() const { return readings_; }
+  [[nodiscard]] std::uint64_t left_out() const { return left_out_; }  ///< not finite, absurd, or off the fit
+
+  void archive(Archive& archive);
+
+ private:
+  /// The estimators of one field.
+  struct Estimators {
+    EllipseEstimator ellipse;
+    EllipseGyro gyro;
+    EllipsoidEstimator ellipsoid;
+    FieldPredictor predictor;
+
+    explicit Estimators(const Parameters& parameters);
+    void update(const Reading& reading, const PredictedReading& predicted);
+    void archive(Archive& archive);
+  };
+
+  struct Answer {
+    Method method = Method::none;
+    std::optional<MagnetometerEstimate> estimate;
+    Judgement judgement;
+  };
+
+  [[nodiscard]] const Answer& answer() const;
+  [[nodiscard]] Answer chosen() const;
+  /// A reading that waits until it is known which field it is of.
+  struct Waiting {
+    Reading reading;
+    PredictedReading predicted;
+    std::uint64_t number = 0;
+    void archive(Archive& archive);
+  };
+
+  [[nodiscard]] PredictedReading predicted_of(const Reading& reading) const;
+  void leave_out();
+  void use(const Waiting& waiting);
+  /// All that wait are of the field so far, but for those far off.
+  void refine_history();
+  void release();
+  /// Compares one field with a step, and does what follows.
+  void decide();
+  void change_field(const FieldStep& step);
+  struct Comparison;
+  [[nodiscard]] Comparison compare() const;
+  /// The first of those that wait that is of the new field, by the greatest likelihood.
+  [[nodiscard]] std::size_t onset_of(const Comparison& found) const;
+  void use_those_before(std::size_t onset);
+  /// Readings of neither field, taken while it changed.
+  void leave_out_those_between(const Comparison& found);
+  /// Of the readings about the onset, where the gyro says how far the hull turned meanwhile.
+  [[nodiscard]] std::optional<FieldContrast> contrast(const FieldStep& step) const;
+  [[nodiscard]] bool is_field_before() const;
+
+  Parameters parameters_;
+  Estimators now_;
+  std::optional<Estimators> before_;  ///< those of the field before the last step
+  FieldStepWatch watch_;
+  FieldHistory history_;
+  std::vector<Waiting> waiting_;             ///< since the sum of surprise last was zero
+  std::uint64_t next_decision_ = 0;          ///< readings that must wait before it is looked again
+  std::deque<FieldCells<3, 6>::Cell> past_;  ///< the last that were used
+  std::optional<Eigen::Vector3d> last_down_;
+  double last_time_s_ = 0;
+  std::uint32_t field_steps_ = 0;
+  std::uint64_t readings_ = 0;
+  std::uint64_t left_out_ = 0;
+  mutable std::optional<Answer> answer_;  ///< to judge takes longer than to learn; empty: not asked since
+  bool turn_broken_ = false;              ///< a reading was left out since the last that was used
+};
+
+}  // namespace navcal::calib

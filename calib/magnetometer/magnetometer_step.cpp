@@ -1,0 +1,237 @@
+// Whether the field has stepped, and what follows.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "calib/magnetometer/field_cells.h"
+#include "calib/magnetometer/magnetometer.h"
+
+namespace navcal::calib {
+namespace {
+
+using Cell = FieldCells<3, 6>::Cell;
+
+/// A smaller change of hard iron is none that anybody has to know of, and none that a fit notices.
+constexpr double kLeastStep_uT = 0.5;
+/// Twice the logarithm of the likelihood ratio at which three more parameters are believed; 30 has a chance of
+/// 1e-6 where there is no step, and errors that are alike in neighbouring readings are worth several times that.
+constexpr double kLeastGain = 60;
+/// Below it one field explains all; between the two more readings will tell.
+constexpr double kUndecided = 8;
+/// A magnet takes a second to be put on: so many readings let the new field settle.
+constexpr std::uint64_t kLeastWaiting = 20;
+/// Squared departure beyond which a single reading is worth no more.
+constexpr double kMostSquare = 36;
+/// The step must explain this share of what the readings are off.
+constexpr double kLeastShare = 0.5;
+
+double squares_of(const EllipsoidCells& cells, EllipsoidShape shape, const Eigen::Vector3d& centre_uT,
+                  const SegmentNoise& noise) {
+  shape.centre_uT = centre_uT;
+  double sum = 0;
+  for (const Cell& cell : cells) sum += segment_residual(shape, cell, noise).square();
+  return sum;
+}
+
+double freedom_of(const EllipsoidCells& cells) { return static_cast<double>(2 * cells.size()); }
+
+}  // namespace
+
+/// One field or two, on the readings before and those that wait.
+struct Magnetometer::Comparison {
+  SegmentNoise noise;
+  std::optional<SegmentsFit> one, two;
+  EllipsoidCells waiting;
+  double gain = 0;      ///< of the likelihood, twice its logarithm, in units of the scatter that remains
+  bool sudden = false;  ///< the readings just before the onset are of the field before
+
+  [[nodiscard]] Eigen::Vector3d size_uT() const { return two->centres_uT[1] - two->centres_uT[0]; }
+};
+
+Magnetometer::Comparison Magnetometer::compare() const {
+  Comparison found;
+  found.noise = now_.predictor.noise();
+  const SegmentNoise& noise = found.noise;
+  const SegmentBelief& belief = now_.predictor.belief();
+  const EllipsoidCells before = now_.ellipsoid.cells();
+  // Of a hull that rolls the tilt lags and its accelerations show: then the size of the field alone is asked.
+  constexpr double kAgitated_rad = 0.03;
+  double lag2 = 0;
+  for (const Waiting& waiting : waiting_)
+    lag2 += waiting.predicted.tilt_error_rad * waiting.predicted.tilt_error_rad;
+  const bool agitated = lag2 > kAgitated_rad * kAgitated_rad * static_cast<double>(waiting_.size());
+  // Readings at one attitude share their errors: a cell of them is worth hardly more than one.
+  FieldCells<3, 6> cells(kCellSize_uT);
+  for (const Waiting& waiting : waiting_) {
+    auto reading = waiting.predicted.cell.mean;
+    if (agitated) reading.tail<3>().setZero();
+    cells.add(reading);
+  }
+  found.waiting = cells.cells();
+  EllipsoidCells all = before;
+  all.insert(all.end(), found.waiting.begin(), found.waiting.end());
+  const std::array<const EllipsoidCells*, 1> together{&all};
+  const std::array<const EllipsoidCells*, 2> apart{&before, &found.waiting};
+  found.one = fit_segments(together, noise, belief, &now_.predictor.shape());
+  if (const auto anew = fit_segments(together, noise, belief); anew && found.one && anew->cost < found.one->cost)
+    found.one = anew;
+  found.two = fit_segments(apart, noise, belief, &now_.predictor.shape());
+  if (!found.one || !found.two) return found;
+  // The second contains the first: it may begin from there.
+  if (const auto other = fit_segments(apart, noise, belief, &found.one->shape); other->cost < found.two->cost)
+    found.two = other;
+  const double left = squares_of(found.waiting, found.two->shape, found.two->centres_uT[1], noise);
+  const double scatter = std::max(1.0, left / freedom_of(found.waiting));
+  found.gain = (found.one->cost - found.two->cost) / scatter;
+
+  // A drift has gone part of its way before the onset; a step has not begun.
+  const EllipsoidCells past(past_.begin(), past_.end());
+  const auto& centres = found.two->centres_uT;
+  const Eigen::Vector3d half_way = (centres[0] + centres[1]) / 2;
+  found.sudden =
+      squares_of(past, found.two->shape, centres[0], noise) <= squares_of(past, found.two->shape, half_way, noise);
+  return found;
+}
+
+void Magnetometer::decide() {
+  if (waiting_.size() < kLeastWaiting) {
+    next_decision_ = kLeastWaiting;
+    return;
+  }
+  const Comparison found = compare();
+  if (!found.one || !found.two) {
+    watch_.reset();
+    release();
+    return;
+  }
+  const SegmentNoise& noise = found.noise;
+  const double unexplained = squares_of(found.waiting, found.two->shape, found.two->centres_uT[1], noise);
+  const double surprising =
+      squares_of(found.waiting, now_.predictor.shape(), now_.predictor.shape().centre_uT, noise);
+  const bool explained = surprising - unexplained > kLeastShare * surprising;
+  if (found.gain > kLeastGain && found.size_uT().norm() > kLeastStep_uT && explained && found.sudden) {
+    use_those_before(onset_of(found));
+    FieldStep step;
+    step.onset_sample = waiting_.front().number;
+    step.found_sample = readings_;
+    step.time_s = waiting_.front().reading.time_s;
+    step.utc_ns = waiting_.front().reading.utc_ns;
+    step.size_uT = found.size_uT();
+    step.std_uT = found.two->covariance.diagonal().tail<3>().cwiseSqrt();
+    leave_out_those_between(found);
+    step.contrast = contrast(step);
+    change_field(step);
+    return;
+  }
+  // The readings so far may fit both; more of them will tell.
+  if (found.gain > kUndecided && waiting_.size() < FieldStepWatch::kLongest) {
+    next_decision_ = waiting_.size() + std::max<std::size_t>(4, waiting_.size() / 2);
+    return;
+  }
+  // What one field explains when all readings are known is news of that field.
+  now_.predictor.set_fit(*found.one);
+  watch_.reset();
+  release();
+}
+
+std::size_t Magnetometer::onset_of(const Comparison& found) const {
+  const SegmentNoise& noise = found.noise;
+  EllipsoidShape before = found.two->shape, after = before;
+  after.centre_uT = found.two->centres_uT[1];
+  double sum = 0, least = 0;
+  std::size_t onset = 0;
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const auto& cell = waiting_[i].predicted.cell;
+    sum += std::min(segment_residual(before, cell, noise).square(), kMostSquare) -
+           std::min(segment_residual(after, cell, noise).square(), kMostSquare);
+    if (sum >= least) continue;
+    least = sum;
+    onset = i + 1;
+  }
+  // The last of them belong to the new field, or there would be no step.
+  return std::min(onset, waiting_.size() - 1);
+}
+
+void Magnetometer::use_those_before(std::size_t onset) {
+  for (std::size_t i = 0; i < onset; ++i) use(waiting_[i]);
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(onset));
+}
+
+void Magnetometer::leave_out_those_between(const Comparison& found) {
+  const SegmentsFit& two = *found.two;
+  EllipsoidShape after = two.shape;
+  after.centre_uT = two.centres_uT[1];
+  const auto is_between = [&](const Waiting& waiting) {
+    return segment_residual(after, waiting.predicted.cell, found.noise).square() > kMostSquare;
+  };
+  const auto kept = std::remove_if(waiting_.begin(), waiting_.end(), is_between);
+  left_out_ += static_cast<std::uint64_t>(waiting_.end() - kept);
+  waiting_.erase(kept, waiting_.end());
+}
+
+std::optional<FieldContrast> Magnetometer::contrast(const FieldStep& step) const {
+  constexpr std::size_t kReadings = 5;
+  constexpr double kGyroBias_rad_s = 0.1, kTilt_rad = 0.02, kUsualInterval_s = 0.1, kUnknownTurn_rad = 0.5;
+  if (past_.size() < kReadings || waiting_.size() < 2 * kReadings) return std::nullopt;
+  using Mean = FieldCells<3, 6>::Vector;
+  // A magnet that is still on its way shows as a difference between the first readings and those that follow.
+  Mean before = Mean::Zero(), first = Mean::Zero(), after = Mean::Zero();
+  double turned_rad = 0;
+  bool turn_known = true;
+  for (std::size_t i = 0; i < 2 * kReadings; ++i) {
+    const Reading& reading = waiting_[i].reading;
+    (i < kReadings ? first : after) += waiting_[i].predicted.cell.mean / kReadings;
+    if (i < kReadings) before += past_[past_.size() - 1 - i].mean / kReadings;
+    turn_known = turn_known && reading.has_turn && !reading.turn.begins_segment;
+    turned_rad += reading.turn.measured_angle_rad;
+  }
+  const Eigen::Vector3d field = before.head<3>(), down = before.tail<3>();
+  if (down.isZero(0)) return std::nullopt;
+  // Between the means; those left out in between count by their number.
+  const double between = static_cast<double>(waiting_.front().number - step.onset_sample + 2 * kReadings);
+  const double turn_std_rad =
+      turn_known ? std::abs(turned_rad) + kGyroBias_rad_s * kUsualInterval_s * between : kUnknownTurn_rad;
+  const double tilt_std_rad = (after.tail<3>() - down).norm() + kTilt_rad;
+  const double noise_uT = now_.predictor.noise().field_uT;
+  const Eigen::Vector3d by_turn = turn_std_rad * down.cross(field), moving = (after - first).head<3>();
+  FieldContrast found;
+  found.size_uT = after.head<3>() - field;
+  found.std_uT =
+      (by_turn.array().square() + moving.array().square() +
+       tilt_std_rad * tilt_std_rad * (field.squaredNorm() - field.array().square()) + noise_uT * noise_uT)
+          .sqrt();
+  return found;
+}
+
+bool Magnetometer::is_field_before() const {
+  if (!before_) return false;
+  // Judged as the watch judges: on the mean less than two standard deviations off, by a fit that knows.
+  constexpr double kFits = 4;
+  double sum = 0;
+  std::size_t known = 0;
+  for (const Waiting& waiting : waiting_) {
+    const auto exact = before_->predictor.exact(waiting.predicted);
+    sum += std::min(exact.surprise, 25.0);
+    if (exact.known) ++known;
+  }
+  return sum < kFits * static_cast<double>(waiting_.size()) && 2 * known > waiting_.size();
+}
+
+void Magnetometer::change_field(const FieldStep& found) {
+  FieldStep step = found;
+  step.returned = is_field_before();
+  history_.begin_segment(step, now_.predictor.noise(), now_.predictor.belief());
+  Estimators next = step.returned ? *before_ : Estimators(parameters_);
+  before_ = now_;
+  now_ = std::move(next);
+  ++field_steps_;
+  watch_.reset();
+  past_.clear();
+  turn_broken_ = true;
+  for (const Waiting& waiting : waiting_) use(waiting);
+  waiting_.clear();
+  next_decision_ = 0;
+}
+
+}  // namespace navcal::calib

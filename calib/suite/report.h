@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calib/correction.h"
+#include "calib/suite/gate.h"
+#include "calib/suite/in_force.h"
+#include "calib/judgement.h"
+#include "calib/magnetometer/magnetometer_estimate.h"
+
+namespace navcal::calib {
+
+enum class Verdict : std::uint8_t {
+  refused,   ///< the data do not support the estimate; its judgement says why and what to do
+  shadow,    ///< accepted, runs beside what is in force
+  in_force,  ///< what is in force is this calibrator's (an earlier estimate of it)
+};
+[[nodiscard]] std::string_view name_of(Verdict verdict);
+
+/// What the estimate is worth, for people.
+enum class Outcome : std::uint8_t {
+  refused,    ///< the data do not support it
+  no_better,  ///< supported, but readings that had no part in it are no better with it than before
+  accepted,
+};
+/// "refused", "no better", "accepted".
+[[nodiscard]] std::string_view name_of(Outcome outcome);
+
+/// One number of an estimate with its standard error. Units as in its name: rad, rad/s, s, uT, or none.
+struct Quantity {
+  std::string_view name;  ///< "scale", "bias_rad_s", "B_rad"
+  double value = 0;       ///< not a number when it is not determined
+  double std = 0;         ///< infinite when it is not known
+};
+
+/// What one calibrator says now.
+struct CalibratorReport {
+  Calibrator calibrator = Calibrator::gyro;
+  Verdict verdict = Verdict::refused;
+  Outcome outcome = Outcome::refused;
+  Judgement judgement;
+  std::vector<Quantity> estimate;  ///< empty when there is none yet
+  Eigen::MatrixXd covariance;      ///< of compass (B..E) and GPS-aided compass; empty of the others
+  bool held = false;               ///< rolled back: comes into force only by the operator's word
+  std::size_t steps_back = 0;      ///< changes that can be rolled back
+
+  /// Null when the estimate has no such number.
+  [[nodiscard]] const Quantity* quantity(std::string_view name) const;
+};
+
+/// Root-mean-square of heading against the integrated gyro within blocks, by estimates made before each block.
+struct HeadingCheck {
+  std::uint64_t blocks = 0;  ///< 0: nothing was judged yet
+  double before_rad = 0;     ///< as the device says it
+  double after_rad = 0;      ///< by the best that the calibrators say
+  double in_force_rad = 0;   ///< by the calibration in force
+};
+
+/// "2030-01-01T00:00:45.312Z"; of 0 that it is not known.
+[[nodiscard]] std::string utc_text(std::int64_t utc_ns);
+/// "the field stepped by (-1.5, -0.5, -13.6) +- (0.2, 0.1, 0.1) uT at 2030-01-01T00:00:45.312Z", in body axes; of
+/// a return to the field before it says so.
+[[nodiscard]] std::string words_of(const FieldStep& step);
+
+/// The whole suite, for status, log and calibrate.
+struct Report {
+  CorrectionName name;  ///< of the calibration in force
+  Correction in_force;
+  Correction estimates;                       ///< the newest of each calibrator that has one, accepted or not
+  std::vector<CalibratorReport> calibrators;  ///< those that have instruments, in the order of kCalibrators
+  HeadingCheck heading;
+  Rose rose{};                         ///< headings visited, as the compass says them
+  std::vector<FieldStep> steps;        ///< of the field of the compass
+  std::vector<FieldSegment> segments;  ///< between them, one more than steps; empty without readings of the field
+  GateCounts gate;
+
+  /// Null when it has no instruments.
+  [[nodiscard]] const CalibratorReport* find(Calibrator calibrator) const;
+};
+
+}  // namespace navcal::calib

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/archive.h"
+#include "calib/suite/estimators.h"
+#include "calib/magnetometer/field_comparison.h"
+#include "calib/suite/gate.h"
+#include "calib/turn/held_out.h"
+#include "calib/suite/in_force.h"
+#include "calib/suite/report.h"
+#include "calib/suite/suite_options.h"
+
+namespace navcal::calib {
+
+/// Which instruments there are: a calibrator without its own is not reported.
+struct Instruments {
+  bool compass = false, rate = false, ground = false, motor = false;
+};
+
+/// Everything that calibrates: readings in, the calibration in force and what is thought of it out. Readings go
+/// through the Gate to all estimators; their estimates run in shadow, are judged on readings held out (HeldOut),
+/// and come into force when they are accepted and better by the margin, or by the operator's word. The same calls
+/// in the same order give the same results to the last bit.
+class Suite {
+ public:
+  Suite(const SuiteOptions& options, Instruments instruments);
+
+  void put(const Reading& reading);
+  /// No more readings come: all that wait are used, and what iterates iterates to its end.
+  void finish();
+  /// Readings go on after a pause of unknown length, on another clock.
+  void restart() { gate_.restart(); }
+
+  [[nodiscard]] const InForce& in_force() const { return in_force_; }
+  /// A calibrator whose estimate came into force by itself since the last call; to be called until there is none.
+  std::optional<Calibrator> take_adopted();
+
+  /// A step of the field that was found since the last call.
+  std::optional<FieldStep> take_field_step();
+
+  /// The Earth's field here became known, or is another one: the vehicle has moved.
+  void set_local_field(const LocalField& field);
+
+  // The operator's word. Each returns why it cannot be done; empty: it is done.
+  /// `force`: also an estimate that is refused.
+  std::string accept(Calibrator calibrator, bool force = false);
+  std::string roll_back(Calibrator calibrator);
+  std::string start(Calibrator calibrator);
+
+  [[nodiscard]] Report report() const;
+  void archive(Archive& archive);
+
+ private:
+  void process(const Reading& reading);
+  void take_turned();
+  void judge(const TurnedReading& turned);
+  [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
+  /// The first instrument it takes that is configured and has said nothing; empty when all have.
+  [[nodiscard]] std::string silent_instrument(Calibrator calibrator) const;
+  /// Whether the compass has said so much that a field, if none has come so far, will not come.
+  [[nodiscard]] bool gives_no_field() const;
+  [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
+  /// Looks anew whether a calibrator's estimate is accepted.
+  void refresh_accepted(Calibrator calibrator);
+  /// Held out, the estimate is better than what is in force, and no other instrument contradicts it.
+  [[nodiscard]] bool is_better(Calibrator calibrator) const;
+  void adopt_what_is_better();
+  /// Verdict, outcome and held-out figures of one calibrator.
+  void judge(CalibratorReport& report, const Correction& in_force) const;
+  void adopt(Calibrator calibrator, const Correction& estimates);
+  void on_change(Calibrator calibrator);
+
+  SuiteOptions options_;
+  Instruments instruments_;
+  Gate gate_;
+  Estimators estimators_;
+  HeldOut held_out_;
+  FieldComparison field_;  ///< of the magnetometer, by the field alone
+  InForce in_force_;
+  Correction accepted_;  ///< as of not long ago: one calibrator is judged after the other, for it takes time
+  std::uint64_t readings_ = 0;
+  std::array<bool, kCalibrators.size()> held_{};     ///< rolled back: only the operator brings it back
+  std::array<bool, kCalibrators.size()> adopted_{};  ///< not told yet
+  Rose rose_{};
+  std::uint32_t told_steps_ = 0;
+};
+
+}  // namespace navcal::calib

@@ -1,0 +1,186 @@
+#include "calib/turn/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+
+namespace navcal::calib {
+namespace {
+
+/// Of a block beside the newest.
+constexpr double kForgetting = 0.9;
+/// A block that turns by less does not tell deviations apart.
+constexpr double kLeastTurn_rad = 0.5;
+
+/// `base` with the estimate of one calibrator.
+Correction with(const Correction& base, const Correction& estimates, Calibrator calibrator) {
+  Correction changed = base;
+  copy_value(changed, estimates, calibrator);
+  return changed;
+}
+
+/// `base` with every estimate that there is.
+Correction with_all(const Correction& base, const Correction& estimates) {
+  Correction changed = base;
+  for (const Calibrator calibrator : kCalibrators) {
+    if (has(estimates, calibrator)) copy_value(changed, estimates, calibrator);
+  }
+  return changed;
+}
+
+}  // namespace
+
+void Comparison::Sums::add(double before_square, double in_force_square, double estimate_square) {
+  before = kForgetting * before + before_square;
+  in_force = kForgetting * in_force + in_force_square;
+  estimate = kForgetting * estimate + estimate_square;
+  const double gain = in_force_square - estimate_square;
+  gain_square = kForgetting * gain_square + gain * gain;
+  weight = kForgetting * weight + 1;
+  weight_square = kForgetting * kForgetting * weight_square + 1;
+  ++blocks;
+}
+
+double Comparison::Sums::rms(double sum) const { return weight > 0 ? std::sqrt(sum / weight) : 0; }
+
+double Comparison::Sums::significance() const {
+  if (blocks < 2) return 0;
+  const double mean = (in_force - estimate) / weight;
+  const double others = weight * weight / weight_square - 1;  // blocks that count, less one
+  const double variance = std::max(gain_square / weight - mean * mean, 0.0) / others;
+  return variance > 0 ? mean / std::sqrt(variance) : mean > 0 ? kLeastStandardErrors : 0;
+}
+
+void Comparison::add(double before_square, double in_force_square, double estimate_square) {
+  all_.add(before_square, in_force_square, estimate_square);
+  since_change_.add(before_square, in_force_square, estimate_square);
+}
+
+bool Comparison::better_by(double margin) const {
+  const Sums& s = since_change_;
+  return s.blocks >= kLeastBlocks && s.significance() >= kLeastStandardErrors &&
+         s.rms(s.estimate) < (1 - margin) * s.rms(s.in_force);
+}
+
+bool Comparison::contradicts() const {
+  const Sums& s = since_change_;
+  return s.blocks >= kLeastBlocks && s.rms(s.estimate) > s.rms(s.in_force);
+}
+
+void HeldOut::Scatter::add(double residual_rad) {
+  // About the mean so far, so that a residual near plus or minus pi is no leap.
+  const double departure = base::wrapped(residual_rad - mean);
+  ++count;
+  mean += departure / count;
+  sum += departure * departure * (count - 1) / count;
+}
+
+void HeldOut::Block::archive(Archive& archive) {
+  archive(in_force, estimates, readings, measured_rad, measured_b_rad, bias_s, tilt_rad, least_turn_rad,
+          most_turn_rad, before, with_in_force, with_all, with, gyros);
+}
+
+const Comparison& HeldOut::of(Calibrator calibrator) const {
+  return comparisons_[static_cast<std::size_t>(calibrator)];
+}
+
+void HeldOut::on_change() {
+  for (Comparison& comparison : comparisons_) comparison.on_change();
+  heading_.on_change();
+  in_block_ = false;
+}
+
+void HeldOut::forget(Calibrator calibrator) {
+  comparisons_[static_cast<std::size_t>(calibrator)] = {};
+  in_block_ = false;
+}
+
+void HeldOut::begin(const Correction& in_force, const Correction& estimates) {
+  block_ = {};
+  block_.in_force = in_force;
+  block_.estimates = estimates;
+  in_block_ = true;
+}
+
+bool HeldOut::update(const CompassReading& reading, const TurnStep& step, const Correction& in_force,
+                     const Correction& estimates) {
+  if (!in_block_ || step.begins_segment) {
+    begin(in_force, estimates);
+  } else {
+    block_.measured_rad += step.measured_angle_rad;
+    block_.measured_b_rad += step.measured_angle_b_rad;
+    block_.bias_s += step.bias_time_s;
+    block_.tilt_rad += step.tilt_angle_rad;
+  }
+  // One block is of one kind of reading: a heading of the field cannot be compared with one without.
+  const bool needs_field = block_.in_force.magnetometer || block_.estimates.magnetometer;
+  if (!reading.heading_rad || (needs_field && !reading.field_body_uT)) return false;
+  judge_headings(reading);
+  judge_gyros(reading);
+  if (++block_.readings < kReadings) return false;
+  end();
+  in_block_ = false;
+  return true;
+}
+
+double HeldOut::turn(const std::optional<RateCorrection>& gyro, bool b) const {
+  const double measured_rad = b ? block_.measured_b_rad : block_.measured_rad;
+  const RateCorrection correction = gyro.value_or(RateCorrection{});
+  return correction.scale * measured_rad + correction.bias_rad_s * block_.bias_s + block_.tilt_rad;
+}
+
+const std::optional<RateCorrection>& HeldOut::reference_gyro() const {
+  return block_.estimates.gyro ? block_.estimates.gyro : block_.in_force.gyro;
+}
+
+void HeldOut::judge_headings(const CompassReading& reading) {
+  if (!reference_gyro()) return;
+  const double turn_rad = turn(reference_gyro(), false);
+  block_.least_turn_rad = std::min(block_.least_turn_rad, turn_rad);
+  block_.most_turn_rad = std::max(block_.most_turn_rad, turn_rad);
+  const auto residual = [&](const Correction& correction) {
+    return best_heading(correction, reading).value_or(0) - turn_rad;
+  };
+  block_.before.add(*reading.heading_rad - turn_rad);
+  block_.with_in_force.add(residual(block_.in_force));
+  block_.with_all.add(residual(with_all(block_.in_force, block_.estimates)));
+  for (std::size_t i = 0; i < kHeadings.size(); ++i) {
+    if (has(block_.estimates, kHeadings[i]))
+      block_.with[i].add(residual(with(block_.in_force, block_.estimates, kHeadings[i])));
+  }
+}
+
+void HeldOut::judge_gyros(const CompassReading& reading) {
+  const double heading_rad = best_heading(with_all(block_.in_force, block_.estimates), reading).value_or(0);
+  for (std::size_t i = 0; i < kGyros.size(); ++i) {
+    if (!has(block_.estimates, kGyros[i])) continue;
+    const bool b = kGyros[i] == Calibrator::gyro_b;
+    block_.gyros[i].before.add(heading_rad - turn(std::nullopt, b));
+    block_.gyros[i].in_force.add(heading_rad - turn(b ? block_.in_force.gyro_b : block_.in_force.gyro, b));
+    block_.gyros[i].estimate.add(heading_rad - turn(b ? block_.estimates.gyro_b : block_.estimates.gyro, b));
+  }
+}
+
+void HeldOut::end() {
+  for (std::size_t i = 0; i < kGyros.size(); ++i) {
+    const auto& [before, in_force, estimate] = block_.gyros[i];
+    if (estimate.count > 0) {
+      comparisons_[static_cast<std::size_t>(kGyros[i])].add(before.square(), in_force.square(), estimate.square());
+    }
+  }
+  if (!reference_gyro() || block_.most_turn_rad - block_.least_turn_rad < kLeastTurn_rad) return;
+  const double before = block_.before.square(), in_force = block_.with_in_force.square();
+  heading_.add(before, in_force, block_.with_all.square());
+  for (std::size_t i = 0; i < kHeadings.size(); ++i) {
+    if (block_.with[i].count > 0)
+      comparisons_[static_cast<std::size_t>(kHeadings[i])].add(before, in_force, block_.with[i].square());
+  }
+}
+
+void HeldOut::archive(Archive& archive) {
+  archive.tag("held_out 1");
+  archive(block_, in_block_, comparisons_, heading_);
+}
+
+}  // namespace navcal::calib

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "calib/archive.h"
+#include "calib/correction.h"
+#include "calib/turn/turn_step.h"
+
+namespace navcal::calib {
+
+/// Root-mean-squares over blocks, the newest counting most, of one quantity: as the instrument says it, by what is
+/// in force, and by the estimate.
+class Comparison {
+ public:
+  void add(double before_square, double in_force_square, double estimate_square);
+  /// Something else is in force from now on.
+  void on_change() { since_change_ = {}; }
+  /// The estimate beats what is in force by this relative margin, and from block to block by more than chance
+  /// would have it: three standard errors of the mean gain.
+  [[nodiscard]] bool better_by(double margin) const;
+
+  /// The estimate was judged by enough blocks and did no better than what is in force.
+  [[nodiscard]] bool contradicts() const;
+
+  [[nodiscard]] double before_rms() const { return all_.rms(all_.before); }
+  [[nodiscard]] double in_force_rms() const { return since_change_.rms(since_change_.in_force); }
+  [[nodiscard]] double estimate_rms() const { return all_.rms(all_.estimate); }
+  [[nodiscard]] std::uint64_t blocks() const { return all_.blocks; }
+  /// Enough blocks were judged for a verdict.
+  [[nodiscard]] bool is_judged() const { return all_.blocks >= kLeastBlocks; }
+  void archive(Archive& archive) { archive(all_, since_change_); }
+
+ private:
+  static constexpr std::uint64_t kLeastBlocks = 3;
+  static constexpr double kLeastStandardErrors = 3;
+  struct Sums {
+    double before = 0, in_force = 0, estimate = 0;
+    double gain_square = 0;  ///< of in_force less estimate
+    double weight = 0, weight_square = 0;
+    std::uint64_t blocks = 0;
+    void add(double before_square, double in_force_square, double estimate_square);
+    [[nodiscard]] double rms(double sum) const;
+    /// Mean gain over its standard error; 0 before the second block.
+    [[nodiscard]] double significance() const;
+    void archive(Archive& archive) {
+      archive(before, in_force, estimate, gain_square, weight, weight_square, blocks);
+    }
+  };
+  Sums all_, since_change_;
+};
+
+/// Model: heading_i = psi0 + turn_i + residual_i (rad) within a block of consecutive readings, psi0 free, the turn
+/// by TurnStep. Prequential (Dawid, J. Royal Statistical Society A 147, 1984): a block is judged by corrections
+/// made before it began, so no reading has a part in what it judges. Blocks are counted in readings. Compasses are
+/// judged against the calibrated gyro, and only by blocks that turn; gyros against the corrected heading.
+class HeldOut {
+ public:
+  static constexpr std::uint32_t kReadings = 100;
+
+  /// `estimates`: those that are accepted, at this reading. True when a block was ended by it.
+  bool update(const CompassReading& reading, const TurnStep& step, const Correction& in_force,
+              const Correction& estimates);
+
+  /// Of gyro, gyro_b, compass, magnetometer, gps_compass, swing; empty for others.
+  [[nodiscard]] const Comparison& of(Calibrator calibrator) const;
+  /// Of the heading with all estimates together.
+  [[nodiscard]] const Comparison& heading() const { return heading_; }
+  /// Something else is in force from now on.
+  void on_change();
+  /// A calibrator begins anew.
+  void forget(Calibrator calibrator);
+  void archive(Archive& archive);
+
+ private:
+  /// Mean and scatter of residuals, by Welford.
+  struct Scatter {
+    double count = 0, mean = 0, sum = 0;
+    void add(double residual_rad);
+    [[nodiscard]] double square() const { return count > 0 ? sum / count : 0; }
+    void archive(Archive& archive) { archive(count, mean, sum); }
+  };
+  static constexpr std::array kHeadings{Calibrator::compass, Calibrator::magnetometer, Calibrator::gps_compass,
+                                        Calibrator::swing};
+  static constexpr std::array kGyros{Calibrator::gyro, Calibrator::gyro_b};
+  struct GyroScatter {
+    Scatter before, in_force, estimate;
+    void archive(Archive& archive) { archive(before, in_force, estimate); }
+  };
+  struct Block {
+    Correction in_force, estimates;  ///< as they were before it
+    std::uint32_t readings = 0;
+    double measured_rad = 0, measured_b_rad = 0, bias_s = 0,
+           tilt_rad = 0;  ///< TurnStep, summed from its beginning
+    double least_turn_rad = 0, most_turn_rad = 0;
+    Scatter before, with_in_force, with_all;
+    std::array<Scatter, kHeadings.size()> with;  ///< what is in force but for one
+    std::array<GyroScatter, kGyros.size()> gyros;
+    void archive(Archive& archive);
+  };
+
+  void begin(const Correction& in_force, const Correction& estimates);
+  void judge_headings(const CompassReading& reading);
+  void judge_gyros(const CompassReading& reading);
+  void end();
+  [[nodiscard]] double turn(const std::optional<RateCorrection>& gyro, bool b) const;
+  [[nodiscard]] const std::optional<RateCorrection>& reference_gyro() const;
+
+  Block block_;
+  bool in_block_ = false;
+  std::array<Comparison, kCalibrators.size()> comparisons_{};
+  Comparison heading_;
+};
+
+}  // namespace navcal::calib

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+
+#include "calib/turn/turn_filter.h"
+
+namespace navcal::calib {
+
+/// Turn filters for several walks of the gyro's bias, weighed by how probable each makes the readings
+/// (multiple-model estimation; Magill, IEEE Trans. Automatic Control 10, 1965). The walks are none, a tenth of the
+/// one in the parameters, and that one. A gyro whose bias stays is so calibrated several times as well as one that
+/// drifts, and nobody has to say which it is. No weight falls so far that it could not come back when the bias
+/// begins to drift.
+class TurnFilterBank {
+ public:
+  explicit TurnFilterBank(const TurnFilter::Parameters& parameters,
+                          const TurnPrior& prior = TurnPrior::unknown_both());
+
+  void update(const TurnStep& step);
+
+  /// Mean over the filters.
+  [[nodiscard]] TurnCoefficients estimate() const;
+  /// About that mean: each filter's own, and how far they are apart.
+  [[nodiscard]] TurnCovariance covariance() const;
+  // Of the most probable filter, as in TurnFilter.
+  [[nodiscard]] double condition() const { return best().condition(); }
+  [[nodiscard]] double reduced_chi_squared() const { return best().reduced_chi_squared(); }
+  [[nodiscard]] std::uint64_t readings() const { return filters_.front().readings(); }
+
+  void archive(Archive& archive);
+
+ private:
+  static constexpr std::size_t kFilters = 3;
+
+  [[nodiscard]] std::array<double, kFilters> weights() const;
+  [[nodiscard]] const TurnFilter& best() const;
+
+  std::array<TurnFilter, kFilters> filters_;
+  std::array<double, kFilters> log_weights_;
+};
+
+}  // namespace navcal::calib

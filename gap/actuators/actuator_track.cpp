@@ -1,0 +1,63 @@
+#include "gap/actuators/actuator_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kCurrentMean_s = 4;
+
+}  // namespace
+
+ActuatorTrack::ActuatorTrack(std::span<const MotorReading> readings, std::span<const double> order_times_s,
+                             double servo_lag_s, double duration_s)
+    : orders_(readings, order_times_s, servo_lag_s),
+      rows_(static_cast<std::size_t>(std::ceil(std::max(duration_s, 0.0) / kStep_s)) + 2) {
+  const auto servos_rad = orders_.servos_rad(rows_.size(), kStep_s);
+  for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].fins_rad = servos_rad[k];
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const double time_s = static_cast<double>(k) * kStep_s;
+    while (at + 1 < readings.size() && readings[at + 1].time_s <= time_s) ++at;
+    double rpm = readings[at].rpm;
+    if (at + 1 < readings.size() && time_s > readings[at].time_s) {
+      const double part = (time_s - readings[at].time_s) / (readings[at + 1].time_s - readings[at].time_s);
+      rpm += part * (readings[at + 1].rpm - rpm);
+    }
+    rows_[k].shaft_rps = rpm / 60;
+  }
+}
+
+std::vector<double> ActuatorTrack::current_A(std::span<const MotorReading> readings,
+                                             std::span<const double> nominal_A) const {
+  std::vector<double> excess(rows_.size());
+  double mean = 0;
+  bool begun = false;
+  for (int pass = 0; pass < 2; ++pass) {  // forth and back, so that nothing lags
+    std::size_t at = pass == 0 ? 0 : readings.size();
+    const auto row_of = [&](const MotorReading& reading) {
+      return static_cast<std::size_t>(
+          std::clamp(reading.time_s / kStep_s, 0.0, static_cast<double>(rows_.size() - 1)));
+    };
+    for (std::size_t n = 0; n < rows_.size(); ++n) {
+      const std::size_t k = pass == 0 ? n : rows_.size() - 1 - n;
+      const auto take = [&](const MotorReading& reading) {
+        const double difference = reading.current_A - nominal_A[row_of(reading)];
+        mean += (begun ? 0.1 / kCurrentMean_s : 1.0) * (difference - mean);
+        begun = true;
+      };
+      if (pass == 0) {
+        while (at < readings.size() && row_of(readings[at]) <= k) take(readings[at++]);
+      } else {
+        while (at > 0 && row_of(readings[at - 1]) >= k) take(readings[--at]);
+      }
+      excess[k] += mean / 2;
+    }
+  }
+  std::vector<double> current(rows_.size());
+  for (std::size_t k = 0; k < current.size(); ++k) current[k] = nominal_A[k] + excess[k];
+  return current;
+}
+
+}  // namespace navcal::gap

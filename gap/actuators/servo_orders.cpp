@@ -1,0 +1,206 @@
+#include "gap/actuators/servo_orders.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/angles.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Steps on either side whose size says what one of them may be.
+constexpr std::ptrdiff_t kAround = 15;
+/// Of servo and command at the first report.
+constexpr double kAnywhere_rad = 1;
+
+/// Symmetric, of servo and command.
+struct Two {
+  double servo = 0, both = 0, command = 0;
+};
+
+/// Of each and its neighbours.
+std::vector<double> means_around(const std::vector<double>& values) {
+  std::vector<double> sum(values.size() + 1);
+  for (std::size_t i = 0; i < values.size(); ++i) sum[i + 1] = sum[i] + values[i];
+  const auto count = static_cast<std::ptrdiff_t>(values.size());
+  std::vector<double> means;
+  means.reserve(values.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const auto from = std::max<std::ptrdiff_t>(0, i - kAround), until = std::min(count, i + kAround + 1);
+    means.push_back((sum[static_cast<std::size_t>(until)] - sum[static_cast<std::size_t>(from)]) /
+                    static_cast<double>(until - from));
+  }
+  return means;
+}
+
+/// What steps are like.
+struct Habit {
+  double first_rad = 0;  ///< before anything is known of them
+  /// Student's t of one degree of freedom about the level of the steps around, rather than normal with their mean
+  /// square: a few long ones among many that are nearly nothing.
+  bool jumpy = false;
+
+  /// From the squares expected, the variance of each step.
+  [[nodiscard]] std::vector<double> variances(std::vector<double> squares) const {
+    if (!jumpy) return means_around(squares);
+    const std::vector<double> usual = levels(squares);
+    for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = (usual[i] + squares[i]) / 2;
+    return squares;
+  }
+  /// What a variance of its own for each step costs, beside the reports' likelihood (variational Bayes; the level
+  /// of those around is taken as it is found).
+  [[nodiscard]] double cost_nats(const std::vector<double>& squares) const {
+    if (!jumpy) return 0;
+    const std::vector<double> usual = levels(squares);
+    double cost = 0.5 * std::log(std::numbers::pi) * static_cast<double>(squares.size());
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      const double more = (usual[i] + squares[i]) / usual[i];
+      cost += 0.5 * std::log(more) + 1 / more - 1;
+    }
+    return cost;
+  }
+
+ private:
+  /// Geometric means.
+  static std::vector<double> levels(const std::vector<double>& squares) {
+    std::vector<double> levels;
+    levels.reserve(squares.size());
+    for (const double square : squares) levels.push_back(std::log(square));
+    levels = means_around(levels);
+    for (double& level : levels) level = std::exp(level);
+    return levels;
+  }
+};
+
+/// From those of a restless helm to hardly any. Where the noise of the reports hides steps, rounds change little,
+/// and the evidence tells which beginning was right.
+constexpr std::array<double, 4> kFirst_rad{0.2 * base::kRadiansPerDegree, 0.05 * base::kRadiansPerDegree,
+                                           0.01 * base::kRadiansPerDegree, 0.002 * base::kRadiansPerDegree};
+constexpr int kRounds = 8;
+
+}  // namespace
+
+ServoSmoother::ServoSmoother(std::span<const double> report_times_s, std::span<const double> order_times_s,
+                             double lag_s) {
+  auto order = std::upper_bound(order_times_s.begin(), order_times_s.end(), report_times_s.front());
+  double at_s = report_times_s.front();
+  const auto add = [&](bool is_order, double time_s) {
+    events_.push_back({is_order, std::exp(-(time_s - at_s) / lag_s)});
+    at_s = time_s;
+  };
+  for (const double report_s : report_times_s) {
+    for (; order != order_times_s.end() && *order < report_s; ++order) {
+      add(true, *order);
+      order_times_s_.push_back(*order);
+    }
+    add(false, report_s);
+  }
+  variance_rad2_.assign(order_times_s_.size(), kFirst_rad.front() * kFirst_rad.front());
+}
+
+ServoSmoother::Steps ServoSmoother::steps(std::span<const double> angles_rad, double noise_rad) const {
+  /// What a report taught: how far off it was foretold, its variance, and what of it went to servo and command.
+  struct Taught {
+    double off_rad = 0, variance_rad2 = 0, servo = 0, command = 0;
+  };
+  std::vector<Taught> taught(angles_rad.size());
+  double servo = angles_rad.front(), command = servo;
+  Two p{kAnywhere_rad * kAnywhere_rad, 0, kAnywhere_rad * kAnywhere_rad};
+  std::size_t order = 0, report = 0;
+  double log_likelihood = 0;
+  for (const Event& event : events_) {
+    const double a = event.kept, b = 1 - a;
+    servo = command + (servo - command) * a;
+    p = {a * a * p.servo + 2 * a * b * p.both + b * b * p.command, a * p.both + b * p.command, p.command};
+    if (event.is_order) {
+      p.command += variance_rad2_[order++];
+      continue;
+    }
+    Taught& t = taught[report];
+    t.off_rad = angles_rad[report++] - servo;
+    t.variance_rad2 = p.servo + noise_rad * noise_rad;
+    t.servo = p.servo / t.variance_rad2;
+    t.command = p.both / t.variance_rad2;
+    log_likelihood -= 0.5 * (std::log(t.variance_rad2) + t.off_rad * t.off_rad / t.variance_rad2);
+    servo += t.servo * t.off_rad;
+    command += t.command * t.off_rad;
+    p = {p.servo - t.servo * p.servo, p.both - t.servo * p.both, p.command - t.command * p.both};
+  }
+
+  // Backwards: what the reports from here on say of a step, and how surely.
+  Steps result{0, 0, log_likelihood, std::vector<double>(order), std::vector<double>(order)};
+  double by_servo = 0, by_command = 0;
+  Two n;
+  for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
+    if (event->is_order) {
+      const double variance = variance_rad2_[--order], mean = variance * by_command;
+      result.mean_rad[order] = mean;
+      result.square_rad2[order] = mean * mean + variance - variance * variance * n.command;
+    } else {
+      const Taught& t = taught[--report];
+      const double left = 1 - t.servo;
+      by_servo = t.off_rad / t.variance_rad2 + left * by_servo - t.command * by_command;
+      n = {1 / t.variance_rad2 + left * left * n.servo - 2 * left * t.command * n.both +
+               t.command * t.command * n.command,
+           left * n.both - t.command * n.command, n.command};
+    }
+    const double a = event->kept, b = 1 - a;
+    by_command += b * by_servo;
+    by_servo *= a;
+    n = {a * a * n.servo, a * b * n.servo + a * n.both, b * b * n.servo + 2 * b * n.both + n.command};
+  }
+  result.angle_rad = angles_rad.front() + kAnywhere_rad * kAnywhere_rad * by_servo;
+  result.command_rad = angles_rad.front() + kAnywhere_rad * kAnywhere_rad * by_command;
+  return result;
+}
+
+ServoOrders ServoSmoother::smoothed(std::span<const double> angles_rad, double noise_rad) {
+  Steps best;
+  std::vector<double> best_variance_rad2;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 2 * kFirst_rad.size(); ++i) {
+    const Habit habit{kFirst_rad[i / 2], i % 2 == 0};
+    variance_rad2_.assign(order_times_s_.size(), habit.first_rad * habit.first_rad);
+    Steps found = steps(angles_rad, noise_rad);
+    for (int round = 1; round < kRounds; ++round) {
+      variance_rad2_ = habit.variances(std::move(found.square_rad2));
+      found = steps(angles_rad, noise_rad);
+    }
+    const double evidence = found.log_likelihood - habit.cost_nats(found.square_rad2);
+    if (evidence <= most) continue;
+    most = evidence;
+    best = std::move(found);
+    best_variance_rad2 = variance_rad2_;
+  }
+  variance_rad2_ = std::move(best_variance_rad2);
+  return {best.angle_rad, best.command_rad, std::move(best.mean_rad)};
+}
+
+ServoOrders ServoSmoother::drawn(std::span<const double> angles_rad, double noise_rad, sim::Noise& noise) const {
+  // A servo under steps that are drawn, and what reports of it would teach: what is missed there is missed here
+  // (Durbin and Koopman 2002).
+  ServoOrders drawn{angles_rad.front(), angles_rad.front(), {}};
+  std::vector<double> reports;
+  reports.reserve(angles_rad.size());
+  double servo = drawn.angle_rad, command = drawn.command_rad;
+  for (const Event& event : events_) {
+    servo = command + (servo - command) * event.kept;
+    if (event.is_order) {
+      drawn.steps_rad.push_back(noise.normal(std::sqrt(variance_rad2_[drawn.steps_rad.size()])));
+      command += drawn.steps_rad.back();
+    } else {
+      reports.push_back(angles_rad[reports.size()] - (servo + noise.normal(noise_rad)));
+    }
+  }
+  // All of it is linear: the smoothed difference is the difference of what is smoothed.
+  const Steps missed = steps(reports, noise_rad);
+  drawn.angle_rad += missed.angle_rad;
+  drawn.command_rad += missed.command_rad;
+  for (std::size_t i = 0; i < drawn.steps_rad.size(); ++i) drawn.steps_rad[i] += missed.mean_rad[i];
+  return drawn;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,43 @@
+#include "gap/data/instruments_alone.h"
+
+#include <cmath>
+
+#include "pipeline/pipeline.h"
+#include "record/recording.h"
+
+namespace navcal::gap {
+namespace {
+
+class Nobody final : public pipeline::Sink {
+ public:
+  void on_sample(const instruments::Sample&) override {}
+};
+
+}  // namespace
+
+calib::Report instruments_alone(const std::filesystem::path& file, const EarthField& field,
+                                const std::function<void(double)>& progress) {
+  const auto recording = record::Recording::open(file);
+  config::Settings settings = recording->settings();
+  settings.calibration.enabled = settings.calibration.automatic = true;
+  settings.navigation.enabled = false;
+  if (field.source != EarthField::Source::fitted) {
+    const auto& [north_uT, east_uT, down_uT] = field.north_east_down_uT;
+    settings.environment.declination_rad = std::atan2(east_uT, north_uT);
+  }
+  pipeline::Pipeline pipeline(settings);
+  Nobody nobody;
+  while (const auto entry = recording->next()) {
+    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
+      if (raw->direction == record::Direction::received)
+        pipeline.bytes(raw->port, raw->time_ns, raw->bytes, nobody);
+    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
+      pipeline.set_mapping(change->mapping, nobody);
+    }
+    progress(recording->progress());
+  }
+  pipeline.finish_calibration(nobody);
+  return pipeline.calibration_report();
+}
+
+}  // namespace navcal::gap

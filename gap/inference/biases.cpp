@@ -1,0 +1,34 @@
+#include "gap/inference/biases.h"
+
+#include <array>
+#include <utility>
+
+#include "gap/inference/linearised.h"
+
+namespace navcal::gap {
+
+Eigen::LLT<Eigen::Matrix4d> bias_factor(const Eigen::MatrixXd& gram) {
+  Eigen::Matrix4d biases = gram.topLeftCorner<Library::kBiases, Library::kBiases>();
+  biases.diagonal().array() += 1e-9 * biases.trace() + 1e-12;
+  return biases.llt();
+}
+
+Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library, const Whitening& whitening,
+                                   Eigen::VectorXd values, unsigned threads) {
+  constexpr std::array<Eigen::Index, Library::kBiases> kColumns{0, 1, 2, 3};
+  const Eigen::VectorXd residual = residual_at(replay, library, whitening, values);
+  const Eigen::MatrixXd design = design_at(replay, library, whitening, values, residual, kColumns, threads);
+  values.head<Library::kBiases>() += bias_factor(design.transpose() * design).solve(design.transpose() * residual);
+  return values;
+}
+
+Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, unsigned threads) {
+  constexpr int kIterations = 2;
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+  for (int i = 0; i < kIterations; ++i) {
+    values = with_biases_fitted(replay, library, Whitening::nominal(), std::move(values), threads);
+  }
+  return values;
+}
+
+}  // namespace navcal::gap

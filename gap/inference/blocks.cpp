@@ -1,0 +1,49 @@
+#include "gap/inference/blocks.h"
+
+#include <cmath>
+
+#include "gap/inference/evidence.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kPiece_s = 60;
+
+bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
+  const Eigen::Index grid = layout.intervals * kEvidenceChannels;
+  if (row < grid) {
+    const Eigen::Index interval = row / kEvidenceChannels;
+    return static_cast<long>(static_cast<double>(interval) * kInterval_s / kPiece_s) % 2 == 0;
+  }
+  return row < (grid + rows) / 2;  // fixes: the first half of them
+}
+
+}  // namespace
+
+std::vector<double> gains_of_blocks(const Explanation& explanation, const Library& library, const Priors& priors,
+                                    const Layout& layout) {
+  const Linearised& linear = explanation.linear;
+  const Eigen::Index rows = linear.residual.size();
+  Eigen::VectorXd mask(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
+  const Eigen::VectorXd data = residual_at_zero(linear);
+  const auto members = members_of(library, explanation.effects);
+  const Priors others = without_members(priors, library, explanation.effects);
+  std::vector<double> gains;
+  for (const bool learn_from_even : {true, false}) {
+    const Eigen::VectorXd learn = learn_from_even ? mask : Eigen::VectorXd((1 - mask.array()).matrix());
+    const Eigen::MatrixXd design = learn.asDiagonal() * linear.design;
+    const Eigen::MatrixXd gram = design.transpose() * linear.design;
+    const Eigen::VectorXd score = design.transpose() * data;
+    const Eigen::VectorXd without = Evidence(gram, score, others.spike, others.slab).base_posterior().mean;
+    const Eigen::VectorXd with = Evidence(gram, score, priors.spike, priors.slab).posterior(members).mean;
+    const Eigen::VectorXd judged = (1 - learn.array()).matrix();
+    const auto misfit = [&](const Eigen::VectorXd& values) {
+      return judged.cwiseProduct(data - linear.design * values).squaredNorm();
+    };
+    gains.push_back(0.5 * (misfit(without) - misfit(with)));
+  }
+  return gains;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,101 @@
+#include "gap/inference/linearised.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace navcal::gap {
+namespace {
+
+/// By a difference towards the side that its bounds allow.
+Eigen::VectorXd column(const Replay& replay, const Library& library, const Whitening& whitening,
+                       const Eigen::VectorXd& at, const Eigen::VectorXd& residual, Eigen::Index j) {
+  const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+  const bool there = at[j] > unknown.onward * unknown.typical;
+  double step = (there ? unknown.onward : unknown.step) * unknown.typical;
+  if (at[j] + step > unknown.greatest) step = -step;
+  Eigen::VectorXd values = at;
+  values[j] += step;
+  return (residual - residual_at(replay, library, whitening, values)) / step;
+}
+
+/// Rows and columns of design^T design for those columns that are new, a few at a time: the design is as large as
+/// no cache.
+void renew_gram(Linearised& linear, std::span<const Eigen::Index> columns, unsigned threads) {
+  constexpr std::size_t kTogether = 12;
+  const std::size_t parts = (columns.size() + kTogether - 1) / kTogether;
+  std::vector<Eigen::MatrixXd> products(parts);
+  const auto part = [&](std::size_t i) {
+    return columns.subspan(i * kTogether, std::min(kTogether, columns.size() - i * kTogether));
+  };
+  in_parallel(threads, parts, [&](std::size_t i) {
+    Eigen::MatrixXd some(linear.design.rows(), static_cast<Eigen::Index>(part(i).size()));
+    for (Eigen::Index k = 0; k < some.cols(); ++k) {
+      some.col(k) = linear.design.col(part(i)[static_cast<std::size_t>(k)]);
+    }
+    products[i] = linear.design.transpose() * some;
+  });
+  for (std::size_t i = 0; i < parts; ++i) {
+    for (std::size_t k = 0; k < part(i).size(); ++k) {
+      const auto product = products[i].col(static_cast<Eigen::Index>(k));
+      linear.gram.col(part(i)[k]) = product;
+      linear.gram.row(part(i)[k]) = product.transpose();
+    }
+  }
+}
+
+}  // namespace
+
+Layout layout_of(const Replay& replay) {
+  Layout layout{replay.intervals(), {}};
+  for (const FixReading& fix : replay.mission().fixes) layout.fix_numbers.push_back(fix.number);
+  return layout;
+}
+
+Eigen::VectorXd residual_at(const Replay& replay, const Library& library, const Whitening& whitening,
+                            const Eigen::VectorXd& values) {
+  return whitening(replay.run(library.model(values)), layout_of(replay));
+}
+
+Eigen::MatrixXd design_at(const Replay& replay, const Library& library, const Whitening& whitening,
+                          const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
+                          std::span<const Eigen::Index> columns, unsigned threads) {
+  Eigen::MatrixXd design(residual.size(), static_cast<Eigen::Index>(columns.size()));
+  in_parallel(threads, columns.size(), [&](std::size_t i) {
+    design.col(static_cast<Eigen::Index>(i)) = column(replay, library, whitening, at, residual, columns[i]);
+  });
+  return design;
+}
+
+Linearised linearise(const Replay& replay, const Library& library, const Whitening& whitening,
+                     const Eigen::VectorXd& at, unsigned threads) {
+  const auto rows = residual_at(replay, library, whitening, at).size();
+  Linearised empty;
+  empty.design.setZero(rows, at.size());
+  empty.gram.setZero(at.size(), at.size());
+  return relinearise(replay, library, whitening, std::move(empty), at, library.moving(), threads);
+}
+
+Linearised relinearise(const Replay& replay, const Library& library, const Whitening& whitening, Linearised from,
+                       const Eigen::VectorXd& at, std::span<const Eigen::Index> columns, unsigned threads) {
+  Linearised result = std::move(from);
+  result.at = at;
+  result.residual = residual_at(replay, library, whitening, at);
+  in_parallel(threads, columns.size(), [&](std::size_t i) {
+    result.design.col(columns[i]) = column(replay, library, whitening, at, result.residual, columns[i]);
+  });
+  renew_gram(result, columns, threads);
+  result.score = result.design.transpose() * result.residual;
+  return result;
+}
+
+Eigen::VectorXd residual_at_zero(const Linearised& linear) {
+  Eigen::VectorXd residual = linear.residual;
+  for (Eigen::Index j = 0; j < linear.at.size(); ++j) {
+    if (linear.at[j] != 0) residual += linear.at[j] * linear.design.col(j);
+  }
+  return residual;
+}
+
+}  // namespace navcal::gap

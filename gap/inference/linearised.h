@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "gap/inference/library.h"
+#include "gap/replay/replay.h"
+#include "gap/inference/whitening.h"
+
+namespace navcal::gap {
+
+/// A mission's whitened innovations as a linear function of the library's unknowns about a point:
+///   r(values) = residual - design (values - at).
+/// The design is made of finite differences of the whole replay, so that what the estimator absorbs is accounted
+/// for.
+struct Linearised {
+  Eigen::VectorXd at;        ///< of all unknowns
+  Eigen::VectorXd residual;  ///< whitened, at that point
+  Eigen::MatrixXd design;    ///< a column for each unknown
+  Eigen::MatrixXd gram;      ///< design^T design
+  Eigen::VectorXd score;     ///< design^T residual
+};
+
+[[nodiscard]] Layout layout_of(const Replay& replay);
+
+/// The whitened innovations by these values of all unknowns.
+[[nodiscard]] Eigen::VectorXd residual_at(const Replay& replay, const Library& library, const Whitening& whitening,
+                                          const Eigen::VectorXd& values);
+/// -d residual / d unknown for some unknowns, a column each, where `residual` is that at `at`.
+[[nodiscard]] Eigen::MatrixXd design_at(const Replay& replay, const Library& library, const Whitening& whitening,
+                                        const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
+                                        std::span<const Eigen::Index> columns, unsigned threads);
+
+/// All columns anew.
+[[nodiscard]] Linearised linearise(const Replay& replay, const Library& library, const Whitening& whitening,
+                                   const Eigen::VectorXd& at, unsigned threads);
+/// About another point; only `columns` are taken anew, the others are those of `from`.
+[[nodiscard]] Linearised relinearise(const Replay& replay, const Library& library, const Whitening& whitening,
+                                     Linearised from, const Eigen::VectorXd& at,
+                                     std::span<const Eigen::Index> columns, unsigned threads);
+/// The residual that the straight line has at zero.
+[[nodiscard]] Eigen::VectorXd residual_at_zero(const Linearised& linear);
+
+}  // namespace navcal::gap

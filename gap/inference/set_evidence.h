@@ -1,0 +1,31 @@
+#pragma once
+
+#include "gap/inference/cause_set.h"
+#include "gap/inference/evidence.h"
+#include "gap/inference/linearised.h"
+#include "gap/inference/spikes.h"
+
+namespace navcal::gap {
+
+/// Referred to no effects at all, whatever point it was linearised about.
+[[nodiscard]] Evidence evidence_of(const Linearised& linear, const Priors& priors);
+
+/// What speaks for sets of effects, referred to the nominal vehicle whatever point it was linearised about, so
+/// that words from several linearisations may be compared.
+class SetEvidence {
+ public:
+  /// `library` must outlive it.
+  SetEvidence(const Linearised& linear, const Library& library, const Priors& priors);
+
+  /// Log of the joint probability of set and data, nats, apart from a constant.
+  [[nodiscard]] double operator()(const CauseSet& set) const;
+
+ private:
+  [[nodiscard]] double gain(const CauseSet& set) const;
+
+  const Library& library_;
+  Evidence evidence_;
+  double data_;
+};
+
+}  // namespace navcal::gap

@@ -1,0 +1,160 @@
+#include "gap/inference/whitening.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kSettling_s = 20;
+
+/// Prediction errors of rows by `filter`; a row that begins a run has nothing before it. What was not measured is
+/// as predicted.
+Eigen::MatrixXd filtered(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& filter,
+                         const std::vector<bool>& begins) {
+  const Eigen::Index order = filter.rows();
+  Eigen::MatrixXd filled = Eigen::MatrixXd::Zero(rows.rows(), rows.cols());
+  Eigen::MatrixXd errors = filled;
+  Eigen::Index run = 0;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    run = begins[static_cast<std::size_t>(i)] ? 0 : run + 1;
+    const Eigen::Index known = std::min(order, run);
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) {
+      double predicted = 0;
+      for (Eigen::Index k = 0; k < known; ++k) predicted += filter(k, j) * filled(i - 1 - k, j);
+      const double value = rows(i, j);
+      const bool measured = std::isfinite(value);
+      filled(i, j) = measured ? value : predicted;
+      errors(i, j) = measured ? value - predicted : 0;
+    }
+  }
+  return errors;
+}
+
+/// Coefficients of x_i = sum a_k x_(i-k) by the Yule-Walker equations from the autocovariances of all runs.
+Eigen::VectorXd autoregression(const Eigen::VectorXd& covariances) {
+  const Eigen::Index order = covariances.size() - 1;
+  Eigen::MatrixXd toeplitz(order, order);
+  for (Eigen::Index i = 0; i < order; ++i) {
+    for (Eigen::Index j = 0; j < order; ++j) toeplitz(i, j) = covariances[std::abs(i - j)];
+  }
+  toeplitz.diagonal().array() += 1e-9 * covariances[0];
+  return toeplitz.ldlt().solve(covariances.tail(order));
+}
+
+std::vector<bool> fix_begins(const Layout& layout) {
+  std::vector<bool> begins;
+  for (const int number : layout.fix_numbers) begins.push_back(number == 0);
+  return begins;
+}
+
+Eigen::Index settled_row() { return static_cast<Eigen::Index>(kSettling_s / kInterval_s); }
+
+/// Sums of x_i x_(i-k) over all that is measured, for one channel.
+void gather(const Eigen::MatrixXd& rows, const std::vector<bool>& begins, Eigen::Index from, Eigen::MatrixXd& sums,
+            Eigen::MatrixXd& counts) {
+  for (Eigen::Index j = 0; j < rows.cols(); ++j) {
+    for (Eigen::Index i = from; i < rows.rows(); ++i) {
+      for (Eigen::Index k = 0; k < sums.rows() && i - k >= from; ++k) {
+        if (std::isfinite(rows(i, j)) && std::isfinite(rows(i - k, j))) {
+          sums(k, j) += rows(i, j) * rows(i - k, j);
+          counts(k, j) += 1;
+        }
+        if (begins[static_cast<std::size_t>(i - k)]) break;
+      }
+    }
+  }
+}
+
+Eigen::MatrixXd filters(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& counts) {
+  Eigen::MatrixXd result(sums.rows() - 1, sums.cols());
+  for (Eigen::Index j = 0; j < sums.cols(); ++j) {
+    const bool enough = (counts.col(j).array() > 10.0 * static_cast<double>(sums.rows())).all();
+    if (enough && sums(0, j) > 0) {
+      result.col(j) = autoregression(sums.col(j).cwiseQuotient(counts.col(j)));
+    } else {
+      result.col(j).setZero();
+    }
+  }
+  return result;
+}
+
+/// Lower Cholesky factor of the covariance of errors, whose zeros were not measured.
+Eigen::MatrixXd factor(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& counts) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(sums.rows(), sums.cols());
+  for (Eigen::Index i = 0; i < sums.rows(); ++i) {
+    for (Eigen::Index j = 0; j < sums.cols(); ++j) {
+      if (counts(i, j) > 10) covariance(i, j) = sums(i, j) / counts(i, j);
+    }
+  }
+  return covariance.llt().matrixL();
+}
+
+void gather_products(const Eigen::MatrixXd& errors, Eigen::Index from, Eigen::MatrixXd& sums,
+                     Eigen::MatrixXd& counts) {
+  for (Eigen::Index row = from; row < errors.rows(); ++row) {
+    const Eigen::VectorXd error = errors.row(row);
+    const Eigen::VectorXd present = (error.array() != 0).cast<double>();
+    sums += error * error.transpose();
+    counts += present * present.transpose();
+  }
+}
+
+}  // namespace
+
+Whitening::Whitening(std::span<const Innovations> noise, std::span<const Layout> layouts) {
+  std::vector<Eigen::MatrixXd> grids;
+  Eigen::MatrixXd fix_sums = Eigen::MatrixXd::Zero(kFixOrder + 1, kFixChannels), fix_counts = fix_sums;
+  for (std::size_t n = 0; n < noise.size(); ++n) {
+    grids.push_back(noise[n].grid.leftCols(kEvidenceChannels));
+    gather(noise[n].fixes, fix_begins(layouts[n]), 0, fix_sums, fix_counts);
+  }
+  grid_filter = PastFilter::learnt(grids, settled_row());
+  fix_filter = filters(fix_sums, fix_counts);
+
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kEvidenceChannels, kEvidenceChannels), counts = sums;
+  fix_sums = fix_counts = Eigen::MatrixXd::Zero(kFixChannels, kFixChannels);
+  for (std::size_t n = 0; n < noise.size(); ++n) {
+    gather_products(grid_filter.errors(grids[n]), settled_row(), sums, counts);
+    gather_products(filtered(noise[n].fixes, fix_filter, fix_begins(layouts[n])), 0, fix_sums, fix_counts);
+  }
+  grid_factor = factor(sums, counts);
+  fix_factor = factor(fix_sums, fix_counts);
+}
+
+Whitening Whitening::nominal() {
+  const double gyro = 0.1 * base::kRadiansPerDegree / std::sqrt(2.0), force = 0.02 / std::sqrt(2.0),
+               tilt = 0.1 * base::kRadiansPerDegree;
+  Whitening result;
+  result.fix_filter = Eigen::MatrixXd::Zero(0, kFixChannels);
+  Eigen::VectorXd grid(kEvidenceChannels);
+  grid << 0.15, 0.15, 0.15, tilt, tilt, gyro, gyro, gyro, force, force, force, 0.02 / std::sqrt(2.0);
+  result.grid_factor = grid.asDiagonal();
+  result.fix_factor = Eigen::Vector4d{1, 1, 0.1, 0.1}.asDiagonal();
+  return result;
+}
+
+Eigen::VectorXd Whitening::operator()(const Innovations& innovations, const Layout& layout) const {
+  Eigen::MatrixXd grid = grid_filter.errors(innovations.grid.leftCols(kEvidenceChannels)).transpose();
+  Eigen::MatrixXd fixes = filtered(innovations.fixes, fix_filter, fix_begins(layout)).transpose();
+  const auto whiten = [](Eigen::MatrixXd& errors, const Eigen::MatrixXd& lower) {
+    if (errors.size() == 0) return;  // a mission without fixes
+    const Eigen::ArrayXXd present = (errors.array() != 0).cast<double>();
+    lower.triangularView<Eigen::Lower>().solveInPlace(errors);
+    errors.array() *= present;
+  };
+  whiten(grid, grid_factor);
+  whiten(fixes, fix_factor);
+  grid.leftCols(std::min(settled_row(), grid.cols())).setZero();
+  Eigen::VectorXd all(grid.size() + fixes.size());
+  all << Eigen::Map<const Eigen::VectorXd>(grid.data(), grid.size()),
+      Eigen::Map<const Eigen::VectorXd>(fixes.data(), fixes.size());
+  return all;
+}
+
+Eigen::Index Whitening::count(const Eigen::VectorXd& white) { return (white.array() != 0).count(); }
+
+}  // namespace navcal::gap

@@ -1,0 +1,101 @@
+#include "gap/nulls/null_bank.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "gap/nulls/able_vehicles.h"
+#include "gap/inference/biases.h"
+#include "gap/nulls/null_mission.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Whose noise the whitening is learnt from.
+constexpr std::size_t kWhiteningMissions = 30;
+
+struct Null {
+  Innovations nominal;
+  Layout layout;
+  Course10Hz course;
+  std::vector<double> fix_times_s;
+  std::optional<Innovations> noise;  ///< by its own true parameters
+};
+
+}  // namespace
+
+Innovations fitted_into(const Innovations& innovations, const Layout& layout) {
+  const auto shaped = [](const Eigen::MatrixXd& from, Eigen::Index rows) {
+    Eigen::MatrixXd to = Eigen::MatrixXd::Constant(rows, from.cols(), std::numeric_limits<double>::quiet_NaN());
+    const Eigen::Index both = std::min(rows, from.rows());
+    to.topRows(both) = from.topRows(both);
+    return to;
+  };
+  Innovations result;
+  result.grid = shaped(innovations.grid, layout.intervals);
+  result.fixes = shaped(innovations.fixes, static_cast<Eigen::Index>(layout.fix_numbers.size()));
+  return result;
+}
+
+NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const config::VehicleSettings& vehicle,
+                        const Library& library, const Eigen::VectorXd& at, const BankOptions& options,
+                        const std::function<void(double)>& progress) {
+  const auto began = std::chrono::steady_clock::now();
+  NullBank bank;
+  bank.seed = options.seed;
+  auto nulls = of_able_vehicles(
+      options, Seeds::bank,
+      [&](std::size_t i, std::uint64_t seed) {
+        const Eigen::VectorXd values = benign_mismatch(library, seed);
+        const Model truth = library.model(values);
+        const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
+        const Replay replay(mission, vehicle);
+        Null null;
+        null.layout = layout_of(replay);
+        null.fix_times_s = mission.fix_times_s();
+        null.nominal = replay.run(Model{}, &null.course);
+        if (i < kWhiteningMissions) null.noise = replay.run(truth);
+        return null;
+      },
+      [&](double share) { progress(0.95 * share); });
+  bank.missions = static_cast<int>(nulls.size());
+  if (nulls.empty()) return bank;
+
+  std::vector<Innovations> noise;
+  std::vector<Layout> layouts;
+  std::vector<Eigen::MatrixXd> left_by_nulls;
+  for (Null& null : nulls) {
+    if (!null.noise) continue;
+    left_by_nulls.push_back(followed(*null.noise, null.course, null.fix_times_s));
+    noise.push_back(std::move(*null.noise));
+    layouts.push_back(null.layout);
+  }
+  bank.whitening = Whitening(noise, layouts);
+
+  // The recorded mission's design serves all: they were steered alike.
+  const Linearised linear = linearise(recorded, library, bank.whitening, at, options.threads);
+  const Layout layout = layout_of(recorded);
+  bank.gram = linear.gram;
+  bank.scores.resize(linear.gram.rows(), static_cast<Eigen::Index>(nulls.size()));
+  const auto biases = bias_factor(linear.gram);
+  std::vector<Eigen::MatrixXd> followed_by_nulls;
+  for (std::size_t i = 0; i < nulls.size(); ++i) {
+    const Null& null = nulls[i];
+    const Eigen::VectorXd white = bank.whitening(fitted_into(null.nominal, layout), layout);
+    const auto column = static_cast<Eigen::Index>(i);
+    bank.scores.col(column) = linear.design.transpose() * white;
+    const Eigen::VectorXd bias = biases.solve(bank.scores.col(column).head<Library::kBiases>());
+    const Eigen::VectorXd left = white - linear.design.leftCols(Library::kBiases) * bias;
+    bank.powers.push_back(left.squaredNorm() / static_cast<double>(Whitening::count(left)));
+    followed_by_nulls.push_back(followed(null.nominal, null.course, null.fix_times_s));
+  }
+  bank.followed = RegimeStatistics(followed_by_nulls);
+  bank.left = RegimeStatistics(left_by_nulls);
+  bank.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  progress(1);
+  return bank;
+}
+
+}  // namespace navcal::gap

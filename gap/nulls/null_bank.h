@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "gap/inference/library.h"
+#include "gap/inference/linearised.h"
+#include "gap/replay/regimes.h"
+#include "gap/replay/replay.h"
+#include "gap/inference/whitening.h"
+
+namespace navcal::gap {
+
+/// What missions without a gap look like when they are steered as the recorded one was: everything that a
+/// diagnosis compares with.
+struct NullBank {
+  int missions = 0;
+  std::uint64_t seed = 0;
+  double seconds = 0;  ///< that it took
+
+  Whitening whitening;
+  Eigen::MatrixXd gram;        ///< of the design of the recorded mission, of all unknowns of the whole library
+  Eigen::MatrixXd scores;      ///< design^T innovations: a column for each mission
+  std::vector<double> powers;  ///< of each: mean square of whitened innovations, biases fitted
+  RegimeStatistics followed;   ///< of the nominal replay of each
+  RegimeStatistics left;       ///< of the replays of some by their own true parameters
+};
+
+/// Of the shape of another mission that was steered alike: cut off, or filled with what was not measured.
+[[nodiscard]] Innovations fitted_into(const Innovations& innovations, const Layout& layout);
+
+struct BankOptions {
+  int missions = 100;
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+};
+
+/// Simulates, replays and learns. `recorded` is only steered by: its innovations are not looked at. `at` is where
+/// its design is taken.
+[[nodiscard]] NullBank make_null_bank(const Replay& recorded, const Course10Hz& course,
+                                      const config::VehicleSettings& vehicle, const Library& library,
+                                      const Eigen::VectorXd& at, const BankOptions& options,
+                                      const std::function<void(double)>& progress);
+
+}  // namespace navcal::gap

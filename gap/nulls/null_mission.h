@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "gap/inference/library.h"
+#include "gap/replay/replay.h"
+
+namespace navcal::gap {
+
+/// Every vehicle is off by a little everywhere: so much of each parameter's typical strength, one standard
+/// deviation.
+inline constexpr double kTolerance = 0.02;
+
+/// The recorded mission once more, by a simulated vehicle without a gap: as the recorded one was steered, with
+/// instruments through their bytes and the pipeline, and with fixes when it had some. The gyros have no turn-on
+/// bias. Throws sim::UnstableVehicle.
+[[nodiscard]] Mission null_mission(const Replay& recorded, const Course10Hz& course,
+                                   const config::VehicleSettings& vehicle, const sim::EffectSet& mismatch,
+                                   std::uint64_t seed);
+
+/// Values of all unknowns of a vehicle within tolerance; biases are zero.
+[[nodiscard]] Eigen::VectorXd benign_mismatch(const Library& library, std::uint64_t seed);
+
+}  // namespace navcal::gap

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+
+#include "gap/replay/replay.h"
+#include "sim/effects/effect_set.h"
+#include "sim/effects/low_pass.h"
+
+namespace navcal::gap {
+
+/// What the instruments would say, with a model's effects and without noise, where the vehicle is predicted to be.
+class PredictedInstruments {
+ public:
+  struct Card {
+    std::array<double, 4> gyro_rad_s{};  ///< A-x, A-z, B-y, B-z
+    sim::Vector3 force_m_s2{};
+    double depth_m = 0;
+  };
+  struct Word {
+    sim::Vector3 field_uT{};
+    sim::Tilt tilt;
+  };
+
+  /// `effects` must outlive it.
+  PredictedInstruments(sim::EffectSet& effects, const GyroBias& bias_rad_s)
+      : effects_(effects), bias_rad_s_(bias_rad_s) {}
+
+  /// The fluid of the tilt sensor forgets where it was: the next attitude is its first.
+  void restart() { fluid_ = {}; }
+  void set_electronics(double temperature_C) { electronics_C_ = temperature_C; }
+  [[nodiscard]] double electronics_C() const { return electronics_C_; }
+
+  [[nodiscard]] Card card(double time_s, const sim::State& state);
+  /// Shows the compass where it is, in the order of time: what has a memory follows.
+  void feel(double time_s, const sim::State& state);
+  /// A word about this instant, which it feels thereby.
+  [[nodiscard]] Word word(double time_s, const sim::State& state);
+  [[nodiscard]] sim::AntennaMotion antenna(double time_s, const sim::State& state,
+                                           const std::array<double, 2>& offset_m);
+
+ private:
+  [[nodiscard]] sim::Instant instant(double time_s, const sim::State& state) const {
+    return {time_s, state, electronics_C_};
+  }
+
+  sim::EffectSet& effects_;
+  GyroBias bias_rad_s_;
+  double electronics_C_ = 15;
+  sim::LowPass fluid_;
+  sim::Tilt tilt_;
+  sim::Vector3 field_uT_{};
+};
+
+}  // namespace navcal::gap

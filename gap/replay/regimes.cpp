@@ -1,0 +1,200 @@
+#include "gap/replay/regimes.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <boost/math/distributions/gamma.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kSurface_m = 0.35;
+/// Bands of frequency: what means over so many rows show, and what they do not.
+constexpr Eigen::Index kSlow = 200, kFast = 20;
+
+enum Regime : std::size_t {
+  constant,
+  heading_once,
+  heading_twice,
+  heading_thrice,
+  turn_rate,
+  turn_rate_size,
+  roll,
+  pitch,
+  motor_current,
+  temperature,
+  time_passed,
+  depth_below,
+  speed,
+  surface,
+  rudder,
+  elevator,
+  slow,
+  fast,
+  overall
+};
+
+Eigen::Map<const Eigen::VectorXd> mapped(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+/// Mean square of the fit of each column on the drivers (their means taken off, but for a constant).
+double fitted_mean_square(const Eigen::MatrixXd& values, const Eigen::MatrixXd& drivers) {
+  Eigen::MatrixXd gram = drivers.transpose() * drivers;
+  const double size = gram.trace();
+  if (!(size > 1e-12 * static_cast<double>(drivers.rows()))) return 0;  // the driver stands still
+  gram.diagonal().array() += 1e-9 * size;
+  const Eigen::MatrixXd fit = drivers * gram.llt().solve(drivers.transpose() * values);
+  return fit.squaredNorm() / static_cast<double>(values.rows());
+}
+
+Eigen::MatrixXd without_mean(Eigen::MatrixXd columns) {
+  columns.rowwise() -= columns.colwise().mean().eval();
+  return columns;
+}
+
+/// What the third harmonic of the heading has beyond the first two, which an iron makes: on courses that do not
+/// turn evenly each of them follows the others. Nothing where the course turns too little to tell them apart.
+Eigen::MatrixXd third_harmonic(const Eigen::ArrayXd& heading_rad) {
+  constexpr double kLeast = 0.1;  // of its size
+  Eigen::MatrixXd lower(heading_rad.size(), 5), third(heading_rad.size(), 2);
+  lower << Eigen::ArrayXd::Ones(heading_rad.size()), heading_rad.cos(), heading_rad.sin(), (2 * heading_rad).cos(),
+      (2 * heading_rad).sin();
+  third << (3 * heading_rad).cos(), (3 * heading_rad).sin();
+  const double size = third.squaredNorm();
+  third -= (lower * lower.colPivHouseholderQr().solve(third)).eval();
+  if (third.squaredNorm() < kLeast * kLeast * size) third.setZero();
+  return third;
+}
+
+/// A fin that only holds the course moves by the noise of what it is steered by, and so follows the innovations
+/// instead of being followed by them: it stands still.
+Eigen::MatrixXd deflected(const std::vector<double>& fin_rad) {
+  constexpr double kLeast_rad = 0.5 * std::numbers::pi / 180;  // root mean square
+  Eigen::MatrixXd moves = without_mean(mapped(fin_rad));
+  if (moves.squaredNorm() < kLeast_rad * kLeast_rad * static_cast<double>(moves.rows())) moves.setZero();
+  return moves;
+}
+
+/// Mean square of a band of frequencies, or of all.
+double values_square(const Eigen::MatrixXd& values, std::size_t band) {
+  const auto n = static_cast<double>(values.rows());
+  if (band == overall) return values.squaredNorm() / n;
+  if (values.rows() < 2 * kSlow) return 0;
+  if (band == slow) return without_mean(block_means(values, kSlow)).squaredNorm() / n;
+  return (values - block_means(values, kFast)).squaredNorm() / n;
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& regimes() {
+  static const std::vector<std::string_view> kAll{
+      "constant", "heading_once",  "heading_twice", "heading_thrice", "turn_rate", "turn_rate_size", "roll",
+      "pitch",    "motor_current", "temperature",   "time",           "depth",     "speed",          "surface",
+      "rudder",   "elevator",      "slow",          "fast",           "overall"};
+  return kAll;
+}
+
+Eigen::Index overall_regime() { return overall; }
+
+Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
+  const auto one = [](const auto& column) { return without_mean(Eigen::MatrixXd(column)); };
+  const Eigen::ArrayXd turned = mapped(course.heading_rad).array();
+  Eigen::MatrixXd both(turned.size(), 2);
+  switch (regime) {
+    case constant:
+      return Eigen::MatrixXd::Ones(turned.size(), 1);
+    case heading_once:
+      both << turned.cos(), turned.sin();
+      return without_mean(both);
+    case heading_twice:
+      both << (2 * turned).cos(), (2 * turned).sin();
+      return without_mean(both);
+    case heading_thrice:
+      return third_harmonic(turned);
+    case turn_rate:
+      return one(mapped(course.yaw_rate_rad_s));
+    case turn_rate_size:
+      return one(mapped(course.yaw_rate_rad_s).cwiseAbs());
+    case roll:
+      return one(mapped(course.roll_rad));
+    case pitch:
+      return one(mapped(course.pitch_rad));
+    case motor_current:
+      return one(mapped(course.current_A));
+    case temperature:
+      return one(mapped(course.warmth_C));
+    case time_passed:
+      return one(mapped(course.time_s));
+    case depth_below:
+      return one(mapped(course.depth_m));
+    case speed:
+      return one(mapped(course.surge_m_s));
+    case surface:
+      return one((mapped(course.depth_m).array() < kSurface_m).cast<double>().matrix());
+    case rudder:
+      return deflected(course.rudder_rad);
+    case elevator:
+      return deflected(course.elevator_rad);
+    default:
+      return {};
+  }
+}
+
+Eigen::MatrixXd followed(const Innovations& innovations, const Course10Hz& course,
+                         const std::vector<double>& fix_times_s) {
+  const auto channels = static_cast<Eigen::Index>(reported_channels().size());
+  const auto kinds = static_cast<Eigen::Index>(regimes().size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(channels, kinds);
+  std::vector<Eigen::MatrixXd> drivers;
+  for (std::size_t k = 0; k < regimes().size(); ++k) drivers.push_back(drivers_of(k, course));
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    const ChannelSeries series = series_of(static_cast<std::size_t>(c), innovations, course, fix_times_s);
+    const Eigen::Index n = series.values.rows();
+    if (n < 8) continue;
+    for (Eigen::Index k = 0; k < kinds; ++k) {
+      const auto& driver = drivers[static_cast<std::size_t>(k)];
+      double square = 0;
+      if (driver.size() > 0) {
+        Eigen::MatrixXd here(n, driver.cols());
+        for (Eigen::Index i = 0; i < n; ++i) {
+          here.row(i) = driver.row(static_cast<Eigen::Index>(series.rows[static_cast<std::size_t>(i)]));
+        }
+        square = fitted_mean_square(series.values, here);
+      } else {
+        square = values_square(series.values, static_cast<std::size_t>(k));
+      }
+      result(c, k) = std::sqrt(square);
+    }
+  }
+  return result;
+}
+
+RegimeStatistics::RegimeStatistics(const std::vector<Eigen::MatrixXd>& of_nulls) {
+  if (of_nulls.empty()) return;
+  mean_square = variance = Eigen::MatrixXd::Zero(of_nulls.front().rows(), of_nulls.front().cols());
+  for (const auto& null : of_nulls) mean_square += null.cwiseAbs2();
+  mean_square /= static_cast<double>(of_nulls.size());
+  for (const auto& null : of_nulls) variance += (null.cwiseAbs2() - mean_square).cwiseAbs2();
+  variance /= std::max<double>(1, static_cast<double>(of_nulls.size()) - 1);
+}
+
+double RegimeStatistics::floor(Eigen::Index channel, Eigen::Index regime) const {
+  return std::sqrt(mean_square(channel, regime));
+}
+
+double RegimeStatistics::p_value(Eigen::Index channel, Eigen::Index regime, double value) const {
+  const double mean = mean_square(channel, regime);
+  constexpr double kHeavier = 1.5;
+  const double spread = kHeavier * variance(channel, regime);
+  if (!(mean > 0) || !(spread > 0) || !(value > 0)) return 1;
+  // Nulls that hardly differ leave a distribution so narrow that its tail cannot be reckoned; nor does it matter.
+  constexpr double kNarrowest = 1e6;
+  const double shape = std::min(mean * mean / spread, kNarrowest);
+  const boost::math::gamma_distribution<double> gamma(shape, mean / shape);
+  return boost::math::cdf(boost::math::complement(gamma, value * value));
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,73 @@
+#include "gap/replay/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gap/replay/replay_run.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kTemperatureGain = 0.005;  ///< a reading; the electronics settle within 200 s
+
+/// Readings of the electronics' temperature, whose noise is as large as a minute's change, smoothed forth and
+/// back.
+std::vector<double> smoothed_electronics(std::span<const CompassReading> readings) {
+  std::vector<double> smooth(readings.size(), 15.0);
+  const auto pass = [&](auto begin, auto end, auto out, double share) {
+    std::optional<double> mean;
+    int taken = 0;
+    for (auto reading = begin; reading != end; ++reading, ++out) {
+      if (const auto said = reading->electronics_C) {
+        const double gain = std::max(kTemperatureGain, 1.0 / ++taken);
+        mean = mean ? *mean + gain * (*said - *mean) : *said;
+      }
+      *out += share * (mean.value_or(15.0) - 15.0);
+    }
+  };
+  pass(readings.begin(), readings.end(), smooth.begin(), 0.5);
+  pass(readings.rbegin(), readings.rend(), smooth.rbegin(), 0.5);
+  return smooth;
+}
+
+}  // namespace
+
+Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
+    : mission_(mission),
+      settings_(vehicle),
+      vehicle_(vehicle),
+      track_(mission.motor,
+             mission.order_times_s.empty() ? regular_orders(0, mission.duration_s) : mission.order_times_s,
+             vehicle.fins.lag_s, mission.duration_s),
+      electronics_C_(smoothed_electronics(mission.compass)) {
+  std::vector<double> nominal_A;
+  nominal_A.reserve(track_.rows().size());
+  for (const auto& row : track_.rows()) nominal_A.push_back(sim::current_A(settings_.propeller, row.shaft_rps));
+  current_A_ = track_.current_A(mission.motor, nominal_A);
+
+  // Frames lie in the middle of their share of an interval, so that the drift of a clock moves none to the next.
+  const double first_s =
+      std::max({mission.card.front().time_s, mission.compass.front().time_s, mission.motor.front().time_s});
+  const auto first = std::find_if(mission.card.begin(), mission.card.end(),
+                                  [&](const CardReading& reading) { return reading.time_s >= first_s; });
+  begin_s_ = (first != mission.card.end() ? first->time_s : first_s) - kInterval_s / 4;
+  const auto word = std::find_if(mission.compass.begin(), mission.compass.end(),
+                                 [&](const CompassReading& reading) { return reading.time_s >= begin_s_; });
+  if (word != mission.compass.end()) {
+    const double phase_s = std::fmod(word->time_s - begin_s_, kInterval_s);
+    compass_shift_s_ = kInterval_s / 2 - phase_s;
+  }
+  intervals_ = std::max<Eigen::Index>(
+      0, static_cast<Eigen::Index>(std::floor((mission.card.back().time_s - begin_s_) / kInterval_s)));
+}
+
+Innovations Replay::run(const Model& model, Course10Hz* course) const {
+  return ReplayRun({mission_, settings_, vehicle_, track_.rows(), current_A_, electronics_C_, begin_s_,
+                    compass_shift_s_, intervals_},
+                   model)
+      .innovations(course);
+}
+
+}  // namespace navcal::gap

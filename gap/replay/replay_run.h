@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gap/actuators/linked_actuators.h"
+#include "gap/replay/predicted_instruments.h"
+#include "gap/replay/remembered_states.h"
+#include "gap/replay/replay.h"
+
+namespace navcal::gap {
+
+/// What a run needs of the replay that it belongs to.
+struct ReplayInput {
+  const Mission& mission;
+  const config::VehicleSettings& settings;
+  const sim::Vehicle& vehicle;
+  std::span<const ActuatorTrack::Row> actuators;
+  std::span<const double> current_A;      ///< at the times of `actuators`
+  std::span<const double> electronics_C;  ///< at each compass reading
+  double begin_s = 0, compass_shift_s = 0;
+  Eigen::Index intervals = 0;
+};
+
+/// One replay by one model. Used once.
+class ReplayRun {
+ public:
+  ReplayRun(const ReplayInput& input, const Model& model);
+  ReplayRun(const ReplayRun&) = delete;
+  ReplayRun& operator=(const ReplayRun&) = delete;
+
+  [[nodiscard]] Innovations innovations(Course10Hz* course);
+
+ private:
+  void begin(const CardReading& reading);
+  void carry(const CardReading& to);
+  void step(double from_s, double until_s, const Vector3& gyro_rad_s);
+  void complete(sim::State& state, double time_s);
+  void take_card(const CardReading& reading);
+  void take_words(double until_s);
+  void take_word(const CompassReading& reading, const sim::State& state);
+  void take_fixes(double until_s);
+  void take_fix(std::size_t index);
+  void write_course(const CardReading& reading, Course10Hz& course) const;
+  /// Of the grid; none before the first and after the last.
+  [[nodiscard]] std::optional<Eigen::Index> interval_of(double time_s) const;
+  void add(std::optional<Eigen::Index> interval, Channel channel, double innovation);
+
+  ReplayInput in_;
+  sim::EffectSet effects_;
+  LinkedActuators actuators_;
+  PredictedInstruments instruments_;
+  Vector3 gyro_error_at_rest_rad_s_;
+  sim::Influences influences_;
+  sim::Body body_;              ///< the estimate
+  Vector3 gyro_error_rad_s_{};  ///< predicted, of the rates about x, y, z
+  Vector3 gyro_said_rad_s_{};   ///< at the last frame
+  RememberedStates states_;
+  std::size_t next_word_ = 0, next_fix_ = 0;
+  std::array<double, 2> offset_m_{};  ///< by which fixes moved the estimate
+  double variance_m2_ = 0;
+  std::optional<double> last_fix_s_;
+  double distance_m_ = 0, distance_at_fix_m_ = 0;
+  Innovations out_;
+  // A reading goes to all channels of its interval.
+  Eigen::Matrix<double, Eigen::Dynamic, kChannels, Eigen::RowMajor> sums_;
+  Eigen::Matrix<int, Eigen::Dynamic, kChannels, Eigen::RowMajor> counts_;
+};
+
+}  // namespace navcal::gap

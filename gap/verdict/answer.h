@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "gap/verdict/diagnosis.h"
+#include "gap/verdict/holdout.h"
+#include "gap/inference/library.h"
+#include "gap/inference/search.h"
+#include "gap/inference/spikes.h"
+
+namespace navcal::gap {
+
+/// The effects of the verdict, or the candidates where there is none; with what they may be confused with.
+void write_findings(const SearchResult& found, const Library& library, const Priors& priors, Diagnosis& answer);
+
+/// How far the gap shrinks, pooled and by channel, and what that means for whoever navigates.
+void write_gap(const std::vector<Comparison>& compared, const PooledClosure& closure, bool held_out,
+               Diagnosis& answer);
+
+/// Sentence and what to do next, once everything else stands.
+void write_words(Diagnosis& answer);
+
+}  // namespace navcal::gap

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calib/suite/report.h"
+#include "gap/data/earth_field.h"
+#include "gap/data/track.h"
+
+// What a diagnosis says: the numbers behind `navcal gap --json`, the text and the page (docs/gap.md).
+namespace navcal::gap {
+
+enum class Verdict : std::uint8_t {
+  no_gap,     ///< nothing beyond what a tolerance of 2 % on everything would show
+  explained,  ///< a set of effects wins, leaves nothing but noise, and improves what was held out
+  unknown,    ///< there is a gap, and nothing in the library explains it
+};
+/// "no-gap", "explained", "unknown".
+[[nodiscard]] std::string_view name_of(Verdict verdict);
+
+/// Where residuals are larger than the nominal vehicle's: a channel, and what its excess follows.
+struct WhereEntry {
+  std::string channel;  ///< "compass.field"
+  std::string regime;   ///< "motor_current"
+  double gap = 0;       ///< root mean square of the part that follows the regime
+  double floor = 0;     ///< what the null missions show of it
+  std::string unit;     ///< of both: "uT"
+  double p_value = 1;   ///< of so much among nulls, over all channels and regimes together
+};
+
+struct EffectParameterEstimate {
+  std::string name;  ///< with its unit: "x_uT_per_A"
+  double value = 0, std_error = 0;
+};
+
+struct Confusion {
+  std::string name;
+  std::string tie_breaker;     ///< the manoeuvre that tells them apart
+  double separation_nats = 0;  ///< expected log evidence between both in this mission
+};
+
+struct EffectFinding {
+  std::string name;
+  double probability = 0;
+  std::vector<EffectParameterEstimate> parameters;
+  std::vector<Confusion> confused_with;
+};
+
+/// How much of the gap goes away. `closed` = 1 - (after - floor) / (before - floor), on what was held out; absent
+/// where the gap before does not stand clear of the floor.
+struct Closure {
+  double before = 0, after = 0, floor = 0;
+  std::optional<double> closed;
+  std::optional<std::array<double, 2>> closed_ci;  ///< 95 %
+};
+struct ChannelClosure {
+  std::string channel, unit;  ///< root mean square of the innovations, in the unit
+  Closure closure;
+};
+struct Gap {
+  Closure pooled;  ///< power of whitened innovations; 1 is the noise of the nominal vehicle
+  std::vector<ChannelClosure> channels;
+  bool held_out = false;  ///< on other missions; else on blocks of this one, which is weaker
+  /// What it means for whoever navigates by the model: heading error RMS, and position error per 100 m between
+  /// fixes; before and after.
+  std::optional<std::array<double, 2>> heading_error_rad;
+  std::optional<std::array<double, 2>> dead_reckoning_m_per_100m;
+};
+
+/// For the picture: innovations of one channel against what drives it, before and after.
+struct Scatter {
+  std::string channel, unit;  ///< of the innovations
+  std::string driver, driver_unit;
+  std::vector<double> driver_value, before, after;
+};
+/// And against time, means of equal intervals.
+struct Course {
+  std::string channel, unit;
+  std::vector<double> time_s, before, after;
+};
+
+/// Whether and when a channel's residuals changed in mid-mission.
+struct ChangePoint {
+  std::string channel;
+  double time_s = 0;
+  double before = 0, after = 0;  ///< mean level
+  std::string unit;
+};
+
+struct BankFacts {
+  int missions = 0;
+  std::uint64_t seed = 0;
+  bool from_cache = false;
+  double seconds = 0;  ///< that making it took
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::unknown;
+  std::string sentence;                   ///< the verdict for people
+  std::vector<WhereEntry> where;          ///< what stands clear, strongest first
+  std::vector<WhereEntry> map;            ///< every channel and regime, for the picture
+  std::vector<EffectFinding> effects;     ///< the set on which the verdict rests
+  std::vector<EffectFinding> candidates;  ///< all that were considered likely, most probable first
+  Gap gap;
+  std::vector<std::string> unexplained;  ///< what structure is left
+  std::vector<std::string> next;         ///< what to do now: a manoeuvre, an effect to add
+  std::vector<std::string> remarks;      ///< about the recording: gaps, missing instruments, what cannot be said
+  std::array<double, 4> gyro_bias_rad_s{};  ///< A-x, A-z, B-y, B-z; a nuisance, never a cause
+  std::vector<ChangePoint> changes;
+  std::optional<Scatter> scatter;   ///< of the strongest channel
+  std::vector<Course> courses;      ///< of each channel
+  std::optional<EarthField> field;  ///< of the nominal model in this mission
+  std::optional<Tracks> tracks;
+  /// Where an instrument is missing that the search for causes needs: what the others show of each other.
+  std::optional<calib::Report> instruments_alone;
+  BankFacts bank;
+  double duration_s = 0;  ///< of the mission
+  double seconds = 0;     ///< that the diagnosis took, without the bank
+};
+
+}  // namespace navcal::gap

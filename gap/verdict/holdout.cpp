@@ -1,0 +1,140 @@
+#include "gap/verdict/holdout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "gap/inference/biases.h"
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kBlock_s = 10;
+constexpr int kResamples = 1000;
+/// Further above the floor than this many of its standard deviations, a gap is one.
+constexpr double kClear = 3;
+
+/// The innovations by these effects with the biases that fit them, and their whitened form.
+struct Fitted {
+  Innovations innovations;
+  Eigen::VectorXd white;
+};
+
+Fitted fitted(const Replay& replay, const Library& library, const Whitening& whitening, Eigen::VectorXd values,
+              Course10Hz* course) {
+  values = with_biases_fitted(replay, library, whitening, std::move(values), 1);
+  Fitted result;
+  result.innovations = replay.run(library.model(values), course);
+  result.white = whitening(result.innovations, layout_of(replay));
+  return result;
+}
+
+std::vector<double> blocks(const Eigen::VectorXd& white, const Layout& layout) {
+  const auto length = static_cast<Eigen::Index>(kBlock_s / kInterval_s) * kEvidenceChannels;
+  const Eigen::Index grid = layout.intervals * kEvidenceChannels;
+  std::vector<double> sums;
+  for (Eigen::Index from = 0; from < grid; from += length) {
+    sums.push_back(white.segment(from, std::min(length, grid - from)).squaredNorm());
+  }
+  // A handful of fixes belong together: one outlying surfacing is one event.
+  constexpr Eigen::Index kFixes = 10 * kFixChannels;
+  for (Eigen::Index from = grid; from < white.size(); from += kFixes) {
+    sums.push_back(white.segment(from, std::min(kFixes, white.size() - from)).squaredNorm());
+  }
+  return sums;
+}
+
+Power power_of(const Eigen::VectorXd& white, const Layout& layout) {
+  return {white.squaredNorm() / static_cast<double>(Whitening::count(white)), blocks(white, layout)};
+}
+
+}  // namespace
+
+Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
+                   const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects) {
+  const Layout layout = layout_of(replay);
+  Eigen::VectorXd improved = effects;
+  improved.head<Library::kBiases>() = nominal.head<Library::kBiases>();
+  Comparison result;
+  Fitted before = fitted(replay, library, bank.whitening, nominal, nullptr);
+  Fitted after = fitted(replay, library, bank.whitening, improved, &result.course);
+  result.measurements = static_cast<double>(Whitening::count(before.white));
+  result.before = power_of(before.white, layout);
+  result.after = power_of(after.white, layout);
+  result.nominal = std::move(before.innovations);
+  result.improved = std::move(after.innovations);
+  result.fix_times_s = replay.mission().fix_times_s();
+  result.channel_floor = bank.followed.mean_square.col(overall_regime()).cwiseSqrt();
+  double square = 0;
+  for (const double power : bank.powers) result.floor += power / static_cast<double>(bank.powers.size());
+  for (const double power : bank.powers) square += (power - result.floor) * (power - result.floor);
+  result.floor_std = std::sqrt(square / std::max<double>(1, static_cast<double>(bank.powers.size()) - 1));
+  return result;
+}
+
+Foretold foretold(const Replay& replay, const Library& library, const Whitening& whitening,
+                  const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
+  const Eigen::VectorXd poorer = fitted(replay, library, whitening, without, nullptr).white;
+  const Eigen::VectorXd better = fitted(replay, library, whitening, with, nullptr).white;
+  return {0.5 * (poorer.squaredNorm() - better.squaredNorm()), power_of(better, layout_of(replay))};
+}
+
+PooledClosure pooled_closure(const std::vector<Comparison>& comparisons) {
+  std::vector<Power> after;
+  after.reserve(comparisons.size());
+  for (const Comparison& each : comparisons) after.push_back(each.after);
+  return pooled_closure(comparisons, after);
+}
+
+PooledClosure pooled_closure(const std::vector<Comparison>& comparisons, const std::vector<Power>& after) {
+  PooledClosure pooled;
+  double measurements = 0, floor_variance = 0;
+  for (const Comparison& each : comparisons) measurements += each.measurements;
+  if (!(measurements > 0)) return pooled;
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    const Comparison& each = comparisons[i];
+    const double weight = each.measurements / measurements;
+    pooled.before += weight * each.before.mean_square;
+    pooled.after += weight * after[i].mean_square;
+    pooled.floor += weight * each.floor;
+    floor_variance += weight * weight * each.floor_std * each.floor_std;
+  }
+  const double floor_std = std::sqrt(floor_variance);
+  pooled.clear = pooled.before - pooled.floor > kClear * floor_std;
+  if (!pooled.clear) return pooled;
+  pooled.closed = 1 - (pooled.after - pooled.floor) / (pooled.before - pooled.floor);
+
+  std::mt19937_64 dice(1);
+  std::normal_distribution<double> normal;
+  std::vector<double> closures;
+  for (int n = 0; n < kResamples; ++n) {
+    double was = 0, is = 0;
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+      const auto& blocks = comparisons[i].before.blocks;
+      std::uniform_int_distribution<std::size_t> pick(0, blocks.size() - 1);
+      for (std::size_t k = 0; k < blocks.size(); ++k) {
+        const std::size_t block = pick(dice);
+        was += blocks[block];
+        is += after[i].blocks[block];
+      }
+    }
+    // The floor's spread holds that of the noise, which before and after share.
+    const double floor = pooled.floor + floor_std * normal(dice);
+    const double gap = was / measurements - floor;
+    if (gap > 0) closures.push_back(1 - (is / measurements - floor) / gap);
+  }
+  if (closures.size() < kResamples / 2) {
+    pooled.clear = false;
+    return pooled;
+  }
+  std::sort(closures.begin(), closures.end());
+  const auto quantile = [&](double q) {
+    return closures[static_cast<std::size_t>(q * static_cast<double>(closures.size() - 1))];
+  };
+  pooled.lower = std::min(quantile(0.025), pooled.closed);
+  pooled.upper = std::max(quantile(0.975), pooled.closed);
+  return pooled;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/vehicle.h"
+#include "gap/verdict/diagnosis.h"
+#include "gap/data/earth_field.h"
+#include "record/recording.h"
+
+namespace navcal::gap {
+
+/// What is asked of a diagnosis.
+struct Request {
+  std::filesystem::path mission;
+  std::vector<std::filesystem::path> holdouts;  ///< other missions of the same vehicle; may be none
+  config::VehicleSettings vehicle;              ///< the nominal one
+  std::optional<Vector3> field_uT;              ///< the Earth's, for all missions, whatever they say of it
+  std::vector<std::string> excluded;            ///< effects that the library is to be without
+  std::filesystem::path cache;                  ///< folder of null banks; empty: none are kept
+  int bank_missions = 100;
+  std::uint64_t bank_seed = 1;
+  unsigned threads = 0;  ///< 0: as many as there are cores
+};
+
+/// What is being done, and how much of it is done (0 to 1). Called from one thread at a time.
+using Progress = std::function<void(std::string_view what, double done)>;
+
+/// Throws record::BadRecording for a file that is none, std::invalid_argument for an excluded name that is not in
+/// the library, and for a hold-out that shares readings with the mission or another hold-out. A recording of which
+/// nothing can be said gets the verdict `unknown` and remarks that say why.
+[[nodiscard]] Diagnosis diagnose(const Request& request, const Progress& progress);
+
+}  // namespace navcal::gap

@@ -1,0 +1,167 @@
+#include "gap/verdict/verdict.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace navcal::gap {
+namespace {
+
+constexpr std::size_t kMostReasons = 4;
+constexpr double kProbable = 0.7;
+/// Other causes together may be no more probable: a wrong name sends people to mend what is whole, where one more
+/// manoeuvre would tell. That there is none at all is the lesser mistake, for which kProbable is enough.
+constexpr double kMostRivals = 0.15;
+/// Where nothing stands clear of nulls, a gap is one whose absence is less probable than this.
+constexpr double kAbsent = 0.01;
+constexpr double kClosed = 0.9;
+/// Typical strengths beyond which an effect rather stands for something else.
+constexpr double kLargest = 5;
+/// Typical strengths whose digits mean nothing any more.
+constexpr double kAbsurd = 100;
+/// Typical strengths up to which it is a tolerance.
+constexpr double kSmallest = 0.05;
+/// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
+constexpr double kBeyondTolerance = 0.2;
+/// Typical strengths beyond which what is not named is no tolerance, however little a mission shows of it.
+constexpr double kMostTolerance = 0.4;
+constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
+/// A closure below this is growth: the interval of its error may reach a little below zero where nothing closes.
+constexpr double kGrows = -0.05;
+/// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
+constexpr double kLeft = 1e-4;
+
+std::string names(const Library& library, const std::vector<std::size_t>& effects) {
+  std::vector<std::string_view> all;
+  all.reserve(effects.size());
+  for (const std::size_t effect : effects) all.push_back(library[effect].name);
+  return fmt::format("{}", fmt::join(all, " + "));
+}
+
+/// Whether nothing is left that speaks for something outside the library. What is left beside the effects may be
+/// this vehicle's tolerances, if those found on the first mission explain it on the others; but then the effects
+/// must be more than tolerances themselves, and the others must be tolerances.
+bool closes(const Grounds& grounds) {
+  if (!grounds.closure.clear || grounds.closure.upper >= kClosed) return true;
+  const auto& best = grounds.found.best;
+  for (std::size_t effect = 0; effect < grounds.library.size(); ++effect) {
+    const double strength = strength_of(grounds.library, effect, best.mean);
+    const bool named = std::find(best.effects.begin(), best.effects.end(), effect) != best.effects.end();
+    if (named ? !(strength > kBeyondTolerance) : strength > kMostTolerance) return false;
+  }
+  return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
+}
+
+/// Probability that the cause is one without some of `set`.
+double rivals_of(const CauseSet& set, const std::vector<Candidate>& candidates) {
+  double together = 0;
+  for (const Candidate& other : candidates) {
+    const bool has_all = std::includes(other.effects.begin(), other.effects.end(), set.begin(), set.end());
+    if (!other.effects.empty() && !has_all) together += other.probability;
+  }
+  return together;
+}
+
+bool is_left(const WhereEntry& entry) { return entry.p_value <= kLeft; }
+
+void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
+  for (const WhereEntry& left : grounds.leftover) {
+    if (reasons.size() >= kMostReasons) break;
+    if (!is_left(left)) continue;
+    reasons.push_back(fmt::format("{} still follows {} by {:.2g} {}; vehicles without a gap show {:.2g}",
+                                  left.channel, left.regime, left.gap, left.unit, left.floor));
+  }
+}
+
+/// Missions or blocks on which the effects did not raise the likelihood as causes would.
+void add_held_out(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
+  const auto& gains_nats = grounds.held_out_nats;
+  const double altogether = std::accumulate(gains_nats.begin(), gains_nats.end(), 0.0);
+  const auto worse =
+      std::count_if(gains_nats.begin(), gains_nats.end(), [](double nats) { return nats < kLoss_nats; });
+  if (worse == 0 && altogether >= kGainAltogether_nats) return;
+  const std::string_view parts = grounds.blocks ? "blocks of it that were left out" : "missions held out";
+  reasons.push_back(worse == 0
+                        ? fmt::format("{} explains this mission, but makes the fit of {} no better", set, parts)
+                        : fmt::format("{} explains this mission, but makes the fit of {} of {} {} worse", set,
+                                      worse, gains_nats.size(), parts));
+}
+
+/// Why a closure is not enough. Far below zero its digits mean nothing, so that only the direction is told.
+std::string closure_words(const PooledClosure& closure, const std::string& set) {
+  if (closure.closed < kGrows) return fmt::format("with {} the gap grows instead of going away", set);
+  const double percent = std::max(0.0, 100 * closure.closed);
+  if (closure.lower < kGrows) {
+    return fmt::format("with {} only {:.0f} % of the gap goes away (95 %: at most {:.0f} %)", set, percent,
+                       100 * closure.upper);
+  }
+  return fmt::format("with {} only {:.0f} % of the gap goes away (95 %: {:.0f} to {:.0f} %)", set, percent,
+                     100 * std::max(0.0, closure.lower), 100 * closure.upper);
+}
+
+}  // namespace
+
+Judgement judge(const Grounds& grounds) {
+  const auto& best = grounds.found.best;
+  Judgement judgement;
+  auto& reasons = judgement.reasons;
+  if (best.effects.empty()) {
+    add_leftover(grounds, reasons);
+    judgement.verdict = reasons.empty() ? Verdict::no_gap : Verdict::unknown;
+    return judgement;
+  }
+  const std::string set = names(grounds.library, best.effects);
+  const auto& candidates = grounds.found.candidates;
+  const auto first = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& candidate) { return candidate.effects == best.effects; });
+  const double probability = first != candidates.end() ? first->probability : 0;
+  if (probability < kProbable || rivals_of(best.effects, candidates) > kMostRivals) {
+    std::string others;
+    for (std::size_t i = 0; i < std::min<std::size_t>(candidates.size(), 3); ++i) {
+      const Candidate& other = candidates[i];
+      if (other.effects == best.effects) continue;
+      others += fmt::format("{}{} ({:.2f})", others.empty() ? "" : ", ",
+                            other.effects.empty() ? "no effect at all" : names(grounds.library, other.effects),
+                            other.probability);
+    }
+    reasons.push_back(fmt::format("{} is the best candidate, but only with probability {:.2f}; others: {}", set,
+                                  probability, others));
+  }
+  add_held_out(grounds, set, reasons);
+  if (!closes(grounds)) reasons.push_back(closure_words(grounds.closure, set));
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    const std::size_t effect = best.effects[i];
+    const double size = strength_of(grounds.library, effect, best.mean);
+    if (grounds.found.shown_nats[i] < kShown_nats) {
+      reasons.push_back(fmt::format("{} hardly shows in this mission: at its usual strength by {:.1f} nats",
+                                    grounds.library[effect].name, grounds.found.shown_nats[i]));
+    }
+    if (size < kSmallest) {
+      reasons.push_back(fmt::format("{} is the best candidate, but no stronger than within tolerance",
+                                    grounds.library[effect].name));
+    }
+    if (size > kLargest) {
+      reasons.push_back(
+          fmt::format("{} would have to be {} times as strong as usual, which speaks for something "
+                      "else that looks like it",
+                      grounds.library[effect].name,
+                      size < kAbsurd ? fmt::format("{:.1f}", size) : fmt::format("over {:.0f}", kAbsurd)));
+    }
+  }
+  add_leftover(grounds, reasons);
+  judgement.verdict = reasons.empty() ? Verdict::explained : Verdict::unknown;
+  const auto none = std::find_if(candidates.begin(), candidates.end(),
+                                 [](const Candidate& candidate) { return candidate.effects.empty(); });
+  const bool may_be_none = none != candidates.end() && none->probability > kAbsent;
+  const bool nothing_seen =
+      grounds.where.empty() && std::none_of(grounds.leftover.begin(), grounds.leftover.end(), is_left);
+  if (!reasons.empty() && may_be_none && nothing_seen) {
+    return {Verdict::no_gap, {}};
+  }
+  return judgement;
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,167 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <netcdf.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "base/durations.h"
+#include "record/export/export.h"
+#include "record/export/field_meaning.h"
+#include "record/export/log_tables.h"
+#include "record/export/netcdf_file.h"
+
+namespace navcal::record {
+namespace {
+
+constexpr std::int64_t kDay_ns = 86'400 * base::kSecond_ns;
+
+/// Midnight before the log's first time: seconds since then are exact to the nanosecond in a double, for months,
+/// and in units that every reader of dates knows.
+std::int64_t reference_of(const std::vector<TopicTable>& tables) {
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  for (const TopicTable& table : tables) first = std::min(first, std::ranges::min(table.times_ns()));
+  return tables.empty() || first < 0 ? 0 : first - first % kDay_ns;
+}
+
+std::string units_since(std::int64_t reference_ns) {
+  return fmt::format("seconds since {:%Y-%m-%d} 00:00:00", fmt::gmtime(reference_ns / base::kSecond_ns));
+}
+
+int netcdf_type(const TopicTable::Values& values) {
+  if (std::holds_alternative<NumberColumn>(values)) return NC_DOUBLE;
+  if (const auto* times = std::get_if<NanosecondColumn>(&values)) return times->utc ? NC_DOUBLE : NC_INT64;
+  if (std::holds_alternative<BooleanColumn>(values)) return NC_BYTE;
+  return NC_STRING;
+}
+
+/// As in the tables of the other exports; but the coordinate has its dimension's name, and intervals are in
+/// nanoseconds.
+std::string variable_name(const TopicTable::Column& column) {
+  if (!std::holds_alternative<NanosecondColumn>(column.values)) return column.head.title;
+  return std::string(column.head.field->name);
+}
+
+/// Axes in words, where the name of the field is that of three columns.
+std::string long_name(const TopicColumn& head, std::string_view name) {
+  if (head.field->kind != FieldKind::vector3) return std::string(name);
+  return fmt::format("{}: {}", name, head.title.substr(head.field->name.size() + 1));
+}
+
+/// One topic: a group with a dimension and the variables over it.
+class TopicGroup {
+ public:
+  TopicGroup(NetcdfFile& file, const TopicTable& table, std::int64_t reference_ns)
+      : file_(file),
+        table_(table),
+        reference_ns_(reference_ns),
+        group_(file.add_group(table_name(table.topic()))),
+        has_coordinate_(table.times_increase()),
+        dimension_(file.add_dimension(group_, has_coordinate_ ? "time" : "sample", table.rows())) {
+    for (const auto& column : table_.columns()) variables_.push_back(add(column));
+  }
+
+  /// A coordinate variable must increase strictly, or it is none.
+  [[nodiscard]] bool has_coordinate() const { return has_coordinate_; }
+
+  void write(std::size_t column) {
+    const auto variable = variables_[column];
+    const auto& values = table_.columns()[column].values;
+    if (const auto* texts = std::get_if<TextColumn>(&values)) {
+      std::vector<const char*> pointers(texts->size());
+      for (std::size_t row = 0; row < texts->size(); ++row) pointers[row] = texts->at(row).c_str();
+      file_.write(variable, pointers);
+    } else if (const auto* numbers = std::get_if<NumberColumn>(&values)) {
+      file_.write(variable, numbers->rows);
+    } else if (const auto* times = std::get_if<NanosecondColumn>(&values)) {
+      if (times->utc) {
+        file_.write(variable, dates(*times));
+      } else {
+        file_.write(variable, times->rows);
+      }
+    } else {
+      file_.write(variable, std::get<BooleanColumn>(values).rows);
+    }
+  }
+
+ private:
+  NetcdfFile::Variable add(const TopicTable::Column& column) {
+    const bool is_coordinate = &column == &table_.columns().front();
+    const auto variable =
+        file_.add_variable(group_, variable_name(column), netcdf_type(column.values), dimension_, table_.rows());
+    const FieldMeaning* const meaning = field_meaning(table_.topic(), column.head.field->name);
+    if (meaning != nullptr) {
+      file_.attribute(variable, "long_name", long_name(column.head, meaning->long_name));
+      if (!meaning->standard_name.empty()) file_.attribute(variable, "standard_name", meaning->standard_name);
+      if (!meaning->units.empty()) file_.attribute(variable, "units", meaning->units);
+    }
+    if (!has_coordinate_ && !is_coordinate) file_.attribute(variable, "coordinates", "time");
+    if (std::holds_alternative<NumberColumn>(column.values)) {
+      file_.fill_value(variable, std::numeric_limits<double>::quiet_NaN());
+    } else if (const auto* times = std::get_if<NanosecondColumn>(&column.values)) {
+      if (times->utc) {
+        file_.attribute(variable, "units", units_since(reference_ns_));
+        file_.attribute(variable, "calendar", "standard");
+        // A coordinate has no gaps.
+        if (!is_coordinate) file_.fill_value(variable, std::numeric_limits<double>::quiet_NaN());
+      } else {
+        file_.fill_value(variable, NanosecondColumn::kAbsent);
+      }
+    } else if (std::holds_alternative<BooleanColumn>(column.values)) {
+      file_.fill_value(variable, BooleanColumn::kAbsent);
+      file_.attribute(variable, "flag_values", std::array<std::int8_t, 2>{0, 1});
+      file_.attribute(variable, "flag_meanings", "false true");
+    }
+    return variable;
+  }
+
+  [[nodiscard]] std::vector<double> dates(const NanosecondColumn& times) const {
+    std::vector<double> seconds(times.rows.size());
+    std::ranges::transform(times.rows, seconds.begin(), [this](std::int64_t ns) {
+      if (ns == NanosecondColumn::kAbsent) return std::numeric_limits<double>::quiet_NaN();
+      return static_cast<double>(ns - reference_ns_) / static_cast<double>(base::kSecond_ns);
+    });
+    return seconds;
+  }
+
+  NetcdfFile& file_;
+  const TopicTable& table_;
+  std::int64_t reference_ns_;
+  NetcdfFile::Group group_;
+  bool has_coordinate_;
+  int dimension_;
+  std::vector<NetcdfFile::Variable> variables_;
+};
+
+}  // namespace
+
+Exported export_netcdf(const std::filesystem::path& log, const std::filesystem::path& path,
+                       const Progress& progress) {
+  LogTables found = read_tables(log, progress);
+  NetcdfFile file(path);
+  // 64-bit integers are allowed from 1.9 on.
+  file.attribute(file.root(), "Conventions", "CF-1.9");
+  file.attribute(file.root(), "title", "navcal log " + log.filename().string());
+  file.attribute(file.root(), "source", "navcal");
+  if (!found.configuration.empty()) file.attribute(file.root(), "navcal_configuration", found.configuration);
+
+  Exported exported{{path}, std::move(found.remarks)};
+  const std::int64_t reference_ns = reference_of(found.tables);
+  for (const TopicTable& table : found.tables) {
+    TopicGroup group(file, table, reference_ns);
+    if (!group.has_coordinate()) {
+      exported.remarks.push_back(
+          fmt::format("{}: times do not always increase: its dimension is \"sample\", with the times beside it",
+                      table.topic()));
+    }
+    for (std::size_t column = 0; column < table.columns().size(); ++column) {
+      group.write(column);
+      progress(1.0);
+    }
+  }
+  file.commit();
+  return exported;
+}
+
+}  // namespace navcal::record

@@ -1,0 +1,105 @@
+#include "record/export/field_meaning.h"
+
+#include <array>
+
+namespace navcal::record {
+namespace {
+
+constexpr std::array kMeanings{
+    // Every topic.
+    FieldMeaning{"", "time", "", "time", "time of validity"},
+    FieldMeaning{"", "time_std", "s", "", "standard error of the time of validity"},
+    FieldMeaning{"", "arrival", "", "", "arrival of the last byte"},
+    FieldMeaning{"", "device", "", "", "port of the configuration"},
+    FieldMeaning{"", "calibration", "", "", "calibration in force"},
+    FieldMeaning{"", "json", "", "", "the message, a JSON object"},
+    // Compass.
+    FieldMeaning{"/compass", "heading_rad", "radian", "", "heading as the device said it, from magnetic north"},
+    FieldMeaning{"", "heading_calibrated_rad", "radian", "",
+                 "heading by the calibration in force, from magnetic north"},
+    FieldMeaning{"", "heading_is_true", "", "", "the device itself says the heading from true north"},
+    FieldMeaning{"", "pitch_rad", "radian", "platform_pitch_fore_up", "pitch, positive nose up"},
+    FieldMeaning{"", "roll_rad", "radian", "platform_roll_starboard_down", "roll, positive starboard down"},
+    FieldMeaning{"", "tilt_by_accelerometers", "", "", "pitch and roll are not the compass's own"},
+    FieldMeaning{"", "field_body_uT", "uT", "", "magnetic field in body axes (forward, starboard, down)"},
+    FieldMeaning{"", "dip_rad", "radian", "", "inclination of the magnetic field as the device said it"},
+    FieldMeaning{"", "turn_rate_rad_s", "radian s-1", "platform_yaw_rate_fore_starboard",
+                 "rate of turn as the device said it, positive to starboard"},
+    FieldMeaning{"", "temperature_C", "degree_Celsius", "", "temperature of the compass"},
+    FieldMeaning{"", "error", "", "", "error code of the compass, hexadecimal"},
+    // Inertial card.
+    FieldMeaning{"", "rate_rad_s", "radian s-1", "", "rate of turn about body axes (gyros A-x, B-y, A-z)"},
+    FieldMeaning{"", "yaw_rate_b_rad_s", "radian s-1", "", "rate of turn about the z axis, gyro B"},
+    FieldMeaning{"", "yaw_rate_calibrated_rad_s", "radian s-1", "", "gyro A's z axis by the calibration in force"},
+    FieldMeaning{"", "yaw_rate_b_calibrated_rad_s", "radian s-1", "",
+                 "gyro B's z axis by the calibration in force"},
+    FieldMeaning{"", "specific_force_m_s2", "m s-2", "",
+                 "specific force in body axes, -9.81 in z when level and still"},
+    FieldMeaning{"", "depth_m", "m", "depth", "depth of the vehicle"},
+    FieldMeaning{"", "sequence", "1", "", "number of the frame as the device counts it"},
+    FieldMeaning{"", "leak_forward", "", "", "water in the forward section"},
+    FieldMeaning{"", "leak_aft", "", "", "water in the aft section"},
+    FieldMeaning{"", "over_range", "", "", "a channel is beyond its range"},
+    FieldMeaning{"", "low_supply", "", "", "the supply is low"},
+    // Receiver.
+    FieldMeaning{"", "lat", "degrees_north", "latitude", "latitude, WGS84"},
+    FieldMeaning{"", "lon", "degrees_east", "longitude", "longitude, WGS84"},
+    FieldMeaning{"/gps", "speed_m_s", "m s-1", "platform_speed_wrt_ground", "speed over ground"},
+    FieldMeaning{"", "course_rad", "radian", "platform_course", "course over ground, from true north"},
+    FieldMeaning{"", "fix", "", "", "kind of the fix"},
+    FieldMeaning{"", "height_m", "m", "height_above_reference_ellipsoid", "height above the ellipsoid"},
+    FieldMeaning{"", "height_msl_m", "m", "altitude", "height above mean sea level"},
+    FieldMeaning{"", "climb_m_s", "m s-1", "", "vertical velocity, positive upwards"},
+    FieldMeaning{"", "dop", "1", "", "dilution of precision, of position when 3D, horizontal when 2D"},
+    FieldMeaning{"", "visible", "1", "", "satellites in view"},
+    FieldMeaning{"", "tracked", "1", "", "satellites tracked"},
+    FieldMeaning{"", "time_corrected", "", "", "a rollover of the week was undone"},
+    FieldMeaning{"", "leap_known", "", "", "the receiver knows the leap seconds"},
+    // Motor card.
+    FieldMeaning{"", "rpm", "rpm", "", "revolutions of the shaft"},
+    FieldMeaning{"", "rpm_commanded", "rpm", "", "revolutions commanded"},
+    FieldMeaning{"", "fins_rad", "radian", "", "angle of the fin"},
+    FieldMeaning{"", "current_A", "A", "", "current of the motor"},
+    // Echo sounder.
+    FieldMeaning{"", "altitude_m", "m", "height_above_sea_floor", "distance from the transducer to the bottom"},
+    // Navigation.
+    FieldMeaning{"", "position", "", "", "whence the position is"},
+    FieldMeaning{"", "north_std_m", "m", "", "standard error of the position northward"},
+    FieldMeaning{"", "east_std_m", "m", "", "standard error of the position eastward"},
+    FieldMeaning{"", "since_fix_s", "s", "", "time since the last fix"},
+    FieldMeaning{"", "since_fix_m", "m", "", "way through the water since the last fix"},
+    FieldMeaning{"/nav", "heading_rad", "radian", "platform_orientation", "heading from true north"},
+    FieldMeaning{"", "heading_std_rad", "radian", "", "standard error of the heading"},
+    FieldMeaning{"/nav", "speed_m_s", "m s-1", "platform_speed_wrt_sea_water", "speed through the water"},
+    FieldMeaning{"", "velocity_m_s", "m s-1", "", "velocity over ground (north, east, down)"},
+    FieldMeaning{"", "set_north_m_s", "m s-1", "", "set northward"},
+    FieldMeaning{"", "set_east_m_s", "m s-1", "", "set eastward"},
+    FieldMeaning{"", "outage_s", "s", "", "duration of the stretch without fixes that has ended"},
+    FieldMeaning{"", "outage_m", "m", "", "way through the water in it"},
+    FieldMeaning{"", "outage_error_m", "m", "", "distance of the reckoned position from the fix that ended it"},
+    FieldMeaning{"", "outage_error_uncalibrated_m", "m", "", "the same without calibrations"},
+    // Clock and events.
+    FieldMeaning{"", "monotonic", "ns", "", "the same instant on the monotonic clock"},
+    FieldMeaning{"", "source", "", "", "whence UTC is known"},
+    FieldMeaning{"", "offset", "ns", "", "UTC less monotonic time"},
+    FieldMeaning{"", "bound", "s", "", "bound of the error of UTC"},
+    FieldMeaning{"", "at", "ns", "", "when it was found, on the monotonic clock"},
+    FieldMeaning{"", "severity", "", "", "info, warning, error or alarm"},
+    FieldMeaning{"", "name", "", "", "short name of the event"},
+    FieldMeaning{"", "port", "", "", "port of the configuration"},
+    FieldMeaning{"", "message", "", "", "what happened, in words"},
+};
+
+}  // namespace
+
+const FieldMeaning* field_meaning(std::string_view topic, std::string_view field) {
+  const FieldMeaning* found = nullptr;
+  for (const FieldMeaning& meaning : kMeanings) {
+    if (meaning.field != field) continue;
+    if (meaning.topic == topic) return &meaning;
+    if (meaning.topic.empty()) found = &meaning;
+  }
+  return found;
+}
+
+}  // namespace navcal::record

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "record/log/log_info.h"
+#include "record/export/topic_table.h"
+
+namespace navcal::record {
+
+/// What a log holds besides raw bytes, as tables in memory.
+struct LogTables {
+  std::vector<TopicTable> tables;  ///< in the order of their first messages; none is empty
+  std::string configuration;       ///< TOML; empty when the log has none
+  std::vector<std::string> remarks;
+};
+
+/// Throws BadRecording when it is not a log; what `progress` throws ends it too.
+[[nodiscard]] LogTables read_tables(const std::filesystem::path& log, const Progress& progress);
+
+}  // namespace navcal::record

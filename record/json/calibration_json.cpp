@@ -1,0 +1,108 @@
+#include "record/json/calibration_json.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "base/angles.h"
+#include "record/json/correction_json.h"
+#include "record/json/json_object.h"
+
+namespace navcal::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// libgps reads lines of up to 10 kB.
+constexpr std::size_t kLongestLine = 9000;
+
+Json calibrator_json(const calib::CalibratorReport& report, const calib::Correction& in_force) {
+  const auto& judgement = report.judgement;
+  Json json;
+  json["calibrator"] = calib::name_of(report.calibrator);
+  json["verdict"] = calib::name_of(report.verdict);
+  json["accepted"] = judgement.accepted;
+  json["reason"] = judgement.reason;
+  json["manoeuvre"] = judgement.manoeuvre;
+  json["coverage"] = number_json(judgement.coverage);
+  json["condition"] = number_json(judgement.condition);
+  json["samples"] = judgement.samples;
+  json["judgement"] = calib::name_of(report.outcome);
+  const bool judged = judgement.held_out_quantity == calib::HeldOutQuantity::heading;
+  const bool by_field = judgement.held_out_quantity == calib::HeldOutQuantity::field;
+  json["held_out_before_deg"] =
+      judged ? number_json(judgement.held_out_before * base::kDegreesPerRadian) : Json(nullptr);
+  json["held_out_after_deg"] =
+      judged ? number_json(judgement.held_out_after * base::kDegreesPerRadian) : Json(nullptr);
+  json["held_out_before_percent"] = by_field ? number_json(judgement.held_out_before * 100) : Json(nullptr);
+  json["held_out_after_percent"] = by_field ? number_json(judgement.held_out_after * 100) : Json(nullptr);
+  json["estimate"] = values_json(report.estimate, &calib::Quantity::value);
+  json["std"] = values_json(report.estimate, &calib::Quantity::std);
+  json["in_force"] = correction_json(in_force, report.calibrator);
+  json["held"] = report.held;
+  json["steps_back"] = report.steps_back;
+  return json;
+}
+
+Json heading_in_force_json(const calib::HeadingCheck& heading) {
+  const auto degrees = [&](double rad) {
+    return heading.blocks > 0 ? number_json(rad * base::kDegreesPerRadian) : Json(nullptr);
+  };
+  Json json;
+  json["blocks"] = heading.blocks;
+  json["before_rms_deg"] = degrees(heading.before_rad);
+  json["after_rms_deg"] = degrees(heading.after_rad);
+  json["in_force_rms_deg"] = degrees(heading.in_force_rad);
+  return json;
+}
+
+/// What all lines of a report have.
+std::string beginning(const calib::Report& report, std::optional<std::int64_t> utc_ns) {
+  std::string out;
+  {
+    JsonObject json(out, "CALIB");
+    if (utc_ns) json.seconds("time", *utc_ns);
+    json.text("name", report.name.text());
+  }
+  out.pop_back();
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> calib_lines(const calib::Report& report, std::optional<std::int64_t> utc_ns,
+                                     std::string_view tcm2) {
+  const std::string common = beginning(report, utc_ns);
+  Json whole;
+  whole["heading"] = heading_in_force_json(report.heading);
+  whole["rose"] = report.rose;
+  if (!report.steps.empty()) whole["field_step"] = steps_json({report.steps.back()}).front();
+  whole["left_out"] = gate_json(report.gate);
+  std::string rest = whole.dump();
+  if (!tcm2.empty()) {
+    rest.pop_back();
+    rest.append(",\"tcm2\":").append(tcm2).append("}");
+  }
+  rest.front() = ',';  // its members go on where those of the beginning end
+
+  std::vector<std::string> lists(1);
+  for (const auto& calibrator : report.calibrators) {
+    const std::string one = calibrator_json(calibrator, report.in_force).dump();
+    if (!lists.back().empty() && common.size() + lists.back().size() + one.size() + rest.size() > kLongestLine)
+      lists.emplace_back();
+    if (!lists.back().empty()) lists.back() += ',';
+    lists.back() += one;
+  }
+  std::vector<std::string> lines;
+  for (const std::string& list : lists) {
+    std::string line = common;
+    if (lists.size() > 1) {
+      fmt::format_to(std::back_inserter(line), ",\"part\":{},\"parts\":{}", lines.size() + 1, lists.size());
+    }
+    fmt::format_to(std::back_inserter(line), ",\"calibrators\":[{}]{}", list, rest);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace navcal::record

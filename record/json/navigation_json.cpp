@@ -1,0 +1,59 @@
+#include "record/json/navigation_json.h"
+
+#include "base/angles.h"
+#include "record/json/json_object.h"
+#include "record/json/sample_head.h"
+
+namespace navcal::record {
+namespace {
+
+std::optional<double> degrees(const std::optional<double>& rad) {
+  if (!rad) return std::nullopt;
+  return *rad * base::kDegreesPerRadian;
+}
+
+/// What is said of a position, where there is one.
+std::optional<double> of_position(const nav::Estimate& estimate, double value) {
+  if (!estimate.position_m) return std::nullopt;
+  return value;
+}
+
+void append_outage(JsonObject& json, const pipeline::NavigationSample& sample) {
+  const auto& outage = sample.outage;
+  json.number("outage_s", outage ? std::optional(outage->duration_s) : std::nullopt);
+  json.number("outage_m", outage ? std::optional(outage->distance_m) : std::nullopt);
+  json.number("outage_error_m", outage ? std::optional(outage->error_m) : std::nullopt);
+  json.number("outage_error_uncalibrated_m", sample.outage_error_uncalibrated_m);
+}
+
+}  // namespace
+
+void append_json(std::string& out, const pipeline::NavigationSample& sample) {
+  const auto& estimate = sample.estimate;
+  JsonObject json(out, "NAV");
+  append_head(json, sample.stamp, pipeline::kNavigationDevice);
+  json.text("position", name_of(sample.source));
+  json.number("lat", degrees(sample.latitude_rad));
+  json.number("lon", degrees(sample.longitude_rad));
+  json.number("north_std_m", of_position(estimate, estimate.position_std_m.x()));
+  json.number("east_std_m", of_position(estimate, estimate.position_std_m.y()));
+  json.number("since_fix_s", of_position(estimate, estimate.since_fix_s));
+  json.number("since_fix_m", of_position(estimate, estimate.since_fix_m));
+  json.number("depth_m", estimate.depth_m);
+  json.number("heading_rad", estimate.heading_rad);
+  json.number("heading_std_rad", estimate.heading_rad ? std::optional(estimate.heading_std_rad) : std::nullopt);
+  json.number("pitch_rad", estimate.pitch_rad);
+  json.number("roll_rad", estimate.roll_rad);
+  json.number("speed_m_s", estimate.speed_m_s);
+  if (const auto& v = estimate.velocity_m_s) {
+    json.numbers("velocity_m_s", std::array{v->x(), v->y(), v->z()});
+  } else {
+    json.null("velocity_m_s");
+  }
+  json.number("set_north_m_s", of_position(estimate, estimate.set_m_s.x()));
+  json.number("set_east_m_s", of_position(estimate, estimate.set_m_s.y()));
+  append_outage(json, sample);
+  append_calibration(json, sample.calibration);
+}
+
+}  // namespace navcal::record

@@ -1,0 +1,32 @@
+#include "record/log/checksum.h"
+
+#include <boost/crc.hpp>
+
+namespace navcal::record {
+namespace {
+
+using Crc32c = boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true>;
+// Boost takes the initial remainder unreflected and without the final xor: undone by hand to continue a sum.
+using Crc32 = boost::crc_optimal<32, 0x04C11DB7, 0, 0, true, true>;
+
+std::uint32_t reflected(std::uint32_t value) {
+  std::uint32_t result = 0;
+  for (int bit = 0; bit < 32; ++bit) result |= ((value >> bit) & 1U) << (31 - bit);
+  return result;
+}
+
+}  // namespace
+
+std::uint32_t crc32c(std::string_view bytes) {
+  Crc32c crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
+  Crc32 crc(reflected(~before));
+  crc.process_bytes(bytes.data(), bytes.size());
+  return ~crc.checksum();
+}
+
+}  // namespace navcal::record

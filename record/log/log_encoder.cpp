@@ -1,0 +1,235 @@
+#include "record/log/log_encoder.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+#include "record/log/checksum.h"
+#include "record/json/event_json.h"
+#include "record/json/json_object.h"
+#include "record/log/log_topics.h"
+#include "record/json/mapping_json.h"
+#include "record/log/mcap_format.h"
+#include "record/log/mcap_summary.h"
+#include "record/json/navigation_json.h"
+#include "record/json/sample_json.h"
+
+namespace navcal::record {
+namespace {
+
+std::uint16_t topic_of(const instruments::Sample& sample) {
+  struct Visitor {
+    std::uint16_t operator()(const instruments::CompassSample&) const { return topic::kCompass; }
+    std::uint16_t operator()(const instruments::ImuSample&) const { return topic::kImu; }
+    std::uint16_t operator()(const instruments::GpsSample&) const { return topic::kGps; }
+    std::uint16_t operator()(const instruments::SkySample&) const { return 0; }
+    std::uint16_t operator()(const instruments::MotorSample&) const { return topic::kMotor; }
+    std::uint16_t operator()(const instruments::AltimeterSample&) const { return topic::kAltimeter; }
+  };
+  return std::visit(Visitor{}, sample.value);
+}
+
+}  // namespace
+
+struct LogEncoder::State {
+  std::vector<config::PortSettings> ports;
+  std::string config_toml;
+  McapSummary summary;
+  std::vector<std::uint32_t> sequences;  // by channel
+  pipeline::UtcMapping mapping;
+  std::int64_t log_offset_ns = 0;
+  std::uint64_t file_bytes = 0;
+
+  /// Counts what a call appends.
+  class Appending {
+   public:
+    Appending(State& state, const std::string& out) : state_(state), out_(out), before_(out.size()) {}
+    Appending(const Appending&) = delete;
+    Appending& operator=(const Appending&) = delete;
+    ~Appending() { state_.file_bytes += out_.size() - before_; }
+
+   private:
+    State& state_;
+    const std::string& out_;
+    std::size_t before_;
+  };
+
+  [[nodiscard]] std::uint64_t log_time(std::int64_t monotonic_ns) const {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(0, monotonic_ns + log_offset_ns));
+  }
+
+  void append_message_head(std::string& out, std::uint16_t channel, std::int64_t time_ns,
+                           std::int64_t publish_ns) {
+    const std::uint64_t at = log_time(time_ns);
+    append_le(out, channel);
+    append_le(out, sequences[channel]++);
+    append_le(out, at);
+    append_le(out, log_time(publish_ns));
+    summary.add_message(channel, at);
+  }
+
+  /// `append(out)` writes one JSON object; the sum takes the place of its closing brace.
+  template <class Append>
+  void json_message(std::string& out, std::uint16_t channel, std::int64_t time_ns, std::int64_t publish_ns,
+                    Append append) {
+    const Appending counted(*this, out);
+    const RecordScope record(out, Opcode::message);
+    append_message_head(out, channel, time_ns, publish_ns);
+    const std::size_t begin = out.size();
+    append(out);
+    assert(out.size() > begin + 2 && out.back() == '}');
+    out.pop_back();
+    const std::uint32_t crc = crc32c(std::string_view(out).substr(begin));
+    fmt::format_to(std::back_inserter(out), FMT_COMPILE(R"(,"crc":"{:08x}"}})"), crc);
+  }
+
+  void append_metadata(std::string& out) {
+    const std::size_t begin = out.size();
+    {
+      const RecordScope record(out, Opcode::metadata);
+      append_mcap_string(out, kProfile);
+      std::string map;
+      append_mcap_string(map, "format");
+      append_mcap_string(map, "1");
+      append_mcap_string(map, kLogOffsetKey);
+      append_mcap_string(map, fmt::format_int(log_offset_ns).str());
+      append_mcap_string(out, map);
+    }
+    summary.add_metadata(begin, out.size() - begin, kProfile);
+  }
+
+  void append_schema(std::string& out, const Topic& topic) {
+    const std::size_t begin = out.size();
+    {
+      const RecordScope record(out, Opcode::schema);
+      append_le(out, topic.id);
+      append_mcap_string(out, topic.schema_name);
+      append_mcap_string(out, "jsonschema");
+      append_mcap_string(out, json_schema(topic));
+    }
+    summary.add_schema(topic.id, std::string_view(out).substr(begin));
+  }
+
+  void append_channel(std::string& out, std::uint16_t id, std::uint16_t schema, std::string_view name,
+                      std::string_view encoding, std::string_view metadata) {
+    const std::size_t begin = out.size();
+    {
+      const RecordScope record(out, Opcode::channel);
+      append_le(out, id);
+      append_le(out, schema);
+      append_mcap_string(out, name);
+      append_mcap_string(out, encoding);
+      append_mcap_string(out, metadata);
+    }
+    summary.add_channel(id, std::string_view(out).substr(begin));
+  }
+
+  void append_raw_channel(std::string& out, std::uint16_t port) {
+    std::string metadata;
+    append_mcap_string(metadata, "baud");
+    append_mcap_string(metadata, fmt::format_int(ports[port].baud).str());
+    append_mcap_string(metadata, "protocol");
+    append_mcap_string(metadata, protocols::name_of(ports[port].protocol));
+    append_channel(out, static_cast<std::uint16_t>(topic::kFirstRaw + port), 0,
+                   std::string(topic::kRawPrefix) + ports[port].name, kRawEncoding, metadata);
+  }
+
+  void append_definitions(std::string& out) {
+    const Appending counted(*this, out);
+    out += empty_log_head();
+    append_metadata(out);
+    for (const Topic& topic : json_topics()) {
+      append_schema(out, topic);
+      append_channel(out, topic.id, topic.id, topic.name, kJsonEncoding, "");
+    }
+    for (std::size_t i = 0; i < ports.size(); ++i) append_raw_channel(out, static_cast<std::uint16_t>(i));
+  }
+};
+
+LogEncoder::LogEncoder(const config::Settings& settings, std::string config_toml)
+    : state_(std::make_unique<State>()) {
+  state_->ports = settings.ports;
+  state_->config_toml = std::move(config_toml);
+}
+
+LogEncoder::~LogEncoder() = default;
+
+void LogEncoder::begin(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
+  State& s = *state_;
+  s.summary = {};
+  s.sequences.assign(topic::kFirstRaw + s.ports.size(), 0);
+  s.file_bytes = 0;
+  s.mapping = mapping;
+  s.log_offset_ns = mapping.offset_ns;
+  // Offsets in the metadata index count from the magic: it must be the first thing in the caller's buffer.
+  std::string head;
+  s.append_definitions(head);
+  out += head;
+  s.json_message(out, topic::kConfig, now_ns, now_ns, [&](std::string& text) {
+    JsonObject json(text, "CONFIG");
+    json.seconds("time", mapping.to_utc(now_ns));
+    json.seconds("monotonic", now_ns);
+    json.text("toml", s.config_toml);
+  });
+  this->mapping(out, now_ns, mapping);
+}
+
+void LogEncoder::raw(std::string& out, std::uint16_t port, Direction direction, std::int64_t time_ns,
+                     protocols::Bytes bytes) {
+  State& s = *state_;
+  const State::Appending counted(s, out);
+  const RecordScope record(out, Opcode::message);
+  s.append_message_head(out, static_cast<std::uint16_t>(topic::kFirstRaw + port), time_ns, time_ns);
+  const std::size_t begin = out.size();
+  out += static_cast<char>(direction);
+  append_le(out, time_ns);
+  out.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  append_le(out, crc32c(std::string_view(out).substr(begin)));
+}
+
+void LogEncoder::sample(std::string& out, const instruments::Sample& sample) {
+  const std::uint16_t channel = topic_of(sample);
+  if (channel == 0) return;  // satellites in view: the raw bytes have them
+  state_->json_message(out, channel, sample.stamp.arrival_ns, sample.stamp.validity_ns,
+                       [&](std::string& text) { append_json(text, sample, state_->ports[sample.port].name); });
+}
+
+void LogEncoder::navigation(std::string& out, const pipeline::NavigationSample& sample) {
+  state_->json_message(out, topic::kNav, sample.stamp.arrival_ns, sample.stamp.validity_ns,
+                       [&](std::string& text) { append_json(text, sample); });
+}
+
+void LogEncoder::mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
+  state_->mapping = mapping;
+  state_->json_message(out, topic::kTime, now_ns, now_ns,
+                       [&](std::string& text) { append_json(text, now_ns, mapping); });
+}
+
+void LogEncoder::event(std::string& out, std::int64_t now_ns, std::string_view severity, std::string_view name,
+                       std::string_view port, std::string_view message) {
+  state_->json_message(out, topic::kEvent, now_ns, now_ns, [&](std::string& text) {
+    append_event_json(text, state_->mapping, now_ns, severity, name, port, message);
+  });
+}
+
+void LogEncoder::health(std::string& out, std::int64_t now_ns, std::string_view json) {
+  state_->json_message(out, topic::kHealth, now_ns, now_ns, [&](std::string& text) { text += json; });
+}
+
+void LogEncoder::calib(std::string& out, std::int64_t now_ns, std::string_view json) {
+  state_->json_message(out, topic::kCalib, now_ns, now_ns, [&](std::string& text) { text += json; });
+}
+
+void LogEncoder::finish(std::string& out, std::int64_t /*now_ns*/) {
+  const std::uint64_t data_bytes = state_->file_bytes;
+  const State::Appending counted(*state_, out);
+  state_->summary.append_end(out, data_bytes);
+}
+
+std::uint64_t LogEncoder::file_bytes() const { return state_->file_bytes; }
+std::uint64_t LogEncoder::messages() const { return state_->summary.messages(); }
+
+}  // namespace navcal::record

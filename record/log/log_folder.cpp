@@ -1,0 +1,111 @@
+#include "record/log/log_folder.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+#include <optional>
+
+#include "base/durations.h"
+
+namespace navcal::record {
+namespace {
+
+constexpr std::string_view kPrefix = "navcal-";
+constexpr std::string_view kSuffix = ".mcap";
+constexpr std::size_t kTime = 16;  // 20261121T023000Z
+constexpr std::size_t kLeastDigits = 6;
+constexpr std::string_view kLockName = "navcal.lock";
+
+std::optional<std::uint64_t> counter_of(std::string_view name) {
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return std::nullopt;
+  name.remove_prefix(kPrefix.size());
+  name.remove_suffix(kSuffix.size());
+  if (name.size() < kTime + 1 + kLeastDigits || name[kTime] != '-') return std::nullopt;
+  name.remove_prefix(kTime + 1);
+  std::uint64_t counter = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), counter);
+  if (error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
+  return counter;
+}
+
+std::string explain(const std::filesystem::path& folder, const std::error_code& error) {
+  std::string what = "log folder " + folder.string();
+  if (error == std::errc::resource_unavailable_try_again) return what + ": another navcald is writing logs there";
+  if (error == std::errc::no_such_file_or_directory) return what + ": it does not exist";
+  if (error == std::errc::read_only_file_system) return what + ": its file system is read-only";
+  if (error == std::errc::permission_denied) return what + ": this user may not write there";
+  return what;
+}
+
+}  // namespace
+
+struct LogFolder::Log {
+  std::uint64_t counter = 0;
+  std::string name;
+  bool finished = false;
+};
+
+LogFolder::LogFolder(Disk& disk, std::filesystem::path folder) : disk_(disk), folder_(std::move(folder)) {
+  std::error_code error;
+  lock_ = disk_.lock(folder_ / kLockName, error);
+  if (!lock_) throw std::system_error(error, explain(folder_, error));
+  for (const Log& log : logs(error)) last_counter_ = std::max(last_counter_, log.counter);
+  if (error) throw std::system_error(error, explain(folder_, error));
+}
+
+std::vector<LogFolder::Log> LogFolder::logs(std::error_code& error) {
+  std::vector<Log> found;
+  for (auto& entry : disk_.list(folder_, error)) {
+    if (const auto counter = counter_of(entry.name))
+      found.push_back({*counter, std::move(entry.name), !entry.writable});
+  }
+  std::sort(found.begin(), found.end(), [](const Log& a, const Log& b) {
+    return a.counter != b.counter ? a.counter < b.counter : a.name < b.name;
+  });
+  return found;
+}
+
+std::vector<Repair> LogFolder::finish_unfinished() {
+  std::vector<Repair> repairs;
+  std::error_code error;
+  for (const Log& log : logs(error)) {
+    if (!log.finished) repairs.push_back(finish_log(disk_, folder_ / log.name));
+  }
+  if (error) {
+    Repair& failed = repairs.emplace_back();
+    failed.file = folder_.string();
+    failed.error = error;
+  }
+  return repairs;
+}
+
+std::unique_ptr<LogFile> LogFolder::create(std::int64_t utc_ns, std::error_code& error) {
+  // Somebody may have copied logs here since: their counters are taken, too.
+  for (const Log& log : logs(error)) last_counter_ = std::max(last_counter_, log.counter);
+  if (error) return nullptr;
+  return LogFile::create(disk_, folder_ / log_name(utc_ns, ++last_counter_), error);
+}
+
+LogFolder::Space LogFolder::keep_free(std::uint64_t floor_bytes) {
+  Space space;
+  space.free_bytes = disk_.free_bytes(folder_, space.error);
+  if (space.error || space.free_bytes >= floor_bytes) return space;
+  for (const Log& log : logs(space.error)) {
+    if (!log.finished) continue;
+    if ((space.error = disk_.remove(folder_ / log.name))) return space;
+    space.removed.push_back(log.name);
+    space.free_bytes = disk_.free_bytes(folder_, space.error);
+    if (space.error || space.free_bytes >= floor_bytes) break;
+  }
+  return space;
+}
+
+std::string log_name(std::int64_t utc_ns, std::uint64_t counter) {
+  const auto second = static_cast<std::time_t>(std::max<std::int64_t>(0, utc_ns) / base::kSecond_ns);
+  return fmt::format("{}{:%Y%m%dT%H%M%SZ}-{:06}{}", kPrefix, fmt::gmtime(second), counter, kSuffix);
+}
+
+}  // namespace navcal::record

@@ -1,0 +1,174 @@
+#include "record/log/log_topics.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace navcal::record {
+namespace {
+
+using enum FieldKind;
+
+constexpr std::array kConfig{Field{"time", number, "s"}, Field{"monotonic", number, "s"}, Field{"toml", text}};
+
+constexpr std::array kTimeFields{Field{"time", number, "s"},  Field{"monotonic", number, "s"},
+                                 Field{"source", text},       Field{"offset", number, "s"},
+                                 Field{"bound", number, "s"}, Field{"at", number, "s"}};
+
+constexpr std::array kEvent{Field{"time", number, "s"}, Field{"monotonic", number, "s"},
+                            Field{"severity", text},    Field{"name", text},
+                            Field{"port", text},        Field{"message", text}};
+
+constexpr std::array kSomeJson{Field{"time", number, "s"}};
+
+constexpr std::array kCompass{Field{"time", number, "s"},
+                              Field{"time_std", number, "s"},
+                              Field{"arrival", number, "s"},
+                              Field{"device", text},
+                              Field{"heading_rad"},
+                              Field{"heading_calibrated_rad"},
+                              Field{"heading_is_true", boolean},
+                              Field{"pitch_rad"},
+                              Field{"roll_rad"},
+                              Field{"field_body_uT", vector3},
+                              Field{"dip_rad"},
+                              Field{"turn_rate_rad_s"},
+                              Field{"temperature_C"},
+                              Field{"error", text},
+                              Field{"tilt_by_accelerometers", boolean},
+                              Field{"calibration", text}};
+
+constexpr std::array kImu{Field{"time", number, "s"},
+                          Field{"time_std", number, "s"},
+                          Field{"arrival", number, "s"},
+                          Field{"device", text},
+                          Field{"rate_rad_s", vector3},
+                          Field{"yaw_rate_b_rad_s"},
+                          Field{"yaw_rate_calibrated_rad_s"},
+                          Field{"yaw_rate_b_calibrated_rad_s"},
+                          Field{"specific_force_m_s2", vector3},
+                          Field{"depth_m"},
+                          Field{"sequence"},
+                          Field{"leak_forward", boolean},
+                          Field{"leak_aft", boolean},
+                          Field{"over_range", boolean},
+                          Field{"low_supply", boolean},
+                          Field{"calibration", text}};
+
+constexpr std::array kGps{Field{"time", number, "s"},
+                          Field{"time_std", number, "s"},
+                          Field{"arrival", number, "s"},
+                          Field{"device", text},
+                          Field{"lat", number, "deg"},
+                          Field{"lon", number, "deg"},
+                          Field{"speed_m_s"},
+                          Field{"course_rad"},
+                          Field{"fix", text},
+                          Field{"height_m"},
+                          Field{"height_msl_m"},
+                          Field{"climb_m_s"},
+                          Field{"dop"},
+                          Field{"visible"},
+                          Field{"tracked"},
+                          Field{"time_corrected", boolean},
+                          Field{"leap_known", boolean},
+                          Field{"calibration", text}};
+
+constexpr std::array kMotor{Field{"time", number, "s"},
+                            Field{"time_std", number, "s"},
+                            Field{"arrival", number, "s"},
+                            Field{"device", text},
+                            Field{"rpm"},
+                            Field{"rpm_commanded"},
+                            Field{"fins_rad", vector3},
+                            Field{"current_A"},
+                            Field{"sequence"},
+                            Field{"calibration", text}};
+
+constexpr std::array kAltimeter{Field{"time", number, "s"},    Field{"time_std", number, "s"},
+                                Field{"arrival", number, "s"}, Field{"device", text},
+                                Field{"altitude_m"},           Field{"calibration", text}};
+
+constexpr std::array kNav{Field{"time", number, "s"},
+                          Field{"time_std", number, "s"},
+                          Field{"arrival", number, "s"},
+                          Field{"device", text},
+                          Field{"position", text},
+                          Field{"lat", number, "deg"},
+                          Field{"lon", number, "deg"},
+                          Field{"north_std_m"},
+                          Field{"east_std_m"},
+                          Field{"since_fix_s"},
+                          Field{"since_fix_m"},
+                          Field{"depth_m"},
+                          Field{"heading_rad"},
+                          Field{"heading_std_rad"},
+                          Field{"pitch_rad"},
+                          Field{"roll_rad"},
+                          Field{"speed_m_s"},
+                          Field{"velocity_m_s", vector3},
+                          Field{"set_north_m_s"},
+                          Field{"set_east_m_s"},
+                          Field{"outage_s"},
+                          Field{"outage_m"},
+                          Field{"outage_error_m"},
+                          Field{"outage_error_uncalibrated_m"},
+                          Field{"calibration", text}};
+
+constexpr std::array kTopics{
+    Topic{topic::kConfig, "/config", "navcal.Config", kConfig},
+    Topic{topic::kTime, "/time", "navcal.Time", kTimeFields},
+    Topic{topic::kEvent, "/event", "navcal.Event", kEvent},
+    Topic{topic::kHealth, "/health", "navcal.Health", kSomeJson},
+    Topic{topic::kCalib, "/calib", "navcal.Calib", kSomeJson},
+    Topic{topic::kCompass, "/compass", "navcal.Compass", kCompass},
+    Topic{topic::kImu, "/imu", "navcal.Imu", kImu},
+    Topic{topic::kGps, "/gps", "navcal.Gps", kGps},
+    Topic{topic::kMotor, "/motor", "navcal.Motor", kMotor},
+    Topic{topic::kAltimeter, "/altimeter", "navcal.Altimeter", kAltimeter},
+    Topic{topic::kNav, "/nav", "navcal.Nav", kNav},
+};
+
+nlohmann::ordered_json schema_of(const Field& field) {
+  nlohmann::ordered_json schema;
+  switch (field.kind) {
+    case number:
+      schema["type"] = "number";
+      break;
+    case boolean:
+      schema["type"] = "boolean";
+      break;
+    case text:
+      schema["type"] = "string";
+      break;
+    case vector3:
+      schema["type"] = "array";
+      schema["items"]["type"] = "number";
+      break;
+  }
+  if (!field.unit.empty()) schema["description"] = field.unit;
+  return schema;
+}
+
+}  // namespace
+
+std::span<const Topic> json_topics() { return kTopics; }
+
+const Topic* json_topic(std::string_view name) {
+  for (const Topic& candidate : kTopics) {
+    if (candidate.name == name) return &candidate;
+  }
+  return nullptr;
+}
+
+std::string json_schema(const Topic& topic) {
+  nlohmann::ordered_json schema;
+  schema["title"] = topic.schema_name;
+  schema["type"] = "object";
+  auto& properties = schema["properties"];
+  properties["class"] = schema_of(Field{"class", text});
+  for (const Field& field : topic.fields) properties[std::string(field.name)] = schema_of(field);
+  properties["crc"] = schema_of(Field{"crc", text});
+  return schema.dump();
+}
+
+}  // namespace navcal::record

@@ -1,0 +1,108 @@
+#include "report/calibrate_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/angles.h"
+#include "calib/coverage.h"
+#include "report/calibrate_words.h"
+#include "report/svg_plot.h"
+#include "report/svg_rose.h"
+
+namespace navcal::cli {
+namespace {
+
+using Ink = SvgPlot::Ink;
+
+constexpr std::size_t kMostDots = 1500;
+/// A curve that is known no better is not worth a picture.
+constexpr double kWorstCurve_rad = 0.3;
+const SvgPlot::Axis kHeadingAxis{"heading as the compass says it, degrees", {0, 360}, 45};
+
+/// Every so many, so that not more than kMostDots remain.
+std::size_t stride_for(std::size_t count) { return count / kMostDots + 1; }
+
+std::vector<Point> over_heading(const std::vector<HeadingResidual>& residuals, double HeadingResidual::*which) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < residuals.size(); i += stride_for(residuals.size())) {
+    points.push_back(
+        {residuals[i].heading_rad * base::kDegreesPerRadian, residuals[i].*which * base::kDegreesPerRadian});
+  }
+  return points;
+}
+
+void append_heights(std::vector<double>& heights, const std::vector<Point>& points) {
+  for (const Point& point : points) heights.push_back(point.y);
+}
+
+/// Standard error of the deviation at a heading, by the whole covariance of B..E.
+double deviation_std_rad(const calib::CalibratorReport& compass, double heading_rad) {
+  const Eigen::Vector4d f(std::sin(heading_rad), std::cos(heading_rad), std::sin(2 * heading_rad),
+                          std::cos(2 * heading_rad));
+  if (compass.covariance.rows() != 4) return NAN;
+  return std::sqrt(f.dot(compass.covariance * f));
+}
+
+}  // namespace
+
+std::optional<Figure> deviation_figure(const calib::Report& report,
+                                       const std::vector<HeadingResidual>& residuals) {
+  const auto* const compass = report.find(calib::Calibrator::compass);
+  if (compass == nullptr || !report.estimates.compass) return std::nullopt;
+  std::vector<Point> curve, lower, upper;
+  for (int degrees = 0; degrees <= 360; degrees += 4) {
+    const double heading_rad = degrees / base::kDegreesPerRadian;
+    const double deviation_rad =
+        std::remainder(heading_rad - (*report.estimates.compass)(heading_rad), 2 * std::numbers::pi);
+    const double band_rad = 2 * deviation_std_rad(*compass, heading_rad);
+    if (!(band_rad < kWorstCurve_rad)) return std::nullopt;
+    curve.push_back({double(degrees), deviation_rad * base::kDegreesPerRadian});
+    lower.push_back({double(degrees), (deviation_rad - band_rad) * base::kDegreesPerRadian});
+    upper.push_back({double(degrees), (deviation_rad + band_rad) * base::kDegreesPerRadian});
+  }
+  const auto measured = over_heading(residuals, &HeadingResidual::deviation_rad);
+  std::vector<double> heights;
+  append_heights(heights, curve);
+  append_heights(heights, measured);
+  SvgPlot plot("Deviation of the compass", kHeadingAxis, {"deviation, degrees", range_of(heights)});
+  plot.level(0);
+  plot.points(Ink::before, "measured against the gyro", measured);
+  plot.band(Ink::after, "two standard errors", lower, upper);
+  plot.line(Ink::fit, "fitted", curve);
+  return Figure{"Deviation", plot.svg(),
+                "Measured heading less true heading, without A, which no turn tells. Each block of turning is set "
+                "upon the curve by its mean, since the gyro knows no north."};
+}
+
+std::optional<Figure> residual_figure(const calib::Report& report, const std::vector<HeadingResidual>& residuals) {
+  if (residuals.empty()) return std::nullopt;
+  const auto before = over_heading(residuals, &HeadingResidual::before_rad);
+  const auto after = over_heading(residuals, &HeadingResidual::after_rad);
+  std::vector<double> heights;
+  append_heights(heights, before);
+  append_heights(heights, after);
+  SvgPlot plot("Heading against the gyro", kHeadingAxis, {"residual, degrees", range_of(heights)});
+  plot.level(0);
+  plot.points(Ink::before, "as the compass says it", before);
+  plot.points(Ink::after, "calibrated", after);
+  std::string caption = fmt::format(
+      "Heading less the integrated gyro, by blocks of turning. Root-mean-square {:.2f} degrees, "
+      "calibrated {:.2f}. These readings had a part in the estimates; the figures on top had none.",
+      root_mean_square(residuals, &HeadingResidual::before_rad) * base::kDegreesPerRadian,
+      root_mean_square(residuals, &HeadingResidual::after_rad) * base::kDegreesPerRadian);
+  const auto accepted = accepted_estimates(report);
+  if (!accepted.magnetometer && !accepted.compass) caption += " No calibration of the heading was accepted.";
+  return Figure{"Residual", plot.svg(), caption};
+}
+
+Figure rose_figure(const calib::Report& report) {
+  const std::string missing = calib::missing_turn(report.rose);
+  return {"Headings seen", svg_rose(report.rose),
+          fmt::format("{} of {} sectors of ten degrees{}{}. The area tells how often.",
+                      calib::visited(report.rose), report.rose.size(), missing.empty() ? "" : "; ", missing)};
+}
+
+}  // namespace navcal::cli

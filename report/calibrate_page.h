@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/suite/report.h"
+#include "analysis/calibrate_history.h"
+#include "config/settings.h"
+
+namespace navcal::cli {
+
+/// Of what a page is made, for its foot.
+struct PageSource {
+  std::vector<std::string> files;
+  std::string config;  ///< empty: the recording's own
+  config::Settings settings;
+  double duration_s = 0;
+  std::vector<std::string> remarks;
+};
+
+/// The report of `navcal calibrate --report`: what was found, in sentences and pictures, as one HTML file.
+[[nodiscard]] std::string calibrate_page(const calib::Report& report, const CalibrateHistory& history,
+                                         const PageSource& source);
+
+}  // namespace navcal::cli

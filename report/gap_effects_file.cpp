@@ -1,0 +1,51 @@
+#include "report/gap_effects_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "report/gap_words.h"
+#include "sim/effects/effect_table.h"
+
+namespace navcal::cli {
+namespace {
+
+struct Written {
+  double value = 0;
+  std::string comment;
+};
+
+Written written(const gap::EffectParameterEstimate& estimate, std::span<const sim::EffectParameter> known) {
+  if (!std::isfinite(estimate.value)) return {0, "not determined"};
+  const std::string error =
+      std::isfinite(estimate.std_error) ? fmt::format("+- {:.2g}", estimate.std_error) : "error not known";
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const sim::EffectParameter& p) { return p.name == estimate.name; });
+  if (found == known.end()) return {estimate.value, error};
+  const double within = std::clamp(estimate.value, found->least, found->greatest);
+  if (within == estimate.value) return {within, error};
+  return {within, fmt::format("{:.4g} {}, which the simulator does not take", estimate.value, error)};
+}
+
+}  // namespace
+
+std::string gap_effects_file(const gap::Diagnosis& diagnosis) {
+  std::string text =
+      fmt::format("# navcal gap: {}.\n# For navcal simulate --effects.\n", verdict_word(diagnosis.verdict));
+  if (diagnosis.effects.empty()) return text + "# No effect was found.\n";
+  for (const gap::EffectFinding& effect : diagnosis.effects) {
+    const auto known = sim::make_effect(effect.name);
+    const auto parameters = known ? known->description().parameters : std::span<const sim::EffectParameter>{};
+    text += fmt::format("\n[{}]  # probability {}\n", effect.name, probability_text(effect.probability));
+    for (const auto& estimate : effect.parameters) {
+      const auto [value, comment] = written(estimate, parameters);
+      fmt::format_to(std::back_inserter(text), "{} = {}  # {}\n", estimate.name, value, comment);
+    }
+  }
+  return text;
+}
+
+}  // namespace navcal::cli

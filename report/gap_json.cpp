@@ -1,0 +1,134 @@
+#include "report/gap_json.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/angles.h"
+#include "record/json/calibration_json.h"
+
+namespace navcal::cli {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+template <class Element, class Convert>
+OrderedJson list_of(const std::vector<Element>& elements, Convert convert) {
+  OrderedJson list = OrderedJson::array();
+  for (const Element& element : elements) list.push_back(convert(element));
+  return list;
+}
+
+OrderedJson json_of(const gap::WhereEntry& where) {
+  return {{"channel", where.channel}, {"regime", where.regime}, {"gap", where.gap},
+          {"unit", where.unit},       {"floor", where.floor},   {"p_value", where.p_value}};
+}
+
+OrderedJson json_of(const gap::Confusion& confusion) {
+  return {{"name", confusion.name},
+          {"tie_breaker", confusion.tie_breaker},
+          {"separation_nats", confusion.separation_nats}};
+}
+
+OrderedJson json_of(const gap::EffectFinding& effect) {
+  OrderedJson parameters = OrderedJson::object(), errors = OrderedJson::object();
+  for (const auto& parameter : effect.parameters) {
+    parameters[parameter.name] = parameter.value;
+    errors[parameter.name] = parameter.std_error;
+  }
+  return {{"name", effect.name},
+          {"probability", effect.probability},
+          {"parameters", std::move(parameters)},
+          {"std_errors", std::move(errors)},
+          {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}};
+}
+
+OrderedJson json_of(const gap::Closure& closure, const std::string& unit) {
+  OrderedJson closed, interval;
+  if (closure.closed) closed = *closure.closed;
+  if (closure.closed_ci) interval = *closure.closed_ci;
+  return {{"before", closure.before},    {"after", closure.after},           {"floor", closure.floor},
+          {"closed", std::move(closed)}, {"closed_ci", std::move(interval)}, {"unit", unit}};
+}
+
+OrderedJson before_and_after(const std::optional<std::array<double, 2>>& values) {
+  if (!values) return nullptr;
+  return {{"before", values->front()}, {"after", values->back()}};
+}
+
+OrderedJson json_of(const gap::Gap& gap) {
+  OrderedJson json = json_of(gap.pooled, "noise power");
+  json["channels"] = list_of(gap.channels, [](const gap::ChannelClosure& channel) {
+    OrderedJson one = OrderedJson::object();
+    one["channel"] = channel.channel;
+    one.update(json_of(channel.closure, channel.unit));
+    return one;
+  });
+  json["held_out"] = gap.held_out;
+  json["heading_error_rad"] = before_and_after(gap.heading_error_rad);
+  json["dead_reckoning_m_per_100m"] = before_and_after(gap.dead_reckoning_m_per_100m);
+  return json;
+}
+
+OrderedJson json_of(const gap::ChangePoint& change) {
+  return {{"channel", change.channel},
+          {"time_s", change.time_s},
+          {"before", change.before},
+          {"after", change.after},
+          {"unit", change.unit}};
+}
+
+OrderedJson json_of(const gap::BankFacts& bank) {
+  return {{"missions", bank.missions},
+          {"seed", bank.seed},
+          {"from_cache", bank.from_cache},
+          {"seconds", bank.seconds}};
+}
+
+OrderedJson json_of(const gap::EarthField& field) {
+  OrderedJson place, date;
+  if (field.place) {
+    place = {{"latitude_deg", field.place->latitude_rad * base::kDegreesPerRadian},
+             {"longitude_deg", field.place->longitude_rad * base::kDegreesPerRadian},
+             {"height_m", field.place->height_m}};
+  }
+  if (field.utc_ns) date = field.date();
+  return {{"source", gap::name_of(field.source)},
+          {"north_east_down_uT", field.north_east_down_uT},
+          {"place", std::move(place)},
+          {"date", std::move(date)}};
+}
+
+}  // namespace
+
+std::string gap_json(const gap::Diagnosis& diagnosis) {
+  const auto convert = [](const auto& element) { return json_of(element); };
+  const auto& bias = diagnosis.gyro_bias_rad_s;
+  OrderedJson json{
+      {"verdict", gap::name_of(diagnosis.verdict)},
+      {"sentence", diagnosis.sentence},
+      {"where", list_of(diagnosis.where, convert)},
+      {"effects", list_of(diagnosis.effects, convert)},
+      {"gap", json_of(diagnosis.gap)},
+      {"unexplained", diagnosis.unexplained},
+      {"candidates", list_of(diagnosis.candidates, convert)},
+      {"next", diagnosis.next},
+      {"remarks", diagnosis.remarks},
+      {"gyro_bias", {{"ax_rad_s", bias[0]}, {"az_rad_s", bias[1]}, {"by_rad_s", bias[2]}, {"bz_rad_s", bias[3]}}},
+      {"changes", list_of(diagnosis.changes, convert)},
+      {"field", diagnosis.field ? json_of(*diagnosis.field) : OrderedJson()},
+      {"bank", json_of(diagnosis.bank)},
+      {"duration_s", diagnosis.duration_s},
+      {"seconds", diagnosis.seconds}};
+  if (diagnosis.instruments_alone) {
+    std::string alone;
+    record::append_calibrate_json(alone, *diagnosis.instruments_alone);
+    json["instruments_alone"] = OrderedJson::parse(alone);
+  }
+  // A file's name in a remark may be no UTF-8.
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+}  // namespace navcal::cli

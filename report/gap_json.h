@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "gap/verdict/diagnosis.h"
+
+namespace navcal::cli {
+
+/// The answer of `navcal gap --json` (docs/gap.md): one object, no newline. What is no finite number is null.
+[[nodiscard]] std::string gap_json(const gap::Diagnosis& diagnosis);
+
+}  // namespace navcal::cli

@@ -1,0 +1,200 @@
+#include "report/gap_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+#include "report/calibrate_words.h"
+#include "report/gap_units.h"
+#include "report/shown_number.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr std::string_view kNoNumber = "-";
+
+/// As a shell takes it.
+std::string quoted(const std::string& file) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-+=,:@%";
+  if (!file.empty() && file.find_first_not_of(kPlain) == std::string::npos) return file;
+  std::string out = "'";
+  for (const char c : file) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+std::string_view verdict_word(gap::Verdict verdict) {
+  return verdict == gap::Verdict::no_gap ? "no gap" : gap::name_of(verdict);
+}
+
+std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
+  if (!diagnosis.sentence.empty()) return diagnosis.sentence;
+  switch (diagnosis.verdict) {
+    case gap::Verdict::no_gap:
+      return "Nothing exceeds what the nominal vehicle would show.";
+    case gap::Verdict::explained:
+      return "The effects below explain the gap.";
+    case gap::Verdict::unknown:
+      break;
+  }
+  return "Nothing in the library explains what was recorded.";
+}
+
+std::vector<std::string> further_remarks(const gap::Diagnosis& diagnosis) {
+  std::vector<std::string> remarks = diagnosis.remarks;
+  std::erase_if(remarks,
+                [&](const std::string& remark) { return diagnosis.sentence.find(remark) != std::string::npos; });
+  return remarks;
+}
+
+std::string nowhere_text(const gap::Diagnosis& diagnosis) {
+  return diagnosis.map.empty() ? "Nothing was compared with the nominal vehicle."
+                               : "Nowhere: no residuals stand clear of those of the nominal vehicle.";
+}
+
+std::string spaced(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string amount(double value, std::string_view unit) {
+  if (!std::isfinite(value)) return std::string(kNoNumber);
+  const double size = std::abs(value);
+  const std::string digits =
+      size >= 999.5 && size < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+  return unit.empty() ? digits : fmt::format("{} {}", digits, unit);
+}
+
+std::string share_text(double share) {
+  if (!std::isfinite(share)) return std::string(kNoNumber);
+  return fmt::format("{:.0f} %", std::round(100 * share) + 0.0);
+}
+
+std::string probability_text(double probability) {
+  if (!std::isfinite(probability)) return std::string(kNoNumber);
+  if (probability > 0.999) return "> 99.9 %";
+  if (probability < 0.001) return "< 0.1 %";
+  return fmt::format("{:.1f} %", 100 * probability);
+}
+
+std::string chance_text(double p_value) {
+  if (!std::isfinite(p_value)) return std::string(kNoNumber);
+  if (p_value < 1e-12) return "< 1e-12";
+  if (p_value >= 0.001) return fmt::format("{:.2g}", p_value);
+  return fmt::format("1e{:.0f}", std::ceil(std::log10(p_value)));
+}
+
+std::string text_of(const gap::EffectParameterEstimate& parameter, std::string_view plus_minus) {
+  const auto [name, unit] = name_and_unit(parameter.name);
+  std::string text = name + (name.empty() ? "" : " ");
+  if (std::isfinite(parameter.value)) {
+    text += fmt::format("{:.{}f}", parameter.value, decimals_for(parameter.value, parameter.std_error));
+  } else {
+    text += kNoNumber;
+  }
+  if (std::isfinite(parameter.std_error)) {
+    text += fmt::format(" {} {:.{}f}", plus_minus, parameter.std_error,
+                        decimals_for(parameter.std_error, parameter.std_error));
+  }
+  return unit.empty() ? text : text + " " + unit;
+}
+
+std::string text_of(const gap::Confusion& confusion) {
+  std::string text = "may as well be " + confusion.name;
+  if (std::isfinite(confusion.separation_nats)) {
+    text += fmt::format(" ({:.1f} nats apart)", confusion.separation_nats);
+  }
+  return confusion.tie_breaker.empty() ? text : text + "; told apart by: " + confusion.tie_breaker;
+}
+
+std::string closed_text(const gap::Closure& closure) {
+  // Further below zero the digits of a share mean nothing: what is left has grown.
+  constexpr double kGrows = -1;
+  if (!closure.closed || !std::isfinite(*closure.closed)) return "nothing to close";
+  if (*closure.closed < kGrows) return "grows";
+  std::string text = share_text(*closure.closed);
+  if (closure.closed_ci && closure.closed_ci->front() < kGrows) {
+    text += fmt::format(" (at most {})", share_text(closure.closed_ci->back()));
+  } else if (closure.closed_ci) {
+    text +=
+        fmt::format(" ({:.0f} to {})", 100 * closure.closed_ci->front(), share_text(closure.closed_ci->back()));
+  }
+  return text;
+}
+
+std::string levels_text(const gap::Closure& closure, std::string_view unit, std::string_view arrow) {
+  return fmt::format("{} {} {}, floor {}", amount(closure.before), arrow, amount(closure.after, unit),
+                     amount(closure.floor, unit));
+}
+
+std::string size_text(const gap::Closure& closure) {
+  if (closure.before == 0 && closure.floor == 0) return "not determined";
+  return fmt::format("noise power {}, of the nominal vehicle {}", amount(closure.before), amount(closure.floor));
+}
+
+std::string judged_on(const gap::Gap& gap, const GapSource& source) {
+  if (!gap.held_out) return "on blocks of the same recording, which says less than others would";
+  const std::size_t n = source.holdouts.size();
+  return n == 1 ? "on the recording held out" : fmt::format("on {} recordings held out", n);
+}
+
+std::vector<std::string> consequences(const gap::Gap& gap, std::string_view arrow) {
+  std::vector<std::string> sentences;
+  if (gap.heading_error_rad) {
+    sentences.push_back(fmt::format("heading error {} {} {} RMS",
+                                    amount(base::kDegreesPerRadian * gap.heading_error_rad->front()), arrow,
+                                    amount(base::kDegreesPerRadian * gap.heading_error_rad->back(), "deg")));
+  }
+  if (gap.dead_reckoning_m_per_100m) {
+    sentences.push_back(fmt::format("position error {} {} {} in 100 m between fixes",
+                                    amount(gap.dead_reckoning_m_per_100m->front()), arrow,
+                                    amount(gap.dead_reckoning_m_per_100m->back(), "m")));
+  }
+  return sentences;
+}
+
+std::string text_of(const gap::ChangePoint& change, std::string_view arrow) {
+  return fmt::format("{} at {}: {} {} {}", change.channel, amount(change.time_s, "s"), amount(change.before),
+                     arrow, amount(change.after, change.unit));
+}
+
+std::vector<std::string> instruments_alone_lines(const calib::Report& report, std::string_view plus_minus) {
+  std::vector<std::string> lines;
+  for (const auto& calibrator : report.calibrators) {
+    if (calibrator.calibrator == calib::Calibrator::swing) continue;  // begun by the operator only
+    std::string line = fmt::format("{}: ", title_of(calibrator.calibrator));
+    if (calibrator.outcome == calib::Outcome::refused) {
+      lines.push_back(line + "nothing can be said, " + objection_of(calibrator));
+      continue;
+    }
+    std::vector<std::string> pieces;
+    for (const ShownQuantity& quantity : shown(calibrator)) pieces.push_back(text_of(quantity, plus_minus));
+    line += fmt::format("{}", fmt::join(pieces, ", "));
+    if (const auto held_out = held_out_of(calibrator, "to"); !held_out.empty())
+      line += fmt::format("; on readings held out from {}", held_out);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::string bank_text(const gap::BankFacts& bank) {
+  if (bank.missions <= 0) return "no bank of nominal missions";
+  const std::string from = bank.from_cache ? "from the cache" : "made in " + duration_text(bank.seconds);
+  return fmt::format("{} simulated missions of the nominal vehicle, seed {}, {}", bank.missions, bank.seed, from);
+}
+
+std::string simulate_hint(const gap::Diagnosis& diagnosis, const GapSource& source) {
+  if (diagnosis.effects.empty()) return {};
+  const std::string file = source.effects_file.empty() ? "FILE.toml" : quoted(source.effects_file);
+  const std::string vehicle = source.vehicle.empty() ? "" : " --vehicle " + quoted(source.vehicle);
+  const std::string command =
+      fmt::format("navcal simulate --mission survey{} --effects {} -o with.cap", vehicle, file);
+  return source.effects_file.empty() ? "--effects-out FILE.toml writes what was found; then " + command : command;
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "report/svg_plot.h"
+
+namespace navcal::cli {
+
+/// Headings on an axis that is cut open where the vehicle pointed least, so that a course about north is no jump
+/// from the top to the bottom. Marks are N, NE, E and so on. Degrees.
+class HeadingAxis {
+ public:
+  /// All that is to be shown.
+  explicit HeadingAxis(const std::vector<double>& headings_deg);
+
+  /// Within the axis.
+  [[nodiscard]] double operator()(double heading_deg) const;
+  [[nodiscard]] SvgPlot::Axis axis(std::string label) const;
+
+ private:
+  double least_deg_ = 0;
+};
+
+}  // namespace navcal::cli

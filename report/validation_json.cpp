@@ -1,0 +1,70 @@
+#include <nlohmann/json.hpp>
+
+#include "validation/report.h"
+
+namespace navcal::cli {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+template <class Value>
+OrderedJson or_null(const std::optional<Value>& value) {
+  return value ? OrderedJson(*value) : OrderedJson();
+}
+
+OrderedJson json_of(const TrialScore& score) {
+  OrderedJson json{{"name", score.name}, {"value", or_null(score.value)}, {"cases", score.cases}};
+  // A share is told as it is, 0 to 1.
+  if (score.unit == "s") json["unit"] = score.unit;
+  if (score.interval) {
+    json["hits"] = score.hits;
+    json["interval"] = *score.interval;
+  }
+  json["at_least"] = or_null(score.least);
+  json["at_most"] = or_null(score.most);
+  json["met"] = or_null(score.met());
+  return json;
+}
+
+OrderedJson json_of(const TrialResult& result) {
+  const TrialJudgement judgement = judged(result);
+  OrderedJson json{{"case", result.drawn.number},  {"arm", facts_of(result.drawn.arm).name},
+                   {"sha256", result.seal.digest}, {"truth", result.seal.truth},
+                   {"salt", result.seal.salt},     {"outcome", name_of(judgement.outcome)},
+                   {"right", judgement.right},     {"seconds", result.seconds}};
+  // What was read once may be written as it was read; what could not be read is told as text.
+  json["answer"] = result.answer ? OrderedJson::parse(result.answer_json) : OrderedJson();
+  if (!result.failure.empty()) json["failure"] = result.failure;
+  if (!result.answer && !result.answer_json.empty()) json["answer_text"] = result.answer_json;
+  return json;
+}
+
+}  // namespace
+
+std::string trial_json(const TrialReport& report) {
+  OrderedJson json{
+      {"seed", report.seed},           {"minutes", report.minutes},         {"places", report.places},
+      {"asked_for", report.asked_for}, {"answered", report.results.size()}, {"ended_early", report.ended_early}};
+  auto& scores = json["scores"] = OrderedJson::array();
+  for (const TrialScore& score : report.scores.scores) scores.push_back(json_of(score));
+  auto& power = json["power"] = OrderedJson::array();
+  for (const TrialPower& point : report.scores.power)
+    power.push_back({{"strength", point.strength}, {"exact", point.hits}, {"cases", point.cases}});
+  auto& bins = json["calibration"] = OrderedJson::array();
+  for (const TrialCalibrationBin& bin : report.scores.calibration) {
+    if (bin.bets == 0) continue;
+    bins.push_back({{"probability", bin.mean_probability}, {"right", bin.share_right}, {"count", bin.bets}});
+  }
+  json["closures"] = report.scores.closures;
+  auto& confusion = json["confusion"] = OrderedJson::object();
+  for (const std::string& truth : report.confusion.truths) {
+    for (const std::string& answer : report.confusion.answers) {
+      if (const int count = report.confusion.count(truth, answer); count > 0) confusion[truth][answer] = count;
+    }
+  }
+  auto& cases = json["cases"] = OrderedJson::array();
+  for (const TrialResult& result : report.results) cases.push_back(json_of(result));
+  return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
+}
+
+}  // namespace navcal::cli

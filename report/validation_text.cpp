@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "report/append_format.h"
+#include "validation/report.h"
+#include "report/validation_words.h"
+
+namespace navcal::cli {
+namespace {
+
+void append_scores(std::string& out, const TrialScores& scores) {
+  constexpr const char* kRow = "{:<42}{:>9}  {:<16}{:<13}{:<16}{}\n";
+  out += fmt::format(fmt::runtime(kRow), "", "score", "95 %", "cases", "target", "");
+  for (const TrialScore& score : scores.scores) {
+    std::string row = fmt::format(fmt::runtime(kRow), score.name, value_text(score), interval_text(score),
+                                  count_text(score), target_text(score), met_text(score));
+    row.erase(row.find_last_not_of(" \n") + 1);
+    out += row + '\n';
+  }
+}
+
+void append_mistakes(std::string& out, const TrialReport& report) {
+  constexpr int kShown = 20;
+  int mistakes = 0;
+  for (const TrialResult& result : report.results) {
+    if (!is_mistake(result) || ++mistakes > kShown) continue;
+    if (mistakes == 1) out += "\nMistakes:\n";
+    append_format(out, "  case {} ({}): {}; answered {}\n", result.drawn.number, facts_of(result.drawn.arm).name,
+                  truth_words(result.drawn), answer_words(result));
+  }
+  if (mistakes > kShown) append_format(out, "  and {} more, which --json and --report list\n", mistakes - kShown);
+  if (mistakes > 0) append_format(out, "One of them again: {}\n", rerun_command(report, 0));
+}
+
+}  // namespace
+
+std::string rerun_command(const TrialReport& report, int number) {
+  return fmt::format("navcal gap trial --seed {} --minutes {} --places {} --only {} --keep DIR", report.seed,
+                     report.minutes, report.places, number > 0 ? std::to_string(number) : "CASE");
+}
+
+std::string trial_text(const TrialReport& report) {
+  std::string out =
+      fmt::format("\n{} of {} cases answered, seed {}, missions of {} minutes, {} places\n", report.results.size(),
+                  report.asked_for, report.seed, report.minutes, report.places);
+  if (!report.ended_early.empty()) append_format(out, "Ended early: {}\n", report.ended_early);
+  out += '\n';
+  append_scores(out, report.scores);
+  append_mistakes(out, report);
+  out += '\n' + targets_text(report.scores) + '\n';
+  return out;
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,35 @@
+#include "report/wrapped_text.h"
+
+#include <algorithm>
+
+namespace navcal::cli {
+
+void append_wrapped(std::string& out, std::size_t indent, const std::vector<std::string>& pieces,
+                    std::string_view between) {
+  std::size_t column = indent;
+  bool begins = true;
+  for (const std::string& piece : pieces) {
+    if (!begins && column + between.size() + piece.size() > kLineWidth) {
+      out.append(between.substr(0, between.find_last_not_of(' ') + 1)).append("\n").append(indent, ' ');
+      column = indent;
+      begins = true;
+    }
+    if (!begins) out += between;
+    out += piece;
+    column += piece.size() + (begins ? 0 : between.size());
+    begins = false;
+  }
+  out += '\n';
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (end > begin) words.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+
+#include "protocols/utc.h"
+#include "sim/effects/effect_set.h"
+#include "sim/instruments/electronics.h"
+#include "sim/geodesy.h"
+#include "sim/noise.h"
+
+namespace navcal::sim {
+
+/// What a receiver knows at a full second.
+struct GpsReading {
+  std::int64_t utc_ns = 0;
+  bool fixed = false;
+  double degraded = 1;  ///< by which its noise is greater than that of a settled fix
+  double latitude_deg = 0, longitude_deg = 0, height_m = 0;  ///< without a fix the last known
+  double speed_m_s = 0;
+  double course_deg = 0;
+};
+
+/// Satellites to position and velocity over ground: none below 0.35 m, the first fix 2 to 10 s after surfacing or
+/// power-on, the first ones of few satellites. Fix n (from 0) has noise of (1 + 2^(1-n)) times the final one and
+/// a dilution of precision likewise, and is two-dimensional as long as that is above 1.4.
+class GpsReceiver {
+ public:
+  struct Options {
+    Origin origin;
+    double position_noise_m = 1.0;
+    double velocity_noise_m_s = 0.1;
+    double antenna_depth_m = 0.35;
+    double least_search_s = 2, longest_search_s = 10;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal
+  };
+  GpsReceiver(const Options& options, const Motion& motion, std::uint64_t seed);
+
+  void power_on(std::int64_t t_ns);
+  /// Once for each second, in order.
+  [[nodiscard]] GpsReading measure(std::int64_t second_ns);
+
+ private:
+  /// Whether the sky is seen, and has been for long enough.
+  [[nodiscard]] bool fixes(std::int64_t second_ns);
+
+  Options options_;
+  const Motion& motion_;
+  EffectSet none_;
+  EffectSet& effects_;
+  Electronics electronics_;
+  Noise noise_;
+  std::int64_t powered_ns_ = 0;
+  std::optional<std::int64_t> fix_due_ns_;  ///< while the sky is seen
+  int fixes_ = 0;                           ///< since then
+  GpsReading last_;
+};
+
+/// Calendar date and time of day of UTC nanoseconds.
+[[nodiscard]] protocols::Date date_of(std::int64_t utc_ns);
+[[nodiscard]] protocols::TimeOfDay time_of(std::int64_t utc_ns);
+
+}  // namespace navcal::sim

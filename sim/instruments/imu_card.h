@@ -1,0 +1,58 @@
+#pragma once
+
+#include "config/settings.h"
+#include "protocols/imu_card.h"
+#include "sim/instruments/device.h"
+#include "sim/effects/effect_set.h"
+#include "sim/instruments/electronics.h"
+#include "sim/noise.h"
+#include "sim/state.h"
+
+namespace navcal::sim {
+
+/// Inertial card: sends without being asked, at the pace of its own clock, and hears nothing. Its errors are those
+/// of docs/simulator.md; effects see its gyros, accelerometers and depth before the noise, its voltages after it.
+class ImuCard final : public Device {
+ public:
+  struct Options {
+    config::ImuCardSettings card;  ///< zeros and scales of this unit
+    double clock_ppm = 0;          ///< positive: its seconds are too long
+    double latency_s = 0.025;      ///< from the measurement to the first byte
+    double rate_noise_deg_s = 0.1;
+    double turn_on_bias_deg_s = 0.3;  ///< 1 sigma, drawn anew for each gyro at each power-on
+    double force_noise_m_s2 = 0.02;
+    double depth_noise_m = 0.02;
+    std::uint64_t seed = 1;
+    int baud = 57600;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal
+  };
+  ImuCard(const Options& options, const Motion& motion);
+
+  void power_on(std::int64_t t_ns) override;
+  void on_bytes(std::int64_t, protocols::Bytes) override {}
+  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
+  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
+  [[nodiscard]] int baud() const override { return options_.baud; }
+
+  /// Leak and supply bits (protocols::imu_card::StatusBit) from now on; over range comes of itself.
+  void set_status(std::uint8_t status) { status_ = status; }
+
+ private:
+  [[nodiscard]] protocols::imu_card::Record measure(std::int64_t t_ns);
+  /// Of the channels in their order, as the sensors give them: deg/s, g, m.
+  [[nodiscard]] std::array<double, 8> signals(const Instant& now);
+
+  Options options_;
+  const Motion& motion_;
+  EffectSet none_;
+  EffectSet& effects_;
+  Electronics electronics_;
+  Noise noise_;
+  Line line_;
+  Ticks ticks_;
+  std::array<double, 4> bias_deg_s_{};
+  std::uint8_t sequence_ = 0;
+  std::uint8_t status_ = 0;
+};
+
+}  // namespace navcal::sim

@@ -1,0 +1,91 @@
+#include "sim/instruments/motor_card.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+#include "sim/vehicle/propeller.h"
+
+namespace navcal::sim {
+namespace {
+
+namespace motor = protocols::motor_card;
+constexpr double kStatusPeriod_s = 0.1;
+
+}  // namespace
+
+MotorCard::MotorCard(const Options& options, const Motion& motion)
+    : options_(options),
+      motion_(motion),
+      effects_(options.effects != nullptr ? *options.effects : none_),
+      noise_(options.seed) {}
+
+void MotorCard::power_on(std::int64_t t_ns) {
+  ticks_ = Ticks(t_ns, kStatusPeriod_s, options_.clock_ppm);
+  parser_ = {};
+  command_.reset();
+  sequence_ = 0;
+}
+
+void MotorCard::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
+  parser_.feed(bytes, [&](const protocols::Frame& frame) {
+    if (frame.id != motor::kMcc) return;
+    const auto wanted = motor::decode_command(frame.bytes);
+    if (!wanted) return;
+    const auto beyond = [](double fin) { return std::abs(fin) > motor::kFinLimit_deg; };
+    if (std::any_of(wanted->fins_deg.begin(), wanted->fins_deg.end(), beyond)) {
+      ++refused_;
+      return;
+    }
+    at_command_ = actuators_at(t_ns);
+    commanded_ns_ = t_ns;
+    command_ = wanted;
+  });
+}
+
+void MotorCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
+  while (ticks_.next_ns() <= t_ns) {
+    const std::int64_t sent_ns = ticks_.next_ns();
+    const auto status = measure(sent_ns - std::llround(options_.latency_s * 1e9));
+    line_.put(sent_ns, options_.baud, motor::encode_status(status), out);
+    ticks_.pass(effects_.slow_ppm(Instrument::motor, effects_.time_s(sent_ns)));
+  }
+}
+
+MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
+  if (!command_) {
+    const State state = motion_.at(t_ns);
+    Actuators now{state.rpm, {}, state.motor_current_A};
+    for (std::size_t i = 0; i < 3; ++i) now.fins_deg[i] = state.fins_rad[i] * base::kDegreesPerRadian;
+    return now;
+  }
+  const double since_s = std::max(0.0, static_cast<double>(t_ns - commanded_ns_) * 1e-9);
+  const auto follow = [&](double from, double to, double lag_s) {
+    return to + (from - to) * std::exp(-since_s / lag_s);
+  };
+  Actuators now;
+  now.rpm = follow(at_command_.rpm, command_->rpm, options_.shaft_lag_s);
+  for (std::size_t i = 0; i < 3; ++i) {
+    now.fins_deg[i] = follow(at_command_.fins_deg[i], command_->fins_deg[i], options_.fin_lag_s);
+  }
+  now.current_A = current_A(config::PropellerSettings{}, now.rpm / 60);
+  return now;
+}
+
+motor::Status MotorCard::measure(std::int64_t t_ns) {
+  const Actuators now = actuators_at(t_ns);
+  const double louder = effects_.noise(Instrument::motor, effects_.time_s(t_ns));
+  motor::Status status;
+  status.sequence = sequence_++;
+  status.rpm_commanded =
+      command_ ? command_->rpm : static_cast<std::int32_t>(std::lround(motion_.at(t_ns).rpm_commanded));
+  status.rpm = static_cast<std::int32_t>(std::lround(now.rpm));
+  for (std::size_t i = 0; i < 3; ++i) {
+    status.fins_deg[i] = rounded(now.fins_deg[i] + noise_.normal(options_.fin_noise_deg * louder), 0.1);
+  }
+  const double current_A = now.current_A + noise_.normal(options_.current_noise_A * louder);
+  status.current_A = rounded(std::max(0.0, current_A), 0.01);
+  return status;
+}
+
+}  // namespace navcal::sim

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+
+#include "protocols/motor_card.h"
+#include "sim/instruments/device.h"
+#include "sim/effects/effect_set.h"
+#include "sim/noise.h"
+#include "sim/state.h"
+
+namespace navcal::sim {
+
+/// Motor controller card. Until the host commands it, it tells what the vehicle does; from then on its shaft and
+/// fins follow the command with the nominal vehicle's lags (docs/simulator.md).
+class MotorCard final : public Device {
+ public:
+  struct Options {
+    double clock_ppm = 0;
+    double latency_s = 0.005;
+    double fin_noise_deg = 0.1;
+    double current_noise_A = 0.02;
+    double shaft_lag_s = 0.5;
+    double fin_lag_s = 0.15;
+    std::uint64_t seed = 1;
+    int baud = 19200;
+    EffectSet* effects = nullptr;  ///< nullptr: nominal
+  };
+  MotorCard(const Options& options, const Motion& motion);
+
+  void power_on(std::int64_t t_ns) override;
+  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
+  [[nodiscard]] std::int64_t next_event_ns() const override { return ticks_.next_ns(); }
+  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
+  [[nodiscard]] int baud() const override { return options_.baud; }
+
+  /// What the host wants, for a vehicle that obeys; nullopt until it wants something.
+  [[nodiscard]] const std::optional<protocols::motor_card::Command>& command() const { return command_; }
+  /// Commands refused because a fin was beyond its limit.
+  [[nodiscard]] std::uint64_t refused() const { return refused_; }
+
+ private:
+  struct Actuators {
+    double rpm = 0;
+    std::array<double, 3> fins_deg{};
+    double current_A = 0;
+  };
+  /// What shaft and fins do at t_ns.
+  [[nodiscard]] Actuators actuators_at(std::int64_t t_ns) const;
+  [[nodiscard]] protocols::motor_card::Status measure(std::int64_t t_ns);
+
+  Options options_;
+  const Motion& motion_;
+  EffectSet none_;
+  EffectSet& effects_;
+  Noise noise_;
+  Line line_;
+  Ticks ticks_;
+  protocols::motor_card::Parser parser_;
+  std::optional<protocols::motor_card::Command> command_;
+  Actuators at_command_;  ///< where they stood when the command came
+  std::int64_t commanded_ns_ = 0;
+  std::uint64_t refused_ = 0;
+  std::uint8_t sequence_ = 0;
+};
+
+}  // namespace navcal::sim

@@ -1,0 +1,240 @@
+#include "sim/instruments/tcm2.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/angles.h"
+#include "protocols/tcm2_word.h"
+
+namespace navcal::sim {
+namespace {
+
+namespace tcm2 = protocols::tcm2;
+using tcm2::Parameter;
+using tcm2::Verb;
+
+constexpr std::int64_t kThinks_ns = 2'000'000;      // from a command to the first byte of its answer
+constexpr std::int64_t kStartsUp_ns = 200'000'000;  // from power to the banner
+constexpr double kMils = 3200 / std::numbers::pi;
+constexpr std::string_view kBanner = "TCM2 emulated, navcal\r\n";
+
+/// An angle in 0 to one turn that stays below the turn when it is rounded.
+double wrapped(double angle, double turn, double resolution) {
+  return std::fmod(rounded(angle, resolution), turn);
+}
+
+}  // namespace
+
+Tcm2::Tcm2(const Options& options, const Motion& motion)
+    : options_(options),
+      effects_(options.sensor.effects != nullptr ? *options.sensor.effects : none_),
+      sensor_(options.sensor, motion, options.seed),
+      baud_(options.baud),
+      next_baud_(options.baud) {}
+
+void Tcm2::power_on(std::int64_t t_ns) {
+  sensor_.power_on(t_ns);
+  measured_ns_ = t_ns;
+  settings_ = {};
+  settings_.field = options_.field_at_power_on;
+  restart(t_ns);
+  if (options_.go_at_power_on) start(t_ns + kStartsUp_ns);
+}
+
+void Tcm2::restart(std::int64_t t_ns) {
+  parser_ = {};
+  answers_.clear();
+  running_ = calibrating_ = false;
+  score_.clear();
+  baud_ = next_baud_;
+  answer(t_ns + kStartsUp_ns, {kBanner.begin(), kBanner.end()});
+}
+
+void Tcm2::start(std::int64_t t_ns) {
+  running_ = true;
+  words_ = Ticks(t_ns, period_s(), options_.clock_ppm);
+}
+
+std::int64_t Tcm2::latency_ns() const { return std::llround(options_.latency_s * 1e9); }
+
+double Tcm2::period_s() const { return static_cast<double>(settings_.divider) / settings_.clock_Hz; }
+
+std::int64_t Tcm2::next_event_ns() const {
+  const std::int64_t answer_ns = answers_.empty() ? kNever_ns : answers_.front().due_ns;
+  return running_ ? std::min(answer_ns, words_.next_ns()) : answer_ns;
+}
+
+void Tcm2::advance(std::int64_t t_ns, std::vector<Emission>& out) {
+  while (next_event_ns() <= t_ns) {
+    if (!answers_.empty() && (!running_ || answers_.front().due_ns <= words_.next_ns())) {
+      Answer answer = std::move(answers_.front());
+      answers_.pop_front();
+      if (const auto* fields = std::get_if<Settings>(&answer.what)) answer.what = word(answer.due_ns, *fields);
+      line_.put(answer.due_ns, baud_, std::get<std::vector<std::uint8_t>>(std::move(answer.what)), out);
+      continue;
+    }
+    const std::int64_t sent_ns = words_.next_ns();
+    words_.pass(effects_.slow_ppm(Instrument::compass, effects_.time_s(sent_ns)));
+    // A device that samples faster than its line can carry leaves words out.
+    if (line_.free_ns() > sent_ns) continue;
+    line_.put(sent_ns, baud_, word(sent_ns, settings_), out);
+  }
+}
+
+void Tcm2::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
+  parser_.feed(bytes, [&](const protocols::Frame& frame) {
+    obey(t_ns, {reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size()});
+  });
+}
+
+void Tcm2::obey(std::int64_t t_ns, std::string_view line) {
+  const auto parsed = tcm2::parse_command(line);
+  if (const auto* refusal = std::get_if<tcm2::Refusal>(&parsed)) {
+    tcm2::Reply reply;
+    reply.kind = tcm2::Reply::Kind::refused;
+    reply.error = refusal->error;
+    return answer(t_ns, reply);
+  }
+  obey(t_ns, std::get<tcm2::Command>(parsed));
+}
+
+void Tcm2::obey(std::int64_t t_ns, const tcm2::Command& command) {
+  Settings only{
+      false, false, false, false, false, settings_.heading_in_mils, settings_.tilt_in_mils, settings_.fahrenheit};
+  tcm2::Reply reply;
+  switch (command.verb) {
+    case Verb::go:
+      start(t_ns);
+      break;
+    case Verb::halt:
+      running_ = false;
+      break;
+    case Verb::sample:
+      return answer_word(t_ns, settings_);
+    case Verb::heading:
+      only.heading = true;
+      return answer_word(t_ns, only);
+    case Verb::inclination:
+      only.pitch = only.roll = true;
+      return answer_word(t_ns, only);
+    case Verb::magnetometer:
+      only.field = true;
+      return answer_word(t_ns, only);
+    case Verb::temperature:
+      only.temperature = true;
+      return answer_word(t_ns, only);
+    case Verb::clear_calibration:
+      score_.clear();
+      [[fallthrough]];
+    case Verb::calibration_score:
+      reply.kind = tcm2::Reply::Kind::calibration;
+      reply.score = score_.score();
+      break;
+    case Verb::warm_restart:
+      return restart(t_ns);
+    case Verb::set:
+      if (const bool ends = command.parameter == Parameter::multipoint_calibration && command.letter == 'd';
+          ends && calibrating_) {
+        reply.kind = tcm2::Reply::Kind::calibration;
+        reply.score = score_.score();
+      }
+      if (const std::uint32_t error = set(command); error != 0) {
+        reply.kind = tcm2::Reply::Kind::refused;
+        reply.error = error;
+      }
+      break;
+  }
+  answer(t_ns, reply);
+}
+
+std::uint32_t Tcm2::set(const tcm2::Command& command) {
+  const bool on = command.letter == 'e';
+  switch (command.parameter) {
+    case Parameter::output_heading:
+      settings_.heading = on;
+      break;
+    case Parameter::output_pitch:
+      settings_.pitch = on;
+      break;
+    case Parameter::output_roll:
+      settings_.roll = on;
+      break;
+    case Parameter::output_field:
+      settings_.field = on;
+      break;
+    case Parameter::output_temperature:
+      settings_.temperature = on;
+      break;
+    case Parameter::heading_unit:
+      settings_.heading_in_mils = command.letter == 'm';
+      break;
+    case Parameter::tilt_unit:
+      settings_.tilt_in_mils = command.letter == 'm';
+      break;
+    case Parameter::temperature_unit:
+      settings_.fahrenheit = command.letter == 'f';
+      break;
+    case Parameter::output_format:
+      if (command.letter == 'r') return tcm2::error::kBadParameter;  // no source at hand describes raw words
+      settings_.nmea = command.letter == 'n';
+      break;
+    case Parameter::baud:
+      next_baud_ = tcm2::kBauds[command.number];
+      break;
+    case Parameter::clock:
+      settings_.clock_Hz = command.number;
+      break;
+    case Parameter::sample_period:
+      settings_.divider = command.number;
+      break;
+    case Parameter::fast:
+    case Parameter::damping:
+      break;  // filters that this model does not have
+    case Parameter::multipoint_calibration:
+      calibrating_ = on;
+      break;
+  }
+  return 0;
+}
+
+void Tcm2::answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes) {
+  answers_.push_back({t_ns + kThinks_ns, std::move(bytes)});
+}
+
+void Tcm2::answer(std::int64_t t_ns, const tcm2::Reply& reply) { answer(t_ns, tcm2::encode_reply(reply)); }
+
+void Tcm2::answer_word(std::int64_t t_ns, const Settings& fields) {
+  answers_.push_back({t_ns + kThinks_ns + latency_ns(), fields});
+}
+
+std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) {
+  // Words asked for one by one may overlap with those that come of themselves.
+  measured_ns_ = std::max(measured_ns_, t_ns - latency_ns());
+  const Tcm2Reading reading = sensor_.measure(measured_ns_);
+  if (calibrating_) score_.add(reading);
+  if (fields.nmea) return tcm2::encode_hchdm(wrapped(reading.heading_rad * base::kDegreesPerRadian, 360, 0.1));
+  tcm2::Word out;
+  if (fields.heading) {
+    out.heading = fields.heading_in_mils ? wrapped(reading.heading_rad * kMils, 6400, 1)
+                                         : wrapped(reading.heading_rad * base::kDegreesPerRadian, 360, 0.1);
+  }
+  const double tilt_scale = fields.tilt_in_mils ? kMils : base::kDegreesPerRadian;
+  const double tilt_resolution = fields.tilt_in_mils ? 1 : 0.1;
+  if (fields.pitch) out.pitch = rounded(reading.pitch_rad * tilt_scale, tilt_resolution);
+  if (fields.roll) out.roll = rounded(reading.roll_rad * tilt_scale, tilt_resolution);
+  if (fields.field) {
+    out.x = reading.field_uT[0];
+    out.y = reading.field_uT[1];
+    out.z = reading.field_uT[2];
+  }
+  if (fields.temperature) {
+    out.temperature = fields.fahrenheit ? reading.temperature_C * 1.8 + 32 : reading.temperature_C;
+  }
+  const std::uint32_t error = (reading.distorted ? tcm2::error::kDistortion : 0U) |
+                              (reading.tilt_out_of_range ? tcm2::error::kInclinometerOutOfRange : 0U);
+  if (error != 0) out.error = error;
+  return tcm2::encode_word(out);
+}
+
+}  // namespace navcal::sim

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <deque>
+#include <string_view>
+#include <variant>
+
+#include "protocols/tcm2_commands.h"
+#include "sim/instruments/device.h"
+#include "sim/instruments/tcm2_score.h"
+#include "sim/instruments/tcm2_sensor.h"
+
+namespace navcal::sim {
+
+/// TCM2 compass: words, command dialogue and built-in calibration of ICD section 1. At power-on it says its banner
+/// and waits for `go`; settings are those of the factory (all fields off but heading, pitch, roll, temperature),
+/// which a warm restart keeps and a loss of power does not. The line speed is kept through both.
+class Tcm2 final : public Device {
+ public:
+  struct Options {
+    Tcm2Sensor::Options sensor;
+    int baud = 38400;                ///< from the factory 9600; the vehicle's is set to 38400
+    bool go_at_power_on = false;     ///< words from the beginning, as a unit so configured
+    bool field_at_power_on = false;  ///< with the magnetometers' readings in them
+    double clock_ppm = 0;
+    double latency_s = 0.05;  ///< from the measurement to the first byte of a word
+    std::uint64_t seed = 1;
+  };
+  Tcm2(const Options& options, const Motion& motion);
+
+  void power_on(std::int64_t t_ns) override;
+  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
+  [[nodiscard]] std::int64_t next_event_ns() const override;
+  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
+  [[nodiscard]] int baud() const override { return baud_; }
+
+ private:
+  struct Settings {
+    bool heading = true, pitch = true, roll = true, field = false, temperature = true;
+    bool heading_in_mils = false, tilt_in_mils = false, fahrenheit = false, nmea = false;
+    int clock_Hz = 10;
+    int divider = 1;
+  };
+  /// A line as it is, or a word of these fields, measured when it is due.
+  struct Answer {
+    std::int64_t due_ns;
+    std::variant<std::vector<std::uint8_t>, Settings> what;
+  };
+  void obey(std::int64_t t_ns, std::string_view line);
+  void obey(std::int64_t t_ns, const protocols::tcm2::Command& command);
+  /// Empty when accepted, else the error of the refusal.
+  std::uint32_t set(const protocols::tcm2::Command& command);
+  void start(std::int64_t t_ns);
+  void restart(std::int64_t t_ns);
+  void answer(std::int64_t t_ns, std::vector<std::uint8_t> bytes);
+  void answer(std::int64_t t_ns, const protocols::tcm2::Reply& reply);
+  void answer_word(std::int64_t t_ns, const Settings& fields);
+  [[nodiscard]] std::vector<std::uint8_t> word(std::int64_t t_ns, const Settings& fields);
+  [[nodiscard]] double period_s() const;
+  [[nodiscard]] std::int64_t latency_ns() const;
+
+  Options options_;
+  EffectSet none_;
+  EffectSet& effects_;
+  Tcm2Sensor sensor_;
+  Tcm2Score score_;
+  Line line_;
+  protocols::tcm2::CommandParser parser_;
+  Settings settings_;
+  Ticks words_;
+  std::deque<Answer> answers_;
+  bool running_ = false;
+  bool calibrating_ = false;
+  int baud_;
+  int next_baud_;  ///< in force after a restart
+  std::int64_t measured_ns_ = 0;
+};
+
+}  // namespace navcal::sim

@@ -1,0 +1,29 @@
+#include "calib/magnetometer/field_coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace navcal::calib {
+namespace {
+
+TEST(FieldCoverage, ASingleHeadingCoversNothingWhereverItLies) {
+  for (int i = 0; i < 10'000; ++i) {
+    const double heading_rad = 0.001 * i - 5;
+    const FieldCoverage coverage({heading_rad, heading_rad});
+    EXPECT_GE(coverage.arc_rad(), 0) << heading_rad;
+    EXPECT_LT(coverage.arc_rad(), 1e-12) << heading_rad;
+  }
+}
+
+TEST(FieldCoverage, IsTheCircleLessTheLargestGap) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  EXPECT_NEAR(FieldCoverage({350 * kDegree, 10 * kDegree, 60 * kDegree}).arc_rad(), 70 * kDegree, 1e-12);
+  EXPECT_NEAR(FieldCoverage({0, 2, 4}).arc_rad(), 4, 1e-12);
+  EXPECT_EQ(FieldCoverage({}).arc_rad(), 0);
+  EXPECT_EQ(FieldCoverage({NAN}).arc_rad(), 0);
+}
+
+}  // namespace
+}  // namespace navcal::calib

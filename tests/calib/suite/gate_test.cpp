@@ -1,0 +1,182 @@
+#include "calib/suite/gate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace navcal::calib {
+namespace {
+
+CompassReading compass(double time_s, double heading_rad) {
+  CompassReading reading;
+  reading.time_s = time_s;
+  reading.heading_rad = heading_rad;
+  reading.pitch_rad = reading.roll_rad = 0;
+  return reading;
+}
+
+RateReading rate(double time_s) {
+  RateReading reading;
+  reading.time_s = time_s;
+  reading.rate_rad_s.z() = std::sin(time_s);
+  return reading;
+}
+
+std::vector<Reading> through(Gate& gate, const std::vector<Reading>& readings) {
+  std::vector<Reading> out;
+  const auto drain = [&] {
+    while (const auto reading = gate.take()) out.push_back(*reading);
+  };
+  for (const Reading& reading : readings) {
+    gate.put(reading);
+    drain();
+  }
+  gate.flush();
+  drain();
+  return out;
+}
+
+std::uint64_t left_out(const Gate& gate, Stream stream, Rejection reason) {
+  return gate.counts().left_out[static_cast<std::size_t>(stream)][static_cast<std::size_t>(reason)];
+}
+
+TEST(Gate, GivesReadingsOutInTheOrderOfTheirTimesHoweverLateEachInstrumentIs) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<std::pair<double, Reading>> arrivals;
+    std::uniform_real_distribution<double> late(0, 0.4);
+    for (int i = 0; i < 200; ++i) {
+      arrivals.emplace_back(i * 0.05 + 0.025, rate(i * 0.05));
+      if (i % 2 == 0)
+        arrivals.emplace_back(i * 0.05 + 0.05 + late(random) * 0.01, compass(i * 0.05 + 0.01, i * 0.01));
+      if (i % 20 == 0)
+        arrivals.emplace_back(i * 0.05 + late(random), GroundReading{i * 0.05, {1.0 * i, 0}, 1, {}});
+    }
+    std::stable_sort(arrivals.begin(), arrivals.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Reading> readings;
+    for (const auto& [at, reading] : arrivals) readings.push_back(reading);
+    Gate gate;
+    const auto out = through(gate, readings);
+    EXPECT_EQ(out.size(), readings.size());
+    EXPECT_TRUE(std::is_sorted(out.begin(), out.end(),
+                               [](const Reading& a, const Reading& b) { return time_of(a) < time_of(b); }));
+  }
+}
+
+TEST(Gate, CountsEveryReadingOnceAsGivenOutOrLeftOut) {
+  std::mt19937 random(2);
+  std::vector<Reading> readings;
+  for (int i = 0; i < 3000; ++i) {
+    CompassReading reading = compass(i * 0.1, std::fmod(i * 0.01, 6.0));
+    const auto dice = random() % 40;
+    if (dice == 0) reading.time_s = std::nan("");
+    if (dice == 1) reading.time_s -= 5;
+    if (dice == 2) reading.time_s -= 0.1;
+    if (dice == 3) reading.faulty = true;
+    readings.emplace_back(reading);
+  }
+  Gate gate;
+  const auto out = through(gate, readings);
+  std::uint64_t rejected = 0;
+  for (const auto count : gate.counts().left_out[0]) rejected += count;
+  EXPECT_EQ(gate.counts().taken[0], readings.size());
+  EXPECT_EQ(out.size() + rejected, readings.size());
+}
+
+TEST(Gate, ErrorCodesVoidWhatTheyConcern) {
+  std::vector<Reading> readings;
+  for (int i = 0; i < 40; ++i) {
+    CompassReading reading = compass(i * 0.1, i * 0.01);
+    reading.field_body_uT = Eigen::Vector3d(20, i, 40);
+    reading.distorted = i % 4 == 0;
+    reading.tilt_out_of_range = i % 4 == 1;
+    reading.field_out_of_range = i % 4 == 2;
+    readings.emplace_back(reading);
+  }
+  Gate gate;
+  const auto out = through(gate, readings);
+  ASSERT_EQ(out.size(), readings.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto& reading = std::get<CompassReading>(out[i]);
+    EXPECT_EQ(reading.heading_rad.has_value(), i % 4 == 0 || i % 4 == 3) << i;
+    EXPECT_EQ(reading.roll_rad.has_value(), i % 4 != 1) << i;
+    EXPECT_EQ(reading.field_body_uT.has_value(), i % 4 != 2) << i;
+  }
+  EXPECT_EQ(gate.counts().distorted, 10U);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::tilt_out_of_range), 10U);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::field_out_of_range), 10U);
+}
+
+TEST(Gate, ALiveInstrumentIsNotFrozenByRepeatingItselfForLessThanASecond) {
+  std::vector<Reading> readings;
+  for (int i = 0; i < 100; ++i) readings.emplace_back(compass(i * 0.1, (i / 8) * 0.1));
+  Gate gate;
+  EXPECT_EQ(through(gate, readings).size(), 100U);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::frozen), 0U);
+}
+
+TEST(Gate, AFrozenHeadingIsLeftOutFromItsFirstReadingOn) {
+  std::vector<Reading> readings;
+  for (int i = 0; i < 100; ++i) readings.emplace_back(compass(i * 0.1, i >= 30 && i < 60 ? 2.0 : i * 0.01));
+  Gate gate;
+  int headings = 0;
+  for (const Reading& reading : through(gate, readings)) {
+    const auto& heading = std::get<CompassReading>(reading).heading_rad;
+    if (!heading) continue;
+    ++headings;
+    EXPECT_NE(*heading, 2.0) << time_of(reading);
+  }
+  EXPECT_EQ(headings, 70);
+  EXPECT_EQ(left_out(gate, Stream::compass, Rejection::frozen), 30U);
+}
+
+TEST(Gate, MagneticReadingsAboutASwitchOfTheMotorAreLeftOutAndTheirTiltIsNot) {
+  GateOptions options;
+  options.motor_settle_s = 1;
+  options.motor_lead_s = 0.3;
+  Gate gate(options);
+  std::vector<Reading> readings;
+  for (int i = 0; i < 100; ++i) {
+    readings.emplace_back(compass(i * 0.1, i * 0.01));
+    readings.emplace_back(MotorReading{i * 0.1 + 0.01, i < 50 ? 0.0 : 600.0});
+  }
+  std::size_t tilts = 0;
+  for (const Reading& reading : through(gate, readings)) {
+    const auto* one = std::get_if<CompassReading>(&reading);
+    if (one == nullptr) continue;
+    ++tilts;
+    const bool about = one->time_s > 5.01 - 0.3 && one->time_s < 5.01 + 1;
+    EXPECT_EQ(one->heading_rad.has_value(), !about) << one->time_s;
+  }
+  EXPECT_EQ(tilts, 100U);
+}
+
+TEST(Gate, WhenTimeBeginsAnewItGoesOnLater) {
+  std::vector<Reading> readings;
+  for (int i = 0; i < 100; ++i) readings.emplace_back(rate(1000 + i * 0.1));
+  for (int i = 0; i < 200; ++i) readings.emplace_back(rate(5 + i * 0.1));
+  Gate gate;
+  const auto out = through(gate, readings);
+  EXPECT_EQ(gate.counts().restarts, 1U);
+  EXPECT_GT(out.size(), 240U);
+  double before = -1;
+  for (const Reading& reading : out) {
+    EXPECT_GT(time_of(reading), before);
+    before = time_of(reading);
+  }
+  EXPECT_GT(before, 1000 + Gate::kRestartGap_s);
+}
+
+TEST(Gate, OneWildStampDoesNotSilenceAnInstrumentForEver) {
+  std::vector<Reading> readings{rate(0), rate(1e12)};
+  for (int i = 1; i < 300; ++i) readings.emplace_back(rate(i * 0.1));
+  Gate gate;
+  EXPECT_GT(through(gate, readings).size(), 200U);
+}
+
+}  // namespace
+}  // namespace navcal::calib

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calib/suite/suite.h"
+#include "tests/calib/thesis_paths.h"
+
+namespace navcal::calib::test {
+
+/// Of gyro B: true = 1.05 measured - 0.02.
+inline constexpr RateCorrection kGyroB{1.05, -0.02};
+
+/// What compass and gyros of the thesis's vehicle say along a path, in the order of their times; the motor runs.
+inline std::vector<Reading> readings_along(const std::string& path, const Deviation& deviation, const Noise& noise,
+                                           std::uint64_t seed) {
+  Random random(seed);
+  std::normal_distribution<double> normal;
+  const auto points = load_true_path(path);
+  const auto measured = measure(points, deviation, noise, random);
+  std::vector<Reading> readings;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const Measured& m = measured[i];
+    RateReading rate = rate_of(m);
+    rate.yaw_rate_b_rad_s =
+        (points[i].rate_rad_s.z() - kGyroB.bias_rad_s) / kGyroB.scale + noise.rate_rad_s * normal(random);
+    readings.emplace_back(rate);
+    readings.emplace_back(compass_of(m));
+  }
+  return readings;
+}
+
+/// As the thesis's vehicle: its noise, a constant bias, an inclinometer that does not lag.
+inline SuiteOptions thesis_options() {
+  SuiteOptions options;
+  options.heading_noise_rad = 0.004;
+  options.rate_noise_rad_sqrt_s = 0.0016;
+  options.bias_walk_rad_s_sqrt_s = 0;
+  options.tilt_lag_s = 0;
+  return options;
+}
+inline constexpr Instruments kCompassAndGyros{true, true, false, false};
+
+inline std::string saved(Suite& suite) {
+  Archive archive;
+  suite.archive(archive);
+  return archive.bytes();
+}
+
+}  // namespace navcal::calib::test

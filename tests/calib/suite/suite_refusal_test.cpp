@@ -1,0 +1,103 @@
+// What other tools accept wrongly, through everything that the daemon runs: motions of a vehicle, its compass's
+// field and tilt, and its gyro.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calib/suite/suite.h"
+#include "tests/calib/magnetometer_paths.h"
+
+namespace navcal::calib {
+namespace {
+
+using namespace test;
+
+constexpr double kPeriod_s = 0.1;
+
+struct Asked {
+  const char* name;
+  Instruments instruments;
+};
+
+class SuiteRefusal : public testing::TestWithParam<Asked> {
+ protected:
+  /// A quarter of an hour at most; the gyro is right, and tells the suite so where it turns.
+  static Suite run(const std::vector<Attitude>& motion, const Iron& iron) {
+    Random random(21);
+    SuiteOptions options;
+    options.local_field.known = reference_field();
+    options.tilt_lag_s = 0;
+    Suite suite(options, GetParam().instruments);
+    const auto field = field_on(motion, iron, random);
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      const double time_s = kPeriod_s * static_cast<double>(i);
+      if (GetParam().instruments.rate) suite.put(rate_at(motion, i));
+      CompassReading reading;
+      reading.time_s = time_s;
+      reading.roll_rad = field[i].roll_rad;
+      reading.pitch_rad = field[i].pitch_rad;
+      reading.field_body_uT = field[i].field_body_uT;
+      suite.put(reading);
+    }
+    suite.finish();
+    return suite;
+  }
+
+  static RateReading rate_at(const std::vector<Attitude>& motion, std::size_t i) {
+    const Attitude &before = motion[i == 0 ? 0 : i - 1], &now = motion[i],
+                   &after = motion[std::min(i + 1, motion.size() - 1)];
+    const double yaw = (after.heading_rad - before.heading_rad) / (2 * kPeriod_s),
+                 pitch = (after.pitch_rad - before.pitch_rad) / (2 * kPeriod_s),
+                 roll = (after.roll_rad - before.roll_rad) / (2 * kPeriod_s);
+    RateReading rate;
+    rate.time_s = kPeriod_s * static_cast<double>(i);
+    rate.rate_rad_s = {roll - yaw * std::sin(now.pitch_rad),
+                       pitch * std::cos(now.roll_rad) + yaw * std::sin(now.roll_rad) * std::cos(now.pitch_rad),
+                       yaw * std::cos(now.roll_rad) * std::cos(now.pitch_rad) - pitch * std::sin(now.roll_rad)};
+    rate.yaw_rate_b_rad_s = rate.rate_rad_s.z();
+    return rate;
+  }
+
+  static void expect_refused(const std::vector<Attitude>& motion, const Iron& iron, const std::string& reason) {
+    Suite suite = run(motion, iron);
+    const Report report = suite.report();
+    const auto* magnetometer = report.find(Calibrator::magnetometer);
+    ASSERT_NE(magnetometer, nullptr);
+    EXPECT_EQ(magnetometer->verdict, Verdict::refused);
+    EXPECT_NE(magnetometer->judgement.reason.find(reason), std::string::npos) << magnetometer->judgement.reason;
+    EXPECT_FALSE(magnetometer->judgement.manoeuvre.empty());
+    EXPECT_FALSE(report.in_force.magnetometer);
+    EXPECT_NE(suite.accept(Calibrator::magnetometer), "");
+    std::printf("  %s -> %s\n", magnetometer->judgement.reason.c_str(), magnetometer->judgement.manoeuvre.c_str());
+  }
+};
+
+TEST_P(SuiteRefusal, GliderWhoseHardIronExceedsTheField) {
+  Iron iron;
+  iron.hard_uT = {45, -30, 25};
+  expect_refused(swinging(1800, 720, 15, 20), iron, "exceeds the Earth's field");
+}
+
+TEST_P(SuiteRefusal, DiveWithYawWithin120Degrees) {
+  expect_refused(swinging(1800, 120, 4, 25), some_iron(), "headings within 1");
+}
+
+TEST_P(SuiteRefusal, NoTurnAtAll) { expect_refused(swinging(1200, 0, 5, 5), some_iron(), ""); }
+
+/// Heading is calibrated by it, and nothing is said of the vertical.
+TEST_P(SuiteRefusal, APlanarSwingSaysNothingOfTheVertical) {
+  Suite suite = run(swinging(1800, 1080, 0, 0), some_iron());
+  const auto report = suite.report();
+  const auto* magnetometer = report.find(Calibrator::magnetometer);
+  EXPECT_TRUE(magnetometer->judgement.accepted) << magnetometer->judgement.reason;
+  const auto* vertical = magnetometer->quantity("offset_z_uT");
+  EXPECT_TRUE(vertical == nullptr || !std::isfinite(vertical->std)) << vertical->value << " +- " << vertical->std;
+}
+
+INSTANTIATE_TEST_SUITE_P(Instruments, SuiteRefusal,
+                         testing::Values(Asked{"compass", {true, false, false, false}},
+                                         Asked{"compass_and_gyro", {true, true, false, false}}),
+                         [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace navcal::calib

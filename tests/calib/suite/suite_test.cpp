@@ -1,0 +1,186 @@
+#include "calib/suite/suite.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/calib/suite/suite_drive.h"
+
+namespace navcal::calib {
+namespace {
+
+using namespace test;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+Report run(const std::string& path, const SuiteOptions& options, const Noise& noise = {}) {
+  Suite suite(options, kCompassAndGyros);
+  for (const Reading& reading : readings_along(path, thesis_deviation(), noise, 1)) suite.put(reading);
+  suite.finish();
+  return suite.report();
+}
+
+double worst_heading_error_deg(const DeviationCorrection& correction) {
+  double worst = 0;
+  for (int i = 0; i < 360; ++i) {
+    const double measured = i * kDegree;
+    const double truth = measured - deviation_rad(thesis_deviation(), measured);
+    worst = std::max(worst, std::abs(std::remainder(correction(measured) - truth, 2 * std::numbers::pi)));
+  }
+  return worst / kDegree;
+}
+
+TEST(Suite, FindsGyrosAndDeviationTogetherWhereTheVehicleTurnsThroughTheCircle) {
+  for (const std::string path : {"path2", "path5", "path6"}) {
+    const Report report = run(path, thesis_options());
+    const auto* gyro = report.find(Calibrator::gyro);
+    const auto* compass = report.find(Calibrator::compass);
+    ASSERT_TRUE(gyro != nullptr && compass != nullptr);
+    EXPECT_TRUE(gyro->judgement.accepted) << path << ": " << gyro->judgement.reason;
+    EXPECT_TRUE(compass->judgement.accepted) << path << ": " << compass->judgement.reason;
+    ASSERT_TRUE(report.estimates.gyro && report.estimates.gyro_b && report.estimates.compass);
+    EXPECT_NEAR(report.estimates.gyro->scale, kTrueScale, 5 * gyro->quantity("scale")->std) << path;
+    EXPECT_NEAR(report.estimates.gyro->bias_rad_s, kTrueBias_rad_s, 5 * gyro->quantity("bias_rad_s")->std) << path;
+    EXPECT_NEAR(report.estimates.gyro_b->scale, kGyroB.scale, 0.01) << path;
+    EXPECT_LT(worst_heading_error_deg(*report.estimates.compass), 0.5) << path;
+  }
+}
+
+TEST(Suite, RefusesWhatAnArcCannotTellAndSaysWhichTurnIsMissing) {
+  for (const std::string path : {"path3", "path4"}) {
+    const Report report = run(path, thesis_options());
+    for (const auto calibrator : {Calibrator::gyro, Calibrator::compass}) {
+      const auto& judgement = report.find(calibrator)->judgement;
+      EXPECT_FALSE(judgement.accepted) << path;
+      EXPECT_NE(judgement.reason.find("of the circle were seen"), std::string::npos) << judgement.reason;
+      EXPECT_NE(judgement.manoeuvre.find("turn through"), std::string::npos) << judgement.manoeuvre;
+      EXPECT_EQ(report.find(calibrator)->verdict, Verdict::refused);
+    }
+    EXPECT_EQ(report.name.number, 0U) << path << ": nothing may have come into force";
+  }
+}
+
+TEST(Suite, RefusesWhereTheVehicleDoesNotTurn) {
+  Suite suite(thesis_options(), kCompassAndGyros);
+  Random random(3);
+  std::normal_distribution<double> noise(0, 0.004);
+  for (int i = 0; i < 600; ++i) {
+    suite.put(RateReading{i * 0.1, {0, 0, 0.1 + noise(random)}, noise(random)});
+    suite.put(CompassReading{i * 0.1, 1.0 + noise(random), 0.0, 0.0, {}, false});
+  }
+  suite.finish();
+  const Report report = suite.report();
+  EXPECT_EQ(report.find(Calibrator::gyro)->judgement.reason, "the vehicle has not turned");
+  EXPECT_EQ(report.find(Calibrator::compass)->judgement.reason, "the vehicle has not turned");
+  EXPECT_FALSE(report.find(Calibrator::compass_delay)->judgement.accepted);
+  EXPECT_FALSE(report.find(Calibrator::magnetometer)->judgement.accepted);
+}
+
+TEST(Suite, EstimatesComeIntoForceWhenTheyAreBetterOnReadingsHeldOut) {
+  const Report report = run("path_long600", thesis_options());
+  ASSERT_TRUE(report.in_force.gyro && report.in_force.gyro_b && report.in_force.compass);
+  EXPECT_NEAR(report.in_force.gyro->scale, kTrueScale, 0.02);
+  EXPECT_LT(worst_heading_error_deg(*report.in_force.compass), 1.5);
+  EXPECT_EQ(report.find(Calibrator::compass)->verdict, Verdict::in_force);
+  ASSERT_GT(report.heading.blocks, 10U);
+  EXPECT_LT(report.heading.after_rad, 0.5 * report.heading.before_rad);
+  EXPECT_LT(report.heading.after_rad, 0.5 * kDegree);
+  EXPECT_GE(report.name.number, 3U);
+}
+
+TEST(Suite, WhatIsRightAlreadyIsNotReplacedByChance) {
+  int changes = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Suite suite(thesis_options(), {true, false, false, false});
+    Suite with_gyros(thesis_options(), kCompassAndGyros);
+    for (const Reading& reading : readings_along("path_long600", {}, {}, seed)) {
+      if (std::holds_alternative<CompassReading>(reading)) suite.put(reading);
+      with_gyros.put(reading);
+      while (const auto adopted = with_gyros.take_adopted()) {
+        // The gyros are wrong, and are to be corrected.
+        if (*adopted != Calibrator::gyro && *adopted != Calibrator::gyro_b) ++changes;
+      }
+      while (suite.take_adopted()) ++changes;
+    }
+  }
+  EXPECT_EQ(changes, 0);
+}
+
+TEST(Suite, WithoutAutomaticEverythingStaysInShadowUntilTheOperatorSpeaks) {
+  SuiteOptions options = thesis_options();
+  options.automatic = false;
+  Suite suite(options, kCompassAndGyros);
+  for (const Reading& reading : readings_along("path2", thesis_deviation(), {}, 1)) suite.put(reading);
+  EXPECT_EQ(suite.report().find(Calibrator::gyro)->verdict, Verdict::shadow);
+  EXPECT_EQ(suite.in_force().name().text(), "none");
+  EXPECT_EQ(suite.accept(Calibrator::gyro), "");
+  EXPECT_EQ(suite.report().find(Calibrator::gyro)->verdict, Verdict::in_force);
+  EXPECT_EQ(suite.in_force().name().number, 1U);
+  EXPECT_NE(suite.accept(Calibrator::magnetometer), "") << "refused ones cannot be accepted";
+  EXPECT_EQ(suite.roll_back(Calibrator::gyro), "");
+  EXPECT_FALSE(suite.in_force().correction().gyro);
+  EXPECT_EQ(suite.in_force().name().number, 2U);
+  EXPECT_NE(suite.roll_back(Calibrator::gyro), "") << "there is nothing more to take back";
+}
+
+TEST(Suite, TheOperatorMayForceWhatIsRefused) {
+  Suite suite(thesis_options(), kCompassAndGyros);
+  for (const Reading& reading : readings_along("path3", thesis_deviation(), {}, 1)) suite.put(reading);
+  ASSERT_FALSE(suite.report().find(Calibrator::compass)->judgement.accepted);
+  const std::string refusal = suite.accept(Calibrator::compass);
+  EXPECT_NE(refusal.find("\"force\":true"), std::string::npos) << refusal;
+  EXPECT_EQ(suite.accept(Calibrator::compass, true), "");
+  EXPECT_EQ(suite.report().find(Calibrator::compass)->verdict, Verdict::in_force);
+  EXPECT_EQ(suite.roll_back(Calibrator::compass), "");
+  EXPECT_NE(suite.accept(Calibrator::misalignment, true), "") << "there is nothing to force";
+}
+
+TEST(Suite, WhatWasRolledBackStaysSo) {
+  const auto readings = readings_along("path_long600", thesis_deviation(), {}, 1);
+  Suite suite(thesis_options(), kCompassAndGyros);
+  std::size_t i = 0;
+  for (; i < readings.size() && !suite.in_force().correction().compass; ++i) suite.put(readings[i]);
+  ASSERT_LT(i, readings.size());
+  ASSERT_EQ(suite.roll_back(Calibrator::compass), "");
+  for (; i < readings.size(); ++i) suite.put(readings[i]);
+  EXPECT_FALSE(suite.in_force().correction().compass);
+  EXPECT_TRUE(suite.report().find(Calibrator::compass)->held);
+  EXPECT_EQ(suite.accept(Calibrator::compass), "");
+  EXPECT_TRUE(suite.in_force().correction().compass);
+}
+
+TEST(Suite, StartForgetsWhatOneCalibratorHasSeen) {
+  Suite suite(thesis_options(), kCompassAndGyros);
+  for (const Reading& reading : readings_along("path2", thesis_deviation(), {}, 1)) suite.put(reading);
+  ASSERT_TRUE(suite.report().find(Calibrator::gyro_b)->judgement.accepted);
+  EXPECT_EQ(suite.start(Calibrator::gyro_b), "");
+  const Report report = suite.report();
+  EXPECT_EQ(report.find(Calibrator::gyro_b)->judgement.samples, 0U);
+  EXPECT_TRUE(report.find(Calibrator::gyro)->judgement.accepted);
+}
+
+TEST(Suite, SavedAndRestoredItGoesOnBitForBit) {
+  const auto readings = readings_along("path5", thesis_deviation(), {}, 7);
+  Suite whole(thesis_options(), kCompassAndGyros);
+  Suite first(thesis_options(), kCompassAndGyros);
+  std::optional<Suite> second;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    whole.put(readings[i]);
+    if (second) {
+      second->put(readings[i]);
+    } else {
+      first.put(readings[i]);
+    }
+    if (i != 333) continue;
+    const std::string state = saved(first);
+    second.emplace(thesis_options(), kCompassAndGyros);
+    Archive restoring{std::string_view(state)};
+    second->archive(restoring);
+    ASSERT_TRUE(restoring.ok() && restoring.at_end());
+    ASSERT_EQ(saved(*second), state);
+  }
+  EXPECT_EQ(saved(*second), saved(whole));
+}
+
+}  // namespace
+}  // namespace navcal::calib

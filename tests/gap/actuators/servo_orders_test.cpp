@@ -1,0 +1,126 @@
+#include "gap/actuators/servo_orders.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace navcal::gap {
+namespace {
+
+constexpr double kLag_s = 0.15, kDegree = 0.017453292519943295, kNoise_rad = 0.1 * kDegree;
+
+/// A servo under orders that come ten a second, and noisy reports of it.
+struct Told {
+  std::vector<double> order_times_s, report_times_s, reports_rad;
+  std::vector<double> commands_rad;  ///< from each order on
+};
+
+Told told(double phase_s, double duration_s, const std::function<double(int)>& command_rad,
+          std::uint64_t seed = 1) {
+  sim::Noise noise(seed);
+  Told told;
+  double servo = 0, command = 0, at_s = 0;
+  const auto go_on_until = [&](double time_s) {
+    servo = command + (servo - command) * std::exp(-(time_s - at_s) / kLag_s);
+    at_s = time_s;
+  };
+  for (int k = 0; k * 0.1 + 0.05 < duration_s; ++k) {
+    const double report_s = 0.1 * k + 0.001, order_s = report_s + phase_s;
+    go_on_until(report_s);
+    told.report_times_s.push_back(report_s);
+    told.reports_rad.push_back(servo + noise.normal(kNoise_rad));
+    go_on_until(order_s);
+    command = command_rad(k);
+    told.order_times_s.push_back(order_s);
+    told.commands_rad.push_back(command);
+  }
+  return told;
+}
+
+/// Commands after each order that a smoother knows.
+std::vector<double> commands(const ServoOrders& orders) {
+  std::vector<double> result;
+  double command = orders.command_rad;
+  for (const double step : orders.steps_rad) result.push_back(command += step);
+  return result;
+}
+
+double rms_apart(const std::vector<double>& a, const std::vector<double>& b, std::size_t from, std::size_t until) {
+  double square = 0;
+  for (std::size_t i = from; i < until; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(square / static_cast<double>(until - from));
+}
+
+class AtPhase : public testing::TestWithParam<double> {};
+
+TEST_P(AtPhase, LongStepsAreSharpAndACommandThatStandsIsQuiet) {
+  const Told servo = told(GetParam(), 60, [](int k) { return (k / 100 % 2 == 0 ? 5 : -9) * kDegree; });
+  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kLag_s);
+  const auto found = commands(smoother.smoothed(servo.reports_rad, kNoise_rad));
+  ASSERT_EQ(found.size(), servo.commands_rad.size() - 1);  // nothing is reported after the last one
+  for (std::size_t i = 5; i + 5 < found.size(); ++i) {
+    EXPECT_NEAR(found[i], servo.commands_rad[i], (i % 100 < 2 || i % 100 > 97 ? 1.0 : 0.25) * kDegree) << i;
+  }
+  EXPECT_LT(rms_apart(found, servo.commands_rad, 210, 290), 0.05 * kDegree);
+}
+
+TEST_P(AtPhase, ARestlessHelmIsFollowed) {
+  sim::Noise helm(3);
+  const Told servo = told(GetParam(), 120, [&](int) { return helm.normal(2 * kDegree); });
+  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kLag_s);
+  const auto found = commands(smoother.smoothed(servo.reports_rad, kNoise_rad));
+  EXPECT_LT(rms_apart(found, servo.commands_rad, 10, found.size() - 10), 0.6 * kDegree);
+}
+
+// Nulls are to be as far from the smoothed way as the recorded vehicle is.
+TEST_P(AtPhase, DrawsScatterAsTheTruthDoes) {
+  sim::Noise helm(4);
+  double command = 0;
+  const Told servo =
+      told(GetParam(), 300, [&](int) { return command += helm.normal(0.5 * kDegree) - 0.02 * command; });
+  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kLag_s);
+  const auto found = commands(smoother.smoothed(servo.reports_rad, kNoise_rad));
+  sim::Noise noise(5);
+  const auto drawn = commands(smoother.drawn(servo.reports_rad, kNoise_rad, noise));
+  const double truth = rms_apart(found, servo.commands_rad, 10, found.size() - 10);
+  const double draw = rms_apart(found, drawn, 10, found.size() - 10);
+  EXPECT_NEAR(draw / truth, 1, 0.25);
+}
+
+INSTANTIATE_TEST_SUITE_P(AfterAReport, AtPhase, testing::Values(0.005, 0.02, 0.08, 0.095));
+
+TEST(ServoOrders, AServoThatIsToldNothingStandsAtTheMeanOfItsReports) {
+  const Told servo = told(0.05, 30, [](int) { return 0; });
+  ServoSmoother smoother(servo.report_times_s, {}, kLag_s);
+  const ServoOrders found = smoother.smoothed(servo.reports_rad, kNoise_rad);
+  EXPECT_TRUE(found.steps_rad.empty());
+  EXPECT_NEAR(found.command_rad, 0, 0.03 * kDegree);
+}
+
+TEST(ServoOrders, OneReportIsBelieved) {
+  ServoSmoother smoother(std::vector{3.0}, std::vector{1.0, 2.0, 4.0}, kLag_s);
+  EXPECT_TRUE(smoother.order_times_s().empty());
+  const ServoOrders found = smoother.smoothed(std::vector{0.1}, kNoise_rad);
+  EXPECT_NEAR(found.angle_rad, 0.1, 1e-12);
+  EXPECT_NEAR(found.command_rad, 0.1, 1e-12);
+}
+
+TEST(ServoOrders, OrdersAtOneInstantAndReportsFarApartAreNoTrouble) {
+  const Told servo = told(0.05, 60, [](int) { return 4 * kDegree; });
+  std::vector<double> times_s, reports_rad, orders_s;
+  for (std::size_t i = 0; i < servo.reports_rad.size(); ++i) {
+    if (i > 100 && i < 400) continue;
+    times_s.push_back(servo.report_times_s[i]);
+    reports_rad.push_back(servo.reports_rad[i]);
+  }
+  for (const double time_s : servo.order_times_s) orders_s.insert(orders_s.end(), 3, time_s);
+  ServoSmoother smoother(times_s, orders_s, kLag_s);
+  for (const double command : commands(smoother.smoothed(reports_rad, kNoise_rad))) {
+    EXPECT_TRUE(std::isfinite(command));
+    EXPECT_NEAR(command, 4 * kDegree, 4.1 * kDegree);
+  }
+}
+
+}  // namespace
+}  // namespace navcal::gap

@@ -1,0 +1,120 @@
+#include "gap/data/mission.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "tests/gap/simulated_mission.h"
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::gap {
+namespace {
+
+using test::simulated_mission;
+
+TEST(Mission, IsReadWhole) {
+  const Mission mission = simulated_mission("identification", "", 60, 1);
+  EXPECT_EQ(mission.shortcoming(), "");
+  EXPECT_NEAR(static_cast<double>(mission.card.size()), 1200, 3);
+  EXPECT_NEAR(static_cast<double>(mission.compass.size()), 600, 3);
+  EXPECT_NEAR(static_cast<double>(mission.motor.size()), 600, 3);
+  for (std::size_t i = 1; i < mission.card.size(); ++i)
+    EXPECT_LT(mission.card[i - 1].time_s, mission.card[i].time_s);
+  for (std::size_t i = 1; i < mission.fixes.size(); ++i) {
+    const bool same_sight = mission.fixes[i].time_s - mission.fixes[i - 1].time_s < 2;
+    EXPECT_EQ(mission.fixes[i].number, same_sight ? mission.fixes[i - 1].number + 1 : 0);
+  }
+}
+
+TEST(Mission, KnowsWhenTheFinsWereToldSomethingIfThatWasRecorded) {
+  const navcal::test::TemporaryFolder folder;
+  const auto file = folder / "mission.cap";
+  test::write_mission(file, "identification", "", 60, 1);
+  const auto recorded = load_mission(file, [](double) {}).order_times_s;
+  EXPECT_GT(recorded.size(), 100U);
+  EXPECT_TRUE(std::is_sorted(recorded.begin(), recorded.end()));
+
+  std::ifstream lines(file);
+  std::string line, without, with_others;
+  while (std::getline(lines, line)) {
+    if (line.find(" motor > ") == std::string::npos) without += line + "\n";
+    with_others += line + "\n";
+    if (line.find(" motor > ") != std::string::npos) with_others += line + "\n";  // once more
+    if (line.find(" motor < ") == std::string::npos) continue;
+    with_others += line.substr(0, line.find(' ')) + " motor > 244d43430d0a\n";  // no order
+  }
+  std::ofstream(file) << without;
+  EXPECT_TRUE(load_mission(file, [](double) {}).order_times_s.empty());
+  std::ofstream(file) << with_others;
+  EXPECT_EQ(load_mission(file, [](double) {}).order_times_s, recorded);
+}
+
+TEST(Mission, AMotorCardWithoutShaftSpeedIsToldAsSuch) {
+  MissionGatherer gatherer;
+  instruments::MotorSample motor;
+  motor.current_A = 1;
+  motor.fins_rad = {0, 0, 0};
+  instruments::Sample sample;
+  sample.value = motor;
+  gatherer.on_sample(sample);
+  Mission mission = gatherer.take(0, {});
+  const Mission whole = simulated_mission("identification", "", 60, 1);
+  mission.card = whole.card;
+  mission.compass = whole.compass;
+  mission.duration_s = whole.duration_s;
+  EXPECT_EQ(mission.shortcoming(),
+            "the motor card reports no shaft speed (rpm): what the vehicle was told to do is not known");
+}
+
+TEST(Mission, ItsFieldIsStatedOrTheModelsOrFitted) {
+  const navcal::test::TemporaryFolder folder;
+  const auto file = folder / "mission.cap";
+  test::write_mission(file, "identification", "", 60, 1);
+  const EarthField stated = load_mission(file, [](double) {}).field;
+  EXPECT_EQ(stated.source, EarthField::Source::stated);
+  EXPECT_EQ(stated.north_east_down_uT, (Vector3{19, 0.6, 44}));
+
+  std::ifstream lines(file);
+  std::string line, without_mark, without_fixes;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("#event")) continue;
+    without_mark += line + "\n";
+    if (line.find(" gps < ") == std::string::npos) without_fixes += line + "\n";
+  }
+  std::ofstream(file) << without_mark;
+  const EarthField model = load_mission(file, [](double) {}).field;
+  EXPECT_EQ(model.source, EarthField::Source::model);
+  EXPECT_EQ(model.date(), "2026-01-01");
+  const auto there = base::world_magnetic_field({37.0629 / 57.2957795, -80.6275 / 57.2957795, 562}, 2026.0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(model.north_east_down_uT[static_cast<std::size_t>(i)], there.north_east_down_uT[i], 0.01);
+  }
+
+  std::ofstream(file) << without_fixes;
+  const EarthField fitted = load_mission(file, [](double) {}).field;
+  EXPECT_EQ(fitted.source, EarthField::Source::fitted);
+  EXPECT_NEAR(fitted.north_east_down_uT[0], std::hypot(19, 0.6), 0.1);
+  EXPECT_EQ(fitted.north_east_down_uT[1], 0);
+  EXPECT_NEAR(fitted.north_east_down_uT[2], 44, 0.1);
+}
+
+TEST(Mission, SaysWhatItLacks) {
+  const Mission whole = simulated_mission("identification", "", 60, 1);
+  Mission mission = whole;
+  mission.card.clear();
+  EXPECT_NE(mission.shortcoming().find("inertial card"), std::string::npos);
+  mission = whole;
+  mission.compass.clear();
+  EXPECT_NE(mission.shortcoming().find("compass"), std::string::npos);
+  mission = whole;
+  mission.motor.clear();
+  EXPECT_NE(mission.shortcoming().find("motor card"), std::string::npos);
+  EXPECT_NE(simulated_mission("identification", "", 10, 1).shortcoming().find("lasts 9."), std::string::npos);
+  EXPECT_NE(Mission{}.shortcoming(), "");
+}
+
+}  // namespace
+}  // namespace navcal::gap

@@ -1,0 +1,95 @@
+#include "validation/answer.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace navcal::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const std::string& why) { throw std::runtime_error("the answer is malformed: " + why); }
+
+TrialVerdict verdict_of(const std::string& name) {
+  for (const auto verdict : {TrialVerdict::no_gap, TrialVerdict::explained, TrialVerdict::unknown}) {
+    if (name_of(verdict) == name) return verdict;
+  }
+  fail("there is no verdict \"" + name + "\"");
+}
+
+std::optional<double> number(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return std::nullopt;
+  if (!found->is_number()) fail(std::string(key) + " is not a number");
+  return found->get<double>();
+}
+
+TrialFinding finding_of(const Json& object, std::vector<std::string>& twins) {
+  TrialFinding finding{object.at("name").get<std::string>(), object.at("probability").get<double>(), {}};
+  if (!(finding.probability >= 0 && finding.probability <= 1))
+    fail("the probability of " + finding.name + " does not lie between 0 and 1");
+  const Json nothing = Json::object();
+  const Json& errors = object.contains("std_errors") ? object.at("std_errors") : nothing;
+  const Json& parameters = object.contains("parameters") ? object.at("parameters") : nothing;
+  for (const auto& [key, value] : parameters.items())
+    finding.parameters[key] = {value.get<double>(), number(errors, key.c_str())};
+  for (const Json& twin : object.value("confused_with", Json::array()))
+    twins.push_back(twin.at("name").get<std::string>());
+  return finding;
+}
+
+std::vector<TrialFinding> findings_of(const Json& list, std::vector<std::string>& twins) {
+  std::vector<TrialFinding> findings;
+  for (const Json& object : list) findings.push_back(finding_of(object, twins));
+  for (auto finding = findings.begin(); finding != findings.end(); ++finding) {
+    const auto same = [&](const TrialFinding& other) { return other.name == finding->name; };
+    if (std::any_of(findings.begin(), finding, same)) fail(finding->name + " is named twice");
+  }
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  return findings;
+}
+
+void read_closure(const Json& gap, TrialAnswer& answer) {
+  answer.closed = number(gap, "closed");
+  const auto interval = gap.find("closed_ci");
+  if (interval == gap.end() || interval->is_null()) return;
+  answer.closed_ci = interval->get<std::array<double, 2>>();
+}
+
+}  // namespace
+
+std::string_view name_of(TrialVerdict verdict) {
+  switch (verdict) {
+    case TrialVerdict::no_gap:
+      return "no-gap";
+    case TrialVerdict::explained:
+      return "explained";
+    case TrialVerdict::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+TrialAnswer read_answer(std::string_view text) {
+  TrialAnswer answer;
+  try {
+    const Json object = Json::parse(text);
+    answer.verdict = verdict_of(object.at("verdict").get<std::string>());
+    for (const Json& entry : object.at("where")) answer.channels.push_back(entry.at("channel").get<std::string>());
+    answer.effects = findings_of(object.at("effects"), answer.twins);
+    answer.candidates = findings_of(object.value("candidates", Json::array()), answer.twins);
+    read_closure(object.at("gap"), answer);
+    answer.seconds = number(object, "seconds");
+  } catch (const Json::exception& error) {
+    fail(error.what());
+  }
+  if ((answer.verdict == TrialVerdict::explained) == answer.effects.empty()) {
+    fail("the verdict is " + std::string(name_of(answer.verdict)) + ", yet " +
+         (answer.effects.empty() ? "no effect is named" : answer.effects.front().name + " is named"));
+  }
+  return answer;
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,148 @@
+#include "validation/cases.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "validation/missions.h"
+#include "validation/confounded_effects.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr double kTolerance = 0.02, kLooseTolerance = 0.06;
+/// Orders of drawing lie apart from the cases themselves.
+constexpr std::uint64_t kOrderStream = 1ULL << 32U;
+
+/// Which of `count` comes at a place of an endless series, in which each comes once before any comes again.
+std::size_t in_turn(std::uint64_t seed, TrialArm arm, int place, std::size_t count) {
+  const std::size_t cycle = static_cast<std::size_t>(place) / count;
+  trial::Dice dice(seed, kOrderStream + 4096 * cycle + static_cast<std::uint64_t>(arm));
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[dice.bits() % i]);
+  return order[static_cast<std::size_t>(place) % count];
+}
+
+using Kinds = std::vector<const trial::EffectKind*>;
+
+Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, trial::Dice& dice) {
+  const auto library = trial::library_effects();
+  const auto turn = [&](std::size_t count) { return in_turn(seed, arm, place, count); };
+  const auto add_any = [&](Kinds& kinds) {
+    const trial::EffectKind* kind = nullptr;
+    do kind = &library[dice.bits() % library.size()];
+    while (std::find(kinds.begin(), kinds.end(), kind) != kinds.end());
+    kinds.push_back(kind);
+  };
+  Kinds kinds;
+  switch (arm) {
+    case TrialArm::nulls:
+    case TrialArm::nulls_6:
+      break;
+    case TrialArm::foreign:
+      kinds.push_back(&trial::foreign_effects()[turn(trial::foreign_effects().size())]);
+      break;
+    case TrialArm::pairs:
+      if (place % 2 == 1) {
+        const auto pairs = confounded_pairs();
+        const TrialTwins& pair = pairs[in_turn(seed, arm, place / 2, pairs.size())];
+        kinds = {trial::find_effect(pair.first), trial::find_effect(pair.second)};
+        break;
+      }
+      kinds.push_back(&library[in_turn(seed, arm, place / 2, library.size())]);
+      add_any(kinds);
+      break;
+    case TrialArm::triples:
+      kinds.push_back(&library[turn(library.size())]);
+      add_any(kinds);
+      add_any(kinds);
+      break;
+    default:
+      kinds.push_back(&library[turn(library.size())]);
+  }
+  return kinds;
+}
+
+/// Clocks of cards without a crystal: off by up to a hundredth.
+trial::Specimen::Clocks drawn_clocks(trial::Dice& dice) {
+  constexpr double kGreatest = 0.01;
+  trial::Specimen::Clocks clocks;
+  for (double* const clock : {&clocks.compass, &clocks.card, &clocks.motor})
+    *clock = dice.uniform(-kGreatest, kGreatest);
+  return clocks;
+}
+
+nlohmann::ordered_json json_of(const TrialPlace& place) {
+  const auto& field_uT = place.waters.field_uT;
+  return {{"latitude_deg", place.anchorage.latitude_deg},
+          {"longitude_deg", place.anchorage.longitude_deg},
+          {"begin_ns", place.begin_ns},
+          {"field_uT", {field_uT.x(), field_uT.y(), field_uT.z()}},
+          {"water_C", place.waters.surface_C},
+          {"density_kg_m3", place.waters.density_kg_m3}};
+}
+
+nlohmann::ordered_json json_of(const trial::Effect& effect) {
+  return {{"name", effect.name}, {"parameters", effect.parameters}};
+}
+
+}  // namespace
+
+bool TrialCase::in_library() const { return arm != TrialArm::foreign && arm != TrialArm::removed; }
+
+TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places) {
+  TrialCase drawn;
+  drawn.number = number;
+  drawn.arm = arm_of_case(number);
+  const TrialArmFacts& facts = facts_of(drawn.arm);
+  drawn.minutes = facts.missions == MissionKind::brief ? kBriefMinutes : minutes;
+
+  trial::Dice dice(seed, static_cast<std::uint64_t>(number));
+  for (std::uint64_t& mission_seed : drawn.mission_seeds) mission_seed = dice.bits();
+  const double tolerance = drawn.arm == TrialArm::nulls_6 ? kLooseTolerance : kTolerance;
+  trial::loosen(tolerance, drawn.vehicle.departures, dice);
+  for (const trial::EffectKind* kind : chosen_kinds(seed, drawn.arm, ordinal_in_arm(number), dice)) {
+    drawn.effects.push_back(trial::drawn(*kind, facts.strength, dice));
+    trial::add(drawn.effects.back(), drawn.vehicle.departures);
+  }
+  drawn.vehicle.clocks = drawn_clocks(dice);
+  drawn.place_number = static_cast<int>(dice.bits() % static_cast<std::uint64_t>(places));
+  drawn.place = drawn_place(seed, drawn.place_number);
+  if (drawn.arm == TrialArm::removed) drawn.excluded = drawn.effects.front().name;
+  return drawn;
+}
+
+trial::Effect true_parameters(const trial::Effect& effect, const trial::Specimen& vehicle) {
+  const trial::EffectKind& kind = *trial::find_effect(effect.name);
+  trial::Departures departures = vehicle.departures;
+  const double* const field = kind.field(departures);
+  trial::Effect real{effect.name, {}};
+  for (std::size_t i = 0; i < kind.parameters.size(); ++i)
+    real.parameters.emplace(kind.parameters[i], field[i] / kind.size.si);
+  return real;
+}
+
+std::string truth_text(const TrialCase& drawn, std::uint64_t seed) {
+  auto effects = nlohmann::ordered_json::array(), real = nlohmann::ordered_json::array();
+  for (const trial::Effect& effect : drawn.effects) {
+    effects.push_back(json_of(effect));
+    real.push_back(json_of(true_parameters(effect, drawn.vehicle)));
+  }
+  const nlohmann::ordered_json truth{{"case", drawn.number},
+                                     {"seed", seed},
+                                     {"arm", facts_of(drawn.arm).name},
+                                     {"minutes", drawn.minutes},
+                                     {"excluded", drawn.excluded},
+                                     {"drawn", effects},
+                                     {"with_tolerance", real},
+                                     {"place", json_of(drawn.place)},
+                                     {"clocks",
+                                      {{"compass", drawn.vehicle.clocks.compass},
+                                       {"card", drawn.vehicle.clocks.card},
+                                       {"motor", drawn.vehicle.clocks.motor}}},
+                                     {"mission_seeds", drawn.mission_seeds}};
+  return truth.dump();
+}
+
+}  // namespace navcal::cli

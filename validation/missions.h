@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "validation/arms.h"
+#include "validation/reference/mission.h"
+
+namespace navcal::cli {
+
+/// 2026-11-10, 09:00 UTC, an odd fraction after the second: when the first mission begins that is nowhere else.
+inline constexpr std::int64_t kTrialBegin_ns = 1'794'301'200'370'000'000;
+inline constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+/// Length of the brief missions.
+inline constexpr int kBriefMinutes = 3;
+
+/// A to be diagnosed, B and C to be held out: the same for every case of a kind, so that nothing in them tells of
+/// the case. The usual ones (10 or 3 minutes) are meant to excite what the specification's column "what breaks the
+/// tie" asks for: turns both ways at several rates and speeds, tilt of both signs, steps of speed at one heading,
+/// two depths, doublets of fins, reciprocal legs at the surface with fixes. The poor ones are a straight line
+/// each.
+[[nodiscard]] std::array<trial::Mission, 3> trial_missions(MissionKind kind, int minutes);
+
+}  // namespace navcal::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "validation/reference/mission.h"
+
+namespace navcal::cli {
+
+/// Where and when the missions of a case are swum.
+struct TrialPlace {
+  trial::Anchorage anchorage;
+  trial::Waters waters;
+  std::int64_t begin_ns = 0;  ///< UTC of the first mission; the others follow a day later each
+};
+
+/// So many are drawn for a trial: null missions of the diagnosis serve all cases of a place.
+inline constexpr int kTrialPlaces = 12;
+
+/// Uniform on the sphere within 80 degrees of latitude, from 2025 to 2029, with the field of the World Magnetic
+/// Model; water of 2 to 28 C and 998 to 1028 kg/m3.
+[[nodiscard]] TrialPlace drawn_place(std::uint64_t seed, int number);
+
+/// The mission, swum there. Its own day counts from that of the place.
+[[nodiscard]] trial::Mission at_place(trial::Mission mission, const TrialPlace& place);
+
+}  // namespace navcal::cli

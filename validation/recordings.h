@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include "validation/cases.h"
+
+namespace navcal::cli {
+
+/// Swims the three missions of a case and writes a.cap (to be diagnosed), b.cap and c.cap (held out) into the
+/// folder: nothing in or about them tells of the case. Throws Failure when the vehicle was lost or the trial is
+/// interrupted, std::system_error.
+[[nodiscard]] std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
+                                                                    const std::filesystem::path& folder);
+
+}  // namespace navcal::cli

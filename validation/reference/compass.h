@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+
+#include "validation/reference/instrument.h"
+#include "validation/reference/lag.h"
+
+namespace navcal::trial {
+
+/// TCM2 (ICD section 1): field in body axes, tilt through a fluid, heading of the levelled field (Mach 2003, eq.
+/// 2.2), temperature; 10 Hz, 50 ms from measurement to the first byte.
+///     m = (1 + S) B            soft iron, B the field in body axes
+///     m = exp(-[a]x) m         the triad turned against the housing: m - a x m where a is small
+///     m += b + k I + c (T - 15 C) + h L60[B]
+///     m_i *= 1 - s m_i^2       (beyond the library)
+///     tau m' + m = ...         tau = lag + |l| + l . (cos psi, sin psi) (beyond the library: l)
+class Compass final : public Instrument {
+ public:
+  /// `field_uT`: the Earth's, north, east, down.
+  Compass(const Fitting& fitting, const CompassDepartures& departures,
+          const Vector3& field_uT = Waters{}.field_uT);
+
+  /// What the helmsman last read, radians; heading is magnetic.
+  struct Reading {
+    double heading_rad = 0, pitch_rad = 0, roll_rad = 0;
+  };
+  [[nodiscard]] const Reading& reading() const { return reading_; }
+
+ private:
+  std::vector<std::uint8_t> sample(const World& world, double time_s) override;
+  void settle(const World& world, double time_s);
+  void sense(const Snapshot& s, double after_s);
+
+  CompassDepartures departures_;
+  Vector3 field_world_uT_;
+  Eigen::Matrix3d iron_;  ///< soft iron, then misalignment
+  Lag<Vector3> memory_, field_;
+  Lag<Eigen::Vector2d> tilt_;  ///< roll, pitch
+  double sensed_s_ = 0;
+  Reading reading_;
+};
+
+}  // namespace navcal::trial

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "validation/reference/parameter_deviations.h"
+#include "validation/reference/rng.h"
+#include "validation/reference/hull.h"
+
+namespace navcal::trial {
+
+/// Which signs a kind of departure takes in nature.
+enum class Sign : std::uint8_t {
+  either,
+  positive,      ///< drawn positive; a small negative value is a nominal that was taken too large
+  not_negative,  ///< negative makes no sense
+};
+
+/// How large a departure is at strength 1, and in which directions it can lie.
+struct Size {
+  double typical = 0;     ///< of one group, in the unit of the keys
+  std::size_t group = 1;  ///< so many parameters in turn are one vector, whose direction is free
+  double si = 1;          ///< from the unit of the keys to that of the field
+  Sign sign = Sign::either;
+  bool symmetric = false;  ///< xx yy zz xy xz yz of a matrix, whose size is its Frobenius norm
+};
+
+/// One kind of departure by name. The parameters are the keys that a diagnosis answers; each carries its unit.
+struct EffectKind {
+  std::string_view name;
+  std::vector<std::string_view> parameters;
+  Size size;
+  double* (*field)(Departures&) = nullptr;  ///< of the first parameter; the others follow it
+};
+
+/// Those that the diagnosis knows too, in the order of docs/trial.md.
+[[nodiscard]] std::span<const EffectKind> library_effects();
+/// Those that no library holds: a diagnosis must say that it does not know them.
+[[nodiscard]] std::span<const EffectKind> foreign_effects();
+/// Of either; nullptr when there is none.
+[[nodiscard]] const EffectKind* find_effect(std::string_view name);
+
+/// An effect with its strength: values in the units of the keys; what is not named is zero.
+struct Effect {
+  std::string name;
+  std::map<std::string, double, std::less<>> parameters;
+};
+
+/// Adds to what is there. Throws std::invalid_argument for an unknown effect or parameter (it lists the known), a
+/// number that is not finite, and a negative one that makes no sense.
+void add(const Effect& effect, Departures& departures);
+
+/// `strength` typical strengths in a direction by the dice; where only one sign is natural, its magnitude.
+[[nodiscard]] Effect drawn(const EffectKind& kind, double strength, Dice& dice);
+
+/// Every vehicle is off by a little everywhere: each parameter of each library effect a normal deviate of
+/// `fraction` of its typical strength (its magnitude where negative makes no sense).
+void loosen(double fraction, Departures& departures, Dice& dice);
+/// The same for the numbers of the hull, relative; they are nobody's effect.
+void loosen(double fraction, Hull& hull, Dice& dice);
+
+}  // namespace navcal::trial

@@ -1,0 +1,60 @@
+#include "validation/reference/effects.h"
+#include "validation/reference/instrument.h"
+
+namespace navcal::trial {
+
+std::span<const EffectKind> foreign_effects() {
+  using D = Departures;
+  constexpr double kPerHour = 1.0 / 3600;
+  static const std::vector<EffectKind> all{
+      {"crossflow_depth",
+       {"per_m2"},
+       {.typical = 0.05, .sign = Sign::positive},
+       [](D& d) { return &d.vehicle.crossflow_per_m2; }},
+      {"torque_leak", {"share"}, {.typical = 0.6}, [](D& d) { return &d.vehicle.torque_leak; }},
+      {"tidal_current",
+       {"north_m_s", "east_m_s"},
+       {.typical = 0.1, .group = 2},
+       [](D& d) { return d.vehicle.tide_m_s.data(); }},
+      {"battery_sag",
+       {"per_Ah"},
+       {.typical = 0.6, .si = kPerHour, .sign = Sign::positive},
+       [](D& d) { return &d.vehicle.sag_per_C; }},
+      {"fin_stall",
+       {"loss"},
+       {.typical = 0.8, .sign = Sign::not_negative},
+       [](D& d) { return &d.vehicle.stall_loss; }},
+      {"fouling",
+       {"per_h"},
+       {.typical = 2, .si = kPerHour, .sign = Sign::positive},
+       [](D& d) { return &d.vehicle.fouling_per_s; }},
+      {"surface_waves", {"force_N"}, {.typical = 1.5}, [](D& d) { return &d.vehicle.wave_N; }},
+      {"heading_lag",
+       {"north_s", "east_s"},
+       {.typical = 0.3, .group = 2},
+       [](D& d) { return d.compass.lag_by_heading_s.data(); }},
+      {"magnetometer_saturation",
+       {"per_uT2"},
+       {.typical = 2e-5, .sign = Sign::not_negative},
+       [](D& d) { return &d.compass.saturation_per_uT2; }},
+      {"gyro_thermal_twist",
+       {"x_deg_per_C2", "y_deg_per_C2", "z_deg_per_C2"},
+       {.typical = 0.1, .group = 3, .si = kDegree},
+       [](D& d) { return d.card.gyro_twist_rad_per_K2.data(); }},
+      {"gyro_popcorn",
+       {"deg_per_s"},
+       {.typical = 0.4, .si = kDegree},
+       [](D& d) { return &d.card.gyro_jump_rad_s; }},
+      {"depth_hysteresis",
+       {"width_m"},
+       {.typical = 0.3, .sign = Sign::not_negative},
+       [](D& d) { return &d.card.depth_play_m; }},
+      {"gps_multipath",
+       {"north_m", "east_m"},
+       {.typical = 2, .group = 2},
+       [](D& d) { return d.gps.multipath_m.data(); }},
+  };
+  return all;
+}
+
+}  // namespace navcal::trial

@@ -1,0 +1,160 @@
+#include "validation/reference/effects.h"
+#include "validation/reference/instrument.h"
+
+namespace navcal::trial {
+namespace {
+
+constexpr double kPer_deg = 1 / kDegree;
+constexpr double kPer_g = 1 / kGravity_m_s2;
+
+std::vector<EffectKind> compass_effects() {
+  using D = Departures;
+  return {
+      {"hard_iron",
+       {"x_uT", "y_uT", "z_uT"},
+       {.typical = 2, .group = 3},
+       [](D& d) { return d.compass.hard_iron_uT.data(); }},
+      {"soft_iron",
+       {"xx", "yy", "zz", "xy", "xz", "yz"},
+       {.typical = 0.05, .group = 6, .symmetric = true},
+       [](D& d) { return d.compass.soft_iron.data(); }},
+      {"compass_misalignment",
+       {"x_deg", "y_deg", "z_deg"},
+       {.typical = 3, .group = 3, .si = kDegree},
+       [](D& d) { return d.compass.misalignment_rad.data(); }},
+      {"declination",
+       {"angle_deg"},
+       {.typical = 4, .si = kDegree},
+       [](D& d) { return &d.compass.declination_rad; }},
+      {"motor_field",
+       {"x_uT_per_A", "y_uT_per_A", "z_uT_per_A"},
+       {.typical = 1, .group = 3},
+       [](D& d) { return d.compass.motor_field_uT_per_A.data(); }},
+      {"magnetic_hysteresis",
+       {"gain"},
+       {.typical = 0.06, .sign = Sign::positive},
+       [](D& d) { return &d.compass.hysteresis; }},
+      {"mag_temperature",
+       {"x_uT_per_C", "y_uT_per_C", "z_uT_per_C"},
+       {.typical = 0.15, .group = 3},
+       [](D& d) { return d.compass.temperature_uT_per_K.data(); }},
+      {"compass_lag",
+       {"tau_s"},
+       {.typical = 0.2, .sign = Sign::not_negative},
+       [](D& d) { return &d.compass.lag_s; }},
+      {"tilt_slosh", {"gain"}, {.typical = 0.3, .sign = Sign::positive}, [](D& d) { return &d.compass.slosh; }},
+      {"tilt_offset",
+       {"roll_deg", "pitch_deg"},
+       {.typical = 1, .si = kDegree},
+       [](D& d) { return d.compass.tilt_offset_rad.data(); }},
+  };
+}
+
+std::vector<EffectKind> gyro_effects() {
+  using D = Departures;
+  return {
+      {"gyro_scale",
+       {"scale_ax", "scale_az", "scale_by", "scale_bz"},
+       {.typical = 0.03},
+       [](D& d) { return d.card.gyro_scale.data(); }},
+      {"gyro_temperature",
+       {"deg_per_s_per_C_ax", "deg_per_s_per_C_az", "deg_per_s_per_C_by", "deg_per_s_per_C_bz"},
+       {.typical = 0.06, .si = kDegree},
+       [](D& d) { return d.card.gyro_temperature_rad_s_per_K.data(); }},
+      {"gyro_drift",
+       {"deg_per_s2_ax", "deg_per_s2_az", "deg_per_s2_by", "deg_per_s2_bz"},
+       {.typical = 0.001, .si = kDegree},
+       [](D& d) { return d.card.gyro_drift_rad_s2.data(); }},
+      {"gyro_g_sensitivity",
+       {"ax_x_deg_per_s_per_g", "ax_y_deg_per_s_per_g", "ax_z_deg_per_s_per_g", "az_x_deg_per_s_per_g",
+        "az_y_deg_per_s_per_g", "az_z_deg_per_s_per_g", "by_x_deg_per_s_per_g", "by_y_deg_per_s_per_g",
+        "by_z_deg_per_s_per_g", "bz_x_deg_per_s_per_g", "bz_y_deg_per_s_per_g", "bz_z_deg_per_s_per_g"},
+       {.typical = 0.6, .group = 3, .si = kDegree * kPer_g},
+       [](D& d) { return d.card.gyro_force_rad_s_per_m_s2.data(); }},
+      {"gyro_cross_axis",
+       {"ax_from_y", "ax_from_z", "az_from_x", "az_from_y", "by_from_x", "by_from_z", "bz_from_x", "bz_from_y"},
+       {.typical = 0.03},
+       [](D& d) { return d.card.gyro_cross.data(); }},
+      {"gyro_nonlinearity",
+       {"s_per_deg_ax", "s_per_deg_az", "s_per_deg_by", "s_per_deg_bz"},
+       {.typical = 0.0008, .si = kPer_deg},
+       [](D& d) { return d.card.gyro_nonlinearity_s_per_rad.data(); }},
+  };
+}
+
+std::vector<EffectKind> card_effects() {
+  using D = Departures;
+  return {
+      {"accel_bias",
+       {"x_m_s2", "y_m_s2", "z_m_s2"},
+       {.typical = 0.12, .group = 3},
+       [](D& d) { return d.card.force_bias_m_s2.data(); }},
+      {"accel_scale", {"x", "y", "z"}, {.typical = 0.02}, [](D& d) { return d.card.force_scale.data(); }},
+      {"accel_vibration",
+       {"x_m_s2_per_A2", "y_m_s2_per_A2", "z_m_s2_per_A2"},
+       {.typical = 0.05, .group = 3},
+       [](D& d) { return d.card.vibration_m_s2_per_A2.data(); }},
+      {"adc_droop", {"per_A"}, {.typical = 0.0015}, [](D& d) { return &d.card.droop_per_A; }},
+      {"imu_latency",
+       {"tau_s"},
+       {.typical = 0.05, .sign = Sign::not_negative},
+       [](D& d) { return &d.card.latency_s; }},
+      {"depth_scale", {"scale"}, {.typical = 0.06}, [](D& d) { return &d.card.depth_scale; }},
+      {"depth_temperature",
+       {"m_per_C"},
+       {.typical = 0.025},
+       [](D& d) { return &d.card.depth_temperature_m_per_K; }},
+      {"gps_latency",
+       {"tau_s"},
+       {.typical = 1, .sign = Sign::not_negative},
+       [](D& d) { return &d.gps.latency_s; }},
+      {"gps_lever_arm",
+       {"x_m", "y_m"},
+       {.typical = 0.45, .group = 2},
+       [](D& d) { return d.gps.lever_arm_m.data(); }},
+  };
+}
+
+std::vector<EffectKind> vehicle_effects() {
+  using D = Departures;
+  return {
+      {"water_current",
+       {"north_m_s", "east_m_s"},
+       {.typical = 0.06, .group = 2},
+       [](D& d) { return d.vehicle.current_m_s.data(); }},
+      {"thrust_scale", {"scale"}, {.typical = 0.08}, [](D& d) { return &d.vehicle.thrust; }},
+      {"fin_offset", {"angle_deg"}, {.typical = 1, .si = kDegree}, [](D& d) { return &d.vehicle.rudder_rad; }},
+      {"elevator_offset",
+       {"angle_deg"},
+       {.typical = 1, .si = kDegree},
+       [](D& d) { return &d.vehicle.elevator_rad; }},
+      {"fin_lag",
+       {"tau_s"},
+       {.typical = 0.2, .sign = Sign::not_negative},
+       [](D& d) { return &d.vehicle.fin_lag_s; }},
+      {"fin_gain", {"scale"}, {.typical = 0.08}, [](D& d) { return &d.vehicle.fin_gain; }},
+      {"fin_backlash",
+       {"width_deg"},
+       {.typical = 2, .si = kDegree, .sign = Sign::not_negative},
+       [](D& d) { return &d.vehicle.fin_play_rad; }},
+      {"yaw_damping",
+       {"per_s"},
+       {.typical = 0.3, .sign = Sign::positive},
+       [](D& d) { return &d.vehicle.yaw_damping_per_s; }},
+      {"buoyancy", {"force_N"}, {.typical = 0.4}, [](D& d) { return &d.vehicle.lift_N; }},
+  };
+}
+
+}  // namespace
+
+std::span<const EffectKind> library_effects() {
+  static const std::vector<EffectKind> all = [] {
+    std::vector<EffectKind> kinds = compass_effects();
+    for (const auto& more : {gyro_effects(), card_effects(), vehicle_effects()})
+      kinds.insert(kinds.end(), more.begin(), more.end());
+    return kinds;
+  }();
+  return all;
+}
+
+}  // namespace navcal::trial

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "validation/reference/receiver.h"
+#include "validation/reference/vehicle.h"
+#include "validation/reference/waters.h"
+
+namespace navcal::trial {
+
+/// What is to be done from a time on, until the next order. What is not steered by an instrument is set by hand.
+struct Order {
+  double from_s = 0;
+  std::optional<double> heading_rad{};  ///< true, as the compass has it; else the rudder stays
+  double rudder_rad = 0;                ///< positive to starboard
+  std::optional<double> depth_m{};      ///< as the card has it; else the elevator stays
+  double elevator_rad = 0;              ///< positive raises the nose
+  std::optional<double> speed_m_s{};    ///< by the shaft speed that should give it; else the shaft speed stays
+  double shaft_rev_s = 0;
+};
+
+/// A mission as its caller writes it down: this room reads no files.
+struct Mission {
+  std::int64_t start_ns = 0;  ///< UTC: power-on
+  double duration_s = 600;
+  Start start;
+  std::vector<Order> orders;  ///< in order of time; before the first nothing turns
+  Anchorage anchorage;
+  Waters waters;
+};
+
+}  // namespace navcal::trial

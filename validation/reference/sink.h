@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "validation/reference/snapshot.h"
+
+namespace navcal::trial {
+
+enum class Port : std::uint8_t { compass, imu, gps, motor };
+
+/// What the header of a recording says of a port.
+struct PortFacts {
+  std::string_view name, protocol;
+  int baud;
+};
+inline constexpr std::array<PortFacts, 4> kPorts{{{"compass", "tcm2", 38400},
+                                                  {"imu", "imu-card", 57600},
+                                                  {"gps", "oncore", 9600},
+                                                  {"motor", "motor-card", 19200}}};
+[[nodiscard]] constexpr const PortFacts& facts_of(Port port) { return kPorts[static_cast<std::size_t>(port)]; }
+
+/// Bytes that the vehicle's computer read from a port, or wrote to it.
+struct Transfer {
+  Port port = Port::compass;
+  bool sent = false;         ///< by the computer
+  std::int64_t time_ns = 0;  ///< UTC: the last of them was read, or the writing began
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Where a run goes. This room opens no files: whoever calls it writes the recording.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  /// In order of time.
+  virtual void transfer(const Transfer& transfer) = 0;
+  /// What was really so, ten times a second; no diagnosis may see it.
+  virtual void truth(const Snapshot& /*snapshot*/) {}
+};
+
+}  // namespace navcal::trial
