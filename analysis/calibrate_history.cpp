@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/calibrate_history.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "pipeline/calib_reading.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 /// Readings of the compass that wait for the gyro; more wait in vain.
@@ -143,4 +144,4 @@ void CalibrateHistory::thin_estimates() {
   look_every_ *= 2;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

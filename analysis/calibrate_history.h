@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/sources.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// A reading of the compass as the calibrators were given it, with the turn since the one before. Where a
 /// recording is long, one stands for several that followed each other.
@@ -78,4 +79,4 @@ class CalibrateHistory final : public pipeline::Sink {
   std::uint64_t readings_ = 0, next_look_ = 0, look_every_ = 10;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/calibrate_residuals.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "base/angles.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 /// Long enough to turn far, short enough that the gyro's drift does not show.
@@ -95,4 +96,4 @@ double root_mean_square(const std::vector<HeadingResidual>& residuals, double He
   return residuals.empty() ? 0 : std::sqrt(sum / static_cast<double>(residuals.size()));
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

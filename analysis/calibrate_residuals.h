@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
 
-#include "calib/correction.h"
 #include "analysis/calibrate_history.h"
+#include "calib/correction.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// A heading against the integrated gyro. The gyro knows no north, so within a block of turning the mean is taken
 /// away, and what all headings have in common does not show.
@@ -24,4 +25,4 @@ struct HeadingResidual {
 [[nodiscard]] double root_mean_square(const std::vector<HeadingResidual>& residuals,
                                       double HeadingResidual::*which);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/calibrate_run.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 #include "analysis/port_matching.h"
 #include "analysis/progress.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 /// A file that begins so soon after the end of the last is the next of its series.
@@ -114,4 +115,4 @@ calib::Report CalibrateRun::finish() {
   return pipeline_->calibration_report();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

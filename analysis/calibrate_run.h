@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -5,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "calib/suite/report.h"
 #include "analysis/calibrate_history.h"
+#include "calib/suite/report.h"
 #include "config/settings.h"
 #include "pipeline/pipeline.h"
 #include "record/recording.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Recordings one after the other through the calibrators. Files of one series go on where the last ended; another
 /// recording is another run of the instruments, whose clocks begin anew while the calibrators go on learning. What
@@ -49,4 +50,4 @@ class CalibrateRun {
   std::vector<std::string> remarks_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_describe.h"
 #include "protocols/imu_card.h"
 #include "protocols/motor_card.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 using protocols::Date;
 using protocols::Frame;
@@ -39,4 +40,4 @@ void describe_motor_card(FieldWriter& fields, const Frame& frame, const std::opt
   if (!decoded) write_out_of_range(fields);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_describe.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 void write_position(FieldWriter& fields, const PositionFields& position,
                     const std::optional<protocols::Date>& pivot) {
@@ -31,4 +32,4 @@ void write_position(FieldWriter& fields, const PositionFields& position,
 
 void write_out_of_range(FieldWriter& fields) { fields.flag("out_of_range", true); }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -7,7 +8,7 @@
 #include "protocols/gps_fix.h"
 #include "protocols/utc.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Writes the decoded fields of one frame, with the keys of docs/cli.md. `pivot`: dates before it are moved up by
 /// whole epochs of 1024 weeks; nullopt: dates as sent.
@@ -37,4 +38,4 @@ void write_position(FieldWriter& fields, const PositionFields& position,
 /// The frame is intact, but its content cannot be.
 void write_out_of_range(FieldWriter& fields);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_fields.h"
 
 #include <fmt/compile.h>
@@ -7,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 constexpr std::size_t kLongestNumber = 32;
@@ -203,4 +204,4 @@ void FieldWriter::time_of_day(std::string_view key, const protocols::TimeOfDay& 
   if (json_) output_.append('"');
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

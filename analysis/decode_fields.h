@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <concepts>
@@ -10,7 +11,7 @@
 #include "protocols/nmea_decimal.h"
 #include "protocols/utc.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Writes what was decoded, field by field: as a JSON object a line (docs/cli.md, `decode`), where what is absent
 /// is null, or as a line for people, where it is left out.
@@ -83,4 +84,4 @@ class FieldWriter {
   bool first_ = true;  // of the frame, list or object: no comma before it
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_describe.h"
 #include "protocols/nmea_attitude.h"
 #include "protocols/nmea_position.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 namespace nmea = protocols::nmea;
@@ -205,4 +206,4 @@ void describe_nmea(FieldWriter& fields, const Frame& frame, const std::optional<
   }
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

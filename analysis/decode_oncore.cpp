@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_describe.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_messages.h"
 #include "protocols/oncore_position.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 namespace oncore = protocols::oncore;
@@ -135,4 +136,4 @@ void describe_oncore(FieldWriter& fields, const protocols::Frame& frame, const s
   }
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

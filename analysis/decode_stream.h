@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "analysis/decode_summary.h"
 #include "protocols/stream_parser.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Runs the frames of a whole stream through `sink(const Frame&)`. `next()` gives the bytes, piece by piece, an
 /// empty piece at the end.
@@ -38,4 +39,4 @@ DecodeSummary decode_stream(Next&& next, Sink&& sink) {
   return summary;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_summary.h"
 
 #include <fmt/format.h>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 void write_json(Output& output, const DecodeSummary& summary) {
   const auto& counters = summary.counters;
@@ -32,4 +33,4 @@ void write_text(Output& output, const DecodeSummary& summary) {
   if (counters.bad_checksum > 0) output.append(fmt::format("{} bad checksums\n", counters.bad_checksum));
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 #include "analysis/output.h"
 #include "protocols/frame.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// What a stream consisted of: bytes = framed + skipped + incomplete.
 struct DecodeSummary {
@@ -23,4 +24,4 @@ void write_json(Output& output, const DecodeSummary& summary);
 /// The same for people.
 void write_text(Output& output, const DecodeSummary& summary);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include "analysis/decode_describe.h"
 #include "protocols/tcm2.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 namespace tcm2 = protocols::tcm2;
@@ -71,4 +72,4 @@ void describe_tcm2(FieldWriter& fields, const protocols::Frame& frame, const std
   }
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/emulate_misbehaviour.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 std::optional<double> seconds(std::string_view text) {
@@ -40,7 +41,7 @@ std::size_t Misbehaviour::below(std::size_t n) {
   return std::min(static_cast<std::size_t>(random_.uniform(0, static_cast<double>(n))), n - 1);
 }
 
-std::vector<std::uint8_t> Misbehaviour::spoil(std::vector<std::uint8_t> frame) {
+std::vector<std::uint8_t> Misbehaviour::corrupt(std::vector<std::uint8_t> frame) {
   if (frame.empty() || (drop_ > 0 && random_.uniform(0, 1) < drop_)) return {};
   if (noise_ <= 0 || random_.uniform(0, 1) >= noise_) return frame;
   if (random_.uniform(0, 1) < 0.5) {
@@ -53,4 +54,4 @@ std::vector<std::uint8_t> Misbehaviour::spoil(std::vector<std::uint8_t> frame) {
   return frame;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

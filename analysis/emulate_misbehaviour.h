@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 #include "sim/instruments/device.h"
 #include "sim/noise.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// "SECONDS@EVERY": silent for so long, every so many seconds.
 struct StallPlan {
@@ -35,7 +36,7 @@ class Misbehaviour {
   void set_drop(double probability) { drop_ = probability; }
   /// The frame as it goes on the wire: as it is, with a bit flipped, with garbage before it, or not at all
   /// (empty).
-  [[nodiscard]] std::vector<std::uint8_t> spoil(std::vector<std::uint8_t> frame);
+  [[nodiscard]] std::vector<std::uint8_t> corrupt(std::vector<std::uint8_t> frame);
 
  private:
   [[nodiscard]] std::size_t below(std::size_t n);
@@ -45,4 +46,4 @@ class Misbehaviour {
   double drop_ = 0;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

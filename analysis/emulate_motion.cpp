@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/emulate_motion.h"
 
 #include "config/mission_file.h"
@@ -7,7 +8,7 @@
 #include "sim/vehicle/mission_helm.h"
 #include "sim/vehicle/simulated_motion.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 /// Instruments look back by their latencies, and by as long as this process was stopped.
@@ -27,4 +28,4 @@ std::unique_ptr<sim::Motion> emulate_motion(const EmulateArguments& arguments, s
   return std::make_unique<sim::PathMotion>(std::move(rows), start_ns);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/emulate_port.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include "ports/port.h"
 #include "sim/instruments/wrong_speed.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
@@ -48,7 +49,7 @@ void EmulatedPort::advance() {
   emissions_.clear();
   device_->advance(utc_ns(ports::monotonic_ns()), emissions_);
   for (sim::Emission& emission : emissions_) {
-    const auto bytes = misbehaviour_.spoil(std::move(emission.bytes));
+    const auto bytes = misbehaviour_.corrupt(std::move(emission.bytes));
     writer_.send(emission.start_ns - place_.utc_minus_monotonic_ns, device_->baud(), bytes);
   }
   wait();
@@ -101,4 +102,4 @@ void EmulatedPort::unplug() {
 
 void EmulatedPort::replug() { host_.replug(); }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
@@ -14,7 +15,7 @@
 #include "ports/pty_host.h"
 #include "sim/instruments/device.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// One emulated instrument, live: the device's behaviour, its line at its pace, and a pseudo-terminal at the end.
 class EmulatedPort {
@@ -67,4 +68,4 @@ class EmulatedPort {
   bool stalled_ = false;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/emulate_sent_log.h"
 
 #include "analysis/failure.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 SentLog::SentLog(const std::filesystem::path& file, const std::vector<config::PortSettings>& ports)
     : writer_(ports), file_(file) {
@@ -24,4 +25,4 @@ void SentLog::add(std::uint16_t port, record::Direction direction, std::int64_t 
   file_ << line_ << std::flush;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

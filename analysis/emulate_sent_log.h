@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 #include "record/capture/capture_writer.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// A capture of exactly what went over the emulated lines, with the time at which it was on the wire. Directions
 /// are the host's: `<` is what a device sent and a client could read, `>` what the client sent.
@@ -27,4 +28,4 @@ class SentLog {
   std::string line_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/emulate_session.h"
 
 #include <fmt/format.h>
@@ -7,15 +8,15 @@
 #include <cstdio>
 #include <functional>
 
-#include "analysis/failure.h"
 #include "analysis/emulate_motion.h"
+#include "analysis/failure.h"
 #include "analysis/simulated_place.h"
 #include "ports/port.h"
-#include "sim/motion_in_field.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/tcm2.h"
+#include "sim/motion_in_field.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 constexpr double kGreatest_ppm = 200;  // ICD section 3: what the card's clock may be off by
@@ -141,4 +142,4 @@ void EmulateSession::report() const {
   }
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

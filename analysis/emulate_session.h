@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -17,7 +18,7 @@
 #include "sim/instruments/oncore.h"
 #include "sim/state.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 struct EmulateArguments {
   std::filesystem::path dir;
@@ -66,4 +67,4 @@ class EmulateSession {
   std::vector<std::unique_ptr<boost::asio::steady_timer>> timers_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

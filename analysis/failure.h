@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Exit statuses of every command (docs/cli.md).
 enum class Exit : int { success = 0, failed = 1, usage = 2, bad_input = 3 };
@@ -18,4 +19,4 @@ class Failure : public std::runtime_error {
   Exit status_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

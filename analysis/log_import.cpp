@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/log_import.h"
 
 #include "config/load.h"
@@ -8,7 +9,7 @@
 #include "record/recording.h"
 #include "record/whole_file.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 constexpr std::size_t kFlushBytes = 64 << 10;
@@ -119,4 +120,4 @@ std::vector<std::string> import_capture(const std::filesystem::path& capture, co
   return recording->remarks();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

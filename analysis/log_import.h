@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -6,7 +7,7 @@
 
 #include "record/log/log_info.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// A log, as navcald would have written it of these bytes: raw bytes, and the samples, estimates and calibrations
 /// that the pipeline makes of them, with the usual settings of each protocol. The file appears under its name only
@@ -15,4 +16,4 @@ namespace navcal::cli {
 std::vector<std::string> import_capture(const std::filesystem::path& capture, const std::filesystem::path& log,
                                         const record::Progress& progress);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/output.h"
 
 #include <unistd.h>
@@ -7,7 +8,7 @@
 
 #include "analysis/failure.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 Output::Output(int descriptor, std::string name)
     : descriptor_(descriptor),
@@ -37,4 +38,4 @@ void Output::append_piecewise(std::string_view text) {
   }
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Text on its way to a descriptor, through one large buffer. Throws Failure when it cannot be written, with the
 /// reason (the reader has gone, the disk is full).
@@ -45,4 +46,4 @@ class Output {
   char* next_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/place_arguments.h"
 
 #include <fmt/format.h>
@@ -9,10 +10,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "base/angles.h"
 #include "analysis/failure.h"
+#include "base/angles.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 /// Iron beside the vehicle aside, no place on the Earth has more than 70 uT.
@@ -107,4 +108,4 @@ std::string field_text(const std::array<double, 3>& field_uT) {
   return fmt::format("north {:.3f}, east {:.3f}, down {:.3f} uT", field_uT[0], field_uT[1], field_uT[2]);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 #include "base/world_magnetic_model.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// --place, --date and --field as they were given. The functions throw Failure for what cannot be read.
 struct PlaceArguments {
@@ -32,4 +33,4 @@ void warn_if_extrapolated(double year);
 /// "north 19.000, east 0.600, down 44.000 uT".
 [[nodiscard]] std::string field_text(const std::array<double, 3>& field_uT);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

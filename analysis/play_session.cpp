@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/play_session.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 
 #include "analysis/progress.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 namespace asio = boost::asio;
@@ -91,4 +92,4 @@ void PlaySession::report() const {
   }
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

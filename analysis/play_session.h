@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
@@ -10,7 +11,7 @@
 #include "ports/pty_host.h"
 #include "record/recording.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 struct PlayArguments {
   std::filesystem::path file;
@@ -41,4 +42,4 @@ class PlaySession {
   boost::asio::steady_timer timer_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/port_matching.h"
 
 #include <algorithm>
 #include <cstdio>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 std::vector<int> match_ports(const config::Settings& recorded, const config::Settings& used,
                              const std::string& file) {
@@ -20,4 +21,4 @@ std::vector<int> match_ports(const config::Settings& recorded, const config::Set
   return index;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/progress.h"
 
 #include <fmt/format.h>
@@ -6,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 constexpr std::chrono::milliseconds kFirst{1000};
@@ -55,4 +56,4 @@ void Progress::print(std::string_view text) {
   std::fflush(stderr);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <chrono>
@@ -6,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// How far a long job has come, on a terminal's standard error; silent when there is none, for jobs of less than a
 /// second, and when standard output is a terminal and is written to meanwhile.
@@ -35,4 +36,4 @@ class Progress {
   std::chrono::steady_clock::time_point next_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include "analysis/simulated_place.h"
 #include "sim/instruments/clock_factor.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// A mission on the time scale of the simulated recordings begins here, without --date: 2026-01-01, 00:00:00 UTC.
 inline constexpr std::int64_t kSimulatedBegin_ns = 1'767'225'600'000'000'000;
@@ -33,4 +34,4 @@ struct SimulateArguments {
   SimulatedPlace place;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

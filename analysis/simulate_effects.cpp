@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_effects.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 #include "sim/effects/document.h"
 #include "sim/effects/effect_table.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 void add_by_strength(std::string_view text, sim::EffectSet& set, sim::Noise& noise) {
@@ -83,4 +84,4 @@ sim::EffectSet simulate_effects(const SimulateArguments& arguments) {
   return set;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_history.h"
 
 #include <algorithm>
 #include <variant>
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 constexpr double kMost = 4000;
@@ -43,4 +44,4 @@ void SimulateHistory::on_sample(const instruments::Sample& sample) {
     keep(series_.motor, time_s, *status);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

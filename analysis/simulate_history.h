@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 #include "sim/instruments/host_line.h"
 #include "sim/state.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// With the seconds since the beginning.
 template <class Value>
@@ -50,4 +51,4 @@ class SimulateHistory final : public pipeline::Sink {
   double apart_s_;  ///< between what is kept
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_motion.h"
 
 #include <utility>
@@ -11,7 +12,7 @@
 #include "sim/vehicle/mission_helm.h"
 #include "sim/vehicle/simulated_motion.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 SimulatedRun along_path(const SimulateArguments& arguments) {
@@ -51,4 +52,4 @@ SimulatedRun simulate_motion(const SimulateArguments& arguments, sim::VehicleInf
   }
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -6,7 +7,7 @@
 #include "sim/state.h"
 #include "sim/vehicle/influences.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 struct SimulatedRun {
   std::unique_ptr<sim::Motion> motion;
@@ -16,4 +17,4 @@ struct SimulatedRun {
 /// How the vehicle moves, and for how long. `influencer` must outlive the motion. Throws Failure.
 [[nodiscard]] SimulatedRun simulate_motion(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

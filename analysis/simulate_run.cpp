@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_run.h"
 
 #include <fmt/format.h>
@@ -6,16 +7,16 @@
 #include <cmath>
 #include <optional>
 
-#include "base/durations.h"
 #include "analysis/failure.h"
-#include "base/interruptible.h"
 #include "analysis/progress.h"
+#include "base/durations.h"
+#include "base/interruptible.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
 #include "sim/recording.h"
 #include "sim/truth.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 namespace {
 
 constexpr std::int64_t kTruthStep_ns = 10'000'000;
@@ -24,7 +25,7 @@ constexpr std::int64_t kTruthStep_ns = 10'000'000;
 
 void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
                       SimulateHistory* history) {
-  const Interruptible interruptible;
+  const base::Interruptible interruptible;
   Progress progress("simulate");
   record::WholeFile capture(arguments.capture);
   std::optional<record::WholeFile> truth;
@@ -44,7 +45,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   std::vector<sim::LineRead> reads;
   std::int64_t truth_ns = begin_ns;
   for (std::int64_t t_ns = begin_ns; t_ns < end_ns;) {
-    if (Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
+    if (base::Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
     t_ns = std::min(t_ns + base::kSecond_ns, end_ns);
     reads.clear();
     recording.advance(t_ns, reads);
@@ -69,4 +70,4 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   if (truth) truth->commit();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "analysis/simulate_arguments.h"
@@ -5,11 +6,11 @@
 #include "analysis/simulate_motion.h"
 #include "sim/effects/effect_set.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Writes the capture, and the truth if it is wanted: both whole or not at all. `history` may be null. Throws
 /// Failure, std::system_error.
 void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
                       SimulateHistory* history);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulated_place.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "base/angles.h"
 #include "analysis/failure.h"
+#include "base/angles.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 std::string SimulatedPlace::field_event() const {
   return "event simulated field of the Earth: " + field_text(field_world_uT);
@@ -37,4 +38,4 @@ SimulatedPlace emulated_place(const PlaceArguments& arguments, std::int64_t now_
   return simulated_place(where, now_ns);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 #include "sim/geodesy.h"
 #include "sim/state.h"
 
-namespace navcal::cli {
+namespace navcal::analysis {
 
 /// Where a simulated vehicle is.
 struct SimulatedPlace {
@@ -27,4 +28,4 @@ struct SimulatedPlace {
 /// simulator's own place: a navcald that listens looks it up at the fixes.
 [[nodiscard]] SimulatedPlace emulated_place(const PlaceArguments& arguments, std::int64_t now_ns);
 
-}  // namespace navcal::cli
+}  // namespace navcal::analysis

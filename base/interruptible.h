@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <csignal>
 
-namespace navcal::cli {
+namespace navcal::base {
 
 /// Ctrl-C ends the work at the next step, so that half-written files are removed on the way out. One at a time.
 class Interruptible {
@@ -22,4 +23,4 @@ class Interruptible {
   static inline volatile std::sig_atomic_t interrupted_ = 0;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::base

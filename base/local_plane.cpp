@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/local_plane.h"
 
 #include <cmath>
 
 #include "base/angles.h"
 
-namespace navcal::pipeline {
+namespace navcal::base {
 namespace {
 
 /// WGS84.
@@ -29,4 +30,4 @@ LocalPlane::Place LocalPlane::place(double north_m, double east_m) const {
   return {latitude_rad_ + north_m / north_m_, base::wrapped(longitude_rad_ + east_m / east_m_)};
 }
 
-}  // namespace navcal::pipeline
+}  // namespace navcal::base

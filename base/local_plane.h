@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 
-namespace navcal::pipeline {
+namespace navcal::base {
 
 /// North and east in metres about an origin on the ellipsoid (WGS84): the tangent plane, scaled by the radii of
 /// curvature at the origin. Off by the tangent of the latitude times distance over the Earth's radius: 0.16 % at
@@ -22,4 +23,4 @@ class LocalPlane {
   double north_m_, east_m_;  ///< of one radian
 };
 
-}  // namespace navcal::pipeline
+}  // namespace navcal::base

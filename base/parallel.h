@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <atomic>
@@ -6,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace navcal::gap {
+namespace navcal::base {
 
 /// job(i) for i = 0 ... count - 1, on so many threads. The first exception ends it and is thrown on.
 template <class Job>
@@ -33,4 +34,4 @@ void in_parallel(unsigned threads, std::size_t count, Job job) {
   if (error) std::rethrow_exception(error);
 }
 
-}  // namespace navcal::gap
+}  // namespace navcal::base

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficients of the World Magnetic Model 2025 (NOAA National Centers for Environmental Information and British
 // Geological Survey, 2024; public domain). Epoch 2025.0, valid until 2030.0.
 #include "base/wmm2025.h"

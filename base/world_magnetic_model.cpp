@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/world_magnetic_model.h"
 
 #include <algorithm>
@@ -28,10 +29,10 @@ struct Geocentric {
 
 Geocentric geocentric(const GeodeticPosition& position) {
   const double sine = std::sin(position.latitude_rad), cosine = std::cos(position.latitude_rad);
-  constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
-  const double normal_m = kEquatorialRadius_m / std::sqrt(1 - kEccentricity2 * sine * sine);
+  constexpr double kSquaredEccentricity = kFlattening * (2 - kFlattening);
+  const double normal_m = kEquatorialRadius_m / std::sqrt(1 - kSquaredEccentricity * sine * sine);
   const double axis_distance_m = (normal_m + position.height_m) * cosine;
-  const double z_m = (normal_m * (1 - kEccentricity2) + position.height_m) * sine;
+  const double z_m = (normal_m * (1 - kSquaredEccentricity) + position.height_m) * sine;
   const double radius_m = std::hypot(axis_distance_m, z_m);
   return {radius_m, z_m / radius_m, std::max(axis_distance_m / radius_m, kSmallestCosine)};
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts a program's allocations, for LD_PRELOAD (bench/reliability memory): the file ALLOCATIONS_FILE holds three
 // counters of eight bytes that go on while it runs, those of malloc, calloc and realloc.
 #include <fcntl.h>

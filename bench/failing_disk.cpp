@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A disk that fails, for LD_PRELOAD in front of a daemon (bench/reliability storage). FAIL_WRITES_WHILE and
 // FAIL_SYNCS_WHILE name files: as long as one is there, writes or syncs of regular files fail with EIO. What was
 // written since the last good sync is lost by a failed one, as the kernel's cache forgets pages that it could not

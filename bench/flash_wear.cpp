@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a log at the vehicle's rates (41 records a second, each as raw bytes and as a sample) for a while, synced
 // every second, and prints the bytes of the log. bench/flash_wear reads beside it what the device was told to
 // write.

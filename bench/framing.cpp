@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Framing and checksum of each protocol beside a byte-wise XOR loop over the same bytes, alternated in one run.
 // The counter `ratio` is the parser's time over the loop's; the goal is at most 4.
 #include <benchmark/benchmark.h>

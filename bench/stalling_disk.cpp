@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A disk that stalls, for LD_PRELOAD in front of a daemon (bench/disk_stall): writes and syncs of regular files
 // wait. STALL_WRITE_MS: every write; STALL_SYNC_MS and STALL_EVERY_S: one sync each so many seconds.
 #include <dlfcn.h>

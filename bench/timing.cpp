@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Error of time stamps against the true times of measurement, on simulated streams: instruments at half to twice
 // their nominal rate, exponential delays of the host, stalls, lost frames, with and without sequence numbers.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a simulated vehicle costs: ten minutes of a mission, the vehicle and its autopilot alone.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bench/xor_reference.h"
 
 namespace navcal::bench {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/coverage.h"
 
 #include <algorithm>
@@ -16,15 +17,15 @@ std::string degrees(std::size_t sectors) {
 
 std::size_t sector_of(double heading_rad) {
   const double turns = heading_rad / (2 * std::numbers::pi);
-  const double place = (turns - std::floor(turns)) * static_cast<double>(Rose{}.size());
-  return std::min(static_cast<std::size_t>(place), Rose{}.size() - 1);
+  const double place = (turns - std::floor(turns)) * static_cast<double>(HeadingHistogram{}.size());
+  return std::min(static_cast<std::size_t>(place), HeadingHistogram{}.size() - 1);
 }
 
-std::size_t visited(const Rose& rose) {
+std::size_t visited(const HeadingHistogram& rose) {
   return static_cast<std::size_t>(std::count_if(rose.begin(), rose.end(), [](auto count) { return count > 0; }));
 }
 
-std::string missing_turn(const Rose& rose) {
+std::string missing_turn(const HeadingHistogram& rose) {
   const std::size_t n = rose.size();
   if (visited(rose) == 0) return "turn through 360 degrees";
   std::size_t longest = 0, first = 0;

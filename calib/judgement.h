@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace navcal::calib {
 
 /// Headings visited, in sectors of ten degrees clockwise from north: what a compass rose shows.
-using Rose = std::array<std::uint32_t, 36>;
+using HeadingHistogram = std::array<std::uint32_t, 36>;
 
 /// What the readings held out are judged by.
 enum class HeldOutQuantity : std::uint8_t {

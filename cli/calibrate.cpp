@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
 #include <filesystem>
@@ -7,14 +8,14 @@
 #include <system_error>
 #include <vector>
 
-#include "report/calibrate_page.h"
 #include "analysis/calibrate_run.h"
-#include "report/calibrate_text.h"
-#include "cli/commands.h"
 #include "analysis/output.h"
+#include "cli/commands.h"
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "record/json/calibration_json.h"
+#include "report/calibrate_page.h"
+#include "report/calibrate_text.h"
 
 namespace navcal::cli {
 namespace {
@@ -33,9 +34,9 @@ void calibrate(const CalibrateCommandOptions& options) {
     expect_no_overwriting(inputs, {options.report});
     const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
                                                  : config::load(options.config);
-    std::optional<CalibrateHistory> history;
+    std::optional<analysis::CalibrateHistory> history;
     if (!options.report.empty()) history.emplace(settings);
-    CalibrateRun run(settings, history ? &*history : nullptr);
+    analysis::CalibrateRun run(settings, history ? &*history : nullptr);
     for (const std::string& file : options.files) run.play(file);
     const calib::Report report = run.finish();
     for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
@@ -45,21 +46,22 @@ void calibrate(const CalibrateCommandOptions& options) {
       record::append_calibrate_json(answer, report);
       answer += '\n';
     } else {
-      answer = calibrate_text(report, run.duration_s());
+      answer = report::calibrate_text(report, run.duration_s());
     }
-    Output output(STDOUT_FILENO, "standard output");
+    analysis::Output output(STDOUT_FILENO, "standard output");
     output.append(answer);
     output.flush();
     if (history) {
-      const PageSource source{options.files, options.config, run.settings(), run.duration_s(), run.remarks()};
-      write_result(options.report, calibrate_page(report, *history, source));
+      const report::PageSource source{options.files, options.config, run.settings(), run.duration_s(),
+                                      run.remarks()};
+      write_result(options.report, report::calibrate_page(report, *history, source));
     }
   } catch (const record::BadRecording& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const config::Error& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const std::system_error& error) {
-    throw Failure(Exit::failed, error.what());
+    throw analysis::Failure(analysis::Exit::failed, error.what());
   }
 }
 

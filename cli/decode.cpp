@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
 #include <array>
@@ -7,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.h"
 #include "analysis/decode_describe.h"
-#include "cli/decode_input.h"
-#include "cli/decode_port.h"
 #include "analysis/decode_stream.h"
 #include "analysis/progress.h"
+#include "cli/commands.h"
+#include "cli/decode_input.h"
+#include "cli/decode_port.h"
 #include "protocols/imu_card.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"
@@ -44,11 +45,12 @@ std::optional<Date> pivot_of(const DecodeArguments& arguments, Protocol protocol
 }
 
 template <protocols::Scanner S>
-DecodeSummary decode_with(Describe describe, Protocol protocol, const std::optional<Date>& pivot,
-                          DecodeSource& input, FieldWriter& fields) {
+analysis::DecodeSummary decode_with(analysis::Describe describe, Protocol protocol,
+                                    const std::optional<Date>& pivot, DecodeSource& input,
+                                    analysis::FieldWriter& fields) {
   const std::string_view name = name_of(protocol);
-  Progress progress("decode");
-  return decode_stream<S>(
+  analysis::Progress progress("decode");
+  return analysis::decode_stream<S>(
       [&] {
         const protocols::Bytes bytes = input.next();
         input.show(progress);
@@ -61,21 +63,23 @@ DecodeSummary decode_with(Describe describe, Protocol protocol, const std::optio
       });
 }
 
-DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, DecodeSource& input,
-                     FieldWriter& fields) {
+analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, DecodeSource& input,
+                               analysis::FieldWriter& fields) {
   switch (protocol) {
     case Protocol::tcm2:
-      return decode_with<protocols::tcm2::Scanner>(describe_tcm2, protocol, pivot, input, fields);
+      return decode_with<protocols::tcm2::Scanner>(analysis::describe_tcm2, protocol, pivot, input, fields);
     case Protocol::imu_card:
-      return decode_with<protocols::imu_card::Scanner>(describe_imu_card, protocol, pivot, input, fields);
+      return decode_with<protocols::imu_card::Scanner>(analysis::describe_imu_card, protocol, pivot, input,
+                                                       fields);
     case Protocol::oncore:
-      return decode_with<protocols::oncore::Scanner>(describe_oncore, protocol, pivot, input, fields);
+      return decode_with<protocols::oncore::Scanner>(analysis::describe_oncore, protocol, pivot, input, fields);
     case Protocol::motor_card:
-      return decode_with<protocols::motor_card::Scanner>(describe_motor_card, protocol, pivot, input, fields);
+      return decode_with<protocols::motor_card::Scanner>(analysis::describe_motor_card, protocol, pivot, input,
+                                                         fields);
     case Protocol::nmea:
-      return decode_with<protocols::nmea::Scanner>(describe_nmea, protocol, pivot, input, fields);
+      return decode_with<protocols::nmea::Scanner>(analysis::describe_nmea, protocol, pivot, input, fields);
   }
-  throw Failure(Exit::usage, "unknown protocol");
+  throw analysis::Failure(analysis::Exit::usage, "unknown protocol");
 }
 
 void run(const DecodeArguments& arguments) {
@@ -91,13 +95,14 @@ void run(const DecodeArguments& arguments) {
   DecodeSource& input = port ? static_cast<DecodeSource&>(*port) : *file;
   const Protocol protocol =
       arguments.protocol.empty() ? port->protocol() : *protocols::protocol_named(arguments.protocol);
-  Output output(STDOUT_FILENO, "standard output");
-  FieldWriter fields(output, arguments.json ? FieldWriter::Format::json : FieldWriter::Format::text);
-  const DecodeSummary summary = decode(protocol, pivot_of(arguments, protocol), input, fields);
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  analysis::FieldWriter fields(
+      output, arguments.json ? analysis::FieldWriter::Format::json : analysis::FieldWriter::Format::text);
+  const analysis::DecodeSummary summary = decode(protocol, pivot_of(arguments, protocol), input, fields);
   if (arguments.json) {
-    write_json(output, summary);
+    analysis::write_json(output, summary);
   } else {
-    write_text(output, summary);
+    analysis::write_text(output, summary);
   }
   output.flush();
   if (!port) return;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/decode_input.h"
 
 #include <fcntl.h>
@@ -16,7 +17,8 @@ namespace navcal::cli {
 namespace {
 
 [[noreturn]] void fail(const std::string& name, const char* what) {
-  throw Failure(Exit::bad_input, name + ": " + what + ": " + std::system_category().message(errno));
+  throw analysis::Failure(analysis::Exit::bad_input,
+                          name + ": " + what + ": " + std::system_category().message(errno));
 }
 
 }  // namespace
@@ -51,9 +53,10 @@ void Input::refuse_recording(protocols::Bytes first) const {
   const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
   const bool capture = text.starts_with("#capture ");
   if (!capture && !text.starts_with(record::kMcapMagic)) return;
-  throw Failure(Exit::bad_input, fmt::format("{}: {}, not the bytes of one device: --port NAME decodes one of its "
-                                             "ports, \"navcal log info\" lists them",
-                                             name_, capture ? "a capture" : "a log"));
+  throw analysis::Failure(analysis::Exit::bad_input,
+                          fmt::format("{}: {}, not the bytes of one device: --port NAME decodes one of its "
+                                      "ports, \"navcal log info\" lists them",
+                                      name_, capture ? "a capture" : "a log"));
 }
 
 }  // namespace navcal::cli

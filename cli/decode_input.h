@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class DecodeSource {
   /// The next bytes, valid until the next call; empty at the end.
   virtual protocols::Bytes next() = 0;
   /// Tells a user who waits how far it has come.
-  virtual void show(Progress& progress) const = 0;
+  virtual void show(analysis::Progress& progress) const = 0;
 };
 
 /// A file, or standard input for "-", read from its beginning in large blocks. Throws Failure (bad input, the file
@@ -32,7 +33,7 @@ class Input final : public DecodeSource {
   ~Input() override;
 
   protocols::Bytes next() override;
-  void show(Progress& progress) const override { progress.show_bytes(done_, size_); }
+  void show(analysis::Progress& progress) const override { progress.show_bytes(done_, size_); }
 
  private:
   static constexpr std::size_t kBlock = std::size_t{256} << 10;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/decode_port.h"
 
 #include <fmt/format.h>
@@ -16,9 +17,10 @@ PortBytes::PortBytes(const std::string& file, const std::string& port) try
     if (ports[port_].name == port) return;
     names += (names.empty() ? "" : ", ") + ports[port_].name;
   }
-  throw Failure(Exit::usage, fmt::format("{}: no port \"{}\"; its ports: {}", file, port, names));
+  throw analysis::Failure(analysis::Exit::usage,
+                          fmt::format("{}: no port \"{}\"; its ports: {}", file, port, names));
 } catch (const record::BadRecording& error) {
-  throw Failure(Exit::bad_input, error.what());
+  throw analysis::Failure(analysis::Exit::bad_input, error.what());
 }
 
 protocols::Protocol PortBytes::protocol() const { return recording_->settings().ports[port_].protocol; }
@@ -32,7 +34,7 @@ protocols::Bytes PortBytes::next() {
       if (!bytes_.empty()) return bytes_;
     }
   } catch (const record::BadRecording& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   }
   return {};
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -17,7 +18,7 @@ class PortBytes final : public DecodeSource {
   /// By the recording's port line or configuration.
   [[nodiscard]] protocols::Protocol protocol() const;
   protocols::Bytes next() override;
-  void show(Progress& progress) const override { progress.show(recording_->progress()); }
+  void show(analysis::Progress& progress) const override { progress.show(recording_->progress()); }
   /// To be told to the user once the end is reached: "last line cut short".
   [[nodiscard]] const std::vector<std::string>& remarks() const { return recording_->remarks(); }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <memory>
@@ -46,8 +47,8 @@ void run(const Arguments& arguments) {
     fmt::print("{}", doctor_text(findings));
   }
   if (const auto faults = count_of(findings, Finding::Severity::fault); faults > 0) {
-    throw Failure(Exit::failed, fmt::format("{} {} between you and good data", faults,
-                                            faults == 1 ? "fault stands" : "faults stand"));
+    throw analysis::Failure(analysis::Exit::failed, fmt::format("{} {} between you and good data", faults,
+                                                                faults == 1 ? "fault stands" : "faults stand"));
   }
 }
 

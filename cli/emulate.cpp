@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,11 +10,12 @@
 #include <map>
 #include <memory>
 
+#include "analysis/emulate_session.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/emulate_console.h"
 #include "cli/emulate_input.h"
-#include "analysis/emulate_session.h"
+#include "cli/place_options.h"
 #include "config/mission_file.h"
 #include "sim/path.h"
 #include "sim/vehicle/vehicle.h"
@@ -23,9 +25,9 @@ namespace {
 
 namespace asio = boost::asio;
 
-void run(const EmulateArguments& arguments) {
+void run(const analysis::EmulateArguments& arguments) {
   asio::io_context io{1};
-  EmulateSession session(io, arguments);
+  analysis::EmulateSession session(io, arguments);
   asio::signal_set signals(io, SIGINT, SIGTERM);
   signals.async_wait([&](const boost::system::error_code& error, int) {
     if (!error) io.stop();
@@ -68,7 +70,7 @@ std::string mission_names() {
 
 void add_emulate(CLI::App& app) {
   auto* command = app.add_subcommand("emulate", "live emulated instruments on DIR/compass, imu, gps, motor");
-  const auto arguments = std::make_shared<EmulateArguments>();
+  const auto arguments = std::make_shared<analysis::EmulateArguments>();
   const std::map<std::string, sim::Oncore::Kind> receivers{{"ha", sim::Oncore::Kind::twelve_channels},
                                                            {"ea", sim::Oncore::Kind::eight_channels},
                                                            {"nmea", sim::Oncore::Kind::nmea}};
@@ -105,9 +107,9 @@ void add_emulate(CLI::App& app) {
   command->add_option("--drop", arguments->drop, "probability that a frame is lost")
       ->check(CLI::Range(0.0, 1.0))
       ->group(misbehaviour);
-  add_plans(command, "--stall", arguments->stalls, &parse_stall,
+  add_plans(command, "--stall", arguments->stalls, &analysis::parse_stall,
             "SECONDS@EVERY: all bytes are held back so long, then come at once, every so many seconds");
-  add_plans(command, "--unplug", arguments->unplugs, &parse_unplug,
+  add_plans(command, "--unplug", arguments->unplugs, &analysis::parse_unplug,
             "PORT@T+DURATION: the port is gone from T seconds on, for so long; repeatable");
   command->get_option("--stall")->group(misbehaviour);
   command->get_option("--unplug")->group(misbehaviour);
@@ -121,11 +123,11 @@ void add_emulate(CLI::App& app) {
     try {
       run(*arguments);
     } catch (const sim::BadPath& error) {
-      throw Failure(Exit::bad_input, error.what());
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
     } catch (const config::Error& error) {
-      throw Failure(Exit::bad_input, error.what());
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
     } catch (const sim::UnstableVehicle& error) {
-      throw Failure(Exit::failed, error.what());
+      throw analysis::Failure(analysis::Exit::failed, error.what());
     }
   });
 }

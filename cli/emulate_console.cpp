@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/emulate_console.h"
 
 #include <fmt/format.h>
@@ -8,13 +9,13 @@
 namespace navcal::cli {
 namespace {
 
-std::string set_probability(EmulateSession& session, std::istringstream& words,
-                            void (Misbehaviour::*setter)(double)) {
+std::string set_probability(analysis::EmulateSession& session, std::istringstream& words,
+                            void (analysis::Misbehaviour::*setter)(double)) {
   double probability = 0;
   if (!(words >> probability) || probability < 0 || probability > 1) return "a probability from 0 to 1 is missing";
   std::string name;
   if (words >> name) {
-    EmulatedPort* port = session.find(name);
+    analysis::EmulatedPort* port = session.find(name);
     if (port == nullptr) return fmt::format("there is no port {}", name);
     (port->misbehaviour().*setter)(probability);
     return {};
@@ -23,10 +24,10 @@ std::string set_probability(EmulateSession& session, std::istringstream& words,
   return {};
 }
 
-std::string act_on_port(EmulateSession& session, const std::string& verb, std::istringstream& words) {
+std::string act_on_port(analysis::EmulateSession& session, const std::string& verb, std::istringstream& words) {
   std::string name;
   words >> name;
-  EmulatedPort* port = session.find(name);
+  analysis::EmulatedPort* port = session.find(name);
   if (port == nullptr) return fmt::format("there is no port {}", name.empty() ? "named" : name);
   if (verb == "unplug") {
     port->unplug();
@@ -44,15 +45,15 @@ std::string act_on_port(EmulateSession& session, const std::string& verb, std::i
 
 }  // namespace
 
-std::string obey_line(EmulateSession& session, std::string_view line) {
+std::string obey_line(analysis::EmulateSession& session, std::string_view line) {
   std::istringstream words{std::string(line)};
   std::string verb;
   if (!(words >> verb)) return {};
   if (verb == "unplug" || verb == "replug" || verb == "power-cycle" || verb == "stall") {
     return act_on_port(session, verb, words);
   }
-  if (verb == "noise") return set_probability(session, words, &Misbehaviour::set_noise);
-  if (verb == "drop") return set_probability(session, words, &Misbehaviour::set_drop);
+  if (verb == "noise") return set_probability(session, words, &analysis::Misbehaviour::set_noise);
+  if (verb == "drop") return set_probability(session, words, &analysis::Misbehaviour::set_drop);
   if (verb == "imu-status") {
     unsigned bits = 0;
     if (!(words >> bits) || bits > 15)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -12,6 +13,6 @@ inline constexpr std::string_view kConsoleHelp =
     "imu-status BITS | quit";
 
 /// One line of what people (or a test) type at a running emulator. Empty when it was done, else why not.
-[[nodiscard]] std::string obey_line(EmulateSession& session, std::string_view line);
+[[nodiscard]] std::string obey_line(analysis::EmulateSession& session, std::string_view line);
 
 }  // namespace navcal::cli

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <chrono>
@@ -12,11 +13,11 @@ namespace navcal::cli {
 namespace {
 
 struct FieldCommandOptions {
-  PlaceArguments where;
+  analysis::PlaceArguments where;
   bool json = false;
 };
 
-double year_of(const PlaceArguments& where) {
+double year_of(const analysis::PlaceArguments& where) {
   using namespace std::chrono;
   const auto today = duration_cast<nanoseconds>(floor<days>(system_clock::now()).time_since_epoch());
   return base::decimal_year(where.day_ns().value_or(today.count()));
@@ -27,7 +28,7 @@ void show_field(const FieldCommandOptions& options) {
   const double year = year_of(options.where);
   const base::MagneticField field = base::world_magnetic_field(place, year);
   const auto& uT = field.north_east_down_uT;
-  warn_if_extrapolated(year);
+  analysis::warn_if_extrapolated(year);
   if (options.json) {
     fmt::print(
         "{{\"class\":\"FIELD\",\"model\":\"WMM2025\",\"year\":{:.4f},\"valid\":{},\"field_uT\":[{:.4f},{:.4f},"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
 #include <cstdlib>
@@ -9,18 +10,18 @@
 #include <system_error>
 #include <vector>
 
+#include "analysis/output.h"
+#include "analysis/progress.h"
 #include "cli/commands.h"
+#include "cli/gap_trial.h"
+#include "cli/place_options.h"
+#include "cli/result_file.h"
+#include "config/vehicle_file.h"
+#include "gap/verdict/request.h"
 #include "report/gap_effects_file.h"
 #include "report/gap_json.h"
 #include "report/gap_page.h"
 #include "report/gap_text.h"
-#include "cli/gap_trial.h"
-#include "analysis/output.h"
-#include "cli/place_options.h"
-#include "analysis/progress.h"
-#include "cli/result_file.h"
-#include "config/vehicle_file.h"
-#include "gap/verdict/request.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 
@@ -28,8 +29,8 @@ namespace navcal::cli {
 namespace {
 
 struct GapCommandOptions {
-  GapSource source;
-  PlaceArguments where;
+  report::GapSource source;
+  analysis::PlaceArguments where;
   std::string json, report;
   std::filesystem::path cache;
   int bank_missions = gap::Request{}.bank_missions;
@@ -50,7 +51,7 @@ std::filesystem::path usual_cache() {
 void expect_effects(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (!sim::make_effect(name))
-      throw Failure(Exit::usage, "--exclude " + name + ": " + sim::unknown_effect(name));
+      throw analysis::Failure(analysis::Exit::usage, "--exclude " + name + ": " + sim::unknown_effect(name));
   }
 }
 
@@ -64,23 +65,23 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   request.cache = options.cache.empty() ? usual_cache() : options.cache;
   request.bank_missions = options.bank_missions;
   request.bank_seed = options.bank_seed;
-  Progress progress("gap", Progress::Answer::at_the_end);
+  analysis::Progress progress("gap", analysis::Progress::Answer::at_the_end);
   return gap::diagnose(request, [&](std::string_view what, double done) { progress.show(what, done); });
 }
 
 void write_to_output(std::string_view text) {
-  Output output(STDOUT_FILENO, "standard output");
+  analysis::Output output(STDOUT_FILENO, "standard output");
   output.append(text);
   output.flush();
 }
 
 void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
   const auto& source = options.source;
-  if (!source.effects_file.empty()) write_result(source.effects_file, gap_effects_file(diagnosis));
-  if (!options.report.empty()) write_result(options.report, gap_page(diagnosis, source));
-  if (options.json == "-") return write_to_output(gap_json(diagnosis) + '\n');
-  if (!options.json.empty()) write_result(options.json, gap_json(diagnosis) + '\n');
-  write_to_output(gap_text(diagnosis, source));
+  if (!source.effects_file.empty()) write_result(source.effects_file, report::gap_effects_file(diagnosis));
+  if (!options.report.empty()) write_result(options.report, report::gap_page(diagnosis, source));
+  if (options.json == "-") return write_to_output(report::gap_json(diagnosis) + '\n');
+  if (!options.json.empty()) write_result(options.json, report::gap_json(diagnosis) + '\n');
+  write_to_output(report::gap_text(diagnosis, source));
 }
 
 void find_gap(const GapCommandOptions& options) {
@@ -95,13 +96,13 @@ void find_gap(const GapCommandOptions& options) {
     expect_no_overwriting(inputs, {options.json, options.report, source.effects_file});
     write_answers(diagnosis_of(options), options);
   } catch (const record::BadRecording& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const config::Error& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const std::invalid_argument& error) {
-    throw Failure(Exit::usage, error.what());
+    throw analysis::Failure(analysis::Exit::usage, error.what());
   } catch (const std::system_error& error) {
-    throw Failure(Exit::failed, error.what());
+    throw analysis::Failure(analysis::Exit::failed, error.what());
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/gap_trial.h"
 
 #include <fmt/format.h>
@@ -7,25 +8,25 @@
 #include <memory>
 #include <optional>
 
-#include "cli/commands.h"
-#include "validation/report.h"
-#include "validation/run.h"
-#include "report/validation_words.h"
-#include "base/interruptible.h"
 #include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "cli/commands.h"
 #include "record/whole_file.h"
+#include "report/validation_report.h"
+#include "report/validation_words.h"
+#include "validation/run.h"
 
 namespace navcal::cli {
 namespace {
 
 struct GapTrialCommandOptions {
-  int cases = 0, minutes = 10, places = kTrialPlaces, timeout_s = 600;
+  int cases = 0, minutes = 10, places = validation::kTrialPlaces, timeout_s = 600;
   std::uint64_t seed = 1;
   std::vector<std::string> arms;
   std::vector<int> only;
   std::string json;
   std::filesystem::path report;
-  TrialAsking asking;
+  validation::CaseRunOptions asking;
 };
 
 /// Opened before the first case is asked: hours later is too late to learn that a file cannot be written.
@@ -39,13 +40,13 @@ class Outputs {
   /// What is for people; JSON may have standard output for itself.
   [[nodiscard]] std::FILE* talk() const { return options_.json == "-" ? stderr : stdout; }
 
-  void write(const TrialReport& report) {
-    fmt::print(talk(), "{}", trial_text(report));
-    if (options_.json == "-") fmt::print("{}", trial_json(report));
-    if (json_) write_whole(*json_, trial_json(report));
-    if (page_) write_whole(*page_, trial_page(report));
+  void write(const report::TrialReport& report) {
+    fmt::print(talk(), "{}", report::trial_text(report));
+    if (options_.json == "-") fmt::print("{}", report::trial_json(report));
+    if (json_) write_whole(*json_, report::trial_json(report));
+    if (page_) write_whole(*page_, report::trial_page(report));
     if (options_.asking.keep.empty()) return;
-    for (const TrialResult& result : report.results) {
+    for (const validation::TrialResult& result : report.results) {
       record::WholeFile truth(options_.asking.keep / fmt::format("{:04}", result.drawn.number) / "truth.json");
       write_whole(truth, result.seal.truth + '\n');
     }
@@ -60,69 +61,71 @@ class Outputs {
   std::optional<record::WholeFile> json_, page_;
 };
 
-std::vector<TrialCase> cases_of(const GapTrialCommandOptions& options) {
+std::vector<validation::TrialCase> cases_of(const GapTrialCommandOptions& options) {
   std::vector<int> numbers = options.only;
   if (numbers.empty()) {
     try {
-      numbers = case_numbers(trial_arms_named(options.arms), options.cases);
+      numbers = validation::case_numbers(validation::trial_arms_named(options.arms), options.cases);
     } catch (const std::invalid_argument& error) {
-      throw Failure(Exit::usage, std::string("--arms: ") + error.what());
+      throw analysis::Failure(analysis::Exit::usage, std::string("--arms: ") + error.what());
     }
   }
-  std::vector<TrialCase> cases;
+  std::vector<validation::TrialCase> cases;
   cases.reserve(numbers.size());
   for (const int number : numbers)
-    cases.push_back(drawn_case(options.seed, number, options.minutes, options.places));
+    cases.push_back(validation::drawn_case(options.seed, number, options.minutes, options.places));
   return cases;
 }
 
-TrialReport report_on(const GapTrialCommandOptions& options, std::size_t asked_for, TrialRun run) {
-  TrialReport report{options.seed,
-                     options.minutes,
-                     options.places,
-                     asked_for,
-                     std::move(run.ended_early),
-                     std::move(run.results),
-                     {},
-                     {}};
-  report.scores = trial_scores(report.results);
-  report.confusion = trial_confusion(report.results);
+report::TrialReport report_on(const GapTrialCommandOptions& options, std::size_t asked_for,
+                              validation::TrialRun run) {
+  report::TrialReport report{options.seed,
+                             options.minutes,
+                             options.places,
+                             asked_for,
+                             std::move(run.ended_early),
+                             std::move(run.results),
+                             {},
+                             {}};
+  report.scores = validation::trial_scores(report.results);
+  report.confusion = validation::trial_confusion(report.results);
   return report;
 }
 
 void run(GapTrialCommandOptions options) {
   if ((options.cases > 0) == !options.only.empty())
-    throw Failure(Exit::usage, "either --cases N or --only CASE says which cases are asked");
+    throw analysis::Failure(analysis::Exit::usage, "either --cases N or --only CASE says which cases are asked");
   options.asking.timeout = std::chrono::seconds(options.timeout_s);
-  const Interruptible interruptible;
-  const std::vector<TrialCase> cases = cases_of(options);
+  const base::Interruptible interruptible;
+  const std::vector<validation::TrialCase> cases = cases_of(options);
   Outputs outputs(options);
   std::FILE* const out = outputs.talk();
 
   fmt::print(out, "Sealed: SHA-256 of the truth of each case and a salt; both follow after the last answer.\n");
-  std::vector<Seal> seals;
-  for (const TrialCase& drawn : cases) {
-    seals.push_back(sealed(truth_text(drawn, options.seed)));
+  std::vector<validation::Commitment> seals;
+  for (const validation::TrialCase& drawn : cases) {
+    seals.push_back(validation::commitment_to(validation::truth_text(drawn, options.seed)));
     fmt::print(out, "case {:4} {}\n", drawn.number, seals.back().digest);
   }
   std::fflush(out);
 
-  TrialRun answered;
+  validation::TrialRun answered;
   {
-    Progress progress("gap trial");
+    analysis::Progress progress("gap trial");
     std::size_t done = 0;
-    answered = ask_all(cases, seals, options.asking, [&](const TrialResult& result) {
+    answered = validation::ask_all(cases, seals, options.asking, [&](const validation::TrialResult& result) {
       fmt::print(out, "case {:4} answered in {:.1f} s: {}\n", result.drawn.number, result.seconds,
-                 answer_words(result));
+                 report::answer_words(result));
       std::fflush(out);
       progress.show(static_cast<double>(++done) / static_cast<double>(cases.size()));
     });
   }
-  const TrialReport report = report_on(options, cases.size(), std::move(answered));
+  const report::TrialReport report = report_on(options, cases.size(), std::move(answered));
   outputs.write(report);
   if (!report.ended_early.empty()) {
-    throw Failure(Exit::failed, fmt::format("{}: {} of {} cases are scored", report.ended_early,
-                                            report.results.size(), report.asked_for));
+    throw analysis::Failure(
+        analysis::Exit::failed,
+        fmt::format("{}: {} of {} cases are scored", report.ended_early, report.results.size(), report.asked_for));
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -7,10 +8,10 @@
 #include <memory>
 #include <vector>
 
-#include "cli/commands.h"
-#include "base/interruptible.h"
 #include "analysis/log_import.h"
 #include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "cli/commands.h"
 #include "cli/result_file.h"
 #include "record/export/export.h"
 #include "record/log/log_info.h"
@@ -23,17 +24,18 @@ namespace {
 /// Runs a job with progress; turns what it throws into the statuses of the contract.
 template <class Job>
 auto run(Job job) {
-  const Interruptible interruptible;
-  Progress progress("log");
+  const base::Interruptible interruptible;
+  analysis::Progress progress("log");
   try {
     return job(record::Progress([&progress](double done) {
-      if (Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
+      if (base::Interruptible::interrupted())
+        throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
       progress.show(done);
     }));
   } catch (const record::BadRecording& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const std::system_error& error) {
-    throw Failure(Exit::failed, error.what());
+    throw analysis::Failure(analysis::Exit::failed, error.what());
   }
 }
 
@@ -49,10 +51,10 @@ void show_info(const std::string& file, bool json) {
 
 void finish(const std::string& file) {
   const bool log = run([&](const record::Progress&) { return record::is_log(file); });
-  if (!log) throw Failure(Exit::bad_input, file + ": byte 0: not an MCAP file");
+  if (!log) throw analysis::Failure(analysis::Exit::bad_input, file + ": byte 0: not an MCAP file");
   const record::Repair repair = record::finish_log(record::real_disk(), file);
-  if (!repair.reason.empty()) throw Failure(Exit::bad_input, repair.message());
-  if (repair.error) throw Failure(Exit::failed, repair.message());
+  if (!repair.reason.empty()) throw analysis::Failure(analysis::Exit::bad_input, repair.message());
+  if (repair.error) throw analysis::Failure(analysis::Exit::failed, repair.message());
   fmt::print("{}\n", repair.message());
 }
 
@@ -62,7 +64,7 @@ using Exporter = record::Exported (*)(const std::filesystem::path&, const std::f
 void import_log(const std::string& file, const std::string& to) {
   expect_no_overwriting({file}, {to});
   expect_not_ending(to, ".cap", "a log (.mcap)", "navcal log export --cap makes a capture of a log");
-  tell(run([&](const record::Progress& progress) { return import_capture(file, to, progress); }));
+  tell(run([&](const record::Progress& progress) { return analysis::import_capture(file, to, progress); }));
 }
 
 void export_log(const std::string& file, Exporter exporter, const std::string& to) {

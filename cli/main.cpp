@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <exception>
 
@@ -6,7 +7,7 @@
 #include "share/manual.h"
 
 int main(int argc, char** argv) {
-  using navcal::cli::Exit;
+  using navcal::analysis::Exit;
   CLI::App app{
       "navcal: watch, decode, replay, log, simulate and emulate the instruments of a small underwater vehicle, "
       "and "
@@ -40,7 +41,7 @@ int main(int argc, char** argv) {
     }
     // CLI11 has statuses of its own; the contract has one for wrong usage.
     return app.exit(error) == 0 ? static_cast<int>(Exit::success) : static_cast<int>(Exit::usage);
-  } catch (const navcal::cli::Failure& failure) {
+  } catch (const navcal::analysis::Failure& failure) {
     std::fprintf(stderr, "navcal: %s\n", failure.what());
     return static_cast<int>(failure.status());
   } catch (const std::exception& error) {

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/place_options.h"
 
 namespace navcal::cli {
 
-void add_place_and_field(CLI::App* command, PlaceArguments& arguments) {
+void add_place_and_field(CLI::App* command, analysis::PlaceArguments& arguments) {
   command
       ->add_option("--place", arguments.place,
                    "degrees north and east, metres above the ellipsoid; the Earth's field there is the World "

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,6 +8,6 @@
 namespace navcal::cli {
 
 /// Adds --place and --field; --date is the caller's, since it means something else to each command.
-void add_place_and_field(CLI::App* command, PlaceArguments& arguments);
+void add_place_and_field(CLI::App* command, analysis::PlaceArguments& arguments);
 
 }  // namespace navcal::cli

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <boost/asio/co_spawn.hpp>
@@ -7,17 +8,17 @@
 #include <exception>
 #include <memory>
 
-#include "cli/commands.h"
 #include "analysis/play_session.h"
+#include "cli/commands.h"
 
 namespace navcal::cli {
 namespace {
 
 namespace asio = boost::asio;
 
-void run(const PlayArguments& arguments) {
+void run(const analysis::PlayArguments& arguments) {
   asio::io_context io{1};
-  PlaySession session(io.get_executor(), arguments);
+  analysis::PlaySession session(io.get_executor(), arguments);
   bool interrupted = false;
   asio::signal_set signals(io, SIGINT, SIGTERM);
   signals.async_wait([&](const boost::system::error_code& error, int) {
@@ -35,7 +36,7 @@ void run(const PlayArguments& arguments) {
     try {
       std::rethrow_exception(failure);
     } catch (const record::BadRecording& error) {
-      throw Failure(Exit::bad_input, error.what());
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
     }
   }
   if (interrupted) fmt::print(stderr, "navcal play: interrupted\n");
@@ -46,7 +47,7 @@ void run(const PlayArguments& arguments) {
 
 void add_play(CLI::App& app) {
   auto* command = app.add_subcommand("play", "play a recording into pseudo-terminals at its own pace");
-  const auto arguments = std::make_shared<PlayArguments>();
+  const auto arguments = std::make_shared<analysis::PlayArguments>();
   command->add_option("FILE", arguments->file, "capture (.cap) or log (.mcap)")->required();
   command->add_option("--dir", arguments->dir, "where the ports are made, DIR/<port>; made when missing")
       ->required();
@@ -68,7 +69,7 @@ void add_play(CLI::App& app) {
     try {
       run(*arguments);
     } catch (const record::BadRecording& error) {
-      throw Failure(Exit::bad_input, error.what());
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
     }
   });
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.h"
 #include "analysis/output.h"
 #include "analysis/port_matching.h"
 #include "analysis/progress.h"
+#include "cli/commands.h"
 #include "cli/watch_text.h"
 #include "config/load.h"
 #include "pipeline/pipeline.h"
 #include "record/json/event_json.h"
 #include "record/json/navigation_json.h"
-#include "record/recording.h"
 #include "record/json/sample_json.h"
+#include "record/recording.h"
 
 namespace navcal::cli {
 namespace {
@@ -31,7 +32,7 @@ struct ReplayCommandOptions {
 /// Samples as lines, in the order in which the pipeline makes them.
 class Printer : public pipeline::Sink {
  public:
-  Printer(const config::Settings& settings, Output& output) : settings_(settings), output_(output) {}
+  Printer(const config::Settings& settings, analysis::Output& output) : settings_(settings), output_(output) {}
   void on_sample(const instruments::Sample& sample) override {
     if (std::holds_alternative<instruments::SkySample>(sample.value)) return;  // no line of the contract
     line_.clear();
@@ -56,7 +57,7 @@ class Printer : public pipeline::Sink {
 
  private:
   const config::Settings& settings_;
-  Output& output_;
+  analysis::Output& output_;
   pipeline::UtcMapping mapping_;
   std::string line_;
 };
@@ -69,9 +70,9 @@ bool is_daemon_start(const record::LoggedEvent& event) {
 
 /// Plays one file through the pipeline; files of one series may follow each other.
 void play(record::Recording& recording, const std::string& file, pipeline::Pipeline& pipeline, Printer& printer) {
-  const auto port_index = match_ports(recording.settings(), pipeline.settings(), file);
+  const auto port_index = analysis::match_ports(recording.settings(), pipeline.settings(), file);
   std::int64_t newest_ns = 0;
-  Progress progress("replay");
+  analysis::Progress progress("replay");
   while (const auto entry = recording.next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       newest_ns = std::max(newest_ns, raw->time_ns);
@@ -100,7 +101,7 @@ void replay(const ReplayCommandOptions& options) {
   try {
     auto recording = record::Recording::open(options.files.front());
     const auto settings = options.config.empty() ? recording->settings() : config::load(options.config);
-    Output output(STDOUT_FILENO, "standard output");
+    analysis::Output output(STDOUT_FILENO, "standard output");
     Printer printer(settings, output);
     pipeline::Pipeline pipeline(settings);
     play(*recording, options.files.front(), pipeline, printer);
@@ -110,9 +111,9 @@ void replay(const ReplayCommandOptions& options) {
     }
     output.flush();
   } catch (const record::BadRecording& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const config::Error& error) {
-    throw Failure(Exit::bad_input, error.what());
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   }
 }
 

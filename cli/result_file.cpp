@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/result_file.h"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ bool would_write_to(const fs::path& output, const fs::path& file) {
 void expect_folder_of(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (::access(folder.c_str(), W_OK) != 0) {
-    throw Failure(Exit::failed, file.string() + ": " + std::system_category().message(errno));
+    throw analysis::Failure(analysis::Exit::failed, file.string() + ": " + std::system_category().message(errno));
   }
 }
 
@@ -43,16 +44,18 @@ void expect_no_overwriting(const std::vector<fs::path>& inputs, const std::vecto
     if (!is_file_name(outputs[i])) continue;
     for (const fs::path& input : inputs) {
       if (!is_file_name(input) || !would_write_to(outputs[i], input)) continue;
-      throw Failure(Exit::usage, fmt::format("{}: it is to be read and to be written; nothing was done. Give the "
-                                             "output another name.",
-                                             outputs[i].string()));
+      throw analysis::Failure(analysis::Exit::usage,
+                              fmt::format("{}: it is to be read and to be written; nothing was done. Give the "
+                                          "output another name.",
+                                          outputs[i].string()));
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (!is_file_name(outputs[k])) continue;
       if (!would_write_to(outputs[i], outputs[k]) && !would_write_to(outputs[k], outputs[i])) continue;
-      throw Failure(Exit::usage, fmt::format("{}: two outputs have this name; nothing was done. Give each a name "
-                                             "of its own.",
-                                             outputs[i].string()));
+      throw analysis::Failure(analysis::Exit::usage,
+                              fmt::format("{}: two outputs have this name; nothing was done. Give each a name "
+                                          "of its own.",
+                                          outputs[i].string()));
     }
   }
 }
@@ -60,7 +63,8 @@ void expect_no_overwriting(const std::vector<fs::path>& inputs, const std::vecto
 void expect_not_ending(const fs::path& output, std::string_view ending, std::string_view kind,
                        std::string_view hint) {
   if (output.extension() != ending) return;
-  throw Failure(Exit::usage, fmt::format("{}: the output is {}; {}", output.string(), kind, hint));
+  throw analysis::Failure(analysis::Exit::usage,
+                          fmt::format("{}: the output is {}; {}", output.string(), kind, hint));
 }
 
 void write_result(const fs::path& file, std::string_view content) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -5,13 +6,13 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/simulate_effects.h"
+#include "analysis/simulate_motion.h"
+#include "analysis/simulate_run.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
-#include "analysis/simulate_effects.h"
-#include "analysis/simulate_motion.h"
 #include "report/simulate_page.h"
-#include "analysis/simulate_run.h"
 #include "sim/effects/choice.h"
 #include "sim/recording.h"
 
@@ -19,18 +20,18 @@ namespace navcal::cli {
 namespace {
 
 struct SimulateCommandOptions {
-  SimulateArguments arguments;
+  analysis::SimulateArguments arguments;
   bool list_effects = false;
 };
 
-void run(const SimulateArguments& arguments) {
-  sim::EffectSet effects = simulate_effects(arguments);
-  const SimulatedRun run = simulate_motion(arguments, effects);
-  std::optional<SimulateHistory> history;
+void run(const analysis::SimulateArguments& arguments) {
+  sim::EffectSet effects = analysis::simulate_effects(arguments);
+  const analysis::SimulatedRun run = analysis::simulate_motion(arguments, effects);
+  std::optional<analysis::SimulateHistory> history;
   if (!arguments.report.empty()) history.emplace(sim::recording_ports(), arguments.begin_ns, run.duration_s);
-  write_simulation(arguments, run, effects, history ? &*history : nullptr);
+  analysis::write_simulation(arguments, run, effects, history ? &*history : nullptr);
   if (history) {
-    write_result(arguments.report, simulate_page(*history, arguments, run, effects));
+    write_result(arguments.report, report::simulate_page(*history, arguments, run, effects));
   }
 }
 
@@ -42,15 +43,17 @@ void simulate(SimulateCommandOptions& options) {
   auto& arguments = options.arguments;
   const int given = int{!arguments.path.empty()} + int{!arguments.drive.empty()} + int{!arguments.mission.empty()};
   if (given != 1) {
-    throw Failure(Exit::usage, "one of --path, --drive and --mission says how the vehicle moves");
+    throw analysis::Failure(analysis::Exit::usage,
+                            "one of --path, --drive and --mission says how the vehicle moves");
   }
-  if (arguments.capture.empty()) throw Failure(Exit::usage, "-o FILE.cap says where the recording goes");
+  if (arguments.capture.empty())
+    throw analysis::Failure(analysis::Exit::usage, "-o FILE.cap says where the recording goes");
   expect_not_ending(arguments.capture, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
   expect_no_overwriting(
       {arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.effects_file},
       {arguments.capture, arguments.truth, arguments.report});
-  arguments.begin_ns = arguments.where.day_ns().value_or(kSimulatedBegin_ns);
-  arguments.place = simulated_place(arguments.where, arguments.begin_ns);
+  arguments.begin_ns = arguments.where.day_ns().value_or(analysis::kSimulatedBegin_ns);
+  arguments.place = analysis::simulated_place(arguments.where, arguments.begin_ns);
   run(arguments);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -112,9 +113,10 @@ void watch(const WatchCommandOptions& options) {
     show(options, stream, end, ::isatty(STDOUT_FILENO) != 0);
   }
   if (!stream.was_connected()) {
-    throw Failure(Exit::failed,
-                  fmt::format("no connection to {} port {}: {}. Is navcald running there? Try navcal doctor.",
-                              options.host, options.port, stream.problem()));
+    throw analysis::Failure(
+        analysis::Exit::failed,
+        fmt::format("no connection to {} port {}: {}. Is navcald running there? Try navcal doctor.", options.host,
+                    options.port, stream.problem()));
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/watch_view.h"
 
 #include <fmt/format.h>
@@ -6,9 +7,9 @@
 #include <iterator>
 
 #include "base/angles.h"
-#include "report/append_format.h"
 #include "cli/watch_navigation.h"
 #include "cli/watch_text.h"
+#include "report/append_format.h"
 
 namespace navcal::cli {
 namespace {
@@ -23,9 +24,9 @@ std::string log_state(const Json& log) {
   if (const auto reason = text(log, "reason"); !reason.empty()) out += " (" + reason + ")";
   const auto file = text(log, "file");
   if (!file.empty()) out += " " + file.substr(file.rfind('/') + 1);
-  append_format(out, ", {} MB, {} kB queued", shown(number(log, "bytes") * 1e-6, 1),
-                shown(number(log, "queued") * 1e-3, 0));
-  if (number(log, "lost") > 0) append_format(out, ", {} records LOST", shown(number(log, "lost"), 0));
+  report::append_format(out, ", {} MB, {} kB queued", shown(number(log, "bytes") * 1e-6, 1),
+                        shown(number(log, "queued") * 1e-3, 0));
+  if (number(log, "lost") > 0) report::append_format(out, ", {} records LOST", shown(number(log, "lost"), 0));
   return out;
 }
 
@@ -85,9 +86,9 @@ void WatchView::append_alarms(std::string& out, Colour colour) const {
     if (!alarm.is_object()) continue;
     const auto words = fmt::format(" ALARM {} ({}) ", text(alarm, "alarm"), text(alarm, "device"));
     if (colour == Colour::ansi) {
-      append_format(out, "{}{}{}\n", kRed, words, kPlain);
+      report::append_format(out, "{}{}{}\n", kRed, words, kPlain);
     } else {
-      append_format(out, "{}\n", words);
+      report::append_format(out, "{}\n", words);
     }
   }
 }
@@ -107,18 +108,18 @@ void WatchView::append_sources(std::string& out) const {
       port = server;
     }
   }
-  if (!line.empty()) append_format(out, "{}\n", line);
+  if (!line.empty()) report::append_format(out, "{}\n", line);
 }
 
 void WatchView::append_ports(std::string& out) const {
-  append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s", "frames", "bad",
-                "skipped", "lost", "reason");
+  report::append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s", "frames",
+                        "bad", "skipped", "lost", "reason");
   for (const auto& [device, port] : ports_) {
     const auto rate = frames_per_s_.find(device);
-    append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
-                  shown(rate == frames_per_s_.end() ? NAN : rate->second, 1), shown(number(port, "frames"), 0),
-                  shown(number(port, "bad"), 0), shown(number(port, "skipped"), 0), shown(number(port, "lost"), 0),
-                  text(port, "reason"));
+    report::append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
+                          shown(rate == frames_per_s_.end() ? NAN : rate->second, 1),
+                          shown(number(port, "frames"), 0), shown(number(port, "bad"), 0),
+                          shown(number(port, "skipped"), 0), shown(number(port, "lost"), 0), text(port, "reason"));
   }
 }
 
@@ -128,15 +129,15 @@ void WatchView::append_attitude(std::string& out) const {
   for (const auto& [device, att] : found->second) {
     if (att.contains("heading")) {
       const auto north = text(att, "north");
-      append_format(out, "{:<12}heading {} deg{}{}, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
-                    shown(number(att, "heading"), 1), north.empty() ? "" : " ", north,
-                    shown(number(att, "pitch"), 1), shown(number(att, "roll"), 1),
-                    shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
+      report::append_format(out, "{:<12}heading {} deg{}{}, pitch {}, roll {}, field {} uT, dip {} deg\n", device,
+                            shown(number(att, "heading"), 1), north.empty() ? "" : " ", north,
+                            shown(number(att, "pitch"), 1), shown(number(att, "roll"), 1),
+                            shown(number(att, "mag_len"), 2), shown(number(att, "dip"), 1));
     }
     if (att.contains("depth")) {
-      append_format(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device, shown(number(att, "depth"), 2),
-                    shown(number(att, "gyro_x"), 2), shown(number(att, "gyro_y"), 2),
-                    shown(number(att, "gyro_z"), 2));
+      report::append_format(out, "{:<12}depth {} m, rates {} {} {} deg/s\n", device,
+                            shown(number(att, "depth"), 2), shown(number(att, "gyro_x"), 2),
+                            shown(number(att, "gyro_y"), 2), shown(number(att, "gyro_z"), 2));
     }
   }
 }
@@ -146,36 +147,38 @@ void WatchView::append_position(std::string& out) const {
   if (found == last_.end()) return;
   for (const auto& [device, tpv] : found->second) {
     const double mode = number(tpv, "mode");
-    append_format(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device,
-                  mode >= 3   ? "3D"
-                  : mode >= 2 ? "2D"
-                              : "no fix",
-                  shown(number(tpv, "lat"), 7), shown(number(tpv, "lon"), 7), shown(number(tpv, "speed"), 2),
-                  shown(number(tpv, "track"), 1), text(tpv, "time"));
+    report::append_format(out, "{:<12}{} {} {}, {} m/s, course {}, {}\n", device,
+                          mode >= 3   ? "3D"
+                          : mode >= 2 ? "2D"
+                                      : "no fix",
+                          shown(number(tpv, "lat"), 7), shown(number(tpv, "lon"), 7),
+                          shown(number(tpv, "speed"), 2), shown(number(tpv, "track"), 1), text(tpv, "time"));
   }
 }
 
 void WatchView::append_motor(std::string& out) const {
   if (const auto found = last_.find("MOTOR"); found != last_.end()) {
     for (const auto& [device, motor] : found->second) {
-      append_format(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0),
-                    shown(number(motor, "current_A"), 2));
+      report::append_format(out, "{:<12}{} rpm, {} A, fins", device, shown(number(motor, "rpm"), 0),
+                            shown(number(motor, "current_A"), 2));
       const Json fins = motor.value("fins_rad", Json::array());
       for (const Json& fin : fins) {
-        append_format(out, " {}", shown(fin.is_number() ? fin.get<double>() * base::kDegreesPerRadian : NAN, 1));
+        report::append_format(out, " {}",
+                              shown(fin.is_number() ? fin.get<double>() * base::kDegreesPerRadian : NAN, 1));
       }
       out += " deg\n";
     }
   }
 }
 
-void WatchView::append_log(std::string& out) const { append_format(out, "{}\n", log_state(log_)); }
+void WatchView::append_log(std::string& out) const { report::append_format(out, "{}\n", log_state(log_)); }
 
 void WatchView::append_time(std::string& out) const {
   if (!time_.is_object()) return;
   const double bound = number(time_, "bound");
-  append_format(out, "UTC from {}, {}\n", text(time_, "source"),
-                std::isfinite(bound) ? fmt::format("to within {:.6f} s", bound) : "to within an unknown bound");
+  report::append_format(
+      out, "UTC from {}, {}\n", text(time_, "source"),
+      std::isfinite(bound) ? fmt::format("to within {:.6f} s", bound) : "to within an unknown bound");
 }
 
 std::string WatchView::page(Colour colour) const {
@@ -190,7 +193,7 @@ std::string WatchView::page(Colour colour) const {
   append_log(out);
   append_time(out);
   calibration_.append(out);
-  if (dropped_ > 0) append_format(out, "this view missed {:.0f} reports\n", dropped_);
+  if (dropped_ > 0) report::append_format(out, "this view missed {:.0f} reports\n", dropped_);
   return out;
 }
 
@@ -198,27 +201,29 @@ std::string WatchView::line() const {
   std::string out;
   if (alarms_.is_array()) {
     for (const Json& alarm : alarms_) {
-      if (alarm.is_object()) append_format(out, "ALARM {} ({}); ", text(alarm, "alarm"), text(alarm, "device"));
+      if (alarm.is_object())
+        report::append_format(out, "ALARM {} ({}); ", text(alarm, "alarm"), text(alarm, "device"));
     }
   }
   for (const auto& [device, port] : ports_) {
     const auto rate = frames_per_s_.find(device);
-    append_format(out, "{} {} {}/s; ", device, text(port, "state"),
-                  shown(rate == frames_per_s_.end() ? NAN : rate->second, 1));
+    report::append_format(out, "{} {} {}/s; ", device, text(port, "state"),
+                          shown(rate == frames_per_s_.end() ? NAN : rate->second, 1));
   }
   for (const char* kind : {"ATT", "TPV"}) {
     const auto found = last_.find(kind);
     if (found == last_.end()) continue;
     for (const auto& [device, report] : found->second) {
-      if (report.contains("heading")) append_format(out, "heading {}; ", shown(number(report, "heading"), 1));
-      if (report.contains("depth")) append_format(out, "depth {}; ", shown(number(report, "depth"), 2));
+      if (report.contains("heading"))
+        report::append_format(out, "heading {}; ", shown(number(report, "heading"), 1));
+      if (report.contains("depth")) report::append_format(out, "depth {}; ", shown(number(report, "depth"), 2));
       if (report.contains("lat")) {
-        append_format(out, "{} {}; ", shown(number(report, "lat"), 7), shown(number(report, "lon"), 7));
+        report::append_format(out, "{} {}; ", shown(number(report, "lat"), 7), shown(number(report, "lon"), 7));
       }
     }
   }
-  if (const auto words = reckoned_words(navigation_); !words.empty()) append_format(out, "{}; ", words);
-  if (!calibration_.name().empty()) append_format(out, "calibration {}; ", calibration_.name());
+  if (const auto words = reckoned_words(navigation_); !words.empty()) report::append_format(out, "{}; ", words);
+  if (!calibration_.name().empty()) report::append_format(out, "calibration {}; ", calibration_.name());
   return out + log_state(log_);
 }
 

@@ -22,6 +22,11 @@ set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config instruments pipeline record ports share)
 set(NAVCAL_MAY_INCLUDE_cli base protocols config pipeline record ports sim gap analysis validation report share)
 
+# The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.
+# What lies there may include all of them only from a .cpp. Folders that are not named (calib/thesis) are free.
+set(NAVCAL_ORDER_calib turn magnetometer gps delay swing suite)
+set(NAVCAL_ORDER_gap data actuators replay inference nulls verdict)
+
 # navcal_include_rooms(TARGET ROOM): gives a target the headers of a room, and of what that room may include with what their
 # headers include in turn. No others: a folder of links in the build folder is the target's only include folder of ours.
 function(navcal_include_rooms target room)

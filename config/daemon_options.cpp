@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "config/calibration_options.h"
 #include "config/navigation_options.h"
 #include "config/options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "config/vehicle_options.h"
 
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes config/navcald.toml, config/vehicle.toml and the tables of docs/configuration.md anew from the option
 // tables.
 #include <filesystem>

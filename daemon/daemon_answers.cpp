@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the daemon answers on its two sockets.
 #include <fmt/format.h>
 

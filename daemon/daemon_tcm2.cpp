@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The TCM2's calibration of itself: begun and ended by the operator, its score beside ours.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "daemon/diagnostics.h"
 
 #include <fmt/format.h>

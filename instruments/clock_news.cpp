@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "instruments/clock_news.h"
 
 #include <fmt/format.h>

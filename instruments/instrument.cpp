@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "instruments/instrument.h"
 
 #include "instruments/imu_card.h"

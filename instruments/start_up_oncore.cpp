@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "instruments/start_up_oncore.h"
 
 #include "base/durations.h"

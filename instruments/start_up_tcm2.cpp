@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "instruments/start_up_tcm2.h"
 
 #include <algorithm>

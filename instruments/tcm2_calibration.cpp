@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "instruments/tcm2_calibration.h"
 
 #include <algorithm>

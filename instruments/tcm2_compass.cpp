@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "instruments/tcm2_compass.h"
 
 #include "base/angles.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nav/dead_reckoning.h"
 
 #include <cmath>

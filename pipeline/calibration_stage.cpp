@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "pipeline/calibration_stage.h"
 
 #include <cmath>
 #include <variant>
 
+#include "base/local_plane.h"
 #include "pipeline/calib_reading.h"
 #include "pipeline/calibration_options.h"
-#include "base/local_plane.h"
 #include "pipeline/nav_reading.h"
 
 namespace navcal::pipeline {
@@ -85,7 +86,7 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
   }
   calib::GroundReading reading;
   reading.time_s = seconds(sample.stamp.validity_ns);
-  const LocalPlane plane(*origin_latitude_rad_, *origin_longitude_rad_);
+  const base::LocalPlane plane(*origin_latitude_rad_, *origin_longitude_rad_);
   const auto [north_m, east_m] = plane.position_m(*gps.latitude_rad, *gps.longitude_rad);
   reading.position_m = {north_m, east_m};
   reading.speed_m_s = *gps.speed_m_s;

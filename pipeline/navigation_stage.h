@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 
+#include "base/local_plane.h"
 #include "config/settings.h"
 #include "instruments/samples.h"
 #include "nav/navigator.h"
 #include "pipeline/calibration_options.h"
-#include "base/local_plane.h"
 #include "pipeline/navigation.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sources.h"
@@ -51,7 +52,7 @@ class NavigationStage {
   double position_noise_m_, velocity_noise_m_s_;
   std::int64_t interval_ns_;
   nav::Navigator calibrated_, uncalibrated_;
-  std::optional<LocalPlane> plane_;
+  std::optional<base::LocalPlane> plane_;
   std::optional<std::int64_t> inclinometer_ns_;  ///< newest tilt of the compass
   std::optional<double> depth_m_;                ///< newest that is not used yet
   std::optional<Eigen::Vector2d> velocity_m_s_;  ///< newest that is not used yet

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "pipeline/utc_mapping.h"
 
 namespace navcal::pipeline {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ports/finder.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ports/low_latency.h"
 
 #include <fmt/format.h>

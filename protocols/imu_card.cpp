@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocols/imu_card.h"
 
 #include "protocols/big_endian.h"

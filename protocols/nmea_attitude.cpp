@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocols/nmea_attitude.h"
 
 #include "protocols/nmea_fields.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocols/nmea_encode.h"
 
 #include <algorithm>

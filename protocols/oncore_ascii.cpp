@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocols/oncore_ascii.h"
 
 #include <string_view>

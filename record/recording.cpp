@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/recording.h"
 
 #include "record/capture/capture_recording.h"

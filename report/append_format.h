@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <fmt/format.h>
@@ -6,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Formats as fmt::format does, onto the end of a text.
 template <class... Arguments>
@@ -14,4 +15,4 @@ void append_format(std::string& out, fmt::format_string<Arguments...> format, Ar
   fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Estimates over time.
 #include <algorithm>
 #include <array>
@@ -10,7 +11,7 @@
 #include "report/svg_plot.h"
 #include "report/time_axis.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using Ink = SvgPlot::Ink;
@@ -58,10 +59,10 @@ constexpr double kMuchWorse = 5;
 
 /// What the second half of the time needs: the first estimates of all are anywhere, and a short time of little
 /// support would leave no room for the rest.
-Range late_range(const std::vector<std::span<const EstimatePoint>>& curves, double factor) {
+Range late_range(const std::vector<std::span<const analysis::EstimatePoint>>& curves, double factor) {
   double least = INFINITY, most = -INFINITY;
   for (const auto curve : curves) {
-    for (const EstimatePoint& point : curve.subspan(curve.size() / 2)) {
+    for (const analysis::EstimatePoint& point : curve.subspan(curve.size() / 2)) {
       if (!(point.std <= kMuchWorse * curve.back().std)) continue;
       least = std::min(least, (point.value - 2 * point.std) * factor);
       most = std::max(most, (point.value + 2 * point.std) * factor);
@@ -72,10 +73,10 @@ Range late_range(const std::vector<std::span<const EstimatePoint>>& curves, doub
 }
 
 /// From the first estimate of any curve on.
-EarlyTimeAxis time_axis(const std::vector<std::span<const EstimatePoint>>& curves) {
+EarlyTimeAxis time_axis(const std::vector<std::span<const analysis::EstimatePoint>>& curves) {
   double first_s = INFINITY, last_s = 0;
   for (const auto curve : curves) {
-    const auto first = std::find_if(curve.begin(), curve.end(), [](const EstimatePoint& point) {
+    const auto first = std::find_if(curve.begin(), curve.end(), [](const analysis::EstimatePoint& point) {
       return std::isfinite(point.value) && std::isfinite(point.std);
     });
     if (first != curve.end()) first_s = std::min(first_s, first->time_s);
@@ -85,15 +86,16 @@ EarlyTimeAxis time_axis(const std::vector<std::span<const EstimatePoint>>& curve
 }
 
 /// Points with an error: others are not determined, and shown as zero.
-std::size_t determined(const std::vector<EstimatePoint>& points) {
-  return static_cast<std::size_t>(std::count_if(
-      points.begin(), points.end(), [](const EstimatePoint& point) { return std::isfinite(point.std); }));
+std::size_t determined(const std::vector<analysis::EstimatePoint>& points) {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(),
+                    [](const analysis::EstimatePoint& point) { return std::isfinite(point.std); }));
 }
 
-void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const EstimatePoint> curve,
+void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const analysis::EstimatePoint> curve,
           const EarlyTimeAxis& time, double factor) {
   std::vector<Point> line, lower, upper;
-  for (const EstimatePoint& point : curve) {
+  for (const analysis::EstimatePoint& point : curve) {
     if (!std::isfinite(point.std)) continue;
     const double t = time(point.time_s);
     line.push_back({t, point.value * factor});
@@ -106,10 +108,10 @@ void draw(SvgPlot& plot, Ink ink, const char* name, std::span<const EstimatePoin
 
 }  // namespace
 
-std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estimates) {
+std::vector<Figure> convergence_figures(const analysis::CalibrateHistory::Estimates& estimates) {
   std::vector<Figure> figures;
   for (const Group& group : kGroups) {
-    std::vector<std::span<const EstimatePoint>> curves;
+    std::vector<std::span<const analysis::EstimatePoint>> curves;
     std::vector<const char*> names;
     for (const Curve& curve : group.curves) {
       const auto found = curve.estimate != nullptr ? estimates.find(curve.estimate) : estimates.end();
@@ -131,4 +133,4 @@ std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estim
   return figures;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

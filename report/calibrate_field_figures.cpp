@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The magnetometer before and after.
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@
 #include "report/svg_plot.h"
 #include "report/time_axis.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using Ink = SvgPlot::Ink;
@@ -39,10 +40,10 @@ Eigen::Vector3d levelled3(const Eigen::Vector3d& field_uT, const calib::CompassR
   return {level.x(), level.y(), 0};
 }
 
-Fields fields_of(const std::vector<TurnedSample>& samples, const std::optional<calib::FieldCorrection>& correction,
-                 bool level) {
+Fields fields_of(const std::vector<analysis::TurnedSample>& samples,
+                 const std::optional<calib::FieldCorrection>& correction, bool level) {
   Fields fields;
-  for (const TurnedSample& sample : samples) {
+  for (const analysis::TurnedSample& sample : samples) {
     const auto& reading = sample.reading;
     if (!reading.field_body_uT || (level && (!reading.roll_rad || !reading.pitch_rad))) continue;
     const auto placed = [&](const Eigen::Vector3d& field) { return level ? levelled3(field, reading) : field; };
@@ -150,7 +151,8 @@ Figure size_figure(const Fields& fields, bool level) {
 
 }  // namespace
 
-std::vector<Figure> field_figures(const calib::Report& report, const std::vector<TurnedSample>& samples) {
+std::vector<Figure> field_figures(const calib::Report& report,
+                                  const std::vector<analysis::TurnedSample>& samples) {
   const auto* const magnetometer = report.find(calib::Calibrator::magnetometer);
   if (magnetometer == nullptr) return {};
   const auto& correction = report.estimates.magnetometer;
@@ -193,4 +195,4 @@ std::vector<Figure> field_figures(const calib::Report& report, const std::vector
   return figures;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

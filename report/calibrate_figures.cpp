@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/calibrate_figures.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 #include "report/svg_plot.h"
 #include "report/svg_rose.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using Ink = SvgPlot::Ink;
@@ -25,7 +26,8 @@ const SvgPlot::Axis kHeadingAxis{"heading as the compass says it, degrees", {0, 
 /// Every so many, so that not more than kMostDots remain.
 std::size_t stride_for(std::size_t count) { return count / kMostDots + 1; }
 
-std::vector<Point> over_heading(const std::vector<HeadingResidual>& residuals, double HeadingResidual::*which) {
+std::vector<Point> over_heading(const std::vector<analysis::HeadingResidual>& residuals,
+                                double analysis::HeadingResidual::*which) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < residuals.size(); i += stride_for(residuals.size())) {
     points.push_back(
@@ -49,7 +51,7 @@ double deviation_std_rad(const calib::CalibratorReport& compass, double heading_
 }  // namespace
 
 std::optional<Figure> deviation_figure(const calib::Report& report,
-                                       const std::vector<HeadingResidual>& residuals) {
+                                       const std::vector<analysis::HeadingResidual>& residuals) {
   const auto* const compass = report.find(calib::Calibrator::compass);
   if (compass == nullptr || !report.estimates.compass) return std::nullopt;
   std::vector<Point> curve, lower, upper;
@@ -63,7 +65,7 @@ std::optional<Figure> deviation_figure(const calib::Report& report,
     lower.push_back({double(degrees), (deviation_rad - band_rad) * base::kDegreesPerRadian});
     upper.push_back({double(degrees), (deviation_rad + band_rad) * base::kDegreesPerRadian});
   }
-  const auto measured = over_heading(residuals, &HeadingResidual::deviation_rad);
+  const auto measured = over_heading(residuals, &analysis::HeadingResidual::deviation_rad);
   std::vector<double> heights;
   append_heights(heights, curve);
   append_heights(heights, measured);
@@ -77,10 +79,11 @@ std::optional<Figure> deviation_figure(const calib::Report& report,
                 "upon the curve by its mean, since the gyro knows no north."};
 }
 
-std::optional<Figure> residual_figure(const calib::Report& report, const std::vector<HeadingResidual>& residuals) {
+std::optional<Figure> residual_figure(const calib::Report& report,
+                                      const std::vector<analysis::HeadingResidual>& residuals) {
   if (residuals.empty()) return std::nullopt;
-  const auto before = over_heading(residuals, &HeadingResidual::before_rad);
-  const auto after = over_heading(residuals, &HeadingResidual::after_rad);
+  const auto before = over_heading(residuals, &analysis::HeadingResidual::before_rad);
+  const auto after = over_heading(residuals, &analysis::HeadingResidual::after_rad);
   std::vector<double> heights;
   append_heights(heights, before);
   append_heights(heights, after);
@@ -91,8 +94,8 @@ std::optional<Figure> residual_figure(const calib::Report& report, const std::ve
   std::string caption = fmt::format(
       "Heading less the integrated gyro, by blocks of turning. Root-mean-square {:.2f} degrees, "
       "calibrated {:.2f}. These readings had a part in the estimates; the figures on top had none.",
-      root_mean_square(residuals, &HeadingResidual::before_rad) * base::kDegreesPerRadian,
-      root_mean_square(residuals, &HeadingResidual::after_rad) * base::kDegreesPerRadian);
+      analysis::root_mean_square(residuals, &analysis::HeadingResidual::before_rad) * base::kDegreesPerRadian,
+      analysis::root_mean_square(residuals, &analysis::HeadingResidual::after_rad) * base::kDegreesPerRadian);
   const auto accepted = accepted_estimates(report);
   if (!accepted.magnetometer && !accepted.compass) caption += " No calibration of the heading was accepted.";
   return Figure{"Residual", plot.svg(), caption};
@@ -105,4 +108,4 @@ Figure rose_figure(const calib::Report& report) {
                       calib::visited(report.rose), report.rose.size(), missing.empty() ? "" : "; ", missing)};
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,30 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "calib/suite/report.h"
 #include "analysis/calibrate_history.h"
 #include "analysis/calibrate_residuals.h"
+#include "calib/suite/report.h"
 #include "report/html_page.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Deviation curve with its band and what was measured of it; nullopt without an estimate.
 [[nodiscard]] std::optional<Figure> deviation_figure(const calib::Report& report,
-                                                     const std::vector<HeadingResidual>& residuals);
+                                                     const std::vector<analysis::HeadingResidual>& residuals);
 /// Heading against the gyro's, before and after, over the heading.
 [[nodiscard]] std::optional<Figure> residual_figure(const calib::Report& report,
-                                                    const std::vector<HeadingResidual>& residuals);
+                                                    const std::vector<analysis::HeadingResidual>& residuals);
 [[nodiscard]] Figure rose_figure(const calib::Report& report);
 
 /// The field as measured with the fitted ellipse (or the outline of the ellipsoid), as calibrated, and its size
 /// over time; empty without readings of the field.
 [[nodiscard]] std::vector<Figure> field_figures(const calib::Report& report,
-                                                const std::vector<TurnedSample>& samples);
+                                                const std::vector<analysis::TurnedSample>& samples);
 
 /// The main estimates over time with their bands.
-[[nodiscard]] std::vector<Figure> convergence_figures(const CalibrateHistory::Estimates& estimates);
+[[nodiscard]] std::vector<Figure> convergence_figures(const analysis::CalibrateHistory::Estimates& estimates);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/calibrate_page.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 #include "report/html_page.h"
 #include "report/shown_number.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
@@ -51,11 +52,11 @@ void append_verdicts(HtmlPage& page, const calib::Report& report) {
   }
 }
 
-void append_heading(HtmlPage& page, const calib::Report& report, const CalibrateHistory& history) {
+void append_heading(HtmlPage& page, const calib::Report& report, const analysis::CalibrateHistory& history) {
   calib::Correction estimates = accepted_estimates(report);
   // The curve is shown before it is accepted, too, once there is something to see; the gyro must be.
   if (!estimates.compass) estimates.compass = report.estimates.compass;
-  const auto residuals = heading_residuals(history.samples(), estimates);
+  const auto residuals = analysis::heading_residuals(history.samples(), estimates);
   std::vector<Figure> figures;
   if (auto figure = deviation_figure(report, residuals)) figures.push_back(std::move(*figure));
   if (auto figure = residual_figure(report, residuals)) figures.push_back(std::move(*figure));
@@ -152,7 +153,7 @@ void append_source(HtmlPage& page, const PageSource& source) {
 
 }  // namespace
 
-std::string calibrate_page(const calib::Report& report, const CalibrateHistory& history,
+std::string calibrate_page(const calib::Report& report, const analysis::CalibrateHistory& history,
                            const PageSource& source) {
   HtmlPage page(title_for(source));
   append_verdicts(page, report);
@@ -175,4 +176,4 @@ std::string calibrate_page(const calib::Report& report, const CalibrateHistory& 
   return std::move(page).finish();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "calib/suite/report.h"
 #include "analysis/calibrate_history.h"
+#include "calib/suite/report.h"
 #include "config/settings.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Of what a page is made, for its foot.
 struct PageSource {
@@ -19,7 +20,7 @@ struct PageSource {
 };
 
 /// The report of `navcal calibrate --report`: what was found, in sentences and pictures, as one HTML file.
-[[nodiscard]] std::string calibrate_page(const calib::Report& report, const CalibrateHistory& history,
+[[nodiscard]] std::string calibrate_page(const calib::Report& report, const analysis::CalibrateHistory& history,
                                          const PageSource& source);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

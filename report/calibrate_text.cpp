@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/calibrate_text.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 #include "report/svg_rose.h"
 #include "report/wrapped_text.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr std::size_t kTitle = 21, kVerdict = 10;
@@ -45,7 +46,7 @@ void append_field_history(std::string& out, const calib::Report& report) {
   }
 }
 
-void append_rose(std::string& out, const calib::Rose& rose) {
+void append_rose(std::string& out, const calib::HeadingHistogram& rose) {
   if (calib::visited(rose) == 0) return;
   append_format(out, "{1:<{2}}N{0:8}E{0:8}S{0:8}W{0:8}N\n", "", "headings seen", kTitle);
   append_format(out, "{:<{}}{}   ({} of {} sectors; . never, : seldom)\n", "", kTitle, text_rose(rose),
@@ -86,4 +87,4 @@ std::string calibrate_text(const calib::Report& report, double duration_s) {
   return out;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/calibrate_words.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@
 #include "base/angles.h"
 #include "report/shown_number.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using calib::Calibrator;
@@ -181,4 +182,4 @@ calib::Correction accepted_estimates(const calib::Report& report) {
   return accepted;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

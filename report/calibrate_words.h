@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 #include "calib/suite/report.h"
 
 // What the calibrators say, in words and units of people: shared by the text and the page of `navcal calibrate`.
-namespace navcal::cli {
+namespace navcal::report {
 
 /// "Gyro A", "Compass deviation", ...
 [[nodiscard]] std::string_view title_of(calib::Calibrator calibrator);
@@ -44,4 +45,4 @@ struct ShownQuantity {
 /// The newest estimates of those that are accepted.
 [[nodiscard]] calib::Correction accepted_estimates(const calib::Report& report);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bars beside names: probabilities of causes, and how much of the gap closes.
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@
 #include "report/html_page.h"
 #include "report/svg_plot.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr std::size_t kMostCauses = 8;
@@ -143,4 +144,4 @@ std::optional<Figure> closure_figure(const gap::Diagnosis& diagnosis, const GapS
                     ". Altogether: power of the whitened residuals; channels: root mean square."};
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_effects_file.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@
 #include "report/gap_words.h"
 #include "sim/effects/effect_table.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 struct Written {
@@ -48,4 +49,4 @@ std::string gap_effects_file(const gap::Diagnosis& diagnosis) {
   return text;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

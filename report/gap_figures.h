@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "gap/verdict/diagnosis.h"
 #include "report/gap_words.h"
 #include "report/html_page.h"
-#include "gap/verdict/diagnosis.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Channels by regimes, each cell as many times the floor as its gap is; nullopt without a map.
 [[nodiscard]] std::optional<Figure> map_figure(const gap::Diagnosis& diagnosis);
@@ -26,4 +27,4 @@ struct CourseFigures {
 };
 [[nodiscard]] CourseFigures course_figures(const gap::Diagnosis& diagnosis);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

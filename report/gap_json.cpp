@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_json.h"
 
 #include <array>
@@ -9,7 +10,7 @@
 #include "base/angles.h"
 #include "record/json/calibration_json.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -131,4 +132,4 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 
 #include "gap/verdict/diagnosis.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// The answer of `navcal gap --json` (docs/gap.md): one object, no newline. What is no finite number is null.
 [[nodiscard]] std::string gap_json(const gap::Diagnosis& diagnosis);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

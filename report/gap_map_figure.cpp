@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 #include "report/gap_figures.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 /// How many times the floor a shade begins at.
@@ -96,4 +97,4 @@ std::optional<Figure> map_figure(const gap::Diagnosis& diagnosis) {
                 "follows a regime."};
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

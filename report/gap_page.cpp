@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_page.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 #include "report/html_page.h"
 #include "report/shown_number.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr std::size_t kMostWhereRows = 5;
@@ -120,4 +121,4 @@ std::string gap_page(const gap::Diagnosis& diagnosis, const GapSource& source) {
   return std::move(page).finish();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "report/svg_plot.h"
 #include "report/time_axis.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using Ink = SvgPlot::Ink;
@@ -103,4 +104,4 @@ CourseFigures course_figures(const gap::Diagnosis& diagnosis) {
   return figures;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

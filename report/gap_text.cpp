@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_text.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "report/shown_number.h"
 #include "report/wrapped_text.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr std::string_view kPlusMinusText = "+-", kArrowText = "->";
@@ -117,4 +118,4 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   return out;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 
-#include "report/gap_words.h"
 #include "gap/verdict/diagnosis.h"
+#include "report/gap_words.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// The answer of `navcal gap` for people, in lines of a terminal.
 [[nodiscard]] std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the vehicle was, and where the model would have gone.
 #include <vector>
 
 #include "report/gap_figures.h"
 #include "report/svg_plot.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using Ink = SvgPlot::Ink;
@@ -23,7 +24,7 @@ std::vector<Point> points_of(const gap::Track& track) {
 std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   if (!diagnosis.tracks || diagnosis.tracks->fixes.time_s.empty()) return std::nullopt;
   const gap::Tracks& tracks = *diagnosis.tracks;
-  constexpr double kSide = 460, kLeastLength_m = 2;
+  constexpr double kTrackSide = 460, kLeastLength_m = 2;
   std::vector<double> easts, norths;
   for (const gap::Track* track : {&tracks.fixes, &tracks.nominal, &tracks.improved}) {
     easts.insert(easts.end(), track->east_m.begin(), track->east_m.end());
@@ -31,8 +32,8 @@ std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   }
   Range east = whole_range_of(easts), north = whole_range_of(norths);
   make_equally_long(east, north, kLeastLength_m);
-  constexpr double kHeight = kSide - SvgPlot::kLeft - SvgPlot::kRight + SvgPlot::kTop + SvgPlot::kBottom;
-  SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kHeight});
+  constexpr double kHeight = kTrackSide - SvgPlot::kLeft - SvgPlot::kRight + SvgPlot::kTop + SvgPlot::kBottom;
+  SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kTrackSide, kHeight});
   plot.points(Ink::fit, "fixes", points_of(tracks.fixes));
   plot.line(Ink::before, "nominal model", points_of(tracks.nominal));
   const char* const after = diagnosis.effects.empty() ? "with the best candidates" : "with the effects found";
@@ -43,4 +44,4 @@ std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
       "and its own view of compass and gyros, without any further fix. A current moves the fixes only."};
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

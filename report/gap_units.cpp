@@ -1,14 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_units.h"
 
 #include <algorithm>
 #include <array>
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
-constexpr std::array<std::string_view, 11> kChannelUnits{"uT", "deg", "rad", "s", "s2", "m", "N", "A", "A2", "C", "g"};
+constexpr std::array<std::string_view, 11> kChannelUnits{"uT", "deg", "rad", "s", "s2", "m",
+                                                         "N",  "A",   "A2",  "C", "g"};
 
-bool is_unit(std::string_view word) { return std::find(kChannelUnits.begin(), kUnits.end(), word) != kUnits.end(); }
+bool is_unit(std::string_view word) {
+  return std::find(kChannelUnits.begin(), kChannelUnits.end(), word) != kChannelUnits.end();
+}
 
 }  // namespace
 
@@ -33,4 +37,4 @@ NameAndUnit name_and_unit(std::string_view parameter) {
   return split;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 #include <string_view>
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// A parameter's name apart from the unit that stands in it: "x_uT_per_A" is "x" in "uT/A", "deg_per_s_per_C_ax"
 /// is "ax" in "deg/s/C", "per_A" is nameless in "1/A", "gain" has no unit.
@@ -12,4 +13,4 @@ struct NameAndUnit {
 };
 [[nodiscard]] NameAndUnit name_and_unit(std::string_view parameter);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

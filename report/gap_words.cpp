@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_words.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 #include "report/gap_units.h"
 #include "report/shown_number.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr std::string_view kNoNumber = "-";
@@ -197,4 +198,4 @@ std::string simulate_hint(const gap::Diagnosis& diagnosis, const GapSource& sour
   return source.effects_file.empty() ? "--effects-out FILE.toml writes what was found; then " + command : command;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

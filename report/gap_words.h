@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -8,7 +9,7 @@
 #include "gap/verdict/diagnosis.h"
 
 // What a diagnosis says, in words and units of people: shared by the text and the page of `navcal gap`.
-namespace navcal::cli {
+namespace navcal::report {
 
 /// What a diagnosis was made from.
 struct GapSource {
@@ -69,4 +70,4 @@ inline constexpr std::string_view kNoneExplains =
 /// With which what was found is simulated, or how to get there; empty when nothing was found.
 [[nodiscard]] std::string simulate_hint(const gap::Diagnosis& diagnosis, const GapSource& source);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

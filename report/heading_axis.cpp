@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/heading_axis.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr std::size_t kSectors = 24;
@@ -54,4 +55,4 @@ SvgPlot::Axis HeadingAxis::axis(std::string label) const {
   return axis;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
 
 #include "report/svg_plot.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Headings on an axis that is cut open where the vehicle pointed least, so that a course about north is no jump
 /// from the top to the bottom. Marks are N, NE, E and so on. Degrees.
@@ -21,4 +22,4 @@ class HeadingAxis {
   double least_deg_ = 0;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

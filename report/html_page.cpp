@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/html_page.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 /// Colours keep their meaning for the colour-blind, too: blue and orange (Okabe and Ito), and a word beside each.
@@ -203,4 +204,4 @@ std::string HtmlPage::finish() && {
   return std::move(html_);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Characters of a page, in UTF-8.
 inline constexpr std::string_view kPlusMinus = "\u00b1", kArrow = "\u2192";
@@ -39,4 +40,4 @@ class HtmlPage {
   bool in_section_ = false;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/shown_number.h"
 
 #include <fmt/format.h>
@@ -5,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr int kLeastDecimals = 0, kMostDecimals = 6;
@@ -27,4 +28,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

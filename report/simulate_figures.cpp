@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/simulate_figures.h"
 
 #include <algorithm>
@@ -5,14 +6,14 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "pipeline/nav_reading.h"
 #include "report/heading_axis.h"
 #include "report/simulate_plot.h"
 #include "report/svg_plot.h"
 #include "report/time_axis.h"
-#include "pipeline/nav_reading.h"
 #include "sim/geodesy.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using Ink = SvgPlot::Ink;
@@ -24,7 +25,7 @@ std::optional<double> degrees(const std::optional<double>& rad) {
   return rad ? std::optional(*rad * base::kDegreesPerRadian) : std::nullopt;
 }
 
-std::vector<Point> fixes_of(const SimulatedSeries& series, const sim::Origin& origin) {
+std::vector<Point> fixes_of(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
   const auto corner = sim::geodetic(origin, {1000, 1000, 0});
   std::vector<Point> points;
   for (const auto& fix : series.gps) {
@@ -40,8 +41,8 @@ std::vector<Point> fixes_of(const SimulatedSeries& series, const sim::Origin& or
 }
 
 /// A metre is as long to the north as to the east.
-Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
-  constexpr double kSide = 460, kLeastLength_m = 2;
+Figure track(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
+  constexpr double kTrackSide = 460, kLeastLength_m = 2;
   std::vector<Point> way;
   std::vector<double> easts, norths;
   for (const auto& state : series.states) {
@@ -51,7 +52,7 @@ Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
   }
   Range east = whole_range_of(easts), north = whole_range_of(norths);
   make_equally_long(east, north, kLeastLength_m);
-  SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kSide, kSide});
+  SvgPlot plot("Track", {"east, m", east}, {"north, m", north}, {kTrackSide, kTrackSide});
   const auto fixes = fixes_of(series, origin);
   plot.points(Ink::before, "GPS", fixes);
   plot.line(Ink::after, "truth", way);
@@ -59,7 +60,7 @@ Figure track(const SimulatedSeries& series, const sim::Origin& origin) {
           fixes.empty() ? "True track; the receiver had no fix." : "True track, and the fixes of the receiver."};
 }
 
-Figure heading_figure(const SimulatedSeries& series) {
+Figure heading_figure(const analysis::SimulatedSeries& series) {
   std::vector<double> times_s, headings_deg;
   for (const auto& state : series.states) {
     times_s.push_back(state.time_s);
@@ -81,7 +82,7 @@ Figure heading_figure(const SimulatedSeries& series) {
 
 }  // namespace
 
-std::vector<Figure> motion_figures(const SimulatedSeries& series, const sim::Origin& origin) {
+std::vector<Figure> motion_figures(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   const auto& states = series.states;
   std::vector<Figure> figures{track(series, origin)};
@@ -109,7 +110,7 @@ std::vector<Figure> motion_figures(const SimulatedSeries& series, const sim::Ori
   return figures;
 }
 
-std::vector<Figure> instrument_figures(const SimulatedSeries& series) {
+std::vector<Figure> instrument_figures(const analysis::SimulatedSeries& series) {
   const auto plot = [&] { return SimulatedPlot(series.states); };
   constexpr std::array<const char*, 3> kAxes{"forward", "starboard", "down"};
   auto field = plot(), force = plot(), rates = plot(), tilt = plot();
@@ -143,4 +144,4 @@ std::vector<Figure> instrument_figures(const SimulatedSeries& series) {
           {"Current", current.svg("Motor card: current", "A"), "Of the propulsion motor."}};
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/simulate_page.h"
 
 #include <fmt/format.h>
@@ -8,10 +9,10 @@
 #include "report/html_page.h"
 #include "report/simulate_figures.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
-std::string interval_text(const sim::Interval& when) {
+std::string effect_interval_text(const sim::Interval& when) {
   if (!std::isfinite(when.from_s) && !std::isfinite(when.until_s)) return "throughout";
   if (!std::isfinite(when.until_s)) return fmt::format("from {:g} s", when.from_s);
   if (!std::isfinite(when.from_s)) return fmt::format("until {:g} s", when.until_s);
@@ -35,7 +36,7 @@ void append_effects(HtmlPage& page, const sim::EffectSet& effects) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const auto& about = effects[i].description();
-    std::string name(about.name), equation(about.equation), when = interval_text(effects.interval(i));
+    std::string name(about.name), equation(about.equation), when = effect_interval_text(effects.interval(i));
     const auto values = effects[i].parameters();
     for (std::size_t k = 0; k < values.size(); ++k) {
       rows.push_back(
@@ -46,7 +47,8 @@ void append_effects(HtmlPage& page, const sim::EffectSet& effects) {
   page.table({"Effect", "Parameter", "Value", "Equation", "When"}, rows);
 }
 
-void append_source(HtmlPage& page, const SimulateArguments& arguments, const SimulatedRun& run) {
+void append_source(HtmlPage& page, const analysis::SimulateArguments& arguments,
+                   const analysis::SimulatedRun& run) {
   const std::string motion = !arguments.path.empty()    ? "path " + arguments.path.string()
                              : !arguments.drive.empty() ? "drive " + arguments.drive.string()
                                                         : "mission " + arguments.mission;
@@ -56,7 +58,7 @@ void append_source(HtmlPage& page, const SimulateArguments& arguments, const Sim
               {"Vehicle", arguments.vehicle.empty() ? "the reference vehicle" : arguments.vehicle.string()},
               {"Place", fmt::format("{:.4f}, {:.4f}", arguments.place.origin.latitude_deg,
                                     arguments.place.origin.longitude_deg)},
-              {"Field of the Earth", field_text(arguments.place.field_world_uT)},
+              {"Field of the Earth", analysis::field_text(arguments.place.field_world_uT)},
               {"Duration", fmt::format("{:g} s", run.duration_s)},
               {"Seed", std::to_string(arguments.seed)},
               {"Noise", arguments.no_noise ? "none" : "as specified"},
@@ -66,8 +68,8 @@ void append_source(HtmlPage& page, const SimulateArguments& arguments, const Sim
 
 }  // namespace
 
-std::string simulate_page(const SimulateHistory& history, const SimulateArguments& arguments,
-                          const SimulatedRun& run, const sim::EffectSet& effects) {
+std::string simulate_page(const analysis::SimulateHistory& history, const analysis::SimulateArguments& arguments,
+                          const analysis::SimulatedRun& run, const sim::EffectSet& effects) {
   HtmlPage page("Simulation: " + arguments.capture.filename().string());
   page.section("Motion");
   append_figures(page, motion_figures(history.series(), arguments.place.origin));
@@ -78,4 +80,4 @@ std::string simulate_page(const SimulateHistory& history, const SimulateArgument
   return std::move(page).finish();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

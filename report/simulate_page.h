@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -7,10 +8,11 @@
 #include "analysis/simulate_motion.h"
 #include "sim/effects/effect_set.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// The page of a simulation: track, heading, depth, speed, fins, and what each instrument said beside the truth.
-[[nodiscard]] std::string simulate_page(const SimulateHistory& history, const SimulateArguments& arguments,
-                                        const SimulatedRun& run, const sim::EffectSet& effects);
+[[nodiscard]] std::string simulate_page(const analysis::SimulateHistory& history,
+                                        const analysis::SimulateArguments& arguments,
+                                        const analysis::SimulatedRun& run, const sim::EffectSet& effects);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -9,21 +10,23 @@
 #include "report/svg_plot.h"
 #include "report/time_axis.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Curves over the time of a mission: dots lie below lines.
 class SimulatedPlot {
  public:
-  explicit SimulatedPlot(const std::vector<Timed<sim::State>>& states) : time_(times_of(states)) {}
+  explicit SimulatedPlot(const std::vector<analysis::Timed<sim::State>>& states) : time_(times_of(states)) {}
 
   /// A value of each element; one that is absent is left out.
   template <class Value, class Get>
-  SimulatedPlot& dots(SvgPlot::Ink ink, const char* name, const std::vector<Timed<Value>>& list, Get get) {
+  SimulatedPlot& dots(SvgPlot::Ink ink, const char* name, const std::vector<analysis::Timed<Value>>& list,
+                      Get get) {
     dots_.push_back({ink, name, points_of(list, get)});
     return *this;
   }
   template <class Value, class Get>
-  SimulatedPlot& line(SvgPlot::Ink ink, const char* name, const std::vector<Timed<Value>>& list, Get get) {
+  SimulatedPlot& line(SvgPlot::Ink ink, const char* name, const std::vector<analysis::Timed<Value>>& list,
+                      Get get) {
     lines_.push_back({ink, name, points_of(list, get)});
     return *this;
   }
@@ -49,14 +52,14 @@ class SimulatedPlot {
     const char* name;
     std::vector<Point> points;
   };
-  static std::vector<double> times_of(const std::vector<Timed<sim::State>>& states) {
+  static std::vector<double> times_of(const std::vector<analysis::Timed<sim::State>>& states) {
     if (states.empty()) return {};
     return {states.front().time_s, states.back().time_s};
   }
   template <class Value, class Get>
-  std::vector<Point> points_of(const std::vector<Timed<Value>>& list, Get get) const {
+  std::vector<Point> points_of(const std::vector<analysis::Timed<Value>>& list, Get get) const {
     std::vector<Point> points;
-    for (const Timed<Value>& element : list) {
+    for (const analysis::Timed<Value>& element : list) {
       const std::optional<double> value = get(element.value);
       if (value) points.push_back({time_(element.time_s), *value});
     }
@@ -67,4 +70,4 @@ class SimulatedPlot {
   std::vector<Curve> dots_, lines_;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/svg_matrix.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 
 #include "report/html_page.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr double kCell = 24, kLetter = 6.6, kGap = 8;
@@ -60,4 +61,4 @@ std::string SvgMatrix::svg(std::string_view title) const {
   return out;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

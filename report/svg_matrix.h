@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Counts of one thing against another as SVG that stands within a page (svg_plot.h). A cell is as dark as its
 /// share of the row; where row and column are the same in kind it is blue, else orange.
@@ -16,4 +17,4 @@ struct SvgMatrix {
   [[nodiscard]] std::string svg(std::string_view title) const;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

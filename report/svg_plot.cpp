@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/svg_plot.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 #include "report/append_format.h"
 #include "report/html_page.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr double kLetterWidth = 6.3;  // of the legend's type, on the average
@@ -289,4 +290,4 @@ std::string SvgPlot::svg() const {
   return out + legend_ + "</svg>\n";
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

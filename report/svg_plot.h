@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -8,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::report {
 
 struct Point {
   double x = 0, y = 0;
@@ -98,4 +99,4 @@ class SvgPlot {
   std::array<Cut, 4> cuts_;  ///< by side
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/svg_rose.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 constexpr double kCentre = 160, kRadius = 122;
@@ -21,7 +22,7 @@ std::pair<double, double> place(double radius, double heading_deg) {
 
 }  // namespace
 
-std::string svg_rose(const calib::Rose& rose) {
+std::string svg_rose(const calib::HeadingHistogram& rose) {
   const double most = std::max(1.0, static_cast<double>(*std::max_element(rose.begin(), rose.end())));
   std::string out = fmt::format(
       "<svg role=\"img\" viewBox=\"0 0 {0:.0f} {0:.0f}\" width=\"{0:.0f}\" height=\"{0:.0f}\">\n"
@@ -54,11 +55,11 @@ std::string svg_rose(const calib::Rose& rose) {
   return out + "</svg>\n";
 }
 
-std::string text_rose(const calib::Rose& rose) {
+std::string text_rose(const calib::HeadingHistogram& rose) {
   const std::uint64_t most = *std::max_element(rose.begin(), rose.end());
   std::string text;
   for (const std::uint64_t count : rose) text += count == 0 ? '.' : count * 5 < most ? ':' : '#';
   return text;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,16 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 
 #include "calib/judgement.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Headings visited as a compass rose, north up: each sector as long as the root of its count, so that its area
 /// tells the count.
-[[nodiscard]] std::string svg_rose(const calib::Rose& rose);
+[[nodiscard]] std::string svg_rose(const calib::HeadingHistogram& rose);
 
 /// The same in one line of text, from north by east: '.' for a sector never visited, ':' for one seen little.
-[[nodiscard]] std::string text_rose(const calib::Rose& rose);
+[[nodiscard]] std::string text_rose(const calib::HeadingHistogram& rose);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

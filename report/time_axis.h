@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "report/shown_number.h"
 #include "report/svg_plot.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Times from the first on, in the unit that suits their length.
 class TimeAxis {
@@ -80,4 +81,4 @@ class EarlyTimeAxis {
   double first_s_ = 0, length_s_ = 1;
 };
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/validation_figures.h"
 
 #include <fmt/format.h>
@@ -9,16 +10,16 @@
 #include "report/svg_matrix.h"
 #include "report/svg_plot.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using Ink = SvgPlot::Ink;
 
-std::vector<Figure> power_figure(const std::vector<TrialPower>& power) {
+std::vector<Figure> power_figure(const std::vector<validation::TrialPower>& power) {
   std::vector<Point> lower, upper, shares;
   for (const auto& [strength, hits, cases] : power) {
     if (cases == 0) continue;
-    const auto interval = wilson(hits, cases);
+    const auto interval = validation::wilson(hits, cases);
     lower.push_back({strength, 100 * interval[0]});
     upper.push_back({strength, 100 * interval[1]});
     shares.push_back({strength, 100.0 * hits / cases});
@@ -34,15 +35,15 @@ std::vector<Figure> power_figure(const std::vector<TrialPower>& power) {
            "Share of single effects that were named, and no other, by strength."}};
 }
 
-std::vector<Figure> calibration_figure(const TrialScores& scores) {
+std::vector<Figure> calibration_figure(const validation::TrialScores& scores) {
   std::vector<Point> points;
   SvgPlot plot("Calibration", {"probability given, %", {0, 103}}, {"right, %", {0, 103}}, {440, 400});
   const std::array<Point, 2> ideal{{{0, 0}, {100, 100}}};
   plot.line(Ink::fit, "ideal", ideal);
-  for (const TrialCalibrationBin& bin : scores.calibration) {
+  for (const validation::TrialCalibrationBin& bin : scores.calibration) {
     if (bin.bets == 0) continue;
     const int right = static_cast<int>(std::lround(bin.share_right * bin.bets));
-    const auto interval = wilson(right, bin.bets);
+    const auto interval = validation::wilson(right, bin.bets);
     const double x = 100 * bin.mean_probability;
     const std::array<Point, 2> bar{{{x, 100 * interval[0]}, {x, 100 * interval[1]}}};
     plot.line(Ink::first, "", bar);
@@ -53,7 +54,7 @@ std::vector<Figure> calibration_figure(const TrialScores& scores) {
   return {{"Calibration of the probabilities", plot.svg(),
            fmt::format("Probabilities of effects in explained cases against the share that was there; mean "
                        "distance {:.3f}.",
-                       calibration_error(scores.calibration))}};
+                       validation::calibration_error(scores.calibration))}};
 }
 
 std::vector<Figure> closure_figure(const std::vector<double>& closures) {
@@ -83,14 +84,14 @@ std::vector<Figure> closure_figure(const std::vector<double>& closures) {
 
 }  // namespace
 
-std::vector<Figure> trial_figures(const TrialScores& scores) {
+std::vector<Figure> trial_figures(const validation::TrialScores& scores) {
   std::vector<Figure> figures = power_figure(scores.power);
   for (auto& more : {calibration_figure(scores), closure_figure(scores.closures)})
     figures.insert(figures.end(), more.begin(), more.end());
   return figures;
 }
 
-std::vector<Figure> confusion_figure(const TrialConfusion& confusion) {
+std::vector<Figure> confusion_figure(const validation::TrialConfusion& confusion) {
   if (confusion.truths.empty()) return {};
   SvgMatrix matrix{confusion.truths, confusion.answers, confusion.counts, {}};
   for (const std::string& truth : confusion.truths) {
@@ -107,4 +108,4 @@ std::vector<Figure> confusion_figure(const TrialConfusion& confusion) {
            "half their typical strength and the poor missions are left out."}};
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
 
-#include "validation/report.h"
 #include "report/html_page.h"
+#include "report/validation_report.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Power by strength, calibration of the probabilities, closures; what there are no cases for is left out.
-[[nodiscard]] std::vector<Figure> trial_figures(const TrialScores& scores);
+[[nodiscard]] std::vector<Figure> trial_figures(const validation::TrialScores& scores);
 /// Empty where nothing was answered.
-[[nodiscard]] std::vector<Figure> confusion_figure(const TrialConfusion& confusion);
+[[nodiscard]] std::vector<Figure> confusion_figure(const validation::TrialConfusion& confusion);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
-#include "validation/report.h"
+#include "report/validation_report.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -12,7 +13,7 @@ OrderedJson or_null(const std::optional<Value>& value) {
   return value ? OrderedJson(*value) : OrderedJson();
 }
 
-OrderedJson json_of(const TrialScore& score) {
+OrderedJson json_of(const validation::TrialScore& score) {
   OrderedJson json{{"name", score.name}, {"value", or_null(score.value)}, {"cases", score.cases}};
   // A share is told as it is, 0 to 1.
   if (score.unit == "s") json["unit"] = score.unit;
@@ -26,11 +27,11 @@ OrderedJson json_of(const TrialScore& score) {
   return json;
 }
 
-OrderedJson json_of(const TrialResult& result) {
-  const TrialJudgement judgement = judged(result);
-  OrderedJson json{{"case", result.drawn.number},  {"arm", facts_of(result.drawn.arm).name},
+OrderedJson json_of(const validation::TrialResult& result) {
+  const validation::TrialJudgement judgement = validation::judged(result);
+  OrderedJson json{{"case", result.drawn.number},  {"arm", validation::facts_of(result.drawn.arm).name},
                    {"sha256", result.seal.digest}, {"truth", result.seal.truth},
-                   {"salt", result.seal.salt},     {"outcome", name_of(judgement.outcome)},
+                   {"salt", result.seal.salt},     {"outcome", validation::name_of(judgement.outcome)},
                    {"right", judgement.right},     {"seconds", result.seconds}};
   // What was read once may be written as it was read; what could not be read is told as text.
   json["answer"] = result.answer ? OrderedJson::parse(result.answer_json) : OrderedJson();
@@ -46,12 +47,12 @@ std::string trial_json(const TrialReport& report) {
       {"seed", report.seed},           {"minutes", report.minutes},         {"places", report.places},
       {"asked_for", report.asked_for}, {"answered", report.results.size()}, {"ended_early", report.ended_early}};
   auto& scores = json["scores"] = OrderedJson::array();
-  for (const TrialScore& score : report.scores.scores) scores.push_back(json_of(score));
+  for (const validation::TrialScore& score : report.scores.scores) scores.push_back(json_of(score));
   auto& power = json["power"] = OrderedJson::array();
-  for (const TrialPower& point : report.scores.power)
+  for (const validation::TrialPower& point : report.scores.power)
     power.push_back({{"strength", point.strength}, {"exact", point.hits}, {"cases", point.cases}});
   auto& bins = json["calibration"] = OrderedJson::array();
-  for (const TrialCalibrationBin& bin : report.scores.calibration) {
+  for (const validation::TrialCalibrationBin& bin : report.scores.calibration) {
     if (bin.bets == 0) continue;
     bins.push_back({{"probability", bin.mean_probability}, {"right", bin.share_right}, {"count", bin.bets}});
   }
@@ -63,8 +64,8 @@ std::string trial_json(const TrialReport& report) {
     }
   }
   auto& cases = json["cases"] = OrderedJson::array();
-  for (const TrialResult& result : report.results) cases.push_back(json_of(result));
+  for (const validation::TrialResult& result : report.results) cases.push_back(json_of(result));
   return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,16 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "report/validation_figures.h"
-#include "validation/report.h"
-#include "report/validation_words.h"
 #include "report/html_page.h"
+#include "report/validation_figures.h"
+#include "report/validation_report.h"
+#include "report/validation_words.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
 void append_verdict(HtmlPage& page, const TrialReport& report) {
   bool missed = false;
-  for (const TrialScore& score : report.scores.scores) {
+  for (const validation::TrialScore& score : report.scores.scores) {
     if (score.met() != false) continue;
     missed = true;
     page.fact("bad", "missed",
@@ -24,9 +25,9 @@ void append_verdict(HtmlPage& page, const TrialReport& report) {
   if (!report.ended_early.empty()) page.fact("bad", "ended early", report.ended_early + ".");
 }
 
-void append_scores(HtmlPage& page, const TrialScores& scores) {
+void append_scores(HtmlPage& page, const validation::TrialScores& scores) {
   std::vector<std::vector<std::string>> rows;
-  for (const TrialScore& score : scores.scores) {
+  for (const validation::TrialScore& score : scores.scores) {
     rows.push_back({score.name, value_text(score), interval_text(score), count_text(score), target_text(score),
                     met_text(score)});
   }
@@ -34,12 +35,14 @@ void append_scores(HtmlPage& page, const TrialScores& scores) {
   page.table({"", "Score", "95 % interval", "Cases", "Target", ""}, rows);
 }
 
-void append_arms(HtmlPage& page, const TrialScores& scores) {
+void append_arms(HtmlPage& page, const validation::TrialScores& scores) {
   std::vector<std::string> heads{"Arm", "What"};
-  for (int i = 0; i < kTrialOutcomes; ++i) heads.emplace_back(name_of(static_cast<TrialOutcome>(i)));
+  for (int i = 0; i < validation::kTrialOutcomes; ++i)
+    heads.emplace_back(validation::name_of(static_cast<validation::TrialOutcome>(i)));
   std::vector<std::vector<std::string>> rows;
   for (std::size_t arm = 0; arm < scores.outcomes.size(); ++arm) {
-    std::vector<std::string> row{std::string(trial_arms()[arm].name), std::string(trial_arms()[arm].what)};
+    std::vector<std::string> row{std::string(validation::trial_arms()[arm].name),
+                                 std::string(validation::trial_arms()[arm].what)};
     int cases = 0;
     for (const int count : scores.outcomes[arm]) {
       cases += count;
@@ -52,11 +55,11 @@ void append_arms(HtmlPage& page, const TrialScores& scores) {
 }
 
 void append_cases(HtmlPage& page, const TrialReport& report, const char* title,
-                  bool (*belongs)(const TrialResult&)) {
+                  bool (*belongs)(const validation::TrialResult&)) {
   std::vector<std::vector<std::string>> rows;
-  for (const TrialResult& result : report.results) {
+  for (const validation::TrialResult& result : report.results) {
     if (!belongs(result)) continue;
-    rows.push_back({std::to_string(result.drawn.number), std::string(facts_of(result.drawn.arm).name),
+    rows.push_back({std::to_string(result.drawn.number), std::string(validation::facts_of(result.drawn.arm).name),
                     truth_words(result.drawn), answer_words(result),
                     result.answer && !result.answer->channels.empty() ? result.answer->channels.front() : ""});
   }
@@ -68,7 +71,7 @@ void append_cases(HtmlPage& page, const TrialReport& report, const char* title,
 
 void append_seals(HtmlPage& page, const TrialReport& report) {
   std::vector<std::vector<std::string>> rows;
-  for (const TrialResult& result : report.results)
+  for (const validation::TrialResult& result : report.results)
     rows.push_back({std::to_string(result.drawn.number), result.seal.digest, result.seal.salt, result.seal.truth});
   page.section("Seals");
   page.paragraph(
@@ -98,4 +101,4 @@ std::string trial_page(const TrialReport& report) {
   return std::move(page).finish();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

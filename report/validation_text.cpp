@@ -1,18 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <iterator>
 
 #include "report/append_format.h"
-#include "validation/report.h"
+#include "report/validation_report.h"
 #include "report/validation_words.h"
 
-namespace navcal::cli {
+namespace navcal::report {
 namespace {
 
-void append_scores(std::string& out, const TrialScores& scores) {
+void append_scores(std::string& out, const validation::TrialScores& scores) {
   constexpr const char* kRow = "{:<42}{:>9}  {:<16}{:<13}{:<16}{}\n";
   out += fmt::format(fmt::runtime(kRow), "", "score", "95 %", "cases", "target", "");
-  for (const TrialScore& score : scores.scores) {
+  for (const validation::TrialScore& score : scores.scores) {
     std::string row = fmt::format(fmt::runtime(kRow), score.name, value_text(score), interval_text(score),
                                   count_text(score), target_text(score), met_text(score));
     row.erase(row.find_last_not_of(" \n") + 1);
@@ -23,11 +24,11 @@ void append_scores(std::string& out, const TrialScores& scores) {
 void append_mistakes(std::string& out, const TrialReport& report) {
   constexpr int kShown = 20;
   int mistakes = 0;
-  for (const TrialResult& result : report.results) {
+  for (const validation::TrialResult& result : report.results) {
     if (!is_mistake(result) || ++mistakes > kShown) continue;
     if (mistakes == 1) out += "\nMistakes:\n";
-    append_format(out, "  case {} ({}): {}; answered {}\n", result.drawn.number, facts_of(result.drawn.arm).name,
-                  truth_words(result.drawn), answer_words(result));
+    append_format(out, "  case {} ({}): {}; answered {}\n", result.drawn.number,
+                  validation::facts_of(result.drawn.arm).name, truth_words(result.drawn), answer_words(result));
   }
   if (mistakes > kShown) append_format(out, "  and {} more, which --json and --report list\n", mistakes - kShown);
   if (mistakes > 0) append_format(out, "One of them again: {}\n", rerun_command(report, 0));
@@ -52,4 +53,4 @@ std::string trial_text(const TrialReport& report) {
   return out;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

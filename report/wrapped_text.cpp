@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/wrapped_text.h"
 
 #include <algorithm>
 
-namespace navcal::cli {
+namespace navcal::report {
 
 void append_wrapped(std::string& out, std::size_t indent, const std::vector<std::string>& pieces,
                     std::string_view between) {
@@ -32,4 +33,4 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -5,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::report {
 
 /// Of a line of text for a terminal.
 inline constexpr std::size_t kLineWidth = 110;
@@ -18,4 +19,4 @@ void append_wrapped(std::string& out, std::size_t indent, const std::vector<std:
 /// What stands between spaces.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view text);
 
-}  // namespace navcal::cli
+}  // namespace navcal::report

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -5,8 +6,8 @@
 #include <vector>
 
 #include "config/settings.h"
-#include "sim/instruments/clock_factor.h"
 #include "sim/geodesy.h"
+#include "sim/instruments/clock_factor.h"
 #include "sim/instruments/host_line.h"
 #include "sim/state.h"
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/answer.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 using Json = nlohmann::json;
@@ -92,4 +93,4 @@ TrialAnswer read_answer(std::string_view text) {
   return answer;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

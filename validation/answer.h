@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -8,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 enum class TrialVerdict : std::uint8_t { no_gap, explained, unknown };
 /// "no-gap", "explained", "unknown".
@@ -41,4 +42,4 @@ struct TrialAnswer {
 /// type, a number cannot be, or the verdict contradicts the effects.
 [[nodiscard]] TrialAnswer read_answer(std::string_view json);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/arms.h"
 
 #include <fmt/format.h>
@@ -6,7 +7,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 using enum TrialArm;
@@ -76,4 +77,4 @@ std::vector<int> case_numbers(const std::vector<TrialArm>& arms, int count) {
   return numbers;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// What is asked of the diagnosis in one part of a trial.
 enum class TrialArm : std::uint8_t {
@@ -52,4 +53,4 @@ inline constexpr int kCasesPerRound = 32;
 /// The first `count` case numbers that belong to these arms.
 [[nodiscard]] std::vector<int> case_numbers(const std::vector<TrialArm>& arms, int count);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/case_runner.h"
 
 #include <fmt/format.h>
@@ -10,11 +11,11 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/interruptible.h"
 #include "validation/child.h"
 #include "validation/recordings.h"
-#include "base/interruptible.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,7 +65,7 @@ std::string complaint_about(const ChildEnd& end, const std::string& errors, std:
   }
 }
 
-void diagnose(const TrialCase& drawn, const TrialAsking& asking, const fs::path& folder, TrialResult& result) {
+void diagnose(const TrialCase& drawn, const CaseRunOptions& asking, const fs::path& folder, TrialResult& result) {
   const auto files = write_recordings(drawn, folder);
   // Whoever swims somewhere knows how salt its water is.
   const fs::path vehicle = folder / "vehicle.toml";
@@ -91,7 +92,7 @@ void keep(const fs::path& folder, const fs::path& keep, int number) {
 
 }  // namespace
 
-std::optional<TrialResult> ask(const TrialCase& drawn, const Seal& seal, const TrialAsking& asking) {
+std::optional<TrialResult> ask(const TrialCase& drawn, const Commitment& seal, const CaseRunOptions& asking) {
   TrialResult result{drawn, seal, {}, {}, {}, 0, false};
   const FreshFolder folder;
   try {
@@ -99,9 +100,9 @@ std::optional<TrialResult> ask(const TrialCase& drawn, const Seal& seal, const T
   } catch (const std::exception& error) {
     result.failure = error.what();
   }
-  if (Interruptible::interrupted()) return std::nullopt;
+  if (base::Interruptible::interrupted()) return std::nullopt;
   if (!asking.keep.empty()) keep(folder.path(), asking.keep, drawn.number);
   return result;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

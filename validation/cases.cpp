@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/cases.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "validation/missions.h"
 #include "validation/confounded_effects.h"
+#include "validation/missions.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 constexpr double kTolerance = 0.02, kLooseTolerance = 0.06;
@@ -17,20 +18,20 @@ constexpr std::uint64_t kOrderStream = 1ULL << 32U;
 /// Which of `count` comes at a place of an endless series, in which each comes once before any comes again.
 std::size_t in_turn(std::uint64_t seed, TrialArm arm, int place, std::size_t count) {
   const std::size_t cycle = static_cast<std::size_t>(place) / count;
-  trial::Dice dice(seed, kOrderStream + 4096 * cycle + static_cast<std::uint64_t>(arm));
+  reference::Rng dice(seed, kOrderStream + 4096 * cycle + static_cast<std::uint64_t>(arm));
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[dice.bits() % i]);
   return order[static_cast<std::size_t>(place) % count];
 }
 
-using Kinds = std::vector<const trial::EffectKind*>;
+using Kinds = std::vector<const reference::EffectKind*>;
 
-Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, trial::Dice& dice) {
-  const auto library = trial::library_effects();
+Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, reference::Rng& dice) {
+  const auto library = reference::library_effects();
   const auto turn = [&](std::size_t count) { return in_turn(seed, arm, place, count); };
   const auto add_any = [&](Kinds& kinds) {
-    const trial::EffectKind* kind = nullptr;
+    const reference::EffectKind* kind = nullptr;
     do kind = &library[dice.bits() % library.size()];
     while (std::find(kinds.begin(), kinds.end(), kind) != kinds.end());
     kinds.push_back(kind);
@@ -41,13 +42,13 @@ Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, trial::Dice& dic
     case TrialArm::nulls_6:
       break;
     case TrialArm::foreign:
-      kinds.push_back(&trial::foreign_effects()[turn(trial::foreign_effects().size())]);
+      kinds.push_back(&reference::foreign_effects()[turn(reference::foreign_effects().size())]);
       break;
     case TrialArm::pairs:
       if (place % 2 == 1) {
         const auto pairs = confounded_pairs();
-        const TrialTwins& pair = pairs[in_turn(seed, arm, place / 2, pairs.size())];
-        kinds = {trial::find_effect(pair.first), trial::find_effect(pair.second)};
+        const ConfoundedEffects& pair = pairs[in_turn(seed, arm, place / 2, pairs.size())];
+        kinds = {reference::find_effect(pair.first), reference::find_effect(pair.second)};
         break;
       }
       kinds.push_back(&library[in_turn(seed, arm, place / 2, library.size())]);
@@ -65,9 +66,9 @@ Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, trial::Dice& dic
 }
 
 /// Clocks of cards without a crystal: off by up to a hundredth.
-trial::Specimen::Clocks drawn_clocks(trial::Dice& dice) {
+reference::VehicleUnderTest::Clocks drawn_clocks(reference::Rng& dice) {
   constexpr double kGreatest = 0.01;
-  trial::Specimen::Clocks clocks;
+  reference::VehicleUnderTest::Clocks clocks;
   for (double* const clock : {&clocks.compass, &clocks.card, &clocks.motor})
     *clock = dice.uniform(-kGreatest, kGreatest);
   return clocks;
@@ -83,7 +84,7 @@ nlohmann::ordered_json json_of(const TrialPlace& place) {
           {"density_kg_m3", place.waters.density_kg_m3}};
 }
 
-nlohmann::ordered_json json_of(const trial::Effect& effect) {
+nlohmann::ordered_json json_of(const reference::Effect& effect) {
   return {{"name", effect.name}, {"parameters", effect.parameters}};
 }
 
@@ -98,13 +99,13 @@ TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places) {
   const TrialArmFacts& facts = facts_of(drawn.arm);
   drawn.minutes = facts.missions == MissionKind::brief ? kBriefMinutes : minutes;
 
-  trial::Dice dice(seed, static_cast<std::uint64_t>(number));
+  reference::Rng dice(seed, static_cast<std::uint64_t>(number));
   for (std::uint64_t& mission_seed : drawn.mission_seeds) mission_seed = dice.bits();
   const double tolerance = drawn.arm == TrialArm::nulls_6 ? kLooseTolerance : kTolerance;
-  trial::loosen(tolerance, drawn.vehicle.departures, dice);
-  for (const trial::EffectKind* kind : chosen_kinds(seed, drawn.arm, ordinal_in_arm(number), dice)) {
-    drawn.effects.push_back(trial::drawn(*kind, facts.strength, dice));
-    trial::add(drawn.effects.back(), drawn.vehicle.departures);
+  reference::apply_tolerance(tolerance, drawn.vehicle.deviations, dice);
+  for (const reference::EffectKind* kind : chosen_kinds(seed, drawn.arm, ordinal_in_arm(number), dice)) {
+    drawn.effects.push_back(reference::drawn(*kind, facts.strength, dice));
+    reference::add(drawn.effects.back(), drawn.vehicle.deviations);
   }
   drawn.vehicle.clocks = drawn_clocks(dice);
   drawn.place_number = static_cast<int>(dice.bits() % static_cast<std::uint64_t>(places));
@@ -113,11 +114,11 @@ TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places) {
   return drawn;
 }
 
-trial::Effect true_parameters(const trial::Effect& effect, const trial::Specimen& vehicle) {
-  const trial::EffectKind& kind = *trial::find_effect(effect.name);
-  trial::Departures departures = vehicle.departures;
-  const double* const field = kind.field(departures);
-  trial::Effect real{effect.name, {}};
+reference::Effect true_parameters(const reference::Effect& effect, const reference::VehicleUnderTest& vehicle) {
+  const reference::EffectKind& kind = *reference::find_effect(effect.name);
+  reference::ParameterDeviations deviations = vehicle.deviations;
+  const double* const field = kind.field(deviations);
+  reference::Effect real{effect.name, {}};
   for (std::size_t i = 0; i < kind.parameters.size(); ++i)
     real.parameters.emplace(kind.parameters[i], field[i] / kind.size.si);
   return real;
@@ -125,7 +126,7 @@ trial::Effect true_parameters(const trial::Effect& effect, const trial::Specimen
 
 std::string truth_text(const TrialCase& drawn, std::uint64_t seed) {
   auto effects = nlohmann::ordered_json::array(), real = nlohmann::ordered_json::array();
-  for (const trial::Effect& effect : drawn.effects) {
+  for (const reference::Effect& effect : drawn.effects) {
     effects.push_back(json_of(effect));
     real.push_back(json_of(true_parameters(effect, drawn.vehicle)));
   }
@@ -145,4 +146,4 @@ std::string truth_text(const TrialCase& drawn, std::uint64_t seed) {
   return truth.dump();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

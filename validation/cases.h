@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -10,16 +11,16 @@
 #include "validation/reference/effects.h"
 #include "validation/reference/run.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// What no diagnosis may know before it has answered.
 struct TrialCase {
   int number = 1;  ///< from 1
   TrialArm arm = TrialArm::nulls;
-  int minutes = 10;                    ///< of each mission
-  std::vector<trial::Effect> effects;  ///< as drawn, before the tolerance
-  std::string excluded;                ///< effect that the library is to be without
-  trial::Specimen vehicle;             ///< the effects and the tolerance
+  int minutes = 10;                        ///< of each mission
+  std::vector<reference::Effect> effects;  ///< as drawn, before the tolerance
+  std::string excluded;                    ///< effect that the library is to be without
+  reference::VehicleUnderTest vehicle;     ///< the effects and the tolerance
   int place_number = 0;
   TrialPlace place;                              ///< of all missions
   std::array<std::uint64_t, 3> mission_seeds{};  ///< of noise and turn-on biases, each mission its own
@@ -33,9 +34,10 @@ struct TrialCase {
 [[nodiscard]] TrialCase drawn_case(std::uint64_t seed, int number, int minutes, int places = kTrialPlaces);
 
 /// The parameters that the vehicle really has of an effect, tolerance and all, in the units of the keys.
-[[nodiscard]] trial::Effect true_parameters(const trial::Effect& effect, const trial::Specimen& vehicle);
+[[nodiscard]] reference::Effect true_parameters(const reference::Effect& effect,
+                                                const reference::VehicleUnderTest& vehicle);
 
 /// The case as a line of JSON: what is sealed.
 [[nodiscard]] std::string truth_text(const TrialCase& drawn, std::uint64_t seed);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

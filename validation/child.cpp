@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/child.h"
 
 #include <fcntl.h>
@@ -16,7 +17,7 @@
 
 // Not Boost.Process: version 1 waits with a timeout by forking, version 2 (new in 1.81) needs Boost.Filesystem and
 // ends a child that cannot be started by exit(), which writes our buffers a second time.
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -82,7 +83,7 @@ class Child {
     for (;;) {
       pollfd waiting{end_, POLLIN, 0};
       if (::poll(&waiting, 1, kLook_ms) > 0) return true;
-      if (Clock::now() >= when || (heed_interruption && Interruptible::interrupted())) return false;
+      if (Clock::now() >= when || (heed_interruption && base::Interruptible::interrupted())) return false;
     }
   }
   void end_group() const {
@@ -112,7 +113,7 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
   const Child child(Spawning(errors).start(program, arguments));
   ChildEnd end;
   if (!child.ended_by(begin + timeout, true)) {
-    end.how = Interruptible::interrupted() ? ChildEnd::How::interrupted : ChildEnd::How::timed_out;
+    end.how = base::Interruptible::interrupted() ? ChildEnd::How::interrupted : ChildEnd::How::timed_out;
     child.end_group();
   }
   const int status = child.reap();
@@ -123,4 +124,4 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
   return end;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <chrono>
@@ -6,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// How a program ended that was run as a process of its own.
 struct ChildEnd {
@@ -22,4 +23,4 @@ struct ChildEnd {
 [[nodiscard]] ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                                  const std::filesystem::path& errors, std::chrono::milliseconds timeout);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/commitment.h"
 
 #include <openssl/evp.h>
@@ -11,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 std::string hexadecimal(std::span<const unsigned char> bytes) {
@@ -43,10 +44,10 @@ std::string sha256_of(std::string_view text) {
   return hexadecimal(std::span(digest).first(length));
 }
 
-Seal sealed(std::string truth) {
-  Seal seal{std::move(truth), fresh_salt(), {}};
+Commitment commitment_to(std::string truth) {
+  Commitment seal{std::move(truth), fresh_salt(), {}};
   seal.digest = sha256_of(seal.truth + seal.salt);
   return seal;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

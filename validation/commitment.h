@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 #include <string_view>
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// SHA-256 in hexadecimal, small letters.
 [[nodiscard]] std::string sha256_of(std::string_view text);
@@ -11,12 +12,12 @@ namespace navcal::cli {
 /// A truth that is fixed before anybody answers: the digest is published first, truth and salt after the last
 /// answer, and then everybody can reckon that digest = SHA-256(truth salt), the two texts one after the other.
 /// Without the salt the few possible truths could be tried one by one.
-struct Seal {
+struct Commitment {
   std::string truth;
   std::string salt;  ///< 32 random bytes of the kernel, in hexadecimal
   std::string digest;
 };
 
-[[nodiscard]] Seal sealed(std::string truth);
+[[nodiscard]] Commitment commitment_to(std::string truth);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/confounded_effects.h"
 
 #include <algorithm>
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 using Channels = std::vector<std::string_view>;
@@ -91,11 +92,11 @@ const TrialSignature* signature_of(std::string_view effect) {
   return found == all.end() ? nullptr : &*found;
 }
 
-std::vector<TrialTwins> confounded_pairs() {
-  std::vector<TrialTwins> pairs;
+std::vector<ConfoundedEffects> confounded_pairs() {
+  std::vector<ConfoundedEffects> pairs;
   for (const TrialSignature& signature : trial_signatures()) {
     for (const std::string_view twin : signature.twins) {
-      const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const TrialTwins& pair) {
+      const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const ConfoundedEffects& pair) {
         return pair.first == twin && pair.second == signature.effect;
       });
       if (!known) pairs.push_back({signature.effect, twin});
@@ -104,4 +105,4 @@ std::vector<TrialTwins> confounded_pairs() {
   return pairs;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

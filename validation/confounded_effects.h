@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
 #include <string_view>
 #include <vector>
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// What one effect is easily taken for, and where it shows. Reckoned from first principles, not from what any
 /// diagnosis said.
@@ -23,10 +24,10 @@ struct TrialSignature {
 /// nullptr when there is none of this name.
 [[nodiscard]] const TrialSignature* signature_of(std::string_view effect);
 
-struct TrialTwins {
+struct ConfoundedEffects {
   std::string_view first, second;
 };
 /// Each two library effects that are easily taken for one another, once.
-[[nodiscard]] std::vector<TrialTwins> confounded_pairs();
+[[nodiscard]] std::vector<ConfoundedEffects> confounded_pairs();
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

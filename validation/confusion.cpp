@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/confusion.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 using Counts = std::map<std::pair<std::string, std::string>, int>;
@@ -23,7 +24,7 @@ std::vector<std::string> truths_of(const TrialCase& drawn) {
       break;
   }
   std::vector<std::string> names;
-  for (const trial::Effect& effect : drawn.effects) names.push_back(effect.name);
+  for (const reference::Effect& effect : drawn.effects) names.push_back(effect.name);
   return names;
 }
 
@@ -57,7 +58,7 @@ void count_case(const TrialResult& result, Counts& counts) {
 
 std::vector<std::string> library_names() {
   std::vector<std::string> names;
-  for (const trial::EffectKind& kind : trial::library_effects()) names.emplace_back(kind.name);
+  for (const reference::EffectKind& kind : reference::library_effects()) names.emplace_back(kind.name);
   return names;
 }
 
@@ -105,4 +106,4 @@ TrialConfusion trial_confusion(std::span<const TrialResult> results) {
   return confusion;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
@@ -6,7 +7,7 @@
 
 #include "validation/judge.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// What was there against what was answered. A case counts once for each effect that is there: where it is named,
 /// as itself; else as each wrong name, or as left out where there is none, or as the verdict without names.
@@ -20,4 +21,4 @@ struct TrialConfusion {
 /// Of all cases but those at less than half the typical strength and the poor missions.
 [[nodiscard]] TrialConfusion trial_confusion(std::span<const TrialResult> results);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/judge.h"
 
 #include <algorithm>
@@ -6,13 +7,13 @@
 
 #include "validation/confounded_effects.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 /// Of candidates only what is worth a bet: hundreds of impossible ones would make any calibration look good.
 constexpr double kLeastBet = 0.05;
 
-bool holds(const std::vector<trial::Effect>& effects, std::string_view name) {
+bool holds(const std::vector<reference::Effect>& effects, std::string_view name) {
   return std::any_of(effects.begin(), effects.end(), [&](const auto& effect) { return effect.name == name; });
 }
 
@@ -71,7 +72,7 @@ void judge_channel(const TrialCase& drawn, const TrialAnswer& answer, TrialJudge
   if (answer.verdict == TrialVerdict::no_gap) return;
   judgement.channel_right =
       !answer.channels.empty() &&
-      std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const trial::Effect& effect) {
+      std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const reference::Effect& effect) {
         const TrialSignature* signature = signature_of(effect.name);
         return signature != nullptr && contains(signature->channels, answer.channels.front());
       });
@@ -128,4 +129,4 @@ TrialJudgement judged(const TrialResult& result) {
   return judgement;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

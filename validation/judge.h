@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -10,12 +11,12 @@
 #include "validation/cases.h"
 #include "validation/commitment.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// One case, asked and answered.
 struct TrialResult {
   TrialCase drawn;
-  Seal seal;
+  Commitment seal;
   std::optional<TrialAnswer> answer;
   std::string answer_json;         ///< as it came
   std::string failure;             ///< why there is no answer
@@ -36,7 +37,7 @@ inline constexpr int kTrialOutcomes = 7;
 [[nodiscard]] std::string_view name_of(TrialOutcome outcome);
 
 /// A probability that was given, and whether the effect is there.
-struct TrialBet {
+struct TrialForecast {
   double probability = 0;
   bool right = false;
 };
@@ -51,7 +52,7 @@ struct TrialJudgement {
   std::optional<double> closed;          ///< where the outcome is exact
   std::optional<bool> covered;           ///< its interval holds the true closure
   int parameters = 0, parameters_within = 0;  ///< of exact outcomes: within two standard errors of the truth
-  std::vector<TrialBet> bets;
+  std::vector<TrialForecast> bets;
 };
 
 /// The true closure of an exact outcome: what explains all leaves the noise of a nominal vehicle. (What the errors
@@ -61,4 +62,4 @@ inline constexpr double kTrueClosure = 1;
 
 [[nodiscard]] TrialJudgement judged(const TrialResult& result);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/missions.h"
 
 #include <utility>
@@ -5,10 +6,10 @@
 
 #include "validation/reference/instrument.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
-using trial::kDegree;
+using reference::kDegree;
 
 /// The other missions begin a day later each.
 constexpr double kSurface_m = 0.15;  ///< the antenna needs 0.35
@@ -18,7 +19,7 @@ class Script {
  public:
   explicit Script(double heading_deg, double still_s) : now_s_(still_s) {
     mission_.start.position_m = {0, 0, kSurface_m};
-    mission_.start.world_from_body = trial::attitude(0, 0, heading_deg * kDegree);
+    mission_.start.world_from_body = reference::attitude(0, 0, heading_deg * kDegree);
     order_.depth_m = kSurface_m;
     order_.heading_rad = heading_deg * kDegree;
     order_.speed_m_s = 1.0;
@@ -34,7 +35,7 @@ class Script {
   Script& on(double seconds) { return for_s(seconds); }
   /// With the rudder held; ends on whatever heading it has.
   Script& circle(double rudder_deg, double seconds) {
-    trial::Order order = order_;
+    reference::Order order = order_;
     order.heading_rad.reset();
     order.rudder_rad = rudder_deg * kDegree;
     return for_s(seconds, order);
@@ -47,7 +48,7 @@ class Script {
     return depth(lower_m).on(seconds).depth(upper_m).on(seconds);
   }
 
-  [[nodiscard]] trial::Mission finish(double duration_s, int day) {
+  [[nodiscard]] reference::Mission finish(double duration_s, int day) {
     mission_.start_ns = kTrialBegin_ns + day * kDay_ns;
     mission_.duration_s = duration_s;
     return std::move(mission_);
@@ -56,25 +57,25 @@ class Script {
 
  private:
   Script& elevator(double deg, double seconds) {
-    trial::Order order = order_;
+    reference::Order order = order_;
     order.depth_m.reset();
     order.elevator_rad = deg * kDegree;
     return for_s(seconds, order);
   }
   Script& for_s(double seconds) { return for_s(seconds, order_); }
-  Script& for_s(double seconds, trial::Order order) {
+  Script& for_s(double seconds, reference::Order order) {
     order.from_s = now_s_;
     mission_.orders.push_back(order);
     now_s_ += seconds;
     return *this;
   }
 
-  trial::Mission mission_;
-  trial::Order order_;
+  reference::Mission mission_;
+  reference::Order order_;
   double now_s_;
 };
 
-trial::Mission usual_a() {
+reference::Mission usual_a() {
   Script s(0, 6);
   s.leg(0, 42).leg(180, 44);                                   // reciprocal, at the surface
   s.leg(90, 15).speed(1.4).on(12);                             // a third heading; a step of the motor current
@@ -88,7 +89,7 @@ trial::Mission usual_a() {
   return s.finish(600, 0);
 }
 
-trial::Mission usual_b() {
+reference::Mission usual_b() {
   Script s(240, 3);
   s.speed(1.2).leg(240, 40).leg(60, 42).leg(330, 26);
   s.depth(4).on(20).circle(-8, 50).speed(1.5).circle(-8, 25).speed(1.0).circle(13, 36);
@@ -100,7 +101,7 @@ trial::Mission usual_b() {
   return s.finish(600, 1);
 }
 
-trial::Mission usual_c() {
+reference::Mission usual_c() {
   Script s(120, 10);
   s.leg(120, 36).speed(1.3).leg(300, 40).leg(30, 26);
   s.depth(2).on(14).circle(14, 34).depth(3.5).circle(-14, 34).speed(0.9).leg(260, 12).rudder_doublet(6, 2.5).on(6);
@@ -111,21 +112,21 @@ trial::Mission usual_c() {
   return s.finish(600, 2);
 }
 
-trial::Mission brief_a() {
+reference::Mission brief_a() {
   Script s(0, 3);
   s.speed(1.2).leg(0, 22).leg(180, 24).depth(2.5).circle(11, 26).speed(1.5).circle(-7, 24);
   s.leg(90, 6).rudder_doublet(6, 2).porpoise(1, 3, 9).speed(0.9).on(6).depth(kSurface_m).leg(270, 40);
   return s.finish(180, 0);
 }
 
-trial::Mission brief_b() {
+reference::Mission brief_b() {
   Script s(220, 3);
   s.leg(220, 24).speed(1.4).leg(40, 22).depth(3).circle(-12, 26).speed(1.0).circle(6, 26);
   s.elevator_doublet(5, 2).leg(310, 8).speed(1.5).on(8).porpoise(1.5, 3, 8).depth(kSurface_m).leg(130, 40);
   return s.finish(180, 1);
 }
 
-trial::Mission brief_c() {
+reference::Mission brief_c() {
   Script s(100, 3);
   s.speed(1.3).leg(100, 22).leg(280, 22).depth(2).circle(8, 30).circle(-14, 22).speed(0.9).on(6);
   s.rudder_doublet(8, 1.5).leg(10, 8).speed(1.4).porpoise(1, 3.5, 10).depth(kSurface_m).leg(190, 40);
@@ -133,7 +134,7 @@ trial::Mission brief_c() {
 }
 
 /// One heading and one speed throughout; the middle third below.
-trial::Mission straight(double heading_deg, double speed_m_s, double depth_m, double duration_s, int day) {
+reference::Mission straight(double heading_deg, double speed_m_s, double depth_m, double duration_s, int day) {
   Script s(heading_deg, 3);
   s.speed(speed_m_s).on(duration_s / 3).depth(depth_m).on(duration_s / 3).depth(kSurface_m).on(duration_s / 3);
   return s.finish(duration_s, day);
@@ -141,7 +142,7 @@ trial::Mission straight(double heading_deg, double speed_m_s, double depth_m, do
 
 }  // namespace
 
-std::array<trial::Mission, 3> trial_missions(MissionKind kind, int minutes) {
+std::array<reference::Mission, 3> trial_missions(MissionKind kind, int minutes) {
   if (kind == MissionKind::poor) {
     const double duration_s = 60.0 * minutes;
     return {straight(40, 1.2, 1, duration_s, 0), straight(160, 1.2, 1, duration_s, 1),
@@ -151,4 +152,4 @@ std::array<trial::Mission, 3> trial_missions(MissionKind kind, int minutes) {
   return {usual_a(), usual_b(), usual_c()};
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -6,7 +7,7 @@
 #include "validation/arms.h"
 #include "validation/reference/mission.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// 2026-11-10, 09:00 UTC, an odd fraction after the second: when the first mission begins that is nowhere else.
 inline constexpr std::int64_t kTrialBegin_ns = 1'794'301'200'370'000'000;
@@ -19,6 +20,6 @@ inline constexpr int kBriefMinutes = 3;
 /// tie" asks for: turns both ways at several rates and speeds, tilt of both signs, steps of speed at one heading,
 /// two depths, doublets of fins, reciprocal legs at the surface with fixes. The poor ones are a straight line
 /// each.
-[[nodiscard]] std::array<trial::Mission, 3> trial_missions(MissionKind kind, int minutes);
+[[nodiscard]] std::array<reference::Mission, 3> trial_missions(MissionKind kind, int minutes);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

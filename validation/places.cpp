@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/places.h"
 
 #include <cmath>
@@ -7,14 +8,14 @@
 #include "validation/missions.h"
 #include "validation/reference/rng.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 TrialPlace drawn_place(std::uint64_t seed, int number) {
   constexpr double kGreatestLatitude_deg = 80;
   /// Apart from the cases and their orders of drawing.
   constexpr std::uint64_t kPlaceStream = 1ULL << 40U;
   constexpr std::int64_t kFrom_ns = 20'089 * kDay_ns, kUntil_ns = 21'910 * kDay_ns;  // 2025-01-01, 2029-12-27
-  trial::Dice dice(seed, kPlaceStream + static_cast<std::uint64_t>(number));
+  reference::Rng dice(seed, kPlaceStream + static_cast<std::uint64_t>(number));
   TrialPlace place;
   const double sine = std::sin(kGreatestLatitude_deg / base::kDegreesPerRadian);
   place.anchorage = {std::asin(dice.uniform(-sine, sine)) * base::kDegreesPerRadian, dice.uniform(-180, 180), 0};
@@ -31,11 +32,11 @@ TrialPlace drawn_place(std::uint64_t seed, int number) {
   return place;
 }
 
-trial::Mission at_place(trial::Mission mission, const TrialPlace& place) {
+reference::Mission at_place(reference::Mission mission, const TrialPlace& place) {
   mission.anchorage = place.anchorage;
   mission.waters = place.waters;
   mission.start_ns += place.begin_ns - kTrialBegin_ns;
   return mission;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

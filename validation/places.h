@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 
 #include "validation/reference/mission.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// Where and when the missions of a case are swum.
 struct TrialPlace {
-  trial::Anchorage anchorage;
-  trial::Waters waters;
+  reference::Anchorage anchorage;
+  reference::Waters waters;
   std::int64_t begin_ns = 0;  ///< UTC of the first mission; the others follow a day later each
 };
 
@@ -21,6 +22,6 @@ inline constexpr int kTrialPlaces = 12;
 [[nodiscard]] TrialPlace drawn_place(std::uint64_t seed, int number);
 
 /// The mission, swum there. Its own day counts from that of the place.
-[[nodiscard]] trial::Mission at_place(trial::Mission mission, const TrialPlace& place);
+[[nodiscard]] reference::Mission at_place(reference::Mission mission, const TrialPlace& place);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

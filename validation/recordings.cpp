@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/recordings.h"
 
 #include <fmt/format.h>
@@ -6,39 +7,39 @@
 #include <string>
 
 #include "analysis/failure.h"
-#include "validation/missions.h"
 #include "base/interruptible.h"
 #include "config/load.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
+#include "validation/missions.h"
 #include "validation/reference/sink.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 std::vector<config::PortSettings> trial_ports() {
   std::vector<config::PortSettings> ports;
-  ports.reserve(trial::kPorts.size());
-  for (const trial::PortFacts& facts : trial::kPorts) {
+  ports.reserve(reference::kPorts.size());
+  for (const reference::PortFacts& facts : reference::kPorts) {
     ports.push_back(config::default_port(std::string(facts.name),
                                          protocols::protocol_named(facts.protocol).value(), facts.baud));
   }
   return ports;
 }
 
-class Recording final : public trial::Sink {
+class Recording final : public reference::Sink {
  public:
   explicit Recording(const std::filesystem::path& file) : file_(file), writer_(trial_ports()) {
     writer_.begin(text_);
   }
-  void transfer(const trial::Transfer& transfer) override {
+  void transfer(const reference::Transfer& transfer) override {
     constexpr std::size_t kEnough = std::size_t{1} << 20;
     const auto direction = transfer.sent ? record::Direction::sent : record::Direction::received;
     writer_.bytes(text_, static_cast<std::uint16_t>(transfer.port), direction, transfer.time_ns, transfer.bytes);
     if (text_.size() > kEnough) flush();
   }
-  void truth(const trial::Snapshot& /*snapshot*/) override {
-    if (Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted");
+  void truth(const reference::Snapshot& /*snapshot*/) override {
+    if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
   }
   void finish() {
     flush();
@@ -55,12 +56,13 @@ class Recording final : public trial::Sink {
   std::string text_;
 };
 
-void write_recording(const trial::Mission& mission, const trial::Specimen& vehicle, std::uint64_t seed,
-                     const std::filesystem::path& file) {
+void write_recording(const reference::Mission& mission, const reference::VehicleUnderTest& vehicle,
+                     std::uint64_t seed, const std::filesystem::path& file) {
   Recording recording(file);
-  if (const auto lost = trial::run(mission, vehicle, seed, recording)) {
-    throw Failure(Exit::failed,
-                  fmt::format("no recording: the vehicle was lost {:.1f} s into the mission", lost->time_s));
+  if (const auto lost = reference::run(mission, vehicle, seed, recording)) {
+    throw analysis::Failure(
+        analysis::Exit::failed,
+        fmt::format("no recording: the vehicle was lost {:.1f} s into the mission", lost->time_s));
   }
   recording.finish();
 }
@@ -81,4 +83,4 @@ std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
   return files;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

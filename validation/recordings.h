@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -5,7 +6,7 @@
 
 #include "validation/cases.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// Swims the three missions of a case and writes a.cap (to be diagnosed), b.cap and c.cap (held out) into the
 /// folder: nothing in or about them tells of the case. Throws Failure when the vehicle was lost or the trial is
@@ -13,4 +14,4 @@ namespace navcal::cli {
 [[nodiscard]] std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
                                                                     const std::filesystem::path& folder);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/run.h"
 
 #include <algorithm>
@@ -9,16 +10,16 @@
 #include <tuple>
 #include <utility>
 
-#include "validation/case_runner.h"
 #include "base/interruptible.h"
+#include "validation/case_runner.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
-class Asking {
+class CaseQueue {
  public:
-  Asking(const std::vector<TrialCase>& cases, const std::vector<Seal>& seals, const TrialAsking& asking,
-         const std::function<void(const TrialResult&)>& answered)
+  CaseQueue(const std::vector<TrialCase>& cases, const std::vector<Commitment>& seals,
+            const CaseRunOptions& asking, const std::function<void(const TrialResult&)>& answered)
       : cases_(cases), seals_(seals), asking_(asking), answered_(answered) {}
 
   void ask_one(std::size_t i, bool first_of_its_kind) {
@@ -47,7 +48,7 @@ class Asking {
 
   [[nodiscard]] bool ends_early() {
     const std::lock_guard lock(mutex_);
-    if (Interruptible::interrupted()) run_.ended_early = "interrupted";
+    if (base::Interruptible::interrupted()) run_.ended_early = "interrupted";
     return !run_.ended_early.empty();
   }
 
@@ -60,8 +61,8 @@ class Asking {
 
  private:
   const std::vector<TrialCase>& cases_;
-  const std::vector<Seal>& seals_;
-  const TrialAsking& asking_;
+  const std::vector<Commitment>& seals_;
+  const CaseRunOptions& asking_;
   const std::function<void(const TrialResult&)>& answered_;
   std::mutex mutex_;
   TrialRun run_;
@@ -69,9 +70,9 @@ class Asking {
 
 }  // namespace
 
-TrialRun ask_all(const std::vector<TrialCase>& cases, const std::vector<Seal>& seals, const TrialAsking& asking,
-                 const std::function<void(const TrialResult&)>& answered) {
-  Asking all(cases, seals, asking, answered);
+TrialRun ask_all(const std::vector<TrialCase>& cases, const std::vector<Commitment>& seals,
+                 const CaseRunOptions& asking, const std::function<void(const TrialResult&)>& answered) {
+  CaseQueue all(cases, seals, asking, answered);
   std::set<std::tuple<MissionKind, int, int>> begun;
   std::vector<std::size_t> rest;
   for (std::size_t i = 0; i < cases.size() && !all.ends_early(); ++i) {
@@ -84,4 +85,4 @@ TrialRun ask_all(const std::vector<TrialCase>& cases, const std::vector<Seal>& s
   return all.finish();
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <chrono>
@@ -9,10 +10,10 @@
 
 #include "validation/judge.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// How the diagnosis is asked.
-struct TrialAsking {
+struct CaseRunOptions {
   std::filesystem::path program = "/proc/self/exe";
   std::optional<int> bank_missions;
   std::chrono::seconds timeout{600};
@@ -29,7 +30,8 @@ struct TrialRun {
 /// missions are made once. Each answer is handed to `answered`, never two at a time; the truth is in it, and must
 /// stay there until the last one has come. Ends early on Ctrl-C and where going on is no use, such as on a full
 /// disk.
-[[nodiscard]] TrialRun ask_all(const std::vector<TrialCase>& cases, const std::vector<Seal>& seals,
-                               const TrialAsking& asking, const std::function<void(const TrialResult&)>& answered);
+[[nodiscard]] TrialRun ask_all(const std::vector<TrialCase>& cases, const std::vector<Commitment>& seals,
+                               const CaseRunOptions& asking,
+                               const std::function<void(const TrialResult&)>& answered);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/score.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 #include <functional>
 #include <initializer_list>
 
-namespace navcal::cli {
+namespace navcal::validation {
 namespace {
 
 using enum TrialArm;
@@ -133,7 +134,7 @@ void gather(const std::vector<Judged>& all, TrialScores& scores) {
   for (const auto& [result, judgement] : all) {
     const TrialArmFacts& facts = facts_of(result->drawn.arm);
     ++scores.outcomes[static_cast<std::size_t>(facts.arm)][static_cast<std::size_t>(judgement.outcome)];
-    for (const TrialBet& bet : judgement.bets) {
+    for (const TrialForecast& bet : judgement.bets) {
       const int bin = std::min(static_cast<int>(bet.probability * kCalibrationBins), kCalibrationBins - 1);
       TrialCalibrationBin& sums = scores.calibration[static_cast<std::size_t>(bin)];
       ++sums.bets;
@@ -229,4 +230,4 @@ TrialScores trial_scores(std::span<const TrialResult> results) {
   return scores;
 }
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -8,7 +9,7 @@
 
 #include "validation/judge.h"
 
-namespace navcal::cli {
+namespace navcal::validation {
 
 /// 95 % interval of a share (Wilson, J. Am. Stat. Assoc. 22, 1927); nothing known is 0 to 1.
 [[nodiscard]] std::array<double, 2> wilson(int hits, int cases);
@@ -57,4 +58,4 @@ struct TrialScores {
 /// Scores of all that was answered, each with the target that was set before any trial was run.
 [[nodiscard]] TrialScores trial_scores(std::span<const TrialResult> results);
 
-}  // namespace navcal::cli
+}  // namespace navcal::validation

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -65,7 +66,7 @@ class GpsCompass {
   /// The same from all that was summed up, now and from the very beginning: what the slices must come to.
   [[nodiscard]] std::optional<Estimate> solve() const;
   [[nodiscard]] Judgement judgement() const;
-  [[nodiscard]] const Rose& rose() const { return rose_; }
+  [[nodiscard]] const HeadingHistogram& rose() const { return rose_; }
   [[nodiscard]] const GpsSummary& summary() const { return summary_; }
   void archive(Archive& archive);
 
@@ -76,7 +77,7 @@ class GpsCompass {
   GpsTrack track_;
   GpsSummary summary_;
   std::uint64_t fitted_fixes_ = 0;
-  Rose rose_{};
+  HeadingHistogram rose_{};
   std::optional<Estimate> estimate_;
 };
 

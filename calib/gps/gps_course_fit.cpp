@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/gps/gps_course_fit.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -5,9 +6,9 @@
 #include <optional>
 
 #include "calib/archive.h"
+#include "calib/gps/straight_run.h"
 #include "calib/judgement.h"
 #include "calib/readings.h"
-#include "calib/gps/straight_run.h"
 
 namespace navcal::calib {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/magnetometer/ellipse_estimator.h"
 
 #include <Eigen/Dense>

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 
+#include "calib/judgement.h"
 #include "calib/magnetometer/ellipse_fit.h"
 #include "calib/magnetometer/field_cells.h"
 #include "calib/magnetometer/field_held_out.h"
-#include "calib/judgement.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
 
 namespace navcal::calib {

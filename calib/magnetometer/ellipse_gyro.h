@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -5,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "calib/judgement.h"
 #include "calib/magnetometer/ellipse_chain.h"
 #include "calib/magnetometer/ellipse_shape.h"
-#include "calib/judgement.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
 #include "calib/turn/turn_step.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -6,8 +7,8 @@
 
 #include "calib/archive.h"
 #include "calib/correction.h"
-#include "calib/turn/held_out.h"
 #include "calib/readings.h"
+#include "calib/turn/held_out.h"
 
 namespace navcal::calib {
 

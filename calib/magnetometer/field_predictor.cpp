@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/magnetometer/field_predictor.h"
 
 #include <Eigen/Dense>

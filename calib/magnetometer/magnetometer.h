@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -6,13 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "calib/judgement.h"
 #include "calib/magnetometer/ellipse_estimator.h"
 #include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/magnetometer/ellipsoid_estimator.h"
 #include "calib/magnetometer/field_history.h"
 #include "calib/magnetometer/field_predictor.h"
 #include "calib/magnetometer/field_step_watch.h"
-#include "calib/judgement.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
 #include "calib/turn/turn_step.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether the field has stepped, and what follows.
 #include <Eigen/Dense>
 #include <algorithm>

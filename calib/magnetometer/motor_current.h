@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -8,11 +9,11 @@
 #include <vector>
 
 #include "calib/archive.h"
-#include "calib/magnetometer/current_track.h"
-#include "calib/turn/held_out.h"
 #include "calib/judgement.h"
+#include "calib/magnetometer/current_track.h"
 #include "calib/magnetometer/motor_window.h"
 #include "calib/readings.h"
+#include "calib/turn/held_out.h"
 
 namespace navcal::calib {
 

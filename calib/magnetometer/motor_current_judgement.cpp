@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the windows of MotorCurrent say together.
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

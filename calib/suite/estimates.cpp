@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the estimators say, in the words of Correction and Report.
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -7,14 +8,14 @@
 #include "calib/archive.h"
 #include "calib/correction.h"
 #include "calib/delay/delay_estimator.h"
-#include "calib/turn/gyro_pair.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer/magnetometer.h"
 #include "calib/magnetometer/motor_current.h"
+#include "calib/suite/gps_calibrators.h"
 #include "calib/suite/report.h"
 #include "calib/suite/suite_options.h"
-#include "calib/suite/surface_calibrators.h"
 #include "calib/swing/swing.h"
+#include "calib/turn/gyro_pair.h"
 #include "calib/turn/turn_calibrator.h"
 #include "calib/turn/turn_integrator.h"
 
@@ -85,7 +86,7 @@ class Estimators {
   TurnIntegrator turns_;
   TurnCalibrator gyro_, gyro_b_, compass_;
   Magnetometer magnetometer_;
-  SurfaceCalibrators surface_;
+  GpsCalibrators surface_;
   DelayEstimator delays_;
   GyroPair gyros_;
   MotorCurrent motor_current_;

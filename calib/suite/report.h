@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -8,10 +9,10 @@
 #include <vector>
 
 #include "calib/correction.h"
-#include "calib/suite/gate.h"
-#include "calib/suite/in_force.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
+#include "calib/suite/gate.h"
+#include "calib/suite/in_force.h"
 
 namespace navcal::calib {
 
@@ -74,7 +75,7 @@ struct Report {
   Correction estimates;                       ///< the newest of each calibrator that has one, accepted or not
   std::vector<CalibratorReport> calibrators;  ///< those that have instruments, in the order of kCalibrators
   HeadingCheck heading;
-  Rose rose{};                         ///< headings visited, as the compass says them
+  HeadingHistogram rose{};             ///< headings visited, as the compass says them
   std::vector<FieldStep> steps;        ///< of the field of the compass
   std::vector<FieldSegment> segments;  ///< between them, one more than steps; empty without readings of the field
   GateCounts gate;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -7,13 +8,13 @@
 #include <vector>
 
 #include "calib/archive.h"
-#include "calib/suite/estimators.h"
 #include "calib/magnetometer/field_comparison.h"
+#include "calib/suite/estimators.h"
 #include "calib/suite/gate.h"
-#include "calib/turn/held_out.h"
 #include "calib/suite/in_force.h"
 #include "calib/suite/report.h"
 #include "calib/suite/suite_options.h"
+#include "calib/turn/held_out.h"
 
 namespace navcal::calib {
 
@@ -86,7 +87,7 @@ class Suite {
   std::uint64_t readings_ = 0;
   std::array<bool, kCalibrators.size()> held_{};     ///< rolled back: only the operator brings it back
   std::array<bool, kCalibrators.size()> adopted_{};  ///< not told yet
-  Rose rose_{};
+  HeadingHistogram rose_{};
   std::uint32_t told_steps_ = 0;
 };
 

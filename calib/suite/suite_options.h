@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
 
-#include "calib/suite/gate.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
+#include "calib/suite/gate.h"
 
 namespace navcal::calib {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/thesis/adaptive_identifier.h"
 
 #include <cmath>

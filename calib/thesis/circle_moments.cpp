@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/thesis/circle_moments.h"
 
 #include <Eigen/Geometry>

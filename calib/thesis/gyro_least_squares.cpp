@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/thesis/gyro_least_squares.h"
 
 #include <Eigen/LU>

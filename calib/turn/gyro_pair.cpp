@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/turn/gyro_pair.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -45,7 +46,7 @@ class TurnCalibrator {
   Limits limits_;
   TurnFilterBank filter_;
   bool gyro_known_ = false;  ///< by the prior
-  Rose rose_{};
+  HeadingHistogram rose_{};
 };
 
 }  // namespace navcal::calib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/turn/turn_integrator.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -6,8 +7,8 @@
 #include <optional>
 
 #include "calib/archive.h"
-#include "calib/turn/inclinometer_lag.h"
 #include "calib/readings.h"
+#include "calib/turn/inclinometer_lag.h"
 #include "calib/turn/sampled_curve.h"
 #include "calib/turn/tilt_smoother.h"
 #include "calib/turn/turn_step.h"

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "gap/data/mission.h"
 #include "gap/actuators/servo_orders.h"
+#include "gap/data/mission.h"
 
 namespace navcal::gap {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -50,9 +51,9 @@ struct Innovations {
 };
 
 /// What the estimator thought at the middle of each interval: what residuals may follow.
-struct Course10Hz {
+struct Trajectory10Hz {
   std::vector<double> time_s, heading_rad, roll_rad, pitch_rad, yaw_rate_rad_s, pitch_rate_rad_s, depth_m,
-      surge_m_s, current_A, warmth_C, rudder_rad, elevator_rad, shaft_rps;
+      surge_m_s, current_A, temperature_rise_C, rudder_rad, elevator_rad, shaft_rps;
 };
 
 }  // namespace navcal::gap

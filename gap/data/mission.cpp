@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/data/mission.h"
 
 #include <fmt/format.h>
@@ -5,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "instruments/compass_error.h"
 #include "base/local_plane.h"
+#include "instruments/compass_error.h"
 #include "protocols/motor_card.h"
 #include "record/json/flat_json.h"
 #include "record/recording.h"
@@ -95,7 +96,7 @@ void MissionGatherer::add(const instruments::GpsSample& sample, std::int64_t tim
     first = {*sample.latitude_rad, *sample.longitude_rad, sample.height_m.value_or(0)};
     mission_.field.utc_ns = sample.time_utc_ns;
   }
-  const pipeline::LocalPlane plane(first->latitude_rad, first->longitude_rad);
+  const base::LocalPlane plane(first->latitude_rad, first->longitude_rad);
   fix.position_m = plane.position_m(*sample.latitude_rad, *sample.longitude_rad);
   mission_.fixes.push_back(fix);
   times_ns_[fixes].push_back(time_ns);

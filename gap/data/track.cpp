@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/data/track.h"
 
 #include <cmath>
@@ -14,7 +15,7 @@ Track track_of_fixes(const Mission& mission) {
   return track;
 }
 
-Track reckoned_track(const Course10Hz& course, const Mission& mission) {
+Track reckoned_track(const Trajectory10Hz& course, const Mission& mission) {
   Track track;
   if (mission.fixes.empty()) return track;
   const FixReading& first = mission.fixes.front();

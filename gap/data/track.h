@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -21,6 +22,6 @@ struct Tracks {
 
 [[nodiscard]] Track track_of_fixes(const Mission& mission);
 /// Dead reckoning along a replay's course from the mission's first fix on; empty without a fix.
-[[nodiscard]] Track reckoned_track(const Course10Hz& course, const Mission& mission);
+[[nodiscard]] Track reckoned_track(const Trajectory10Hz& course, const Mission& mission);
 
 }  // namespace navcal::gap

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Cholesky>
 
 #include "gap/inference/library.h"
-#include "gap/replay/replay.h"
 #include "gap/inference/whitening.h"
+#include "gap/replay/replay.h"
 
 namespace navcal::gap {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/blocks.h"
 
 #include <cmath>
@@ -20,14 +21,14 @@ bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
 
 }  // namespace
 
-std::vector<double> gains_of_blocks(const Explanation& explanation, const Library& library, const Priors& priors,
+std::vector<double> gains_of_blocks(const ModelFit& explanation, const Library& library, const Priors& priors,
                                     const Layout& layout) {
   const Linearised& linear = explanation.linear;
   const Eigen::Index rows = linear.residual.size();
   Eigen::VectorXd mask(rows);
   for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
   const Eigen::VectorXd data = residual_at_zero(linear);
-  const auto members = members_of(library, explanation.effects);
+  const auto members = parameter_indices(library, explanation.effects);
   const Priors others = without_members(priors, library, explanation.effects);
   std::vector<double> gains;
   for (const bool learn_from_even : {true, false}) {

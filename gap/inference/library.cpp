@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/library.h"
 
 #include <algorithm>
@@ -5,13 +6,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "gap/thresholds.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 
 namespace navcal::gap {
 namespace {
-
-constexpr double kBias_rad_s = 0.3 * std::numbers::pi / 180;  // the usual one at power-on
 
 /// Of a difference with respect to a parameter, in typical values.
 struct Steps {
@@ -44,7 +44,7 @@ Library::Library(std::span<const std::string> excluded) {
     if (sim::make_effect(name) == nullptr) throw std::invalid_argument(sim::unknown_effect(name));
   }
   for (std::size_t i = 0; i < kBiasNames.size(); ++i) {
-    unknowns_.push_back({kNuisance, i, kBiasNames[i], kBias_rad_s, 1, 1, -1, 1});
+    unknowns_.push_back({kNuisance, i, kBiasNames[i], kTypicalTurnOnBias_rad_s, 1, 1, -1, 1});
   }
   for (const auto& entry : sim::effect_table()) {
     auto effect = entry.make();
@@ -64,7 +64,7 @@ Library::Library(std::span<const std::string> excluded) {
 
 bool Library::is_lag(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::lag; }
 
-bool Library::is_play(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::play; }
+bool Library::is_backlash(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::play; }
 
 bool Library::is_curved(std::size_t effect) const { return (*this)[effect].kind != sim::EffectKind::amount; }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -42,7 +43,7 @@ class Library {
   /// Whether it delays something.
   [[nodiscard]] bool is_lag(std::size_t effect) const;
   /// Whether it lets the fins stand anywhere within a width.
-  [[nodiscard]] bool is_play(std::size_t effect) const;
+  [[nodiscard]] bool is_backlash(std::size_t effect) const;
   /// Whether a linearisation about zero says little of its typical strength.
   [[nodiscard]] bool is_curved(std::size_t effect) const;
   /// Biases, and the unknowns of all effects that may be a cause.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/linearised.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ void renew_gram(Linearised& linear, std::span<const Eigen::Index> columns, unsig
   const auto part = [&](std::size_t i) {
     return columns.subspan(i * kTogether, std::min(kTogether, columns.size() - i * kTogether));
   };
-  in_parallel(threads, parts, [&](std::size_t i) {
+  base::in_parallel(threads, parts, [&](std::size_t i) {
     Eigen::MatrixXd some(linear.design.rows(), static_cast<Eigen::Index>(part(i).size()));
     for (Eigen::Index k = 0; k < some.cols(); ++k) {
       some.col(k) = linear.design.col(part(i)[static_cast<std::size_t>(k)]);
@@ -62,7 +63,7 @@ Eigen::MatrixXd design_at(const Replay& replay, const Library& library, const Wh
                           const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
                           std::span<const Eigen::Index> columns, unsigned threads) {
   Eigen::MatrixXd design(residual.size(), static_cast<Eigen::Index>(columns.size()));
-  in_parallel(threads, columns.size(), [&](std::size_t i) {
+  base::in_parallel(threads, columns.size(), [&](std::size_t i) {
     design.col(static_cast<Eigen::Index>(i)) = column(replay, library, whitening, at, residual, columns[i]);
   });
   return design;
@@ -82,7 +83,7 @@ Linearised relinearise(const Replay& replay, const Library& library, const White
   Linearised result = std::move(from);
   result.at = at;
   result.residual = residual_at(replay, library, whitening, at);
-  in_parallel(threads, columns.size(), [&](std::size_t i) {
+  base::in_parallel(threads, columns.size(), [&](std::size_t i) {
     result.design.col(columns[i]) = column(replay, library, whitening, at, result.residual, columns[i]);
   });
   renew_gram(result, columns, threads);

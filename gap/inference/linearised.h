@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -5,8 +6,8 @@
 #include <vector>
 
 #include "gap/inference/library.h"
-#include "gap/replay/replay.h"
 #include "gap/inference/whitening.h"
+#include "gap/replay/replay.h"
 
 namespace navcal::gap {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/order_times.h"
 
 #include <Eigen/Cholesky>
@@ -7,10 +8,10 @@
 #include <iterator>
 #include <utility>
 
-#include "gap/inference/biases.h"
-#include "gap/actuators/fin_orders.h"
-#include "gap/inference/linearised.h"
 #include "base/parallel.h"
+#include "gap/actuators/fin_orders.h"
+#include "gap/inference/biases.h"
+#include "gap/inference/linearised.h"
 
 namespace navcal::gap {
 namespace {
@@ -93,7 +94,7 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
   const Eigen::LLT<Eigen::MatrixXd> free(gram + Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
 
   std::array<double, kPhases> cost{};
-  in_parallel(threads, cost.size(), [&](std::size_t i) {
+  base::in_parallel(threads, cost.size(), [&](std::size_t i) {
     const Mission ordered = ordered_at(looked_at, kPhase_s * static_cast<double>(i));
     const Eigen::VectorXd residual = residual_at(Replay(ordered, vehicle), library, whitening, at);
     const Eigen::VectorXd score = widths.cwiseProduct(linear.design.transpose() * residual);

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
 
 #include "config/vehicle.h"
-#include "gap/inference/library.h"
 #include "gap/data/mission.h"
+#include "gap/inference/library.h"
 
 namespace navcal::gap {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/search.h"
 
 #include <algorithm>
@@ -7,23 +8,13 @@
 #include <set>
 
 #include "base/parallel.h"
-#include "gap/inference/set_evidence.h"
+#include "gap/inference/subset_evidence.h"
+#include "gap/thresholds.h"
 
 namespace navcal::gap {
 namespace {
 
-using Set = CauseSet;
-
-constexpr std::size_t kMostEffects = 3;
-/// So many sets of each size are simulated again.
-constexpr std::size_t kLeading = 3;
-constexpr std::size_t kSecondThoughts = 6;
-/// A leading set and its neighbours are judged where all columns are taken about its own estimate: from columns of
-/// the nominal vehicle those that are not in the set look unlike themselves, and one of them gains by being let
-/// in.
-constexpr int kRefinements = 4;
-/// Columns serve as far from where they were taken, in typical values: within tolerances nothing curves.
-constexpr double kNear = 0.25;
+using Set = EffectSubset;
 
 Set with(Set set, std::size_t effect) {
   set.insert(std::upper_bound(set.begin(), set.end(), effect), effect);
@@ -44,17 +35,17 @@ bool are_neighbours(const Set& a, const Set& b) {
 
 /// Sets that a search knows, each with the best word on it: that of its own linearisation, or the first that was
 /// had.
-class Found {
+class ScoreTable {
  public:
-  void guess(const Set& set, double log_odds) { scores_.try_emplace(set, log_odds); }
+  void set_initial(const Set& set, double log_odds) { scores_.try_emplace(set, log_odds); }
   /// Seen better from elsewhere; its own linearisation does not make it less.
-  void raise(const Set& set, double log_odds) {
+  void raise_floor(const Set& set, double log_odds) {
     const auto least = least_.try_emplace(set, log_odds).first;
     least->second = std::max(least->second, log_odds);
     const auto score = scores_.try_emplace(set, log_odds).first;
     score->second = std::max(score->second, log_odds);
   }
-  void settle(const Set& set, double log_odds) {
+  void set_final(const Set& set, double log_odds) {
     const auto least = least_.find(set);
     scores_[set] = least == least_.end() ? log_odds : std::max(log_odds, least->second);
     settled_.insert(set);
@@ -84,16 +75,16 @@ class Found {
 };
 
 /// How sets look from where one of them was simulated.
-class View {
+class LocalEvidence {
  public:
-  View(const Linearised& linear, double beyond_linear, const Library& library, const Priors& priors)
+  LocalEvidence(const Linearised& linear, double beyond_linear, const Library& library, const Priors& priors)
       : linear_(linear),
         beyond_linear_(beyond_linear),
         library_(library),
         priors_(priors),
         evidence_(linear, library, priors) {}
   [[nodiscard]] double operator()(const Set& set) const {
-    return evidence_(set) - impossible_nats(set, linear_, library_, priors_) + beyond_linear_;
+    return evidence_(set) - bound_penalty_nats(set, linear_, library_, priors_) + beyond_linear_;
   }
 
  private:
@@ -101,23 +92,24 @@ class View {
   double beyond_linear_;
   const Library& library_;
   const Priors& priors_;
-  SetEvidence evidence_;
+  SubsetEvidence evidence_;
 };
 
 /// Whether columns that were taken about one point serve at the other.
 bool are_near(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Library& library) {
   for (Eigen::Index j = Library::kBiases; j < a.size(); ++j) {
-    if (std::abs(a[j] - b[j]) > kNear * library.unknowns()[static_cast<std::size_t>(j)].typical) return false;
+    if (std::abs(a[j] - b[j]) > kLinearRange * library.unknowns()[static_cast<std::size_t>(j)].typical)
+      return false;
   }
   return true;
 }
 
 }  // namespace
 
-CauseSet hidden_effects(const SearchResult& result) {
-  CauseSet hidden;
+EffectSubset unobservable_effects(const SearchResult& result) {
+  EffectSubset hidden;
   for (std::size_t i = 0; i < result.best.effects.size(); ++i) {
-    if (result.shown_nats[i] < kShown_nats) hidden.push_back(result.best.effects[i]);
+    if (result.expected_information_nats[i] < kObservable_nats) hidden.push_back(result.best.effects[i]);
   }
   return hidden;
 }
@@ -125,33 +117,33 @@ CauseSet hidden_effects(const SearchResult& result) {
 SearchResult search(const Replay& replay, const Library& library, const Whitening& whitening,
                     const Linearised& nominal, const Priors& priors, unsigned threads,
                     const std::function<void(double)>& progress) {
-  Found found;
+  ScoreTable found;
   SearchResult result;
-  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
-  found.settle({}, result.best.log_odds);
-  const double beyond_nominal = result.best.log_odds - View(nominal, 0, library, priors)({});
-  const View judge(nominal, beyond_nominal, library, priors);
+  result.best = fit_model({}, replay, library, whitening, nominal, priors, threads);
+  found.set_final({}, result.best.log_odds);
+  const double beyond_nominal = result.best.log_odds - LocalEvidence(nominal, 0, library, priors)({});
+  const LocalEvidence judge(nominal, beyond_nominal, library, priors);
   std::vector<std::size_t> held;
   for (std::size_t e = 0; e < library.size(); ++e) {
     if (library.holds(e)) held.push_back(e);
   }
   for (const std::size_t a : held) {
-    found.guess({a}, judge({a}));
+    found.set_initial({a}, judge({a}));
     for (const std::size_t b : held) {
-      if (b > a) found.guess({a, b}, judge({a, b}));
+      if (b > a) found.set_initial({a, b}, judge({a, b}));
     }
   }
 
-  const auto guess_larger = [&](const Set& set, const View& here) {
+  const auto guess_larger = [&](const Set& set, const LocalEvidence& here) {
     if (set.size() == kMostEffects) return;
     for (const std::size_t e : held) {
-      if (std::find(set.begin(), set.end(), e) == set.end()) found.guess(with(set, e), here(with(set, e)));
+      if (std::find(set.begin(), set.end(), e) == set.end()) found.set_initial(with(set, e), here(with(set, e)));
     }
   };
-  const auto take = [&](Explanation tried) {
+  const auto take = [&](ModelFit tried) {
     const Set& set = tried.effects;
-    found.settle(set, tried.log_odds);
-    const View here(tried.linear, tried.beyond_linear, library, priors);
+    found.set_final(set, tried.log_odds);
+    const LocalEvidence here(tried.linear, tried.beyond_linear, library, priors);
     guess_larger(set, here);
     for (const std::size_t e : held) {
       if (std::find(set.begin(), set.end(), e) != set.end()) continue;
@@ -160,69 +152,70 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
       // anew.
       for (const std::size_t member : set) {
         const Set exchanged = with(without(set, member), e);
-        library.is_play(member) ? found.raise(exchanged, here(exchanged))
-                                : found.guess(exchanged, here(exchanged));
+        library.is_backlash(member) ? found.raise_floor(exchanged, here(exchanged))
+                                    : found.set_initial(exchanged, here(exchanged));
       }
     }
     for (const std::size_t member : set) {
-      if (library.is_play(member)) found.raise(without(set, member), here(without(set, member)));
+      if (library.is_backlash(member)) found.raise_floor(without(set, member), here(without(set, member)));
     }
     if (tried.log_odds > result.best.log_odds) result.best = std::move(tried);
   };
   for (std::size_t size = 1; size <= kMostEffects; ++size) {
-    std::vector<Set> sets = found.leading(size, kLeading);
+    std::vector<Set> sets = found.leading(size, kLeadingSubsets);
     for (const std::size_t effect : held) {
       const bool there = std::find(sets.begin(), sets.end(), Set{effect}) != sets.end();
       if (size == 1 && library.is_curved(effect) && !there) sets.push_back({effect});
     }
     // As many at a time as there are threads: each holds a design of its own.
     for (std::size_t from = 0; from < sets.size(); from += threads) {
-      std::vector<Explanation> tried(std::min<std::size_t>(threads, sets.size() - from));
-      in_parallel(threads, tried.size(), [&](std::size_t i) {
-        tried[i] = explain(sets[from + i], replay, library, whitening, nominal, priors, 1);
+      std::vector<ModelFit> tried(std::min<std::size_t>(threads, sets.size() - from));
+      base::in_parallel(threads, tried.size(), [&](std::size_t i) {
+        tried[i] = fit_model(sets[from + i], replay, library, whitening, nominal, priors, 1);
       });
-      for (Explanation& one : tried) take(std::move(one));
+      for (ModelFit& one : tried) take(std::move(one));
     }
     progress(static_cast<double>(size) / kMostEffects);
   }
 
   // What was seen only from another set's place is not answered before it was simulated itself.
-  for (std::size_t i = 0; i < kSecondThoughts; ++i) {
+  for (std::size_t i = 0; i < kReconsideredSubsets; ++i) {
     const Set& leader = found.leader();
     if (found.is_settled(leader)) break;
-    take(explain(leader, replay, library, whitening, nominal, priors, threads));
+    take(fit_model(leader, replay, library, whitening, nominal, priors, threads));
   }
   if (const Set& leader = found.leader(); leader != result.best.effects) {
-    result.best = explain(leader, replay, library, whitening, nominal, priors, threads);
+    result.best = fit_model(leader, replay, library, whitening, nominal, priors, threads);
   }
   Eigen::VectorXd fresh_at = nominal.at;
   for (int i = 0; i < kRefinements && !result.best.effects.empty(); ++i) {
     if (const Eigen::VectorXd at = result.best.about; !are_near(at, fresh_at, library)) {
-      result.best = concluded(
+      result.best = refine(
           result.best.effects,
           relinearise(replay, library, whitening, std::move(result.best.linear), at, library.moving(), threads),
           replay, library, whitening, priors);
       fresh_at = at;
     }
-    const View here(result.best.linear, result.best.beyond_linear, library, priors);
-    found.settle(result.best.effects, result.best.log_odds);
+    const LocalEvidence here(result.best.linear, result.best.beyond_linear, library, priors);
+    found.set_final(result.best.effects, result.best.log_odds);
     guess_larger(result.best.effects, here);
     for (const auto& [set, score] : std::map(found.scores())) {
-      if (!set.empty() && are_neighbours(set, result.best.effects)) found.settle(set, here(set));
+      if (!set.empty() && are_neighbours(set, result.best.effects)) found.set_final(set, here(set));
     }
     const Set leader = found.leader();
     if (leader == result.best.effects) break;
-    result.best = explain(leader, replay, library, whitening, std::move(result.best.linear), priors, threads);
+    result.best = fit_model(leader, replay, library, whitening, std::move(result.best.linear), priors, threads);
   }
   result.best.log_odds = found.scores().at(result.best.effects);
   const Priors others = without_members(priors, library, result.best.effects);
-  result.mean_without_effects = possible_posterior(nominal, library, others, {}).mean;
+  result.mean_without_effects = bounded_posterior(nominal, library, others, {}).mean;
 
   const Evidence evidence = evidence_of(result.best.linear, priors);
   for (const std::size_t effect : result.best.effects) {
     const double strength = strength_of(library, effect, result.best.mean);
     const Eigen::VectorXd typical = result.best.mean / std::max(strength, 1e-9);
-    result.shown_nats.push_back(evidence.separation(members_of(library, {effect}), typical, {}));
+    result.expected_information_nats.push_back(
+        evidence.separation(parameter_indices(library, {effect}), typical, {}));
   }
 
   double total = 0;
@@ -243,9 +236,9 @@ SearchResult search(const Replay& replay, const Library& library, const Whitenin
 SearchResult nothing_found(const Replay& replay, const Library& library, const Whitening& whitening,
                            const Linearised& nominal, const Priors& priors, unsigned threads) {
   SearchResult result;
-  result.best = explain({}, replay, library, whitening, nominal, priors, threads);
+  result.best = fit_model({}, replay, library, whitening, nominal, priors, threads);
   result.best.log_odds = 0;
-  result.mean_without_effects = possible_posterior(nominal, library, priors, {}).mean;
+  result.mean_without_effects = bounded_posterior(nominal, library, priors, {}).mean;
   result.candidates = {{{}, 0, 1}};
   return result;
 }

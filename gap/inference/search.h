@@ -1,36 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
 #include <vector>
 
-#include "gap/inference/explanation.h"
+#include "gap/inference/model_fit.h"
 
 namespace navcal::gap {
 
 /// A set of effects and how probable it is beside the others that were looked at.
 struct Candidate {
-  CauseSet effects;     ///< empty: no effect
-  double log_odds = 0;  ///< against no effect, nats; of sets equally far, by their evidence
+  EffectSubset effects;  ///< empty: no effect
+  double log_odds = 0;   ///< against no effect, nats; of sets equally far, by their evidence
   double probability = 0;
 };
 
-/// Less than this does not tell one effect from another, nats.
-inline constexpr double kShown_nats = 10;
-
 struct SearchResult {
   std::vector<Candidate> candidates;  ///< most probable first
-  Explanation best;                   ///< of the first of them
+  ModelFit best;                      ///< of the first of them
   /// Posterior of all unknowns where the best set's are zero and the others within tolerance. Were its own within
   /// tolerance, too, strong data would make them what they are in spite of it.
   Eigen::VectorXd mean_without_effects;
   /// Of each of the best set's effects: what this mission would tell of it, nats, if it had the direction that was
   /// found and its typical strength.
-  std::vector<double> shown_nats;
+  std::vector<double> expected_information_nats;
 };
 
 /// Those of the best set that this mission hardly shows, were they as strong as usual.
-[[nodiscard]] CauseSet hidden_effects(const SearchResult& result);
+[[nodiscard]] EffectSubset unobservable_effects(const SearchResult& result);
 
 /// Singles, pairs and triples of effects by their evidence. Leading sets are simulated and linearised again at
 /// their own estimate: what is left of second order would otherwise recruit innocent effects.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/whitening.h"
 
 #include <Eigen/Cholesky>
@@ -9,7 +10,7 @@
 namespace navcal::gap {
 namespace {
 
-constexpr double kSettling_s = 20;
+constexpr double kFilterSettling_s = 20;
 
 /// Prediction errors of rows by `filter`; a row that begins a run has nothing before it. What was not measured is
 /// as predicted.
@@ -51,7 +52,7 @@ std::vector<bool> fix_begins(const Layout& layout) {
   return begins;
 }
 
-Eigen::Index settled_row() { return static_cast<Eigen::Index>(kSettling_s / kInterval_s); }
+Eigen::Index settled_row() { return static_cast<Eigen::Index>(kFilterSettling_s / kInterval_s); }
 
 /// Sums of x_i x_(i-k) over all that is measured, for one channel.
 void gather(const Eigen::MatrixXd& rows, const std::vector<bool>& begins, Eigen::Index from, Eigen::MatrixXd& sums,
@@ -112,7 +113,7 @@ Whitening::Whitening(std::span<const Innovations> noise, std::span<const Layout>
     grids.push_back(noise[n].grid.leftCols(kEvidenceChannels));
     gather(noise[n].fixes, fix_begins(layouts[n]), 0, fix_sums, fix_counts);
   }
-  grid_filter = PastFilter::learnt(grids, settled_row());
+  grid_filter = PredictionErrorFilter::learnt(grids, settled_row());
   fix_filter = filters(fix_sums, fix_counts);
 
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kEvidenceChannels, kEvidenceChannels), counts = sums;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -5,7 +6,7 @@
 #include <vector>
 
 #include "gap/data/innovations.h"
-#include "gap/inference/past_filter.h"
+#include "gap/inference/prediction_error_filter.h"
 
 namespace navcal::gap {
 
@@ -38,7 +39,7 @@ class Whitening {
   [[nodiscard]] static Eigen::Index count(const Eigen::VectorXd& white);
 
   // For keeping it in a file.
-  PastFilter grid_filter;
+  PredictionErrorFilter grid_filter;
   Eigen::MatrixXd fix_filter;               ///< order x channels
   Eigen::MatrixXd grid_factor, fix_factor;  ///< lower triangles
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/nulls/bank_cache.h"
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder)
 }
 
 /// What of a mission's commands decides about its nulls, in units of what may differ: a row for each ten seconds.
-std::vector<double> fingerprint(const Replay& replay, const Course10Hz& course) {
+std::vector<double> fingerprint(const Replay& replay, const Trajectory10Hz& course) {
   constexpr double kShaft_rps = 0.5, kTurn_rad_s = 0.05, kDepth_m = 0.4, kFixes = 4;
   const auto window = static_cast<std::size_t>(kWindow_s / kInterval_s);
   std::vector<double> all;
@@ -95,7 +96,7 @@ BankCache::BankCache(std::filesystem::path folder, const config::VehicleSettings
   }
 }
 
-std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& course,
+std::optional<NullBank> BankCache::find(const Replay& replay, const Trajectory10Hz& course,
                                         const BankOptions& options) const {
   if (folder_.empty()) return std::nullopt;
   const auto wanted = fingerprint(replay, course);
@@ -119,7 +120,7 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Course10Hz& 
   return best;
 }
 
-std::string BankCache::keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const {
+std::string BankCache::keep(const Replay& replay, const Trajectory10Hz& course, const NullBank& bank) const {
   if (folder_.empty()) return {};
   const EarthField& field = replay.mission().field;
   try {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -22,10 +23,10 @@ class BankCache {
 
   /// The bank of at least so many missions whose own mission is nearest, if it is near enough. A file that cannot
   /// be read as one is passed over.
-  [[nodiscard]] std::optional<NullBank> find(const Replay& replay, const Course10Hz& course,
+  [[nodiscard]] std::optional<NullBank> find(const Replay& replay, const Trajectory10Hz& course,
                                              const BankOptions& options) const;
   /// Returns why the bank could not be kept; empty: it is kept, or there is no folder for it.
-  [[nodiscard]] std::string keep(const Replay& replay, const Course10Hz& course, const NullBank& bank) const;
+  [[nodiscard]] std::string keep(const Replay& replay, const Trajectory10Hz& course, const NullBank& bank) const;
 
  private:
   std::filesystem::path folder_;

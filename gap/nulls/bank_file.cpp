@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/nulls/bank_file.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ Json bank_json(const NullBank& bank) {
           {"gram", numbers(bank.gram)},
           {"scores", numbers(bank.scores)},
           {"powers", bank.powers},
-          {"followed", statistics_json(bank.followed)},
+          {"followed", statistics_json(bank.explained_rms)},
           {"left", statistics_json(bank.left)}};
 }
 
@@ -59,14 +60,14 @@ NullBank bank_from(const Json& from) {
   bank.missions = from.at("missions");
   bank.seed = from.at("seed");
   bank.seconds = from.at("seconds");
-  bank.whitening.grid_filter = PastFilter(matrix(from.at("grid_filter")));
+  bank.whitening.grid_filter = PredictionErrorFilter(matrix(from.at("grid_filter")));
   bank.whitening.fix_filter = matrix(from.at("fix_filter"));
   bank.whitening.grid_factor = matrix(from.at("grid_factor"));
   bank.whitening.fix_factor = matrix(from.at("fix_factor"));
   bank.gram = matrix(from.at("gram"));
   bank.scores = matrix(from.at("scores"));
   bank.powers = from.at("powers").get<std::vector<double>>();
-  bank.followed = statistics(from.at("followed"));
+  bank.explained_rms = statistics(from.at("followed"));
   bank.left = statistics(from.at("left"));
   return bank;
 }
@@ -77,7 +78,8 @@ bool is_shaped(const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index co
 
 /// Nothing, too: where no simulated vehicle could follow.
 bool is_past_filter(const Eigen::MatrixXd& weights) {
-  return weights.size() == 0 || is_shaped(weights, PastFilter::kWindows * kEvidenceChannels, kEvidenceChannels);
+  return weights.size() == 0 ||
+         is_shaped(weights, PredictionErrorFilter::kWindows * kEvidenceChannels, kEvidenceChannels);
 }
 
 /// A factor that whitening can divide by.
@@ -106,7 +108,7 @@ bool is_whole(const NullBank& bank, Eigen::Index unknowns) {
          is_shaped(bank.gram, unknowns, unknowns) && is_shaped(bank.scores, unknowns, bank.missions) &&
          bank.powers.size() == static_cast<std::size_t>(bank.missions) &&
          std::all_of(bank.powers.begin(), bank.powers.end(), [](double power) { return std::isfinite(power); }) &&
-         is_statistics(bank.followed) && is_statistics(bank.left);
+         is_statistics(bank.explained_rms) && is_statistics(bank.left);
 }
 
 }  // namespace

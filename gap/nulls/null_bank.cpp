@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/nulls/null_bank.h"
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 #include <limits>
 #include <optional>
 
-#include "gap/nulls/able_vehicles.h"
 #include "gap/inference/biases.h"
 #include "gap/nulls/null_mission.h"
+#include "gap/nulls/simulate_feasible.h"
 
 namespace navcal::gap {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::size_t kWhiteningMissions = 30;
 struct Null {
   Innovations nominal;
   Layout layout;
-  Course10Hz course;
+  Trajectory10Hz course;
   std::vector<double> fix_times_s;
   std::optional<Innovations> noise;  ///< by its own true parameters
 };
@@ -39,13 +40,13 @@ Innovations fitted_into(const Innovations& innovations, const Layout& layout) {
   return result;
 }
 
-NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const config::VehicleSettings& vehicle,
-                        const Library& library, const Eigen::VectorXd& at, const BankOptions& options,
-                        const std::function<void(double)>& progress) {
+NullBank make_null_bank(const Replay& recorded, const Trajectory10Hz& course,
+                        const config::VehicleSettings& vehicle, const Library& library, const Eigen::VectorXd& at,
+                        const BankOptions& options, const std::function<void(double)>& progress) {
   const auto began = std::chrono::steady_clock::now();
   NullBank bank;
   bank.seed = options.seed;
-  auto nulls = of_able_vehicles(
+  auto nulls = simulate_feasible(
       options, Seeds::bank,
       [&](std::size_t i, std::uint64_t seed) {
         const Eigen::VectorXd values = benign_mismatch(library, seed);
@@ -68,7 +69,7 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
   std::vector<Eigen::MatrixXd> left_by_nulls;
   for (Null& null : nulls) {
     if (!null.noise) continue;
-    left_by_nulls.push_back(followed(*null.noise, null.course, null.fix_times_s));
+    left_by_nulls.push_back(explained_rms(*null.noise, null.course, null.fix_times_s));
     noise.push_back(std::move(*null.noise));
     layouts.push_back(null.layout);
   }
@@ -89,9 +90,9 @@ NullBank make_null_bank(const Replay& recorded, const Course10Hz& course, const 
     const Eigen::VectorXd bias = biases.solve(bank.scores.col(column).head<Library::kBiases>());
     const Eigen::VectorXd left = white - linear.design.leftCols(Library::kBiases) * bias;
     bank.powers.push_back(left.squaredNorm() / static_cast<double>(Whitening::count(left)));
-    followed_by_nulls.push_back(followed(null.nominal, null.course, null.fix_times_s));
+    followed_by_nulls.push_back(explained_rms(null.nominal, null.course, null.fix_times_s));
   }
-  bank.followed = RegimeStatistics(followed_by_nulls);
+  bank.explained_rms = RegimeStatistics(followed_by_nulls);
   bank.left = RegimeStatistics(left_by_nulls);
   bank.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   progress(1);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -7,9 +8,9 @@
 
 #include "gap/inference/library.h"
 #include "gap/inference/linearised.h"
+#include "gap/inference/whitening.h"
 #include "gap/replay/regimes.h"
 #include "gap/replay/replay.h"
-#include "gap/inference/whitening.h"
 
 namespace navcal::gap {
 
@@ -21,11 +22,11 @@ struct NullBank {
   double seconds = 0;  ///< that it took
 
   Whitening whitening;
-  Eigen::MatrixXd gram;        ///< of the design of the recorded mission, of all unknowns of the whole library
-  Eigen::MatrixXd scores;      ///< design^T innovations: a column for each mission
-  std::vector<double> powers;  ///< of each: mean square of whitened innovations, biases fitted
-  RegimeStatistics followed;   ///< of the nominal replay of each
-  RegimeStatistics left;       ///< of the replays of some by their own true parameters
+  Eigen::MatrixXd gram;            ///< of the design of the recorded mission, of all unknowns of the whole library
+  Eigen::MatrixXd scores;          ///< design^T innovations: a column for each mission
+  std::vector<double> powers;      ///< of each: mean square of whitened innovations, biases fitted
+  RegimeStatistics explained_rms;  ///< of the nominal replay of each
+  RegimeStatistics left;           ///< of the replays of some by their own true parameters
 };
 
 /// Of the shape of another mission that was steered alike: cut off, or filled with what was not measured.
@@ -39,7 +40,7 @@ struct BankOptions {
 
 /// Simulates, replays and learns. `recorded` is only steered by: its innovations are not looked at. `at` is where
 /// its design is taken.
-[[nodiscard]] NullBank make_null_bank(const Replay& recorded, const Course10Hz& course,
+[[nodiscard]] NullBank make_null_bank(const Replay& recorded, const Trajectory10Hz& course,
                                       const config::VehicleSettings& vehicle, const Library& library,
                                       const Eigen::VectorXd& at, const BankOptions& options,
                                       const std::function<void(double)>& progress);

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/nulls/null_mission.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/durations.h"
-#include "gap/actuators/shadow_helm.h"
+#include "gap/actuators/trajectory_tracker.h"
+#include "gap/thresholds.h"
 #include "sim/effects/effect_table.h"
 #include "sim/motion_in_field.h"
 #include "sim/noise.h"
@@ -51,7 +53,7 @@ void keep_fixes(const Mission& recorded, Mission& simulated) {
 
 }  // namespace
 
-Mission null_mission(const Replay& recorded, const Course10Hz& course, const config::VehicleSettings& vehicle,
+Mission null_mission(const Replay& recorded, const Trajectory10Hz& course, const config::VehicleSettings& vehicle,
                      const sim::EffectSet& mismatch, std::uint64_t seed) {
   // Full seconds of the simulated sky are where the recorded mission had its fixes.
   const auto& fixes = recorded.mission().fixes;
@@ -66,7 +68,7 @@ Mission null_mission(const Replay& recorded, const Course10Hz& course, const con
   sim::Noise dice(seed);
   const double later_s = dice.uniform(0, kInterval_s);
   const auto& track = recorded.actuators();
-  auto helm = std::make_unique<ShadowHelm>(
+  auto helm = std::make_unique<TrajectoryTracker>(
       track.rows(), track.orders().drawn_servos_rad(track.rows().size(), ActuatorTrack::kStep_s, later_s, dice),
       course, vehicle.fins);
   const EarthField& field = recorded.mission().field;

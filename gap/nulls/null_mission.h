@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -7,14 +8,10 @@
 
 namespace navcal::gap {
 
-/// Every vehicle is off by a little everywhere: so much of each parameter's typical strength, one standard
-/// deviation.
-inline constexpr double kTolerance = 0.02;
-
 /// The recorded mission once more, by a simulated vehicle without a gap: as the recorded one was steered, with
 /// instruments through their bytes and the pipeline, and with fixes when it had some. The gyros have no turn-on
 /// bias. Throws sim::UnstableVehicle.
-[[nodiscard]] Mission null_mission(const Replay& recorded, const Course10Hz& course,
+[[nodiscard]] Mission null_mission(const Replay& recorded, const Trajectory10Hz& course,
                                    const config::VehicleSettings& vehicle, const sim::EffectSet& mismatch,
                                    std::uint64_t seed);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/replay/predicted_instruments.h"
 
 #include "base/angles.h"

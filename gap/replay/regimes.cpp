@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/replay/regimes.h"
 
 #include <Eigen/Cholesky>
@@ -99,7 +100,7 @@ const std::vector<std::string_view>& regimes() {
 
 Eigen::Index overall_regime() { return overall; }
 
-Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
+Eigen::MatrixXd drivers_of(std::size_t regime, const Trajectory10Hz& course) {
   const auto one = [](const auto& column) { return without_mean(Eigen::MatrixXd(column)); };
   const Eigen::ArrayXd turned = mapped(course.heading_rad).array();
   Eigen::MatrixXd both(turned.size(), 2);
@@ -125,7 +126,7 @@ Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
     case motor_current:
       return one(mapped(course.current_A));
     case temperature:
-      return one(mapped(course.warmth_C));
+      return one(mapped(course.temperature_rise_C));
     case time_passed:
       return one(mapped(course.time_s));
     case depth_below:
@@ -143,8 +144,8 @@ Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course) {
   }
 }
 
-Eigen::MatrixXd followed(const Innovations& innovations, const Course10Hz& course,
-                         const std::vector<double>& fix_times_s) {
+Eigen::MatrixXd explained_rms(const Innovations& innovations, const Trajectory10Hz& course,
+                              const std::vector<double>& fix_times_s) {
   const auto channels = static_cast<Eigen::Index>(reported_channels().size());
   const auto kinds = static_cast<Eigen::Index>(regimes().size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(channels, kinds);

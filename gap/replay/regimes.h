@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +16,11 @@ namespace navcal::gap {
 [[nodiscard]] Eigen::Index overall_regime();
 
 /// The course's driver of a regime; columns that act together (sine and cosine). Empty for a band of frequency.
-[[nodiscard]] Eigen::MatrixXd drivers_of(std::size_t regime, const Course10Hz& course);
+[[nodiscard]] Eigen::MatrixXd drivers_of(std::size_t regime, const Trajectory10Hz& course);
 
 /// channels x regimes: root mean square of that part of a channel which follows the regime, in the channel's unit.
-[[nodiscard]] Eigen::MatrixXd followed(const Innovations& innovations, const Course10Hz& course,
-                                       const std::vector<double>& fix_times_s);
+[[nodiscard]] Eigen::MatrixXd explained_rms(const Innovations& innovations, const Trajectory10Hz& course,
+                                            const std::vector<double>& fix_times_s);
 
 /// How much the null missions follow: from it the significance of what another does.
 class RegimeStatistics {

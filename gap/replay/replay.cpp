@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/replay/replay.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
       0, static_cast<Eigen::Index>(std::floor((mission.card.back().time_s - begin_s_) / kInterval_s)));
 }
 
-Innovations Replay::run(const Model& model, Course10Hz* course) const {
+Innovations Replay::run(const Model& model, Trajectory10Hz* course) const {
   return ReplayRun({mission_, settings_, vehicle_, track_.rows(), current_A_, electronics_C_, begin_s_,
                     compass_shift_s_, intervals_},
                    model)

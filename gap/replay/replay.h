@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -33,7 +34,7 @@ class Replay {
   Replay(const Mission& mission, const config::VehicleSettings& vehicle);
 
   /// `course`, where given, is filled in.
-  [[nodiscard]] Innovations run(const Model& model, Course10Hz* course = nullptr) const;
+  [[nodiscard]] Innovations run(const Model& model, Trajectory10Hz* course = nullptr) const;
 
   [[nodiscard]] Eigen::Index intervals() const { return intervals_; }
   [[nodiscard]] const Mission& mission() const { return mission_; }

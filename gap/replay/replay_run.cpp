@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/replay/replay_run.h"
 
 #include <algorithm>
@@ -145,7 +146,7 @@ void ReplayRun::take_card(const CardReading& reading) {
   const double delay_s = effects_.delays(reading.time_s).card_s;
   const sim::State& now = states_.predicted();
   const auto said =
-      instruments_.card(reading.time_s, delay_s > 0 ? states_.known_now(reading.time_s - delay_s) : now);
+      instruments_.card(reading.time_s, delay_s > 0 ? states_.corrected_at(reading.time_s - delay_s) : now);
   const auto interval = interval_of(reading.time_s);
   std::array<double, 4> missed{};
   for (std::size_t i = 0; i < 4; ++i) missed[i] = reading.gyro_rad_s[i] - said.gyro_rad_s[i];
@@ -191,7 +192,7 @@ void ReplayRun::take_words(double until_s) {
   const auto& words = in_.mission.compass;
   for (; next_word_ < words.size() && words[next_word_].time_s <= until_s; ++next_word_) {
     instruments_.set_electronics(in_.electronics_C[next_word_]);
-    take_word(words[next_word_], states_.known_then(words[next_word_].time_s));
+    take_word(words[next_word_], states_.filtered_at(words[next_word_].time_s));
   }
 }
 
@@ -203,7 +204,7 @@ void ReplayRun::take_fixes(double until_s) {
 void ReplayRun::take_fix(std::size_t index) {
   const FixReading& fix = in_.mission.fixes[index];
   const double time_s = fix.time_s - effects_.delays(fix.time_s).gps_s;
-  const auto antenna = instruments_.antenna(time_s, states_.known_then(time_s), offset_m_);
+  const auto antenna = instruments_.antenna(time_s, states_.filtered_at(time_s), offset_m_);
 
   // The first fixes after surfacing come from few satellites (docs/simulator.md).
   const double degraded = 1 + std::exp2(1 - fix.number);
@@ -240,7 +241,7 @@ void ReplayRun::take_fix(std::size_t index) {
   distance_at_fix_m_ = distance_m_;
 }
 
-void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) const {
+void ReplayRun::write_course(const CardReading& reading, Trajectory10Hz& course) const {
   const auto interval = interval_of(reading.time_s);
   if (!interval || *interval < static_cast<Eigen::Index>(course.time_s.size())) return;
   const sim::State& state = states_.predicted();
@@ -255,7 +256,7 @@ void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) con
     course.depth_m.push_back(state.position_m[2]);
     course.surge_m_s.push_back(state.velocity_body_m_s[0]);
     course.current_A.push_back(state.motor_current_A);
-    course.warmth_C.push_back(instruments_.electronics_C() - 15);
+    course.temperature_rise_C.push_back(instruments_.electronics_C() - 15);
     // The mixing of the card's interface document, section 4, undone.
     course.rudder_rad.push_back((-2 * fins[0] + fins[1] + fins[2]) / 3);
     course.elevator_rad.push_back((fins[1] - fins[2]) / std::numbers::sqrt3);
@@ -263,7 +264,7 @@ void ReplayRun::write_course(const CardReading& reading, Course10Hz& course) con
   }
 }
 
-Innovations ReplayRun::innovations(Course10Hz* course) {
+Innovations ReplayRun::innovations(Trajectory10Hz* course) {
   for (const CardReading& reading : in_.mission.card) {
     if (reading.time_s < in_.begin_s) continue;
     if (states_.empty() || reading.time_s - states_.newest_s() > kRestart_s) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -6,8 +7,8 @@
 
 #include "gap/actuators/linked_actuators.h"
 #include "gap/replay/predicted_instruments.h"
-#include "gap/replay/remembered_states.h"
 #include "gap/replay/replay.h"
+#include "gap/replay/state_history.h"
 
 namespace navcal::gap {
 
@@ -30,7 +31,7 @@ class ReplayRun {
   ReplayRun(const ReplayRun&) = delete;
   ReplayRun& operator=(const ReplayRun&) = delete;
 
-  [[nodiscard]] Innovations innovations(Course10Hz* course);
+  [[nodiscard]] Innovations innovations(Trajectory10Hz* course);
 
  private:
   void begin(const CardReading& reading);
@@ -42,7 +43,7 @@ class ReplayRun {
   void take_word(const CompassReading& reading, const sim::State& state);
   void take_fixes(double until_s);
   void take_fix(std::size_t index);
-  void write_course(const CardReading& reading, Course10Hz& course) const;
+  void write_course(const CardReading& reading, Trajectory10Hz& course) const;
   /// Of the grid; none before the first and after the last.
   [[nodiscard]] std::optional<Eigen::Index> interval_of(double time_s) const;
   void add(std::optional<Eigen::Index> interval, Channel channel, double innovation);
@@ -56,7 +57,7 @@ class ReplayRun {
   sim::Body body_;              ///< the estimate
   Vector3 gyro_error_rad_s_{};  ///< predicted, of the rates about x, y, z
   Vector3 gyro_said_rad_s_{};   ///< at the last frame
-  RememberedStates states_;
+  StateHistory states_;
   std::size_t next_word_ = 0, next_fix_ = 0;
   std::array<double, 2> offset_m_{};  ///< by which fixes moved the estimate
   double variance_m2_ = 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/replay/reported_channels.h"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ Eigen::MatrixXd block_means(const Eigen::MatrixXd& values, Eigen::Index length) 
   return means;
 }
 
-ChannelSeries series_of(std::size_t channel, const Innovations& innovations, const Course10Hz& course,
+ChannelSeries series_of(std::size_t channel, const Innovations& innovations, const Trajectory10Hz& course,
                         const std::vector<double>& fix_times_s) {
   ChannelSeries series;
   const bool at_fixes = channel == gps_position || channel == gps_velocity || channel == vehicle_speed;

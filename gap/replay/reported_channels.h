@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +22,7 @@ struct ChannelSeries {
   std::vector<std::size_t> rows;
 };
 [[nodiscard]] ChannelSeries series_of(std::size_t channel, const Innovations& innovations,
-                                      const Course10Hz& course, const std::vector<double>& fix_times_s);
+                                      const Trajectory10Hz& course, const std::vector<double>& fix_times_s);
 
 /// Means of blocks of so many rows, at each row.
 [[nodiscard]] Eigen::MatrixXd block_means(const Eigen::MatrixXd& values, Eigen::Index length);

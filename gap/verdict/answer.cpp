@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/verdict/answer.h"
 
 #include <fmt/format.h>
@@ -7,29 +8,28 @@
 #include <cmath>
 #include <map>
 
-#include "gap/verdict/advice.h"
+#include "gap/inference/subset_evidence.h"
 #include "gap/replay/regimes.h"
-#include "gap/inference/set_evidence.h"
+#include "gap/thresholds.h"
+#include "gap/verdict/advice.h"
 
 namespace navcal::gap {
 namespace {
 
-/// Less evidence than this between two effects does not tell them apart.
-constexpr double kTellsApart_nats = 10;
 constexpr double kWorthNaming = 0.01;
 constexpr double kLeastDistance_m = 20;
 
 std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found, const Library& library,
                                   const Evidence& evidence) {
   std::vector<Confusion> all;
-  const auto members = members_of(library, {effect});
+  const auto members = parameter_indices(library, {effect});
   const double alone = evidence.separation(members, found.best.mean, {});
   for (std::size_t other = 0; other < library.size(); ++other) {
     const auto& set = found.best.effects;
     if (other == effect || !library.holds(other) || std::find(set.begin(), set.end(), other) != set.end())
       continue;
-    const double left = evidence.separation(members, found.best.mean, members_of(library, {other}));
-    if (left < kTellsApart_nats && left < 0.5 * alone) {
+    const double left = evidence.separation(members, found.best.mean, parameter_indices(library, {other}));
+    if (left < kObservable_nats && left < 0.5 * alone) {
       all.push_back(
           {std::string(library[other].name), tie_breaker(library[effect].name, library[other].name), left});
     }
@@ -42,7 +42,7 @@ std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found,
 std::vector<EffectParameterEstimate> parameters(std::size_t effect, const SearchResult& found,
                                                 const Library& library) {
   std::vector<EffectParameterEstimate> all;
-  for (const Eigen::Index j : members_of(library, {effect})) {
+  for (const Eigen::Index j : parameter_indices(library, {effect})) {
     all.push_back({std::string(library.unknowns()[static_cast<std::size_t>(j)].name), found.best.mean[j],
                    found.best.std[j]});
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/verdict/holdout.h"
 
 #include <algorithm>
@@ -6,14 +7,13 @@
 #include <utility>
 
 #include "gap/inference/biases.h"
+#include "gap/thresholds.h"
 
 namespace navcal::gap {
 namespace {
 
 constexpr double kBlock_s = 10;
 constexpr int kResamples = 1000;
-/// Further above the floor than this many of its standard deviations, a gap is one.
-constexpr double kClear = 3;
 
 /// The innovations by these effects with the biases that fit them, and their whitened form.
 struct Fitted {
@@ -22,7 +22,7 @@ struct Fitted {
 };
 
 Fitted fitted(const Replay& replay, const Library& library, const Whitening& whitening, Eigen::VectorXd values,
-              Course10Hz* course) {
+              Trajectory10Hz* course) {
   values = with_biases_fitted(replay, library, whitening, std::move(values), 1);
   Fitted result;
   result.innovations = replay.run(library.model(values), course);
@@ -65,7 +65,7 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
   result.nominal = std::move(before.innovations);
   result.improved = std::move(after.innovations);
   result.fix_times_s = replay.mission().fix_times_s();
-  result.channel_floor = bank.followed.mean_square.col(overall_regime()).cwiseSqrt();
+  result.channel_floor = bank.explained_rms.mean_square.col(overall_regime()).cwiseSqrt();
   double square = 0;
   for (const double power : bank.powers) result.floor += power / static_cast<double>(bank.powers.size());
   for (const double power : bank.powers) square += (power - result.floor) * (power - result.floor);
@@ -73,8 +73,8 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
   return result;
 }
 
-Foretold foretold(const Replay& replay, const Library& library, const Whitening& whitening,
-                  const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
+HeldOutPrediction foretold(const Replay& replay, const Library& library, const Whitening& whitening,
+                           const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
   const Eigen::VectorXd poorer = fitted(replay, library, whitening, without, nullptr).white;
   const Eigen::VectorXd better = fitted(replay, library, whitening, with, nullptr).white;
   return {0.5 * (poorer.squaredNorm() - better.squaredNorm()), power_of(better, layout_of(replay))};
@@ -101,7 +101,7 @@ PooledClosure pooled_closure(const std::vector<Comparison>& comparisons, const s
     floor_variance += weight * weight * each.floor_std * each.floor_std;
   }
   const double floor_std = std::sqrt(floor_variance);
-  pooled.clear = pooled.before - pooled.floor > kClear * floor_std;
+  pooled.clear = pooled.before - pooled.floor > kHoldoutGap_sigma * floor_std;
   if (!pooled.clear) return pooled;
   pooled.closed = 1 - (pooled.after - pooled.floor) / (pooled.before - pooled.floor);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +23,7 @@ struct Comparison {
   double floor = 0, floor_std = 0;  ///< mean square of the mission's own nulls
   double measurements = 0;          ///< how many the means are over
   Innovations nominal, improved;
-  Course10Hz course;  ///< of the improved replay
+  Trajectory10Hz course;  ///< of the improved replay
   std::vector<double> fix_times_s;
   Eigen::VectorXd channel_floor;  ///< root mean square of each reported channel among the nulls
 };
@@ -32,13 +33,13 @@ struct Comparison {
                                  const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects);
 
 /// How well all that another mission says of the vehicle foretells this one.
-struct Foretold {
+struct HeldOutPrediction {
   double gain_nats = 0;  ///< by how much its log likelihood is greater with the effects than without
   Power power;           ///< with them
 };
 /// By two sets of values of all unknowns; the gyros' biases are fitted anew for each.
-[[nodiscard]] Foretold foretold(const Replay& replay, const Library& library, const Whitening& whitening,
-                                const Eigen::VectorXd& without, const Eigen::VectorXd& with);
+[[nodiscard]] HeldOutPrediction foretold(const Replay& replay, const Library& library, const Whitening& whitening,
+                                         const Eigen::VectorXd& without, const Eigen::VectorXd& with);
 
 /// Of several missions together: 1 - (after - floor) / (before - floor), with its 95 % interval by a bootstrap of
 /// the blocks and of what is known of the floors.

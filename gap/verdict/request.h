@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@
 #include <vector>
 
 #include "config/vehicle.h"
-#include "gap/verdict/diagnosis.h"
 #include "gap/data/earth_field.h"
+#include "gap/verdict/diagnosis.h"
 #include "record/recording.h"
 
 namespace navcal::gap {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/verdict/verdict.h"
 
 #include <fmt/format.h>
@@ -7,32 +8,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "gap/thresholds.h"
+
 namespace navcal::gap {
 namespace {
 
 constexpr std::size_t kMostReasons = 4;
-constexpr double kProbable = 0.7;
-/// Other causes together may be no more probable: a wrong name sends people to mend what is whole, where one more
-/// manoeuvre would tell. That there is none at all is the lesser mistake, for which kProbable is enough.
-constexpr double kMostRivals = 0.15;
-/// Where nothing stands clear of nulls, a gap is one whose absence is less probable than this.
-constexpr double kAbsent = 0.01;
-constexpr double kClosed = 0.9;
-/// Typical strengths beyond which an effect rather stands for something else.
-constexpr double kLargest = 5;
-/// Typical strengths whose digits mean nothing any more.
-constexpr double kAbsurd = 100;
-/// Typical strengths up to which it is a tolerance.
-constexpr double kSmallest = 0.05;
-/// Typical strengths beyond which hardly a tolerance reaches, be it three times what it should be.
-constexpr double kBeyondTolerance = 0.2;
-/// Typical strengths beyond which what is not named is no tolerance, however little a mission shows of it.
-constexpr double kMostTolerance = 0.4;
-constexpr double kGainAltogether_nats = 2, kLoss_nats = -2;
-/// A closure below this is growth: the interval of its error may reach a little below zero where nothing closes.
-constexpr double kGrows = -0.05;
-/// So much of an unexplained rest is left when p, over all channels and regimes together, is below.
-constexpr double kLeft = 1e-4;
 
 std::string names(const Library& library, const std::vector<std::size_t>& effects) {
   std::vector<std::string_view> all;
@@ -45,18 +26,18 @@ std::string names(const Library& library, const std::vector<std::size_t>& effect
 /// this vehicle's tolerances, if those found on the first mission explain it on the others; but then the effects
 /// must be more than tolerances themselves, and the others must be tolerances.
 bool closes(const Grounds& grounds) {
-  if (!grounds.closure.clear || grounds.closure.upper >= kClosed) return true;
+  if (!grounds.closure.clear || grounds.closure.upper >= kClosedFrom) return true;
   const auto& best = grounds.found.best;
   for (std::size_t effect = 0; effect < grounds.library.size(); ++effect) {
     const double strength = strength_of(grounds.library, effect, best.mean);
     const bool named = std::find(best.effects.begin(), best.effects.end(), effect) != best.effects.end();
-    if (named ? !(strength > kBeyondTolerance) : strength > kMostTolerance) return false;
+    if (named ? !(strength > kBeyondWideTolerance) : strength > kLargestUnnamed) return false;
   }
-  return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosed;
+  return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosedFrom;
 }
 
 /// Probability that the cause is one without some of `set`.
-double rivals_of(const CauseSet& set, const std::vector<Candidate>& candidates) {
+double rivals_of(const EffectSubset& set, const std::vector<Candidate>& candidates) {
   double together = 0;
   for (const Candidate& other : candidates) {
     const bool has_all = std::includes(other.effects.begin(), other.effects.end(), set.begin(), set.end());
@@ -65,7 +46,7 @@ double rivals_of(const CauseSet& set, const std::vector<Candidate>& candidates) 
   return together;
 }
 
-bool is_left(const WhereEntry& entry) { return entry.p_value <= kLeft; }
+bool is_left(const WhereEntry& entry) { return entry.p_value <= kUnexplainedBelow; }
 
 void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
   for (const WhereEntry& left : grounds.leftover) {
@@ -81,8 +62,8 @@ void add_held_out(const Grounds& grounds, const std::string& set, std::vector<st
   const auto& gains_nats = grounds.held_out_nats;
   const double altogether = std::accumulate(gains_nats.begin(), gains_nats.end(), 0.0);
   const auto worse =
-      std::count_if(gains_nats.begin(), gains_nats.end(), [](double nats) { return nats < kLoss_nats; });
-  if (worse == 0 && altogether >= kGainAltogether_nats) return;
+      std::count_if(gains_nats.begin(), gains_nats.end(), [](double nats) { return nats < kHoldoutLoss_nats; });
+  if (worse == 0 && altogether >= kHoldoutGain_nats) return;
   const std::string_view parts = grounds.blocks ? "blocks of it that were left out" : "missions held out";
   reasons.push_back(worse == 0
                         ? fmt::format("{} explains this mission, but makes the fit of {} no better", set, parts)
@@ -92,9 +73,9 @@ void add_held_out(const Grounds& grounds, const std::string& set, std::vector<st
 
 /// Why a closure is not enough. Far below zero its digits mean nothing, so that only the direction is told.
 std::string closure_words(const PooledClosure& closure, const std::string& set) {
-  if (closure.closed < kGrows) return fmt::format("with {} the gap grows instead of going away", set);
+  if (closure.closed < kGrowsBelow) return fmt::format("with {} the gap grows instead of going away", set);
   const double percent = std::max(0.0, 100 * closure.closed);
-  if (closure.lower < kGrows) {
+  if (closure.lower < kGrowsBelow) {
     return fmt::format("with {} only {:.0f} % of the gap goes away (95 %: at most {:.0f} %)", set, percent,
                        100 * closure.upper);
   }
@@ -118,7 +99,7 @@ Judgement judge(const Grounds& grounds) {
   const auto first = std::find_if(candidates.begin(), candidates.end(),
                                   [&](const Candidate& candidate) { return candidate.effects == best.effects; });
   const double probability = first != candidates.end() ? first->probability : 0;
-  if (probability < kProbable || rivals_of(best.effects, candidates) > kMostRivals) {
+  if (probability < kNamedFrom || rivals_of(best.effects, candidates) > kMostRivals) {
     std::string others;
     for (std::size_t i = 0; i < std::min<std::size_t>(candidates.size(), 3); ++i) {
       const Candidate& other = candidates[i];
@@ -135,27 +116,27 @@ Judgement judge(const Grounds& grounds) {
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     const std::size_t effect = best.effects[i];
     const double size = strength_of(grounds.library, effect, best.mean);
-    if (grounds.found.shown_nats[i] < kShown_nats) {
+    if (grounds.found.expected_information_nats[i] < kObservable_nats) {
       reasons.push_back(fmt::format("{} hardly shows in this mission: at its usual strength by {:.1f} nats",
-                                    grounds.library[effect].name, grounds.found.shown_nats[i]));
+                                    grounds.library[effect].name, grounds.found.expected_information_nats[i]));
     }
-    if (size < kSmallest) {
+    if (size < kLargestTolerance) {
       reasons.push_back(fmt::format("{} is the best candidate, but no stronger than within tolerance",
                                     grounds.library[effect].name));
     }
-    if (size > kLargest) {
-      reasons.push_back(
-          fmt::format("{} would have to be {} times as strong as usual, which speaks for something "
-                      "else that looks like it",
-                      grounds.library[effect].name,
-                      size < kAbsurd ? fmt::format("{:.1f}", size) : fmt::format("over {:.0f}", kAbsurd)));
+    if (size > kLargestStrength) {
+      reasons.push_back(fmt::format(
+          "{} would have to be {} times as strong as usual, which speaks for something "
+          "else that looks like it",
+          grounds.library[effect].name,
+          size < kLargestReported ? fmt::format("{:.1f}", size) : fmt::format("over {:.0f}", kLargestReported)));
     }
   }
   add_leftover(grounds, reasons);
   judgement.verdict = reasons.empty() ? Verdict::explained : Verdict::unknown;
   const auto none = std::find_if(candidates.begin(), candidates.end(),
                                  [](const Candidate& candidate) { return candidate.effects.empty(); });
-  const bool may_be_none = none != candidates.end() && none->probability > kAbsent;
+  const bool may_be_none = none != candidates.end() && none->probability > kNoGapBelow;
   const bool nothing_seen =
       grounds.where.empty() && std::none_of(grounds.leftover.begin(), grounds.leftover.end(), is_left);
   if (!reasons.empty() && may_be_none && nothing_seen) {

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "gap/verdict/diagnosis.h"
-#include "gap/verdict/holdout.h"
 #include "gap/inference/library.h"
 #include "gap/inference/search.h"
+#include "gap/verdict/diagnosis.h"
+#include "gap/verdict/holdout.h"
 
 namespace navcal::gap {
 

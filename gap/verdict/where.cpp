@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/verdict/where.h"
 
 #include <algorithm>
@@ -7,15 +8,11 @@
 
 #include "base/angles.h"
 #include "gap/data/level_changes.h"
+#include "gap/thresholds.h"
 
 namespace navcal::gap {
 namespace {
 
-constexpr double kSignificant = 1e-3;
-/// And so much larger than the nulls' own: an instrument a little noisier than nominal is no gap.
-constexpr double kLouder = 1.3;
-/// So improbable must be what is left: a search finds the vehicle's numbers nearly, and a simulator is one nearly.
-constexpr double kBeyondDoubt = 1e-8;
 constexpr double kPiece_s = 10;
 constexpr std::size_t kMostPoints = 600;
 
@@ -46,7 +43,7 @@ Eigen::Index loudest(const Eigen::MatrixXd& values) {
 struct Piece {
   double time_s = 0, mean = 0;
 };
-std::vector<Piece> pieces_of(const ChannelSeries& series, Eigen::Index column, const Course10Hz& course) {
+std::vector<Piece> pieces_of(const ChannelSeries& series, Eigen::Index column, const Trajectory10Hz& course) {
   std::vector<Piece> pieces;
   double sum = 0, from_s = 0;
   int count = 0;
@@ -72,39 +69,39 @@ std::vector<Piece> pieces_of(const ChannelSeries& series, Eigen::Index column, c
 struct Driver {
   std::string_view regime, name, unit;
   double per_si;
-  const std::vector<double> Course10Hz::*values;
+  const std::vector<double> Trajectory10Hz::*values;
 };
 constexpr Driver kDrivers[] = {
-    {"heading_once", "heading", "deg", base::kDegreesPerRadian, &Course10Hz::heading_rad},
-    {"heading_twice", "heading", "deg", base::kDegreesPerRadian, &Course10Hz::heading_rad},
-    {"heading_thrice", "heading", "deg", base::kDegreesPerRadian, &Course10Hz::heading_rad},
-    {"turn_rate", "yaw rate", "deg/s", base::kDegreesPerRadian, &Course10Hz::yaw_rate_rad_s},
-    {"turn_rate_size", "yaw rate", "deg/s", base::kDegreesPerRadian, &Course10Hz::yaw_rate_rad_s},
-    {"roll", "roll", "deg", base::kDegreesPerRadian, &Course10Hz::roll_rad},
-    {"pitch", "pitch", "deg", base::kDegreesPerRadian, &Course10Hz::pitch_rad},
-    {"motor_current", "motor current", "A", 1, &Course10Hz::current_A},
-    {"temperature", "electronics above 15 C", "C", 1, &Course10Hz::warmth_C},
-    {"depth", "depth", "m", 1, &Course10Hz::depth_m},
-    {"speed", "speed", "m/s", 1, &Course10Hz::surge_m_s},
-    {"surface", "depth", "m", 1, &Course10Hz::depth_m},
-    {"rudder", "rudder", "deg", base::kDegreesPerRadian, &Course10Hz::rudder_rad},
-    {"elevator", "elevator", "deg", base::kDegreesPerRadian, &Course10Hz::elevator_rad},
+    {"heading_once", "heading", "deg", base::kDegreesPerRadian, &Trajectory10Hz::heading_rad},
+    {"heading_twice", "heading", "deg", base::kDegreesPerRadian, &Trajectory10Hz::heading_rad},
+    {"heading_thrice", "heading", "deg", base::kDegreesPerRadian, &Trajectory10Hz::heading_rad},
+    {"turn_rate", "yaw rate", "deg/s", base::kDegreesPerRadian, &Trajectory10Hz::yaw_rate_rad_s},
+    {"turn_rate_size", "yaw rate", "deg/s", base::kDegreesPerRadian, &Trajectory10Hz::yaw_rate_rad_s},
+    {"roll", "roll", "deg", base::kDegreesPerRadian, &Trajectory10Hz::roll_rad},
+    {"pitch", "pitch", "deg", base::kDegreesPerRadian, &Trajectory10Hz::pitch_rad},
+    {"motor_current", "motor current", "A", 1, &Trajectory10Hz::current_A},
+    {"temperature", "electronics above 15 C", "C", 1, &Trajectory10Hz::temperature_rise_C},
+    {"depth", "depth", "m", 1, &Trajectory10Hz::depth_m},
+    {"speed", "speed", "m/s", 1, &Trajectory10Hz::surge_m_s},
+    {"surface", "depth", "m", 1, &Trajectory10Hz::depth_m},
+    {"rudder", "rudder", "deg", base::kDegreesPerRadian, &Trajectory10Hz::rudder_rad},
+    {"elevator", "elevator", "deg", base::kDegreesPerRadian, &Trajectory10Hz::elevator_rad},
 };
 
 }  // namespace
 
-std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeStatistics& nulls) {
+std::vector<WhereEntry> residual_map(const Eigen::MatrixXd& explained_rms, const RegimeStatistics& nulls) {
   struct Ranked {
     WhereEntry entry;
     double excess;
   };
   std::vector<Ranked> ranked;
-  const auto cells = static_cast<double>(followed.size());
-  for (Eigen::Index c = 0; c < followed.rows(); ++c) {
+  const auto cells = static_cast<double>(explained_rms.size());
+  for (Eigen::Index c = 0; c < explained_rms.rows(); ++c) {
     const auto& channel = reported_channels()[static_cast<std::size_t>(c)];
-    for (Eigen::Index k = 0; k < followed.cols(); ++k) {
+    for (Eigen::Index k = 0; k < explained_rms.cols(); ++k) {
       if (k == overall_regime() || !(nulls.mean_square(c, k) > 0)) continue;
-      const double value = followed(c, k);
+      const double value = explained_rms(c, k);
       WhereEntry entry{
           std::string(channel.name), std::string(regimes()[static_cast<std::size_t>(k)]), value, nulls.floor(c, k),
           std::string(channel.unit), std::min(1.0, cells * nulls.p_value(c, k, value))};
@@ -122,20 +119,20 @@ std::vector<WhereEntry> where_map(const Eigen::MatrixXd& followed, const RegimeS
   return map;
 }
 
-std::vector<WhereEntry> clear_of_nulls(const std::vector<WhereEntry>& map) {
+std::vector<WhereEntry> significant_cells(const std::vector<WhereEntry>& map) {
   std::vector<WhereEntry> clear;
   for (const WhereEntry& entry : map) {
-    if (entry.p_value < kSignificant && entry.gap >= kLouder * entry.floor) clear.push_back(entry);
+    if (entry.p_value < kSignificantBelow && entry.gap >= kLouderThanNulls * entry.floor) clear.push_back(entry);
   }
   return clear;
 }
 
-std::vector<WhereEntry> beyond_known(const Eigen::MatrixXd& left, const RegimeStatistics& known,
-                                     const RegimeStatistics& nulls) {
-  std::vector<WhereEntry> beyond = where_map(left, known);
+std::vector<WhereEntry> significant_against_exact_model(const Eigen::MatrixXd& left, const RegimeStatistics& known,
+                                                        const RegimeStatistics& nulls) {
+  std::vector<WhereEntry> beyond = residual_map(left, known);
   std::erase_if(beyond, [&](const WhereEntry& entry) {
     const auto [c, k] = cell_of(entry);
-    return entry.p_value >= kBeyondDoubt || entry.gap < kLouder * nulls.floor(c, k);
+    return entry.p_value >= kSignificantAgainstExactBelow || entry.gap < kLouderThanNulls * nulls.floor(c, k);
   });
   return beyond;
 }
@@ -150,7 +147,7 @@ WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixX
                            [&](const WhereEntry& a, const WhereEntry& b) { return change(a) < change(b); });
 }
 
-std::vector<ChangePoint> change_points(const Innovations& innovations, const Course10Hz& course,
+std::vector<ChangePoint> change_points(const Innovations& innovations, const Trajectory10Hz& course,
                                        const std::vector<double>& fix_times_s, const RegimeStatistics& nulls) {
   constexpr double kTimesUsual = 3;  // of the slow part that nulls have
   const auto slow = static_cast<Eigen::Index>(index_of("slow", regimes()));
@@ -181,7 +178,7 @@ std::vector<ChangePoint> change_points(const Innovations& innovations, const Cou
   return changes;
 }
 
-std::vector<Course> courses(const Innovations& before, const Innovations& after, const Course10Hz& course,
+std::vector<Course> courses(const Innovations& before, const Innovations& after, const Trajectory10Hz& course,
                             const std::vector<double>& fix_times_s) {
   std::vector<Course> all;
   for (std::size_t c = 0; c < reported_channels().size(); ++c) {
@@ -202,7 +199,7 @@ std::vector<Course> courses(const Innovations& before, const Innovations& after,
 }
 
 Scatter scatter(const WhereEntry& where, const Innovations& before, const Innovations& after,
-                const Course10Hz& course, const std::vector<double>& fix_times_s) {
+                const Trajectory10Hz& course, const std::vector<double>& fix_times_s) {
   const std::size_t channel = channel_index(where.channel);
   const ChannelSeries first = series_of(channel, before, course, fix_times_s);
   const ChannelSeries second = series_of(channel, after, course, fix_times_s);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/export/log_tables.h"
 
 #include <fmt/format.h>
@@ -5,8 +6,8 @@
 #include <map>
 
 #include "record/json/flat_json.h"
-#include "record/log/log_reader.h"
 #include "record/json/mapping_json.h"
+#include "record/log/log_reader.h"
 #include "record/recording.h"
 
 namespace navcal::record {

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "record/log/log_info.h"
 #include "record/export/topic_table.h"
+#include "record/log/log_info.h"
 
 namespace navcal::record {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/export/netcdf_file.h"
 
 #include <netcdf.h>

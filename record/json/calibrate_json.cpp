@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The answer of `navcal calibrate`.
 
 #include "base/angles.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/json/navigation_json.h"
 
 #include "base/angles.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_encoder.h"
 
 #include <fmt/compile.h>
@@ -7,15 +8,15 @@
 #include <cassert>
 #include <vector>
 
-#include "record/log/checksum.h"
 #include "record/json/event_json.h"
 #include "record/json/json_object.h"
-#include "record/log/log_topics.h"
 #include "record/json/mapping_json.h"
-#include "record/log/mcap_format.h"
-#include "record/log/mcap_summary.h"
 #include "record/json/navigation_json.h"
 #include "record/json/sample_json.h"
+#include "record/log/checksum.h"
+#include "record/log/log_topics.h"
+#include "record/log/mcap_format.h"
+#include "record/log/mcap_summary.h"
 
 namespace navcal::record {
 namespace {

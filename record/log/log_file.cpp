@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_file.h"
 
 namespace navcal::record {

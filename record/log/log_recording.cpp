@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_recording.h"
 
 #include <fmt/format.h>
@@ -7,8 +8,8 @@
 #include "config/load.h"
 #include "record/json/calibration_json.h"
 #include "record/json/flat_json.h"
-#include "record/log/log_topics.h"
 #include "record/json/mapping_json.h"
+#include "record/log/log_topics.h"
 #include "record/log/message_crc.h"
 
 namespace navcal::record {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "sim/rotation.h"
@@ -13,7 +14,7 @@ struct Instant {
   double electronics_C = 15;  ///< temperature of the electronics
 
   /// Above that to which the temperature coefficients refer.
-  [[nodiscard]] double warmth_C() const { return electronics_C - 15; }
+  [[nodiscard]] double temperature_rise_C() const { return electronics_C - 15; }
   /// Of the origin against the world, in body axes: what is felt, with gravity put back.
   [[nodiscard]] Vector3 acceleration_m_s2() const {
     const Vector3 gravity = transpose(R_world_from_body(state.euler_rad)) * Vector3{0, 0, kGravity_m_s2};

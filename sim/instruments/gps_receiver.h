@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
 
 #include "protocols/utc.h"
 #include "sim/effects/effect_set.h"
-#include "sim/instruments/electronics.h"
 #include "sim/geodesy.h"
+#include "sim/instruments/electronics.h"
 #include "sim/noise.h"
 
 namespace navcal::sim {

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <vector>
 
-#include "sim/instruments/device.h"
 #include "sim/effects/effect_set.h"
+#include "sim/instruments/device.h"
 #include "sim/noise.h"
 
 namespace navcal::sim {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "config/settings.h"
 #include "protocols/imu_card.h"
-#include "sim/instruments/device.h"
 #include "sim/effects/effect_set.h"
+#include "sim/instruments/device.h"
 #include "sim/instruments/electronics.h"
 #include "sim/noise.h"
 #include "sim/state.h"

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
 
 #include "protocols/motor_card.h"
-#include "sim/instruments/device.h"
 #include "sim/effects/effect_set.h"
+#include "sim/instruments/device.h"
 #include "sim/noise.h"
 #include "sim/state.h"
 

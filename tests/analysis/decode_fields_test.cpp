@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_fields.h"
 
 #include <gtest/gtest.h>
@@ -16,11 +17,11 @@ namespace {
 
 /// What `write(fields)` puts out, in either format.
 template <class Write>
-std::string written(FieldWriter::Format format, Write write) {
+std::string written(analysis::FieldWriter::Format format, Write write) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe(ends.data()), 0);
-  Output output(ends[1], "pipe");
-  FieldWriter fields(output, format);
+  analysis::Output output(ends[1], "pipe");
+  analysis::FieldWriter fields(output, format);
   fields.begin_frame("test", {protocols::FrameId("ID"), 7, {}});
   write(fields);
   fields.end_frame();
@@ -35,11 +36,11 @@ std::string written(FieldWriter::Format format, Write write) {
 
 template <class Write>
 nlohmann::json json_of(Write write) {
-  return nlohmann::json::parse(written(FieldWriter::Format::json, write));
+  return nlohmann::json::parse(written(analysis::FieldWriter::Format::json, write));
 }
 
 std::string fixed(double value, int decimals) {
-  return json_of([&](FieldWriter& fields) { fields.number("x", value, decimals); })["x"].dump();
+  return json_of([&](analysis::FieldWriter& fields) { fields.number("x", value, decimals); })["x"].dump();
 }
 
 TEST(FieldWriter, NumbersAreRoundedAndZerosAtTheEndLeftOut) {
@@ -64,7 +65,8 @@ TEST(FieldWriter, RoundedNumbersAreTheNearest) {
 
 TEST(FieldWriter, ExactNumbersKeepTheirDecimals) {
   const auto text = [](protocols::nmea::Decimal number) {
-    return written(FieldWriter::Format::text, [&](FieldWriter& fields) { fields.number("x", number); });
+    return written(analysis::FieldWriter::Format::text,
+                   [&](analysis::FieldWriter& fields) { fields.number("x", number); });
   };
   EXPECT_NE(text({110, 2}).find("x=1.10\n"), std::string::npos);
   EXPECT_NE(text({-5, 3}).find("x=-0.005\n"), std::string::npos);
@@ -75,13 +77,13 @@ TEST(FieldWriter, ExactNumbersKeepTheirDecimals) {
 TEST(FieldWriter, AnyBytesMakeValidJson) {
   std::string all;
   for (int c = 0; c < 256; ++c) all += static_cast<char>(c);
-  const auto json = json_of([&](FieldWriter& fields) { fields.text("x", all); });
+  const auto json = json_of([&](analysis::FieldWriter& fields) { fields.text("x", all); });
   const std::string got = json["x"];
   EXPECT_EQ(got.substr(0, 128), all.substr(0, 128));
 }
 
 TEST(FieldWriter, WhatIsAbsentIsNullForProgramsAndLeftOutForPeople) {
-  const auto write = [](FieldWriter& fields) {
+  const auto write = [](analysis::FieldWriter& fields) {
     fields.number("a", std::optional<double>{}, 3);
     fields.number("b", std::optional<std::uint8_t>{});
     fields.letter("c", '\0');
@@ -89,11 +91,11 @@ TEST(FieldWriter, WhatIsAbsentIsNullForProgramsAndLeftOutForPeople) {
   };
   const auto json = json_of(write);
   EXPECT_TRUE(json["a"].is_null() && json["b"].is_null() && json["c"].is_null());
-  EXPECT_EQ(written(FieldWriter::Format::text, write), "           7    0 ID       d=5\n");
+  EXPECT_EQ(written(analysis::FieldWriter::Format::text, write), "           7    0 ID       d=5\n");
 }
 
 TEST(FieldWriter, ListsAndObjectsNest) {
-  const auto json = json_of([](FieldWriter& fields) {
+  const auto json = json_of([](analysis::FieldWriter& fields) {
     fields.begin_list("list");
     for (int i = 0; i < 2; ++i) {
       fields.begin_object();
@@ -114,7 +116,9 @@ TEST(FieldWriter, ListsAndObjectsNest) {
 
 TEST(FieldWriter, TimesAreIso8601) {
   const auto time = [](std::uint32_t nanosecond) -> std::string {
-    return json_of([&](FieldWriter& fields) { fields.time("t", {2026, 1, 2}, {3, 4, 60, nanosecond}); })["t"];
+    return json_of([&](analysis::FieldWriter& fields) {
+      fields.time("t", {2026, 1, 2}, {3, 4, 60, nanosecond});
+    })["t"];
   };
   EXPECT_EQ(time(0), "2026-01-02T03:04:60Z");
   EXPECT_EQ(time(250'000'000), "2026-01-02T03:04:60.250Z");
@@ -127,7 +131,7 @@ TEST(Output, MoreThanTheBufferHoldsGoesThroughWhole) {
   ASSERT_NE(file, nullptr);
   std::string text;
   for (int i = 0; i < 200'000; ++i) text += std::to_string(i);
-  Output output(::fileno(file), "file");
+  analysis::Output output(::fileno(file), "file");
   output.append(text);
   for (const char c : text) output.append(c);
   output.flush();
@@ -138,13 +142,13 @@ TEST(Output, MoreThanTheBufferHoldsGoesThroughWhole) {
 }
 
 TEST(Output, SaysWhyItCannotWrite) {
-  Output output(-1, "standard output");
+  analysis::Output output(-1, "standard output");
   output.append("x");
   try {
     output.flush();
     FAIL();
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.status(), Exit::failed);
+  } catch (const analysis::Failure& failure) {
+    EXPECT_EQ(failure.status(), analysis::Exit::failed);
     EXPECT_STREQ(failure.what(), "standard output: cannot write: Bad file descriptor");
   }
 }

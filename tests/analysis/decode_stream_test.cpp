@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/decode_stream.h"
 
 #include <gtest/gtest.h>
@@ -13,14 +14,14 @@ namespace oncore = protocols::oncore;
 using Buffer = std::vector<std::uint8_t>;
 
 struct Decoded {
-  DecodeSummary summary;
+  analysis::DecodeSummary summary;
   std::vector<std::uint64_t> offsets;
 };
 
 Decoded decode_in_pieces(const Buffer& stream, std::size_t piece) {
   Decoded decoded;
   Bytes rest(stream);
-  decoded.summary = decode_stream<oncore::Scanner>(
+  decoded.summary = analysis::decode_stream<oncore::Scanner>(
       [&] {
         const Bytes next = rest.first(std::min(piece, rest.size()));
         rest = rest.subspan(next.size());

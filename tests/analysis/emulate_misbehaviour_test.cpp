@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/emulate_misbehaviour.h"
 
 #include <gtest/gtest.h>
@@ -8,37 +9,37 @@ namespace navcal::cli {
 namespace {
 
 TEST(Misbehaviour, PlansAreReadStrictly) {
-  const auto stall = parse_stall("0.5@10");
+  const auto stall = analysis::parse_stall("0.5@10");
   ASSERT_TRUE(stall);
   EXPECT_EQ(stall->duration_s, 0.5);
   EXPECT_EQ(stall->every_s, 10);
   for (const char* wrong : {"", "5", "@", "5@", "@5", "0@5", "6@5", "-1@5", "1@5s", "nan@5", "1@inf"}) {
-    EXPECT_FALSE(parse_stall(wrong)) << wrong;
+    EXPECT_FALSE(analysis::parse_stall(wrong)) << wrong;
   }
-  const auto unplug = parse_unplug("compass@2.5+3");
+  const auto unplug = analysis::parse_unplug("compass@2.5+3");
   ASSERT_TRUE(unplug);
   EXPECT_EQ(unplug->port, "compass");
   EXPECT_EQ(unplug->at_s, 2.5);
   EXPECT_EQ(unplug->duration_s, 3);
   for (const char* wrong :
        {"", "compass", "compass@2", "@2+3", "compass@+3", "compass@2+", "compass@-2+3", "a+b@2"}) {
-    EXPECT_FALSE(parse_unplug(wrong)) << wrong;
+    EXPECT_FALSE(analysis::parse_unplug(wrong)) << wrong;
   }
 }
 
 TEST(Misbehaviour, AGoodLineChangesNothing) {
-  Misbehaviour line(1);
+  analysis::Misbehaviour line(1);
   const std::vector<std::uint8_t> frame{1, 2, 3};
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(line.spoil(frame), frame);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(line.corrupt(frame), frame);
 }
 
 TEST(Misbehaviour, NoiseFlipsOneBitOrPutsGarbageBefore) {
-  Misbehaviour line(2);
+  analysis::Misbehaviour line(2);
   line.set_noise(1);
   const std::vector<std::uint8_t> frame{0, 255, 7, 9};
   int flipped = 0;
   for (int i = 0; i < 1000; ++i) {
-    const auto spoiled = line.spoil(frame);
+    const auto spoiled = line.corrupt(frame);
     if (spoiled.size() == frame.size()) {
       int bits = 0;
       for (std::size_t k = 0; k < frame.size(); ++k)
@@ -56,10 +57,10 @@ TEST(Misbehaviour, NoiseFlipsOneBitOrPutsGarbageBefore) {
 }
 
 TEST(Misbehaviour, DropsAsOftenAsTold) {
-  Misbehaviour line(3);
+  analysis::Misbehaviour line(3);
   line.set_drop(0.25);
   int dropped = 0;
-  for (int i = 0; i < 4000; ++i) dropped += line.spoil({1}).empty() ? 1 : 0;
+  for (int i = 0; i < 4000; ++i) dropped += line.corrupt({1}).empty() ? 1 : 0;
   EXPECT_NEAR(dropped, 1000, 120);
 }
 

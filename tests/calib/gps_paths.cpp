@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/calib/gps_paths.h"
 
 #include <Eigen/Geometry>

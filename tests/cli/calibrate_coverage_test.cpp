@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Errors that `navcal calibrate` states, on missions of `navcal simulate`: how often they contain the truth.
 #include <gtest/gtest.h>
 

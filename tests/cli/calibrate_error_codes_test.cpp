@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Words of the compass with an error code, through the programs that people run.
 #include <filesystem>
 

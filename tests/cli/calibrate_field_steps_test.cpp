@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Steps of the field, through the programs that people run.
 #include "tests/cli/calibrate_program.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `navcal calibrate` says an estimate is worth.
 #include <nlohmann/json.hpp>
 

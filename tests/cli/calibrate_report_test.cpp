@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <fstream>
 
 #include "analysis/calibrate_run.h"
 #include "record/recording.h"
 #include "tests/cli/calibrate_command.h"
-#include "tests/report/markup.h"
 #include "tests/cli/simulated_recording.h"
+#include "tests/report/markup.h"
 
 namespace navcal::cli::test {
 namespace {
@@ -68,8 +69,8 @@ TEST_F(CalibrateReport, CurvesEndAtTheEstimatesOfTheReport) {
     options.duration_s = duration_s;
     const auto capture = write("a.cap", simulated_recording(turning_path(duration_s), options));
     const auto settings = record::Recording::open(capture)->settings();
-    CalibrateHistory history(settings);
-    CalibrateRun run(settings, &history);
+    analysis::CalibrateHistory history(settings);
+    analysis::CalibrateRun run(settings, &history);
     run.play(capture);
     const calib::Report report = run.finish();
     for (const auto& calibrator : report.calibrators) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A..E by GPS through `navcal simulate` and `navcal calibrate`, with and without an inertial card.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,8 +26,8 @@ inline Outcome run_command(void (*add)(CLI::App&), std::vector<std::string> argu
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
-    outcome = {static_cast<int>(Exit::usage), error.what(), ""};
-  } catch (const Failure& failure) {
+    outcome = {static_cast<int>(analysis::Exit::usage), error.what(), ""};
+  } catch (const analysis::Failure& failure) {
     outcome = {static_cast<int>(failure.status()), failure.what(), ""};
   }
   outcome.output = ::testing::internal::GetCapturedStdout();

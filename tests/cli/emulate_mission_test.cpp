@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Missions and vehicles given to the live instruments.
 #include <gtest/gtest.h>
 

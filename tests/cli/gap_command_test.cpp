@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command around the diagnosis, which is made up here.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Missions at places of the Earth: the diagnosis finds the field by itself, from the fixes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

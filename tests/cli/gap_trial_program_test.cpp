@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small trial with everything real: the second reality makes the recordings, `navcal gap` answers. How often it
 // is right only a large trial can say (docs/gap.md); here nothing may be named that is not there, and what was
 // sealed must be what was asked.
@@ -6,8 +7,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "validation/commitment.h"
 #include "tests/support/process.h"
+#include "validation/commitment.h"
 
 namespace navcal::cli {
 namespace {
@@ -29,7 +30,8 @@ TEST(GapTrialProgram, NamesNothingThatIsNotThereAndAnswersEveryCase) {
   for (const auto& one : json["cases"]) {
     EXPECT_FALSE(one.contains("failure")) << one["failure"];
     EXPECT_NE(one["outcome"], "wrong name") << one["truth"] << one["answer"];
-    EXPECT_EQ(sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()), one["sha256"]);
+    EXPECT_EQ(validation::sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()),
+              one["sha256"]);
     named += one["outcome"] == "exact";
   }
   EXPECT_GE(named, 1) << "not one effect was found";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -6,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/gap_trial.h"
-#include "validation/commitment.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/markup.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
+#include "validation/commitment.h"
 
 // The whole trial with a shell script for a diagnosing program.
 namespace navcal::cli {
@@ -103,7 +104,7 @@ TEST_F(GapTrial, WhatIsPublishedFirstIsTheDigestOfWhatIsToldLast) {
   ASSERT_EQ(json["cases"].size(), 3U);
   for (const auto& one : json["cases"]) {
     const std::string digest = one["sha256"];
-    EXPECT_EQ(sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()), digest);
+    EXPECT_EQ(validation::sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()), digest);
     EXPECT_LT(outcome.output.find(digest), outcome.output.find("answered in"));
     EXPECT_EQ(outcome.output.find(one["salt"].get<std::string>()), std::string::npos);
   }
@@ -152,7 +153,7 @@ TEST_F(GapTrial, InterruptedItEndsTheDiagnosisAndScoresWhatThereIs) {
   stub("if [ -e once ]; then trap '' TERM; sleep 60 & echo $! > pid; kill -INT $PPID; wait; fi\ntouch once\n" +
        std::string("cat > \"$json\" <<'END'\n") + kNoGap + "\nEND");
   const auto outcome = run({"--arms", "nulls", "--cases", "3"});
-  EXPECT_EQ(outcome.status, static_cast<int>(Exit::failed));
+  EXPECT_EQ(outcome.status, static_cast<int>(analysis::Exit::failed));
   EXPECT_NE(outcome.message.find("interrupted: 1 of 3 cases are scored"), std::string::npos) << outcome.message;
   EXPECT_EQ(result()["cases"].size(), 1U);
   EXPECT_EQ(result()["ended_early"], "interrupted");
@@ -187,7 +188,7 @@ TEST_F(GapTrial, WrongUsageIsRefusedBeforeAnythingIsDrawn) {
            {{"--cases", "0"}, "--cases"},
            {{"--only", "-3"}, "--only"}}) {
     const auto outcome = run(arguments);
-    EXPECT_EQ(outcome.status, static_cast<int>(Exit::usage)) << said;
+    EXPECT_EQ(outcome.status, static_cast<int>(analysis::Exit::usage)) << said;
     EXPECT_NE(outcome.message.find(said), std::string::npos) << outcome.message;
   }
   EXPECT_FALSE(fs::exists(folder_ / "trial.json"));

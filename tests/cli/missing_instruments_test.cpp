@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording without one or two of its four instruments, through `navcal replay`, `calibrate` and `gap`: each
 // says what the others show, and refuses nothing for ever.
 #include <gtest/gtest.h>

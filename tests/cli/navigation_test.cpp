@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the bytes of the emulated instruments to positions: among iron, calibrated on the way, then 120 m below.
 #include <gtest/gtest.h>
 
@@ -67,7 +68,7 @@ class Navigation : public testing::Test {
     const sim::PathMotion motion(path_, begin_s * 1'000'000'000);
     const auto state = motion.at(sample.stamp.validity_utc_ns);
     const auto truth = sim::geodetic(sim::Origin{}, state.position_m);
-    const pipeline::LocalPlane plane(truth[0] * std::numbers::pi / 180, truth[1] * std::numbers::pi / 180);
+    const base::LocalPlane plane(truth[0] * std::numbers::pi / 180, truth[1] * std::numbers::pi / 180);
     const auto [north_m, east_m] = plane.position_m(*sample.latitude_rad, *sample.longitude_rad);
     return std::hypot(north_m, east_m);
   }

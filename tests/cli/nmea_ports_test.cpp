@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings with several NMEA devices, through `navcal replay` and `navcal calibrate`.
 #include <gtest/gtest.h>
 

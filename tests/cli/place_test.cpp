@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --place, --date and --field of the simulator: what the recording then says.
 #include <gtest/gtest.h>
 

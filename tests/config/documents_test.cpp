@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that are hostile, broken or not there.
 #include <fmt/format.h>
 

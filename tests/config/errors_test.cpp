@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kind of mistake outside ports, by file, line and key.
 #include "tests/config/expect_problems.h"
 

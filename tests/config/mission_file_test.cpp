@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Missions as they stand in files, and every mistake in them with file, line and reason.
 #include "config/mission_file.h"
 

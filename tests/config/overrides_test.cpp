@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --set key=value
 #include "tests/config/expect_problems.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kind of mistake in a port's table.
 #include <fmt/format.h>
 

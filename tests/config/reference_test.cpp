@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shipped file and the page in docs/ say what the program does.
 #include "config/reference.h"
 

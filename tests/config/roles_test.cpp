@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // [roles]: which port serves what.
 #include "config/roles.h"
 

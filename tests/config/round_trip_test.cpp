@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // parse(to_toml(s)) == s, for settings drawn at random over the whole range of every option.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

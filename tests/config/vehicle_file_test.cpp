@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every vehicle that a file can state comes back from it; every mistake is told with file, line and key.
 #include "config/vehicle_file.h"
 

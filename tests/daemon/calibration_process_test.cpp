@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calibrators of a running navcald: what it reports, what it is told on its control socket, what it keeps.
 #include <gtest/gtest.h>
 

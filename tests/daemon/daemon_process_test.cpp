@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The service as it is installed: a process, a pseudo-terminal, sockets, a log on disk.
 #include "tests/daemon/daemon_process.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // gpsd's own clients against navcald: what they read is what the instruments said.
 #include <gps.h>
 #include <gtest/gtest.h>

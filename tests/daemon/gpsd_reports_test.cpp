@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "daemon/gpsd_reports.h"
 
 #include <gtest/gtest.h>

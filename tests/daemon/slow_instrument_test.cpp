@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A compass that runs 1 % slow, on a pseudo-terminal: times of validity in the log against when it measured.
 #include <gtest/gtest.h>
 

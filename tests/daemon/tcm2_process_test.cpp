@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The TCM2's calibration of itself, through a running navcald.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Emulated instruments and navcald, live, without one or two of the four: what the others give is reported, and
 // the replay of the log gives the same.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The product as its user has it: emulated instruments on pseudo-terminals, navcald reading them, then the tools
 // on its log. What was sent is what was logged, byte for byte; replay gives the samples that were live.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the exports as one file do besides being right, which readers of others judge (check).
 #include "record/export/export.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a null bank's file, or a good one in which some are changed: nothing, or a bank that can be used.
 #include "gap/nulls/bank_file.h"
 
@@ -17,8 +18,8 @@ constexpr Eigen::Index kUnknowns = 5;
 
 std::string good_text() {
   NullBank bank = test::made_up_bank(kUnknowns);
-  bank.whitening.grid_filter =
-      PastFilter(Eigen::MatrixXd::Constant(PastFilter::kWindows * kEvidenceChannels, kEvidenceChannels, 0.01));
+  bank.whitening.grid_filter = PredictionErrorFilter(
+      Eigen::MatrixXd::Constant(PredictionErrorFilter::kWindows * kEvidenceChannels, kEvidenceChannels, 0.01));
   return bank_text({{1, 2, 3}, bank}, "model");
 }
 
@@ -29,9 +30,9 @@ void use(const NullBank& bank) {
   const Eigen::VectorXd white = bank.whitening(innovations, {300, {0, 1}});
   if (white.size() != 300 * kEvidenceChannels + 2 * kFixChannels) std::abort();
   if ((bank.gram * bank.scores).cols() != static_cast<Eigen::Index>(bank.powers.size())) std::abort();
-  for (Eigen::Index c = 0; c < bank.followed.mean_square.rows(); ++c) {
-    for (Eigen::Index k = 0; k < bank.followed.mean_square.cols(); ++k) {
-      const double p = bank.followed.p_value(c, k, 1);
+  for (Eigen::Index c = 0; c < bank.explained_rms.mean_square.rows(); ++c) {
+    for (Eigen::Index k = 0; k < bank.explained_rms.mean_square.cols(); ++k) {
+      const double p = bank.explained_rms.p_value(c, k, 1);
       if (!(p >= 0 && p <= 1)) std::abort();
     }
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A saved state in which any bytes are changed is refused, or is gone on from without harm.
 #include <cmath>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whatever comes in over the control socket is a request or is refused with one line of valid JSON.
 #include <cstdint>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a file of effects: problems, or effects whose parameters are numbers within their ranges.
 #include <cstdint>
 #include <cstdlib>

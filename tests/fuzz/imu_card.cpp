@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes from an IMU card.
 #include "protocols/imu_card.h"
 

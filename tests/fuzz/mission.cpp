@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a mission and as a vehicle: an Error, or something that holds to its rules. A vehicle comes back
 // from its file.
 #include <cstdint>

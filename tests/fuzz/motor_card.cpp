@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes from or to a motor card.
 #include "protocols/motor_card.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Readings of any content and order: the navigator neither crashes nor says what is no number.
 #include "nav/navigator.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whatever a client of the status socket sends, cut however it comes: every command is understood or has a
 // message.
 #include <algorithm>

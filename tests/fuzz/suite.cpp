@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Readings of any content and order: the calibrators neither crash nor offer what is no number.
 #include <cstdlib>
 

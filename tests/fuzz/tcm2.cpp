@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes from a TCM2 and, as commands, to one.
 #include "protocols/tcm2.h"
 

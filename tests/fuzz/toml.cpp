@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as a configuration file: an Error or settings, and settings come back from to_toml() unchanged.
 #include <algorithm>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/gap/simulated_mission.h"
 
 #include <algorithm>

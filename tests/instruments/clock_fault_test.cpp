@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What faults of a line do to the clock of a device: while they last, and above all afterwards.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams that no even clock explains: stamped by what was observed, with an error that holds.
 #include <gtest/gtest.h>
 

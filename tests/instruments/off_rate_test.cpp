@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instruments that run off their nominal rate: errors of the stamps, and what is claimed of them.
 #include <gtest/gtest.h>
 

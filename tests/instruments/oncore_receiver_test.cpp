@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "instruments/oncore_receiver.h"
 
 #include <gtest/gtest.h>

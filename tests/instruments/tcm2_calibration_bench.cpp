@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/instruments/tcm2_calibration_bench.h"
 
 #include <cmath>

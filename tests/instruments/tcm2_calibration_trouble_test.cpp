@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The calibration dialogue over a bad line, with a device that refuses, and through losses of power: it always
 // ends, and the words always come back.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roll and pitch by accelerometers: at rest, in turns, while the speed changes, with bad readings.
 #include "nav/accelerometer_tilt.h"
 

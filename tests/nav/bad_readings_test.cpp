@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instruments that are not there, fall silent, repeat themselves or talk nonsense.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A reading costs no memory: a program of its own, for it counts every allocation.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Attitude, speed and time: what holds of any way.
 #include "nav/navigator.h"
 

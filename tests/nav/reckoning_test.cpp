@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Positions: gains by the schedule, what is learnt of the set, and whether the errors are as large as is said.
 #include <gtest/gtest.h>
 

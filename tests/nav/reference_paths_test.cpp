@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The thesis's kinds of manoeuvre as our vehicle model ran them: fixes for fifteen seconds, then none to the end.
 // Heading errors are those of the thesis (5, -5, 2, 2 degrees, gyros 0.9 and 0.1 rad/s): as they are, and with
 // them taken away.

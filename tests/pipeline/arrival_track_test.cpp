@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "pipeline/arrival_track.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocols/checked_line.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mission with calibrators, live into a log and back out of it: the same samples to the last bit, through orders
 // of the operator and through a change of the log file.
 #include <fmt/format.h>
@@ -13,9 +14,9 @@
 #include "pipeline/pipeline.h"
 #include "protocols/imu_card.h"
 #include "record/json/calibration_json.h"
-#include "record/recording.h"
 #include "record/json/sample_json.h"
-#include "temporary_folder.h"
+#include "record/recording.h"
+#include "tests/record/temporary_folder.h"
 
 namespace navcal::record {
 namespace {

@@ -1,4 +1,5 @@
-#include "memory_disk.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/record/memory_disk.h"
 
 namespace navcal::record::testing {
 namespace {

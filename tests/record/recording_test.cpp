@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/recording.h"
 
 #include <gtest/gtest.h>
@@ -5,8 +6,8 @@
 #include "config/load.h"
 #include "record/capture/capture_recording.h"
 #include "record/log/log_recording.h"
-#include "sample_log.h"
-#include "temporary_folder.h"
+#include "tests/record/sample_log.h"
+#include "tests/record/temporary_folder.h"
 
 namespace navcal::record {
 namespace {

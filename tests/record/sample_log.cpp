@@ -1,4 +1,5 @@
-#include "sample_log.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/record/sample_log.h"
 
 #include "config/load.h"
 #include "record/log/mcap_format.h"

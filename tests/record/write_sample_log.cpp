@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes logs for tests/mcap/read.mjs into a folder: finished, unfinished, with a tail of
 // zeros (some file systems leave one), and repaired.
 #include <cstdio>
@@ -7,7 +8,7 @@
 
 #include "record/log/log_file.h"
 #include "record/log/log_repair.h"
-#include "sample_log.h"
+#include "tests/record/sample_log.h"
 
 namespace {
 

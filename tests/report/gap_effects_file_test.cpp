@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_effects_file.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ TEST(GapEffectsFile, EveryEffectComesBackToTheLastBit) {
     }
     diagnosis.effects.push_back(std::move(found));
   }
-  const auto set = read_back(gap_effects_file(diagnosis));
+  const auto set = read_back(report::gap_effects_file(diagnosis));
   ASSERT_EQ(set.size(), diagnosis.effects.size());
   for (const auto& found : diagnosis.effects) {
     const auto* const effect = find(set, found.name);
@@ -52,7 +53,7 @@ TEST(GapEffectsFile, EveryEffectComesBackToTheLastBit) {
 
 TEST(GapEffectsFile, NothingFoundIsAFileWithoutEffects) {
   for (const auto& diagnosis : {gap::Diagnosis{}, test::unknown_gap(), test::no_gap()}) {
-    const std::string toml = gap_effects_file(diagnosis);
+    const std::string toml = report::gap_effects_file(diagnosis);
     EXPECT_EQ(read_back(toml).size(), 0U);
     EXPECT_NE(toml.find("No effect"), std::string::npos);
   }
@@ -64,7 +65,7 @@ TEST(GapEffectsFile, WhatTheSimulatorWouldRefuseIsBroughtWithinItsRange) {
   diagnosis.effects = {{"compass_lag", 0.9, {{"tau_s", -0.01, 0.02}}, {}},
                        {"thrust_scale", kNan, {{"scale", kNan, kNan}}, {}},
                        {"hard_iron", 1, {{"x_uT", 1e300, 1}, {"y_uT", -0.0, kNan}, {"z_uT", 3, 0}}, {}}};
-  const std::string toml = gap_effects_file(diagnosis);
+  const std::string toml = report::gap_effects_file(diagnosis);
   const auto set = read_back(toml);
   ASSERT_EQ(set.size(), 3U);
   EXPECT_EQ(find(set, "compass_lag")->parameters()[0], 0);
@@ -75,7 +76,7 @@ TEST(GapEffectsFile, WhatTheSimulatorWouldRefuseIsBroughtWithinItsRange) {
 }
 
 TEST(GapEffectsFile, StandardErrorsStandBesideTheValues) {
-  const std::string toml = gap_effects_file(test::explained_gap());
+  const std::string toml = report::gap_effects_file(test::explained_gap());
   EXPECT_NE(toml.find("x_uT_per_A = 0.8031  # +- 0.0042"), std::string::npos) << toml;
   EXPECT_NE(toml.find("[motor_field]"), std::string::npos);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_json.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ std::vector<std::string> keys_of(const Json& object) {
 }
 
 TEST(GapJson, HasTheKeysOfTheContract) {
-  const Json json = Json::parse(gap_json(test::explained_gap()));
+  const Json json = Json::parse(report::gap_json(test::explained_gap()));
   EXPECT_EQ(keys_of(json), (std::vector<std::string>{"verdict", "sentence", "where", "effects", "gap",
                                                      "unexplained", "candidates", "next", "remarks", "gyro_bias",
                                                      "changes", "field", "bank", "duration_s", "seconds"}));
@@ -38,7 +39,7 @@ TEST(GapJson, HasTheKeysOfTheContract) {
 TEST(GapJson, NumbersComeBackToTheLastBit) {
   auto diagnosis = test::explained_gap();
   diagnosis.effects[0].parameters[0].value = 0.1 + 0.2;
-  const Json json = Json::parse(gap_json(diagnosis));
+  const Json json = Json::parse(report::gap_json(diagnosis));
   EXPECT_EQ(json["effects"][0]["parameters"]["x_uT_per_A"].get<double>(), 0.1 + 0.2);
   EXPECT_EQ(json["effects"][0]["std_errors"]["x_uT_per_A"], 0.0042);
   EXPECT_EQ(json["effects"][1]["confused_with"][0]["name"], "fin_gain");
@@ -53,7 +54,7 @@ TEST(GapJson, NumbersComeBackToTheLastBit) {
 TEST(GapJson, SaysWhichFieldOfTheEarthTheModelHas) {
   auto diagnosis = test::explained_gap();
   diagnosis.field.emplace().source = gap::EarthField::Source::given;
-  const Json given = Json::parse(gap_json(diagnosis))["field"];
+  const Json given = Json::parse(report::gap_json(diagnosis))["field"];
   EXPECT_EQ(keys_of(given), (std::vector<std::string>{"source", "north_east_down_uT", "place", "date"}));
   EXPECT_EQ(given["source"], "given");
   EXPECT_EQ(given["north_east_down_uT"], Json::array({19.0, 0.6, 44.0}));
@@ -63,7 +64,7 @@ TEST(GapJson, SaysWhichFieldOfTheEarthTheModelHas) {
   diagnosis.field->place = {0.5, -1.0, 3};
   diagnosis.field->utc_ns = 1'780'272'000'000'000'000;
   diagnosis.field->set_by_model();
-  const Json by_model = Json::parse(gap_json(diagnosis))["field"];
+  const Json by_model = Json::parse(report::gap_json(diagnosis))["field"];
   EXPECT_EQ(by_model["source"], "model");
   EXPECT_EQ(by_model["date"], "2026-06-01");
   EXPECT_NEAR(by_model["place"]["latitude_deg"], 28.6479, 1e-4);
@@ -71,7 +72,7 @@ TEST(GapJson, SaysWhichFieldOfTheEarthTheModelHas) {
 }
 
 TEST(GapJson, NothingAtAllIsAnAnswer) {
-  const Json json = Json::parse(gap_json({}));
+  const Json json = Json::parse(report::gap_json({}));
   EXPECT_EQ(json["verdict"], "unknown");
   for (const char* list : {"where", "effects", "unexplained", "candidates", "next", "remarks", "changes"}) {
     EXPECT_EQ(json[list], Json::array()) << list;
@@ -79,11 +80,11 @@ TEST(GapJson, NothingAtAllIsAnAnswer) {
   EXPECT_EQ(json["gap"]["channels"], Json::array());
   EXPECT_TRUE(json["gap"]["closed"].is_null());
   EXPECT_TRUE(json["gap"]["heading_error_rad"].is_null());
-  EXPECT_EQ(Json::parse(gap_json(test::no_gap()))["verdict"], "no-gap");
+  EXPECT_EQ(Json::parse(report::gap_json(test::no_gap()))["verdict"], "no-gap");
 }
 
 TEST(GapJson, WhatIsNoNumberIsNullAndAnyTextIsTaken) {
-  const std::string text = gap_json(test::hostile_gap());
+  const std::string text = report::gap_json(test::hostile_gap());
   const Json json = Json::parse(text);
   EXPECT_TRUE(json["where"][0]["gap"].is_null());
   EXPECT_TRUE(json["where"][0]["floor"].is_null());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/report/gap_samples.h"
 
 #include <array>
@@ -185,6 +186,6 @@ gap::Diagnosis hostile_gap() {
   return diagnosis;
 }
 
-GapSource gap_source() { return {"dives/a.cap", {"b.cap", "c.cap"}, "", {"adc_droop"}, "found.toml"}; }
+report::GapSource gap_source() { return {"dives/a.cap", {"b.cap", "c.cap"}, "", {"adc_droop"}, "found.toml"}; }
 
 }  // namespace navcal::cli::test

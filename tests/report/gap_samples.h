@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "report/gap_words.h"
 #include "gap/verdict/diagnosis.h"
+#include "report/gap_words.h"
 
 // Made-up diagnoses.
 namespace navcal::cli::test {
@@ -12,6 +13,6 @@ namespace navcal::cli::test {
 /// Everything that can be is no number, and every text has characters that mean something in HTML.
 [[nodiscard]] gap::Diagnosis hostile_gap();
 
-[[nodiscard]] GapSource gap_source();
+[[nodiscard]] report::GapSource gap_source();
 
 }  // namespace navcal::cli::test

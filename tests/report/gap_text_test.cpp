@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/gap_text.h"
 
 #include <gtest/gtest.h>
@@ -18,13 +19,13 @@ using test::gap_source;
 bool says(std::string text, const std::string& part) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::string unbroken;
-  for (const std::string& word : words_of(text)) unbroken += word + ' ';
+  for (const std::string& word : report::words_of(text)) unbroken += word + ' ';
   return unbroken.find(part) != std::string::npos;
 }
 
 void expect_narrow(const std::string& text) {
   std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) EXPECT_LE(line.size(), kLineWidth) << line;
+  for (std::string line; std::getline(in, line);) EXPECT_LE(line.size(), report::kLineWidth) << line;
 }
 
 TEST(GapText, WithoutCausesWhatTheInstrumentsShowIsListed) {
@@ -40,7 +41,7 @@ TEST(GapText, WithoutCausesWhatTheInstrumentsShowIsListed) {
   misalignment.judgement.reason = "all runs lead one way";
   diagnosis.instruments_alone = calib::Report{};
   diagnosis.instruments_alone->calibrators = {gyro, misalignment};
-  const std::string text = gap_text(diagnosis, test::gap_source());
+  const std::string text = report::gap_text(diagnosis, test::gap_source());
   EXPECT_NE(text.find("Gyro A: scale 1.0200 +- 0.0010"), std::string::npos) << text;
   EXPECT_NE(text.find("Misalignment A: nothing can be said, all runs lead one way"), std::string::npos) << text;
   EXPECT_NE(text.find("12 words with E001"), std::string::npos) << text;
@@ -50,7 +51,7 @@ TEST(GapText, WithoutCausesWhatTheInstrumentsShowIsListed) {
 
 TEST(GapUnits, AreTakenOutOfEveryParametersName) {
   const auto expect = [](const char* parameter, const char* name, const char* unit) {
-    const auto split = name_and_unit(parameter);
+    const auto split = report::name_and_unit(parameter);
     EXPECT_EQ(split.name, name) << parameter;
     EXPECT_EQ(split.unit, unit) << parameter;
   };
@@ -71,7 +72,7 @@ TEST(GapUnits, AreTakenOutOfEveryParametersName) {
 }
 
 TEST(GapText, SaysAllThatAPersonNeeds) {
-  const std::string text = gap_text(test::explained_gap(), gap_source());
+  const std::string text = report::gap_text(test::explained_gap(), gap_source());
   expect_narrow(text);
   EXPECT_EQ(text.find("explained"), 0U);
   for (const char* part :
@@ -86,7 +87,7 @@ TEST(GapText, SaysAllThatAPersonNeeds) {
 }
 
 TEST(GapText, AnUnknownGapNamesNoCause) {
-  const std::string text = gap_text(test::unknown_gap(), {"a.cap", {}, "", {}, ""});
+  const std::string text = report::gap_text(test::unknown_gap(), {"a.cap", {}, "", {}, ""});
   expect_narrow(text);
   EXPECT_EQ(text.find("unknown"), 0U);
   EXPECT_FALSE(says(text, "causes"));
@@ -101,7 +102,7 @@ TEST(GapText, AnUnknownGapNamesNoCause) {
 TEST(GapText, CandidatesOfAnUnknownGapHaveNoProbability) {
   auto diagnosis = test::unknown_gap();
   diagnosis.candidates.front().probability = 1;
-  const std::string text = gap_text(diagnosis, gap_source());
+  const std::string text = report::gap_text(diagnosis, gap_source());
   EXPECT_TRUE(says(text, "none of them explains the recording")) << text;
   EXPECT_FALSE(says(text, "99.9 %")) << text;
   EXPECT_TRUE(says(text, "motor_field")) << text;
@@ -109,17 +110,17 @@ TEST(GapText, CandidatesOfAnUnknownGapHaveNoProbability) {
 
 TEST(GapWords, AGapThatGrowsIsToldWithoutDigits) {
   gap::Closure closure{1, 7000, 0.9, -6120.74, std::array{-6536.39, -5717.98}};
-  EXPECT_EQ(closed_text(closure), "grows");
+  EXPECT_EQ(report::closed_text(closure), "grows");
   closure.closed = 0.2;
   closure.closed_ci = std::array{-400.0, 0.7};
-  EXPECT_EQ(closed_text(closure), "20 % (at most 70 %)");
+  EXPECT_EQ(report::closed_text(closure), "20 % (at most 70 %)");
   closure.closed = -0.09;
   closure.closed_ci.reset();
-  EXPECT_EQ(closed_text(closure), "-9 %");
+  EXPECT_EQ(report::closed_text(closure), "-9 %");
 }
 
 TEST(GapText, NoGapIsShort) {
-  const std::string text = gap_text(test::no_gap(), gap_source());
+  const std::string text = report::gap_text(test::no_gap(), gap_source());
   EXPECT_EQ(text.find("no gap"), 0U);
   EXPECT_TRUE(says(text, "Nowhere"));
   EXPECT_TRUE(says(text, "from the cache"));
@@ -127,47 +128,47 @@ TEST(GapText, NoGapIsShort) {
 }
 
 TEST(GapText, NothingAtAllAndTheWorstAreTold) {
-  const std::string nothing = gap_text({}, {});
+  const std::string nothing = report::gap_text({}, {});
   EXPECT_EQ(nothing.find("unknown"), 0U);
   EXPECT_TRUE(says(nothing, "Nothing was compared")) << nothing;
-  const std::string text = gap_text(test::hostile_gap(), gap_source());
+  const std::string text = report::gap_text(test::hostile_gap(), gap_source());
   for (const char* bad : {"nan", "inf"}) EXPECT_FALSE(says(text, bad)) << bad << '\n' << text;
 }
 
 TEST(GapText, OnlyTheStrongestPlacesAreListed) {
   auto diagnosis = test::explained_gap();
   while (diagnosis.where.size() < 9) diagnosis.where.push_back(diagnosis.where.back());
-  EXPECT_TRUE(says(gap_text(diagnosis, gap_source()), "and 4 more"));
+  EXPECT_TRUE(says(report::gap_text(diagnosis, gap_source()), "and 4 more"));
 }
 
 TEST(GapText, ACommandCanBePasted) {
   auto source = gap_source();
   source.effects_file = "it's here.toml";
   source.vehicle = "my.toml";
-  EXPECT_EQ(simulate_hint(test::explained_gap(), source),
+  EXPECT_EQ(report::simulate_hint(test::explained_gap(), source),
             "navcal simulate --mission survey --vehicle my.toml --effects 'it'\\''s here.toml' -o with.cap");
   source.effects_file.clear();
-  EXPECT_TRUE(says(simulate_hint(test::explained_gap(), source), "--effects-out FILE.toml"));
-  EXPECT_EQ(simulate_hint(test::no_gap(), source), "");
+  EXPECT_TRUE(says(report::simulate_hint(test::explained_gap(), source), "--effects-out FILE.toml"));
+  EXPECT_EQ(report::simulate_hint(test::no_gap(), source), "");
 }
 
 TEST(GapText, AnAnswerWithoutHoldOutsIsCalledWeaker) {
   auto diagnosis = test::explained_gap();
   diagnosis.gap.held_out = false;
-  EXPECT_TRUE(says(gap_text(diagnosis, {"a.cap", {}, "", {}, ""}), "blocks of the same recording"));
+  EXPECT_TRUE(says(report::gap_text(diagnosis, {"a.cap", {}, "", {}, ""}), "blocks of the same recording"));
 }
 
 TEST(GapWords, SharesAndChancesAreRoundedTowardsDoubt) {
-  EXPECT_EQ(probability_text(1), "> 99.9 %");
-  EXPECT_EQ(probability_text(0), "< 0.1 %");
-  EXPECT_EQ(probability_text(0.973), "97.3 %");
-  EXPECT_EQ(share_text(-0.09), "-9 %");
-  EXPECT_EQ(share_text(-0.001), "0 %");
-  EXPECT_EQ(chance_text(3e-9), "1e-8");
-  EXPECT_EQ(chance_text(1e-9), "1e-9");
-  EXPECT_EQ(chance_text(0.004), "0.004");
-  EXPECT_EQ(chance_text(0), "< 1e-12");
-  EXPECT_EQ(amount(std::numeric_limits<double>::quiet_NaN(), "m"), "-");
+  EXPECT_EQ(report::probability_text(1), "> 99.9 %");
+  EXPECT_EQ(report::probability_text(0), "< 0.1 %");
+  EXPECT_EQ(report::probability_text(0.973), "97.3 %");
+  EXPECT_EQ(report::share_text(-0.09), "-9 %");
+  EXPECT_EQ(report::share_text(-0.001), "0 %");
+  EXPECT_EQ(report::chance_text(3e-9), "1e-8");
+  EXPECT_EQ(report::chance_text(1e-9), "1e-9");
+  EXPECT_EQ(report::chance_text(0.004), "0.004");
+  EXPECT_EQ(report::chance_text(0), "< 1e-12");
+  EXPECT_EQ(report::amount(std::numeric_limits<double>::quiet_NaN(), "m"), "-");
 }
 
 }  // namespace

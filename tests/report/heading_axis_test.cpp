@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "report/heading_axis.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace {
 TEST(HeadingAxis, ACourseAboutNorthStaysTogether) {
   std::vector<double> headings_deg;
   for (int i = 0; i < 100; ++i) headings_deg.push_back(std::fmod(360 + 8 * std::sin(i), 360));
-  const HeadingAxis heading(headings_deg);
+  const report::HeadingAxis heading(headings_deg);
   for (const double value : headings_deg) {
     EXPECT_NEAR(heading(value), std::remainder(value, 360), 1e-9);
   }
@@ -20,7 +21,7 @@ TEST(HeadingAxis, ACourseAboutNorthStaysTogether) {
 
 TEST(HeadingAxis, IsCutWhereNobodyPointed) {
   // North, east, west and south-east: cut between south-east and west.
-  const HeadingAxis heading({0, 1, 359, 90, 91, 269, 270, 135});
+  const report::HeadingAxis heading({0, 1, 359, 90, 91, 269, 270, 135});
   const auto axis = heading.axis("heading");
   EXPECT_EQ(axis.range.length(), 360);
   const double cut_deg = std::fmod(axis.range.least + 720, 360);
@@ -33,7 +34,7 @@ TEST(HeadingAxis, IsCutWhereNobodyPointed) {
 }
 
 TEST(HeadingAxis, MarksAreTheEightWinds) {
-  const auto axis = HeadingAxis({}).axis("heading");
+  const auto axis = report::HeadingAxis({}).axis("heading");
   ASSERT_EQ(axis.ticks.size(), 8U);
   const auto text_at = [&](double heading_deg) {
     for (const auto& tick : axis.ticks) {
@@ -47,7 +48,7 @@ TEST(HeadingAxis, MarksAreTheEightWinds) {
 }
 
 TEST(EarlyTimeAxis, TheFirstMinuteHasRoom) {
-  const EarlyTimeAxis time({100, 110, 3700});
+  const report::EarlyTimeAxis time({100, 110, 3700});
   const auto axis = time.axis();
   EXPECT_EQ(time(100), 0);
   EXPECT_NEAR(time(3700), axis.range.most, 1e-9);
@@ -55,15 +56,16 @@ TEST(EarlyTimeAxis, TheFirstMinuteHasRoom) {
   ASSERT_GT(axis.ticks.size(), 4U);
   EXPECT_EQ(axis.ticks.front().text, "0");
   for (std::size_t i = 1; i < axis.ticks.size(); ++i) EXPECT_GT(axis.ticks[i].value, axis.ticks[i - 1].value);
-  EXPECT_TRUE(EarlyTimeAxis({}).axis().range.length() > 0);
+  EXPECT_TRUE(report::EarlyTimeAxis({}).axis().range.length() > 0);
 }
 
 TEST(EarlyTimeAxis, EstimatesThatBeginLateHaveTheirOwnFirstMinute) {
-  const EarlyTimeAxis time({303, 400});
+  const report::EarlyTimeAxis time({303, 400});
   EXPECT_EQ(time(303), 0);
   EXPECT_EQ(time.axis().label, "time since the first estimate, 5 min 3 s from the beginning");
-  EXPECT_EQ(EarlyTimeAxis({5, 400}).axis().label, "time since the first estimate, 5.0 s from the beginning");
-  EXPECT_EQ(EarlyTimeAxis({0, 400}).axis().label, "time since the first estimate");
+  EXPECT_EQ(report::EarlyTimeAxis({5, 400}).axis().label,
+            "time since the first estimate, 5.0 s from the beginning");
+  EXPECT_EQ(report::EarlyTimeAxis({0, 400}).axis().label, "time since the first estimate");
 }
 
 }  // namespace

@@ -22,6 +22,33 @@ def table_of(text):
     return rooms, allowed
 
 
+def orders_of(text):
+    """{room: [folders in the order in which they may use each other]} from the text of rooms.cmake."""
+    found = re.findall(r"set\(NAVCAL_ORDER_([\w/]+) ([^)]*)\)", text)
+    return {room: folders.split() for room, folders in found}
+
+
+def problems_of_order(root, orders):
+    """Includes within a room against the order of its folders, and orders that name no such folder."""
+    for room, folders in orders.items():
+        place = {f"{room}/{folder}": number for number, folder in enumerate(folders)}
+        for folder in place:
+            if not (root / folder).is_dir():
+                yield f"cmake/rooms.cmake: there is no folder {folder}"
+        for path in sorted([*root.glob(f"{room}/**/*.h"), *root.glob(f"{room}/**/*.cpp")]):
+            name = path.relative_to(root)
+            from_folder = name.parent.as_posix()
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                found = INCLUDE.match(line)
+                to_folder = str(pathlib.PurePosixPath(found.group(1)).parent) if found else ""
+                if to_folder not in place:
+                    continue
+                if from_folder == room and path.suffix == ".h":
+                    yield f"{name}:{number}: a header of {room} may not include {to_folder} (cmake/rooms.cmake)"
+                elif place.get(from_folder, len(place)) < place[to_folder]:
+                    yield f"{name}:{number}: {from_folder} may not include {to_folder} (cmake/rooms.cmake)"
+
+
 def problems_of_table(rooms, allowed):
     for room in rooms:
         if room not in allowed:
@@ -90,10 +117,12 @@ def problems_of_page(text, rooms, allowed):
 
 
 def check(root):
-    rooms, allowed = table_of((root / "cmake/rooms.cmake").read_text())
+    table = (root / "cmake/rooms.cmake").read_text()
+    rooms, allowed = table_of(table)
     return [
         *problems_of_table(rooms, allowed),
         *problems_of_includes(root, rooms, allowed),
+        *problems_of_order(root, orders_of(table)),
         *problems_of_page((root / "ARCHITECTURE.md").read_text(), rooms, allowed),
     ]
 

@@ -57,6 +57,35 @@ class Check(unittest.TestCase):
         found = problems(files={"cmake/rooms.cmake": table, "base/a.h": '#include "sim/s.h"\n'})
         self.assertIn("cmake/rooms.cmake: base may include sim, which stands after it", found)
 
+    def test_a_folder_of_a_room_that_includes_one_behind_it(self):
+        table = TABLE + "set(NAVCAL_ORDER_sim hull trip)\n"
+        files = {
+            "cmake/rooms.cmake": table,
+            "sim/hull/h.cpp": '#include "sim/trip/t.h"\n',
+            "sim/trip/t.cpp": '#include "sim/hull/h.h"\n',
+            "sim/s.h": '#include "sim/hull/h.h"\n',
+        }
+        self.assertEqual(
+            problems(files=files),
+            [
+                "sim/hull/h.cpp:1: sim/hull may not include sim/trip (cmake/rooms.cmake)",
+                "sim/s.h:1: a header of sim may not include sim/hull (cmake/rooms.cmake)",
+            ],
+        )
+
+    def test_an_order_of_a_folder_that_is_gone(self):
+        found = problems(files={"cmake/rooms.cmake": TABLE + "set(NAVCAL_ORDER_sim hull)\n"})
+        self.assertEqual(found, ["cmake/rooms.cmake: there is no folder sim/hull"])
+
+    def test_a_room_within_a_room(self):
+        table = TABLE.replace("ROOMS base sim cli", "ROOMS base sim/twin sim cli") + "set(NAVCAL_MAY_INCLUDE_sim/twin base)\n"
+        page = PAGE + "| `sim/twin/` | d | base |\n"
+        files = {"cmake/rooms.cmake": table, "ARCHITECTURE.md": page}
+        good = problems(files={**files, "sim/twin/t.cpp": '#include "base/a.h"\n'})
+        self.assertEqual(good, [])
+        bad = problems(files={**files, "sim/twin/t.cpp": '#include "base/a.h"\n#include "sim/s.h"\n'})
+        self.assertEqual(bad, ["sim/twin/t.cpp:2: sim/twin may not include sim (cmake/rooms.cmake)"])
+
     def test_a_page_that_says_otherwise(self):
         found = problems(files={"ARCHITECTURE.md": PAGE.replace("base, sim", "base")})
         self.assertEqual(found, ["ARCHITECTURE.md: the row of cli should name base, sim"])

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All four instruments on their lines.
 #include "sim/recording.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/answer.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +23,8 @@ constexpr std::string_view kExplained = R"({
   "unexplained": [], "seconds": 4.5})";
 
 TEST(GapTrialAnswer, ReadsWhatIsScored) {
-  const TrialAnswer answer = read_answer(kExplained);
-  EXPECT_EQ(answer.verdict, TrialVerdict::explained);
+  const validation::TrialAnswer answer = validation::read_answer(kExplained);
+  EXPECT_EQ(answer.verdict, validation::TrialVerdict::explained);
   EXPECT_EQ(answer.channels, (std::vector<std::string>{"compass.field", "compass.heading"}));
   ASSERT_EQ(answer.effects.size(), 2U);
   EXPECT_EQ(answer.effects[0].name, "motor_field");  // the more probable first
@@ -38,9 +39,9 @@ TEST(GapTrialAnswer, ReadsWhatIsScored) {
 }
 
 TEST(GapTrialAnswer, WhatCannotBeSaidIsNull) {
-  const TrialAnswer answer = read_answer(
+  const validation::TrialAnswer answer = validation::read_answer(
       R"({"verdict":"no-gap","where":[],"effects":[],"gap":{"closed":null,"closed_ci":null},"unexplained":[]})");
-  EXPECT_EQ(answer.verdict, TrialVerdict::no_gap);
+  EXPECT_EQ(answer.verdict, validation::TrialVerdict::no_gap);
   EXPECT_FALSE(answer.closed);
   EXPECT_FALSE(answer.closed_ci);
 }
@@ -69,7 +70,7 @@ TEST(GapTrialAnswer, WhatIsMalformedIsRefusedWithTheReason) {
            {R"({"verdict":"explained","where":[],"effects":[{"name":"fin_lag","probability":"1"}],"gap":{}})",
             "must be number"}}) {
     try {
-      (void)read_answer(json);
+      (void)validation::read_answer(json);
       ADD_FAILURE() << json;
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();

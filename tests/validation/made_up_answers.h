@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -9,21 +10,21 @@
 namespace navcal::cli::test {
 
 /// Of this arm; the effects have their typical strength in their first parameter.
-inline TrialCase made_up_case(TrialArm arm, const std::vector<std::string>& effects) {
-  TrialCase made_up;
-  while (arm_of_case(made_up.number) != arm) ++made_up.number;
+inline validation::TrialCase made_up_case(validation::TrialArm arm, const std::vector<std::string>& effects) {
+  validation::TrialCase made_up;
+  while (validation::arm_of_case(made_up.number) != arm) ++made_up.number;
   made_up.arm = arm;
   for (const std::string& name : effects) {
-    const trial::EffectKind& kind = *trial::find_effect(name);
+    const reference::EffectKind& kind = *reference::find_effect(name);
     made_up.effects.push_back({name, {{std::string(kind.parameters.front()), kind.size.typical}}});
-    trial::add(made_up.effects.back(), made_up.vehicle.departures);
+    reference::add(made_up.effects.back(), made_up.vehicle.deviations);
   }
-  if (arm == TrialArm::removed) made_up.excluded = effects.front();
+  if (arm == validation::TrialArm::removed) made_up.excluded = effects.front();
   return made_up;
 }
 
-inline TrialResult answered(TrialCase drawn, TrialAnswer answer) {
-  TrialResult result;
+inline validation::TrialResult answered(validation::TrialCase drawn, validation::TrialAnswer answer) {
+  validation::TrialResult result;
   result.drawn = std::move(drawn);
   result.answer = std::move(answer);
   result.answer_json = "{}";
@@ -31,15 +32,15 @@ inline TrialResult answered(TrialCase drawn, TrialAnswer answer) {
   return result;
 }
 
-inline TrialAnswer named(const std::vector<std::string>& effects, double probability = 0.99) {
-  TrialAnswer answer;
-  answer.verdict = TrialVerdict::explained;
+inline validation::TrialAnswer named(const std::vector<std::string>& effects, double probability = 0.99) {
+  validation::TrialAnswer answer;
+  answer.verdict = validation::TrialVerdict::explained;
   for (const std::string& name : effects) answer.effects.push_back({name, probability, {}});
   return answer;
 }
 
-inline TrialAnswer verdict(TrialVerdict verdict) {
-  TrialAnswer answer;
+inline validation::TrialAnswer verdict(validation::TrialVerdict verdict) {
+  validation::TrialAnswer answer;
   answer.verdict = verdict;
   return answer;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/places.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ TEST(GapTrialPlaces, AreUniformOnTheSphereWithinTheModelsYears) {
   double sum = 0, square = 0;
   int western = 0;
   for (int i = 0; i < kPlaces; ++i) {
-    const TrialPlace place = drawn_place(5, i);
+    const validation::TrialPlace place = validation::drawn_place(5, i);
     const double sine = std::sin(place.anchorage.latitude_deg / kDegrees);
     EXPECT_LE(std::abs(sine), greatest);
     EXPECT_LE(std::abs(place.anchorage.longitude_deg), 180);
@@ -39,20 +40,21 @@ TEST(GapTrialPlaces, AreUniformOnTheSphereWithinTheModelsYears) {
 }
 
 TEST(GapTrialPlaces, HaveTheModelsFieldAndComeAgainWithTheirSeed) {
-  const TrialPlace place = drawn_place(7, 3);
+  const validation::TrialPlace place = validation::drawn_place(7, 3);
   const auto there = base::world_magnetic_field(
       {place.anchorage.latitude_deg / kDegrees, place.anchorage.longitude_deg / kDegrees, 0},
       base::decimal_year(place.begin_ns));
   EXPECT_EQ(place.waters.field_uT, there.north_east_down_uT);
-  EXPECT_EQ(drawn_place(7, 3).anchorage.latitude_deg, place.anchorage.latitude_deg);
-  EXPECT_NE(drawn_place(7, 4).anchorage.latitude_deg, place.anchorage.latitude_deg);
-  EXPECT_NE(drawn_place(8, 3).anchorage.latitude_deg, place.anchorage.latitude_deg);
+  EXPECT_EQ(validation::drawn_place(7, 3).anchorage.latitude_deg, place.anchorage.latitude_deg);
+  EXPECT_NE(validation::drawn_place(7, 4).anchorage.latitude_deg, place.anchorage.latitude_deg);
+  EXPECT_NE(validation::drawn_place(8, 3).anchorage.latitude_deg, place.anchorage.latitude_deg);
 }
 
 TEST(GapTrialPlaces, MissionsThereAreTheSameMissions) {
-  const TrialPlace place = drawn_place(7, 3);
-  const auto missions = trial_missions(MissionKind::brief, 3);
-  const trial::Mission first = at_place(missions[0], place), second = at_place(missions[1], place);
+  const validation::TrialPlace place = validation::drawn_place(7, 3);
+  const auto missions = validation::trial_missions(validation::MissionKind::brief, 3);
+  const reference::Mission first = validation::at_place(missions[0], place),
+                           second = validation::at_place(missions[1], place);
   EXPECT_EQ(first.start_ns, place.begin_ns);
   EXPECT_EQ(second.start_ns - first.start_ns, missions[1].start_ns - missions[0].start_ns);
   EXPECT_EQ(first.orders.size(), missions[0].orders.size());

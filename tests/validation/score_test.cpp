@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/score.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "validation/confusion.h"
 #include "tests/validation/made_up_answers.h"
+#include "validation/confusion.h"
 
 namespace navcal::cli {
 namespace {
@@ -15,31 +16,31 @@ using test::made_up_case;
 using test::named;
 using test::verdict;
 
-TrialScore score_named(const TrialScores& scores, const std::string& name) {
+validation::TrialScore score_named(const validation::TrialScores& scores, const std::string& name) {
   const auto found =
       std::find_if(scores.scores.begin(), scores.scores.end(), [&](const auto& s) { return s.name == name; });
   EXPECT_NE(found, scores.scores.end()) << name;
-  return found == scores.scores.end() ? TrialScore{} : *found;
+  return found == scores.scores.end() ? validation::TrialScore{} : *found;
 }
 
 TEST(GapTrialScore, WilsonAndQuantilesAreThoseOfTheBooks) {
   // Newcombe, Statistics in Medicine 17 (1998), table I: 81 of 263, 15 of 148, 0 of 20, 1 of 29.
   const auto expect = [](int hits, int cases, double low, double high) {
-    EXPECT_NEAR(wilson(hits, cases)[0], low, 5e-5);
-    EXPECT_NEAR(wilson(hits, cases)[1], high, 5e-5);
+    EXPECT_NEAR(validation::wilson(hits, cases)[0], low, 5e-5);
+    EXPECT_NEAR(validation::wilson(hits, cases)[1], high, 5e-5);
   };
   expect(81, 263, 0.2553, 0.3662);
   expect(15, 148, 0.0624, 0.1605);
   expect(0, 20, 0.0, 0.1611);
   expect(1, 29, 0.0061, 0.1718);
-  EXPECT_EQ(wilson(0, 0), (std::array{0.0, 1.0}));
-  EXPECT_EQ(quantile({}, 0.5), std::nullopt);
-  EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2);
-  EXPECT_DOUBLE_EQ(*quantile({0, 10}, 0.1), 1);
+  EXPECT_EQ(validation::wilson(0, 0), (std::array{0.0, 1.0}));
+  EXPECT_EQ(validation::quantile({}, 0.5), std::nullopt);
+  EXPECT_EQ(validation::quantile({3, 1, 2}, 0.5), 2);
+  EXPECT_DOUBLE_EQ(*validation::quantile({0, 10}, 0.1), 1);
 }
 
 TEST(GapTrialScore, ATargetIsMetBetweenItsBounds) {
-  TrialScore score;
+  validation::TrialScore score;
   EXPECT_FALSE(score.met());
   score.least = 0.9;
   EXPECT_FALSE(score.met());
@@ -51,16 +52,17 @@ TEST(GapTrialScore, ATargetIsMetBetweenItsBounds) {
 }
 
 TEST(GapTrialScore, NullsThatAreFlaggedAndNamedAreCountedApart) {
-  std::vector<TrialResult> results;
-  const TrialCase null = made_up_case(TrialArm::nulls, {});
-  for (int i = 0; i < 7; ++i) results.push_back(answered(null, verdict(TrialVerdict::no_gap)));
-  results.push_back(answered(null, verdict(TrialVerdict::unknown)));
+  std::vector<validation::TrialResult> results;
+  const validation::TrialCase null = made_up_case(validation::TrialArm::nulls, {});
+  for (int i = 0; i < 7; ++i) results.push_back(answered(null, verdict(validation::TrialVerdict::no_gap)));
+  results.push_back(answered(null, verdict(validation::TrialVerdict::unknown)));
   results.push_back(answered(null, named({"fin_lag"})));
   results.push_back({});
   results.back().drawn = null;
-  results.push_back(answered(made_up_case(TrialArm::nulls_6, {}), verdict(TrialVerdict::unknown)));
-  const TrialScores scores = trial_scores(results);
-  const TrialScore flagged = score_named(scores, "nulls: flagged");
+  results.push_back(
+      answered(made_up_case(validation::TrialArm::nulls_6, {}), verdict(validation::TrialVerdict::unknown)));
+  const validation::TrialScores scores = validation::trial_scores(results);
+  const validation::TrialScore flagged = score_named(scores, "nulls: flagged");
   EXPECT_EQ(flagged.hits, 2);
   EXPECT_EQ(flagged.cases, 10);
   EXPECT_EQ(flagged.met(), false);
@@ -71,22 +73,23 @@ TEST(GapTrialScore, NullsThatAreFlaggedAndNamedAreCountedApart) {
 }
 
 TEST(GapTrialScore, SinglesExactTopWrongUnknownAndConsidered) {
-  const TrialCase drawn = made_up_case(TrialArm::single, {"motor_field"});
-  TrialAnswer considered = verdict(TrialVerdict::unknown);
+  const validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"motor_field"});
+  validation::TrialAnswer considered = verdict(validation::TrialVerdict::unknown);
   considered.candidates = {{"hard_iron", 0.6, {}}, {"motor_field", 0.4, {}}};
-  TrialAnswer twin = named({"hard_iron"});
+  validation::TrialAnswer twin = named({"hard_iron"});
   twin.twins = {"motor_field"};
-  const std::vector<TrialResult> results{answered(drawn, named({"motor_field"})), answered(drawn, considered),
-                                         answered(drawn, twin), answered(drawn, named({"motor_field", "fin_lag"})),
-                                         answered(drawn, verdict(TrialVerdict::no_gap))};
-  const TrialScores scores = trial_scores(results);
+  const std::vector<validation::TrialResult> results{answered(drawn, named({"motor_field"})),
+                                                     answered(drawn, considered), answered(drawn, twin),
+                                                     answered(drawn, named({"motor_field", "fin_lag"})),
+                                                     answered(drawn, verdict(validation::TrialVerdict::no_gap))};
+  const validation::TrialScores scores = validation::trial_scores(results);
   const auto hits = [&](const char* name) { return score_named(scores, name).hits; };
   EXPECT_EQ(hits("single-1: exact"), 1);
   EXPECT_EQ(hits("single-1: wrong name"), 2);
   EXPECT_EQ(hits("single-1: unknown"), 1);
   EXPECT_EQ(hits("single-1: most probable right"), 2);
   EXPECT_EQ(hits("single-1: truth considered"), 4);
-  const TrialScore of_named = score_named(scores, "single-1: exact of those named");
+  const validation::TrialScore of_named = score_named(scores, "single-1: exact of those named");
   EXPECT_EQ(of_named.hits, 1);
   EXPECT_EQ(of_named.cases, 3);
   EXPECT_EQ(scores.power.at(3).hits, 1);
@@ -94,60 +97,63 @@ TEST(GapTrialScore, SinglesExactTopWrongUnknownAndConsidered) {
 }
 
 TEST(GapTrialScore, SetsMustBeWholeAndWhatIsLeftOutIsNotWrong) {
-  const TrialCase pair = made_up_case(TrialArm::pairs, {"fin_gain", "fin_lag"});
-  EXPECT_EQ(judged(answered(pair, named({"fin_lag", "fin_gain"}))).outcome, TrialOutcome::exact);
-  EXPECT_EQ(judged(answered(pair, named({"fin_lag"}))).outcome, TrialOutcome::part);
-  EXPECT_EQ(judged(answered(pair, named({"fin_lag", "yaw_damping"}))).outcome, TrialOutcome::wrong);
+  const validation::TrialCase pair = made_up_case(validation::TrialArm::pairs, {"fin_gain", "fin_lag"});
+  EXPECT_EQ(validation::judged(answered(pair, named({"fin_lag", "fin_gain"}))).outcome,
+            validation::TrialOutcome::exact);
+  EXPECT_EQ(validation::judged(answered(pair, named({"fin_lag"}))).outcome, validation::TrialOutcome::part);
+  EXPECT_EQ(validation::judged(answered(pair, named({"fin_lag", "yaw_damping"}))).outcome,
+            validation::TrialOutcome::wrong);
 }
 
 TEST(GapTrialScore, RemovedMayBeUnknownOrItsClassAndForeignOnlyUnknown) {
-  const TrialCase removed = made_up_case(TrialArm::removed, {"fin_gain"});
+  const validation::TrialCase removed = made_up_case(validation::TrialArm::removed, {"fin_gain"});
   for (const auto& [answer, outcome, right] :
-       {std::tuple{verdict(TrialVerdict::unknown), TrialOutcome::unknown, true},
-        {named({"yaw_damping", "thrust_scale"}), TrialOutcome::in_class, true},
-        {named({"yaw_damping", "hard_iron"}), TrialOutcome::wrong, false},
-        {verdict(TrialVerdict::no_gap), TrialOutcome::no_gap, false}}) {
-    EXPECT_EQ(judged(answered(removed, answer)).outcome, outcome);
-    EXPECT_EQ(judged(answered(removed, answer)).right, right);
+       {std::tuple{verdict(validation::TrialVerdict::unknown), validation::TrialOutcome::unknown, true},
+        {named({"yaw_damping", "thrust_scale"}), validation::TrialOutcome::in_class, true},
+        {named({"yaw_damping", "hard_iron"}), validation::TrialOutcome::wrong, false},
+        {verdict(validation::TrialVerdict::no_gap), validation::TrialOutcome::no_gap, false}}) {
+    EXPECT_EQ(validation::judged(answered(removed, answer)).outcome, outcome);
+    EXPECT_EQ(validation::judged(answered(removed, answer)).right, right);
   }
-  const TrialCase foreign = made_up_case(TrialArm::foreign, {"fouling"});
-  EXPECT_TRUE(judged(answered(foreign, verdict(TrialVerdict::unknown))).right);
-  EXPECT_EQ(judged(answered(foreign, named({"thrust_scale"}))).outcome, TrialOutcome::wrong);
+  const validation::TrialCase foreign = made_up_case(validation::TrialArm::foreign, {"fouling"});
+  EXPECT_TRUE(validation::judged(answered(foreign, verdict(validation::TrialVerdict::unknown))).right);
+  EXPECT_EQ(validation::judged(answered(foreign, named({"thrust_scale"}))).outcome,
+            validation::TrialOutcome::wrong);
 }
 
 TEST(GapTrialScore, PoorMissionsWantNoWrongNameAndTheTruthAmongTheTwins) {
-  const TrialCase poor = made_up_case(TrialArm::poor, {"fin_gain"});
-  TrialAnswer twins = verdict(TrialVerdict::unknown);
-  EXPECT_FALSE(judged(answered(poor, twins)).right);
+  const validation::TrialCase poor = made_up_case(validation::TrialArm::poor, {"fin_gain"});
+  validation::TrialAnswer twins = verdict(validation::TrialVerdict::unknown);
+  EXPECT_FALSE(validation::judged(answered(poor, twins)).right);
   twins.candidates = {{"yaw_damping", 0.5, {}}};
   twins.twins = {"fin_gain"};
-  EXPECT_TRUE(judged(answered(poor, twins)).right);
+  EXPECT_TRUE(validation::judged(answered(poor, twins)).right);
 }
 
 TEST(GapTrialScore, ParametersAreHeldAgainstTheTruthWithItsTolerance) {
-  TrialCase drawn = made_up_case(TrialArm::single, {"motor_field"});
-  trial::add({"motor_field", {{"y_uT_per_A", 0.03}}}, drawn.vehicle.departures);  // the tolerance
-  TrialAnswer answer = named({"motor_field"});
+  validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"motor_field"});
+  reference::add({"motor_field", {{"y_uT_per_A", 0.03}}}, drawn.vehicle.deviations);  // the tolerance
+  validation::TrialAnswer answer = named({"motor_field"});
   answer.effects[0].parameters = {
       {"x_uT_per_A", {1.19, 0.1}}, {"y_uT_per_A", {0.0, 0.01}}, {"z_uT_per_A", {0.0, std::nullopt}}};
-  const TrialJudgement judgement = judged(answered(drawn, answer));
+  const validation::TrialJudgement judgement = validation::judged(answered(drawn, answer));
   EXPECT_EQ(judgement.parameters, 3);
   EXPECT_EQ(judgement.parameters_within, 1);  // y is three errors away, z has none
 }
 
 TEST(GapTrialScore, ClosureIsThatOfExactOutcomesAndItsIntervalHoldsOne) {
-  const TrialCase drawn = made_up_case(TrialArm::single, {"motor_field"});
-  std::vector<TrialResult> results;
+  const validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"motor_field"});
+  std::vector<validation::TrialResult> results;
   for (const double closed : {0.9, 0.98, 1.0}) {
-    TrialAnswer answer = named({"motor_field"});
+    validation::TrialAnswer answer = named({"motor_field"});
     answer.closed = closed;
     answer.closed_ci = {closed - 0.03, closed + 0.03};
     results.push_back(answered(drawn, answer));
   }
-  TrialAnswer wrong = named({"hard_iron"});
+  validation::TrialAnswer wrong = named({"hard_iron"});
   wrong.closed = 0.2;
   results.push_back(answered(drawn, wrong));
-  const TrialScores scores = trial_scores(results);
+  const validation::TrialScores scores = validation::trial_scores(results);
   EXPECT_DOUBLE_EQ(*score_named(scores, "closure: median").value, 0.98);
   EXPECT_DOUBLE_EQ(*score_named(scores, "closure: 10th percentile").value, 0.9 + 0.2 * 0.08);
   EXPECT_EQ(score_named(scores, "closure: the interval holds the truth").hits, 2);
@@ -155,44 +161,49 @@ TEST(GapTrialScore, ClosureIsThatOfExactOutcomesAndItsIntervalHoldsOne) {
 }
 
 TEST(GapTrialScore, TheStrongestChannelMustBeOneWhereAnEffectCanShow) {
-  const TrialCase drawn = made_up_case(TrialArm::single, {"motor_field"});
+  const validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"motor_field"});
   for (const auto& [channel, right] : {std::pair{"compass.field", true}, {"imu.depth", false}}) {
-    TrialAnswer answer = verdict(TrialVerdict::unknown);
+    validation::TrialAnswer answer = verdict(validation::TrialVerdict::unknown);
     answer.channels = {channel, "compass.field"};
-    EXPECT_EQ(judged(answered(drawn, answer)).channel_right, right);
+    EXPECT_EQ(validation::judged(answered(drawn, answer)).channel_right, right);
   }
-  EXPECT_EQ(judged(answered(drawn, verdict(TrialVerdict::unknown))).channel_right, false);
-  EXPECT_EQ(judged(answered(drawn, verdict(TrialVerdict::no_gap))).channel_right, std::nullopt);
+  EXPECT_EQ(validation::judged(answered(drawn, verdict(validation::TrialVerdict::unknown))).channel_right, false);
+  EXPECT_EQ(validation::judged(answered(drawn, verdict(validation::TrialVerdict::no_gap))).channel_right,
+            std::nullopt);
 }
 
 TEST(GapTrialScore, CalibrationErrorIsTheMeanDistanceByBets) {
-  const TrialCase drawn = made_up_case(TrialArm::single, {"motor_field"});
-  TrialAnswer right = named({"motor_field"}, 0.8);
+  const validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"motor_field"});
+  validation::TrialAnswer right = named({"motor_field"}, 0.8);
   right.candidates = {{"hard_iron", 0.2, {}}, {"fin_lag", 0.01, {}}, {"motor_field", 0.8, {}}};
-  const std::vector<TrialResult> results{answered(drawn, right), answered(drawn, named({"hard_iron"}, 0.84))};
-  const TrialScores scores = trial_scores(results);
+  const std::vector<validation::TrialResult> results{answered(drawn, right),
+                                                     answered(drawn, named({"hard_iron"}, 0.84))};
+  const validation::TrialScores scores = validation::trial_scores(results);
   EXPECT_EQ(scores.calibration[8].bets, 2);
   EXPECT_DOUBLE_EQ(scores.calibration[8].mean_probability, 0.82);
   EXPECT_DOUBLE_EQ(scores.calibration[8].share_right, 0.5);
   EXPECT_EQ(scores.calibration[2].bets, 1);
-  EXPECT_NEAR(calibration_error(scores.calibration), (2 * 0.32 + 0.2) / 3, 1e-12);
+  EXPECT_NEAR(validation::calibration_error(scores.calibration), (2 * 0.32 + 0.2) / 3, 1e-12);
 }
 
 TEST(GapTrialScore, TimeLeavesOutTheFirstOfItsKind) {
-  std::vector<TrialResult> results(3, answered(made_up_case(TrialArm::nulls, {}), verdict(TrialVerdict::no_gap)));
+  std::vector<validation::TrialResult> results(
+      3, answered(made_up_case(validation::TrialArm::nulls, {}), verdict(validation::TrialVerdict::no_gap)));
   results[0].seconds = 100;
   results[0].first_of_its_kind = true;
-  EXPECT_EQ(score_named(trial_scores(results), "time of a diagnosis: median").value, 3);
+  EXPECT_EQ(score_named(validation::trial_scores(results), "time of a diagnosis: median").value, 3);
 }
 
 TEST(GapTrialConfusion, ACaseCountsForEachEffectThatIsThere) {
-  const TrialCase pair = made_up_case(TrialArm::pairs, {"fin_gain", "fin_lag"});
-  const std::vector<TrialResult> results{
+  const validation::TrialCase pair = made_up_case(validation::TrialArm::pairs, {"fin_gain", "fin_lag"});
+  const std::vector<validation::TrialResult> results{
       answered(pair, named({"fin_gain"})), answered(pair, named({"fin_gain", "yaw_damping"})),
-      answered(made_up_case(TrialArm::nulls, {}), verdict(TrialVerdict::no_gap)),
-      answered(made_up_case(TrialArm::foreign, {"fouling"}), verdict(TrialVerdict::unknown)),
-      answered(made_up_case(TrialArm::single_tenth, {"hard_iron"}), verdict(TrialVerdict::no_gap))};
-  const TrialConfusion confusion = trial_confusion(results);
+      answered(made_up_case(validation::TrialArm::nulls, {}), verdict(validation::TrialVerdict::no_gap)),
+      answered(made_up_case(validation::TrialArm::foreign, {"fouling"}),
+               verdict(validation::TrialVerdict::unknown)),
+      answered(made_up_case(validation::TrialArm::single_tenth, {"hard_iron"}),
+               verdict(validation::TrialVerdict::no_gap))};
+  const validation::TrialConfusion confusion = validation::trial_confusion(results);
   EXPECT_EQ(confusion.count("fin_gain", "fin_gain"), 2);
   EXPECT_EQ(confusion.count("fin_lag", "left out"), 1);
   EXPECT_EQ(confusion.count("fin_lag", "yaw_damping"), 1);

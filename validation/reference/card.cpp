@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/card.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "protocols/imu_card.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 namespace wire = protocols::imu_card;
@@ -21,9 +22,9 @@ constexpr double kReferenceShare = 0.05;
 
 }  // namespace
 
-Card::Card(const Fitting& fitting, const CardDepartures& departures)
+Card::Card(const Fitting& fitting, const CardDeviations& deviations)
     : Instrument(fitting, Port::imu, kPeriod_s, kLatency_s),
-      departures_(departures),
+      departures_(deviations),
       sequence_(static_cast<std::uint8_t>(dice().bits())) {
   for (double& bias : bias_rad_s_) bias = noise(kTurnOnBias_deg_s * kDegree);
 }
@@ -88,4 +89,4 @@ std::vector<std::uint8_t> Card::sample(const World& world, double time_s) {
   return {frame.begin(), frame.end()};
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

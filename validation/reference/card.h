@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 
 #include "validation/reference/instrument.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Inertial card (ICD section 3): two gyros of two axes, accelerometers, depth; 20 Hz, 25 ms from measurement to
 /// the first byte, 1/16 mV. All departures are reckoned from the true rate w, specific force f and depth z:
@@ -14,7 +15,7 @@ namespace navcal::trial {
 /// departure.
 class Card final : public Instrument {
  public:
-  Card(const Fitting& fitting, const CardDepartures& departures);
+  Card(const Fitting& fitting, const CardDeviations& deviations);
 
   /// What the helmsman last read.
   struct Reading {
@@ -28,7 +29,7 @@ class Card final : public Instrument {
   [[nodiscard]] Vector3 forces(const Snapshot& s);
   [[nodiscard]] double depth(const Snapshot& s);
 
-  CardDepartures departures_;
+  CardDeviations departures_;
   PerGyro bias_rad_s_ = PerGyro::Zero();
   std::array<bool, 4> jumped_{};  ///< which gyros stand beside their bias
   double seat_m_ = 0;             ///< of the play in the depth sensor
@@ -36,4 +37,4 @@ class Card final : public Instrument {
   Reading reading_;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

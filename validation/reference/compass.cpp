@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/compass.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "protocols/tcm2_word.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 constexpr double kCompassPeriod_s = 0.1, kCompassLatency_s = 0.05;
@@ -22,20 +23,20 @@ Eigen::Matrix3d to_turned_triad(const Vector3& turned_rad) {
   return Eigen::AngleAxisd(-angle, turned_rad / angle).toRotationMatrix();
 }
 
-Eigen::Matrix3d iron(const CompassDepartures& departures) {
-  const auto& s = departures.soft_iron;
+Eigen::Matrix3d iron(const CompassDeviations& deviations) {
+  const auto& s = deviations.soft_iron;
   Eigen::Matrix3d S;
   S << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
-  return to_turned_triad(departures.misalignment_rad) * (Eigen::Matrix3d::Identity() + S);
+  return to_turned_triad(deviations.misalignment_rad) * (Eigen::Matrix3d::Identity() + S);
 }
 
 }  // namespace
 
-Compass::Compass(const Fitting& fitting, const CompassDepartures& departures, const Vector3& field_uT)
+Compass::Compass(const Fitting& fitting, const CompassDeviations& deviations, const Vector3& field_uT)
     : Instrument(fitting, Port::compass, kCompassPeriod_s, kCompassLatency_s),
-      departures_(departures),
-      field_world_uT_(Eigen::AngleAxisd(departures.declination_rad, Vector3::UnitZ()) * field_uT),
-      iron_(iron(departures)) {}
+      departures_(deviations),
+      field_world_uT_(Eigen::AngleAxisd(deviations.declination_rad, Vector3::UnitZ()) * field_uT),
+      iron_(iron(deviations)) {}
 
 void Compass::sense(const Snapshot& s, double after_s) {
   const Vector3 body_uT = s.world_from_body.conjugate() * field_world_uT_;
@@ -89,4 +90,4 @@ std::vector<std::uint8_t> Compass::sample(const World& world, double time_s) {
   return protocols::tcm2::encode_word(word);
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

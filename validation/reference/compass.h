@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -5,7 +6,7 @@
 #include "validation/reference/instrument.h"
 #include "validation/reference/lag.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// TCM2 (ICD section 1): field in body axes, tilt through a fluid, heading of the levelled field (Mach 2003, eq.
 /// 2.2), temperature; 10 Hz, 50 ms from measurement to the first byte.
@@ -17,7 +18,7 @@ namespace navcal::trial {
 class Compass final : public Instrument {
  public:
   /// `field_uT`: the Earth's, north, east, down.
-  Compass(const Fitting& fitting, const CompassDepartures& departures,
+  Compass(const Fitting& fitting, const CompassDeviations& deviations,
           const Vector3& field_uT = Waters{}.field_uT);
 
   /// What the helmsman last read, radians; heading is magnetic.
@@ -31,7 +32,7 @@ class Compass final : public Instrument {
   void settle(const World& world, double time_s);
   void sense(const Snapshot& s, double after_s);
 
-  CompassDepartures departures_;
+  CompassDeviations departures_;
   Vector3 field_world_uT_;
   Eigen::Matrix3d iron_;  ///< soft iron, then misalignment
   Lag<Vector3> memory_, field_;
@@ -40,4 +41,4 @@ class Compass final : public Instrument {
   Reading reading_;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// y(t + h) of y' = slope(t, y) by the fifth-order formula of Dormand and Prince (J. Comp. Appl. Math. 6, 1980),
 /// six slopes a step; what it leaves out is of the order h^6 a step. The step is the caller's: events (a new
@@ -19,4 +20,4 @@ template <class State, class Slope>
   return y + h * (35.0 / 384 * k1 + 500.0 / 1113 * k3 + 125.0 / 192 * k4 - 2187.0 / 6784 * k5 + 11.0 / 84 * k6);
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

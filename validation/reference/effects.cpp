@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/effects.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 template <class Names>
@@ -39,7 +40,7 @@ const EffectKind* find_effect(std::string_view name) {
   return nullptr;
 }
 
-void add(const Effect& effect, Departures& departures) {
+void add(const Effect& effect, ParameterDeviations& deviations) {
   const EffectKind* const kind = find_effect(effect.name);
   if (kind == nullptr)
     throw std::invalid_argument("no effect is called \"" + effect.name + "\"; known are " + known_effects());
@@ -51,11 +52,11 @@ void add(const Effect& effect, Departures& departures) {
     if (!std::isfinite(value)) throw std::invalid_argument(effect.name + ": " + key + " is not a finite number");
     if (kind->size.sign == Sign::not_negative && value < 0)
       throw std::invalid_argument(effect.name + ": " + key + " cannot be negative");
-    kind->field(departures)[at - kind->parameters.begin()] += kind->size.si * value;
+    kind->field(deviations)[at - kind->parameters.begin()] += kind->size.si * value;
   }
 }
 
-Effect drawn(const EffectKind& kind, double strength, Dice& dice) {
+Effect drawn(const EffectKind& kind, double strength, Rng& dice) {
   Effect effect{std::string(kind.name), {}};
   const bool positive = kind.size.sign != Sign::either;
   for (std::size_t first = 0; first < kind.parameters.size(); first += kind.size.group) {
@@ -73,16 +74,16 @@ Effect drawn(const EffectKind& kind, double strength, Dice& dice) {
   return effect;
 }
 
-void loosen(double fraction, Departures& departures, Dice& dice) {
+void apply_tolerance(double fraction, ParameterDeviations& deviations, Rng& dice) {
   for (const EffectKind& kind : library_effects()) {
     for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
       const double deviate = dice.normal(fraction * kind.size.typical * kind.size.si);
-      kind.field(departures)[i] += kind.size.sign == Sign::not_negative ? std::abs(deviate) : deviate;
+      kind.field(deviations)[i] += kind.size.sign == Sign::not_negative ? std::abs(deviate) : deviate;
     }
   }
 }
 
-void loosen(double fraction, Hull& hull, Dice& dice) {
+void apply_tolerance(double fraction, Hull& hull, Rng& dice) {
   for (double* const number :
        {&hull.roll_inertia_factor, &hull.pitch_inertia_factor, &hull.roll_added_inertia, &hull.axial_drag,
         &hull.crossflow_drag, &hull.lift_slope_per_rad, &hull.lift_station_m, &hull.gravity_centre_below_m,
@@ -93,4 +94,4 @@ void loosen(double fraction, Hull& hull, Dice& dice) {
   }
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

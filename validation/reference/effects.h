@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -7,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "validation/reference/hull.h"
 #include "validation/reference/parameter_deviations.h"
 #include "validation/reference/rng.h"
-#include "validation/reference/hull.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Which signs a kind of departure takes in nature.
 enum class Sign : std::uint8_t {
@@ -34,7 +35,7 @@ struct EffectKind {
   std::string_view name;
   std::vector<std::string_view> parameters;
   Size size;
-  double* (*field)(Departures&) = nullptr;  ///< of the first parameter; the others follow it
+  double* (*field)(ParameterDeviations&) = nullptr;  ///< of the first parameter; the others follow it
 };
 
 /// Those that the diagnosis knows too, in the order of docs/trial.md.
@@ -52,15 +53,15 @@ struct Effect {
 
 /// Adds to what is there. Throws std::invalid_argument for an unknown effect or parameter (it lists the known), a
 /// number that is not finite, and a negative one that makes no sense.
-void add(const Effect& effect, Departures& departures);
+void add(const Effect& effect, ParameterDeviations& deviations);
 
 /// `strength` typical strengths in a direction by the dice; where only one sign is natural, its magnitude.
-[[nodiscard]] Effect drawn(const EffectKind& kind, double strength, Dice& dice);
+[[nodiscard]] Effect drawn(const EffectKind& kind, double strength, Rng& dice);
 
 /// Every vehicle is off by a little everywhere: each parameter of each library effect a normal deviate of
 /// `fraction` of its typical strength (its magnitude where negative makes no sense).
-void loosen(double fraction, Departures& departures, Dice& dice);
+void apply_tolerance(double fraction, ParameterDeviations& deviations, Rng& dice);
 /// The same for the numbers of the hull, relative; they are nobody's effect.
-void loosen(double fraction, Hull& hull, Dice& dice);
+void apply_tolerance(double fraction, Hull& hull, Rng& dice);
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "validation/reference/parameter_deviations.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// From the commanded angles to those of the fins: servo (first-order lag, reported), gain, further first-order
 /// lag, play, offset. Between two commands both lags have a solution in closed form, so no integrator touches
@@ -15,12 +16,12 @@ namespace navcal::trial {
 /// Radians, seconds; rudder and elevator mix into the fins as the motor card has it (ICD section 4).
 class FinLinkage {
  public:
-  FinLinkage(double servo_time_s, const VehicleDepartures& departures)
+  FinLinkage(double servo_time_s, const VehicleDeviations& deviations)
       : servo_time_s_(servo_time_s),
-        lag_s_(departures.fin_lag_s),
-        play_rad_(departures.fin_play_rad),
-        gain_(1 + departures.fin_gain),
-        offset_rad_(mixed(departures.rudder_rad, departures.elevator_rad)) {}
+        lag_s_(deviations.fin_lag_s),
+        play_rad_(deviations.fin_play_rad),
+        gain_(1 + deviations.fin_gain),
+        offset_rad_(mixed(deviations.rudder_rad, deviations.elevator_rad)) {}
 
   [[nodiscard]] static Vector3 mixed(double rudder_rad, double elevator_rad) {
     const double half_root_3 = std::sqrt(0.75);
@@ -75,4 +76,4 @@ class FinLinkage {
   bool held_ = false;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

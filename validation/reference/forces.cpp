@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/forces.h"
 
 #include <Eigen/Geometry>
@@ -6,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 constexpr int kStations = 21;
@@ -116,4 +117,4 @@ Wrench damping_wrench(const Hull& hull, const Matrix6& inertia, const Vector3& r
   return wrench;
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

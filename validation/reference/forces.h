@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 
-#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/hull.h"
+#include "validation/reference/parameter_deviations.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Through still water: body axes at the centre of buoyancy, SI.
 struct Flow {
@@ -37,4 +38,4 @@ inline constexpr double kStall_rad = 8 * 0.017453292519943295;
 [[nodiscard]] Wrench damping_wrench(const Hull& hull, const Matrix6& inertia, const Vector3& rate_rad_s,
                                     double further_yaw_per_s);
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/effects.h"
 #include "validation/reference/instrument.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 std::span<const EffectKind> foreign_effects() {
-  using D = Departures;
+  using D = ParameterDeviations;
   constexpr double kPerHour = 1.0 / 3600;
   static const std::vector<EffectKind> all{
       {"crossflow_depth",
@@ -57,4 +58,4 @@ std::span<const EffectKind> foreign_effects() {
   return all;
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

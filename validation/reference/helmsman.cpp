@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/helmsman.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 constexpr double kFinRange_rad = 15 * kDegree, kPitchRange_rad = 25 * kDegree;
@@ -38,4 +39,4 @@ Controls Helmsman::steer(const Order& order, const Compass::Reading& compass, co
   return {shaft_rev_s, FinLinkage::mixed(rudder, elevator)};
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

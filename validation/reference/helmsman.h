@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "validation/reference/card.h"
 #include "validation/reference/compass.h"
 #include "validation/reference/mission.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// What the helmsman sets.
 struct Controls {
@@ -31,4 +32,4 @@ class Helmsman {
   double heading_sum_ = 0, depth_sum_ = 0;  ///< integrals of what was missed
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/hull.h"
 
 #include <cmath>
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 /// Lamb's coefficients: added mass along and across, added inertia across.
@@ -39,4 +40,4 @@ Matrix6 inertia(const Hull& hull) {
   return M;
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

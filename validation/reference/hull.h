@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -52,4 +53,4 @@ struct Hull {
 /// thick (Lamb, Hydrodynamics, art. 114 and 115; Fossen, Handbook of Marine Craft Hydrodynamics, ch. 6).
 [[nodiscard]] Matrix6 inertia(const Hull& hull);
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

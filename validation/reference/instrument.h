@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -8,7 +9,7 @@
 #include "validation/reference/sink.h"
 #include "validation/reference/world.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// What every instrument shares: its noise (`noisy` false: none, for tests of equations), its own clock, its line.
 struct Fitting {
@@ -56,7 +57,7 @@ class Instrument {
     const double x = noise(sigma), y = noise(sigma), z = noise(sigma);
     return {x, y, z};
   }
-  [[nodiscard]] Dice& dice() { return dice_; }
+  [[nodiscard]] Rng& dice() { return dice_; }
   /// The second of time is another's: samples are taken from this time on, exactly.
   void paced_from(double phase_s, double period_s) {
     phase_s_ = phase_s;
@@ -67,7 +68,7 @@ class Instrument {
   [[nodiscard]] double next_s() const { return phase_s_ + static_cast<double>(taken_) * period_s_; }
 
   Fitting fitting_;
-  Dice dice_;
+  Rng dice_;
   Port port_;
   double latency_s_, period_s_, phase_s_;
   std::int64_t taken_ = 0;
@@ -75,4 +76,4 @@ class Instrument {
 
 inline constexpr double kDegree = 0.017453292519943295;
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

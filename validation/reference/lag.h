@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// tau y' + y = x, exact for an input that runs straight between two calls; begins at its first input.
 template <class Value>
@@ -27,4 +28,4 @@ class Lag {
   bool begun_ = false;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/effects.h"
 #include "validation/reference/instrument.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 constexpr double kPer_deg = 1 / kDegree;
 constexpr double kPer_g = 1 / kGravity_m_s2;
 
 std::vector<EffectKind> compass_effects() {
-  using D = Departures;
+  using D = ParameterDeviations;
   return {
       {"hard_iron",
        {"x_uT", "y_uT", "z_uT"},
@@ -51,7 +52,7 @@ std::vector<EffectKind> compass_effects() {
 }
 
 std::vector<EffectKind> gyro_effects() {
-  using D = Departures;
+  using D = ParameterDeviations;
   return {
       {"gyro_scale",
        {"scale_ax", "scale_az", "scale_by", "scale_bz"},
@@ -83,7 +84,7 @@ std::vector<EffectKind> gyro_effects() {
 }
 
 std::vector<EffectKind> card_effects() {
-  using D = Departures;
+  using D = ParameterDeviations;
   return {
       {"accel_bias",
        {"x_m_s2", "y_m_s2", "z_m_s2"},
@@ -116,7 +117,7 @@ std::vector<EffectKind> card_effects() {
 }
 
 std::vector<EffectKind> vehicle_effects() {
-  using D = Departures;
+  using D = ParameterDeviations;
   return {
       {"water_current",
        {"north_m_s", "east_m_s"},
@@ -157,4 +158,4 @@ std::span<const EffectKind> library_effects() {
   return all;
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 #include "validation/reference/vehicle.h"
 #include "validation/reference/waters.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// What is to be done from a time on, until the next order. What is not steered by an instrument is set by hand.
 struct Order {
@@ -31,4 +32,4 @@ struct Mission {
   Waters waters;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/motor.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "protocols/motor_card.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 namespace motor_wire = protocols::motor_card;
@@ -48,4 +49,4 @@ std::vector<std::uint8_t> Motor::sample(const World& world, double time_s) {
   return motor_wire::encode_status(status);
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "validation/reference/instrument.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Motor card (ICD section 4): shaft speed, angles of the servos' shafts, current; 10 Hz, 5 ms from measurement to
 /// the first byte. It takes the helmsman's orders as they can be written: whole rpm, tenths of a degree.
@@ -22,4 +23,4 @@ class Motor final : public Instrument {
   std::uint8_t sequence_;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 using Vector3 = Eigen::Vector3d;
 
@@ -15,7 +16,7 @@ using Vector3 = Eigen::Vector3d;
 inline constexpr std::array<int, 4> kGyroAxes{0, 2, 1, 2};
 using PerGyro = Eigen::Array4d;
 
-struct VehicleDepartures {
+struct VehicleDeviations {
   double thrust = 0;  ///< relative
   double rudder_rad = 0, elevator_rad = 0;
   double fin_gain = 0;  ///< relative
@@ -35,7 +36,7 @@ struct VehicleDepartures {
   double wave_N = 0;         ///< sway force of waves at the surface
 };
 
-struct CompassDepartures {
+struct CompassDeviations {
   Vector3 hard_iron_uT = Vector3::Zero();
   std::array<double, 6> soft_iron{};  ///< xx, yy, zz, xy, xz, yz
   Vector3 misalignment_rad = Vector3::Zero();
@@ -52,7 +53,7 @@ struct CompassDepartures {
   double saturation_per_uT2 = 0;
 };
 
-struct CardDepartures {
+struct CardDeviations {
   PerGyro gyro_scale = PerGyro::Zero();
   PerGyro gyro_temperature_rad_s_per_K = PerGyro::Zero();
   PerGyro gyro_drift_rad_s2 = PerGyro::Zero();
@@ -75,7 +76,7 @@ struct CardDepartures {
   double gyro_jump_rad_s = 0;
 };
 
-struct GpsDepartures {
+struct GpsDeviations {
   double latency_s = 0;
   Eigen::Vector2d lever_arm_m = Eigen::Vector2d::Zero();  ///< forward, starboard
 
@@ -83,11 +84,11 @@ struct GpsDepartures {
   Eigen::Vector2d multipath_m = Eigen::Vector2d::Zero();  ///< north, east, when heading north
 };
 
-struct Departures {
-  VehicleDepartures vehicle;
-  CompassDepartures compass;
-  CardDepartures card;
-  GpsDepartures gps;
+struct ParameterDeviations {
+  VehicleDeviations vehicle;
+  CompassDeviations compass;
+  CardDeviations card;
+  GpsDeviations gps;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

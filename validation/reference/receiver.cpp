@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/receiver.h"
 
 #include <chrono>
@@ -6,7 +7,7 @@
 
 #include "protocols/oncore_encode.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 constexpr double kReceiverLatency_s = 0.3;
@@ -45,9 +46,9 @@ void set_time(protocols::oncore::Position& position, std::int64_t utc_ns) {
 
 }  // namespace
 
-Receiver::Receiver(const Fitting& fitting, const GpsDepartures& departures, const Anchorage& anchorage)
+Receiver::Receiver(const Fitting& fitting, const GpsDeviations& deviations, const Anchorage& anchorage)
     : Instrument(fitting, Port::gps, 1, kReceiverLatency_s),
-      departures_(departures),
+      departures_(deviations),
       anchorage_(anchorage),
       start_ns_(fitting.start_ns) {
   const std::int64_t to_second_ns = (kSecond_ns - fitting.start_ns % kSecond_ns) % kSecond_ns;
@@ -97,4 +98,4 @@ std::vector<std::uint8_t> Receiver::sample(const World& world, double time_s) {
   return protocols::oncore::encode_ha(last_);
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

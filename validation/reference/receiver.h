@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "protocols/oncore_position.h"
 #include "validation/reference/instrument.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Where north, east, down = 0 lies (WGS84).
 struct Anchorage {
@@ -15,14 +16,14 @@ struct Anchorage {
 ///     p + R l + A(2 psi)      v + R (w x l)      both `latency` older than the time that they state
 class Receiver final : public Instrument {
  public:
-  Receiver(const Fitting& fitting, const GpsDepartures& departures, const Anchorage& anchorage);
+  Receiver(const Fitting& fitting, const GpsDeviations& deviations, const Anchorage& anchorage);
 
  private:
   std::vector<std::uint8_t> sample(const World& world, double time_s) override;
   [[nodiscard]] bool has_fix(double depth_m, double time_s);
   void measure(const Snapshot& s);
 
-  GpsDepartures departures_;
+  GpsDeviations departures_;
   Anchorage anchorage_;
   std::int64_t start_ns_;
   bool up_ = false;       ///< near the surface
@@ -30,4 +31,4 @@ class Receiver final : public Instrument {
   protocols::oncore::Position last_;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

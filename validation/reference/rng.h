@@ -1,16 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Randomness by seed, the same on every machine: SplitMix64 (Steele, Lea, Flood, OOPSLA 2014) and the transform
 /// of Box and Muller. Streams of one seed are independent, so that one instrument's draws do not move another's.
-class Dice {
+class Rng {
  public:
-  Dice(std::uint64_t seed, std::uint64_t stream) : state_(mixed(seed) ^ mixed(~stream)) {}
+  Rng(std::uint64_t seed, std::uint64_t stream) : state_(mixed(seed) ^ mixed(~stream)) {}
 
   [[nodiscard]] std::uint64_t bits() { return mixed(state_ += 0x9E3779B97F4A7C15U); }
   /// In [least, greatest).
@@ -32,4 +33,4 @@ class Dice {
   std::uint64_t state_;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/run.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "validation/reference/motor.h"
 #include "validation/reference/receiver.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 void check(const Mission& mission) {
@@ -49,9 +50,9 @@ class Outbox {
 
 }  // namespace
 
-std::optional<Lost> run(const Mission& mission, const Specimen& specimen, std::uint64_t seed, Sink& sink) {
+std::optional<Lost> run(const Mission& mission, const VehicleUnderTest& specimen, std::uint64_t seed, Sink& sink) {
   check(mission);
-  const Departures& departures = specimen.departures;
+  const ParameterDeviations& deviations = specimen.deviations;
   const Fitting fitting{seed, specimen.noisy, mission.start_ns, specimen.clock_ppm, specimen.host_delay_s};
   const auto with_clock = [&](double slow) {
     Fitting its_own = fitting;
@@ -61,11 +62,11 @@ std::optional<Lost> run(const Mission& mission, const Specimen& specimen, std::u
   const Waters& waters = mission.waters;
   Hull hull = specimen.hull;
   hull.water_density_kg_m3 = waters.density_kg_m3;
-  World world(Vehicle(hull, departures.vehicle, mission.start),
-              std::max(departures.card.latency_s, departures.gps.latency_s) + 1, waters.surface_C);
-  Compass compass(with_clock(specimen.clocks.compass), departures.compass, waters.field_uT);
-  Card card(with_clock(specimen.clocks.card), departures.card);
-  Receiver receiver(fitting, departures.gps, mission.anchorage);
+  World world(Vehicle(hull, deviations.vehicle, mission.start),
+              std::max(deviations.card.latency_s, deviations.gps.latency_s) + 1, waters.surface_C);
+  Compass compass(with_clock(specimen.clocks.compass), deviations.compass, waters.field_uT);
+  Card card(with_clock(specimen.clocks.card), deviations.card);
+  Receiver receiver(fitting, deviations.gps, mission.anchorage);
   Motor motor(with_clock(specimen.clocks.motor));
   Helmsman helmsman(std::atan2(waters.field_uT.y(), waters.field_uT.x()));
   Outbox outbox(sink);
@@ -94,4 +95,4 @@ std::optional<Lost> run(const Mission& mission, const Specimen& specimen, std::u
   return std::nullopt;
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

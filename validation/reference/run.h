@@ -1,19 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
-#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/instrument.h"
 #include "validation/reference/mission.h"
+#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/sink.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// What this vehicle is, apart from its mission.
-struct Specimen {
+struct VehicleUnderTest {
   Hull hull;
-  Departures departures;
+  ParameterDeviations deviations;
   /// Share by which the period of each of these cards is too long, beside `clock_ppm`.
   struct Clocks {
     double compass = 0, card = 0, motor = 0;
@@ -33,7 +34,7 @@ struct Lost {
 /// Swims the mission and hands over what its computer would have read and written, in order of time. The same seed
 /// gives the same bytes. Memory is bounded, whatever the duration. Answers whether the vehicle was lost.
 /// Throws std::invalid_argument when the orders are not in order of time or a number is not finite.
-[[nodiscard]] std::optional<Lost> run(const Mission& mission, const Specimen& specimen, std::uint64_t seed,
+[[nodiscard]] std::optional<Lost> run(const Mission& mission, const VehicleUnderTest& specimen, std::uint64_t seed,
                                       Sink& sink);
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

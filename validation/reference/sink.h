@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 #include "validation/reference/snapshot.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 enum class Port : std::uint8_t { compass, imu, gps, motor };
 
@@ -40,4 +41,4 @@ class Sink {
   virtual void truth(const Snapshot& /*snapshot*/) {}
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

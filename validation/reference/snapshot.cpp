@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/snapshot.h"
 
 #include <cmath>
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 double Snapshot::heading_rad() const {
   const Vector3 forward = world_from_body * Vector3::UnitX();
@@ -43,4 +44,4 @@ Snapshot between(const Snapshot& first, const Snapshot& second, double part) {
   return s;
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

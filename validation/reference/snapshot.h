@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -5,7 +6,7 @@
 
 #include "validation/reference/parameter_deviations.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// The vehicle at one instant: SI, body axes x forward, y starboard, z down, world north, east, down.
 struct Snapshot {
@@ -40,4 +41,4 @@ struct Snapshot {
 /// Straight between two snapshots a few milliseconds apart; `part` 0 is the first, 1 the second.
 [[nodiscard]] Snapshot between(const Snapshot& first, const Snapshot& second, double part);
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/vehicle.h"
 
 #include <Eigen/LU>
@@ -7,7 +8,7 @@
 
 #include "validation/reference/dormand_prince.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 constexpr double kTideTurn_rad_s = 2 * std::numbers::pi / 1200;
@@ -21,13 +22,13 @@ double motor_current_A(double shaft_rev_s) {
   return 0.15 + 5.5e-4 * n * n * n;
 }
 
-Vehicle::Vehicle(const Hull& hull, const VehicleDepartures& departures, const Start& start, double longest_step_s)
+Vehicle::Vehicle(const Hull& hull, const VehicleDeviations& deviations, const Start& start, double longest_step_s)
     : hull_(hull),
-      departures_(departures),
+      departures_(deviations),
       inertia_(inertia(hull)),
       inverse_inertia_(inertia_.inverse()),
       longest_step_s_(longest_step_s),
-      fins_(hull.fin_time_s, departures),
+      fins_(hull.fin_time_s, deviations),
       shaft_rev_s_(start.shaft_rev_s),
       shaft_command_rev_s_(start.shaft_rev_s) {
   Vector6 nu;
@@ -136,4 +137,4 @@ double Vehicle::energy_J() const {
 
 bool Vehicle::finite() const { return y_.allFinite() && y_.tail<6>().norm() < 1e3; }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/fin_linkage.h"
 #include "validation/reference/forces.h"
 #include "validation/reference/hull.h"
+#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/snapshot.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Where and how a vehicle begins.
 struct Start {
@@ -30,7 +31,7 @@ class Vehicle {
   static constexpr double kStep_s = 0.004;
 
   /// `longest_step_s`: for measuring the order of the integrator.
-  Vehicle(const Hull& hull, const VehicleDepartures& departures, const Start& start,
+  Vehicle(const Hull& hull, const VehicleDeviations& deviations, const Start& start,
           double longest_step_s = kStep_s);
 
   /// From now on; servos and shaft follow by their lags.
@@ -60,7 +61,7 @@ class Vehicle {
   void step(double length_s);
 
   Hull hull_;
-  VehicleDepartures departures_;
+  VehicleDeviations departures_;
   Matrix6 inertia_, inverse_inertia_;
   double longest_step_s_;
   FinLinkage fins_;
@@ -73,4 +74,4 @@ class Vehicle {
 /// Of the propulsion motor.
 [[nodiscard]] double motor_current_A(double shaft_rev_s);
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Where a vehicle swims, as far as it feels it. The defaults are a reference that belongs to no real place.
 struct Waters {
@@ -11,4 +12,4 @@ struct Waters {
   double density_kg_m3 = 1000;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

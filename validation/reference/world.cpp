@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/world.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace navcal::trial {
+namespace navcal::reference {
 namespace {
 
 constexpr double kColderPerMetre_K = 0.25;
@@ -49,4 +50,4 @@ Snapshot World::at(double time_s) const {
   return between(first, second, (time_s - first.time_s) / (second.time_s - first.time_s));
 }
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

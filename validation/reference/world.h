@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <deque>
@@ -6,7 +7,7 @@
 #include "validation/reference/vehicle.h"
 #include "validation/reference/waters.h"
 
-namespace navcal::trial {
+namespace navcal::reference {
 
 /// Effects of temperature are reckoned from here.
 inline constexpr double kReferenceTemperature_C = 15;
@@ -37,4 +38,4 @@ class World {
   std::deque<Snapshot> past_;
 };
 
-}  // namespace navcal::trial
+}  // namespace navcal::reference

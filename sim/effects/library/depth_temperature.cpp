@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/effects/effect.h"
 
 namespace navcal::sim {
@@ -12,7 +13,7 @@ constexpr EffectDescription kDepthTemperature{
 class DepthTemperature final : public EffectOf<DepthTemperature, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kDepthTemperature; }
-  void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.warmth_C(); }
+  void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.temperature_rise_C(); }
 };
 
 }  // namespace

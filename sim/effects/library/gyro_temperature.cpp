@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/angles.h"
 #include "sim/effects/effect.h"
 
@@ -17,7 +18,8 @@ class GyroTemperature final : public EffectOf<GyroTemperature, 4> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kGyroTemperature; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
-    for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * base::kRadiansPerDegree * now.warmth_C();
+    for (std::size_t i = 0; i < p_.size(); ++i)
+      rate_rad_s[i] += p_[i] * base::kRadiansPerDegree * now.temperature_rise_C();
   }
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/effects/effect.h"
 
 namespace navcal::sim {
@@ -16,7 +17,7 @@ class MagTemperature final : public EffectOf<MagTemperature, 3> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kMagTemperature; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
-    add_scaled(field_body_uT, now.warmth_C(), vector());
+    add_scaled(field_body_uT, now.temperature_rise_C(), vector());
   }
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/delay/delay_course.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The smaller parts about GPS: track and fixes brought together, speed by the propeller, the course fit.
 #include <gtest/gtest.h>
 

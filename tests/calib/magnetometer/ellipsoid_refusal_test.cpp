@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What others accept wrongly (too little of the sphere seen), and what must be accepted.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/calib/magnetometer/magnetometer_recording.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings of real instruments; the figures of other tools are in ../shared/data/ORIGIN.md.
 #include "tests/calib/magnetometer/magnetometer_recording.h"
 

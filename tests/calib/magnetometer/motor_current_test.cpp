@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "calib/magnetometer/motor_current.h"
 
 #include <gtest/gtest.h>

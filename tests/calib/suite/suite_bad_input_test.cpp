@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bad input, one kind after another, in a good recording: the estimates stay, and what was left out is counted.
 #include <gtest/gtest.h>
 

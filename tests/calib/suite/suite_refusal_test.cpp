@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What other tools accept wrongly, through everything that the daemon runs: motions of a vehicle, its compass's
 // field and tilt, and its gyro.
 #include <gtest/gtest.h>

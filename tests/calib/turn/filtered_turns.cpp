@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/calib/turn/filtered_turns.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/actuators/fin_orders.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/data/track.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +10,8 @@
 namespace navcal::gap {
 namespace {
 
-Course10Hz straight(double heading_rad, double pitch_rad, std::size_t intervals) {
-  Course10Hz course;
+Trajectory10Hz straight(double heading_rad, double pitch_rad, std::size_t intervals) {
+  Trajectory10Hz course;
   for (std::size_t i = 0; i < intervals; ++i) {
     course.time_s.push_back(kInterval_s * static_cast<double>(i));
     course.heading_rad.push_back(heading_rad);
@@ -47,7 +48,7 @@ TEST(Track, WithoutFixesThereIsNone) {
 }
 
 TEST(Track, WhatIsNoNumberMovesNothing) {
-  Course10Hz course = straight(0, 0, 100);
+  Trajectory10Hz course = straight(0, 0, 100);
   course.heading_rad[70] = course.surge_m_s[80] = std::numeric_limits<double>::quiet_NaN();
   const Track track = reckoned_track(course, with_fixes());
   EXPECT_EQ(track.time_s.size(), 48U);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/blocks.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ struct MadeUp {
     const std::size_t effect = 5;
     explanation.effects = {effect};
     Eigen::VectorXd values = Eigen::VectorXd::Zero(unknowns);
-    const auto member = members_of(library, explanation.effects).front();
+    const auto member = parameter_indices(library, explanation.effects).front();
     values[member] = strength * priors.slab[member];
     linear.residual = linear.design * values;
     for (double& each : linear.residual) each += normal(dice);
@@ -35,7 +36,7 @@ struct MadeUp {
   [[nodiscard]] std::vector<double> gains() const { return gains_of_blocks(explanation, library, priors, layout); }
 
   Library library{{}};
-  Explanation explanation;
+  ModelFit explanation;
   Priors priors;
   Layout layout;
 };

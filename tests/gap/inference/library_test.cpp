@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/library.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <stdexcept>
 
 #include "gap/nulls/null_mission.h"
+#include "gap/thresholds.h"
 
 namespace navcal::gap {
 namespace {
@@ -29,7 +31,7 @@ TEST(Library, OnlyTimesAndWidthsEndAtZero) {
   const Library library({});
   for (const Unknown& unknown : library.unknowns()) {
     if (unknown.effect == Library::kNuisance) continue;
-    const bool ends = library.is_lag(unknown.effect) || library.is_play(unknown.effect);
+    const bool ends = library.is_lag(unknown.effect) || library.is_backlash(unknown.effect);
     EXPECT_EQ(unknown.least >= 0, ends) << library[unknown.effect].name << " " << unknown.name;
     if (ends) continue;
     EXPECT_LT(unknown.least, -5 * kTolerance * unknown.typical) << library[unknown.effect].name;
@@ -45,10 +47,10 @@ TEST(Library, WhatBendsIsStepped) {
     const std::string_view name = library[e].name;
     const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(library.first(e))];
     EXPECT_EQ(library.is_lag(e), std::find(lags.begin(), lags.end(), name) != lags.end()) << name;
-    EXPECT_EQ(library.is_play(e), name == "fin_backlash") << name;
-    EXPECT_EQ(library.is_curved(e), library.is_lag(e) || library.is_play(e)) << name;
+    EXPECT_EQ(library.is_backlash(e), name == "fin_backlash") << name;
+    EXPECT_EQ(library.is_curved(e), library.is_lag(e) || library.is_backlash(e)) << name;
     EXPECT_LE(unknown.onward, unknown.step) << name;
-    if (!library.is_play(e)) continue;
+    if (!library.is_backlash(e)) continue;
     EXPECT_LT(unknown.onward, 0.2);
     EXPECT_GT(unknown.step, 0.5);
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/order_times.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/nulls/bank_cache.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ class BankCacheTest : public testing::Test {
   NullBank bank_ = test::made_up_bank(static_cast<Eigen::Index>(library_.unknowns().size()));
   Mission mission_;
   Replay replay_;
-  Course10Hz course_;
+  Trajectory10Hz course_;
 };
 
 TEST_F(BankCacheTest, GivesBackWhatItWasGiven) {
@@ -48,7 +49,7 @@ TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
   EXPECT_FALSE(BankCache(folder_.path(), heavier, library_).find(replay_, course_, {20, 1, 1}));
   const Mission other = test::simulated_mission("thesis1", "", 60, 1);
   const Replay replay(other, {});
-  Course10Hz course;
+  Trajectory10Hz course;
   (void)replay.run({}, &course);
   EXPECT_FALSE(cache.find(replay, course, {20, 1, 1}));
 }
@@ -58,7 +59,7 @@ TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
   const Mission again = test::simulated_mission("identification", "[hard_iron]\nx_uT = 2\n", 60, 9);
   const Replay replay(again, {});
-  Course10Hz course;
+  Trajectory10Hz course;
   (void)replay.run({}, &course);
   EXPECT_TRUE(cache.find(replay, course, {20, 1, 1}));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/nulls/bank_file.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ TEST_F(BankFile, GivesBackEveryNumber) {
   EXPECT_EQ(kept->fingerprint, (std::vector<double>{1, 2.5, -3}));
   EXPECT_EQ(kept->bank.scores, bank_.scores);
   EXPECT_EQ(kept->bank.whitening.fix_factor, bank_.whitening.fix_factor);
-  EXPECT_EQ(kept->bank.followed.variance, bank_.followed.variance);
+  EXPECT_EQ(kept->bank.explained_rms.variance, bank_.explained_rms.variance);
 }
 
 TEST_F(BankFile, AnotherModelOrLibraryIsRefused) {
@@ -44,10 +45,11 @@ TEST_F(BankFile, ShapesThatDoNotFitOneAnotherAreRefused) {
   EXPECT_TRUE(refused([](NullBank& b) { b.missions = 19; }));
   EXPECT_TRUE(refused([](NullBank& b) { b.powers.pop_back(); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.scores.conservativeResize(b.scores.rows() - 1, 20); }));
-  EXPECT_TRUE(refused([](NullBank& b) { b.followed.variance.resize(2, 3); }));
+  EXPECT_TRUE(refused([](NullBank& b) { b.explained_rms.variance.resize(2, 3); }));
   EXPECT_TRUE(refused([](NullBank& b) { b.left.mean_square.resize(2, 3); }));
-  EXPECT_TRUE(refused(
-      [](NullBank& b) { b.whitening.grid_filter = PastFilter(Eigen::MatrixXd::Zero(11, kEvidenceChannels)); }));
+  EXPECT_TRUE(refused([](NullBank& b) {
+    b.whitening.grid_filter = PredictionErrorFilter(Eigen::MatrixXd::Zero(11, kEvidenceChannels));
+  }));
   EXPECT_TRUE(refused([](NullBank& b) { b.whitening.grid_factor(3, 3) = 0; }));
   EXPECT_TRUE(refused([](NullBank& b) { b.gram(1, 2) = std::numeric_limits<double>::quiet_NaN(); }));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/gap/nulls/made_up_bank.h"
 
 #include "gap/replay/regimes.h"
@@ -13,9 +14,9 @@ NullBank made_up_bank(Eigen::Index unknowns) {
   bank.gram = Eigen::MatrixXd::Identity(unknowns, unknowns);
   bank.scores = Eigen::MatrixXd::Random(unknowns, 20);
   bank.powers.assign(20, 1.0625);
-  bank.followed.mean_square = bank.followed.variance = Eigen::MatrixXd::Ones(
+  bank.explained_rms.mean_square = bank.explained_rms.variance = Eigen::MatrixXd::Ones(
       static_cast<Eigen::Index>(reported_channels().size()), static_cast<Eigen::Index>(regimes().size()));
-  bank.left = bank.followed;
+  bank.left = bank.explained_rms;
   return bank;
 }
 

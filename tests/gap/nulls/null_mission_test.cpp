@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/nulls/null_mission.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ TEST(NullMission, OfAVehicleThatIsItsModelSpeaksForNothing) {
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
   const Mission recorded = test::simulated_mission("calibration_swing", "", 250, 3);
   const Replay replay(recorded, vehicle);
-  Course10Hz course;
+  Trajectory10Hz course;
   (void)replay.run({}, &course);
 
   std::vector<Eigen::Index> asked;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole diagnoses of short missions against small banks: that names, numbers and refusals come out; how often they
 // are right is for `navcal gap trial` to say.
 #include <gtest/gtest.h>

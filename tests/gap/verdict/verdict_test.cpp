@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/verdict/verdict.h"
 
 #include <gtest/gtest.h>
@@ -10,13 +11,13 @@ namespace {
 /// A single that wins clearly, leaves nothing, and improves what was held out.
 class Case {
  public:
-  explicit Case(double strength, double shown_nats = 1000) {
+  explicit Case(double strength, double expected_information_nats = 1000) {
     found_.best.effects = {7};
     found_.best.mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library_.unknowns().size()));
     const Eigen::Index j = library_.first(7);
     found_.best.mean[j] = strength * library_.unknowns()[static_cast<std::size_t>(j)].typical;
     found_.candidates = {{{7}, 100, 0.99}, {{}, 0, 0.01}};
-    found_.shown_nats = {shown_nats};
+    found_.expected_information_nats = {expected_information_nats};
   }
 
   void add_unnamed(double strength) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "gap/verdict/where.h"
 
 #include <gtest/gtest.h>
@@ -25,10 +26,10 @@ class WhereMap : public testing::Test {
 };
 
 TEST_F(WhereMap, PutsFirstWhatIsFurthestBeyondTheNulls) {
-  Eigen::MatrixXd followed = quiet();
-  followed(3, 1) = 4;
-  followed(5, 2) = 2;
-  const auto clear = clear_of_nulls(where_map(followed, nulls_));
+  Eigen::MatrixXd explained_rms = quiet();
+  explained_rms(3, 1) = 4;
+  explained_rms(5, 2) = 2;
+  const auto clear = significant_cells(residual_map(explained_rms, nulls_));
   ASSERT_EQ(clear.size(), 2U);
   EXPECT_EQ(clear[0].channel, name_of(3));
   EXPECT_EQ(clear[1].channel, name_of(5));
@@ -42,21 +43,21 @@ TEST_F(WhereMap, PutsALargeExcessBeforeAPlainOne) {
     of_nulls.push_back(quiet(1 + 0.02 * (i % 5)));
     of_nulls.back()(5, 2) /= 50;
   }
-  Eigen::MatrixXd followed = quiet();
-  followed(3, 1) = 2;
-  followed(5, 2) = 0.5;
-  const auto clear = clear_of_nulls(where_map(followed, RegimeStatistics(of_nulls)));
+  Eigen::MatrixXd explained_rms = quiet();
+  explained_rms(3, 1) = 2;
+  explained_rms(5, 2) = 0.5;
+  const auto clear = significant_cells(residual_map(explained_rms, RegimeStatistics(of_nulls)));
   ASSERT_EQ(clear.size(), 2U);
   EXPECT_EQ(clear[0].channel, name_of(3));
   EXPECT_LT(clear[1].p_value, clear[0].p_value);
 }
 
 TEST_F(WhereMap, AnInstrumentALittleNoisierIsNotClearOfNullsHoweverSureThatIs) {
-  Eigen::MatrixXd followed = quiet();
-  followed(3, 1) = 1.34;
-  const auto map = where_map(followed, nulls_);
+  Eigen::MatrixXd explained_rms = quiet();
+  explained_rms(3, 1) = 1.34;
+  const auto map = residual_map(explained_rms, nulls_);
   EXPECT_LT(map.front().p_value, 1e-4);
-  EXPECT_TRUE(clear_of_nulls(map).empty());
+  EXPECT_TRUE(significant_cells(map).empty());
 }
 
 // Vehicles known to the last number leave a tenth of what tolerances make: a saturated magnetometer that iron
@@ -68,8 +69,8 @@ TEST_F(WhereMap, WhatIsLeftIsHeldAgainstKnownVehiclesButMustBeMoreThanTolerance)
   Eigen::MatrixXd left = quiet(0.1);
   left(3, 1) = 1.2;  // beyond any known vehicle, but no more than a tolerance
   left(5, 2) = 1.5;
-  ASSERT_TRUE(clear_of_nulls(where_map(quiet(0.1), known)).empty());
-  const auto beyond = beyond_known(left, known, nulls_);
+  ASSERT_TRUE(significant_cells(residual_map(quiet(0.1), known)).empty());
+  const auto beyond = significant_against_exact_model(left, known, nulls_);
   ASSERT_EQ(beyond.size(), 1U);
   EXPECT_EQ(beyond[0].channel, name_of(5));
   EXPECT_EQ(beyond[0].regime, regimes()[2]);
@@ -79,7 +80,7 @@ TEST_F(WhereMap, MostChangedIsWhereTheEffectsTakeMostAway) {
   Eigen::MatrixXd before = quiet(), after = quiet();
   before(3, 1) = after(3, 1) = 1.35;  // the loudest, which the effects leave as it is
   before(7, 4) = 1.2;
-  const WhereEntry entry = most_changed(where_map(before, nulls_), before, after, nulls_);
+  const WhereEntry entry = most_changed(residual_map(before, nulls_), before, after, nulls_);
   EXPECT_EQ(entry.channel, name_of(7));
   EXPECT_EQ(entry.regime, regimes()[4]);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "record/capture/capture_reader.h"
 #include "record/capture/capture_writer.h"
-#include "sample_log.h"
+#include "tests/record/sample_log.h"
 
 namespace navcal::record {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/export/export.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +7,8 @@
 
 #include "record/log/log_info.h"
 #include "record/recording.h"
-#include "sample_log.h"
-#include "temporary_folder.h"
+#include "tests/record/sample_log.h"
+#include "tests/record/temporary_folder.h"
 
 namespace navcal::record {
 namespace {

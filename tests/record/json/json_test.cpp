@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -7,11 +8,11 @@
 
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
-#include "record/log/log_topics.h"
 #include "record/json/mapping_json.h"
 #include "record/json/navigation_json.h"
 #include "record/json/sample_json.h"
-#include "sample_log.h"
+#include "record/log/log_topics.h"
+#include "tests/record/sample_log.h"
 
 namespace navcal::record {
 namespace {

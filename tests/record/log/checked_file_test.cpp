@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/log/checked_file.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 #include <random>
 
 #include "record/json/base64.h"
-#include "temporary_folder.h"
+#include "tests/record/temporary_folder.h"
 
 namespace navcal::record {
 namespace {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "memory_disk.h"
 #include "record/log/log_folder.h"
 #include "record/log/log_reader.h"
-#include "sample_log.h"
+#include "tests/record/memory_disk.h"
+#include "tests/record/sample_log.h"
 
 namespace navcal::record {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_folder.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +9,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "memory_disk.h"
-#include "sample_log.h"
+#include "tests/record/memory_disk.h"
+#include "tests/record/sample_log.h"
 #include "tests/support/temporary_folder.h"
 
 namespace navcal::record {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_reader.h"
 
 #include <gtest/gtest.h>
 
 #include "record/recording.h"
-#include "sample_log.h"
+#include "tests/record/sample_log.h"
 
 namespace navcal::record {
 namespace {

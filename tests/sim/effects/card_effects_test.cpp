@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inertial card's and the receiver's effects against their equations (docs/simulator.md) on a simple state.
 #include <gtest/gtest.h>
 

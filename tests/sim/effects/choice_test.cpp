@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects by strength and from a file.
 #include "sim/effects/choice.h"
 

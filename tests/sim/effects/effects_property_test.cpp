@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What holds for every effect of the library.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vehicle's effects and those of noise, clocks and lines against their equations (docs/simulator.md).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Noise, resolution and latency of each instrument against docs/simulator.md, through its own frames.
 #include <gtest/gtest.h>
 
@@ -13,8 +14,8 @@
 #include "sim/instruments/imu_card.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
-#include "sim/rotation.h"
 #include "sim/instruments/tcm2.h"
+#include "sim/rotation.h"
 #include "tests/sim/drive.h"
 
 namespace navcal::sim::testing {

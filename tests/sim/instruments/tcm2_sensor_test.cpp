@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/instruments/tcm2_sensor.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paths that the reference vehicle took, driven again by its fins and shaft.
 #include <gtest/gtest.h>
 

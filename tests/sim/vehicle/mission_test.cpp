@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each kind of step does what it is for; the shipped missions can be sailed.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only place where both realities meet: they were written apart, and must come to the same.
 #include <gtest/gtest.h>
 
@@ -12,12 +13,12 @@
 #include "sim/vehicle/simulated_motion.h"
 #include "tests/validation/reference/bench.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 /// Fins and shaft that go where they like, a row each step of the simulator.
 std::vector<sim::PathRow> random_drive(double duration_s, std::uint64_t seed) {
-  Dice dice(seed, 0);
+  Rng dice(seed, 0);
   std::vector<sim::PathRow> rows;
   Vector3 fins = Vector3::Zero(), command = Vector3::Zero();
   double shaft = 10, shaft_command = 10;
@@ -45,10 +46,10 @@ sim::State swum_by_sim(const std::vector<sim::PathRow>& rows, sim::EffectSet& ef
   return motion.at(std::llround(rows.back().t_s * 1e9));
 }
 
-Snapshot swum_by_trial(const std::vector<sim::PathRow>& rows, const VehicleDepartures& departures) {
+Snapshot swum_by_trial(const std::vector<sim::PathRow>& rows, const VehicleDeviations& deviations) {
   Start start;
   start.velocity_m_s = {1, 0, 0};
-  Vehicle vehicle(Hull{}, departures, start);
+  Vehicle vehicle(Hull{}, deviations, start);
   for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
     const auto& fins = rows[k + 1].fins_rad;
     vehicle.hold(rows[k].rpm / 60, {fins[0], fins[1], fins[2]});
@@ -106,7 +107,7 @@ TEST(Agreement, EffectsHaveTheSameNamesParametersAndStrengths) {
 TEST(Agreement, EffectsOnTheVehicleTakeBothTheSameWay) {
   const auto rows = random_drive(20, 4);
   const Snapshot nominal = swum_by_trial(rows, {});
-  Dice dice(5, 0);
+  Rng dice(5, 0);
   for (const char* const name : {"water_current", "thrust_scale", "fin_offset", "elevator_offset", "fin_lag",
                                  "fin_gain", "fin_backlash", "yaw_damping", "buoyancy"}) {
     SCOPED_TRACE(name);
@@ -151,7 +152,7 @@ sim::CardVoltages_mV voltages(sim::EffectSet& effects, const sim::Instant& now) 
 
 TEST(Agreement, EffectsOnTheCardAreTheSame) {
   const World world = swung(20);
-  Dice dice(6, 0);
+  Rng dice(6, 0);
   for (const char* const name : {"gyro_scale", "gyro_temperature", "gyro_drift", "gyro_g_sensitivity",
                                  "gyro_cross_axis", "gyro_nonlinearity", "accel_bias", "accel_scale",
                                  "accel_vibration", "adc_droop", "depth_scale", "depth_temperature"}) {
@@ -187,7 +188,7 @@ Vector3 felt_field_uT(const World& world, sim::EffectSet& effects, double time_s
 
 TEST(Agreement, EffectsOnTheFieldAreTheSame) {
   const World world = swung(20);
-  Dice dice(7, 0);
+  Rng dice(7, 0);
   for (const char* const name : {"hard_iron", "soft_iron", "compass_misalignment", "declination", "motor_field",
                                  "magnetic_hysteresis", "mag_temperature", "compass_lag"}) {
     const Effect effect = drawn(*find_effect(name), 2, dice);
@@ -206,4 +207,4 @@ TEST(Agreement, EffectsOnTheFieldAreTheSame) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/validation/reference/bench.h"
 
 #include <cmath>
@@ -9,7 +10,7 @@
 #include "validation/reference/compass.h"
 #include "validation/reference/receiver.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 /// When the last byte of an instrument read at once was measured.
@@ -27,16 +28,16 @@ std::vector<Transfer> all_of(Device& device, const World& world) {
 
 }  // namespace
 
-Departures with(const std::string& name, const std::map<std::string, double, std::less<>>& parameters) {
-  Departures departures;
-  add({name, parameters}, departures);
-  return departures;
+ParameterDeviations with(const std::string& name, const std::map<std::string, double, std::less<>>& parameters) {
+  ParameterDeviations deviations;
+  add({name, parameters}, deviations);
+  return deviations;
 }
 
-World swung(double duration_s, const VehicleDepartures& departures) {
+World swung(double duration_s, const VehicleDeviations& deviations) {
   Start start;
   start.position_m = {0, 0, 3};
-  World world(Vehicle(Hull{}, departures, start), duration_s + 1);
+  World world(Vehicle(Hull{}, deviations, start), duration_s + 1);
   for (int i = 0; i * 4 < duration_s; ++i) {
     const double side = i % 2 == 0 ? 1 : -1, tilt = i % 3 - 1;
     world.vehicle().command(10 + 3 * (i % 3), FinLinkage::mixed(0.2 * side, 0.06 * tilt));
@@ -62,8 +63,8 @@ Fitting exact() {
   return fitting;
 }
 
-std::vector<CardSample> card_along(const World& world, const CardDepartures& departures, const Fitting& fitting) {
-  Card card(fitting, departures);
+std::vector<CardSample> card_along(const World& world, const CardDeviations& deviations, const Fitting& fitting) {
+  Card card(fitting, deviations);
   std::vector<CardSample> samples;
   for (const Transfer& transfer : all_of(card, world)) {
     const auto record = protocols::imu_card::decode_record(transfer.bytes).value();
@@ -79,9 +80,9 @@ std::vector<CardSample> card_along(const World& world, const CardDepartures& dep
   return samples;
 }
 
-std::vector<CompassSample> compass_along(const World& world, const CompassDepartures& departures,
+std::vector<CompassSample> compass_along(const World& world, const CompassDeviations& deviations,
                                          const Fitting& fitting) {
-  Compass compass(fitting, departures);
+  Compass compass(fitting, deviations);
   std::vector<CompassSample> samples;
   for (const Transfer& transfer : all_of(compass, world)) {
     const auto word = protocols::tcm2::decode_word(transfer.bytes).value();
@@ -91,10 +92,10 @@ std::vector<CompassSample> compass_along(const World& world, const CompassDepart
   return samples;
 }
 
-std::vector<FixSample> receiver_along(const World& world, const GpsDepartures& departures,
+std::vector<FixSample> receiver_along(const World& world, const GpsDeviations& deviations,
                                       const Fitting& fitting) {
   const Anchorage anchorage;
-  Receiver receiver(fitting, departures, anchorage);
+  Receiver receiver(fitting, deviations, anchorage);
   std::vector<FixSample> samples;
   for (const Transfer& transfer : all_of(receiver, world)) {
     const auto p = protocols::oncore::decode_position(transfer.bytes).value();
@@ -111,4 +112,4 @@ std::vector<FixSample> receiver_along(const World& world, const GpsDepartures& d
   return samples;
 }
 
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,24 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/effects.h"
 #include "validation/reference/instrument.h"
+#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/world.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 
 /// Whole seconds: the receiver's are the world's.
 inline constexpr std::int64_t kStart_ns = 1'764'000'000'000'000'000;  // 2025-11-24 16:00:00
 
 /// Departures by one effect with these values.
-Departures with(const std::string& name, const std::map<std::string, double, std::less<>>& parameters);
+ParameterDeviations with(const std::string& name, const std::map<std::string, double, std::less<>>& parameters);
 
 /// A vehicle that is swung about: turns to both sides, nose up and down, shaft fast and slow, at some metres'
 /// depth.
-World swung(double duration_s, const VehicleDepartures& departures = {});
+World swung(double duration_s, const VehicleDeviations& deviations = {});
 /// One that turns where the antenna is never under water.
 World near_surface(double duration_s);
 
@@ -42,11 +43,11 @@ struct FixSample {
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< north, east of the anchorage
   Eigen::Vector2d velocity_m_s = Eigen::Vector2d::Zero();
 };
-std::vector<CardSample> card_along(const World& world, const CardDepartures& departures,
+std::vector<CardSample> card_along(const World& world, const CardDeviations& deviations,
                                    const Fitting& fitting = exact());
-std::vector<CompassSample> compass_along(const World& world, const CompassDepartures& departures,
+std::vector<CompassSample> compass_along(const World& world, const CompassDeviations& deviations,
                                          const Fitting& fitting = exact());
-std::vector<FixSample> receiver_along(const World& world, const GpsDepartures& departures,
+std::vector<FixSample> receiver_along(const World& world, const GpsDeviations& deviations,
                                       const Fitting& fitting = exact());
 
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each departure of the inertial card against its equation, channel by channel, without noise.
 #include <gtest/gtest.h>
 
@@ -6,7 +7,7 @@
 
 #include "tests/validation/reference/bench.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 constexpr double kDuration_s = 40;
@@ -32,8 +33,8 @@ double nominal(const Snapshot& s, std::size_t channel) {
 using Equation = std::function<double(const Snapshot&, double nominal)>;
 
 /// One channel reads what the equation makes of the nominal one; the others listed stay as they are.
-void expect_reads(const Departures& departures, std::size_t channel, const Equation& equation) {
-  const auto samples = card_along(world(), departures.card);
+void expect_reads(const ParameterDeviations& deviations, std::size_t channel, const Equation& equation) {
+  const auto samples = card_along(world(), deviations.card);
   ASSERT_GT(samples.size(), 700U);
   double largest = 0;
   for (const CardSample& sample : samples) {
@@ -104,8 +105,8 @@ TEST(Card, DepthScaleAndTemperature) {
 }
 
 TEST(Card, DroopTakesEveryChannelInMillivolts) {
-  const Departures departures = with("adc_droop", {{"per_A", 0.0015}});
-  for (const CardSample& sample : card_along(world(), departures.card)) {
+  const ParameterDeviations deviations = with("adc_droop", {{"per_A", 0.0015}});
+  for (const CardSample& sample : card_along(world(), deviations.card)) {
     const Snapshot s = world().at(sample.time_s);
     const double factor = 1 + 0.0015 * s.motor_current_A;
     ASSERT_NEAR(sample.values[1], nominal(s, 1) * factor + 204.8 * kDegree * (factor - 1), 0.51 * kRateStep_rad_s);
@@ -123,8 +124,8 @@ TEST(Card, LatencyIsAPureDelayOfEveryChannel) {
 }
 
 TEST(Card, ThermalTwistTurnsTheTriadWithTheSquareOfTheTemperature) {
-  const Departures departures = with("gyro_thermal_twist", {{"y_deg_per_C2", 1.0}});
-  for (const CardSample& sample : card_along(world(), departures.card)) {
+  const ParameterDeviations deviations = with("gyro_thermal_twist", {{"y_deg_per_C2", 1.0}});
+  for (const CardSample& sample : card_along(world(), deviations.card)) {
     const Snapshot s = world().at(sample.time_s);
     const double angle = kDegree * (s.electronics_C - 15) * (s.electronics_C - 15);
     // y x w = (w_z, 0, -w_x)
@@ -182,4 +183,4 @@ TEST(Card, NoiseIsOfTheStatedSize) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,25 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
 // Randomness and the low-pass: what everything stochastic and everything sluggish rests on.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "validation/reference/rng.h"
 #include "validation/reference/lag.h"
+#include "validation/reference/rng.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
-TEST(Dice, TheSameSeedAndStreamGiveTheSameForEver) {
-  Dice dice(1, 2);
+TEST(Rng, TheSameSeedAndStreamGiveTheSameForEver) {
+  Rng dice(1, 2);
   const std::uint64_t first = dice.bits();
-  EXPECT_EQ(Dice(1, 2).bits(), first);
-  EXPECT_NE(Dice(1, 3).bits(), first);
-  EXPECT_NE(Dice(2, 2).bits(), first);
-  EXPECT_NE(Dice(2, 1).bits(), first);  // seed and stream are no sum
+  EXPECT_EQ(Rng(1, 2).bits(), first);
+  EXPECT_NE(Rng(1, 3).bits(), first);
+  EXPECT_NE(Rng(2, 2).bits(), first);
+  EXPECT_NE(Rng(2, 1).bits(), first);  // seed and stream are no sum
 }
 
-TEST(Dice, NormalHasItsMomentsAndItsTails) {
-  Dice dice(3, 0);
+TEST(Rng, NormalHasItsMomentsAndItsTails) {
+  Rng dice(3, 0);
   constexpr int kDraws = 100000;
   double sum = 0, squares = 0, fourths = 0;
   int beyond = 0;
@@ -36,8 +37,8 @@ TEST(Dice, NormalHasItsMomentsAndItsTails) {
   EXPECT_NEAR(beyond, 0.0027 * kDraws, 5 * std::sqrt(0.0027 * kDraws));
 }
 
-TEST(Dice, StreamsAndSuccessiveDrawsAreUncorrelated) {
-  Dice one(4, 0), other(4, 1);
+TEST(Rng, StreamsAndSuccessiveDrawsAreUncorrelated) {
+  Rng one(4, 0), other(4, 1);
   constexpr int kDraws = 20000;
   double across = 0, along = 0, last = 0;
   for (int i = 0; i < kDraws; ++i) {
@@ -50,8 +51,8 @@ TEST(Dice, StreamsAndSuccessiveDrawsAreUncorrelated) {
   EXPECT_LT(std::abs(along / kDraws), 5 / std::sqrt(kDraws));
 }
 
-TEST(Dice, UniformAndExponentialKeepTheirBounds) {
-  Dice dice(5, 0);
+TEST(Rng, UniformAndExponentialKeepTheirBounds) {
+  Rng dice(5, 0);
   double sum = 0;
   for (int i = 0; i < 20000; ++i) {
     const double u = dice.uniform(2, 10);
@@ -84,4 +85,4 @@ TEST(Lag, BeginsAtItsFirstInputAndWithoutLagPassesOn) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

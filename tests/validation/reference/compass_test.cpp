@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each departure of the compass against its equation, without noise.
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 
 #include "tests/validation/reference/bench.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 constexpr double kDuration_s = 40;
@@ -21,8 +22,8 @@ const World& world() {
 Vector3 in_body(const Snapshot& s) { return s.world_from_body.conjugate() * Vector3(19.0, 0.6, 44.0); }
 
 /// The field that is read is what the equation makes of the state at that moment.
-void expect_field(const Departures& departures, const std::function<Vector3(const Snapshot&)>& equation) {
-  const auto samples = compass_along(world(), departures.compass);
+void expect_field(const ParameterDeviations& deviations, const std::function<Vector3(const Snapshot&)>& equation) {
+  const auto samples = compass_along(world(), deviations.compass);
   ASSERT_GT(samples.size(), 350U);
   for (const CompassSample& sample : samples) {
     const Vector3 expected = equation(world().at(sample.time_s));
@@ -55,10 +56,10 @@ TEST(Compass, HardIron) {
 }
 
 TEST(Compass, SoftIronBeforeMisalignment) {
-  Departures departures =
+  ParameterDeviations deviations =
       with("soft_iron", {{"xx", 0.02}, {"yy", -0.01}, {"zz", 0.03}, {"xy", 0.01}, {"xz", -0.02}, {"yz", 0.015}});
-  add({"compass_misalignment", {{"x_deg", 1}, {"y_deg", -2}, {"z_deg", 3}}}, departures);
-  expect_field(departures, [](const Snapshot& s) {
+  add({"compass_misalignment", {{"x_deg", 1}, {"y_deg", -2}, {"z_deg", 3}}}, deviations);
+  expect_field(deviations, [](const Snapshot& s) {
     Eigen::Matrix3d S;
     S << 0.02, 0.01, -0.02, 0.01, -0.01, 0.015, -0.02, 0.015, 0.03;
     const Vector3 m = in_body(s) + S * in_body(s);
@@ -111,10 +112,10 @@ TEST(Compass, LagsOfTheField) {
     ASSERT_LT((sample.field_uT - turning(sample.time_s)).cwiseAbs().maxCoeff(), kHalfStep_uT + 0.02);
 }
 
-void expect_tilt(const Departures& departures, const std::function<Eigen::Vector2d(const Snapshot&)>& input,
-                 const Eigen::Vector2d& offset_deg) {
+void expect_tilt(const ParameterDeviations& deviations,
+                 const std::function<Eigen::Vector2d(const Snapshot&)>& input, const Eigen::Vector2d& offset_deg) {
   const auto tilt = lagged<Eigen::Vector2d>(input, [](const Snapshot&) { return 0.3; });
-  for (const CompassSample& sample : compass_along(world(), departures.compass)) {
+  for (const CompassSample& sample : compass_along(world(), deviations.compass)) {
     const Eigen::Vector2d expected = tilt(sample.time_s) / kDegree + offset_deg;
     ASSERT_NEAR(sample.roll_rad / kDegree, expected(0), 0.055) << sample.time_s;
     ASSERT_NEAR(sample.pitch_rad / kDegree, expected(1), 0.055) << sample.time_s;
@@ -171,4 +172,4 @@ TEST(Compass, NoiseIsOfTheStatedSize) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

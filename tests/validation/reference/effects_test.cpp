@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/effects.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 std::vector<EffectKind> all_kinds() {
@@ -16,9 +17,9 @@ std::vector<EffectKind> all_kinds() {
 }
 
 std::string refusal(const Effect& effect) {
-  Departures departures;
+  ParameterDeviations deviations;
   try {
-    add(effect, departures);
+    add(effect, deviations);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -48,17 +49,17 @@ TEST(Effects, TheLibraryIsHeldWhole) {
 
 TEST(Effects, EveryParameterHasAPlaceOfItsOwn) {
   std::set<const double*> places;
-  Departures departures;
+  ParameterDeviations deviations;
   std::size_t parameters = 0;
   for (const EffectKind& kind : all_kinds()) {
     EXPECT_EQ(kind.parameters.size() % kind.size.group, 0U) << kind.name;
     EXPECT_GT(kind.size.typical, 0) << kind.name;
     for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
-      const double* place = kind.field(departures) + i;
+      const double* place = kind.field(deviations) + i;
       EXPECT_TRUE(places.insert(place).second) << kind.name << " " << kind.parameters[i];
       const auto* byte = reinterpret_cast<const char*>(place);
-      EXPECT_GE(byte, reinterpret_cast<const char*>(&departures));
-      EXPECT_LE(byte + sizeof(double), reinterpret_cast<const char*>(&departures + 1));
+      EXPECT_GE(byte, reinterpret_cast<const char*>(&deviations));
+      EXPECT_LE(byte + sizeof(double), reinterpret_cast<const char*>(&deviations + 1));
       ++parameters;
     }
   }
@@ -66,7 +67,7 @@ TEST(Effects, EveryParameterHasAPlaceOfItsOwn) {
 }
 
 TEST(Effects, WhatIsDrawnHasItsStrengthInEachOfItsVectors) {
-  Dice dice(5, 1);
+  Rng dice(5, 1);
   for (const EffectKind& kind : all_kinds()) {
     for (const double strength : {1.0, -0.2, 3.0}) {
       const Effect effect = drawn(kind, strength, dice);
@@ -82,22 +83,22 @@ TEST(Effects, WhatIsDrawnHasItsStrengthInEachOfItsVectors) {
         }
         EXPECT_NEAR(std::sqrt(squares), std::abs(strength) * kind.size.typical, 1e-12) << kind.name;
       }
-      Departures departures;
-      EXPECT_NO_THROW(add(effect, departures)) << kind.name;
+      ParameterDeviations deviations;
+      EXPECT_NO_THROW(add(effect, deviations)) << kind.name;
     }
   }
 }
 
 TEST(Effects, DirectionsAreDrawnAllRound) {
-  Dice dice(6, 1);
+  Rng dice(6, 1);
   const EffectKind& iron = *find_effect("hard_iron");
   Vector3 sum = Vector3::Zero(), squares = Vector3::Zero();
   constexpr int kDraws = 3000;
   for (int i = 0; i < kDraws; ++i) {
-    Departures departures;
-    add(drawn(iron, 1, dice), departures);
-    sum += departures.compass.hard_iron_uT;
-    squares += departures.compass.hard_iron_uT.cwiseAbs2();
+    ParameterDeviations deviations;
+    add(drawn(iron, 1, dice), deviations);
+    sum += deviations.compass.hard_iron_uT;
+    squares += deviations.compass.hard_iron_uT.cwiseAbs2();
   }
   const double sigma = 2 / std::sqrt(3.0);
   EXPECT_LT((sum / kDraws).cwiseAbs().maxCoeff(), 5 * sigma / std::sqrt(kDraws));
@@ -105,10 +106,10 @@ TEST(Effects, DirectionsAreDrawnAllRound) {
 }
 
 TEST(Effects, AddToEachOther) {
-  Departures departures;
-  add({"fin_offset", {{"angle_deg", 1}}}, departures);
-  add({"fin_offset", {{"angle_deg", 0.5}}}, departures);
-  EXPECT_NEAR(departures.vehicle.rudder_rad, 0.026179938779914945, 1e-15);
+  ParameterDeviations deviations;
+  add({"fin_offset", {{"angle_deg", 1}}}, deviations);
+  add({"fin_offset", {{"angle_deg", 0.5}}}, deviations);
+  EXPECT_NEAR(deviations.vehicle.rudder_rad, 0.026179938779914945, 1e-15);
 }
 
 TEST(Effects, WhatCannotBeIsRefusedWithAReason) {
@@ -124,32 +125,32 @@ TEST(Effects, WhatCannotBeIsRefusedWithAReason) {
 }
 
 TEST(Effects, LooseningSpreadsEachParameterByItsTypicalStrength) {
-  Dice dice(7, 1);
+  Rng dice(7, 1);
   constexpr int kVehicles = 400;
   for (const EffectKind& kind : library_effects()) {
     double squares = 0;
-    Dice own = dice;
+    Rng own = dice;
     for (int i = 0; i < kVehicles; ++i) {
-      Departures departures;
-      loosen(0.02, departures, own);
-      squares += std::pow(*kind.field(departures) / kind.size.si / (0.02 * kind.size.typical), 2);
+      ParameterDeviations deviations;
+      apply_tolerance(0.02, deviations, own);
+      squares += std::pow(*kind.field(deviations) / kind.size.si / (0.02 * kind.size.typical), 2);
       if (kind.size.sign == Sign::not_negative) {
-        ASSERT_GE(*kind.field(departures), 0) << kind.name;
+        ASSERT_GE(*kind.field(deviations), 0) << kind.name;
       }
     }
     EXPECT_NEAR(squares / kVehicles, 1, 5 * std::sqrt(2.0 / kVehicles)) << kind.name;
   }
-  Departures departures;
-  loosen(0.02, departures, dice);
+  ParameterDeviations deviations;
+  apply_tolerance(0.02, deviations, dice);
   for (const EffectKind& kind : foreign_effects()) {
-    for (std::size_t i = 0; i < kind.parameters.size(); ++i) EXPECT_EQ(kind.field(departures)[i], 0) << kind.name;
+    for (std::size_t i = 0; i < kind.parameters.size(); ++i) EXPECT_EQ(kind.field(deviations)[i], 0) << kind.name;
   }
 }
 
 TEST(Effects, TheHullIsLoosenedByParts) {
-  Dice dice(8, 1);
+  Rng dice(8, 1);
   Hull hull;
-  loosen(0.02, hull, dice);
+  apply_tolerance(0.02, hull, dice);
   EXPECT_NE(hull.axial_drag, Hull{}.axial_drag);
   EXPECT_NEAR(hull.axial_drag, Hull{}.axial_drag, 0.1 * Hull{}.axial_drag);
   EXPECT_EQ(hull.length_m, Hull{}.length_m);
@@ -157,4 +158,4 @@ TEST(Effects, TheHullIsLoosenedByParts) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

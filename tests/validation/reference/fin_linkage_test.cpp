@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/fin_linkage.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 constexpr double kServo_s = 0.15;
@@ -34,19 +35,19 @@ TEST(FinLinkage, NominallyTheFinsStandAsTheServosDo) {
 
 TEST(FinLinkage, ClosedFormOfBothLagsSolvesTheirEquations) {
   for (const double lag_s : {0.05, kServo_s, kServo_s * (1 + 1e-12), 0.2, 3.0}) {
-    VehicleDepartures departures;
-    departures.fin_lag_s = lag_s;
-    departures.fin_gain = 0.08;
-    FinLinkage linkage(kServo_s, departures);
+    VehicleDeviations deviations;
+    deviations.fin_lag_s = lag_s;
+    deviations.fin_gain = 0.08;
+    FinLinkage linkage(kServo_s, deviations);
     linkage.command({0.3, 0, 0});
     EXPECT_NEAR(linkage.fins_rad(0.25)(0), lagged_by_steps(0.3, 1.08, lag_s, 0.25), 1e-7) << lag_s;
   }
 }
 
 TEST(FinLinkage, SettlingOnTheWayChangesNothing) {
-  VehicleDepartures departures;
-  departures.fin_lag_s = 0.2;
-  FinLinkage whole(kServo_s, departures), parts(kServo_s, departures);
+  VehicleDeviations deviations;
+  deviations.fin_lag_s = 0.2;
+  FinLinkage whole(kServo_s, deviations), parts(kServo_s, deviations);
   whole.command({0.3, -0.2, 0.1});
   parts.command({0.3, -0.2, 0.1});
   for (int i = 0; i < 100; ++i) parts.settle(0.004);
@@ -54,18 +55,18 @@ TEST(FinLinkage, SettlingOnTheWayChangesNothing) {
 }
 
 TEST(FinLinkage, AVanishingLagIsNoLag) {
-  VehicleDepartures departures;
-  departures.fin_lag_s = 1e-12;
-  FinLinkage linkage(kServo_s, departures);
+  VehicleDeviations deviations;
+  deviations.fin_lag_s = 1e-12;
+  FinLinkage linkage(kServo_s, deviations);
   linkage.command({0.3, 0, 0});
   linkage.settle(0.004);
   EXPECT_NEAR(linkage.fins_rad(0.004)(0), linkage.servos_rad(0.004)(0), 1e-9);
 }
 
 TEST(FinLinkage, PlayHoldsTheFinUntilItIsTakenUp) {
-  VehicleDepartures departures;
-  departures.fin_play_rad = 2 / kDegrees;
-  FinLinkage linkage(kServo_s, departures);
+  VehicleDeviations deviations;
+  deviations.fin_play_rad = 2 / kDegrees;
+  FinLinkage linkage(kServo_s, deviations);
   const auto fin_after = [&](double angle_deg) {
     linkage.command({angle_deg / kDegrees, 0, 0});
     for (int i = 0; i < 1000; ++i) linkage.settle(0.004);
@@ -82,10 +83,10 @@ TEST(FinLinkage, RudderAndElevatorMixAsTheCardHasIt) {
   const Vector3 fins = FinLinkage::mixed(0.1, 0.2);
   EXPECT_NEAR(2.0 / 3 * ((fins(1) + fins(2)) / 2 - fins(0)), 0.1, 1e-15);
   EXPECT_NEAR((fins(1) - fins(2)) / std::sqrt(3.0), 0.2, 1e-15);
-  VehicleDepartures departures;
-  departures.rudder_rad = 0.1;
-  departures.elevator_rad = 0.2;
-  EXPECT_LT((FinLinkage(kServo_s, departures).fins_rad(1) - fins).norm(), 1e-15);
+  VehicleDeviations deviations;
+  deviations.rudder_rad = 0.1;
+  deviations.elevator_rad = 0.2;
+  EXPECT_LT((FinLinkage(kServo_s, deviations).fins_rad(1) - fins).norm(), 1e-15);
 }
 
 TEST(FinLinkage, CommandsEndAtTheServosStops) {
@@ -96,4 +97,4 @@ TEST(FinLinkage, CommandsEndAtTheServosStops) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Written twice on purpose: this reality shares no model with the simulator, and the diagnosis cannot reach it.
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,7 +61,8 @@ TEST_P(Stranger, HasNothingOfTheReference) {
   // A room that was renamed would pass without being looked at.
   const auto includes = quoted_includes(NAVCAL_SOURCE_DIR "/" + room);
   ASSERT_FALSE(includes.empty()) << room;
-  for (const std::string& include : includes) EXPECT_FALSE(include.starts_with("validation/reference/")) << include;
+  for (const std::string& include : includes)
+    EXPECT_FALSE(include.starts_with("validation/reference/")) << include;
   const auto linked = linked_by("navcal_" + room);
   ASSERT_TRUE(linked) << "CMake knows no navcal_" << room;
   EXPECT_FALSE(linked->contains("navcal_validation_reference"));
@@ -70,4 +72,4 @@ INSTANTIATE_TEST_SUITE_P(Rooms, Stranger,
                          ::testing::Values("sim", "gap", "nav", "calib", "pipeline", "instruments", "protocols"));
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

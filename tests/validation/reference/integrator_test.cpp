@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,7 +6,7 @@
 #include "validation/reference/dormand_prince.h"
 #include "validation/reference/vehicle.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 /// What drives and damps taken away; the fins too.
@@ -110,4 +111,4 @@ TEST(Vehicle, WhatAnAccelerometerFeelsIsTheDerivativeOfTheVelocity) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

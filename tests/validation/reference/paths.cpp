@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/validation/reference/paths.h"
 
 #include <cmath>
@@ -5,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 
 std::vector<Row> read_rows(const std::string& file) {
   std::ifstream in(file);
@@ -44,4 +45,4 @@ double heading_error_deg(const Snapshot& snapshot, const Row& row) {
 
 Vector3 fins_of(const Row& row) { return {row[14], row[15], row[16]}; }
 
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

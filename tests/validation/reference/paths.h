@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -6,7 +7,7 @@
 
 #include "validation/reference/vehicle.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 
 /// t, x, y, z, phi, theta, psi, u, v, w, p, q, r, rpm, fin1, fin2, fin3: SI and radians.
 using Row = std::array<double, 17>;
@@ -20,4 +21,4 @@ double heading_error_deg(const Snapshot& snapshot, const Row& row);
 /// Servo angles in a row.
 Vector3 fins_of(const Row& row);
 
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "tests/validation/reference/bench.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 constexpr double kDuration_s = 40;
@@ -19,8 +20,9 @@ const World& world() {
 }
 
 /// The radii of the ellipsoid differ from the sphere of the bench by parts in a thousand: only differences count.
-void expect_against_nominal(const Departures& departures, const std::function<FixSample(double)>& further) {
-  const auto nominal = receiver_along(world(), {}), changed = receiver_along(world(), departures.gps);
+void expect_against_nominal(const ParameterDeviations& deviations,
+                            const std::function<FixSample(double)>& further) {
+  const auto nominal = receiver_along(world(), {}), changed = receiver_along(world(), deviations.gps);
   ASSERT_EQ(nominal.size(), changed.size());
   int fixes = 0;
   for (std::size_t i = 0; i < nominal.size(); ++i) {
@@ -98,4 +100,4 @@ TEST(Receiver, SeesNothingBelow) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

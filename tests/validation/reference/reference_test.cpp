@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // This reality against the reference paths and the check values of the vehicle.
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 #include "tests/validation/reference/paths.h"
 #include "validation/reference/vehicle.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
@@ -80,4 +81,4 @@ TEST(CheckValues, SteadyTurnWithTheFinsHardOver) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

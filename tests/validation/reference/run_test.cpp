@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "validation/reference/run.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 #include "protocols/tcm2.h"
 #include "validation/reference/effects.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 constexpr std::int64_t kStart_ns = 1'764'000'000'300'000'000;
@@ -48,7 +49,7 @@ struct Kept : Sink {
   void truth(const Snapshot& snapshot) override { truths.push_back(snapshot); }
 };
 
-Kept kept(const Mission& mission, std::uint64_t seed, const Specimen& specimen = {}) {
+Kept kept(const Mission& mission, std::uint64_t seed, const VehicleUnderTest& specimen = {}) {
   Kept sink;
   EXPECT_FALSE(run(mission, specimen, seed, sink));
   return sink;
@@ -79,7 +80,7 @@ TEST(Run, WatersAreFeltAndClocksKept) {
   mission.anchorage = {-16.8, 179.9999, 0};
   mission.waters.field_uT = {32, 7, -25};
   mission.waters.surface_C = 5;
-  Specimen specimen;
+  VehicleUnderTest specimen;
   specimen.clocks = {0.01, -0.01, 0.01};
   const Kept sink = kept(mission, 1, specimen);
   double size_uT = 0, coldest_C = 100;
@@ -149,14 +150,14 @@ TEST(Run, TheSameSeedGivesTheSameBytesAndAnotherGivesOthers) {
 TEST(Run, ReachesWhatWasOrderedByWhatTheInstrumentsSay) {
   Mission mission = short_mission();
   mission.duration_s = 44;
-  Specimen exact;
+  VehicleUnderTest exact;
   exact.noisy = false;
   const Snapshot end = kept(mission, 5, exact).truths.back();
   EXPECT_NEAR(end.heading_rad() / kDegree, 90, 2);
   EXPECT_NEAR(end.position_m.z(), 1.5, 0.15);
   EXPECT_NEAR(end.velocity_m_s.x(), 1.2, 0.03);
   // A depth sensor that says too much leaves it too high: the helmsman believes it.
-  add({"depth_scale", {{"scale", 0.2}}}, exact.departures);
+  add({"depth_scale", {{"scale", 0.2}}}, exact.deviations);
   EXPECT_NEAR(kept(mission, 5, exact).truths.back().position_m.z(), 1.25, 0.15);
 }
 
@@ -191,19 +192,19 @@ TEST(Run, EveryEffectChangesWhatIsRead) {
     return bytes;
   };
   const auto nominal = bytes_of(kept(mission, 7));
-  Dice dice(7, 99);
+  Rng dice(7, 99);
   for (const auto kinds : {library_effects(), foreign_effects()}) {
     for (const EffectKind& kind : kinds) {
-      Specimen specimen;
-      add(drawn(kind, 1, dice), specimen.departures);
+      VehicleUnderTest specimen;
+      add(drawn(kind, 1, dice), specimen.deviations);
       EXPECT_NE(bytes_of(kept(mission, 7, specimen)), nominal) << kind.name;
     }
   }
 }
 
 TEST(Run, AVehicleWithoutBoundsIsReportedLost) {
-  Specimen specimen;
-  specimen.departures.vehicle.yaw_damping_per_s = -1000;
+  VehicleUnderTest specimen;
+  specimen.deviations.vehicle.yaw_damping_per_s = -1000;
   Kept sink;
   const auto lost = run(short_mission(), specimen, 1, sink);
   ASSERT_TRUE(lost);
@@ -235,4 +236,4 @@ TEST(Run, WithoutOrdersNothingTurns) {
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What departures do to the vehicle, against the forces that they stand for.
 #include <gtest/gtest.h>
 
@@ -7,15 +8,15 @@
 #include "tests/validation/reference/bench.h"
 #include "validation/reference/forces.h"
 
-namespace navcal::trial::testing {
+namespace navcal::reference::testing {
 namespace {
 
 Flow under_way() { return {{1.1, 0.08, -0.05}, {0.1, -0.05, 0.3}}; }
 
 /// After some time with these controls held, from rest.
-Snapshot after(double time_s, const Departures& departures, double rev_s, const Vector3& fins_rad,
+Snapshot after(double time_s, const ParameterDeviations& deviations, double rev_s, const Vector3& fins_rad,
                const Start& start = {}) {
-  Vehicle vehicle(Hull{}, departures.vehicle, start);
+  Vehicle vehicle(Hull{}, deviations.vehicle, start);
   vehicle.hold(rev_s, fins_rad);
   vehicle.advance(time_s);
   return vehicle.snapshot();
@@ -57,9 +58,9 @@ TEST(VehicleEffects, PositiveRudderTurnsToStarboardAndPositiveElevatorRaisesTheN
 }
 
 TEST(VehicleEffects, LagAndPlayLeaveReportedAnglesAlone) {
-  Departures departures = with("fin_lag", {{"tau_s", 0.2}});
-  add({"fin_backlash", {{"width_deg", 2}}}, departures);
-  Vehicle nominal(Hull{}, {}, {}), departing(Hull{}, departures.vehicle, {});
+  ParameterDeviations deviations = with("fin_lag", {{"tau_s", 0.2}});
+  add({"fin_backlash", {{"width_deg", 2}}}, deviations);
+  Vehicle nominal(Hull{}, {}, {}), departing(Hull{}, deviations.vehicle, {});
   for (Vehicle* vehicle : {&nominal, &departing}) {
     vehicle->command(13, {0.2, -0.1, -0.1});
     vehicle->advance(0.3);
@@ -94,8 +95,8 @@ TEST(VehicleEffects, CurrentMovesThePositionOnly) {
 }
 
 TEST(VehicleEffects, TideTurnsTheCurrentOnceInTwentyMinutes) {
-  const Departures departures = with("tidal_current", {{"north_m_s", 0.1}});
-  const Snapshot s = after(300, departures, 0, Vector3::Zero());
+  const ParameterDeviations deviations = with("tidal_current", {{"north_m_s", 0.1}});
+  const Snapshot s = after(300, deviations, 0, Vector3::Zero());
   EXPECT_LT((s.current_m_s - Eigen::Vector2d(0, 0.1)).norm(), 1e-9);
   // The integral of a quarter turn.
   const double way_m = 0.1 * 1200 / (2 * std::numbers::pi);
@@ -148,8 +149,8 @@ TEST(VehicleEffects, AStalledFinLosesLiftBeyondEightDegreesOnly) {
 
 TEST(VehicleEffects, BatterySagTakesThrustAndTheConvertersReferenceTogether) {
   const double per_Ah = 1.2, time_s = 100;
-  const Departures departures = with("battery_sag", {{"per_Ah", per_Ah}});
-  const Snapshot s = after(time_s, departures, 13, Vector3::Zero());
+  const ParameterDeviations deviations = with("battery_sag", {{"per_Ah", per_Ah}});
+  const Snapshot s = after(time_s, deviations, 13, Vector3::Zero());
   const double loss = per_Ah * motor_current_A(13) * time_s / 3600;
   EXPECT_NEAR(s.supply_loss, loss, 1e-9);
   Vehicle weaker(Hull{}, with("thrust_scale", {{"scale", -loss}}).vehicle, {});
@@ -157,7 +158,7 @@ TEST(VehicleEffects, BatterySagTakesThrustAndTheConvertersReferenceTogether) {
   weaker.advance(40);
   EXPECT_NEAR(s.velocity_m_s.x(), weaker.snapshot().velocity_m_s.x(), 2e-3);
 
-  World world(Vehicle(Hull{}, departures.vehicle, {}), 1);
+  World world(Vehicle(Hull{}, deviations.vehicle, {}), 1);
   world.vehicle().hold(13, Vector3::Zero());
   world.advance(time_s);
   const double reading = card_along(world, {}).back().values[6];
@@ -165,14 +166,14 @@ TEST(VehicleEffects, BatterySagTakesThrustAndTheConvertersReferenceTogether) {
 }
 
 TEST(VehicleEffects, WavesPushAtTheSurfaceAndNotBelow) {
-  const Departures departures = with("surface_waves", {{"force_N", 1.5}});
+  const ParameterDeviations deviations = with("surface_waves", {{"force_N", 1.5}});
   Start deep;
   deep.position_m.z() = 5;
-  const Snapshot up = after(1, departures, 0, Vector3::Zero()),
-                 down = after(1, departures, 0, Vector3::Zero(), deep);
+  const Snapshot up = after(1, deviations, 0, Vector3::Zero()),
+                 down = after(1, deviations, 0, Vector3::Zero(), deep);
   EXPECT_GT(up.velocity_m_s.y(), 0.03);
   EXPECT_NEAR(down.velocity_m_s.y(), up.velocity_m_s.y() * std::exp(-10.0), 1e-4);
 }
 
 }  // namespace
-}  // namespace navcal::trial::testing
+}  // namespace navcal::reference::testing

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gap/inference/spike_and_slab.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gap/inference/evidence.h"
+#include "gap/thresholds.h"
+
+namespace navcal::gap {
+namespace {
+
+/// When the fins were ordered to move is found no finer, where it was not recorded (gap/inference/order_times.h).
+constexpr double kOrdersOff_s = 0.005;
+/// Where expectation and maximisation begins, in typical values.
+constexpr double kFirstGuess = 0.03;
+constexpr int kIterations = 60;
+
+/// Whether what the inertial card says comes later by it.
+bool delays_card(const Library& library, std::size_t effect) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+  const Eigen::Index j = library.first(effect);
+  values[j] = library.unknowns()[static_cast<std::size_t>(j)].typical;
+  return library.model(values).effects.delays(0).card_s > 0;
+}
+
+/// Whether it looks as if the fins had been ordered at another time: they move later, or whatever follows them is
+/// read later.
+bool is_of_orders(const Library& library, std::size_t effect) {
+  const bool moves_fins = library[effect].place == sim::EffectPlace::vehicle;
+  return library.is_lag(effect) && (moves_fins || delays_card(library, effect));
+}
+
+/// Standard deviations under which these missions are most probable.
+Eigen::VectorXd scatter_among(const Library& library, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& scores,
+                              const Eigen::VectorXd& slab) {
+  Eigen::VectorXd scatter = slab;
+  scatter.tail(scatter.size() - Library::kBiases) *= kFirstGuess;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Eigen::MatrixXd covariance = Evidence(gram, scores.col(0), scatter, slab).base_posterior().covariance;
+    const Eigen::VectorXd square =
+        (covariance * scores).rowwise().squaredNorm() / static_cast<double>(scores.cols()) + covariance.diagonal();
+    for (Eigen::Index j = Library::kBiases; j < square.size(); ++j) {
+      if (library.holds(library.unknowns()[static_cast<std::size_t>(j)].effect)) scatter[j] = std::sqrt(square[j]);
+    }
+  }
+  return scatter;
+}
+
+}  // namespace
+
+Priors fit_spike_widths(const Library& library, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& scores) {
+  Priors priors;
+  priors.slab.resize(gram.rows());
+  for (Eigen::Index j = 0; j < gram.rows(); ++j) {
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+    priors.slab[j] = j < Library::kBiases ? kTurnOnBiasPrior_rad_s : unknown.typical;
+    if (j >= Library::kBiases && !library.holds(unknown.effect)) priors.slab[j] *= kExcludedPrior;
+  }
+  const Eigen::VectorXd scatter =
+      scores.cols() > 0 ? scatter_among(library, gram, scores, priors.slab) : kTolerance * priors.slab;
+  priors.spike = priors.slab;
+  priors.model_error.setZero(priors.slab.size());
+  for (Eigen::Index j = Library::kBiases; j < priors.slab.size(); ++j) {
+    const std::size_t effect = library.unknowns()[static_cast<std::size_t>(j)].effect;
+    if (!library.holds(effect)) continue;
+    const double tolerance = kTolerance * priors.slab[j];
+    priors.model_error[j] = std::sqrt(std::max(0.0, scatter[j] * scatter[j] - tolerance * tolerance));
+    if (is_of_orders(library, effect)) {
+      priors.model_error[j] = std::max(priors.model_error[j], kOrdersOff_s);
+    }
+    priors.spike[j] = std::max({tolerance, scatter[j], priors.model_error[j]});
+  }
+  return priors;
+}
+
+}  // namespace navcal::gap

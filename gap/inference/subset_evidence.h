@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gap/inference/effect_subset.h"
+#include "gap/inference/evidence.h"
+#include "gap/inference/linearised.h"
+#include "gap/inference/spike_and_slab.h"
+
+namespace navcal::gap {
+
+/// Referred to no effects at all, whatever point it was linearised about.
+[[nodiscard]] Evidence evidence_of(const Linearised& linear, const Priors& priors);
+
+/// What speaks for sets of effects, referred to the nominal vehicle whatever point it was linearised about, so
+/// that words from several linearisations may be compared.
+class SubsetEvidence {
+ public:
+  /// `library` must outlive it.
+  SubsetEvidence(const Linearised& linear, const Library& library, const Priors& priors);
+
+  /// Log of the joint probability of set and data, nats, apart from a constant.
+  [[nodiscard]] double operator()(const EffectSubset& set) const;
+
+ private:
+  [[nodiscard]] double gain(const EffectSubset& set) const;
+
+  const Library& library_;
+  Evidence evidence_;
+  double data_;
+};
+
+}  // namespace navcal::gap

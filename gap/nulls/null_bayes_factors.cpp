@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gap/nulls/null_bayes_factors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "gap/inference/subset_evidence.h"
+#include "gap/nulls/null_mission.h"
+#include "gap/nulls/simulate_feasible.h"
+#include "gap/thresholds.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Members, and those others of which a usual tolerance looks most like one of them: their own signatures serve,
+/// too, lest a null's lag of the fins, which moved otherwise between two reports than the recorded ones, pass for
+/// a member.
+std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, const Linearised& linear,
+                                          const Priors& priors) {
+  constexpr std::size_t kMost = 6;
+  constexpr double kLeast = 2;  // standard errors of the member that it looks like
+  std::vector<std::pair<double, Eigen::Index>> others;
+  for (Eigen::Index k = Library::kBiases; k < linear.gram.rows(); ++k) {
+    if (std::find(members.begin(), members.end(), k) != members.end()) continue;
+    double most = 0;
+    for (const Eigen::Index j : members) {
+      most = std::max(most, priors.spike[k] * std::abs(linear.gram(j, k)) / std::sqrt(linear.gram(j, j)));
+    }
+    if (most > kLeast) others.emplace_back(-most, k);
+  }
+  std::sort(others.begin(), others.end());
+  for (std::size_t i = 0; i < std::min(kMost, others.size()); ++i) members.push_back(others[i].second);
+  return members;
+}
+
+/// Of unknowns of the library, whitened in the shape of the recorded mission: a column each.
+Eigen::MatrixXd signatures(const Replay& replay, const Library& library, const Whitening& whitening,
+                           const Layout& layout, const Eigen::VectorXd& white,
+                           const std::vector<Eigen::Index>& unknowns) {
+  Eigen::MatrixXd columns(white.size(), static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(unknowns[k])];
+    const double step = unknown.step * unknown.typical;
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+    values[unknowns[k]] = step;
+    const Innovations stepped = replay.run(library.model(values));
+    columns.col(static_cast<Eigen::Index>(k)) = (white - whitening(fitted_into(stepped, layout), layout)) / step;
+  }
+  return columns;
+}
+
+/// What the recorded mission's signatures, and these unknowns' own, say of a null.
+Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eigen::MatrixXd& own,
+                   const std::vector<Eigen::Index>& unknowns) {
+  Linearised null;
+  null.at = Eigen::VectorXd::Zero(recorded.at.size());
+  null.gram = recorded.gram;
+  null.score = recorded.design.transpose() * white;
+  const Eigen::MatrixXd with_others = recorded.design.transpose() * own, with_own = own.transpose() * own;
+  const Eigen::VectorXd own_score = own.transpose() * white;
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    null.gram.col(unknowns[k]) = with_others.col(column);
+    null.gram.row(unknowns[k]) = with_others.col(column).transpose();
+    null.score[unknowns[k]] = own_score[column];
+  }
+  null.gram(unknowns, unknowns) = with_own;
+  null.residual = std::move(white);
+  return null;
+}
+
+}  // namespace
+
+double gain_over_none(const EffectSubset& set, const Linearised& linear, const Library& library,
+                      const Priors& priors) {
+  const SubsetEvidence evidence(linear, library, priors);
+  return evidence(set) - bound_penalty_nats(set, linear, library, priors) - evidence({}) +
+         bound_penalty_nats({}, linear, library, priors);
+}
+
+std::vector<double> null_bayes_factors(const EffectSubset& set, const Replay& recorded,
+                                       const Trajectory10Hz& course, const config::VehicleSettings& vehicle,
+                                       const Library& library, const Whitening& whitening,
+                                       const Linearised& linear, const Priors& priors,
+                                       const BankOptions& options) {
+  const auto columns = with_likenesses(parameter_indices(library, set), linear, priors);
+  const Layout layout = layout_of(recorded);
+  return simulate_feasible(options, Seeds::null_gains, [&](std::size_t, std::uint64_t seed) {
+    const Model truth = library.model(benign_mismatch(library, seed));
+    const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
+    const Replay replay(mission, vehicle);
+    Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
+    const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, columns);
+    const Linearised null = seen_by(linear, std::move(white), own, columns);
+    return gain_over_none(set, null, library, priors);
+  });
+}
+
+bool stands_out(double gain_nats, std::span<const double> among_nulls) {
+  if (among_nulls.empty()) return true;
+  const auto count = static_cast<double>(among_nulls.size());
+  const double mean = std::accumulate(among_nulls.begin(), among_nulls.end(), 0.0) / count;
+  double square = 0;
+  for (const double gain : among_nulls) square += (gain - mean) * (gain - mean);
+  return gain_nats > mean + kNullBayesFactor_sigma * std::max(kLeastNullScatter_nats, std::sqrt(square / count));
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+/// The thresholds of the diagnosis that decide what is searched, named and reported, with unit and reason.
+/// Strengths are in typical values of the effect (sim/effects/description.h). A threshold is "set" where it was
+/// chosen on validation runs (docs/validation/gap.md) and not derived; such a threshold has no false-alarm rate of
+/// its own, and only the rates measured there hold.
+namespace navcal::gap {
+
+// ---- priors
+
+/// Standard deviation of each parameter of a vehicle without a gap, typical values. By definition: docs/gap.md.
+inline constexpr double kTolerance = 0.02;
+/// Turn-on bias of a gyro that counts as one typical value, rad/s: the usual one at power-on.
+inline constexpr double kTypicalTurnOnBias_rad_s = 0.3 * std::numbers::pi / 180;
+/// Standard deviation of the prior of a turn-on bias, rad/s: ten times the typical value, so that the prior never
+/// decides.
+inline constexpr double kTurnOnBiasPrior_rad_s = 3 * std::numbers::pi / 180;
+/// Standard deviation of the prior of a parameter that is kept at zero, typical values: as good as zero, and the
+/// matrices stay invertible.
+inline constexpr double kExcludedPrior = 1e-9;
+/// Standard deviations of the prior of a member's strength, typical values, each as likely as the others. With one
+/// wide prior for all, the many parameters of a weak effect would cost more evidence than they explain.
+inline constexpr std::array<double, 3> kMemberStrengths{0.2, 0.6, 2};
+/// Standard deviation of the prior of a nuisance parameter, typical values. Wider than that of any member, so that
+/// naming the effect does not gain evidence.
+inline constexpr double kNuisancePrior = 5;
+
+// ---- search
+
+/// Log evidence that the first effect of a subset costs, nats. Set: what innovations that are not quite Gaussian
+/// gain by chance.
+inline constexpr double kComplexityPenalty_nats = 3;
+/// Log evidence that each further effect costs, nats. Set: what the inexact regressors of the effects before
+/// leave.
+inline constexpr double kComplexityPenaltyPerFurtherEffect_nats = 8;
+/// Largest number of effects in a subset.
+inline constexpr std::size_t kMostEffects = 3;
+/// Subsets of each size that are simulated again.
+inline constexpr std::size_t kLeadingSubsets = 3;
+/// Most leading subsets that are simulated before the answer because only the regressors of another subset scored
+/// them.
+inline constexpr std::size_t kReconsideredSubsets = 6;
+/// Times that the leader and its neighbours are judged with regressors taken about the leader's estimate. With the
+/// nominal regressors, effects outside the subset look wrong, and one of them is added spuriously.
+inline constexpr int kRefinements = 4;
+/// Distance from where regressors were taken up to which they serve, typical values: within tolerances nothing
+/// curves.
+inline constexpr double kLinearRange = 0.25;
+/// Log evidence above which two effects, or an effect and none, can be told apart, nats. Set.
+inline constexpr double kObservable_nats = 10;
+
+// ---- verdict
+
+/// Probability from which a subset of effects is named. Set.
+inline constexpr double kNamedFrom = 0.7;
+/// Largest total posterior probability of rival subsets with which one is named. A wrong name costs a needless
+/// repair, where one more manoeuvre would tell. Set.
+inline constexpr double kMostRivals = 0.15;
+/// Probability of no effect below which a gap is stated where no cell of the residual map is significant. Set.
+inline constexpr double kNoGapBelow = 0.01;
+/// Share of the gap that a named subset must close. Set.
+inline constexpr double kClosedFrom = 0.9;
+/// Closure below which the gap is said to grow. The interval of its error reaches a little below zero where
+/// nothing closes.
+inline constexpr double kGrowsBelow = -0.05;
+/// Strength above which an effect more probably stands for another one, typical values. Set.
+inline constexpr double kLargestStrength = 5;
+/// Strength above which an estimate is not reported as a number, typical values.
+inline constexpr double kLargestReported = 100;
+/// Strength up to which an effect is a tolerance, typical values: 2.5 standard deviations of kTolerance.
+inline constexpr double kLargestTolerance = 0.05;
+/// Strength that tolerances three times as wide as kTolerance hardly reach, typical values.
+inline constexpr double kBeyondWideTolerance = 0.2;
+/// Strength above which an effect that is not named is no tolerance, however little the mission shows of it,
+/// typical values.
+inline constexpr double kLargestUnnamed = 0.4;
+/// p-value, over all cells of the residual map together, below which a residual is unexplained. Set.
+inline constexpr double kUnexplainedBelow = 1e-4;
+/// p-value, over all cells together, below which a cell of the residual map is significant.
+inline constexpr double kSignificantBelow = 1e-3;
+/// Factor over the rms of the nulls that a significant cell must have: an instrument that is a little noisier than
+/// nominal is no gap. Set.
+inline constexpr double kLouderThanNulls = 1.3;
+/// p-value below which a cell is significant against the exact model: a search finds the parameters only nearly.
+/// Set.
+inline constexpr double kSignificantAgainstExactBelow = 1e-8;
+/// Standard deviations of the nulls above which the error of a hold-out is a gap.
+inline constexpr double kHoldoutGap_sigma = 3;
+/// Gain of all members together over the hold-outs that is wanted, and loss on one of them that is tolerated,
+/// nats. Set.
+inline constexpr double kHoldoutGain_nats = 2, kHoldoutLoss_nats = -2;
+/// Log evidence that no null mission has reached by its noise, nats: above it no null Bayes factors are computed.
+/// Set.
+inline constexpr double kBeyondNulls_nats = 300;
+/// Standard deviations above their mean that evidence must exceed among null Bayes factors.
+inline constexpr double kNullBayesFactor_sigma = 3;
+/// Smallest scatter of null Bayes factors, nats: that of gains which hardly differ.
+inline constexpr double kLeastNullScatter_nats = 1;
+/// Largest misfit of recorded fin commands, in units of the report noise: a report with twice its noise has 4.
+inline constexpr double kMostCommandMisfit = 4;
+
+}  // namespace navcal::gap

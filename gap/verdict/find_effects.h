@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "gap/inference/search.h"
+#include "gap/nulls/backlash_null_bank.h"
+#include "gap/verdict/prepare.h"
+
+namespace navcal::gap {
+
+/// What a search needs beside its priors. References, valid as long as the diagnosis runs.
+struct Problem {
+  const Prepared& prepared;
+  const Library& library;
+  const Request& request;
+  const Progress& progress;
+  unsigned threads = 1;
+};
+
+/// The effects that a search found, and what they were compared with.
+struct FoundEffects {
+  SearchResult found;
+  Priors priors;
+  std::optional<BacklashNullBank> backlash_bank;  ///< when backlash was found
+  EffectSubset unobservable;  ///< effects that the mission hardly shows: nuisance parameters of the search
+  EffectSubset by_chance;     ///< effects that were found, and that null missions show as well
+};
+
+/// The second step of a diagnosis: the most probable subset of effects. Backlash is judged by a null bank of
+/// vehicles that have it; a subset of little evidence by null Bayes factors; and effects that the mission cannot
+/// show become nuisance parameters of a second search.
+[[nodiscard]] FoundEffects find_effects(const Problem& problem);
+
+}  // namespace navcal::gap

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gap/data/shared_content.h"
+#include "gap/nulls/bank_cache.h"
+#include "gap/nulls/null_bank.h"
+#include "gap/replay/replay.h"
+#include "gap/verdict/diagnosis.h"
+#include "gap/verdict/request.h"
+
+namespace navcal::gap {
+
+/// A recording that is ready to be compared with simulated missions without a gap.
+struct Prepared {
+  Mission mission;
+  std::unique_ptr<Replay> replay;
+  Eigen::VectorXd at;  ///< parameters of the nominal vehicle with the turn-on biases of this recording
+  Trajectory10Hz course;
+  NullBank bank;
+  bool from_cache = false;
+};
+
+/// The first step of a diagnosis: recordings to residuals, each with its null bank.
+class Preparation {
+ public:
+  /// Keeps references to `request`, `library` and `progress`.
+  Preparation(const Request& request, const Library& library, const Progress& progress, unsigned threads);
+
+  /// nullptr: the recording tells nothing, and a remark in `answer` says why. Throws record::BadRecording, and
+  /// std::invalid_argument when the recording shares readings with one that was prepared before it.
+  [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
+
+ private:
+  void expect_other_content(const std::string& name, const Mission& mission);
+  /// The times at which the fins were ordered to move, found where they were not recorded; and the replay by them.
+  void replay_orders(Prepared& prepared, const std::string& name, Diagnosis& answer) const;
+  void find_bank(Prepared& prepared, const std::string& name, Diagnosis& answer);
+
+  const Request& request_;
+  const Library& library_;
+  const Progress& progress_;
+  unsigned threads_;
+  BankCache cache_;
+  std::vector<std::pair<std::string, SharedContent>> contents_;  ///< of the recordings read, by file name
+};
+
+}  // namespace navcal::gap
