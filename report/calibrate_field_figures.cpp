@@ -21,7 +21,7 @@ using Ink = SvgPlot::Ink;
 
 constexpr std::size_t kMostFieldDots = 1500;
 constexpr double kSide = 460;
-constexpr std::array<const char*, 3> kAxes{"forward, uT", "starboard, uT", "down, uT"};
+constexpr std::array<const char*, 3> kAxisTitles{"forward, uT", "starboard, uT", "down, uT"};
 
 /// With more tilt, the vertical field shows in the horizontal axes as much as the heading does.
 constexpr double kLevel_rad = 15 * std::numbers::pi / 180;
@@ -101,8 +101,8 @@ SvgPlot square_plot(std::string_view title, int across, int up, const std::vecto
   make_equally_long(rx, ry);
   const double height = kSide - SvgPlot::kLeft - SvgPlot::kRight + SvgPlot::kTop + SvgPlot::kBottom;
   return {title,
-          {kAxes[static_cast<std::size_t>(across)], rx},
-          {kAxes[static_cast<std::size_t>(up)], ry},
+          {kAxisTitles[static_cast<std::size_t>(across)], rx},
+          {kAxisTitles[static_cast<std::size_t>(up)], ry},
           {kSide, height}};
 }
 
