@@ -38,7 +38,7 @@ class CalibrateRun {
   void begin_recording(const std::string& file, std::int64_t time_ns);
   void take(const record::Entry& entry, const std::vector<int>& ports);
   void at(const std::string& file, std::int64_t time_ns);
-  void begin_swing();
+  void begin_ordered();
 
   config::Settings settings_;
   CalibrateHistory* history_;

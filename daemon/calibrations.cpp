@@ -84,7 +84,7 @@ std::string Calibrations::answer(const ControlRequest& request, std::int64_t now
   const auto calibrator = calib::calibrator_named(request.calibrator);
   if (!calibrator) {
     std::string known;
-    for (const auto one : calib::kCalibrators) {
+    for (const auto one : calib::calibrators()) {
       known += known.empty() ? "" : ", ";
       known += calib::name_of(one);
     }

@@ -48,8 +48,8 @@ void Daemon::on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
                 calibration.state());
   if (!calibration.touched()) return;
   // What was learnt of the compass before is of another compass: it corrects its field and heading otherwise now.
-  for (const auto calibrator : {calib::Calibrator::compass, calib::Calibrator::magnetometer,
-                                calib::Calibrator::gps_compass, calib::Calibrator::misalignment}) {
+  for (const auto calibrator : calib::calibrators()) {
+    if (!calib::row_of(calibrator).of_compass) continue;
     pipeline_.order_calibration(pipeline::CalibrationOrder::start, calibrator, now_ns, *this);
   }
   event(

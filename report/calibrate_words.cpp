@@ -14,12 +14,6 @@
 namespace navcal::report {
 namespace {
 
-using calib::Calibrator;
-
-constexpr std::array<std::string_view, calib::kCalibrators.size()> kTitles{
-    "Gyro A",         "Gyro B",         "Compass deviation", "Magnetometer",        "Compass by GPS",
-    "Eight headings", "Misalignment A", "Delay of compass",  "Delay of GPS course", "Motor current"};
-
 /// How a quantity is shown: what its name ends with, by how much it is multiplied, the unit, and the error beyond
 /// which nothing is known of it.
 struct Unit {
@@ -62,7 +56,7 @@ std::string reason_in_words(calib::Rejection rejection) {
 
 }  // namespace
 
-std::string_view title_of(Calibrator calibrator) { return kTitles.at(static_cast<std::size_t>(calibrator)); }
+std::string_view title_of(calib::Calibrator calibrator) { return calib::row_of(calibrator).title; }
 
 std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
   std::vector<ShownQuantity> all;

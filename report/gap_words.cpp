@@ -167,7 +167,7 @@ std::string text_of(const gap::ChangePoint& change, std::string_view arrow) {
 std::vector<std::string> instruments_alone_lines(const calib::Report& report, std::string_view plus_minus) {
   std::vector<std::string> lines;
   for (const auto& calibrator : report.calibrators) {
-    if (calibrator.calibrator == calib::Calibrator::swing) continue;  // begun by the operator only
+    if (calib::row_of(calibrator.calibrator).by_order) continue;
     std::string line = fmt::format("{}: ", title_of(calibrator.calibrator));
     if (calibrator.outcome == calib::Outcome::refused) {
       lines.push_back(line + "nothing can be said, " + objection_of(calibrator));

@@ -15,9 +15,6 @@ namespace navcal::record {
 [[nodiscard]] nlohmann::ordered_json correction_json(const calib::Correction& correction,
                                                      calib::Calibrator calibrator);
 
-/// {"A_deg":..,"B_deg":..,...}.
-[[nodiscard]] nlohmann::ordered_json deviation_json(const calib::DeviationCorrection& deviation);
-
 /// Values of an estimate by name, angles in degrees: "bias_rad_s" becomes "bias_deg_s"; null for what is not
 /// finite.
 [[nodiscard]] nlohmann::ordered_json values_json(const std::vector<calib::Quantity>& quantities,
