@@ -87,7 +87,7 @@ class StepReader {
     for (const auto* groups : {&rule.required, &rule.optional}) {
       for (const auto& group : *groups) {
         if (said_of(group) > 1)
-          complain(entries_.table, fmt::format("only one of {} can be said", fmt::join(group, " and ")));
+          complain(entries_.table, fmt::format("only one of {} may be given", fmt::join(group, " and ")));
       }
     }
   }

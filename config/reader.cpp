@@ -142,9 +142,9 @@ void Reader::check_ports() {
     const std::string key = "port." + port.name;
     const int places = int{!port.path.empty()} + int{!port.udev_name.empty()} + int{!port.usb_serial.empty()};
     if (places == 0)
-      problems_.push_back({port_lines_[i], key, "where it is is missing: path, udev_name or usb_serial"});
+      problems_.push_back({port_lines_[i], key, "the place is missing: path, udev_name or usb_serial"});
     if (places > 1)
-      problems_.push_back({port_lines_[i], key, "only one of path, udev_name and usb_serial can say where it is"});
+      problems_.push_back({port_lines_[i], key, "only one of path, udev_name and usb_serial may be given"});
     for (std::size_t j = 0; j < i; ++j) {
       const PortSettings& other = settings_.ports[j];
       const auto same = [&](std::string_view what, const std::string& mine, const std::string& others) {
