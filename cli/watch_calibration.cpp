@@ -124,10 +124,10 @@ void WatchCalibration::append(std::string& out) const {
     if (found != calibrators_.end()) append_calibrator(lines, found->first, found->second);
   }
   append_tcm2(lines, tcm2_);
-  fmt::format_to(std::back_inserter(out), "calibration in force: {}", name_);
+  fmt::format_to(std::back_inserter(out), "active calibration: {}", name_);
   if (heading_.is_object() && number(heading_, "blocks") > 0) {
     fmt::format_to(std::back_inserter(out),
-                   "; heading held out: {} deg raw, {} in force, {} by the newest estimates",
+                   "; held-out heading: {} deg raw, {} active, {} by the newest estimates",
                    shown(number(heading_, "before_rms_deg"), 2), shown(number(heading_, "in_force_rms_deg"), 2),
                    shown(number(heading_, "after_rms_deg"), 2));
   }
