@@ -125,10 +125,10 @@ std::vector<Figure> convergence_figures(const analysis::CalibrateHistory::Estima
     SvgPlot plot(group.title, time.axis(), {group.unit, late_range(curves, group.factor)});
     for (std::size_t i = 0; i < curves.size(); ++i)
       draw(plot, kCalibratorInks[i], names[i], curves[i], time, group.factor);
-    figures.push_back(
-        {group.title, plot.svg(),
-         "With two standard errors to either side; what the first estimates need is not shown. The first "
-         "minute is enlarged."});
+    figures.push_back({group.title, plot.svg(),
+                       "With two standard errors to either side; large errors of the first estimates are outside "
+                       "the plot. The first "
+                       "minute is enlarged."});
   }
   return figures;
 }

@@ -106,7 +106,7 @@ std::string_view verdict_of(const calib::CalibratorReport& report) { return cali
 std::string objection_of(const calib::CalibratorReport& report) {
   const auto& judgement = report.judgement;
   if (report.outcome == calib::Outcome::no_better) {
-    return "the estimate is supported, but readings that had no part in it are no better with it than before";
+    return "the data support the estimate, but held-out readings are no better with it";
   }
   if (judgement.accepted) return {};
   if (judgement.manoeuvre.empty()) return judgement.reason;
@@ -131,12 +131,12 @@ std::string held_out_of(const calib::CalibratorReport& report, std::string_view 
 
 std::string sentence_of(const calib::HeadingCheck& heading) {
   if (heading.blocks == 0) {
-    return "The heading could not be judged: that takes a gyro (inertial card) that was calibrated, and turns "
+    return "The heading could not be judged: that needs a calibrated gyro (inertial card), and turns "
            "after that.";
   }
   return fmt::format(
-      "Heading against the calibrated gyro, on readings that had no part in the estimates: {:.2f} deg as the "
-      "compass says it, {:.2f} deg calibrated (root-mean-square over {} blocks of turns).",
+      "Heading against the calibrated gyro, on held-out readings: {:.2f} deg as measured, {:.2f} deg calibrated "
+      "(root-mean-square over {} blocks of turns).",
       heading.before_rad * base::kDegreesPerRadian, heading.after_rad * base::kDegreesPerRadian, heading.blocks);
 }
 

@@ -122,7 +122,7 @@ std::optional<Figure> cause_figure(const gap::Diagnosis& diagnosis) {
   }
   html += "</div>\n";
   if (effects.empty() && others == 0) return std::nullopt;
-  return Figure{effects.empty() ? "Considered, and not convincing" : "Causes by probability", std::move(html),
+  return Figure{effects.empty() ? "Considered, but not sufficient" : "Causes by probability", std::move(html),
                 effects.empty()
                     ? "No cause is named. " + std::string(kNoneExplains)
                     : "Blue: the set on which the verdict rests, with standard errors. Grey: considered "
@@ -140,7 +140,7 @@ std::optional<Figure> closure_figure(const gap::Diagnosis& diagnosis, const GapS
   }
   html += "</div>\n";
   return Figure{"How much of the gap closes", std::move(html),
-                "From none to all of what lies above the floor, with 95 % intervals, " + judged_on(gap, source) +
+                "From none to all of the gap above the floor, with 95 % intervals, " + judged_on(gap, source) +
                     ". Altogether: power of the whitened residuals; channels: root mean square."};
 }
 

@@ -70,7 +70,7 @@ void append_causes(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSou
 
 void append_left_over(HtmlPage& page, const gap::Diagnosis& diagnosis) {
   if (diagnosis.unexplained.empty() && diagnosis.changes.empty()) return;
-  page.section("What is left over");
+  page.section("Remaining residuals");
   for (const auto& sentence : diagnosis.unexplained) page.fact("plain", "left", sentence);
   for (const auto& change : diagnosis.changes) page.fact("plain", "changed", text_of(change, kArrow));
 }

@@ -85,7 +85,7 @@ std::optional<Figure> scatter_figure(const gap::Diagnosis& diagnosis) {
   plot.line(Ink::before, "", trend(before));
   plot.line(Ink::after, "", trend(after));
   return Figure{title, plot.svg(),
-                "Each dot a residual of the mission; lines: means. What is explained lies flat."};
+                "Each dot is a residual of the mission; lines are means. Explained residuals are flat."};
 }
 
 CourseFigures course_figures(const gap::Diagnosis& diagnosis) {

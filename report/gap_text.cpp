@@ -103,7 +103,7 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
     if (any) append_lines(out, "not convincing", {std::string(kNoneExplains)});
     append_effects(out, any ? "" : "not convincing", diagnosis.candidates, kMostCandidates, !unknown);
   }
-  append_lines(out, "what it means", consequences(diagnosis.gap, kArrowText));
+  append_lines(out, "consequence", consequences(diagnosis.gap, kArrowText));
   append_lines(out, "left over", diagnosis.unexplained);
   std::vector<std::string> changes;
   for (const auto& change : diagnosis.changes) changes.push_back(text_of(change, kArrowText));

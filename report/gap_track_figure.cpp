@@ -38,10 +38,9 @@ std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   plot.line(Ink::before, "nominal model", points_of(tracks.nominal));
   const char* const after = diagnosis.effects.empty() ? "with the best candidates" : "with the effects found";
   if (!tracks.improved.time_s.empty()) plot.line(Ink::after, after, points_of(tracks.improved));
-  return Figure{
-      "Track", plot.svg(),
-      "What was measured, and where the model would have gone from the first fix on, by the recorded shaft "
-      "and its own view of compass and gyros, without any further fix. A current moves the fixes only."};
+  return Figure{"Track", plot.svg(),
+                "The fixes, and the path of the model from the first fix on, by the recorded shaft and the "
+                "model's own compass and gyros, without any further fix. A current moves the fixes only."};
 }
 
 }  // namespace navcal::report

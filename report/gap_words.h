@@ -41,7 +41,7 @@ struct GapSource {
 /// Said where candidates are listed under the verdict unknown. Their probabilities compare them with each other
 /// and with no effect at all, which is no evidence that any of them is the cause, so they are not shown.
 inline constexpr std::string_view kNoneExplains =
-    "Best fits of the library first; none of them explains the recording.";
+    "The best fits of the library, in order; none of them explains the recording.";
 /// "1e-9", "0.03".
 [[nodiscard]] std::string chance_text(double p_value);
 

@@ -63,7 +63,7 @@ std::string truth_words(const validation::TrialCase& drawn) {
   std::string text;
   for (const reference::Effect& effect : drawn.effects) text.append(text.empty() ? "" : ", ").append(effect.name);
   if (text.empty()) return "no effect";
-  return drawn.excluded.empty() ? text : text + ", of which the library is without";
+  return drawn.excluded.empty() ? text : text + ", with removed from the library";
 }
 
 std::string answer_words(const validation::TrialResult& result) {

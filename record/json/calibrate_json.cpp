@@ -45,7 +45,7 @@ std::string_view needs_of(Calibrator calibrator) {
 std::string reason_of(const calib::CalibratorReport* report, Calibrator calibrator) {
   if (report == nullptr) return "the recording lacks an instrument: it takes " + std::string(needs_of(calibrator));
   if (report->outcome == calib::Outcome::no_better) {
-    return "readings that had no part in the estimate are no better with it than before";
+    return "the data support the estimate, but held-out readings are no better with it";
   }
   const auto& judgement = report->judgement;
   if (judgement.accepted || judgement.manoeuvre.empty()) return judgement.reason;

@@ -69,7 +69,7 @@ TEST(MissionFile, MistakesAreNamedByStep) {
 
 TEST(MissionFile, MistakesAroundTheSteps) {
   EXPECT_EQ(problems_of_mission(""), Problems{"m.toml:1: step: a mission has a [[step]] or more"});
-  EXPECT_EQ(problems_of_mission("[step]\ndo = \"leg\"\n").front(), "m.toml:1: step: tables [[step]] are wanted");
+  EXPECT_EQ(problems_of_mission("[step]\ndo = \"leg\"\n").front(), "m.toml:1: step: tables [[step]] are expected");
   EXPECT_EQ(problems_of_mission("[strat]\n[[step]]\ndo = \"leg\"\nseconds = 1\n"),
             Problems{"m.toml:1: strat: unknown key; did you mean start?"});
   EXPECT_EQ(problems_of_mission("mission.at_end = \"stop\"\n[[step]]\ndo = \"leg\"\nseconds = 1\n"),
