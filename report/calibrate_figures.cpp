@@ -19,11 +19,11 @@ namespace {
 using Ink = SvgPlot::Ink;
 
 constexpr std::size_t kMostDots = 1500;
-/// A curve that is known no better is not worth a picture.
+/// Standard error above which a curve is not drawn.
 constexpr double kWorstCurve_rad = 0.3;
 const SvgPlot::Axis kHeadingAxis{"heading of the compass, degrees", {0, 360}, 45};
 
-/// Every so many, so that not more than kMostDots remain.
+/// Every n-th reading, so that at most kMostDots remain.
 std::size_t stride_for(std::size_t count) { return count / kMostDots + 1; }
 
 std::vector<Point> over_heading(const std::vector<analysis::HeadingResidual>& residuals,
@@ -40,7 +40,7 @@ void append_heights(std::vector<double>& heights, const std::vector<Point>& poin
   for (const Point& point : points) heights.push_back(point.y);
 }
 
-/// Standard error of the deviation at a heading, by the whole covariance of B..E.
+/// Standard error of the deviation at a heading, from the whole covariance of B..E.
 double deviation_std_rad(const calib::CalibratorReport& compass, double heading_rad) {
   const Eigen::Vector4d f(std::sin(heading_rad), std::cos(heading_rad), std::sin(2 * heading_rad),
                           std::cos(2 * heading_rad));

@@ -54,7 +54,7 @@ void append_verdicts(HtmlPage& page, const calib::Report& report) {
 
 void append_heading(HtmlPage& page, const calib::Report& report, const analysis::CalibrateHistory& history) {
   calib::Correction estimates = accepted_estimates(report);
-  // The curve is shown before it is accepted, too, once there is something to see; the gyro must be.
+  // The curve is shown before it is accepted, too, if it is good enough; the gyro must be accepted.
   if (!estimates.compass) estimates.compass = report.estimates.compass;
   const auto residuals = analysis::heading_residuals(history.samples(), estimates);
   std::vector<Figure> figures;
@@ -86,7 +86,7 @@ void append_estimates(HtmlPage& page, const calib::Report& report) {
       std::vector<std::string> row{title, quantity.name, quantity.value, quantity.error, quantity.unit};
       row.insert(row.end(), facts.begin(), facts.end());
       rows.push_back(std::move(row));
-      // What is the same for all stands in the first row only.
+      // A cell that is the same in all rows is written in the first row only.
       title.clear();
       for (auto& fact : facts) fact.clear();
     }

@@ -13,7 +13,7 @@
 namespace navcal::report {
 namespace {
 
-/// How many times the floor a shade begins at.
+/// Multiple of the floor at which a shade begins.
 constexpr std::array kShades{0.0, 1.5, 3.0, 6.0, 12.0};
 constexpr double kMostShown = 999;
 

@@ -50,7 +50,7 @@ void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {
     }
     page.table({"Channel", "Follows", "Gap", "Nominal vehicle", "By chance"}, rows);
   }
-  // Side by side the map would be cut.
+  // In two columns the map would be cut off.
   if (auto figure = map_figure(diagnosis)) page.figures({std::move(*figure)});
   if (auto figure = track_figure(diagnosis)) page.figures({std::move(*figure)});
 }

@@ -22,7 +22,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + ", " + unit;
 }
 
-/// As many as all have; fewer where there are too many to be seen.
+/// Number of intervals: all of them, or fewer if there are too many to be visible.
 std::vector<Point> paired(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = std::min(x.size(), y.size());
   std::vector<Point> points;

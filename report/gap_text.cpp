@@ -14,10 +14,10 @@ namespace navcal::report {
 namespace {
 
 constexpr std::string_view kPlusMinusText = "+-", kArrowText = "->";
-constexpr std::size_t kTitleWidth = 17;  ///< column where what is said begins
+constexpr std::size_t kTitleWidth = 17;  ///< column at which the text begins
 constexpr std::size_t kMostWhere = 5, kMostCandidates = 5;
 
-/// A title in the left column; on the lines below it is empty.
+/// Title in the left column; empty on the following lines.
 void begin(std::string& out, std::string_view title) { append_format(out, "{:<{}}", title, kTitleWidth); }
 
 void append_lines(std::string& out, std::string_view title, const std::vector<std::string>& lines) {
@@ -45,7 +45,7 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
   }
 }
 
-/// Without a probability where that is only a share among effects of which none explains the recording.
+/// Text without a probability, if that is only a share among effects of which none explains the recording.
 void append_effect(std::string& out, const gap::EffectFinding& effect, bool with_probability) {
   constexpr std::size_t kIndent = kTitleWidth + 2;
   out += effect.name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the vehicle was, and where the model would have gone.
+// Track of the vehicle, and track of the model.
 #include <vector>
 
 #include "report/gap_figures.h"
@@ -20,7 +20,7 @@ std::vector<Point> points_of(const gap::Track& track) {
 
 }  // namespace
 
-/// A metre is as long to the north as to the east.
+/// Both axes have the same scale, a metre north as long as a metre east.
 std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   if (!diagnosis.tracks || diagnosis.tracks->fixes.time_s.empty()) return std::nullopt;
   const gap::Tracks& tracks = *diagnosis.tracks;

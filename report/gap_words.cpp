@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kNoNumber = "-";
 
-/// As a shell takes it.
+/// The text quoted for a shell.
 std::string quoted(const std::string& file) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-+=,:@%";
   if (!file.empty() && file.find_first_not_of(kPlain) == std::string::npos) return file;
@@ -114,7 +114,7 @@ std::string text_of(const gap::Confusion& confusion) {
 }
 
 std::string closed_text(const gap::Closure& closure) {
-  // Further below zero the digits of a share mean nothing: what is left has grown.
+  // Further below zero the digits of a share have no meaning: the residuals have grown.
   constexpr double kGrows = -1;
   if (!closure.closed || !std::isfinite(*closure.closed)) return "nothing to close";
   if (*closure.closed < kGrows) return "grows";
@@ -167,7 +167,7 @@ std::string text_of(const gap::ChangePoint& change, std::string_view arrow) {
 std::vector<std::string> instruments_alone_lines(const calib::Report& report, std::string_view plus_minus) {
   std::vector<std::string> lines;
   for (const auto& calibrator : report.calibrators) {
-    if (calibrator.calibrator == calib::Calibrator::swing) continue;  // begun by the operator only
+    if (calibrator.calibrator == calib::Calibrator::swing) continue;  // only an operator can begin it
     std::string line = fmt::format("{}: ", title_of(calibrator.calibrator));
     if (calibrator.outcome == calib::Outcome::refused) {
       lines.push_back(line + "not determined, " + objection_of(calibrator));

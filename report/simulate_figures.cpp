@@ -40,7 +40,7 @@ std::vector<Point> fixes_of(const analysis::SimulatedSeries& series, const sim::
   return points;
 }
 
-/// A metre is as long to the north as to the east.
+/// Both axes have the same scale, a metre north as long as a metre east.
 Figure track(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
   constexpr double kTrackSide = 460, kLeastLength_m = 2;
   std::vector<Point> way;

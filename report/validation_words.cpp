@@ -11,7 +11,7 @@ std::string quantity(double value, const std::string& unit) {
   return unit.empty() ? fmt::format("{:.3f}", value) : fmt::format("{:.1f} {}", value, unit);
 }
 
-/// A target as people write it.
+/// Text of a target.
 std::string goal(double value, const std::string& unit) {
   if (unit == "%") return fmt::format("{:.3g} %", 100 * value);
   return unit.empty() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, unit);
