@@ -41,7 +41,7 @@ std::string_view needs_of(Calibrator calibrator) {
   return "a compass and an inertial card (protocol imu-card)";
 }
 
-/// What stands against it and what would help, in one sentence for people.
+/// Objection and remedy, in one sentence for users.
 std::string reason_of(const calib::CalibratorReport* report, Calibrator calibrator) {
   if (report == nullptr) return "the recording lacks an instrument: it takes " + std::string(needs_of(calibrator));
   if (report->outcome == calib::Outcome::no_better) {

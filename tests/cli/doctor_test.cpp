@@ -23,7 +23,7 @@ class Doctor : public testing::Test {
     arguments.insert(arguments.end(), options.begin(), options.end());
     return test::run_command(add_doctor, arguments);
   }
-  /// Of a daemon on a pseudo-terminal, with its log here and a status port that nobody else takes.
+  /// Configuration of a daemon on a pseudo-terminal, with its log here and a status port that is not in use.
   [[nodiscard]] std::string healthy() const {
     return "[log]\ndirectory = \"" + folder_.path().string() +
            "\"\nrotate_MB = 16\nfree_floor_MB = 0\n[status]\nport = 1\n[port.compass]\nprotocol = \"tcm2\"\npath "

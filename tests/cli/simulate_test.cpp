@@ -85,7 +85,7 @@ TEST_F(Simulate, TheTruthDrivesTheVehicleToTheSamePlaceAgain) {
     std::string x, y;
     std::getline(one, x, ',');
     std::getline(two, y, ',');
-    // What drives holds the fins over a step, as the reference paths were made; a mission lets them move on.
+    // A drive holds the fins over a step, as the reference paths were made; a mission lets them move.
     EXPECT_NEAR(std::stod(x), std::stod(y), 5e-4) << a << '\n' << b;
   }
 }
