@@ -82,7 +82,7 @@ void CalibrateRun::begin_recording(const std::string& file, std::int64_t time_ns
   if (pipeline_->calibrates() && pipeline_->restore_calibration(state)) {
     pipeline_->begin_calibration_run();
   } else if (pipeline_->calibrates()) {
-    remarks_.push_back(file + ": what the files before it taught was lost");
+    remarks_.push_back(file + ": the estimates from the files before it were lost");
   }
   if (history_ != nullptr) history_->begin_recording();
   newest_ns_ = time_ns;

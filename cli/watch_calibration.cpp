@@ -133,10 +133,10 @@ void WatchCalibration::append(std::string& out) const {
   std::vector<std::string> lines;
   for (const auto& [name, calibrator] : calibrators_) append_calibrator(lines, name, calibrator);
   append_tcm2(lines, tcm2_);
-  fmt::format_to(std::back_inserter(out), "calibration in force: {}", name_);
+  fmt::format_to(std::back_inserter(out), "active calibration: {}", name_);
   if (heading_.is_object() && number(heading_, "blocks") > 0) {
     fmt::format_to(std::back_inserter(out),
-                   "; heading held out: {} deg raw, {} in force, {} by the newest estimates",
+                   "; held-out heading: {} deg raw, {} active, {} by the newest estimates",
                    shown(number(heading_, "before_rms_deg"), 2), shown(number(heading_, "in_force_rms_deg"), 2),
                    shown(number(heading_, "after_rms_deg"), 2));
   }

@@ -24,7 +24,7 @@ void Calibrations::begin(std::int64_t now_ns) {
     if (pipeline_.restore_calibration(*state)) {
       pipeline_.begin_calibration_run();
     } else {
-      store_.reject("it is of another version of the program");
+      store_.reject("it was written by another version of the program");
     }
   }
   log_.calib(now_ns, beginning(now_ns));

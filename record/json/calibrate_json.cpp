@@ -19,12 +19,12 @@ Json value_of(const calib::CalibratorReport* report, std::string_view name, doub
   return quantity == nullptr ? Json(nullptr) : number_json(quantity->*which * unit);
 }
 
-/// What stands against it and what would help, in one sentence for people.
+/// Objection and remedy, in one sentence for users.
 std::string reason_of(const calib::CalibratorReport* report, Calibrator calibrator) {
   if (report == nullptr)
     return "the recording lacks an instrument: it takes " + std::string(calib::row_of(calibrator).needs_text);
   if (report->outcome == calib::Outcome::no_better) {
-    return "readings that had no part in the estimate are no better with it than before";
+    return "the data support the estimate, but held-out readings are no better with it";
   }
   const auto& judgement = report->judgement;
   if (judgement.accepted || judgement.manoeuvre.empty()) return judgement.reason;
