@@ -29,7 +29,8 @@ Magnetometer::Parameters field_parameters(const SuiteOptions& options) {
   parameters.gyro.rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s;
   parameters.ellipsoid.noise_uT = options.field_noise_uT;
   parameters.ellipsoid.known = options.local_field.known;
-  parameters.tilt_lag_s = std::max(options.tilt_lag_s, parameters.tilt_lag_s);
+  parameters.ellipsoid.tilt_noise_rad = options.tilt_noise_rad;
+  if (options.tilt_lag_s > 0) parameters.tilt_lag_s = options.tilt_lag_s;  // else accelerometers show the tilt
   return parameters;
 }
 
@@ -40,6 +41,7 @@ DelayEstimator::Parameters delay_parameters(const SuiteOptions& options) {
   parameters.field.field_noise_uT = options.field_noise_uT;
   parameters.course.velocity_std_m_s = options.velocity_noise_m_s;
   parameters.tilt_lag_s = options.tilt_lag_s;
+  parameters.tilt_noise_rad = options.tilt_noise_rad;
   return parameters;
 }
 
@@ -47,7 +49,9 @@ DelayEstimator::Parameters delay_parameters(const SuiteOptions& options) {
 
 Estimators::Estimators(const SuiteOptions& options)
     : options_(options),
-      turns_({.tilt_lag_s = options.tilt_lag_s, .rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s}),
+      turns_({.tilt_lag_s = options.tilt_lag_s,
+              .tilt_noise_rad = options.tilt_noise_rad,
+              .rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s}),
       gyro_(TurnCalibrator::Subject::gyro, turn_parameters(options)),
       gyro_b_(TurnCalibrator::Subject::gyro, turn_parameters(options)),
       compass_(TurnCalibrator::Subject::compass, turn_parameters(options)),
@@ -181,9 +185,11 @@ void Estimators::learn_field(const TurnedReading& turned) {
   // Where the gyros are known, without the inclinometer's lag.
   field.roll_rad = turned.turn ? turned.turn->roll_rad : reading.roll_rad.value_or(NAN);
   field.pitch_rad = turned.turn ? turned.turn->pitch_rad : reading.pitch_rad.value_or(NAN);
-  // Smoothed tilt is several times as good as a reading of an inclinometer of 0.1 degrees.
-  constexpr double kRestoredTilt_rad = 0.0005, kShownTilt_rad = 0.0018;
-  if (turned.turn) magnetometer_.set_tilt_noise(turned.turn->tilt_restored ? kRestoredTilt_rad : kShownTilt_rad);
+  // Smoothed tilt is several times as good as a reading of the inclinometer.
+  constexpr double kSmoothing = 3.6;
+  if (turned.turn) {
+    magnetometer_.set_tilt_noise(options_.tilt_noise_rad / (turned.turn->tilt_restored ? kSmoothing : 1));
+  }
   field.has_turn = turned.turn.has_value();
   if (turned.turn) field.turn = *turned.turn;
   field.time_s = reading.time_s;
