@@ -12,6 +12,7 @@
 #include "calib/correction.h"
 #include "gap/replay/estimator_gains.h"
 #include "sim/rotation.h"
+#include "sim/vehicle/steady_advance.h"
 
 namespace navcal::gap {
 namespace {
@@ -86,8 +87,8 @@ void ReplayRun::begin(const CardReading& reading) {
   body_ = {};
   body_.euler_rad = {word.roll_rad, word.pitch_rad, heading_rad + variation_rad};
   body_.position_m.z() = reading.depth_m;
-  constexpr double kAdvance_m = 0.087;  // a turn of the shaft, at a steady speed
-  body_.velocity[0] = kAdvance_m * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
+  body_.velocity[0] =
+      sim::steady_advance_m(in_.settings) * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
   gyro_said_rad_s_ = about_axes(reading.gyro_rad_s);
   gyro_error_rad_s_ = gyro_error_at_rest_rad_s_;
   body_.velocity.tail<3>() = base::vector_of(gyro_said_rad_s_) - base::vector_of(gyro_error_rad_s_);
