@@ -32,8 +32,11 @@ const config::PortSettings* port_of(const config::Settings& settings, Role role,
 
 Timing timing_of(const config::PortSettings* port, const Timing& usual) {
   if (port == nullptr) return usual;
-  Timing timing{port->latency_s, port->latency_std_s, port->rate_Hz > 0 ? port->rate_Hz : usual.rate_Hz};
-  if (port->protocol == Protocol::nmea && timing.latency_s == 0) {
+  Timing timing{port->latency_s, port->latency_std_s, port->rate_Hz > 0 ? port->rate_Hz : usual.rate_Hz,
+                port->baud};
+  if (port->protocol != Protocol::nmea) return timing;
+  timing.baud = usual.baud;  // of another kind of frames
+  if (timing.latency_s == 0) {
     timing.latency_s = usual.latency_s;
     timing.latency_std_s = usual.latency_std_s;
   }
@@ -42,9 +45,9 @@ Timing timing_of(const config::PortSettings* port, const Timing& usual) {
 
 }  // namespace
 
-Timing usual_timing(Protocol protocol) {
-  const config::PortSettings port = config::default_port("", protocol, config::default_baud(protocol));
-  return {port.latency_s, port.latency_std_s, port.rate_Hz};
+Timing usual_timing(Protocol protocol, int baud) {
+  const config::PortSettings port = config::default_port("", protocol, baud);
+  return {port.latency_s, port.latency_std_s, port.rate_Hz, port.baud};
 }
 
 double rounded_noise(double noise, double resolution) { return std::hypot(noise, resolution / std::sqrt(12.0)); }

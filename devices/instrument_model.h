@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "base/angles.h"
 #include "config/settings.h"
 #include "protocols/frame.h"
@@ -18,16 +20,17 @@ struct Timing {
   double latency_s = 0;      ///< from the measurement to the first byte on the wire
   double latency_std_s = 0;  ///< its uncertainty
   double rate_Hz = 0;        ///< frames a second; positive
+  std::int64_t baud = 0;     ///< line speed, bit/s; 64 bits, so that no gap lies between the members
 };
 
-/// The usual timing of the device that speaks `protocol` (config::default_port).
-[[nodiscard]] Timing usual_timing(protocols::Protocol protocol);
+/// The usual timing of the device that speaks `protocol` (config::default_port), at this line speed.
+[[nodiscard]] Timing usual_timing(protocols::Protocol protocol, int baud);
 
 /// TCM2. Resolutions are those of its words.
 struct CompassModel : config::CompassAccuracy {
   double heading_resolution_deg = 0.1;
   double tilt_resolution_deg = 0.1;
-  Timing timing = usual_timing(protocols::Protocol::tcm2);
+  Timing timing = usual_timing(protocols::Protocol::tcm2, 38400);
 
   /// Roll or pitch: noise of a reading, with what rounding adds, rad.
   [[nodiscard]] double tilt_reading_noise_rad() const;
@@ -38,12 +41,12 @@ struct CompassModel : config::CompassAccuracy {
 /// Inertial card with gyros, accelerometers and depth gauge.
 struct ImuModel : config::ImuAccuracy {
   config::ImuCardSettings channels;  ///< zeros and scales of this unit
-  Timing timing = usual_timing(protocols::Protocol::imu_card);
+  Timing timing = usual_timing(protocols::Protocol::imu_card, 57600);
 };
 
 /// Receiver: a fix at each full second.
 struct GpsModel : config::GpsAccuracy {
-  Timing timing = usual_timing(protocols::Protocol::oncore);
+  Timing timing = usual_timing(protocols::Protocol::oncore, 9600);
 
   /// How many times the noise of a settled fix the fix `number` since sight of the sky has: the first ones come
   /// from few satellites. `number` counts from 0.
@@ -56,7 +59,7 @@ struct GpsModel : config::GpsAccuracy {
 struct MotorModel : config::MotorAccuracy {
   double fin_resolution_deg = protocols::motor_card::kFinStep_deg;
   double current_resolution_A = protocols::motor_card::kCurrentStep_A;
-  Timing timing = usual_timing(protocols::Protocol::motor_card);
+  Timing timing = usual_timing(protocols::Protocol::motor_card, 19200);
 
   /// A reported fin angle: its noise with what rounding adds, rad.
   [[nodiscard]] double fin_report_noise_rad() const;
@@ -70,8 +73,8 @@ struct InstrumentModel {
 };
 
 /// The instruments as a configuration states them: the table [instruments], and of the port that serves each
-/// instrument (named in [roles], else the first) its latency, rate, zeros and scales. What no port states is the
-/// reference instrument's; an NMEA port that states no latency or rate states none.
+/// instrument (named in [roles], else the first) its latency, rate, line speed, zeros and scales. What no port
+/// states is the reference instrument's; an NMEA port that states no latency or rate states none.
 [[nodiscard]] InstrumentModel instrument_model(const config::Settings& settings);
 
 /// The same instruments without noise and turn-on bias; resolution, lag and timing stay.

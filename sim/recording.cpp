@@ -32,9 +32,9 @@ devices::InstrumentModel model_of(const Recording::Options& options) {
   return model;
 }
 
-config::PortSettings recording_port(std::string name, protocols::Protocol protocol, int baud,
+config::PortSettings recording_port(std::string name, protocols::Protocol protocol,
                                     const devices::Timing& timing) {
-  config::PortSettings port = config::default_port(std::move(name), protocol, baud);
+  config::PortSettings port = config::default_port(std::move(name), protocol, static_cast<int>(timing.baud));
   port.latency_s = timing.latency_s;
   port.latency_std_s = timing.latency_std_s;
   port.rate_Hz = timing.rate_Hz;
@@ -45,11 +45,10 @@ config::PortSettings recording_port(std::string name, protocols::Protocol protoc
 
 std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments) {
   using protocols::Protocol;
-  std::vector<config::PortSettings> ports{
-      recording_port("compass", Protocol::tcm2, 38400, instruments.compass.timing),
-      recording_port("imu", Protocol::imu_card, 57600, instruments.imu.timing),
-      recording_port("gps", Protocol::oncore, 9600, instruments.gps.timing),
-      recording_port("motor", Protocol::motor_card, 19200, instruments.motor.timing)};
+  std::vector<config::PortSettings> ports{recording_port("compass", Protocol::tcm2, instruments.compass.timing),
+                                          recording_port("imu", Protocol::imu_card, instruments.imu.timing),
+                                          recording_port("gps", Protocol::oncore, instruments.gps.timing),
+                                          recording_port("motor", Protocol::motor_card, instruments.motor.timing)};
   ports[1].imu_card = instruments.imu.channels;
   return ports;
 }
@@ -67,24 +66,28 @@ Recording::Recording(const Options& options, const Motion& motion)
   Tcm2::Options compass;
   compass.go_at_power_on = compass.field_at_power_on = true;
   compass.sensor.compass = model.compass;
+  compass.baud = static_cast<int>(model.compass.timing.baud);
   compass.seed = seed();
   compass.sensor.effects = &effects_;
   compass.clock_ppm = clock_ppm(options.clocks, "compass", compass.clock_ppm);
   add(Instrument::compass, std::make_unique<Tcm2>(compass, motion));
   ImuCard::Options card;
   card.imu = model.imu;
+  card.baud = static_cast<int>(model.imu.timing.baud);
   card.seed = seed();
   card.effects = &effects_;
   card.clock_ppm = clock_ppm(options.clocks, "imu", card.clock_ppm);
   add(Instrument::imu, std::make_unique<ImuCard>(card, motion));
   Oncore::Options receiver;
   receiver.receiver.gps = model.gps;
+  receiver.baud = static_cast<int>(model.gps.timing.baud);
   receiver.seed = seed();
   receiver.receiver.effects = &effects_;
   receiver.receiver.origin = options.origin;
   add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
   MotorCard::Options motor;
   motor.motor = model.motor;
+  motor.baud = static_cast<int>(model.motor.timing.baud);
   motor.seed = seed();
   motor.effects = &effects_;
   motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);

@@ -92,6 +92,7 @@ TEST(InstrumentModel, TakesLatencyRateZerosAndScalesOfThePorts) {
     EXPECT_EQ(timings[i].latency_s, settings.ports[i].latency_s);
     EXPECT_EQ(timings[i].latency_std_s, settings.ports[i].latency_std_s);
     EXPECT_EQ(timings[i].rate_Hz, settings.ports[i].rate_Hz);
+    EXPECT_EQ(timings[i].baud, settings.ports[i].baud);
   }
   EXPECT_EQ(model.imu.channels, settings.ports[1].imu_card);
 }
@@ -122,6 +123,7 @@ TEST(InstrumentModel, ADeviceWithoutLatencyHasNoneAndAnNmeaPortThatStatesNoneIsU
   EXPECT_EQ(model.compass.timing.rate_Hz, 10);
   EXPECT_EQ(model.gps.timing.latency_s, 0.3);
   EXPECT_EQ(model.gps.timing.rate_Hz, 1);
+  EXPECT_EQ(model.gps.timing.baud, 9600);
   settings.ports[1].latency_s = 0.12;
   EXPECT_EQ(instrument_model(settings).gps.timing.latency_s, 0.12);
 }

@@ -125,7 +125,7 @@ TEST(SimulatedInstruments, TheCardHasTheZerosScalesAndLatencyOfItsPort) {
   } const motion;
   ImuCard::Options options;
   options.imu = devices::without_noise({}).imu;
-  options.imu.timing = {.latency_s = 0.2, .latency_std_s = 0, .rate_Hz = 50};
+  options.imu.timing = {.latency_s = 0.2, .latency_std_s = 0, .rate_Hz = 50, .baud = 57600};
   options.imu.channels.zero_mV[7] = 300;
   options.imu.channels.scale[7] = 100;
   ImuCard card(options, motion);
@@ -142,6 +142,7 @@ TEST(SimulatedInstruments, TheCardHasTheZerosScalesAndLatencyOfItsPort) {
 TEST(SimulatedInstruments, ARecordingHasTheRatesLatenciesAndPortsOfItsModel) {
   devices::InstrumentModel model;
   model.compass.timing.rate_Hz = 5;
+  model.compass.timing.baud = 9600;
   model.imu.timing.rate_Hz = 50;
   model.imu.timing.latency_s = 0.04;
   model.imu.channels.scale[0] = 20;
@@ -149,6 +150,7 @@ TEST(SimulatedInstruments, ARecordingHasTheRatesLatenciesAndPortsOfItsModel) {
   const auto ports = recording_ports(model);
   EXPECT_EQ(ports[0].rate_Hz, 5);
   EXPECT_EQ(ports[1].latency_s, 0.04);
+  EXPECT_EQ(ports[0].baud, 9600);
   EXPECT_EQ(ports[1].imu_card, model.imu.channels);
 
   const Still motion;
