@@ -13,7 +13,7 @@
 namespace navcal::pipeline {
 namespace {
 
-config::Settings compass_and_card() {
+config::Settings instruments_of_two_ports() {
   config::Settings settings;
   settings.ports = {config::default_port("compass", protocols::Protocol::tcm2, 38400),
                     config::default_port("imu", protocols::Protocol::imu_card, 57600)};
@@ -25,7 +25,7 @@ calib::SuiteOptions options_of(const config::Settings& settings) {
 }
 
 TEST(InstrumentOptions, ReferenceInstrumentsGiveTheReferenceNoise) {
-  const calib::SuiteOptions options = options_of(compass_and_card());
+  const calib::SuiteOptions options = options_of(instruments_of_two_ports());
   EXPECT_EQ(options.heading_noise_rad, 0.5 * base::kRadiansPerDegree);
   EXPECT_EQ(options.field_noise_uT, 0.2);
   EXPECT_EQ(options.tilt_noise_rad, 0.0018);
@@ -36,7 +36,7 @@ TEST(InstrumentOptions, ReferenceInstrumentsGiveTheReferenceNoise) {
 }
 
 TEST(InstrumentOptions, CalibratorsFollowTheInstruments) {
-  config::Settings settings = compass_and_card();
+  config::Settings settings = instruments_of_two_ports();
   const calib::SuiteOptions usual = options_of(settings);
   settings.instruments.compass.field_noise_uT *= 3;
   settings.instruments.compass.tilt_lag_s = 0.1;
@@ -56,7 +56,7 @@ TEST(InstrumentOptions, CalibratorsFollowTheInstruments) {
 }
 
 TEST(InstrumentOptions, ANoisierInclinometerIsReckonedWith) {
-  config::Settings settings = compass_and_card();
+  config::Settings settings = instruments_of_two_ports();
   const calib::SuiteOptions usual = options_of(settings);
   settings.instruments.compass.tilt_noise_rad *= 10;
   EXPECT_GT(options_of(settings).tilt_noise_rad, 9 * usual.tilt_noise_rad);
@@ -64,7 +64,7 @@ TEST(InstrumentOptions, ANoisierInclinometerIsReckonedWith) {
 }
 
 TEST(InstrumentOptions, NoiseThatTheConfigurationStatesForTheCalibratorsCounts) {
-  config::Settings settings = compass_and_card();
+  config::Settings settings = instruments_of_two_ports();
   settings.instruments.compass.field_noise_uT *= 3;
   settings.calibration.heading_noise_rad = 0.02;
   settings.calibration.field_noise_uT = 0.7;
@@ -73,7 +73,7 @@ TEST(InstrumentOptions, NoiseThatTheConfigurationStatesForTheCalibratorsCounts) 
 }
 
 TEST(InstrumentOptions, NavigationTakesTheLagOfTheInclinometer) {
-  config::Settings settings = compass_and_card();
+  config::Settings settings = instruments_of_two_ports();
   EXPECT_EQ(navigation_options(settings).attitude.tilt_lag_s, 0.3);
   settings.instruments.compass.tilt_lag_s = 0.1;
   EXPECT_EQ(navigation_options(settings).attitude.tilt_lag_s, 0.1);

@@ -50,7 +50,9 @@ Steered steered(double restless_deg) {
   return result;
 }
 
-FinOrders orders_of(const Steered& helm) { return {helm.readings, regular_orders(0, kDuration_s), kFinLag_s, kReport_rad}; }
+FinOrders orders_of(const Steered& helm) {
+  return {helm.readings, regular_orders(0, kDuration_s), kFinLag_s, kReport_rad};
+}
 
 /// Root mean square of what moves within a tenth of a second beyond the second around it, degrees.
 double restlessness(const std::vector<Vector3>& path, std::size_t fin) {

@@ -17,7 +17,7 @@
 namespace navcal::gap {
 namespace {
 
-double rms(const Innovations& innovations, Channel channel) {
+double instrument_rms(const Innovations& innovations, Channel channel) {
   constexpr Eigen::Index kSettled = 300;
   double square = 0;
   int count = 0;
@@ -42,8 +42,10 @@ TEST(GapInstruments, TheReplayPredictsWithTheLagOfTheRecording) {
   const devices::InstrumentModel usual;
   const Mission of_slow = test::simulated_mission("identification", "", 120, 3, slow);
   const Mission of_usual = test::simulated_mission("identification", "", 120, 3, usual);
-  EXPECT_GT(rms(residuals_of(of_slow, usual), tilt_pitch), 1.5 * rms(residuals_of(of_slow, slow), tilt_pitch));
-  EXPECT_GT(rms(residuals_of(of_usual, slow), tilt_pitch), 1.5 * rms(residuals_of(of_usual, usual), tilt_pitch));
+  EXPECT_GT(instrument_rms(residuals_of(of_slow, usual), tilt_pitch),
+            1.5 * instrument_rms(residuals_of(of_slow, slow), tilt_pitch));
+  EXPECT_GT(instrument_rms(residuals_of(of_usual, slow), tilt_pitch),
+            1.5 * instrument_rms(residuals_of(of_usual, usual), tilt_pitch));
 }
 
 TEST(GapInstruments, NullMissionsAreAsNoisyAndAsLateAsTheRecordingsInstruments) {
@@ -64,8 +66,8 @@ TEST(GapInstruments, NullMissionsAreAsNoisyAndAsLateAsTheRecordingsInstruments) 
   EXPECT_EQ(null.instruments.compass.field_noise_uT, other.compass.field_noise_uT);
   EXPECT_NEAR(static_cast<double>(null.card.size()) / static_cast<double>(usual.card.size()), 0.5, 0.02);
   const Innovations quiet = Replay(usual, {}).run({}), loud = Replay(null, {}).run({});
-  EXPECT_NEAR(rms(loud, field_z) / rms(quiet, field_z), 6, 1.5);
-  EXPECT_GT(rms(loud, depth) / rms(quiet, depth), 4);
+  EXPECT_NEAR(instrument_rms(loud, field_z) / instrument_rms(quiet, field_z), 6, 1.5);
+  EXPECT_GT(instrument_rms(loud, depth) / instrument_rms(quiet, depth), 4);
 }
 
 TEST(GapInstruments, TheNominalWhiteningIsTheNoiseOfTheMeanOfAnInterval) {

@@ -21,16 +21,16 @@
 namespace navcal::sim::testing {
 namespace {
 
-Tcm2Sensor::Options sensor_with(const devices::CompassModel& compass) {
+Tcm2Sensor::Options model_sensor_with(const devices::CompassModel& compass) {
   Tcm2Sensor::Options options;
   options.compass = compass;
   return options;
 }
 
 /// Readings ten times a second by one seed.
-std::vector<Tcm2Reading> compass_readings(const devices::CompassModel& compass) {
+std::vector<Tcm2Reading> model_compass_readings(const devices::CompassModel& compass) {
   const Still motion;
-  Tcm2Sensor sensor(sensor_with(compass), motion, 7);
+  Tcm2Sensor sensor(model_sensor_with(compass), motion, 7);
   sensor.power_on(kStart_ns);
   std::vector<Tcm2Reading> readings;
   for (int i = 1; i <= 50; ++i) readings.push_back(sensor.measure(kStart_ns + i * kSecond_ns / 10));
@@ -42,8 +42,8 @@ TEST(SimulatedInstruments, TheCompassIsAsNoisyAsItsModelSays) {
   noisy.field_noise_uT *= 3;
   noisy.tilt_noise_rad *= 5;
   noisy.temperature_noise_C *= 2;
-  const auto exact = compass_readings(devices::without_noise({}).compass);
-  const auto once = compass_readings(usual), more = compass_readings(noisy);
+  const auto exact = model_compass_readings(devices::without_noise({}).compass);
+  const auto once = model_compass_readings(usual), more = model_compass_readings(noisy);
   for (std::size_t i = 0; i < exact.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_NEAR(more[i].field_uT[k] - exact[i].field_uT[k], 3 * (once[i].field_uT[k] - exact[i].field_uT[k]),
@@ -61,7 +61,7 @@ TEST(SimulatedInstruments, TheFluidFollowsWithTheLagOfTheModel) {
     Still motion;
     devices::CompassModel compass = devices::without_noise({}).compass;
     compass.tilt_lag_s = lag_s;
-    Tcm2Sensor sensor(sensor_with(compass), motion, 1);
+    Tcm2Sensor sensor(model_sensor_with(compass), motion, 1);
     sensor.power_on(kStart_ns);
     motion.state.euler_rad = {0.2, 0, 0};
     const double roll_rad = sensor.measure(kStart_ns + std::llround(lag_s * 1e9)).roll_rad;
@@ -74,13 +74,13 @@ TEST(SimulatedInstruments, AnInclinometerWithoutLagFollowsAtOnce) {
   Still motion;
   devices::CompassModel compass = devices::without_noise({}).compass;
   compass.tilt_lag_s = 0;
-  Tcm2Sensor sensor(sensor_with(compass), motion, 1);
+  Tcm2Sensor sensor(model_sensor_with(compass), motion, 1);
   sensor.power_on(kStart_ns);
   motion.state.euler_rad = {0.2, 0, 0};
   EXPECT_EQ(sensor.measure(kStart_ns + 20'000'000).roll_rad, 0.2);
 }
 
-std::vector<std::array<double, 8>> card_records(const devices::ImuModel& imu) {
+std::vector<std::array<double, 8>> model_card_records(const devices::ImuModel& imu) {
   const Still motion;
   ImuCard::Options options;
   options.imu = imu;
@@ -103,8 +103,8 @@ TEST(SimulatedInstruments, TheCardIsAsNoisyAsItsModelSays) {
   noisy.turn_on_bias_rad_s *= 4;
   noisy.force_noise_m_s2 *= 2;
   noisy.depth_noise_m *= 3;
-  const auto exact = card_records(devices::without_noise({}).imu), once = card_records(usual),
-             more = card_records(noisy);
+  const auto exact = model_card_records(devices::without_noise({}).imu), once = model_card_records(usual),
+             more = model_card_records(noisy);
   ASSERT_EQ(once.size(), more.size());
   constexpr std::array<double, 8> kFactors{4, 4, 4, 4, 2, 2, 2, 3};
   for (std::size_t i = 0; i < once.size(); ++i) {
