@@ -16,9 +16,9 @@ struct GapSource {
   std::string mission;
   std::vector<std::string> holdouts;
   std::string vehicle;  ///< empty: the reference vehicle
-  std::string config;   ///< of all recordings; empty: their own
   std::vector<std::string> excluded;
   std::string effects_file;  ///< written with --effects-out; empty: not
+  std::string config{};      ///< of all recordings; empty: their own
 };
 
 /// "no gap", "explained", "unknown".
