@@ -17,7 +17,7 @@
 namespace navcal::cli {
 namespace {
 
-const std::string kPort = "[port.compass]\nprotocol = \"tcm2\"\npath = \"/dev/ttyS0\"\n";
+const std::string kPort = "[port.compass]\nprotocol = \"tcm2\"\npath = \"/dev/ttyS0\"\nbaud = 38400\n";
 const std::string kPath = NAVCAL_SOURCE_DIR "/fixtures/paths/path3.csv";
 
 class Simulate : public testing::Test {
@@ -153,7 +153,7 @@ TEST_F(Simulate, RefusesWithTheReasonAndLeavesNothingBehind) {
             "--path " NAVCAL_SOURCE_DIR "/fixtures/paths/path3.csv --effect buoyancy=1 -o a.cap", 2,
             "buoyancy changes how the vehicle moves"},
            {"an instrument beyond its range", "--mission survey --config bad.toml -o a.cap", 3,
-            "bad.toml:5: instruments.compass_tilt_lag_s: -1 is out of range"},
+            "bad.toml:6: instruments.compass_tilt_lag_s: -1 is out of range"},
            {"no such configuration", "--mission survey --config none.toml -o a.cap", 3, "none.toml"},
            {"nowhere to write", "--mission survey --seconds 1 -o none/a.cap", 1, "none/a.cap"}}) {
     const auto outcome = run(std::string("navcal simulate ") + command);
