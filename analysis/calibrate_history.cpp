@@ -29,7 +29,8 @@ CalibrateHistory::CalibrateHistory(const config::Settings& settings)
     : ports_(pipeline::calibrated_ports(settings)),
       sources_(settings),
       gate_(pipeline::suite_options(settings, ports_).gate),
-      turns_({.tilt_lag_s = settings.calibration.tilt_lag_s}) {}
+      turns_({.tilt_lag_s = settings.instruments.compass.tilt_lag_s,
+              .tilt_noise_rad = pipeline::reckoned_noise(settings).tilt_rad}) {}
 
 double CalibrateHistory::seconds(const instruments::Sample& sample) {
   if (!origin_ns_) origin_ns_ = sample.stamp.validity_ns;

@@ -96,11 +96,11 @@ void CalibrateRun::begin_ordered() {
   }
 }
 
-void CalibrateRun::take(const record::Entry& entry, const std::vector<int>& ports) {
+void CalibrateRun::take(const record::Entry& entry, const record::PortMatch& ports) {
   if (const auto* raw = std::get_if<record::RawRead>(&entry)) {
-    const int port = ports.at(raw->port);
-    if (raw->direction != record::Direction::received || port < 0) return;
-    pipeline_->bytes(static_cast<std::uint16_t>(port), newest_ns_, raw->bytes, sink_);
+    const auto port = ports[raw->port];
+    if (raw->direction != record::Direction::received || !port) return;
+    pipeline_->bytes(*port, newest_ns_, raw->bytes, sink_);
   } else if (const auto* change = std::get_if<record::MappingChange>(&entry)) {
     pipeline_->set_mapping(change->mapping, sink_);
   } else if (const auto* order = std::get_if<pipeline::CalibrationChange>(&entry)) {

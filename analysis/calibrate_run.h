@@ -10,6 +10,7 @@
 #include "calib/suite/report.h"
 #include "config/settings.h"
 #include "pipeline/pipeline.h"
+#include "record/port_matching.h"
 #include "record/recording.h"
 
 namespace navcal::analysis {
@@ -36,7 +37,7 @@ class CalibrateRun {
 
  private:
   void begin_recording(const std::string& file, std::int64_t time_ns);
-  void take(const record::Entry& entry, const std::vector<int>& ports);
+  void take(const record::Entry& entry, const record::PortMatch& ports);
   void at(const std::string& file, std::int64_t time_ns);
   void begin_ordered();
 

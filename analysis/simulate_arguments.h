@@ -9,6 +9,7 @@
 
 #include "analysis/place_arguments.h"
 #include "analysis/simulated_place.h"
+#include "devices/instrument_model.h"
 #include "sim/instruments/clock_factor.h"
 
 namespace navcal::analysis {
@@ -21,6 +22,7 @@ struct SimulateArguments {
   std::filesystem::path path, drive;
   std::string mission;
   std::filesystem::path vehicle;
+  std::filesystem::path config;      ///< of the instruments; empty: the reference instruments
   std::vector<std::string> effects;  ///< NAME=STRENGTH
   std::filesystem::path effects_file;
   std::vector<sim::ClockFactor> clocks;
@@ -32,6 +34,7 @@ struct SimulateArguments {
   // Begin that `where` determines; simulate() sets it.
   std::int64_t begin_ns = kSimulatedBegin_ns;
   SimulatedPlace place;
+  devices::InstrumentModel instruments;  ///< what `config` says
 };
 
 }  // namespace navcal::analysis

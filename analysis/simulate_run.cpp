@@ -31,7 +31,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   std::optional<record::WholeFile> truth;
   if (!arguments.truth.empty()) truth.emplace(arguments.truth);
 
-  record::CaptureWriter writer(sim::recording_ports());
+  record::CaptureWriter writer(sim::recording_ports(arguments.instruments));
   std::string text, rows;
   writer.begin(text);
   record::CaptureWriter::comment(text, arguments.place.field_event());
@@ -41,6 +41,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   sim::Recording::Options options{begin_ns, !arguments.no_noise, arguments.seed, &effects};
   options.clocks = arguments.clocks;
   options.origin = arguments.place.origin;
+  options.instruments = arguments.instruments;
   sim::Recording recording(options, *run.motion);
   std::vector<sim::LineRead> reads;
   std::int64_t truth_ns = begin_ns;

@@ -16,6 +16,7 @@
 #include "cli/gap_trial.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
+#include "config/load.h"
 #include "config/vehicle_file.h"
 #include "gap/verdict/request.h"
 #include "report/gap_effects_file.h"
@@ -59,6 +60,7 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   gap::Request request;
   request.mission = options.source.mission;
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
+  if (!options.source.config.empty()) request.settings = config::load(options.source.config);
   if (!options.source.vehicle.empty()) request.vehicle = config::load_vehicle(options.source.vehicle);
   request.excluded = options.source.excluded;
   request.field_uT = options.where.field_uT();
@@ -92,7 +94,7 @@ void find_gap(const GapCommandOptions& options) {
       if (!file.empty() && file != "-") expect_folder_of(file);
     }
     std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
-    inputs.insert(inputs.end(), {source.mission, source.vehicle});
+    inputs.insert(inputs.end(), {source.mission, source.vehicle, source.config});
     expect_no_overwriting(inputs, {options.json, options.report, source.effects_file});
     write_answers(diagnosis_of(options), options);
   } catch (const record::BadRecording& error) {
@@ -120,6 +122,10 @@ void add_gap(CLI::App& app) {
       ->option_text("FILE")
       ->allow_extra_args(false);
   command->add_option("--vehicle", source.vehicle, "the nominal vehicle, if it is not the reference vehicle")
+      ->option_text("FILE.toml");
+  command
+      ->add_option("--config", source.config,
+                   "configuration of all recordings, instead of their own: ports and instruments")
       ->option_text("FILE.toml");
   command
       ->add_option("--field", options->where.field,

@@ -70,15 +70,15 @@ bool is_daemon_start(const record::LoggedEvent& event) {
 
 /// Plays one file through the pipeline; files of one series may follow each other.
 void play(record::Recording& recording, const std::string& file, pipeline::Pipeline& pipeline, Printer& printer) {
-  const auto port_index = analysis::match_ports(recording.settings(), pipeline.settings(), file);
+  const auto ports = analysis::match_ports(recording.settings(), pipeline.settings(), file);
   std::int64_t newest_ns = 0;
   analysis::Progress progress("replay");
   while (const auto entry = recording.next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       newest_ns = std::max(newest_ns, raw->time_ns);
-      const int port = port_index.at(raw->port);
-      if (raw->direction == record::Direction::received && port >= 0) {
-        pipeline.bytes(static_cast<std::uint16_t>(port), raw->time_ns, raw->bytes, printer);
+      const auto port = ports[raw->port];
+      if (raw->direction == record::Direction::received && port) {
+        pipeline.bytes(*port, raw->time_ns, raw->bytes, printer);
       }
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, printer);

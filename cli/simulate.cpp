@@ -12,6 +12,8 @@
 #include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
+#include "config/load.h"
+#include "devices/instrument_model.h"
 #include "report/simulate_page.h"
 #include "sim/effects/choice.h"
 #include "sim/recording.h"
@@ -28,10 +30,19 @@ void run(const analysis::SimulateArguments& arguments) {
   sim::EffectSet effects = analysis::simulate_effects(arguments);
   const analysis::SimulatedRun run = analysis::simulate_motion(arguments, effects);
   std::optional<analysis::SimulateHistory> history;
-  if (!arguments.report.empty()) history.emplace(sim::recording_ports(), arguments.begin_ns, run.duration_s);
+  if (!arguments.report.empty())
+    history.emplace(sim::recording_ports(arguments.instruments), arguments.begin_ns, run.duration_s);
   analysis::write_simulation(arguments, run, effects, history ? &*history : nullptr);
   if (history) {
     write_result(arguments.report, report::simulate_page(*history, arguments, run, effects));
+  }
+}
+
+devices::InstrumentModel configured_instruments(const std::filesystem::path& file) {
+  try {
+    return devices::instrument_model(config::load(file));
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   }
 }
 
@@ -48,11 +59,12 @@ void simulate(SimulateCommandOptions& options) {
   if (arguments.capture.empty())
     throw analysis::Failure(analysis::Exit::usage, "-o FILE.cap is required: the recording");
   expect_not_ending(arguments.capture, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
-  expect_no_overwriting(
-      {arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.effects_file},
-      {arguments.capture, arguments.truth, arguments.report});
+  expect_no_overwriting({arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.config,
+                         arguments.effects_file},
+                        {arguments.capture, arguments.truth, arguments.report});
   arguments.begin_ns = arguments.where.day_ns().value_or(analysis::kSimulatedBegin_ns);
   arguments.place = analysis::simulated_place(arguments.where, arguments.begin_ns);
+  if (!arguments.config.empty()) arguments.instruments = configured_instruments(arguments.config);
   run(arguments);
 }
 
@@ -77,6 +89,10 @@ void add_simulate(CLI::App& app) {
       ->option_text("NAME|FILE")
       ->group(motion);
   command->add_option("--vehicle", arguments.vehicle, "the vehicle, if it is not the reference vehicle")
+      ->option_text("FILE.toml");
+  command
+      ->add_option("--config", arguments.config,
+                   "a configuration of navcald: noise, lag, latency, rate and scales of the instruments")
       ->option_text("FILE.toml");
   command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
       ->check(CLI::Range(0.01, 1e6));

@@ -35,6 +35,9 @@ struct OptionInfo {
   std::string_view text_rule{};                    ///< what a text must be, in words ...
   bool (*text_holds)(std::string_view) = nullptr;  ///< ... and in code
   std::vector<protocols::Protocol> only_for{};     ///< empty: every port
+  /// Another option that sets the same member: this key is still read, and no longer written. Empty: it is the
+  /// only one.
+  std::string_view moved_to{};
 
   [[nodiscard]] std::string name() const;
   /// "0.01 to 60 s", "true or false", "deg, mils or counts16".

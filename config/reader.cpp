@@ -159,6 +159,27 @@ void Reader::check_ports() {
   }
 }
 
+void Reader::check_instruments(const std::vector<Entry>& entries) {
+  const auto in_file = [&](std::string_view name) {
+    return std::find_if(entries.begin(), entries.end(),
+                        [&](const Entry& entry) { return entry.line != 0 && entry.name() == name; });
+  };
+  for (const auto& option : daemon_options()) {
+    if (option.moved_to.empty()) continue;
+    const auto old = in_file(option.name()), now = in_file(option.moved_to);
+    if (old == entries.end() || now == entries.end()) continue;
+    complain(*old, fmt::format("this is {} now, which is stated too (line {})", option.moved_to, now->line));
+  }
+  const GpsAccuracy& gps = settings_.instruments.gps;
+  if (gps.least_search_s <= gps.longest_search_s) return;
+  constexpr std::string_view kLongest = "instruments.gps_longest_search_s";
+  auto stated = in_file(kLongest);
+  if (stated == entries.end()) stated = in_file("instruments.gps_least_search_s");
+  problems_.push_back(
+      {stated == entries.end() ? 0 : stated->line, std::string(kLongest),
+       fmt::format("{} s is less than the shortest, {} s", gps.longest_search_s, gps.least_search_s)});
+}
+
 void Reader::check_roles() {
   std::vector<std::string> names;
   for (const PortSettings& port : settings_.ports) names.push_back(port.name);

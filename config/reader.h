@@ -19,6 +19,8 @@ class Reader {
   void check_ports();
   /// Roles given to ports that are missing or cannot deliver them.
   void check_roles();
+  /// A key that has moved beside the one that replaces it, and a longest time that is shorter than the shortest.
+  void check_instruments(const std::vector<Entry>& entries);
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] std::vector<Problem>& problems() { return problems_; }

@@ -57,6 +57,7 @@ std::string daemon_part() {
   std::string out;
   std::string_view table;
   for (const auto& option : daemon_options()) {
+    if (!option.moved_to.empty()) continue;
     if (option.table != table) {
       table = option.table;
       out += fmt::format("\n# {}\n[{}]\n", table_description(table), table);
@@ -106,6 +107,7 @@ std::string markdown(const std::vector<Option<Owner>>& options, std::string_view
   std::string out;
   std::string_view table = "none yet";
   for (const auto& option : options) {
+    if (!option.moved_to.empty()) continue;
     if (option.table != table) {
       table = option.table;
       const std::string_view dot = prefix.empty() || table.empty() ? "" : ".";

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/instruments.h"
 #include "config/roles.h"
 #include "protocols/frame.h"
 
@@ -102,34 +103,31 @@ struct EnvironmentSettings {
   bool operator==(const EnvironmentSettings&) const = default;
 };
 
-/// What the calibrators must know of vehicle and instruments, and when their word is taken.
+/// What the calibrators must know beside the instruments (InstrumentSettings), and when their word is taken.
 struct CalibrationSettings {
   bool enabled = true;
-  bool automatic = true;      ///< estimates come into force by themselves
-  double margin = 0.1;        ///< by so much must they be better on readings held out, relative
-  double motor_settle_s = 2;  ///< magnetic readings are left out so long after the motor was switched
-  double heading_noise_rad = 0.008726646259971648;  ///< of one reading, like all of these: 0.5 degrees
-  double gyro_noise_rad_s = 0.0017453292519943296;  ///< 0.1 deg/s
-  double field_noise_uT = 0.2;
+  bool automatic = true;         ///< estimates come into force by themselves
+  double margin = 0.1;           ///< by so much must they be better on readings held out, relative
+  double motor_settle_s = 2;     ///< magnetic readings are left out so long after the motor was switched
+  double heading_noise_rad = 0;  ///< of one reading; 0: as the compass's field and tilt give it
+  double field_noise_uT = 0;     ///< likewise
   double bias_walk_rad_s = 0.00034906585039886593;  ///< std of the change in one second: 0.02 deg/s
-  double tilt_lag_s = 0.3;                          ///< of the compass's inclinometer
-  double position_noise_m = 1;
-  double velocity_noise_m_s = 0.1;
-  double current_m_s = 0.15;  ///< standard deviation of the water's, each axis
-  double advance_m = 0.0872;  ///< through the water for one revolution of the shaft; 0: not known
+  double current_m_s = 0.15;                        ///< standard deviation of the water's, each axis
+  /// Through the water for one revolution of the shaft; 0: not known.
+  double advance_m = base::reference::kAdvance_m;
 
   bool operator==(const CalibrationSettings&) const = default;
 };
 
-/// Dead reckoning between fixes. Way of a revolution, noise of fixes, currents and the tilt's lag are those of
-/// CalibrationSettings.
+/// Dead reckoning between fixes. Way of a revolution and currents are those of CalibrationSettings, noise of
+/// fixes and the tilt's lag those of InstrumentSettings.
 struct NavigationSettings {
   bool enabled = true;
   double interval_s = 1;                            ///< between reports
   double heading_error_rad = 0.087266462599716474;  ///< standard deviation, as the device says it: 5 degrees
   double heading_error_calibrated_rad = 0.017453292519943295;  ///< 1 degree
   double speed_error = 0.05;                                   ///< of the speed by the shaft, relative
-  double speed_lag_s = 0.9;                                    ///< of the vehicle's speed behind its shaft's
+  double speed_lag_s = base::reference::kSpeedLag_s;           ///< of the vehicle's speed behind its shaft's
 
   bool operator==(const NavigationSettings&) const = default;
 };
@@ -140,6 +138,7 @@ struct Settings {
   ControlSettings control;
   EnvironmentSettings environment;
   RoleSettings roles;
+  InstrumentSettings instruments;
   CalibrationSettings calibration;
   NavigationSettings navigation;
   std::vector<PortSettings> ports;

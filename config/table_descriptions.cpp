@@ -11,13 +11,17 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 11> kDescriptions{{
+constexpr std::array<Description, 12> kDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control", "The control socket: commands that change the daemon (calibrations, marks in the log)."},
     {"environment", "Where the vehicle is used."},
     {"roles",
      "The port for each quantity, if several deliver it. Another one takes over while that port is silent."},
+    {"instruments",
+     "What is known of the instruments beside their ports: noise (white, one standard deviation of a reading), "
+     "lag "
+     "and turn-on bias. Simulator, diagnosis, navigation and calibrators share it."},
     {"calibration", "The calibrators of compass and gyros (docs/calibration.md)."},
     {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
     {"",

@@ -34,6 +34,7 @@ std::string to_toml(const Settings& settings) {
   std::string out;
   std::string_view table;
   for (const auto& option : daemon_options()) {
+    if (!option.moved_to.empty()) continue;
     if (option.table != table) {
       table = option.table;
       out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", table);

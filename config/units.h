@@ -27,6 +27,8 @@ inline constexpr Unit kPercent{"%", 1, 100};
 inline constexpr Unit kDegreesPerSecond{"deg/s", std::numbers::pi, 180};
 inline constexpr Unit kMetres{"m"};
 inline constexpr Unit kHertz{"Hz"};
+inline constexpr Unit kCelsius{"C"};
+inline constexpr Unit kMetresPerSecondSquared{"m/s2"};
 inline constexpr Unit kMicrotesla{"uT"};
 inline constexpr Unit kMetresPerSecond{"m/s"};
 inline constexpr Unit kMillivolts{"mV"};

@@ -3,7 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <numbers>
+
+#include "base/reference_instruments.h"
 
 /// The thresholds of the diagnosis that decide what is searched, named and reported, with unit and reason.
 /// Strengths are in typical values of the effect (sim/effects/description.h). A threshold is "set" where it was
@@ -15,11 +16,11 @@ namespace navcal::gap {
 
 /// Standard deviation of each parameter of a vehicle without a gap, typical values. By definition: docs/gap.md.
 inline constexpr double kTolerance = 0.02;
-/// Turn-on bias of a gyro that counts as one typical value, rad/s: the usual one at power-on.
-inline constexpr double kTypicalTurnOnBias_rad_s = 0.3 * std::numbers::pi / 180;
+/// Turn-on bias of a gyro that counts as one typical value, rad/s: that of the reference card.
+inline constexpr double kTypicalTurnOnBias_rad_s = base::reference::kTurnOnBias_rad_s;
 /// Standard deviation of the prior of a turn-on bias, rad/s: ten times the typical value, so that the prior never
 /// decides.
-inline constexpr double kTurnOnBiasPrior_rad_s = 3 * std::numbers::pi / 180;
+inline constexpr double kTurnOnBiasPrior_rad_s = 10 * kTypicalTurnOnBias_rad_s;
 /// Standard deviation of the prior of a parameter that is kept at zero, typical values: as good as zero, and the
 /// matrices stay invertible.
 inline constexpr double kExcludedPrior = 1e-9;

@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "base/angles.h"
+#include "base/gravity.h"
 #include "config/settings.h"
 
 namespace navcal::instruments {
 
-/// The g of the accelerometers' scale (docs/simulator.md).
-inline constexpr double kGravity_m_s2 = 9.81;
+using base::kGravity_m_s2;
 
 [[nodiscard]] constexpr double radians_of(double angle, config::AngleUnit unit) {
   switch (unit) {

@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "base/durations.h"
+#include "base/gravity.h"
 #include "nav/reading_pauses.h"
 
 namespace navcal::nav {
@@ -16,7 +17,7 @@ using Eigen::Vector3d;
 /// A velocity by fixes that is older says nothing of the speed now.
 constexpr double kFixPause_s = 3;
 /// Gravity that is left must be gravity: within so much of 9.81 m/s2. A blow or a fall says nothing of the tilt.
-constexpr double kGravity_m_s2 = 9.81, kGravityWithin_m_s2 = 1.5;
+constexpr double kGravityWithin_m_s2 = 1.5;
 
 AttitudeOptions attitude_options(const AccelerometerTiltOptions& options) {
   AttitudeOptions attitude;
@@ -47,7 +48,7 @@ void AccelerometerTilt::take(const RateReading& reading) {
   const Vector3d rate = reading.rate_rad_s + attitude_.zero_rad_s();
   const Vector3d moved = Vector3d(acceleration_m_s2_, 0, 0) + rate.cross(Vector3d(speed_m_s_, 0, 0));
   const Vector3d gravity = moved - force_m_s2;  // in body axes
-  if (std::abs(gravity.norm() - kGravity_m_s2) <= kGravityWithin_m_s2) {
+  if (std::abs(gravity.norm() - base::kGravity_m_s2) <= kGravityWithin_m_s2) {
     const double roll_rad = std::atan2(gravity.y(), gravity.z());
     const double pitch_rad = std::atan2(-gravity.x(), std::hypot(gravity.y(), gravity.z()));
     const Eigen::Vector2d turned = attitude_.correct_tilt(base::wrapped(roll_rad - attitude_.roll_rad()),

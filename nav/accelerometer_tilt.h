@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/reference_instruments.h"
 #include "nav/attitude.h"
 #include "nav/past_poses.h"
 #include "nav/readings.h"
@@ -14,8 +15,9 @@ namespace navcal::nav {
 struct AccelerometerTiltOptions {
   double tilt_gain_per_s = 0.5;  ///< as of the inclinometer (AttitudeOptions)
   double tilt_zero_gain_per_s2 = 0.01;
-  double advance_m = 0.0872;  ///< through the water for one revolution of the shaft; 0: not known
-  double speed_lag_s = 0.9;   ///< of the vehicle's speed behind its shaft's
+  double advance_m =
+      base::reference::kAdvance_m;  ///< through the water for one revolution of the shaft; 0: not known
+  double speed_lag_s = base::reference::kSpeedLag_s;  ///< of the vehicle's speed behind its shaft's
 };
 
 /// Roll and pitch from accelerometers and gyros, for a vehicle without an inclinometer. Model: the specific force

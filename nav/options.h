@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/reference_instruments.h"
+
 namespace navcal::nav {
 
 /// Gains are rates: a reading that comes dt after the one before it corrects by 1 - exp(-gain dt) of what it
@@ -12,7 +14,7 @@ struct AttitudeOptions {
   /// Integral gains from the differences to the gyro zeros, per second.
   double heading_zero_gain_per_s2 = 0.002;
   double tilt_zero_gain_per_s2 = 0.01;
-  double tilt_lag_s = 0.3;  ///< of the inclinometer
+  double tilt_lag_s = base::reference::kTiltLag_s;  ///< of the inclinometer
 };
 
 struct DepthOptions {
@@ -32,8 +34,9 @@ struct Options {
   AttitudeOptions attitude;
   DepthOptions depth;
   ReckoningOptions reckoning;
-  double advance_m = 0.0872;  ///< through the water for one revolution of the shaft; 0: not known
-  double speed_lag_s = 0.9;   ///< of the vehicle's speed behind its shaft's
+  double advance_m =
+      base::reference::kAdvance_m;  ///< through the water for one revolution of the shaft; 0: not known
+  double speed_lag_s = base::reference::kSpeedLag_s;  ///< of the vehicle's speed behind its shaft's
   /// How far a heading may be off all along a leg, one standard deviation.
   double heading_error_rad = 0.087266462599716474;
   double heading_error_calibrated_rad = 0.017453292519943295;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/reference_instruments.h"
+
 /// Inputs of the estimator: readings in SI units and body axes (x forward, y starboard, z down), each with the
 /// time of its measurement, in nanoseconds on one clock of the caller's choice. Nothing here reads a clock.
 namespace navcal::nav {
@@ -39,9 +41,9 @@ struct ShaftReading {
 struct FixReading {
   std::int64_t time_ns = 0;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< north, east of an origin of the caller's choice
-  double std_m = 1;                                      ///< each axis
+  double std_m = base::reference::kPositionNoise_m;      ///< each axis
   std::optional<Eigen::Vector2d> velocity_m_s;           ///< north, east, over ground
-  double velocity_std_m_s = 0.1;                         ///< each axis
+  double velocity_std_m_s = base::reference::kVelocityNoise_m_s;  ///< each axis
 };
 
 }  // namespace navcal::nav

@@ -23,6 +23,13 @@ struct CalibratedPorts {
 /// The Earth's field for the calibrators, with standard deviations.
 [[nodiscard]] calib::LocalField local_field(const EarthField& field);
 
+/// Noise of a reading of the compass that the calibrators reckon with: as [calibration] states it, else that for
+/// the reference compass (base::reference) times how much noisier the compass at hand is.
+struct ReckonedNoise {
+  double heading_rad, field_uT, tilt_rad;
+};
+[[nodiscard]] ReckonedNoise reckoned_noise(const config::Settings& settings);
+
 /// Configuration of the calibrators, in their units.
 [[nodiscard]] calib::SuiteOptions suite_options(const config::Settings& settings, const CalibratedPorts& ports);
 

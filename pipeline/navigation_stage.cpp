@@ -5,6 +5,7 @@
 #include <cmath>
 #include <variant>
 
+#include "devices/instrument_model.h"
 #include "instruments/compass_error.h"
 #include "pipeline/nav_reading.h"
 
@@ -23,8 +24,9 @@ constexpr std::int64_t kVelocityAge_ns = 600'000'000;
 }  // namespace
 
 nav::Options navigation_options(const config::Settings& settings) {
+  const devices::InstrumentModel instruments = devices::instrument_model(settings);
   nav::Options options;
-  options.attitude.tilt_lag_s = settings.calibration.tilt_lag_s;
+  options.attitude.tilt_lag_s = instruments.compass.tilt_lag_s;
   options.reckoning.set_m_s = settings.calibration.current_m_s;
   options.reckoning.speed_error = settings.navigation.speed_error;
   options.advance_m = settings.calibration.advance_m;
@@ -45,8 +47,8 @@ NavigationStage::NavigationStage(const config::Settings& settings)
     : ports_(Sources(settings).serving()),
       options_(navigation_options(settings)),
       declination_rad_(settings.environment.declination_rad),
-      position_noise_m_(settings.calibration.position_noise_m),
-      velocity_noise_m_s_(settings.calibration.velocity_noise_m_s),
+      position_noise_m_(devices::instrument_model(settings).gps.position_noise_m),
+      velocity_noise_m_s_(devices::instrument_model(settings).gps.velocity_noise_m_s),
       interval_ns_(std::llround(settings.navigation.interval_s * 1e9)),
       calibrated_(options_),
       uncalibrated_(options_) {}

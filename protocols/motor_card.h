@@ -51,6 +51,8 @@ struct Command {
 
 /// The card rejects a command whose fins lie beyond +- this.
 inline constexpr double kFinLimit_deg = 25.0;
+/// Resolution of fin angles and of the current on the wire.
+inline constexpr double kFinStep_deg = 0.1, kCurrentStep_A = 0.01;
 
 /// Decodes an intact MCS or MCC line; nullopt if the number of fields is wrong, a field is not a number, or a
 /// field of a command is empty.

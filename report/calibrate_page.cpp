@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "calib/coverage.h"
+#include "pipeline/calibration_options.h"
 #include "report/calibrate_figures.h"
 #include "report/calibrate_words.h"
 #include "report/html_page.h"
@@ -130,6 +131,7 @@ void append_left_out(HtmlPage& page, const calib::Report& report, const PageSour
 void append_source(HtmlPage& page, const PageSource& source) {
   const auto& calibration = source.settings.calibration;
   const auto& environment = source.settings.environment;
+  const pipeline::ReckonedNoise noise = pipeline::reckoned_noise(source.settings);
   std::vector<std::vector<std::string>> rows;
   for (const auto& file : source.files) rows.push_back({"File", file});
   rows.push_back({"Duration", duration_text(source.duration_s)});
@@ -137,8 +139,8 @@ void append_source(HtmlPage& page, const PageSource& source) {
   rows.push_back(
       {"Assumed noise",
        fmt::format("heading {:.2g} deg, gyro {:.2g} deg/s, field {:.2g} uT, gyro bias {:.2g} deg/s in a second",
-                   calibration.heading_noise_rad * base::kDegreesPerRadian,
-                   calibration.gyro_noise_rad_s * base::kDegreesPerRadian, calibration.field_noise_uT,
+                   noise.heading_rad * base::kDegreesPerRadian,
+                   source.settings.instruments.imu.gyro_noise_rad_s * base::kDegreesPerRadian, noise.field_uT,
                    calibration.bias_walk_rad_s * base::kDegreesPerRadian)});
   rows.push_back({"Local field", environment.field_uT > 0
                                      ? fmt::format("{:.4g} uT, dip {:.4g} deg", environment.field_uT,

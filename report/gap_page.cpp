@@ -90,6 +90,7 @@ void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSou
   if (diagnosis.duration_s > 0) rows.back().back() += ", " + duration_text(diagnosis.duration_s);
   for (const auto& file : source.holdouts) rows.push_back({"Held out", file});
   rows.push_back({"Nominal vehicle", source.vehicle.empty() ? "the reference vehicle" : source.vehicle});
+  rows.push_back({"Configuration", source.config.empty() ? "the recordings' own" : source.config});
   for (const auto& name : source.excluded) rows.push_back({"Not in the library", name});
   if (diagnosis.field) rows.push_back({"Field of the Earth", gap::text_of(*diagnosis.field)});
   if (diagnosis.bank.missions > 0) {

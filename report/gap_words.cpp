@@ -192,9 +192,10 @@ std::string bank_text(const gap::BankFacts& bank) {
 std::string simulate_hint(const gap::Diagnosis& diagnosis, const GapSource& source) {
   if (diagnosis.effects.empty()) return {};
   const std::string file = source.effects_file.empty() ? "FILE.toml" : quoted(source.effects_file);
-  const std::string vehicle = source.vehicle.empty() ? "" : " --vehicle " + quoted(source.vehicle);
+  std::string nominal = source.vehicle.empty() ? "" : " --vehicle " + quoted(source.vehicle);
+  if (!source.config.empty()) nominal += " --config " + quoted(source.config);
   const std::string command =
-      fmt::format("navcal simulate --mission survey{} --effects {} -o with.cap", vehicle, file);
+      fmt::format("navcal simulate --mission survey{} --effects {} -o with.cap", nominal, file);
   return source.effects_file.empty() ? "--effects-out FILE.toml writes the effects found; then " + command
                                      : command;
 }

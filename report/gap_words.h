@@ -18,6 +18,7 @@ struct GapSource {
   std::string vehicle;  ///< empty: the reference vehicle
   std::vector<std::string> excluded;
   std::string effects_file;  ///< file of --effects-out; empty without it
+  std::string config{};      ///< configuration of all recordings; empty: their own
 };
 
 /// Verdict: "no gap", "explained", "unknown".

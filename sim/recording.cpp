@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "config/load.h"
 #include "protocols/motor_card.h"
@@ -19,44 +21,36 @@ namespace {
 
 constexpr std::uint8_t kEverySecond = 1;
 
-Tcm2::Options compass_options(bool noise) {
-  Tcm2::Options options;
-  options.go_at_power_on = options.field_at_power_on = true;
-  if (!noise) {
-    options.sensor.field_noise_uT = options.sensor.tilt_noise_deg = options.sensor.temperature_noise_C = 0;
+devices::InstrumentModel model_of(const Recording::Options& options) {
+  devices::InstrumentModel model =
+      options.noise ? options.instruments : devices::without_noise(options.instruments);
+  if (!options.turn_on_bias) model.imu.turn_on_bias_rad_s = 0;
+  if (options.sky_always_seen) {
+    model.gps.antenna_depth_m = std::numeric_limits<double>::infinity();
+    model.gps.least_search_s = model.gps.longest_search_s = 0;
   }
-  return options;
+  return model;
 }
 
-ImuCard::Options card_options(bool noise) {
-  ImuCard::Options options;
-  if (!noise) {
-    options.rate_noise_deg_s = options.turn_on_bias_deg_s = 0;
-    options.force_noise_m_s2 = options.depth_noise_m = 0;
-  }
-  return options;
-}
-
-Oncore::Options receiver_options(bool noise) {
-  Oncore::Options options;
-  if (!noise) options.receiver.position_noise_m = options.receiver.velocity_noise_m_s = 0;
-  return options;
-}
-
-MotorCard::Options motor_options(bool noise) {
-  MotorCard::Options options;
-  if (!noise) options.fin_noise_deg = options.current_noise_A = 0;
-  return options;
+config::PortSettings recording_port(std::string name, protocols::Protocol protocol,
+                                    const devices::Timing& timing) {
+  config::PortSettings port = config::default_port(std::move(name), protocol, static_cast<int>(timing.baud));
+  port.latency_s = timing.latency_s;
+  port.latency_std_s = timing.latency_std_s;
+  port.rate_Hz = timing.rate_Hz;
+  return port;
 }
 
 }  // namespace
 
-std::vector<config::PortSettings> recording_ports() {
+std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments) {
   using protocols::Protocol;
-  return {config::default_port("compass", Protocol::tcm2, 38400),
-          config::default_port("imu", Protocol::imu_card, 57600),
-          config::default_port("gps", Protocol::oncore, 9600),
-          config::default_port("motor", Protocol::motor_card, 19200)};
+  std::vector<config::PortSettings> ports{recording_port("compass", Protocol::tcm2, instruments.compass.timing),
+                                          recording_port("imu", Protocol::imu_card, instruments.imu.timing),
+                                          recording_port("gps", Protocol::oncore, instruments.gps.timing),
+                                          recording_port("motor", Protocol::motor_card, instruments.motor.timing)};
+  ports[1].imu_card = instruments.imu.channels;
+  return ports;
 }
 
 Recording::Recording(const Options& options, const Motion& motion)
@@ -68,27 +62,32 @@ Recording::Recording(const Options& options, const Motion& motion)
     device->power_on(options.begin_ns);
     channels_.push_back({std::move(device), HostLine(line)});
   };
-  auto compass = compass_options(options.noise);
+  const devices::InstrumentModel model = model_of(options);
+  Tcm2::Options compass;
+  compass.go_at_power_on = compass.field_at_power_on = true;
+  compass.sensor.compass = model.compass;
+  compass.baud = static_cast<int>(model.compass.timing.baud);
   compass.seed = seed();
   compass.sensor.effects = &effects_;
   compass.clock_ppm = clock_ppm(options.clocks, "compass", compass.clock_ppm);
   add(Instrument::compass, std::make_unique<Tcm2>(compass, motion));
-  auto card = card_options(options.noise);
+  ImuCard::Options card;
+  card.imu = model.imu;
+  card.baud = static_cast<int>(model.imu.timing.baud);
   card.seed = seed();
   card.effects = &effects_;
   card.clock_ppm = clock_ppm(options.clocks, "imu", card.clock_ppm);
-  if (!options.turn_on_bias) card.turn_on_bias_deg_s = 0;
   add(Instrument::imu, std::make_unique<ImuCard>(card, motion));
-  auto receiver = receiver_options(options.noise);
+  Oncore::Options receiver;
+  receiver.receiver.gps = model.gps;
+  receiver.baud = static_cast<int>(model.gps.timing.baud);
   receiver.seed = seed();
   receiver.receiver.effects = &effects_;
   receiver.receiver.origin = options.origin;
-  if (options.sky_always_seen) {
-    receiver.receiver.antenna_depth_m = std::numeric_limits<double>::infinity();
-    receiver.receiver.least_search_s = receiver.receiver.longest_search_s = 0;
-  }
   add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
-  auto motor = motor_options(options.noise);
+  MotorCard::Options motor;
+  motor.motor = model.motor;
+  motor.baud = static_cast<int>(model.motor.timing.baud);
   motor.seed = seed();
   motor.effects = &effects_;
   motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);

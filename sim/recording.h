@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "devices/instrument_model.h"
 #include "sim/geodesy.h"
 #include "sim/instruments/clock_factor.h"
 #include "sim/instruments/host_line.h"
@@ -13,8 +14,8 @@
 
 namespace navcal::sim {
 
-/// The ports of a recording, in the order of Instrument.
-[[nodiscard]] std::vector<config::PortSettings> recording_ports();
+/// The ports of a recording by these instruments, in the order of Instrument.
+[[nodiscard]] std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments);
 
 /// The four instruments from power-on, each on its line, as a host records them. Nothing has to be said to them:
 /// the compass is set up to send all it has, and the receiver is asked for its position every second in the first
@@ -30,6 +31,7 @@ class Recording {
     bool sky_always_seen = false;       ///< fixes at every depth, from the first second on
     std::vector<ClockFactor> clocks{};  ///< of compass, imu and motor
     Origin origin{};                    ///< where the fixes are
+    devices::InstrumentModel instruments{};
   };
   Recording(const Options& options, const Motion& motion);
 

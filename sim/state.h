@@ -5,13 +5,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/gravity.h"
+#include "base/reference_instruments.h"
+
 namespace navcal::sim {
 
 using Vector3 = std::array<double, 3>;
 
-inline constexpr double kGravity_m_s2 = 9.81;
+using base::kGravity_m_s2;
 
-[[nodiscard]] inline double water_temperature_C(double depth_m) { return 15 - 0.25 * depth_m; }
+[[nodiscard]] inline double water_temperature_C(double depth_m) {
+  return base::reference::kTemperature_C - 0.25 * depth_m;
+}
 
 /// What the instruments could measure at one instant (docs/simulator.md). Body axes x forward,
 /// y starboard, z down; world axes north, east, down.
@@ -26,8 +31,8 @@ struct State {
   Vector3 fins_rad{};                   ///< of the servos' shafts, as the motor card reports them
   double motor_current_A = 0;           ///< drawn by the motor, without the sensor's noise
   std::array<double, 2> current_m_s{};  ///< of the water, north and east: course over ground is velocity plus this
-  Vector3 field_world_uT{19.0, 0.6, 44.0};
-  double water_temperature_C = 15;
+  Vector3 field_world_uT = base::reference::kField_uT;
+  double water_temperature_C = base::reference::kTemperature_C;
 };
 
 /// Between two instants near each other, linearly; what only changes in jumps is that of `a`.

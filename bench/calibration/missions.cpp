@@ -72,7 +72,7 @@ struct Replayed {
 
 Replayed replay(const Motion& motion, const sim::Recording::Options& options, bool calibrate) {
   config::Settings settings;
-  settings.ports = sim::recording_ports();
+  settings.ports = sim::recording_ports(options.instruments);
   settings.calibration.enabled = calibrate;
   settings.navigation.enabled = false;
   pipeline::Pipeline pipeline(settings);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 #include "calib/delay/delay.h"
 #include "calib/gps/gps_track.h"
@@ -18,7 +19,7 @@ namespace navcal::calib {
 class CourseDelay {
  public:
   struct Parameters {
-    double velocity_std_m_s = 0.1;
+    double velocity_std_m_s = base::reference::kVelocityNoise_m_s;
     double course_floor_rad = 0.01;  ///< noise of a course however fast
     double slip_s = -0.15, slip_std_s = 0.1;
     double deviation_std_rad = 0.5;

@@ -30,6 +30,7 @@ DelayEstimator::DelayEstimator(const Parameters& parameters)
       turns_([&] {
         TurnIntegrator::Parameters turns;
         turns.tilt_lag_s = parameters.tilt_lag_s;
+        turns.tilt_noise_rad = parameters.tilt_noise_rad;
         turns.levels_heading = false;  // HeadingDelay finds what the lag does to the heading
         return turns;
       }()),

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 #include "calib/delay/delay.h"
 #include "calib/delay/delay_course.h"
@@ -23,7 +24,8 @@ class DelayEstimator {
     HeadingDelay::Parameters heading;
     FieldDelay::Parameters field;
     CourseDelay::Parameters course;
-    double tilt_lag_s = 0.3;     ///< of the compass's inclinometer
+    double tilt_lag_s = base::reference::kTiltLag_s;  ///< of the compass's inclinometer
+    double tilt_noise_rad = base::reference::kReckonedTiltNoise_rad;
     double level_std_s = 0.003;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
     double accepted_std_s = 0.002;  ///< compass
     double accepted_course_std_s = 0.15;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 #include "calib/gps/gps_track.h"
 #include "calib/readings.h"
@@ -18,9 +19,9 @@ class GpsCourseFit {
   using Vector = Eigen::Matrix<double, 5, 1>;
   using Matrix = Eigen::Matrix<double, 5, 5>;
   struct Parameters {
-    double velocity_std_m_s = 0.1;  ///< of the receiver, each axis
-    double declination_rad = 0;     ///< d
-    double deviation_std_rad = 1;   ///< prior of each coefficient
+    double velocity_std_m_s = base::reference::kVelocityNoise_m_s;  ///< of the receiver, each axis
+    double declination_rad = 0;                                     ///< d
+    double deviation_std_rad = 1;                                   ///< prior of each coefficient
     double least_speed_m_s = 0.3;
   };
 

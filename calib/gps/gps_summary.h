@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 #include "calib/gps/gps_track.h"
 #include "calib/readings.h"
@@ -31,8 +32,8 @@ class GpsSummary {
   using Information = Eigen::Matrix<Complex, kTerms, kTerms>;
 
   struct Parameters {
-    double velocity_std_m_s = 0.1;   ///< of the receiver, each axis
-    double position_std_m = 1.0;     ///< likewise
+    double velocity_std_m_s = base::reference::kVelocityNoise_m_s;  ///< of the receiver, each axis
+    double position_std_m = base::reference::kPositionNoise_m;      ///< likewise
     double model_std_m_s = 0.02;     ///< of the modelled velocity: slip and speed are not quite as assumed ...
     double model_correlation_s = 2;  ///< ... for about so long
     double slip_s = -0.15;           ///< k0

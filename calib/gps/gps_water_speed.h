@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 #include "calib/readings.h"
 
@@ -14,7 +15,7 @@ namespace navcal::calib {
 class WaterSpeed {
  public:
   struct Parameters {
-    double advance_m = 0.0872;  ///< per revolution, straight ahead
+    double advance_m = base::reference::kAdvance_m;  ///< per revolution, straight ahead
     double way_m = 3.0;
     double longest_step_s = 0.25;  ///< of integration
   };

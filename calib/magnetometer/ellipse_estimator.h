@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/reference_instruments.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer/ellipse_fit.h"
 #include "calib/magnetometer/field_cells.h"
@@ -21,8 +22,8 @@ namespace navcal::calib {
 class EllipseEstimator {
  public:
   struct Parameters {
-    double noise_uT = 0.15;         ///< of one reading; the data correct it
-    int slice_samples = 10;         ///< readings from one iteration to the next
+    double noise_uT = base::reference::kFieldNoise_uT;  ///< of one reading; the data correct it
+    int slice_samples = 10;                             ///< readings from one iteration to the next
     double model_error_uT = 0.05;   ///< of a cell however many readings: what is not an ellipse about the field
     double heading_std_rad = 0.02;  ///< the worst that is accepted
     double least_arc_rad = 2.6;     ///< without a gyro; THESIS 11.6

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/reference_instruments.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer/ellipse_chain.h"
 #include "calib/magnetometer/ellipse_shape.h"
@@ -28,7 +29,7 @@ class EllipseGyro {
   using Matrix = EllipseChain::Matrix;
 
   struct Parameters {
-    double noise_uT = 0.15;
+    double noise_uT = base::reference::kFieldNoise_uT;
     double rate_noise_rad_sqrt_s = 0.0016;  ///< density: standard deviation of a rate times sqrt(its period)
     GyroBelief gyro;
     int slice_samples = 20;         ///< readings from one iteration to the next

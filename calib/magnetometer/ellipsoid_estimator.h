@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/reference_instruments.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer/ellipsoid_fit.h"
 #include "calib/magnetometer/ellipsoid_noise.h"
@@ -24,8 +25,9 @@ namespace navcal::calib {
 class EllipsoidEstimator {
  public:
   struct Parameters {
-    double noise_uT = 0.15;          ///< of one reading; the data correct it
-    double tilt_noise_rad = 0.0018;  ///< of one reading, at least; the data correct it
+    double noise_uT = base::reference::kFieldNoise_uT;  ///< of one reading; the data correct it
+    double tilt_noise_rad =
+        base::reference::kReckonedTiltNoise_rad;  ///< of one reading, at least; the data correct it
     std::optional<KnownField> known;
     double soft_iron_std = 0.15;       ///< of the soft iron matrix about the unit matrix, when the field is known
     int slice_samples = 20;            ///< readings from one iteration to the next

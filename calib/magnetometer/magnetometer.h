@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/reference_instruments.h"
 #include "calib/judgement.h"
 #include "calib/magnetometer/ellipse_estimator.h"
 #include "calib/magnetometer/ellipse_gyro.h"
@@ -37,7 +38,8 @@ class Magnetometer {
     EllipseEstimator::Parameters ellipse;
     EllipseGyro::Parameters gyro;
     EllipsoidEstimator::Parameters ellipsoid;
-    double tilt_lag_s = 0.3;  ///< of the inclinometer: how far off its tilt may be while the hull rolls
+    double tilt_lag_s =
+        base::reference::kTiltLag_s;  ///< of the inclinometer: how far off its tilt may be while the hull rolls
   };
   enum class Method : std::uint8_t { none, ellipse, gyro_aided, ellipsoid };
 

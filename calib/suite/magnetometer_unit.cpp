@@ -9,8 +9,8 @@
 namespace navcal::calib {
 namespace {
 
-/// Smoothed tilt is several times as good as a reading of an inclinometer of 0.1 degrees.
-constexpr double kRestoredTilt_rad = 0.0005, kShownTilt_rad = 0.0018;
+/// Factor by which a smoothed tilt is better than a reading of the inclinometer.
+constexpr double kSmoothing = 3.6;
 
 class MagnetometerUnit : public CalibratorUnit {
  public:
@@ -24,7 +24,7 @@ class MagnetometerUnit : public CalibratorUnit {
     // Where the gyros are known, without the inclinometer's lag.
     field.roll_rad = turn ? turn->roll_rad : reading.roll_rad.value_or(NAN);
     field.pitch_rad = turn ? turn->pitch_rad : reading.pitch_rad.value_or(NAN);
-    if (turn) magnetometer().set_tilt_noise(turn->tilt_restored ? kRestoredTilt_rad : kShownTilt_rad);
+    if (turn) magnetometer().set_tilt_noise(options_.tilt_noise_rad / (turn->tilt_restored ? kSmoothing : 1));
     field.has_turn = turn.has_value();
     if (turn) field.turn = *turn;
     field.time_s = reading.time_s;

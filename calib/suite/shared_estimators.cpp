@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/suite/shared_estimators.h"
 
-#include <algorithm>
-
 namespace navcal::calib {
 
 TurnFilter::Parameters turn_parameters(const SuiteOptions& options) {
@@ -18,7 +16,8 @@ Magnetometer::Parameters field_parameters(const SuiteOptions& options) {
   parameters.gyro.rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s;
   parameters.ellipsoid.noise_uT = options.field_noise_uT;
   parameters.ellipsoid.known = options.local_field.known;
-  parameters.tilt_lag_s = std::max(options.tilt_lag_s, parameters.tilt_lag_s);
+  parameters.ellipsoid.tilt_noise_rad = options.tilt_noise_rad;
+  if (options.tilt_lag_s > 0) parameters.tilt_lag_s = options.tilt_lag_s;  // else accelerometers show the tilt
   return parameters;
 }
 
@@ -29,6 +28,7 @@ DelayEstimator::Parameters delay_parameters(const SuiteOptions& options) {
   parameters.field.field_noise_uT = options.field_noise_uT;
   parameters.course.velocity_std_m_s = options.velocity_noise_m_s;
   parameters.tilt_lag_s = options.tilt_lag_s;
+  parameters.tilt_noise_rad = options.tilt_noise_rad;
   return parameters;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/reference_instruments.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
 #include "calib/suite/gate.h"
 
@@ -19,16 +20,17 @@ struct SuiteOptions {
   GateOptions gate;
   bool automatic = true;  ///< estimates come into force by themselves
   double margin = 0.1;    ///< by so much must they be better on readings held out, relative
-  double heading_noise_rad = 0.0087;
+  double heading_noise_rad = base::reference::kReckonedHeadingNoise_rad;
   double rate_noise_rad_sqrt_s = 0.0004;  ///< density: of a reading times the root of its period
   double bias_walk_rad_s_sqrt_s = 3.5e-4;
-  double field_noise_uT = 0.2;
-  double tilt_lag_s = 0.3;
+  double field_noise_uT = base::reference::kReckonedFieldNoise_uT;
+  double tilt_noise_rad = base::reference::kReckonedTiltNoise_rad;
+  double tilt_lag_s = base::reference::kTiltLag_s;
   LocalField local_field;
-  double position_noise_m = 1;
-  double velocity_noise_m_s = 0.1;
+  double position_noise_m = base::reference::kPositionNoise_m;
+  double velocity_noise_m_s = base::reference::kVelocityNoise_m_s;
   double current_m_s = 0.15;
-  double advance_m = 0.0872;  ///< per revolution of the shaft; 0: not known
+  double advance_m = base::reference::kAdvance_m;  ///< per revolution of the shaft; 0: not known
 };
 
 }  // namespace navcal::calib

@@ -14,8 +14,6 @@ constexpr double kBiasSpan_s = 300;    // a bias drifts: after so long the older
 constexpr std::uint32_t kCompared = 12;
 /// The readings decide where one explanation leaves less than this share of what the other leaves.
 constexpr double kClearlyLess = 0.8;
-/// Change of roll and pitch by noise and rounding alone, mean square, rad2: an inclinometer of 0.1 degrees.
-constexpr double kStill_rad2 = 4 * 0.0018 * 0.0018;
 
 /// Roll has no beginning.
 Eigen::Vector2d difference(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -110,7 +108,7 @@ void InclinometerLag::compare(const Anchor& now) {
 void InclinometerLag::decide() {
   if (compared_ < kCompared) return;
   // Where there is more than noise, gyros that tell of the motion explain most of it.
-  const bool moves = still_square_ > 4 * kStill_rad2 * compared_;
+  const bool moves = still_square_ > 4 * still_rad2_ * compared_;
   const bool gyros_tell = !moves || lagged_square_ < kClearlyLess * still_square_;
   lags_ = gyros_tell && direct_square_ >= (lags_ ? kClearlyLess : 1.0) * lagged_square_;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 
 namespace navcal::calib {
@@ -17,8 +18,9 @@ namespace navcal::calib {
 /// of the gyros is found as well: over a long time the integral is the change of s. Angles roll and pitch, rad.
 class InclinometerLag {
  public:
-  /// `lag_s`: first order; positive.
-  explicit InclinometerLag(double lag_s) : lag_s_(lag_s) {}
+  /// `lag_s`: first order; positive. `tilt_noise_rad`: of a reading of the inclinometer.
+  explicit InclinometerLag(double lag_s, double tilt_noise_rad = base::reference::kReckonedTiltNoise_rad)
+      : lag_s_(lag_s), still_rad2_(4 * tilt_noise_rad * tilt_noise_rad) {}
 
   /// A reading of the gyros (body axes, rad/s), in the order of their times.
   void update(double time_s, const Eigen::Vector3d& rate_rad_s);
@@ -60,6 +62,7 @@ class InclinometerLag {
   static constexpr std::uint32_t kPoints = 64;
 
   double lag_s_;
+  double still_rad2_;  ///< change of roll and pitch by noise and rounding alone, mean square
   std::array<Point, kPoints> ring_{};
   std::uint32_t newest_ = 0, points_ = 0;
   Eigen::Vector2d slope_rad_s_ = Eigen::Vector2d::Zero();  ///< of the tilt, by the newest reading of the gyros

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 
 namespace navcal::calib {
@@ -21,8 +22,8 @@ namespace navcal::calib {
 class TiltSmoother {
  public:
   struct Parameters {
-    double lag_s = 0.3;                     ///< of the inclinometer, first order; positive
-    double tilt_noise_rad = 0.0018;         ///< of one reading; 0.1 degrees, and rounding to 0.1 degrees
+    double lag_s = base::reference::kTiltLag_s;  ///< of the inclinometer, first order; positive
+    double tilt_noise_rad = base::reference::kReckonedTiltNoise_rad;  ///< of one reading
     double rate_noise_rad_sqrt_s = 0.0004;  ///< density: of a reading times the root of its period
     double bias_std_rad_s = 0.0175;         ///< before the first reading; 1 degree/s
     double bias_walk_rad_s_sqrt_s = 3.5e-4;

@@ -18,6 +18,7 @@ constexpr std::uint32_t kCrowded = 100;
 TiltSmoother::Parameters tilt_parameters(const TurnIntegrator::Parameters& parameters) {
   TiltSmoother::Parameters tilt;
   tilt.lag_s = parameters.tilt_lag_s;
+  tilt.tilt_noise_rad = parameters.tilt_noise_rad;
   tilt.rate_noise_rad_sqrt_s = parameters.rate_noise_rad_sqrt_s;
   return tilt;
 }
@@ -25,7 +26,9 @@ TiltSmoother::Parameters tilt_parameters(const TurnIntegrator::Parameters& param
 }  // namespace
 
 TurnIntegrator::TurnIntegrator(const Parameters& parameters)
-    : parameters_(parameters), inclinometer_(parameters.tilt_lag_s), smoother_(tilt_parameters(parameters)) {}
+    : parameters_(parameters),
+      inclinometer_(parameters.tilt_lag_s, parameters.tilt_noise_rad),
+      smoother_(tilt_parameters(parameters)) {}
 
 template <class Curve>
 bool TurnIntegrator::in_order(Curve& curve, double time_s) {

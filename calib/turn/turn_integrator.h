@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/reference_instruments.h"
 #include "calib/archive.h"
 #include "calib/readings.h"
 #include "calib/turn/inclinometer_lag.h"
@@ -34,9 +35,10 @@ class TurnIntegrator {
   static constexpr double kLookAhead_s = 2;
   struct Parameters {
     double tilt_lag_s = 0;  ///< first-order lag of the inclinometer; 0: fast enough, or no pitch and roll gyros
-    double rate_noise_rad_sqrt_s = 0.0004;  ///< density, of the roll and pitch gyros
-    bool levels_heading = true;             ///< false: the heading stays as measured, and steps come at once
-    double longest_gap_s = 0.35;            ///< between readings of either; a longer one ends the segment
+    double tilt_noise_rad = base::reference::kReckonedTiltNoise_rad;  ///< of a reading of the inclinometer
+    double rate_noise_rad_sqrt_s = 0.0004;                            ///< density, of the roll and pitch gyros
+    bool levels_heading = true;   ///< false: the heading stays as measured, and steps come at once
+    double longest_gap_s = 0.35;  ///< between readings of either; a longer one ends the segment
   };
 
   explicit TurnIntegrator(const Parameters& parameters);

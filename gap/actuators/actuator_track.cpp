@@ -12,8 +12,9 @@ constexpr double kCurrentMean_s = 4;
 }  // namespace
 
 ActuatorTrack::ActuatorTrack(std::span<const MotorReading> readings, std::span<const double> order_times_s,
-                             double servo_lag_s, double duration_s)
-    : orders_(readings, order_times_s, servo_lag_s),
+                             double servo_lag_s, const devices::MotorModel& card, double duration_s)
+    : orders_(readings, order_times_s, servo_lag_s, card.fin_report_noise_rad()),
+      report_s_(1 / card.timing.rate_Hz),
       rows_(static_cast<std::size_t>(std::ceil(std::max(duration_s, 0.0) / kStep_s)) + 2) {
   const auto servos_rad = orders_.servos_rad(rows_.size(), kStep_s);
   for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].fins_rad = servos_rad[k];
@@ -45,7 +46,7 @@ std::vector<double> ActuatorTrack::current_A(std::span<const MotorReading> readi
       const std::size_t k = pass == 0 ? n : rows_.size() - 1 - n;
       const auto take = [&](const MotorReading& reading) {
         const double difference = reading.current_A - nominal_A[row_of(reading)];
-        mean += (begun ? 0.1 / kCurrentMean_s : 1.0) * (difference - mean);
+        mean += (begun ? std::min(report_s_ / kCurrentMean_s, 1.0) : 1.0) * (difference - mean);
         begun = true;
       };
       if (pass == 0) {

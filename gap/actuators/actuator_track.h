@@ -24,7 +24,7 @@ class ActuatorTrack {
 
   /// `servo_lag_s`: of the nominal servo. Readings in order of time, at least one.
   ActuatorTrack(std::span<const MotorReading> readings, std::span<const double> order_times_s, double servo_lag_s,
-                double duration_s);
+                const devices::MotorModel& card, double duration_s);
 
   [[nodiscard]] const FinOrders& orders() const { return orders_; }
   /// At k kStep_s, k = 0 ... covering the duration.
@@ -36,6 +36,7 @@ class ActuatorTrack {
 
  private:
   FinOrders orders_;
+  double report_s_;  ///< between two reports
   std::vector<Row> rows_;
 };
 

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
+#include "protocols/motor_card.h"
+
 namespace navcal::gap {
 namespace {
 
 constexpr double kOrderPeriod_s = 0.1;
-/// Of one report: 0.1 degrees of noise, and the resolution of 0.1 degrees.
-constexpr double kReportNoise_rad = 0.104 * std::numbers::pi / 180;
-
 /// The card takes tenths of a degree, fin by fin; what that rounds off rolls the vehicle a little all the time, by
 /// less than reports show.
-constexpr double kOrdered_rad = 0.1 * std::numbers::pi / 180;
+constexpr double kOrdered_rad = protocols::motor_card::kFinStep_deg * base::kRadiansPerDegree;
 
 /// Rolling, rudder and elevator of fins 1 to 3, all of length one (the mixing of the card's interface document,
 /// section 4).
@@ -35,8 +35,8 @@ std::vector<double> grid(std::size_t count, double step_s, double from_s) {
 }  // namespace
 
 FinOrders::FinOrders(std::span<const MotorReading> readings, std::span<const double> order_times_s,
-                     double servo_lag_s)
-    : lag_s_(servo_lag_s) {
+                     double servo_lag_s, double report_noise_rad)
+    : lag_s_(servo_lag_s), report_noise_rad_(report_noise_rad) {
   report_times_s_.reserve(readings.size());
   for (const MotorReading& reading : readings) report_times_s_.push_back(reading.time_s);
   for (std::size_t i = 0; i < kWays; ++i) {
@@ -45,7 +45,7 @@ FinOrders::FinOrders(std::span<const MotorReading> readings, std::span<const dou
       reports_rad_[i].push_back(along(kWaysOfFins[i], reading.fins_rad));
     }
     smoothers_.emplace_back(report_times_s_, order_times_s, servo_lag_s);
-    orders_[i] = smoothers_[i].smoothed(reports_rad_[i], kReportNoise_rad);
+    orders_[i] = smoothers_[i].smoothed(reports_rad_[i], report_noise_rad_);
   }
 }
 
@@ -57,7 +57,7 @@ std::vector<Vector3> FinOrders::drawn_servos_rad(std::size_t count, double step_
                                                  sim::Noise& noise) const {
   std::array<ServoOrders, kWays> drawn;
   for (std::size_t i = 0; i < kWays; ++i) {
-    drawn[i] = smoothers_[i].drawn(reports_rad_[i], kReportNoise_rad, noise);
+    drawn[i] = smoothers_[i].drawn(reports_rad_[i], report_noise_rad_, noise);
   }
   round_off(drawn);
   return followed(drawn, grid(count, step_s, -later_s));
@@ -68,7 +68,7 @@ double FinOrders::misfit() const {
   double square = 0;
   for (std::size_t i = 0; i < kWays; ++i) {
     for (std::size_t k = 0; k < servos_rad.size(); ++k) {
-      square += std::pow((reports_rad_[i][k] - along(kWaysOfFins[i], servos_rad[k])) / kReportNoise_rad, 2);
+      square += std::pow((reports_rad_[i][k] - along(kWaysOfFins[i], servos_rad[k])) / report_noise_rad_, 2);
     }
   }
   return square / static_cast<double>(kWays * servos_rad.size());

@@ -14,8 +14,10 @@ namespace navcal::gap {
 /// nothing to do with each other and in which the reports' noise is the same.
 class FinOrders {
  public:
-  /// Instants of orders ascending, on the readings' time; at least one reading.
-  FinOrders(std::span<const MotorReading> readings, std::span<const double> order_times_s, double servo_lag_s);
+  /// Instants of orders ascending, on the readings' time; at least one reading. `report_noise_rad`: of a reported
+  /// angle.
+  FinOrders(std::span<const MotorReading> readings, std::span<const double> order_times_s, double servo_lag_s,
+            double report_noise_rad);
 
   /// Angles of the servos' shafts every `step_s` from time zero on, rad.
   [[nodiscard]] std::vector<Vector3> servos_rad(std::size_t count, double step_s) const;
@@ -36,7 +38,7 @@ class FinOrders {
   [[nodiscard]] std::vector<Vector3> followed(const std::array<ServoOrders, kWays>& orders,
                                               std::span<const double> times_s) const;
 
-  double lag_s_;
+  double lag_s_, report_noise_rad_;
   std::vector<double> report_times_s_;
   std::array<std::vector<double>, kWays> reports_rad_;
   std::vector<ServoSmoother> smoothers_;

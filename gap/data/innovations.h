@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "devices/instrument_model.h"
+
 namespace navcal::gap {
 
 /// What a replay finds ten times a second: measured minus predicted, each the mean over a tenth of a second.
@@ -52,6 +54,7 @@ struct Innovations {
 
 /// What the estimator thought at the middle of each interval: what residuals may follow.
 struct Trajectory10Hz {
+  devices::InstrumentModel instruments;  ///< of the mission
   std::vector<double> time_s, heading_rad, roll_rad, pitch_rad, yaw_rate_rad_s, pitch_rate_rad_s, depth_m,
       surge_m_s, current_A, temperature_rise_C, rudder_rad, elevator_rad, shaft_rps;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/pipeline.h"
+#include "record/port_matching.h"
 #include "record/recording.h"
 
 namespace navcal::gap {
@@ -16,10 +17,11 @@ class Nobody final : public pipeline::Sink {
 
 }  // namespace
 
-calib::Report instruments_alone(const std::filesystem::path& file, const EarthField& field,
-                                const std::function<void(double)>& progress) {
+calib::Report instruments_alone(const std::filesystem::path& file, const std::optional<config::Settings>& stated,
+                                const EarthField& field, const std::function<void(double)>& progress) {
   const auto recording = record::Recording::open(file);
-  config::Settings settings = recording->settings();
+  config::Settings settings = stated.value_or(recording->settings());
+  const record::PortMatch ports(recording->settings(), settings);
   settings.calibration.enabled = settings.calibration.automatic = true;
   settings.navigation.enabled = false;
   if (field.source != EarthField::Source::fitted) {
@@ -30,8 +32,9 @@ calib::Report instruments_alone(const std::filesystem::path& file, const EarthFi
   Nobody nobody;
   while (const auto entry = recording->next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
-      if (raw->direction == record::Direction::received)
-        pipeline.bytes(raw->port, raw->time_ns, raw->bytes, nobody);
+      const auto port = ports[raw->port];
+      if (raw->direction == record::Direction::received && port)
+        pipeline.bytes(*port, raw->time_ns, raw->bytes, nobody);
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, nobody);
     }

@@ -10,6 +10,7 @@
 #include "instruments/compass_error.h"
 #include "protocols/motor_card.h"
 #include "record/json/flat_json.h"
+#include "record/port_matching.h"
 #include "record/recording.h"
 
 namespace navcal::gap {
@@ -158,9 +159,12 @@ config::Settings samples_only(config::Settings settings) {
   return settings;
 }
 
-Mission load_mission(const std::filesystem::path& file, const std::function<void(double)>& progress) {
+Mission load_mission(const std::filesystem::path& file, const std::function<void(double)>& progress,
+                     const std::optional<config::Settings>& stated) {
   const auto recording = record::Recording::open(file);
-  pipeline::Pipeline pipeline(samples_only(recording->settings()));
+  const config::Settings& settings = stated ? *stated : recording->settings();
+  const record::PortMatch ports(recording->settings(), settings);
+  pipeline::Pipeline pipeline(samples_only(settings));
   MissionGatherer gatherer;
   std::optional<std::int64_t> begin_ns;
   std::vector<std::int64_t> orders_ns;
@@ -170,7 +174,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       if (!begin_ns) begin_ns = raw->time_ns;
       if (raw->direction == record::Direction::received) {
-        pipeline.bytes(raw->port, raw->time_ns, raw->bytes, gatherer);
+        if (const auto port = ports[raw->port]) pipeline.bytes(*port, raw->time_ns, raw->bytes, gatherer);
       } else if (const auto order = protocols::motor_card::decode_command(raw->bytes);
                  order && order != last_order) {
         // What only repeats the order before moves nothing.
@@ -189,12 +193,17 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
     progress(recording->progress());
   }
   Mission mission = gatherer.take(begin_ns.value_or(0), said);
+  mission.instruments = devices::instrument_model(settings);
   for (const std::int64_t time_ns : orders_ns) {
     mission.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
   }
   if (mission.distorted > 0) {
     mission.remarks.push_back(fmt::format("{}: {} words with E001: the compass reports magnetic distortion",
                                           file.string(), mission.distorted));
+  }
+  for (const auto& port : ports.missing()) {
+    mission.remarks.push_back(
+        fmt::format("{}: port {} is not in the configuration: left out", file.string(), port));
   }
   for (const auto& remark : recording->remarks()) mission.remarks.push_back(file.string() + ": " + remark);
   return mission;

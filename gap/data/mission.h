@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "devices/instrument_model.h"
 #include "gap/data/earth_field.h"
 #include "instruments/samples.h"
 #include "pipeline/pipeline.h"
@@ -62,6 +63,8 @@ struct Mission {
   std::uint64_t distorted = 0;  ///< words of the compass with its remark of magnetic distortion (E001)
   std::vector<std::string> remarks;
   EarthField field;
+  /// As the configuration of the recording states them.
+  devices::InstrumentModel instruments;
 
   [[nodiscard]] std::vector<double> fix_times_s() const;
   /// Why nothing can be said from it ("no inertial card: ..."); empty: something can.
@@ -95,7 +98,9 @@ class MissionGatherer final : public pipeline::Sink {
 /// The settings with nothing of the pipeline but stamped samples.
 [[nodiscard]] config::Settings samples_only(config::Settings settings);
 
-/// Reads a log or a capture through the pipeline. `progress` gets 0 to 1. Throws record::BadRecording.
-[[nodiscard]] Mission load_mission(const std::filesystem::path& file, const std::function<void(double)>& progress);
+/// Reads a log or a capture through the pipeline. `stated`: the configuration to use instead of the recording's
+/// own; ports that it lacks are left out, with a remark. `progress` gets 0 to 1. Throws record::BadRecording.
+[[nodiscard]] Mission load_mission(const std::filesystem::path& file, const std::function<void(double)>& progress,
+                                   const std::optional<config::Settings>& stated = std::nullopt);
 
 }  // namespace navcal::gap

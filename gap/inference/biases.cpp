@@ -25,9 +25,10 @@ Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library,
 
 Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, unsigned threads) {
   constexpr int kIterations = 2;
+  const Whitening whitening = Whitening::nominal(replay.mission().instruments);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
   for (int i = 0; i < kIterations; ++i) {
-    values = with_biases_fitted(replay, library, Whitening::nominal(), std::move(values), threads);
+    values = with_biases_fitted(replay, library, whitening, std::move(values), threads);
   }
   return values;
 }

@@ -62,6 +62,7 @@ Mission busiest_part(const Mission& mission) {
   part.motor = within(mission.motor, from_s, until_s);
   part.duration_s = until_s;
   part.field = mission.field;
+  part.instruments = mission.instruments;
   return part;
 }
 
@@ -75,7 +76,7 @@ Mission ordered_at(const Mission& mission, double phase_s) {
 
 std::vector<double> likely_order_times_s(const Mission& mission, const config::VehicleSettings& vehicle,
                                          const Library& library, unsigned threads) {
-  const Whitening whitening = Whitening::nominal();
+  const Whitening whitening = Whitening::nominal(mission.instruments);
   const Mission part = busiest_part(mission);
   // In that part an instrument may be silent.
   const Mission& looked_at = part.shortcoming().empty() ? part : mission;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angles.h"
-
 namespace navcal::gap {
 namespace {
 
@@ -126,15 +124,22 @@ Whitening::Whitening(std::span<const Innovations> noise, std::span<const Layout>
   fix_factor = factor(fix_sums, fix_counts);
 }
 
-Whitening Whitening::nominal() {
-  const double gyro = 0.1 * base::kRadiansPerDegree / std::sqrt(2.0), force = 0.02 / std::sqrt(2.0),
-               tilt = 0.1 * base::kRadiansPerDegree;
+Whitening Whitening::nominal(const devices::InstrumentModel& instruments) {
+  // Each channel is the mean of the readings within an interval.
+  const auto of_mean = [](double noise, const devices::Timing& timing) {
+    return noise / std::sqrt(std::max(1.0, timing.rate_Hz * kInterval_s));
+  };
+  const auto& [compass, imu, gps, motor] = instruments;
+  const double field = of_mean(compass.field_noise_uT, compass.timing),
+               tilt = of_mean(compass.tilt_noise_rad, compass.timing),
+               gyro = of_mean(imu.gyro_noise_rad_s, imu.timing), force = of_mean(imu.force_noise_m_s2, imu.timing);
   Whitening result;
   result.fix_filter = Eigen::MatrixXd::Zero(0, kFixChannels);
   Eigen::VectorXd grid(kEvidenceChannels);
-  grid << 0.15, 0.15, 0.15, tilt, tilt, gyro, gyro, gyro, force, force, force, 0.02 / std::sqrt(2.0);
+  grid << field, field, field, tilt, tilt, gyro, gyro, gyro, force, force, force,
+      of_mean(imu.depth_noise_m, imu.timing);
   result.grid_factor = grid.asDiagonal();
-  result.fix_factor = Eigen::Vector4d{1, 1, 0.1, 0.1}.asDiagonal();
+  result.fix_factor = Eigen::Vector4d{1, 1, gps.velocity_noise_m_s, gps.velocity_noise_m_s}.asDiagonal();
   return result;
 }
 

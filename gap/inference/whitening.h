@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "devices/instrument_model.h"
 #include "gap/data/innovations.h"
 #include "gap/inference/prediction_error_filter.h"
 
@@ -29,8 +30,8 @@ class Whitening {
   /// From residuals that hold nothing but noise.
   explicit Whitening(std::span<const Innovations> noise, std::span<const Layout> layouts);
 
-  /// By the instruments' nominal noise only, each channel and instant for itself: enough to find biases.
-  [[nodiscard]] static Whitening nominal();
+  /// By the noise of the instruments only, each channel and instant for itself: enough to find biases.
+  [[nodiscard]] static Whitening nominal(const devices::InstrumentModel& instruments);
 
   /// All channels of all intervals, then those of all fixes. What was not measured, and the time in which the
   /// estimator settles, are zero.

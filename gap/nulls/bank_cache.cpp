@@ -81,32 +81,43 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(square / static_cast<double>(shorter));
 }
 
+/// Of numbers only: a type with gaps between its members would differ from itself.
+template <class Numbers>
+std::uint32_t checksum_of(const Numbers& numbers) {
+  static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) % sizeof(double) == 0);
+  std::array<char, sizeof(Numbers)> bytes{};
+  std::memcpy(bytes.data(), &numbers, bytes.size());
+  return record::crc32c({bytes.data(), bytes.size()});
+}
+
 }  // namespace
 
 BankCache::BankCache(std::filesystem::path folder, const config::VehicleSettings& vehicle, const Library& library)
     : folder_(std::move(folder)), unknowns_(static_cast<Eigen::Index>(library.unknowns().size())) {
   model_ = NAVCAL_VERSION;
-  static_assert(std::is_trivially_copyable_v<config::VehicleSettings>);
-  std::array<char, sizeof(config::VehicleSettings)> bytes{};
-  std::memcpy(bytes.data(), &vehicle, bytes.size());
-  model_ += fmt::format(" vehicle {:08x}", record::crc32c({bytes.data(), bytes.size()}));
+  model_ += fmt::format(" vehicle {:08x}", checksum_of(vehicle));
   for (const Unknown& unknown : library.unknowns()) {
     const auto effect = unknown.effect == Library::kNuisance ? "" : library[unknown.effect].name;
     model_ += fmt::format(" {}.{}={}", effect, unknown.name, unknown.typical);
   }
 }
 
+std::string BankCache::model_of(const Replay& replay) const {
+  return model_ + fmt::format(" instruments {:08x}", checksum_of(replay.mission().instruments));
+}
+
 std::optional<NullBank> BankCache::find(const Replay& replay, const Trajectory10Hz& course,
                                         const BankOptions& options) const {
   if (folder_.empty()) return std::nullopt;
   const auto wanted = fingerprint(replay, course);
+  const std::string model = model_of(replay);
   std::optional<NullBank> best;
   std::filesystem::path best_file;
   double best_distance = 1;
   for (const auto& file : banks_in(folder_)) {
     std::ifstream stream(file);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    auto kept = read_bank(text, model_, unknowns_);
+    auto kept = read_bank(text, model, unknowns_);
     if (!kept || kept->bank.missions < options.missions * 9 / 10 || kept->bank.seed != options.seed) continue;
     if (!in_same_field(*kept, replay.mission().field)) continue;
     const double apart = distance(wanted, kept->fingerprint);
@@ -127,7 +138,7 @@ std::string BankCache::keep(const Replay& replay, const Trajectory10Hz& course, 
     std::filesystem::create_directories(folder_);
     const std::string text = bank_text(
         {fingerprint(replay, course), bank, field.north_east_down_uT, field.source == EarthField::Source::fitted},
-        model_);
+        model_of(replay));
     record::WholeFile file(folder_ / fmt::format("{}{:08x}.json", kPrefix, record::crc32c(text)));
     file.write(text);
     file.commit();

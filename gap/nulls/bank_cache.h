@@ -14,7 +14,8 @@ namespace navcal::gap {
 
 /// Null banks of missions that were diagnosed before. A bank serves every mission that was steered alike: the same
 /// shaft speeds, turns, depths, fixes and field of the Earth within a tolerance, by the same nominal vehicle,
-/// library and program. The folder holds at most kMostBanks of them; the one that was not used for longest goes.
+/// instruments, library and program. The folder holds at most kMostBanks of them; the one that was not used for
+/// longest goes.
 class BankCache {
  public:
   static constexpr std::size_t kMostBanks = 64;  ///< of about 0.3 MB each
@@ -29,8 +30,11 @@ class BankCache {
   [[nodiscard]] std::string keep(const Replay& replay, const Trajectory10Hz& course, const NullBank& bank) const;
 
  private:
+  /// What else must be the same.
+  [[nodiscard]] std::string model_of(const Replay& replay) const;
+
   std::filesystem::path folder_;
-  std::string model_;  ///< what else must be the same
+  std::string model_;  ///< of program, vehicle and library
   Eigen::Index unknowns_ = 0;
 };
 

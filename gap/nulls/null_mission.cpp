@@ -21,9 +21,9 @@ constexpr std::int64_t kSomeSecond_ns = 1'767'225'600 * base::kSecond_ns;
 /// A receiver's noise is settled after so many fixes.
 constexpr int kPoorFixes = 8;
 
-config::Settings simulated_settings() {
+config::Settings simulated_settings(const devices::InstrumentModel& instruments) {
   config::Settings settings;
-  settings.ports = sim::recording_ports();
+  settings.ports = sim::recording_ports(instruments);
   return samples_only(settings);
 }
 
@@ -31,7 +31,7 @@ config::Settings simulated_settings() {
 void add_surfacings(const Mission& recorded, sim::EffectSet& effects) {
   for (const FixReading& fix : recorded.fixes) {
     if (fix.number >= kPoorFixes) continue;
-    const std::array<double, 4> more{0, 0, std::exp2(1 - fix.number), 0};
+    const std::array<double, 4> more{0, 0, devices::GpsModel::excess_noise(fix.number), 0};
     effects.add(sim::make_effect("noise_level"), {fix.time_s - 0.5, fix.time_s + 0.5}).set_parameters(more);
   }
 }
@@ -76,9 +76,10 @@ Mission null_mission(const Replay& recorded, const Trajectory10Hz& course, const
       std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), sim::MotionOptions{begin_ns, &effects, 20}),
       field.north_east_down_uT);
   sim::Recording::Options options{begin_ns, true, seed, &effects, false, true};
+  options.instruments = recorded.mission().instruments;
   sim::Recording instruments(options, motion);
 
-  pipeline::Pipeline pipeline(simulated_settings());
+  pipeline::Pipeline pipeline(simulated_settings(options.instruments));
   MissionGatherer gatherer;
   std::vector<sim::LineRead> reads;
   const std::int64_t end_ns = begin_ns + std::llround(recorded.mission().duration_s * 1e9);
@@ -91,6 +92,7 @@ Mission null_mission(const Replay& recorded, const Trajectory10Hz& course, const
     }
   }
   Mission mission = gatherer.take(begin_ns, {});
+  mission.instruments = options.instruments;
   // A field that is fitted takes some of each vehicle's tolerances with it.
   mission.field = field.source == EarthField::Source::fitted ? fitted_field(mission.compass) : field;
   keep_fixes(recorded.mission(), mission);

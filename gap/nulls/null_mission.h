@@ -9,8 +9,8 @@
 namespace navcal::gap {
 
 /// The recorded mission once more, by a simulated vehicle without a gap: as the recorded one was steered, with
-/// instruments through their bytes and the pipeline, and with fixes when it had some. The gyros have no turn-on
-/// bias. Throws sim::UnstableVehicle.
+/// the instruments of the recording through their bytes and the pipeline, and with fixes when it had some. The
+/// gyros have no turn-on bias. Throws sim::UnstableVehicle.
 [[nodiscard]] Mission null_mission(const Replay& recorded, const Trajectory10Hz& course,
                                    const config::VehicleSettings& vehicle, const sim::EffectSet& mismatch,
                                    std::uint64_t seed);

@@ -2,17 +2,10 @@
 #include "gap/replay/predicted_instruments.h"
 
 #include "base/angles.h"
-#include "config/settings.h"
 #include "sim/rotation.h"
 
 namespace navcal::gap {
 using sim::operator*;  // NOLINT(misc-unused-using-decls): of a matrix and a vector, which are std::array
-
-namespace {
-
-constexpr double kFluidLag_s = 0.3;
-
-}  // namespace
 
 PredictedInstruments::Card PredictedInstruments::card(double time_s, const sim::State& state) {
   const sim::Instant now = instant(time_s, state);
@@ -26,7 +19,7 @@ PredictedInstruments::Card PredictedInstruments::card(double time_s, const sim::
   for (std::size_t i = 0; i < 4; ++i) said.gyro_rad_s[i] += bias_rad_s_[i];
   if (effects_.size() == 0) return said;
 
-  static const config::ImuCardSettings kCard;
+  const config::ImuCardSettings& card = instruments_.imu.channels;
   sim::CardVoltages_mV voltages{};
   const auto unit = [](std::size_t i) {
     return i < 4 ? base::kRadiansPerDegree : i < 7 ? sim::kGravity_m_s2 : 1.0;
@@ -34,9 +27,9 @@ PredictedInstruments::Card PredictedInstruments::card(double time_s, const sim::
   const auto signal = [&](std::size_t i) -> double& {
     return i < 4 ? said.gyro_rad_s[i] : i < 7 ? said.force_m_s2[i - 4] : said.depth_m;
   };
-  for (std::size_t i = 0; i < 8; ++i) voltages[i] = kCard.zero_mV[i] + kCard.scale[i] * signal(i) / unit(i);
+  for (std::size_t i = 0; i < 8; ++i) voltages[i] = card.zero_mV[i] + card.scale[i] * signal(i) / unit(i);
   effects_.card_voltages(now, voltages);
-  for (std::size_t i = 0; i < 8; ++i) signal(i) = (voltages[i] - kCard.zero_mV[i]) / kCard.scale[i] * unit(i);
+  for (std::size_t i = 0; i < 8; ++i) signal(i) = (voltages[i] - card.zero_mV[i]) / card.scale[i] * unit(i);
   return said;
 }
 
@@ -44,7 +37,8 @@ void PredictedInstruments::feel(double time_s, const sim::State& state) {
   const sim::Instant now = instant(time_s, state);
   sim::Tilt seen{state.euler_rad[0], state.euler_rad[1]};
   effects_.tilt_seen(now, seen);
-  const sim::Vector3 settled = fluid_.at(time_s, {seen.roll_rad, seen.pitch_rad, 0}, kFluidLag_s);
+  const sim::Vector3 settled =
+      fluid_.at(time_s, {seen.roll_rad, seen.pitch_rad, 0}, instruments_.compass.tilt_lag_s);
   tilt_ = {settled[0], settled[1]};
   sim::Vector3 earth_uT = state.field_world_uT;
   effects_.earth_field(now, earth_uT);

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "base/reference_instruments.h"
+#include "devices/instrument_model.h"
 #include "gap/replay/replay.h"
 #include "sim/effects/effect_set.h"
 #include "sim/effects/low_pass.h"
@@ -22,9 +24,10 @@ class PredictedInstruments {
     sim::Tilt tilt;
   };
 
-  /// `effects` must outlive it.
-  PredictedInstruments(sim::EffectSet& effects, const GyroBias& bias_rad_s)
-      : effects_(effects), bias_rad_s_(bias_rad_s) {}
+  /// `effects` and `instruments` must outlive it.
+  PredictedInstruments(sim::EffectSet& effects, const GyroBias& bias_rad_s,
+                       const devices::InstrumentModel& instruments)
+      : effects_(effects), bias_rad_s_(bias_rad_s), instruments_(instruments) {}
 
   /// The fluid of the tilt sensor forgets where it was: the next attitude is its first.
   void restart() { fluid_ = {}; }
@@ -46,7 +49,8 @@ class PredictedInstruments {
 
   sim::EffectSet& effects_;
   GyroBias bias_rad_s_;
-  double electronics_C_ = 15;
+  const devices::InstrumentModel& instruments_;
+  double electronics_C_ = base::reference::kTemperature_C;
   sim::LowPass fluid_;
   sim::Tilt tilt_;
   sim::Vector3 field_uT_{};

@@ -11,7 +11,6 @@
 namespace navcal::gap {
 namespace {
 
-constexpr double kSurface_m = 0.35;
 /// Bands of frequency: what means over so many rows show, and what they do not.
 constexpr Eigen::Index kSlow = 200, kFast = 20;
 
@@ -134,7 +133,8 @@ Eigen::MatrixXd drivers_of(std::size_t regime, const Trajectory10Hz& course) {
     case speed:
       return one(mapped(course.surge_m_s));
     case surface:
-      return one((mapped(course.depth_m).array() < kSurface_m).cast<double>().matrix());
+      return one(
+          (mapped(course.depth_m).array() < course.instruments.gps.antenna_depth_m).cast<double>().matrix());
     case rudder:
       return deflected(course.rudder_rad);
     case elevator:

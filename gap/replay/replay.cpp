@@ -6,17 +6,19 @@
 #include <limits>
 #include <numbers>
 
+#include "base/reference_instruments.h"
 #include "gap/replay/replay_run.h"
 
 namespace navcal::gap {
 namespace {
 
+constexpr double kReference_C = base::reference::kTemperature_C;
 constexpr double kTemperatureGain = 0.005;  ///< a reading; the electronics settle within 200 s
 
 /// Readings of the electronics' temperature, whose noise is as large as a minute's change, smoothed forth and
 /// back.
 std::vector<double> smoothed_electronics(std::span<const CompassReading> readings) {
-  std::vector<double> smooth(readings.size(), 15.0);
+  std::vector<double> smooth(readings.size(), kReference_C);
   const auto pass = [&](auto begin, auto end, auto out, double share) {
     std::optional<double> mean;
     int taken = 0;
@@ -25,7 +27,7 @@ std::vector<double> smoothed_electronics(std::span<const CompassReading> reading
         const double gain = std::max(kTemperatureGain, 1.0 / ++taken);
         mean = mean ? *mean + gain * (*said - *mean) : *said;
       }
-      *out += share * (mean.value_or(15.0) - 15.0);
+      *out += share * (mean.value_or(kReference_C) - kReference_C);
     }
   };
   pass(readings.begin(), readings.end(), smooth.begin(), 0.5);
@@ -41,7 +43,7 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
       vehicle_(vehicle),
       track_(mission.motor,
              mission.order_times_s.empty() ? regular_orders(0, mission.duration_s) : mission.order_times_s,
-             vehicle.fins.lag_s, mission.duration_s),
+             vehicle.fins.lag_s, mission.instruments.motor, mission.duration_s),
       electronics_C_(smoothed_electronics(mission.compass)) {
   std::vector<double> nominal_A;
   nominal_A.reserve(track_.rows().size());
@@ -53,7 +55,8 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
       std::max({mission.card.front().time_s, mission.compass.front().time_s, mission.motor.front().time_s});
   const auto first = std::find_if(mission.card.begin(), mission.card.end(),
                                   [&](const CardReading& reading) { return reading.time_s >= first_s; });
-  begin_s_ = (first != mission.card.end() ? first->time_s : first_s) - kInterval_s / 4;
+  const double half_frame_s = std::min(0.5 / mission.instruments.imu.timing.rate_Hz, kInterval_s / 2);
+  begin_s_ = (first != mission.card.end() ? first->time_s : first_s) - half_frame_s;
   const auto word = std::find_if(mission.compass.begin(), mission.compass.end(),
                                  [&](const CompassReading& reading) { return reading.time_s >= begin_s_; });
   if (word != mission.compass.end()) {

@@ -7,16 +7,19 @@
 #include <numbers>
 
 #include "base/angles.h"
+#include "base/reference_instruments.h"
 #include "base/vectors.h"
 #include "calib/correction.h"
+#include "gap/replay/estimator_gains.h"
 #include "sim/rotation.h"
+#include "sim/vehicle/steady_advance.h"
 
 namespace navcal::gap {
 namespace {
 
 // The estimator's gains, found by a study of this vehicle: a reading or a frame each.
-constexpr double kHeadingGain = 0.02, kTiltGain = 0.05, kRateGain = 0.15, kDepthGain = 0.03;
-constexpr double kFixVariance_m2 = 1, kDriftVariance_m2_s = 0.02;
+constexpr double kHeadingGain = 0.02, kTiltGain = 0.05, kRateGain = 0.15;
+constexpr double kDriftVariance_m2_s = 0.02;
 /// A card silent for longer has been off: the estimator begins anew.
 constexpr double kRestart_s = 5;
 constexpr double kLongestStep_s = 0.06;
@@ -47,7 +50,7 @@ ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
     : in_(input),
       effects_(model.effects),
       actuators_(input.actuators, effects_),
-      instruments_(effects_, model.bias_rad_s),
+      instruments_(effects_, model.bias_rad_s, input.mission.instruments),
       gyro_error_at_rest_rad_s_(about_axes(model.bias_rad_s)) {
   sums_.setZero(in_.intervals, kChannels);
   counts_.setZero(in_.intervals, kChannels);
@@ -84,8 +87,8 @@ void ReplayRun::begin(const CardReading& reading) {
   body_ = {};
   body_.euler_rad = {word.roll_rad, word.pitch_rad, heading_rad + variation_rad};
   body_.position_m.z() = reading.depth_m;
-  constexpr double kAdvance_m = 0.087;  // a turn of the shaft, at a steady speed
-  body_.velocity[0] = kAdvance_m * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
+  body_.velocity[0] =
+      sim::steady_advance_m(in_.settings) * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
   gyro_said_rad_s_ = about_axes(reading.gyro_rad_s);
   gyro_error_rad_s_ = gyro_error_at_rest_rad_s_;
   body_.velocity.tail<3>() = base::vector_of(gyro_said_rad_s_) - base::vector_of(gyro_error_rad_s_);
@@ -206,9 +209,9 @@ void ReplayRun::take_fix(std::size_t index) {
   const double time_s = fix.time_s - effects_.delays(fix.time_s).gps_s;
   const auto antenna = instruments_.antenna(time_s, states_.filtered_at(time_s), offset_m_);
 
-  // The first fixes after surfacing come from few satellites (docs/simulator.md).
-  const double degraded = 1 + std::exp2(1 - fix.number);
-  const double fix_variance_m2 = kFixVariance_m2 * degraded * degraded;
+  const devices::GpsModel& gps = in_.mission.instruments.gps;
+  const double degraded = gps.noise_factor(fix.number);
+  const double fix_variance_m2 = gps.position_noise_m * gps.position_noise_m * degraded * degraded;
   const auto row = static_cast<Eigen::Index>(index);
   const double since_s = last_fix_s_ ? fix.time_s - *last_fix_s_ : 0;
   std::array<double, 2> missed_m{};
@@ -256,7 +259,7 @@ void ReplayRun::write_course(const CardReading& reading, Trajectory10Hz& course)
     course.depth_m.push_back(state.position_m[2]);
     course.surge_m_s.push_back(state.velocity_body_m_s[0]);
     course.current_A.push_back(state.motor_current_A);
-    course.temperature_rise_C.push_back(instruments_.electronics_C() - 15);
+    course.temperature_rise_C.push_back(instruments_.electronics_C() - base::reference::kTemperature_C);
     // The mixing of the card's interface document, section 4, undone.
     course.rudder_rad.push_back((-2 * fins[0] + fins[1] + fins[2]) / 3);
     course.elevator_rad.push_back((fins[1] - fins[2]) / std::numbers::sqrt3);
@@ -265,6 +268,7 @@ void ReplayRun::write_course(const CardReading& reading, Trajectory10Hz& course)
 }
 
 Innovations ReplayRun::innovations(Trajectory10Hz* course) {
+  if (course != nullptr) course->instruments = in_.mission.instruments;
   for (const CardReading& reading : in_.mission.card) {
     if (reading.time_s < in_.begin_s) continue;
     if (states_.empty() || reading.time_s - states_.newest_s() > kRestart_s) {

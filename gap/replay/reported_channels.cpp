@@ -6,13 +6,12 @@
 #include <numbers>
 
 #include "base/angles.h"
+#include "gap/replay/estimator_gains.h"
 
 namespace navcal::gap {
 namespace {
 
 constexpr double kSettling_s = 20;
-/// Correction of the estimator's depth a second, for each metre that it is off: turns a depth into a rate.
-constexpr double kDepthGain_per_s = 0.6;
 
 enum Reported : std::size_t {
   compass_heading,
@@ -61,6 +60,8 @@ ChannelSeries series_of(std::size_t channel, const Innovations& innovations, con
   ChannelSeries series;
   const bool at_fixes = channel == gps_position || channel == gps_velocity || channel == vehicle_speed;
   const std::size_t points = at_fixes ? fix_times_s.size() : course.time_s.size();
+  // Correction of the estimator's depth a second, for each metre that it is off: turns a depth into a rate.
+  const double depth_gain_per_s = kDepthGain * course.instruments.imu.timing.rate_Hz;
   std::vector<Eigen::VectorXd> rows;
   for (std::size_t i = 0; i < points; ++i) {
     std::size_t at = i;
@@ -110,7 +111,7 @@ ChannelSeries series_of(std::size_t channel, const Innovations& innovations, con
                                                std::sin(course.heading_rad[at]) * fix(velocity_east));
         break;
       default:
-        row = Eigen::VectorXd::Constant(1, kDepthGain_per_s * grid(depth));
+        row = Eigen::VectorXd::Constant(1, depth_gain_per_s * grid(depth));
     }
     if (!row.allFinite()) continue;
     rows.push_back(row * reported_channels()[channel].per_si);

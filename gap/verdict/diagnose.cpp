@@ -170,9 +170,9 @@ void diagnose_prepared(const Problem& problem, const HoldOuts& holdouts, Diagnos
 void say_without_causes(const Request& request, const Progress& progress, const std::string& why,
                         Diagnosis& answer) {
   answer.sentence = fmt::format("The causes of a gap cannot be found: {}.", why);
-  calib::Report report = instruments_alone(request.mission, answer.field.value_or(EarthField{}), [&](double done) {
-    progress("comparing the instruments with each other", done);
-  });
+  calib::Report report =
+      instruments_alone(request.mission, request.settings, answer.field.value_or(EarthField{}),
+                        [&](double done) { progress("comparing the instruments with each other", done); });
   if (!report.calibrators.empty()) answer.instruments_alone = std::move(report);
 }
 

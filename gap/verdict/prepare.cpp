@@ -36,7 +36,8 @@ void Preparation::expect_other_content(const std::string& name, const Mission& m
 std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file, Diagnosis& answer) {
   auto prepared = std::make_unique<Prepared>();
   const std::string name = file.filename().string();
-  prepared->mission = load_mission(file, [&](double done) { progress_("reading " + name, done); });
+  prepared->mission = load_mission(
+      file, [&](double done) { progress_("reading " + name, done); }, request_.settings);
   expect_other_content(name, prepared->mission);
   if (request_.field_uT) prepared->mission.field.set_given(*request_.field_uT);
   if (!answer.field) answer.field = prepared->mission.field;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/settings.h"
 #include "config/vehicle.h"
 #include "gap/data/earth_field.h"
 #include "gap/verdict/diagnosis.h"
@@ -21,6 +22,7 @@ struct Request {
   std::filesystem::path mission;
   std::vector<std::filesystem::path> holdouts;  ///< other missions of the same vehicle; may be none
   config::VehicleSettings vehicle;              ///< the nominal one
+  std::optional<config::Settings> settings;     ///< of all recordings, instead of their own
   std::optional<Vector3> field_uT;              ///< the Earth's, for all missions, whatever they say of it
   std::vector<std::string> excluded;            ///< effects that the library is to be without
   std::filesystem::path cache;                  ///< folder of null banks; empty: none are kept

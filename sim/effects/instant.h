@@ -11,10 +11,10 @@ namespace navcal::sim {
 struct Instant {
   double time_s = 0;  ///< since the beginning of the mission
   const State& state;
-  double electronics_C = 15;  ///< temperature of the electronics
+  double electronics_C = base::reference::kTemperature_C;  ///< temperature of the electronics
 
   /// Above that to which the temperature coefficients refer.
-  [[nodiscard]] double temperature_rise_C() const { return electronics_C - 15; }
+  [[nodiscard]] double temperature_rise_C() const { return electronics_C - base::reference::kTemperature_C; }
   /// Of the origin against the world, in body axes: what is felt, with gravity put back.
   [[nodiscard]] Vector3 acceleration_m_s2() const {
     const Vector3 gravity = transpose(R_world_from_body(state.euler_rad)) * Vector3{0, 0, kGravity_m_s2};

@@ -46,7 +46,7 @@ class Electronics {
   }
 
   std::int64_t begin_ns_ = 0;
-  double water_C_ = 15, next_water_C_ = 15, temperature_C_ = 15;
+  double water_C_ = base::reference::kTemperature_C, next_water_C_ = water_C_, temperature_C_ = water_C_;
 };
 
 }  // namespace navcal::sim

@@ -30,12 +30,12 @@ void GpsReceiver::power_on(std::int64_t t_ns) {
 }
 
 bool GpsReceiver::fixes(std::int64_t second_ns) {
-  if (motion_.at(second_ns).position_m[2] > options_.antenna_depth_m) {
+  if (motion_.at(second_ns).position_m[2] > options_.gps.antenna_depth_m) {
     fix_due_ns_.reset();
     return false;
   }
   if (!fix_due_ns_) {
-    const double search_s = noise_.uniform(options_.least_search_s, options_.longest_search_s);
+    const double search_s = noise_.uniform(options_.gps.least_search_s, options_.gps.longest_search_s);
     fix_due_ns_ = std::max(second_ns, powered_ns_) + std::llround(search_s * 1e9);
     fixes_ = 0;
   }
@@ -47,7 +47,7 @@ GpsReading GpsReceiver::measure(std::int64_t second_ns) {
   last_.speed_m_s = last_.course_deg = 0;
   last_.fixed = fixes(second_ns);
   if (!last_.fixed) return last_;
-  last_.degraded = 1 + std::exp2(1 - fixes_++);
+  last_.degraded = options_.gps.noise_factor(fixes_++);
 
   const double late_s = effects_.delays(effects_.time_s(second_ns)).gps_s;
   const std::int64_t t_ns = second_ns - std::llround(late_s * 1e9);
@@ -58,13 +58,14 @@ GpsReading GpsReceiver::measure(std::int64_t second_ns) {
   effects_.antenna(now, antenna);
 
   const double louder = last_.degraded * effects_.noise(Instrument::gps, now.time_s);
-  for (double& coordinate : antenna.position_m) coordinate += noise_.normal(options_.position_noise_m * louder);
+  for (double& coordinate : antenna.position_m)
+    coordinate += noise_.normal(options_.gps.position_noise_m * louder);
   const Vector3 geographic = geodetic(options_.origin, antenna.position_m);
   last_.latitude_deg = geographic[0];
   last_.longitude_deg = geographic[1];
   last_.height_m = geographic[2];
-  const double north = antenna.velocity_m_s[0] + noise_.normal(options_.velocity_noise_m_s * louder);
-  const double east = antenna.velocity_m_s[1] + noise_.normal(options_.velocity_noise_m_s * louder);
+  const double north = antenna.velocity_m_s[0] + noise_.normal(options_.gps.velocity_noise_m_s * louder);
+  const double east = antenna.velocity_m_s[1] + noise_.normal(options_.gps.velocity_noise_m_s * louder);
   last_.speed_m_s = std::hypot(north, east);
   last_.course_deg = std::atan2(east, north) * 180 / std::numbers::pi;
   if (last_.course_deg < 0) last_.course_deg += 360;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "devices/instrument_model.h"
 #include "protocols/utc.h"
 #include "sim/effects/effect_set.h"
 #include "sim/geodesy.h"
@@ -21,17 +22,15 @@ struct GpsReading {
   double course_deg = 0;
 };
 
-/// Satellites to position and velocity over ground: none below 0.35 m, the first fix 2 to 10 s after surfacing or
-/// power-on, the first ones of few satellites. Fix n (from 0) has noise of (1 + 2^(1-n)) times the final one and
-/// a dilution of precision likewise, and is two-dimensional as long as that is above 1.4.
+/// Satellites to position and velocity over ground: none below the antenna's depth, the first fix some seconds
+/// after surfacing or power-on, the first ones of few satellites. Fix n (from 0) has
+/// devices::GpsModel::noise_factor(n) times the final noise and a dilution of precision likewise, and is
+/// two-dimensional as long as that is above 1.4.
 class GpsReceiver {
  public:
   struct Options {
     Origin origin;
-    double position_noise_m = 1.0;
-    double velocity_noise_m_s = 0.1;
-    double antenna_depth_m = 0.35;
-    double least_search_s = 2, longest_search_s = 10;
+    devices::GpsModel gps;
     EffectSet* effects = nullptr;  ///< nullptr: nominal
   };
   GpsReceiver(const Options& options, const Motion& motion, std::uint64_t seed);

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace navcal::sim {
 namespace {
 
 namespace card = protocols::imu_card;
-constexpr double kImuPeriod_s = 0.05;
 constexpr double kFullScale = 65520;
 constexpr double kCountsPer_mV = 16;
 
@@ -22,17 +22,17 @@ ImuCard::ImuCard(const Options& options, const Motion& motion)
       noise_(options.seed) {}
 
 void ImuCard::power_on(std::int64_t t_ns) {
-  ticks_ = Ticks(t_ns, kImuPeriod_s, options_.clock_ppm);
+  ticks_ = Ticks(t_ns, 1 / options_.imu.timing.rate_Hz, options_.clock_ppm);
   electronics_.power_on(t_ns, motion_);
   sequence_ = 0;
-  for (double& bias : bias_deg_s_) bias = noise_.normal(options_.turn_on_bias_deg_s);
+  for (double& bias : bias_rad_s_) bias = noise_.normal(options_.imu.turn_on_bias_rad_s);
 }
 
 void ImuCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
   while (ticks_.next_ns() <= t_ns) {
     const std::int64_t sent_ns = ticks_.next_ns();
     const double time_s = effects_.time_s(sent_ns);
-    const double latency_s = options_.latency_s + effects_.delays(time_s).card_s;
+    const double latency_s = options_.imu.timing.latency_s + effects_.delays(time_s).card_s;
     const auto frame = card::encode_record(measure(sent_ns - std::llround(latency_s * 1e9)));
     line_.put(sent_ns, options_.baud, {frame.begin(), frame.end()}, out);
     ticks_.pass(effects_.slow_ppm(Instrument::imu, time_s));
@@ -52,13 +52,13 @@ std::array<double, 8> ImuCard::signals(const Instant& now) {
   const double louder = effects_.noise(Instrument::imu, now.time_s);
   std::array<double, 8> signals{};
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    signals[i] =
-        rates[i] * 180 / std::numbers::pi + bias_deg_s_[i] + noise_.normal(options_.rate_noise_deg_s * louder);
+    const double error_rad_s = bias_rad_s_[i] + noise_.normal(options_.imu.gyro_noise_rad_s * louder);
+    signals[i] = (rates[i] + error_rad_s) * base::kDegreesPerRadian;
   }
   for (std::size_t i = 0; i < force.size(); ++i) {
-    signals[4 + i] = (force[i] + noise_.normal(options_.force_noise_m_s2 * louder)) / kGravity_m_s2;
+    signals[4 + i] = (force[i] + noise_.normal(options_.imu.force_noise_m_s2 * louder)) / kGravity_m_s2;
   }
-  signals[7] = depth + noise_.normal(options_.depth_noise_m * louder);
+  signals[7] = depth + noise_.normal(options_.imu.depth_noise_m * louder);
   return signals;
 }
 
@@ -67,7 +67,7 @@ card::Record ImuCard::measure(std::int64_t t_ns) {
   const Instant now = effects_.instant(t_ns, state, electronics_.temperature_C(t_ns, motion_));
   CardVoltages_mV voltages = signals(now);
   for (std::size_t i = 0; i < voltages.size(); ++i) {
-    voltages[i] = options_.card.zero_mV[i] + options_.card.scale[i] * voltages[i];
+    voltages[i] = options_.imu.channels.zero_mV[i] + options_.imu.channels.scale[i] * voltages[i];
   }
   effects_.card_voltages(now, voltages);
   card::Record record;

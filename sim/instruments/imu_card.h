@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "config/settings.h"
+#include "devices/instrument_model.h"
 #include "protocols/imu_card.h"
 #include "sim/effects/effect_set.h"
 #include "sim/instruments/device.h"
@@ -16,13 +16,8 @@ namespace navcal::sim {
 class ImuCard final : public Device {
  public:
   struct Options {
-    config::ImuCardSettings card;  ///< zeros and scales of this unit
-    double clock_ppm = 0;          ///< positive: its seconds are too long
-    double latency_s = 0.025;      ///< from the measurement to the first byte
-    double rate_noise_deg_s = 0.1;
-    double turn_on_bias_deg_s = 0.3;  ///< 1 sigma, drawn anew for each gyro at each power-on
-    double force_noise_m_s2 = 0.02;
-    double depth_noise_m = 0.02;
+    devices::ImuModel imu;
+    double clock_ppm = 0;  ///< positive: its seconds are too long
     std::uint64_t seed = 1;
     int baud = 57600;
     EffectSet* effects = nullptr;  ///< nullptr: nominal
@@ -51,7 +46,7 @@ class ImuCard final : public Device {
   Noise noise_;
   Line line_;
   Ticks ticks_;
-  std::array<double, 4> bias_deg_s_{};
+  std::array<double, 4> bias_rad_s_{};
   std::uint8_t sequence_ = 0;
   std::uint8_t status_ = 0;
 };

@@ -11,7 +11,6 @@ namespace navcal::sim {
 namespace {
 
 namespace motor = protocols::motor_card;
-constexpr double kStatusPeriod_s = 0.1;
 
 }  // namespace
 
@@ -22,7 +21,7 @@ MotorCard::MotorCard(const Options& options, const Motion& motion)
       noise_(options.seed) {}
 
 void MotorCard::power_on(std::int64_t t_ns) {
-  ticks_ = Ticks(t_ns, kStatusPeriod_s, options_.clock_ppm);
+  ticks_ = Ticks(t_ns, 1 / options_.motor.timing.rate_Hz, options_.clock_ppm);
   parser_ = {};
   command_.reset();
   sequence_ = 0;
@@ -47,7 +46,7 @@ void MotorCard::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
 void MotorCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
   while (ticks_.next_ns() <= t_ns) {
     const std::int64_t sent_ns = ticks_.next_ns();
-    const auto status = measure(sent_ns - std::llround(options_.latency_s * 1e9));
+    const auto status = measure(sent_ns - std::llround(options_.motor.timing.latency_s * 1e9));
     line_.put(sent_ns, options_.baud, motor::encode_status(status), out);
     ticks_.pass(effects_.slow_ppm(Instrument::motor, effects_.time_s(sent_ns)));
   }
@@ -65,27 +64,29 @@ MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
     return to + (from - to) * std::exp(-since_s / lag_s);
   };
   Actuators now;
-  now.rpm = follow(at_command_.rpm, command_->rpm, options_.shaft_lag_s);
+  now.rpm = follow(at_command_.rpm, command_->rpm, options_.propeller.lag_s);
   for (std::size_t i = 0; i < 3; ++i) {
-    now.fins_deg[i] = follow(at_command_.fins_deg[i], command_->fins_deg[i], options_.fin_lag_s);
+    now.fins_deg[i] = follow(at_command_.fins_deg[i], command_->fins_deg[i], options_.fins.lag_s);
   }
-  now.current_A = current_A(config::PropellerSettings{}, now.rpm / 60);
+  now.current_A = current_A(options_.propeller, now.rpm / 60);
   return now;
 }
 
 motor::Status MotorCard::measure(std::int64_t t_ns) {
   const Actuators now = actuators_at(t_ns);
   const double louder = effects_.noise(Instrument::motor, effects_.time_s(t_ns));
+  const double fin_noise_deg = options_.motor.fin_noise_rad * base::kDegreesPerRadian;
   motor::Status status;
   status.sequence = sequence_++;
   status.rpm_commanded =
       command_ ? command_->rpm : static_cast<std::int32_t>(std::lround(motion_.at(t_ns).rpm_commanded));
   status.rpm = static_cast<std::int32_t>(std::lround(now.rpm));
   for (std::size_t i = 0; i < 3; ++i) {
-    status.fins_deg[i] = rounded(now.fins_deg[i] + noise_.normal(options_.fin_noise_deg * louder), 0.1);
+    const double noise_deg = noise_.normal(fin_noise_deg * louder);
+    status.fins_deg[i] = rounded(now.fins_deg[i] + noise_deg, options_.motor.fin_resolution_deg);
   }
-  const double current_A = now.current_A + noise_.normal(options_.current_noise_A * louder);
-  status.current_A = rounded(std::max(0.0, current_A), 0.01);
+  const double current_A = now.current_A + noise_.normal(options_.motor.current_noise_A * louder);
+  status.current_A = rounded(std::max(0.0, current_A), options_.motor.current_resolution_A);
   return status;
 }
 

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "config/vehicle.h"
+#include "devices/instrument_model.h"
 #include "protocols/motor_card.h"
 #include "sim/effects/effect_set.h"
 #include "sim/instruments/device.h"
@@ -16,12 +18,10 @@ namespace navcal::sim {
 class MotorCard final : public Device {
  public:
   struct Options {
+    devices::MotorModel motor;
     double clock_ppm = 0;
-    double latency_s = 0.005;
-    double fin_noise_deg = 0.1;
-    double current_noise_A = 0.02;
-    double shaft_lag_s = 0.5;
-    double fin_lag_s = 0.15;
+    config::PropellerSettings propeller;  ///< of the vehicle that obeys commands, with its fins
+    config::FinSettings fins;
     std::uint64_t seed = 1;
     int baud = 19200;
     EffectSet* effects = nullptr;  ///< nullptr: nominal

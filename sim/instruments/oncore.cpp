@@ -18,7 +18,7 @@ constexpr std::size_t kInputBytes = 1024;
 Oncore::Oncore(const Options& options, const Motion& motion)
     : options_(options), receiver_(options.receiver, motion, options.seed) {}
 
-std::int64_t Oncore::latency_ns() const { return std::llround(options_.latency_s * 1e9); }
+std::int64_t Oncore::latency_ns() const { return std::llround(options_.receiver.gps.timing.latency_s * 1e9); }
 
 void Oncore::power_on(std::int64_t t_ns) {
   receiver_.power_on(t_ns);

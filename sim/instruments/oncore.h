@@ -10,8 +10,8 @@
 
 namespace navcal::sim {
 
-/// Motorola Oncore (ICD section 2): silent until asked, reads its input once a second, sends 300 ms after the
-/// second that its messages state. Nothing that was asked for outlives a loss of power.
+/// Motorola Oncore (ICD section 2): silent until asked, reads its input once a second, sends some time after
+/// the second that its messages state. Nothing that was asked for outlives a loss of power.
 class Oncore final : public Device {
  public:
   enum class Kind : std::uint8_t {
@@ -20,9 +20,8 @@ class Oncore final : public Device {
     nmea,             ///< today's receiver: sentences every second without being asked, deaf to commands
   };
   struct Options {
-    GpsReceiver::Options receiver;
+    GpsReceiver::Options receiver;  ///< with the latency of the messages
     Kind kind = Kind::twelve_channels;
-    double latency_s = 0.3;
     int leap_seconds = 18;
     bool leap_seconds_known = true;  ///< else it reports GPS time, as after a cold start
     int weeks_early = 0;             ///< of a date that has rolled over: 1024 or 2048

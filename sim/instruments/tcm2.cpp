@@ -39,6 +39,7 @@ void Tcm2::power_on(std::int64_t t_ns) {
   measured_ns_ = t_ns;
   settings_ = {};
   settings_.field = options_.field_at_power_on;
+  settings_.clock_Hz = options_.sensor.compass.timing.rate_Hz;
   restart(t_ns);
   if (options_.go_at_power_on) start(t_ns + kStartsUp_ns);
 }
@@ -57,7 +58,7 @@ void Tcm2::start(std::int64_t t_ns) {
   words_ = Ticks(t_ns, period_s(), options_.clock_ppm);
 }
 
-std::int64_t Tcm2::latency_ns() const { return std::llround(options_.latency_s * 1e9); }
+std::int64_t Tcm2::latency_ns() const { return std::llround(options_.sensor.compass.timing.latency_s * 1e9); }
 
 double Tcm2::period_s() const { return static_cast<double>(settings_.divider) / settings_.clock_Hz; }
 
@@ -214,14 +215,16 @@ std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) 
   measured_ns_ = std::max(measured_ns_, t_ns - latency_ns());
   const Tcm2Reading reading = sensor_.measure(measured_ns_);
   if (calibrating_) score_.add(reading);
-  if (fields.nmea) return tcm2::encode_hchdm(wrapped(reading.heading_rad * base::kDegreesPerRadian, 360, 0.1));
+  const auto& compass = options_.sensor.compass;
+  const double heading_deg =
+      wrapped(reading.heading_rad * base::kDegreesPerRadian, 360, compass.heading_resolution_deg);
+  if (fields.nmea) return tcm2::encode_hchdm(heading_deg);
   tcm2::Word out;
   if (fields.heading) {
-    out.heading = fields.heading_in_mils ? wrapped(reading.heading_rad * kMils, 6400, 1)
-                                         : wrapped(reading.heading_rad * base::kDegreesPerRadian, 360, 0.1);
+    out.heading = fields.heading_in_mils ? wrapped(reading.heading_rad * kMils, 6400, 1) : heading_deg;
   }
   const double tilt_scale = fields.tilt_in_mils ? kMils : base::kDegreesPerRadian;
-  const double tilt_resolution = fields.tilt_in_mils ? 1 : 0.1;
+  const double tilt_resolution = fields.tilt_in_mils ? 1 : compass.tilt_resolution_deg;
   if (fields.pitch) out.pitch = rounded(reading.pitch_rad * tilt_scale, tilt_resolution);
   if (fields.roll) out.roll = rounded(reading.roll_rad * tilt_scale, tilt_resolution);
   if (fields.field) {

@@ -18,12 +18,11 @@ namespace navcal::sim {
 class Tcm2 final : public Device {
  public:
   struct Options {
-    Tcm2Sensor::Options sensor;
+    Tcm2Sensor::Options sensor;      ///< with the words' latency and rate
     int baud = 38400;                ///< from the factory 9600; the vehicle's is set to 38400
     bool go_at_power_on = false;     ///< words from the beginning, as a unit so configured
     bool field_at_power_on = false;  ///< with the magnetometers' readings in them
     double clock_ppm = 0;
-    double latency_s = 0.05;  ///< from the measurement to the first byte of a word
     std::uint64_t seed = 1;
   };
   Tcm2(const Options& options, const Motion& motion);
@@ -38,8 +37,8 @@ class Tcm2 final : public Device {
   struct Settings {
     bool heading = true, pitch = true, roll = true, field = false, temperature = true;
     bool heading_in_mils = false, tilt_in_mils = false, fahrenheit = false, nmea = false;
-    int clock_Hz = 10;
     int divider = 1;
+    double clock_Hz = 0;
   };
   /// A line as it is, or a word of these fields, measured when it is due.
   struct Answer {

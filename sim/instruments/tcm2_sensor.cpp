@@ -36,7 +36,8 @@ void Tcm2Sensor::feel(std::int64_t t_ns) {
   Tilt seen{state.euler_rad[0], state.euler_rad[1]};
   effects_.tilt_seen(now, seen);
   const double since_power_s = static_cast<double>(t_ns - powered_ns_) * 1e-9;
-  const Vector3 settled = fluid_.at(since_power_s, {seen.roll_rad, seen.pitch_rad, 0}, options_.fluid_lag_s);
+  const Vector3 settled =
+      fluid_.at(since_power_s, {seen.roll_rad, seen.pitch_rad, 0}, options_.compass.tilt_lag_s);
   tilt_ = {settled[0], settled[1]};
   Vector3 field_world_uT = state.field_world_uT;
   effects_.earth_field(now, field_world_uT);
@@ -54,9 +55,9 @@ Tcm2Reading Tcm2Sensor::measure(std::int64_t t_ns) {
   const double louder = effects_.noise(Instrument::compass, now.time_s);
   Tcm2Reading reading;
   reading.field_uT = field_body_uT_;
-  for (double& component : reading.field_uT) component += noise_.normal(options_.field_noise_uT * louder);
-  reading.pitch_rad = said.pitch_rad + noise_.normal(options_.tilt_noise_deg * louder * base::kRadiansPerDegree);
-  reading.roll_rad = said.roll_rad + noise_.normal(options_.tilt_noise_deg * louder * base::kRadiansPerDegree);
+  for (double& component : reading.field_uT) component += noise_.normal(options_.compass.field_noise_uT * louder);
+  reading.pitch_rad = said.pitch_rad + noise_.normal(options_.compass.tilt_noise_rad * louder);
+  reading.roll_rad = said.roll_rad + noise_.normal(options_.compass.tilt_noise_rad * louder);
   reading.tilt_out_of_range = std::max(std::abs(reading.pitch_rad), std::abs(reading.roll_rad)) >
                               options_.tilt_range_deg * base::kRadiansPerDegree;
   const double earth_uT = norm(state.field_world_uT);
@@ -69,7 +70,7 @@ Tcm2Reading Tcm2Sensor::measure(std::int64_t t_ns) {
   const double yh = y * cf - z * sf;
   reading.heading_rad = std::atan2(-yh, xh);
   if (reading.heading_rad < 0) reading.heading_rad += 2 * std::numbers::pi;
-  reading.temperature_C = now.electronics_C + noise_.normal(options_.temperature_noise_C * louder);
+  reading.temperature_C = now.electronics_C + noise_.normal(options_.compass.temperature_noise_C * louder);
   return reading;
 }
 

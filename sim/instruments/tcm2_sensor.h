@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "devices/instrument_model.h"
 #include "sim/effects/effect_set.h"
 #include "sim/effects/low_pass.h"
 #include "sim/instruments/electronics.h"
@@ -25,13 +26,10 @@ struct Tcm2Reading {
 class Tcm2Sensor {
  public:
   struct Options {
-    double field_noise_uT = 0.15;
-    double tilt_noise_deg = 0.1;
-    double fluid_lag_s = 0.3;
+    devices::CompassModel compass;
     double tilt_range_deg = 50;
     double distortion_share =
-        0.25;  ///< departure of the field's size from the Earth's, relative, that is remarked
-    double temperature_noise_C = 0.1;
+        0.25;                      ///< departure of the field's size from the Earth's, relative, that is remarked
     EffectSet* effects = nullptr;  ///< nullptr: nominal
   };
   Tcm2Sensor(const Options& options, const Motion& motion, std::uint64_t seed);

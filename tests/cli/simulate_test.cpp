@@ -17,6 +17,7 @@
 namespace navcal::cli {
 namespace {
 
+const std::string kPort = "[port.compass]\nprotocol = \"tcm2\"\npath = \"/dev/ttyS0\"\nbaud = 38400\n";
 const std::string kPath = NAVCAL_SOURCE_DIR "/fixtures/paths/path3.csv";
 
 class Simulate : public testing::Test {
@@ -102,6 +103,16 @@ TEST_F(Simulate, ThePageIsWholeAndShowsMotionInstrumentsAndEffects) {
   expect_files({"a.cap", "a.html"});
 }
 
+TEST_F(Simulate, TheConfigurationSetsTheInstrumentsAndOtherwiseNothing) {
+  const std::string simulate = "navcal simulate --path " + kPath + " --seconds 20 ";
+  write("same.toml", kPort);
+  write("noisy.toml", kPort + "[instruments]\ncompass_field_noise_uT = 5\n");
+  ASSERT_EQ(run(simulate + "-o a.cap; " + simulate + "--config same.toml -o b.cap; cmp a.cap b.cap").status, 0);
+  const auto differing = run(simulate + "--config noisy.toml -o c.cap; for port in compass imu gps motor; do " +
+                             "cmp -s <(grep \" $port <\" a.cap) <(grep \" $port <\" c.cap) || echo $port; done");
+  EXPECT_EQ(differing.output, "compass\n") << differing.errors;
+}
+
 TEST_F(Simulate, APictureWithoutReadingsIsLeftOutWithAWord) {
   const auto outcome =
       run("navcal simulate --path " + kPath + " --seconds 0.01 -o a.cap --report a.html && cat a.html");
@@ -122,6 +133,7 @@ TEST_F(Simulate, RefusesWithTheReasonAndLeavesNothingBehind) {
   write("bad.csv", "t,x\n");
   write("effects.toml", "\n[motor_fields]\nx_uT_per_A = 1\n");
   write("range.toml", "[fin_lag]\ntau_s = -1\n");
+  write("bad.toml", kPort + "[instruments]\ncompass_tilt_lag_s = -1\n");
   for (const auto& [what, command, status, said] : std::vector<Refusal>{
            {"no motion", "-o a.cap", 2, "one of --path, --drive and --mission"},
            {"two motions", "--mission survey --drive x.csv -o a.cap", 2, "one of --path, --drive and --mission"},
@@ -140,12 +152,15 @@ TEST_F(Simulate, RefusesWithTheReasonAndLeavesNothingBehind) {
            {"a path that is driven off",
             "--path " NAVCAL_SOURCE_DIR "/fixtures/paths/path3.csv --effect buoyancy=1 -o a.cap", 2,
             "buoyancy changes the vehicle's motion"},
+           {"an instrument beyond its range", "--mission survey --config bad.toml -o a.cap", 3,
+            "bad.toml:6: instruments.compass_tilt_lag_s: -1 is out of range"},
+           {"no such configuration", "--mission survey --config none.toml -o a.cap", 3, "none.toml"},
            {"nowhere to write", "--mission survey --seconds 1 -o none/a.cap", 1, "none/a.cap"}}) {
     const auto outcome = run(std::string("navcal simulate ") + command);
     EXPECT_EQ(outcome.status, status) << what << ": " << outcome.errors;
     EXPECT_NE(outcome.errors.find(said), std::string::npos) << what << ": " << outcome.errors;
   }
-  expect_files({"bad.csv", "effects.toml", "range.toml"});
+  expect_files({"bad.csv", "bad.toml", "effects.toml", "range.toml"});
 }
 
 TEST_F(Simulate, InterruptedItLeavesNoHalfFile) {

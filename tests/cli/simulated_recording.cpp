@@ -120,7 +120,7 @@ std::string simulated_recording(const std::vector<sim::PathRow>& path, const Rec
   }
   if (options.imu) {
     auto card = seeded<sim::ImuCard>(options.seed + 1);
-    card.card.scale[1] *= options.gyro_scale;
+    card.imu.channels.scale[1] *= options.gyro_scale;
     sim::ImuCard imu(card, motion);
     imu.power_on(begin_ns);
     run(imu, 1, options, end_ns, reads);

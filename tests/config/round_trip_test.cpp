@@ -83,6 +83,8 @@ Settings some_settings(Random& random) {
     EXPECT_EQ(option.adopt(value), std::nullopt) << option.name();
     option.set(settings, value);
   }
+  auto& gps = settings.instruments.gps;
+  if (gps.longest_search_s < gps.least_search_s) std::swap(gps.longest_search_s, gps.least_search_s);
   const auto ports = 1 + random() % 6;
   for (std::size_t i = 0; i < ports; ++i) settings.ports.push_back(some_port(i, random));
   for (const Role role : kRoles) {

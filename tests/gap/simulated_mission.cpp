@@ -22,7 +22,7 @@ constexpr std::int64_t kBegin_ns = 1'767'225'600'000'000'000;
 }  // namespace
 
 void write_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
-                   double seconds, std::uint64_t seed) {
+                   double seconds, std::uint64_t seed, const devices::InstrumentModel& model) {
   sim::EffectSet set(kBegin_ns);
   std::vector<config::Problem> problems;
   sim::add_effects(effects, set, problems);
@@ -36,8 +36,9 @@ void write_mission(const std::filesystem::path& file, std::string_view mission, 
   options.begin_ns = kBegin_ns;
   options.seed = seed;
   options.effects = &set;
+  options.instruments = model;
   sim::Recording instruments(options, motion);
-  record::CaptureWriter writer(sim::recording_ports());
+  record::CaptureWriter writer(sim::recording_ports(options.instruments));
   std::string text;
   writer.begin(text);
   record::CaptureWriter::comment(text,
@@ -56,9 +57,10 @@ void write_mission(const std::filesystem::path& file, std::string_view mission, 
   whole.commit();
 }
 
-Mission simulated_mission(std::string_view mission, std::string_view effects, double seconds, std::uint64_t seed) {
+Mission simulated_mission(std::string_view mission, std::string_view effects, double seconds, std::uint64_t seed,
+                          const devices::InstrumentModel& instruments) {
   const navcal::test::TemporaryFolder folder;
-  write_mission(folder / "mission.cap", mission, effects, seconds, seed);
+  write_mission(folder / "mission.cap", mission, effects, seconds, seed, instruments);
   return load_mission(folder / "mission.cap", [](double) {});
 }
 

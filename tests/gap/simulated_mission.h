@@ -8,12 +8,13 @@
 
 namespace navcal::gap::test {
 
-/// A capture of a shipped mission's first seconds, by a vehicle with these effects (TOML).
+/// A capture of a shipped mission's first seconds, by a vehicle with these effects (TOML) and instruments. The
+/// capture says nothing of its instruments.
 void write_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
-                   double seconds, std::uint64_t seed);
+                   double seconds, std::uint64_t seed, const devices::InstrumentModel& instruments = {});
 
 /// The same as read back.
 [[nodiscard]] Mission simulated_mission(std::string_view mission, std::string_view effects, double seconds,
-                                        std::uint64_t seed);
+                                        std::uint64_t seed, const devices::InstrumentModel& instruments = {});
 
 }  // namespace navcal::gap::test

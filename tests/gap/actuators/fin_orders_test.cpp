@@ -11,7 +11,7 @@
 namespace navcal::gap {
 namespace {
 
-constexpr double kFinLag_s = 0.15, kDuration_s = 120, kStep_s = 0.01;
+constexpr double kFinLag_s = 0.15, kReport_rad = 0.00182, kDuration_s = 120, kStep_s = 0.01;
 constexpr std::size_t kFinRows = 12'000;
 
 /// A helmsman who tells the servos something ten times a second, and what the card reports of it.
@@ -50,7 +50,9 @@ Steered steered(double restless_deg) {
   return result;
 }
 
-FinOrders orders_of(const Steered& helm) { return {helm.readings, regular_orders(0, kDuration_s), kFinLag_s}; }
+FinOrders orders_of(const Steered& helm) {
+  return {helm.readings, regular_orders(0, kDuration_s), kFinLag_s, kReport_rad};
+}
 
 /// Root mean square of what moves within a tenth of a second beyond the second around it, degrees.
 double restlessness(const std::vector<Vector3>& path, std::size_t fin) {
@@ -126,7 +128,7 @@ TEST(FinOrders, OrdersThatTheFinsDidNotObeyAreKnownByWhatTheyLeave) {
   const Steered helm = steered(0.6);
   EXPECT_LT(orders_of(helm).misfit(), 1.1);
   EXPECT_GT(orders_of(helm).misfit(), 0.3);
-  const FinOrders few(helm.readings, std::vector{20.0, 50.0}, kFinLag_s);
+  const FinOrders few(helm.readings, std::vector{20.0, 50.0}, kFinLag_s, kReport_rad);
   EXPECT_GT(few.misfit(), 10);
 }
 

@@ -86,7 +86,7 @@ TEST_F(Explained, AStepThatSimulationRefusesIsNotTheAnswer) {
   const Mission mission = test::simulated_mission("survey", "[hard_iron]\nx_uT = 2\n", 60, 6);
   const config::VehicleSettings vehicle;
   const Replay replay(mission, vehicle);
-  const Whitening whitening = Whitening::nominal();
+  const Whitening whitening = Whitening::nominal({});
   const Linearised honest = linearise(replay, library_, whitening, truth_, 2);
   const Eigen::Index x = library_.first(iron_);
   const ModelFit found = refine({iron_}, honest, replay, library_, whitening, priors_);

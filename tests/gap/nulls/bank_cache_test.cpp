@@ -54,6 +54,22 @@ TEST_F(BankCacheTest, AnotherSeedVehicleSizeOrMissionNeedsAnother) {
   EXPECT_FALSE(cache.find(replay, course, {20, 1, 1}));
 }
 
+TEST_F(BankCacheTest, OtherInstrumentsNeedAnother) {
+  const BankCache cache(folder_.path(), {}, library_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
+  const auto is_found_with = [&](const devices::InstrumentModel& instruments) {
+    Mission mission = mission_;
+    mission.instruments = instruments;
+    return cache.find(Replay(mission, {}), course_, {20, 1, 1}).has_value();
+  };
+  EXPECT_TRUE(is_found_with({}));
+  devices::InstrumentModel noisier, later, scaled;
+  noisier.compass.field_noise_uT *= 1.01;
+  later.imu.timing.latency_s += 0.001;
+  scaled.imu.channels.scale[7] *= 1.01;
+  for (const auto& instruments : {noisier, later, scaled}) EXPECT_FALSE(is_found_with(instruments));
+}
+
 TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   const BankCache cache(folder_.path(), {}, library_);
   EXPECT_EQ(cache.keep(replay_, course_, bank_), "");

@@ -10,7 +10,7 @@ NullBank made_up_bank(Eigen::Index unknowns) {
   bank.missions = 20;
   bank.seed = 1;
   bank.seconds = 3;
-  bank.whitening = Whitening::nominal();
+  bank.whitening = Whitening::nominal({});
   bank.gram = Eigen::MatrixXd::Identity(unknowns, unknowns);
   bank.scores = Eigen::MatrixXd::Random(unknowns, 20);
   bank.powers.assign(20, 1.0625);

@@ -36,7 +36,7 @@ TEST(NullMission, OfAVehicleThatIsItsModelSpeaksForNothing) {
   for (std::uint64_t seed = 1; seed <= kNullMissions; ++seed) {
     const Mission mission = null_mission(replay, course, vehicle, sim::EffectSet(), seed);
     const Replay own(mission, vehicle);
-    const auto white = Whitening::nominal();
+    const auto white = Whitening::nominal(mission.instruments);
     const Eigen::VectorXd residual = residual_at(own, library, white, nothing);
     const Eigen::MatrixXd design = design_at(own, library, white, nothing, residual, asked, 2);
     scores += (design.transpose() * residual).array() / kNullMissions;

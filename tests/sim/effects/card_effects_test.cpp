@@ -88,7 +88,7 @@ TEST(CardEffects, LatencyMakesTheCardSayWhatWasEarlier) {
   EffectSet effects(kStart_ns);
   effects.add(effect_with("imu_latency", {0.1}), {5, 100});
   ImuCard::Options options;
-  options.rate_noise_deg_s = options.turn_on_bias_deg_s = options.force_noise_m_s2 = options.depth_noise_m = 0;
+  options.imu = devices::without_noise({}).imu;
   options.effects = &effects;
   ImuCard card(options, motion);
   card.power_on(kStart_ns);

@@ -130,7 +130,7 @@ TEST(CompassEffects, TheSensorSaysTheHeadingOfItsOwnFieldAndTilt) {
   effects.add(effect_with("hard_iron", {0, -20, 0}), {10, 20});
   effects.add(effect_with("declination", {30}), {30, 40});
   Tcm2Sensor::Options options;
-  options.field_noise_uT = options.tilt_noise_deg = 0;
+  options.compass = devices::without_noise({}).compass;
   options.effects = &effects;
   Tcm2Sensor sensor(options, motion, 1);
   sensor.power_on(kStart_ns);

@@ -13,7 +13,7 @@ namespace {
 
 ImuCard::Options exact() {
   ImuCard::Options options;
-  options.rate_noise_deg_s = options.turn_on_bias_deg_s = options.force_noise_m_s2 = options.depth_noise_m = 0;
+  options.imu = devices::without_noise({}).imu;
   return options;
 }
 

@@ -17,7 +17,7 @@ struct EmulatedMotorCard : ::testing::Test {
 
   static MotorCard::Options quiet() {
     MotorCard::Options options;
-    options.fin_noise_deg = options.current_noise_A = 0;
+    options.motor = devices::without_noise({}).motor;
     return options;
   }
   EmulatedMotorCard() {

@@ -16,7 +16,7 @@ namespace {
 
 Tcm2Sensor::Options quiet() {
   Tcm2Sensor::Options options;
-  options.field_noise_uT = options.tilt_noise_deg = options.temperature_noise_C = 0;
+  options.compass = devices::without_noise({}).compass;
   return options;
 }
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/reference_instruments.h"
+
+namespace navcal::config {
+
+/// What a file states of the compass. Noise is white, one standard deviation of a reading.
+struct CompassAccuracy {
+  double field_noise_uT = base::reference::kFieldNoise_uT;  ///< each axis
+  double tilt_noise_rad = base::reference::kTiltNoise_rad;  ///< roll and pitch
+  double tilt_lag_s = base::reference::kTiltLag_s;          ///< first-order lag of the inclinometer
+  double temperature_noise_C = base::reference::kTemperatureNoise_C;
+
+  bool operator==(const CompassAccuracy&) const = default;
+};
+
+struct ImuAccuracy {
+  double gyro_noise_rad_s = base::reference::kGyroNoise_rad_s;
+  double turn_on_bias_rad_s = base::reference::kTurnOnBias_rad_s;  ///< new for each gyro at each power-on
+  double force_noise_m_s2 = base::reference::kForceNoise_m_s2;
+  double depth_noise_m = base::reference::kDepthNoise_m;
+
+  bool operator==(const ImuAccuracy&) const = default;
+};
+
+struct GpsAccuracy {
+  double position_noise_m = base::reference::kPositionNoise_m;      ///< each axis, of a settled fix
+  double velocity_noise_m_s = base::reference::kVelocityNoise_m_s;  ///< likewise
+  double antenna_depth_m = base::reference::kAntennaDepth_m;        ///< no fixes where the origin is deeper
+  double least_search_s = base::reference::kLeastSearch_s;          ///< from sight of the sky to the first fix
+  double longest_search_s = base::reference::kLongestSearch_s;
+
+  bool operator==(const GpsAccuracy&) const = default;
+};
+
+struct MotorAccuracy {
+  double fin_noise_rad = base::reference::kFinNoise_rad;
+  double current_noise_A = base::reference::kCurrentNoise_A;
+
+  bool operator==(const MotorAccuracy&) const = default;
+};
+
+/// The table [instruments]: what is known of the instruments beside their ports. Simulator, diagnosis, navigation
+/// and calibrators share it (devices/instrument_model.h).
+struct InstrumentSettings {
+  CompassAccuracy compass;
+  ImuAccuracy imu;
+  GpsAccuracy gps;
+  MotorAccuracy motor;
+
+  bool operator==(const InstrumentSettings&) const = default;
+};
+
+}  // namespace navcal::config

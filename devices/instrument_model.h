@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "base/angles.h"
+#include "config/settings.h"
+#include "protocols/frame.h"
+#include "protocols/motor_card.h"
+
+/// What is known of the instruments of one vehicle: the simulator makes their errors by it, the diagnosis compares
+/// a recording with it, navigation and calibrators weigh readings by it. The defaults are the reference
+/// instruments of docs/simulator.md.
+///
+/// Noise is white, one standard deviation of a reading. Units are in the names; axes are those of the body (x
+/// forward, y starboard, z down).
+namespace navcal::devices {
+
+struct Timing {
+  double latency_s = 0;      ///< from the measurement to the first byte on the wire
+  double latency_std_s = 0;  ///< its uncertainty
+  double rate_Hz = 0;        ///< frames a second; positive
+  std::int64_t baud = 0;     ///< line speed, bit/s; 64 bits, so that no gap lies between the members
+};
+
+/// The usual timing of the device that speaks `protocol` (config::default_port), at this line speed.
+[[nodiscard]] Timing usual_timing(protocols::Protocol protocol, int baud);
+
+/// TCM2. Resolutions are those of its words.
+struct CompassModel : config::CompassAccuracy {
+  double heading_resolution_deg = 0.1;
+  double tilt_resolution_deg = 0.1;
+  Timing timing = usual_timing(protocols::Protocol::tcm2, 38400);
+
+  /// Roll or pitch: noise of a reading, with what rounding adds, rad.
+  [[nodiscard]] double tilt_reading_noise_rad() const;
+  /// Magnetic heading of a level vehicle in the reference field, from the noise of field and tilt, rad.
+  [[nodiscard]] double heading_noise_rad() const;
+};
+
+/// Inertial card with gyros, accelerometers and depth gauge.
+struct ImuModel : config::ImuAccuracy {
+  config::ImuCardSettings channels;  ///< zeros and scales of this unit
+  Timing timing = usual_timing(protocols::Protocol::imu_card, 57600);
+};
+
+/// Receiver: a fix at each full second.
+struct GpsModel : config::GpsAccuracy {
+  Timing timing = usual_timing(protocols::Protocol::oncore, 9600);
+
+  /// How many times the noise of a settled fix the fix `number` since sight of the sky has: the first ones come
+  /// from few satellites. `number` counts from 0.
+  [[nodiscard]] double noise_factor(int number) const { return 1 + excess_noise(number); }
+  /// What of that factor exceeds one.
+  [[nodiscard]] static double excess_noise(int number);
+};
+
+/// Motor controller card. Resolutions are those of its status.
+struct MotorModel : config::MotorAccuracy {
+  double fin_resolution_deg = protocols::motor_card::kFinStep_deg;
+  double current_resolution_A = protocols::motor_card::kCurrentStep_A;
+  Timing timing = usual_timing(protocols::Protocol::motor_card, 19200);
+
+  /// A reported fin angle: its noise with what rounding adds, rad.
+  [[nodiscard]] double fin_report_noise_rad() const;
+};
+
+struct InstrumentModel {
+  CompassModel compass;
+  ImuModel imu;
+  GpsModel gps;
+  MotorModel motor;
+};
+
+/// The instruments as a configuration states them: the table [instruments], and of the port that serves each
+/// instrument (named in [roles], else the first) its latency, rate, line speed, zeros and scales. What no port
+/// states is the reference instrument's; an NMEA port that states no latency or rate states none.
+[[nodiscard]] InstrumentModel instrument_model(const config::Settings& settings);
+
+/// The same instruments without noise and turn-on bias; resolution, lag and timing stay.
+[[nodiscard]] InstrumentModel without_noise(InstrumentModel model);
+
+/// Standard deviation of a reading with white noise that is rounded to a resolution: rounding adds the variance
+/// resolution^2/12 (Widrow, Kollar and Liu, IEEE Trans. Instrumentation and Measurement 45, 1996). Any unit.
+[[nodiscard]] double rounded_noise(double noise, double resolution);
+
+}  // namespace navcal::devices

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/vehicle/steady_advance.h"
+
+#include <gtest/gtest.h>
+
+#include "base/reference_instruments.h"
+#include "sim/vehicle/vehicle.h"
+
+namespace navcal::sim {
+namespace {
+
+TEST(SteadyAdvance, TheReferenceVehicleHasThatOfTheConfiguration) {
+  EXPECT_NEAR(steady_advance_m({}), base::reference::kAdvance_m, 5e-5);
+}
+
+TEST(SteadyAdvance, AVehicleSettlesAtIt) {
+  config::VehicleSettings draggy;
+  draggy.hull.axial_drag *= 1.5;
+  for (const auto& settings : {config::VehicleSettings{}, draggy}) {
+    const Vehicle vehicle(settings);
+    constexpr double kShaft_rps = 13;
+    Controls controls;
+    controls.shaft_rps = kShaft_rps;
+    Body body;
+    body.velocity[0] = 1;
+    for (int i = 0; i < 6000; ++i) body = vehicle.midpoint_step(body, controls, controls, {}, 0.02);
+    EXPECT_NEAR(body.velocity[0] / kShaft_rps, steady_advance_m(settings), 2e-4);
+  }
+}
+
+}  // namespace
+}  // namespace navcal::sim
