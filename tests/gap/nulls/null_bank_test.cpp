@@ -22,7 +22,7 @@ class NullBankOfAShortMission : public testing::Test {
     return bank(options, [](double) {});
   }
 
-  const config::VehicleSettings vehicle_;
+  const config::VehicleSettings vehicle_{};
   const Library library_{{}};
   /// Its own bank is empty.
   const std::unique_ptr<Prepared> mission_ =
