@@ -98,7 +98,7 @@ TEST(WatchCalibration, AWrongTypeIsReplacedByTheNextReport) {
       for (const char c : view.page(WatchView::Colour::none)) {
         EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << wrong << ' ' << static_cast<int>(c);
       }
-      EXPECT_FALSE(has(view.page(WatchView::Colour::none), "7-1a2b3c4d")) << wrong;
+      EXPECT_FALSE(report_has(view.page(WatchView::Colour::none), "7-1a2b3c4d")) << wrong;
       view.take(kReport);
       EXPECT_EQ(view.page(WatchView::Colour::none), page) << wrong;
       EXPECT_EQ(view.line(), line) << wrong;

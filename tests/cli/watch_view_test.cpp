@@ -147,13 +147,13 @@ TEST(WatchView, AWrongTypeChangesNothingOfOtherReportsAndIsReplacedByTheNextRepo
         view.take(wrong);
         for (const Shown& shown : kShown) {
           if (std::string(kind) == shown.kind) continue;
-          EXPECT_TRUE(has(view.page(Colour::none), shown.part)) << wrong << '\n' << view.page(Colour::none);
+          EXPECT_TRUE(page_has(view.page(Colour::none), shown.part)) << wrong << '\n' << view.page(Colour::none);
         }
         for (const Shown& shown : kShown) view.take(shown.report);
         for (const Shown& shown : kShown) {
-          EXPECT_TRUE(has(view.page(Colour::none), shown.part)) << wrong << '\n' << view.page(Colour::none);
+          EXPECT_TRUE(page_has(view.page(Colour::none), shown.part)) << wrong << '\n' << view.page(Colour::none);
         }
-        EXPECT_FALSE(has(view.line(), "\n")) << wrong;
+        EXPECT_FALSE(page_has(view.line(), "\n")) << wrong;
       }
     }
   }

@@ -12,9 +12,9 @@
 namespace navcal::gap {
 namespace {
 
-bool has(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
-bool has(const std::vector<std::string>& texts, std::string_view part) {
-  return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) { return has(text, part); });
+bool says(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+bool says(const std::vector<std::string>& texts, std::string_view part) {
+  return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) { return says(text, part); });
 }
 
 /// A search that found motor_field, with hard_iron and gyro_scale as lesser candidates. No recording is behind it.
@@ -100,8 +100,8 @@ TEST_F(FoundMotorField, IsConfusedWithAnEffectOfTheSameRegressors) {
   const auto& confused = answer.effects.front().confused_with;
   ASSERT_EQ(confused.size(), 1U);
   EXPECT_EQ(confused.front().name, "hard_iron");
-  EXPECT_TRUE(has(confused.front().tie_breaker, library_[motor_].manoeuvre.text()));
-  EXPECT_TRUE(has(confused.front().tie_breaker, library_[iron_].manoeuvre.text()));
+  EXPECT_TRUE(says(confused.front().tie_breaker, library_[motor_].manoeuvre.text()));
+  EXPECT_TRUE(says(confused.front().tie_breaker, library_[iron_].manoeuvre.text()));
   EXPECT_LT(confused.front().separation_nats, 10);
 }
 
@@ -207,11 +207,11 @@ TEST(WriteWords, OfAnExplainedGapNameTheEffectsAndHowMuchGoesAway) {
   answer.gap.pooled.closed = 0.984;
   answer.gap.pooled.closed_ci = {0.95, 1.01};
   write_words(answer);
-  EXPECT_TRUE(has(answer.sentence, "motor_field and gyro_scale explain the gap (probability 0.93)"))
+  EXPECT_TRUE(says(answer.sentence, "motor_field and gyro_scale explain the gap (probability 0.93)"))
       << answer.sentence;
-  EXPECT_TRUE(has(answer.sentence, "98 % of it goes away on missions held out")) << answer.sentence;
-  EXPECT_TRUE(has(answer.next, "to tell motor_field from adc_droop: step the current"));
-  EXPECT_FALSE(has(answer.next, "hard_iron")) << "the nearest one only";
+  EXPECT_TRUE(says(answer.sentence, "98 % of it goes away on missions held out")) << answer.sentence;
+  EXPECT_TRUE(says(answer.next, "to tell motor_field from adc_droop: step the current"));
+  EXPECT_FALSE(says(answer.next, "hard_iron")) << "the nearest one only";
   EXPECT_TRUE(answer.remarks.empty());
 }
 
@@ -222,9 +222,9 @@ TEST(WriteWords, ClosureBeyondTheFloorIsSaid) {
   answer.gap.pooled.closed = 1.2;
   answer.gap.pooled.closed_ci = {1.1, 1.3};
   write_words(answer);
-  EXPECT_TRUE(has(answer.sentence, "motor_field explains the gap")) << answer.sentence;
-  EXPECT_TRUE(has(answer.sentence, ": 100 % of it goes away.")) << answer.sentence;
-  EXPECT_TRUE(has(answer.remarks, "the floor is too high"));
+  EXPECT_TRUE(says(answer.sentence, "motor_field explains the gap")) << answer.sentence;
+  EXPECT_TRUE(says(answer.sentence, ": 100 % of it goes away.")) << answer.sentence;
+  EXPECT_TRUE(says(answer.remarks, "the floor is too high"));
 }
 
 TEST(WriteWords, AGapTooSmallToMeasureHasNoShare) {
@@ -232,8 +232,8 @@ TEST(WriteWords, AGapTooSmallToMeasureHasNoShare) {
   answer.verdict = Verdict::explained;
   answer.effects = {finding("motor_field", 0.99)};
   write_words(answer);
-  EXPECT_TRUE(has(answer.sentence, "too small to say")) << answer.sentence;
-  EXPECT_FALSE(has(answer.sentence, "%")) << answer.sentence;
+  EXPECT_TRUE(says(answer.sentence, "too small to say")) << answer.sentence;
+  EXPECT_FALSE(says(answer.sentence, "%")) << answer.sentence;
 }
 
 TEST(WriteWords, OfAnUnknownGapAdviseTheManoeuvresOfLikelyCandidates) {
@@ -253,7 +253,7 @@ TEST(WriteWords, WithoutALikelyCandidateANewEffectIsAdvised) {
     answer.verdict = Verdict::unknown;
     if (probability > 0) answer.candidates = {finding("fin_lag", probability)};
     write_words(answer);
-    EXPECT_TRUE(has(answer.next, "add an effect"));
+    EXPECT_TRUE(says(answer.next, "add an effect"));
     EXPECT_EQ(answer.unexplained.empty(), probability == 0);
   }
 }
