@@ -7,6 +7,7 @@
 #include "base/reference_instruments.h"
 
 /// The thresholds of the diagnosis that decide what is searched, named and reported, with unit and reason.
+/// Settings of a numerical method (steps of a difference, a filter's order, a ridge) stand with the method.
 /// Strengths are in typical values of the effect (sim/effects/description.h). A threshold is "set" where it was
 /// chosen on validation runs (docs/validation/gap.md) and not derived; such a threshold has no false-alarm rate of
 /// its own, and only the rates measured there hold.
@@ -24,6 +25,12 @@ inline constexpr double kTurnOnBiasPrior_rad_s = 10 * kTypicalTurnOnBias_rad_s;
 /// Standard deviation of the prior of a parameter that is kept at zero, typical values: as good as zero, and the
 /// matrices stay invertible.
 inline constexpr double kExcludedPrior = 1e-9;
+/// Factor on the prior of a non-member that is to be zero: a parameter that its bounds keep at zero, or an effect
+/// that is left out on purpose.
+inline constexpr double kAbsentPrior = 1e-6;
+/// Smallest prior of an effect that looks like fin orders at another time, s: the times of the orders, where they
+/// were not recorded, are found no finer (inference/order_times.h).
+inline constexpr double kOrdersOff_s = 0.005;
 /// Standard deviations of the prior of a member's strength, typical values, each as likely as the others. With one
 /// wide prior for all, the many parameters of a weak effect would cost more evidence than they explain.
 inline constexpr std::array<double, 3> kMemberStrengths{0.2, 0.6, 2};
@@ -52,8 +59,53 @@ inline constexpr int kRefinements = 4;
 /// Distance from where regressors were taken up to which they serve, typical values: within tolerances nothing
 /// curves.
 inline constexpr double kLinearRange = 0.25;
+/// Linearisations about a subset's own estimate: of subsets that are nearly linear, and at most of others (lags,
+/// backlash).
+inline constexpr int kLinearisations = 2, kCurvedLinearisations = 5;
+/// Standard errors: an estimate that moves by less has arrived.
+inline constexpr double kArrived_sigma = 0.2;
+/// Loss of log evidence by which a step of a curved subset is taken back, nats.
+inline constexpr double kStepBack_nats = 1;
+/// Times that an estimate, tolerances included, is simulated with the same regressors.
+inline constexpr int kSettlings = 4;
+/// Difference between simulation and straight lines below which these hold, and gain below which a step is
+/// refused, nats: one nat decides nothing.
+inline constexpr double kSettled_nats = 1;
+/// Times that a step which simulation refuses is halved.
+inline constexpr int kHalvings = 2;
+/// Probability from which a subset is kept among the candidates.
+inline constexpr double kLeastCandidate = 1e-4;
 /// Log evidence above which two effects, or an effect and none, can be told apart, nats. Set.
 inline constexpr double kObservable_nats = 10;
+
+// ---- null missions
+
+/// Null missions whose noise the whitening filter is fitted to. Set.
+inline constexpr std::size_t kWhiteningMissions = 30;
+/// Null missions with the backlash that was found, or for null Bayes factors: enough for a mean and a scatter, few
+/// enough to wait for.
+inline constexpr int kBacklashMissions = 16;
+/// Null missions without which a recording is not judged.
+inline constexpr int kLeastNulls = 10;
+/// What a usual tolerance of a non-member must resemble a member by, in the member's standard errors, so that its
+/// regressor is taken of each null mission, too; and the most of these non-members.
+inline constexpr double kLikeness_sigma = 2;
+inline constexpr std::size_t kMostLikenesses = 6;
+/// Root mean square differences, over windows of ten seconds, that make one unit of distance between two missions:
+/// a kept null bank serves within one unit. Set.
+inline constexpr double kSameShaft_rps = 0.5, kSameTurn_rad_s = 0.05, kSameDepth_m = 0.4, kSameFixes = 4;
+/// Difference of the Earth's field, uT, within which a kept null bank serves: compass.field and heading then
+/// differ by a hundredth or two.
+inline constexpr double kSameField_uT = 0.5;
+
+// ---- recording
+
+/// Fixes without which declination, current, GPS and speed are not judged.
+inline constexpr std::size_t kLeastFixes = 3;
+/// Intervals of 0.1 s, with compass, inertial card and motor card, without which a recording is not judged: 20 s.
+inline constexpr int kLeastIntervals = 200;
+/// Largest misfit of recorded fin commands, in units of the report noise: a report with twice its noise has 4.
+inline constexpr double kMostCommandMisfit = 4;
 
 // ---- verdict
 
@@ -102,7 +154,32 @@ inline constexpr double kBeyondNulls_nats = 300;
 inline constexpr double kNullBayesFactor_sigma = 3;
 /// Smallest scatter of null Bayes factors, nats: that of gains which hardly differ.
 inline constexpr double kLeastNullScatter_nats = 1;
-/// Largest misfit of recorded fin commands, in units of the report noise: a report with twice its noise has 4.
-inline constexpr double kMostCommandMisfit = 4;
+/// Length of a block of the bootstrap of closures, s: more than the 6.4 s that the whitening filter reaches back.
+inline constexpr double kBlock_s = 10;
+/// Resamples of that bootstrap: its 2.5 % quantile rests on 25 of them.
+inline constexpr int kResamples = 1000;
+/// Length of the pieces of a mission that stand in for hold-outs, s.
+inline constexpr double kPieceOfMission_s = 60;
+
+// ---- report
+
+/// Probability from which an effect that is no member is listed.
+inline constexpr double kReportedFrom = 0.01;
+/// Probability of the best candidate of an unknown gap below which none is likely.
+inline constexpr double kLikelyFrom = 0.2;
+/// Probability of a candidate of an unknown gap from which its manoeuvre is advised.
+inline constexpr double kToldFrom = 0.1;
+/// Share of an effect's expected information that is left beside another one, below which both are confused.
+inline constexpr double kConfusedBelow = 0.5;
+/// Factor over the power of the nulls from which the closure of one channel is stated.
+inline constexpr double kChannelGapFactor = 1.5;
+/// Lower end of the closure's interval from which the floor is said to be too high.
+inline constexpr double kOverClosedFrom = 1.02;
+/// Distance between two surfacings from which position errors count, m: below it they are those of the fixes.
+inline constexpr double kLeastDistance_m = 20;
+/// Factor over the slow part of the nulls that a change of a channel's level must have.
+inline constexpr double kLevelChangeFactor = 3;
+/// Most reasons that a verdict states from what is left.
+inline constexpr std::size_t kMostReasons = 4;
 
 }  // namespace navcal::gap

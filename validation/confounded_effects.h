@@ -7,19 +7,18 @@
 
 namespace navcal::validation {
 
-/// Effects with which one effect is easily confounded, and channels in which it shows. Derived from first
-/// principles, not from the output of any diagnosis.
+/// Effects with which one effect is easily confounded, and channels in which it shows. Derived from the equations,
+/// not from the output of any diagnosis.
 struct TrialSignature {
   std::string_view effect;
-  /// Library effects that leave nearly the same traces: the column "confounded with" of the specification, and
-  /// the twins that were found since. Where the effect is missing from the library, they are its class.
-  std::vector<std::string_view> twins;
-  /// Channels in which it may well be the strongest excess: where it enters, and where what it enters leads to (a
-  /// wrong rate turns the predicted attitude, and with it heading, tilt and field).
-  std::vector<std::string_view> channels;
+  /// Library effects that leave nearly the same traces: the confounders of its description (sim/effects/library);
+  /// none of a foreign effect. Where the effect is missing from the library, they are its class.
+  std::vector<std::string_view> confounders;
+  /// Channels in which it may well be the strongest excess, by its reference::Trace.
+  std::span<const std::string_view> channels;
 };
 
-/// Signatures of all effects, those of the library and the foreign ones.
+/// Signatures of all effects of the reference simulator: those of the library, then the foreign ones.
 [[nodiscard]] std::span<const TrialSignature> trial_signatures();
 /// nullptr when there is none of this name.
 [[nodiscard]] const TrialSignature* signature_of(std::string_view effect);

@@ -33,7 +33,7 @@ TrialOutcome outcome_of(const TrialCase& drawn, const TrialAnswer& answer) {
     return std::all_of(answer.effects.begin(), answer.effects.end(), condition);
   };
   if (const TrialSignature* removed = signature_of(drawn.excluded)) {
-    const bool in_class = all_named([&](const TrialFinding& f) { return contains(removed->twins, f.name); });
+    const bool in_class = all_named([&](const TrialFinding& f) { return contains(removed->confounders, f.name); });
     return in_class ? TrialOutcome::in_class : TrialOutcome::wrong;
   }
   if (!drawn.in_library() || !all_named([&](const TrialFinding& f) { return holds(drawn.effects, f.name); }))

@@ -4,8 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "gap/inference/linearised.h"
-
 namespace navcal::gap {
 
 Eigen::LLT<Eigen::Matrix4d> bias_factor(const Eigen::MatrixXd& gram) {
@@ -14,11 +12,10 @@ Eigen::LLT<Eigen::Matrix4d> bias_factor(const Eigen::MatrixXd& gram) {
   return biases.llt();
 }
 
-Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library, const Whitening& whitening,
-                                   Eigen::VectorXd values, unsigned threads) {
+Eigen::VectorXd with_biases_fitted(const ResidualModel& model, Eigen::VectorXd values) {
   constexpr std::array<Eigen::Index, Library::kBiases> kColumns{0, 1, 2, 3};
-  const Eigen::VectorXd residual = residual_at(replay, library, whitening, values);
-  const Eigen::MatrixXd design = design_at(replay, library, whitening, values, residual, kColumns, threads);
+  const Eigen::VectorXd residual = residual_at(model, values);
+  const Eigen::MatrixXd design = design_at(model, values, residual, kColumns);
   values.head<Library::kBiases>() += bias_factor(design.transpose() * design).solve(design.transpose() * residual);
   return values;
 }
@@ -26,9 +23,10 @@ Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library,
 Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, unsigned threads) {
   constexpr int kIterations = 2;
   const Whitening whitening = Whitening::nominal(replay.mission().instruments);
+  const ResidualModel model{replay, library, whitening, threads};
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
   for (int i = 0; i < kIterations; ++i) {
-    values = with_biases_fitted(replay, library, whitening, std::move(values), threads);
+    values = with_biases_fitted(model, std::move(values));
   }
   return values;
 }

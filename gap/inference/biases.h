@@ -3,9 +3,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "gap/inference/library.h"
-#include "gap/inference/whitening.h"
-#include "gap/replay/replay.h"
+#include "gap/inference/linearised.h"
 
 namespace navcal::gap {
 
@@ -15,9 +13,7 @@ namespace navcal::gap {
 
 /// These values of all unknowns with the gyros' biases that fit them, by one step of least squares: the replay is
 /// nearly linear in them.
-[[nodiscard]] Eigen::VectorXd with_biases_fitted(const Replay& replay, const Library& library,
-                                                 const Whitening& whitening, Eigen::VectorXd values,
-                                                 unsigned threads);
+[[nodiscard]] Eigen::VectorXd with_biases_fitted(const ResidualModel& model, Eigen::VectorXd values);
 
 /// The values of all unknowns at which a diagnosis begins: the gyros' biases by least squares, no effects.
 [[nodiscard]] Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, unsigned threads);

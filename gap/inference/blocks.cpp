@@ -4,32 +4,33 @@
 #include <cmath>
 
 #include "gap/inference/evidence.h"
+#include "gap/inference/model_fit.h"
+#include "gap/thresholds.h"
 
 namespace navcal::gap {
 namespace {
-
-constexpr double kPiece_s = 60;
 
 bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
   const Eigen::Index grid = layout.intervals * kEvidenceChannels;
   if (row < grid) {
     const Eigen::Index interval = row / kEvidenceChannels;
-    return static_cast<long>(static_cast<double>(interval) * kInterval_s / kPiece_s) % 2 == 0;
+    return static_cast<long>(static_cast<double>(interval) * kInterval_s / kPieceOfMission_s) % 2 == 0;
   }
   return row < (grid + rows) / 2;  // fixes: the first half of them
 }
 
 }  // namespace
 
-std::vector<double> gains_of_blocks(const ModelFit& explanation, const Library& library, const Priors& priors,
+std::vector<double> gains_of_blocks(const EffectSubset& effects, const LinearGaussianModel& model,
                                     const Layout& layout) {
-  const Linearised& linear = explanation.linear;
+  const Linearised& linear = model.linear;
+  const Priors& priors = model.priors;
   const Eigen::Index rows = linear.residual.size();
   Eigen::VectorXd mask(rows);
   for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
   const Eigen::VectorXd data = residual_at_zero(linear);
-  const auto members = parameter_indices(library, explanation.effects);
-  const Priors others = without_members(priors, library, explanation.effects);
+  const auto members = parameter_indices(model.library, effects);
+  const Priors others = without_members(priors, model.library, effects);
   std::vector<double> gains;
   for (const bool learn_from_even : {true, false}) {
     const Eigen::VectorXd learn = learn_from_even ? mask : Eigen::VectorXd((1 - mask.array()).matrix());

@@ -25,7 +25,7 @@ constexpr Steps steps_of(sim::EffectKind kind) {
       // The tangent: a long secant is another shape, and what a vehicle within tolerance lags would pass for
       // something else. How a lag of typical size looks is found by linearising again (gap/inference/search.h).
       return {0.1, 0.1};
-    case sim::EffectKind::play:
+    case sim::EffectKind::backlash:
       // It is felt only where it is wider than the fins' moves, so about nothing its step is long; once it is
       // there, a long step on leads past the least of what is left.
       return {0.6, 0.1};
@@ -64,7 +64,7 @@ Library::Library(std::span<const std::string> excluded) {
 
 bool Library::is_lag(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::lag; }
 
-bool Library::is_backlash(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::play; }
+bool Library::is_backlash(std::size_t effect) const { return (*this)[effect].kind == sim::EffectKind::backlash; }
 
 bool Library::is_curved(std::size_t effect) const { return (*this)[effect].kind != sim::EffectKind::amount; }
 

@@ -10,15 +10,15 @@ namespace navcal::gap {
 namespace {
 
 /// By a difference towards the side that its bounds allow.
-Eigen::VectorXd column(const Replay& replay, const Library& library, const Whitening& whitening,
-                       const Eigen::VectorXd& at, const Eigen::VectorXd& residual, Eigen::Index j) {
-  const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(j)];
+Eigen::VectorXd column(const ResidualModel& model, const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
+                       Eigen::Index j) {
+  const Unknown& unknown = model.library.unknowns()[static_cast<std::size_t>(j)];
   const bool there = at[j] > unknown.onward * unknown.typical;
   double step = (there ? unknown.onward : unknown.step) * unknown.typical;
   if (at[j] + step > unknown.greatest) step = -step;
   Eigen::VectorXd values = at;
   values[j] += step;
-  return (residual - residual_at(replay, library, whitening, values)) / step;
+  return (residual - residual_at(model, values)) / step;
 }
 
 /// Rows and columns of design^T design for those columns that are new, a few at a time: the design is as large as
@@ -54,39 +54,36 @@ Layout layout_of(const Replay& replay) {
   return layout;
 }
 
-Eigen::VectorXd residual_at(const Replay& replay, const Library& library, const Whitening& whitening,
-                            const Eigen::VectorXd& values) {
-  return whitening(replay.run(library.model(values)), layout_of(replay));
+Eigen::VectorXd residual_at(const ResidualModel& model, const Eigen::VectorXd& values) {
+  return model.whitening(model.replay.run(model.library.model(values)), layout_of(model.replay));
 }
 
-Eigen::MatrixXd design_at(const Replay& replay, const Library& library, const Whitening& whitening,
-                          const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
-                          std::span<const Eigen::Index> columns, unsigned threads) {
+Eigen::MatrixXd design_at(const ResidualModel& model, const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
+                          std::span<const Eigen::Index> columns) {
   Eigen::MatrixXd design(residual.size(), static_cast<Eigen::Index>(columns.size()));
-  base::in_parallel(threads, columns.size(), [&](std::size_t i) {
-    design.col(static_cast<Eigen::Index>(i)) = column(replay, library, whitening, at, residual, columns[i]);
+  base::in_parallel(model.threads, columns.size(), [&](std::size_t i) {
+    design.col(static_cast<Eigen::Index>(i)) = column(model, at, residual, columns[i]);
   });
   return design;
 }
 
-Linearised linearise(const Replay& replay, const Library& library, const Whitening& whitening,
-                     const Eigen::VectorXd& at, unsigned threads) {
-  const auto rows = residual_at(replay, library, whitening, at).size();
+Linearised linearise(const ResidualModel& model, const Eigen::VectorXd& at) {
+  const auto rows = residual_at(model, at).size();
   Linearised empty;
   empty.design.setZero(rows, at.size());
   empty.gram.setZero(at.size(), at.size());
-  return relinearise(replay, library, whitening, std::move(empty), at, library.moving(), threads);
+  return relinearise(model, std::move(empty), at, model.library.moving());
 }
 
-Linearised relinearise(const Replay& replay, const Library& library, const Whitening& whitening, Linearised from,
-                       const Eigen::VectorXd& at, std::span<const Eigen::Index> columns, unsigned threads) {
+Linearised relinearise(const ResidualModel& model, Linearised from, const Eigen::VectorXd& at,
+                       std::span<const Eigen::Index> columns) {
   Linearised result = std::move(from);
   result.at = at;
-  result.residual = residual_at(replay, library, whitening, at);
-  base::in_parallel(threads, columns.size(), [&](std::size_t i) {
-    result.design.col(columns[i]) = column(replay, library, whitening, at, result.residual, columns[i]);
+  result.residual = residual_at(model, at);
+  base::in_parallel(model.threads, columns.size(), [&](std::size_t i) {
+    result.design.col(columns[i]) = column(model, at, result.residual, columns[i]);
   });
-  renew_gram(result, columns, threads);
+  renew_gram(result, columns, model.threads);
   result.score = result.design.transpose() * result.residual;
   return result;
 }

@@ -23,23 +23,28 @@ struct Linearised {
   Eigen::VectorXd score;     ///< design^T residual
 };
 
+/// Whitened innovations of one recording as a function of the values of all unknowns. References; valid as long as
+/// what they refer to.
+struct ResidualModel {
+  const Replay& replay;
+  const Library& library;
+  const Whitening& whitening;
+  unsigned threads = 1;  ///< for columns of the design
+};
+
 [[nodiscard]] Layout layout_of(const Replay& replay);
 
 /// The whitened innovations by these values of all unknowns.
-[[nodiscard]] Eigen::VectorXd residual_at(const Replay& replay, const Library& library, const Whitening& whitening,
-                                          const Eigen::VectorXd& values);
+[[nodiscard]] Eigen::VectorXd residual_at(const ResidualModel& model, const Eigen::VectorXd& values);
 /// -d residual / d unknown for some unknowns, a column each, where `residual` is that at `at`.
-[[nodiscard]] Eigen::MatrixXd design_at(const Replay& replay, const Library& library, const Whitening& whitening,
-                                        const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
-                                        std::span<const Eigen::Index> columns, unsigned threads);
+[[nodiscard]] Eigen::MatrixXd design_at(const ResidualModel& model, const Eigen::VectorXd& at,
+                                        const Eigen::VectorXd& residual, std::span<const Eigen::Index> columns);
 
 /// All columns anew.
-[[nodiscard]] Linearised linearise(const Replay& replay, const Library& library, const Whitening& whitening,
-                                   const Eigen::VectorXd& at, unsigned threads);
+[[nodiscard]] Linearised linearise(const ResidualModel& model, const Eigen::VectorXd& at);
 /// About another point; only `columns` are taken anew, the others are those of `from`.
-[[nodiscard]] Linearised relinearise(const Replay& replay, const Library& library, const Whitening& whitening,
-                                     Linearised from, const Eigen::VectorXd& at,
-                                     std::span<const Eigen::Index> columns, unsigned threads);
+[[nodiscard]] Linearised relinearise(const ResidualModel& model, Linearised from, const Eigen::VectorXd& at,
+                                     std::span<const Eigen::Index> columns);
 /// The residual that the straight line has at zero.
 [[nodiscard]] Eigen::VectorXd residual_at_zero(const Linearised& linear);
 

@@ -12,20 +12,6 @@
 namespace navcal::gap {
 namespace {
 
-constexpr int kIterations = 2, kCurvedIterations = 5;
-/// An estimate that moves by less, in standard errors, has arrived.
-constexpr double kArrived = 0.2;
-/// A step by which a set loses so much evidence led along a line that bends, and is taken back.
-constexpr double kWorse_nats = 1;
-/// An estimate is simulated anew, its signatures as they are, until straight lines say what is left to less than
-/// this; strong data make tolerances, which no signature was taken about, what they are.
-constexpr int kSettlings = 4;
-/// A step that leads beyond where straight lines hold is taken half way, and half of that.
-constexpr int kHalvings = 2;
-constexpr double kSettled_nats = 1;
-/// Prior of what is to be zero, against what tolerance allows it.
-constexpr double kNothing = 1e-6;
-
 /// Where the set's own estimate says the vehicle is, in the bounds of its parameters; non-members are at zero.
 Eigen::VectorXd place_of(const Evidence::Posterior& posterior, const Library& library,
                          const std::vector<Eigen::Index>& moved) {
@@ -48,22 +34,63 @@ Eigen::VectorXd mean_by(const Eigen::VectorXd& prior, const Linearised& linear) 
 }
 
 /// Priors by which what cannot be negative, and would be, is nothing.
-Priors possible_priors(const Linearised& linear, const Library& library, const Priors& priors,
-                       const std::vector<Eigen::Index>& members) {
+Priors possible_priors(const LinearGaussianModel& model, const std::vector<Eigen::Index>& members) {
   constexpr int kRounds = 4;
-  Priors allowed = priors;
+  Priors allowed = model.priors;
   for (int round = 0; round < kRounds; ++round) {
-    const Eigen::VectorXd mean = mean_by(by_membership(allowed, members), linear);
+    const Eigen::VectorXd mean = mean_by(by_membership(allowed, members), model.linear);
     bool possible = true;
     for (Eigen::Index j = Library::kBiases; j < mean.size(); ++j) {
-      if (library.unknowns()[static_cast<std::size_t>(j)].least < 0 || mean[j] >= 0) continue;
-      if (allowed.slab[j] < priors.slab[j]) continue;
-      allowed.spike[j] = allowed.slab[j] = kNothing * priors.spike[j];
+      if (model.library.unknowns()[static_cast<std::size_t>(j)].least < 0 || mean[j] >= 0) continue;
+      if (allowed.slab[j] < model.priors.slab[j]) continue;
+      allowed.spike[j] = allowed.slab[j] = kAbsentPrior * model.priors.spike[j];
       possible = false;
     }
     if (possible) break;
   }
   return allowed;
+}
+
+/// Half the squared residuals and half the squared deviations from the prior, nats.
+double cost_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& at, const Eigen::VectorXd& prior) {
+  return 0.5 * (residual.squaredNorm() + at.cwiseQuotient(prior).squaredNorm());
+}
+
+/// The estimate of a set while it is simulated until straight lines hold.
+struct Settling {
+  Linearised linear;         ///< its residual is that of the last estimate that was taken
+  Eigen::VectorXd mean;      ///< by the straight lines
+  Eigen::VectorXd left;      ///< residual that the straight lines have at the mean
+  double beyond_linear = 0;  ///< by how much less is left in simulation, nats
+  bool refused = false;      ///< simulation is worse than where the step began
+};
+
+/// One step: simulates at the mean, and half way if that is worse. Returns whether another step is wanted.
+bool settle_once(Settling& now, const InferenceProblem& problem, const std::vector<Eigen::Index>& members) {
+  const Eigen::VectorXd prior = by_membership(problem.priors, members);
+  Linearised& linear = now.linear;
+  now.mean = mean_by(by_membership(possible_priors(problem.about(linear), members), members), linear);
+  now.left = linear.residual - linear.design * (now.mean - linear.at);
+  Eigen::VectorXd next = now.mean, simulated = residual_at(problem.model, next);
+  now.beyond_linear = 0.5 * (now.left.squaredNorm() - simulated.squaredNorm());
+  if (std::abs(now.beyond_linear) < kSettled_nats) return false;
+  const double here = cost_of(linear.residual, linear.at, prior);
+  const auto is_better = [&] { return cost_of(simulated, next, prior) < here - kSettled_nats; };
+  for (int half = 0; half < kHalvings && !is_better(); ++half) {
+    next = (linear.at + next) / 2;
+    simulated = residual_at(problem.model, next);
+  }
+  if (!is_better()) {
+    // Straight lines promise what is not there: where the last step began is the best that was simulated.
+    now.beyond_linear = cost_of(now.left, now.mean, prior) - here;
+    now.refused = true;
+    return false;
+  }
+  linear.at = next;
+  linear.residual = simulated;
+  linear.score = linear.design.transpose() * simulated;
+  now.beyond_linear = 0;
+  return true;
 }
 
 }  // namespace
@@ -75,78 +102,56 @@ Priors as_nuisance_parameters(Priors priors, const Library& library, const Effec
 }
 
 Priors without_members(Priors priors, const Library& library, const EffectSubset& effects) {
-  for (const Eigen::Index j : parameter_indices(library, effects)) priors.spike[j] *= kNothing;
+  for (const Eigen::Index j : parameter_indices(library, effects)) priors.spike[j] *= kAbsentPrior;
   return priors;
 }
 
-Evidence::Posterior bounded_posterior(const Linearised& linear, const Library& library, const Priors& priors,
-                                      const std::vector<Eigen::Index>& members) {
-  return evidence_of(linear, possible_priors(linear, library, priors, members)).posterior(members);
+Evidence::Posterior bounded_posterior(const LinearGaussianModel& model, const std::vector<Eigen::Index>& members) {
+  return evidence_of(model.linear, possible_priors(model, members)).posterior(members);
 }
 
-double bound_penalty_nats(const EffectSubset& set, const Linearised& linear, const Library& library,
-                          const Priors& priors) {
-  const auto members = parameter_indices(library, set);
-  const Eigen::VectorXd prior = by_membership(priors, members);
+double bound_penalty_nats(const EffectSubset& set, const LinearGaussianModel& model) {
+  const Linearised& linear = model.linear;
+  const auto members = parameter_indices(model.library, set);
+  const Eigen::VectorXd prior = by_membership(model.priors, members);
   const auto cost = [&](const Eigen::VectorXd& values) {
     const Eigen::VectorXd step = values - linear.at;
     return 0.5 * step.dot(linear.gram * step) - linear.score.dot(step) +
            0.5 * values.cwiseQuotient(prior).squaredNorm();
   };
-  const Priors possible = possible_priors(linear, library, priors, members);
+  const Priors possible = possible_priors(model, members);
   return cost(mean_by(by_membership(possible, members), linear)) - cost(mean_by(prior, linear));
 }
 
-ModelFit refine(const EffectSubset& set, Linearised linear, const Replay& replay, const Library& library,
-                const Whitening& whitening, const Priors& priors) {
+ModelFit refine(const EffectSubset& set, Linearised linear, const InferenceProblem& problem) {
   ModelFit result;
   result.effects = set;
   result.about = linear.at;
-  const auto members = parameter_indices(library, set);
-  const Eigen::VectorXd prior = by_membership(priors, members);
-  const auto cost = [&](const Eigen::VectorXd& residual, const Eigen::VectorXd& at) {
-    return 0.5 * (residual.squaredNorm() + at.cwiseQuotient(prior).squaredNorm());
-  };
-  result.linear = std::move(linear);
-  Eigen::VectorXd left;
-  bool refused = false;
-  for (int i = 0; i < kSettlings; ++i) {
-    result.mean =
-        mean_by(by_membership(possible_priors(result.linear, library, priors, members), members), result.linear);
-    left = result.linear.residual - result.linear.design * (result.mean - result.linear.at);
-    Eigen::VectorXd next = result.mean, simulated = residual_at(replay, library, whitening, next);
-    result.beyond_linear = 0.5 * (left.squaredNorm() - simulated.squaredNorm());
-    if (std::abs(result.beyond_linear) < kSettled_nats) break;
-    const double here = cost(result.linear.residual, result.linear.at);
-    for (int half = 0; half < kHalvings && !(cost(simulated, next) < here - kSettled_nats); ++half) {
-      next = (result.linear.at + next) / 2;
-      simulated = residual_at(replay, library, whitening, next);
-    }
-    if (!(cost(simulated, next) < here - kSettled_nats)) {
-      // Straight lines promise what is not there: where the last step began is the best that was simulated.
-      result.beyond_linear = cost(left, result.mean) - here;
-      refused = true;
-      break;
-    }
-    result.linear.at = next;
-    result.linear.residual = simulated;
-    result.linear.score = result.linear.design.transpose() * simulated;
-    result.beyond_linear = 0;
+  const auto members = parameter_indices(problem.model.library, set);
+  Settling now{std::move(linear), {}, {}};
+  for (int i = 0; i < kSettlings && settle_once(now, problem, members); ++i) {
   }
-  const auto posterior = bounded_posterior(result.linear, library, priors, members);
-  result.mean = refused ? result.linear.at : posterior.mean;
-  result.log_odds = SubsetEvidence(result.linear, library, priors)(set) -
-                    bound_penalty_nats(set, result.linear, library, priors) + result.beyond_linear;
-  const double noise = std::max(1.0, left.squaredNorm() / static_cast<double>(Whitening::count(left)));
+  result.linear = std::move(now.linear);
+  result.beyond_linear = now.beyond_linear;
+  const LinearGaussianModel model = problem.about(result.linear);
+  const auto posterior = bounded_posterior(model, members);
+  result.mean = now.refused ? result.linear.at : posterior.mean;
+  result.log_odds = SubsetEvidence(model)(set) - bound_penalty_nats(set, model) + result.beyond_linear;
+  const double noise = std::max(1.0, now.left.squaredNorm() / static_cast<double>(Whitening::count(now.left)));
   // What an effect does is as much off as the vehicle that it acts on.
   const Eigen::VectorXd tolerance = kTolerance * result.mean;
-  result.std = (noise * posterior.covariance.diagonal() + priors.model_error.cwiseAbs2() + tolerance.cwiseAbs2())
-                   .cwiseSqrt();
+  result.std =
+      (noise * posterior.covariance.diagonal() + problem.priors.model_error.cwiseAbs2() + tolerance.cwiseAbs2())
+          .cwiseSqrt();
   return result;
 }
 
-ModelFit fit_model(const EffectSubset& set, const Replay& replay, const Library& library,
-                   const Whitening& whitening, Linearised start, const Priors& priors, unsigned threads) {
+ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem) {
+  return fit_model(set, problem, problem.nominal);
+}
+
+ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem, Linearised start) {
+  const Library& library = problem.model.library;
   Linearised linear = std::move(start);
   const auto members = parameter_indices(library, set);
   std::vector<Eigen::Index> moved(Library::kBiases);
@@ -155,26 +160,26 @@ ModelFit fit_model(const EffectSubset& set, const Replay& replay, const Library&
   const bool curved = std::any_of(set.begin(), set.end(), [&](std::size_t e) { return library.is_curved(e); });
   Eigen::VectorXd best_at;
   double best = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < (curved ? kCurvedIterations : kIterations); ++i) {
-    const auto posterior = bounded_posterior(linear, library, priors, members);
+  for (int i = 0; i < (curved ? kCurvedLinearisations : kLinearisations); ++i) {
+    const auto posterior = bounded_posterior(problem.about(linear), members);
     const Eigen::VectorXd at = place_of(posterior, library, moved);
     const Eigen::VectorXd step = (at - linear.at).cwiseAbs();
     const auto has_arrived = [&](Eigen::Index j) {
-      return step[j] <= kArrived * std::sqrt(posterior.covariance(j, j));
+      return step[j] <= kArrived_sigma * std::sqrt(posterior.covariance(j, j));
     };
-    if (i >= kIterations && std::all_of(moved.begin(), moved.end(), has_arrived)) break;
-    linear = relinearise(replay, library, whitening, std::move(linear), at, members, threads);
+    if (i >= kLinearisations && std::all_of(moved.begin(), moved.end(), has_arrived)) break;
+    linear = relinearise(problem.model, std::move(linear), at, members);
     if (!curved) continue;
-    const double here = SubsetEvidence(linear, library, priors)(set);
+    const double here = SubsetEvidence(problem.about(linear))(set);
     if (here > best) {
       best = here;
       best_at = at;
-    } else if (here < best - kWorse_nats) {
-      linear = relinearise(replay, library, whitening, std::move(linear), best_at, members, threads);
+    } else if (here < best - kStepBack_nats) {
+      linear = relinearise(problem.model, std::move(linear), best_at, members);
       break;
     }
   }
-  return refine(set, std::move(linear), replay, library, whitening, priors);
+  return refine(set, std::move(linear), problem);
 }
 
 }  // namespace navcal::gap

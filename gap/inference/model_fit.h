@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "gap/inference/effect_subset.h"
 #include "gap/inference/evidence.h"
-#include "gap/inference/linearised.h"
-#include "gap/inference/spike_and_slab.h"
+#include "gap/inference/problem.h"
 
 namespace navcal::gap {
 
@@ -25,24 +25,21 @@ struct ModelFit {
 };
 
 /// The set, simulated and linearised about its own estimate, from where `start` was taken.
-[[nodiscard]] ModelFit fit_model(const EffectSubset& set, const Replay& replay, const Library& library,
-                                 const Whitening& whitening, Linearised start, const Priors& priors,
-                                 unsigned threads);
+[[nodiscard]] ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem, Linearised start);
+/// The same from the nominal vehicle.
+[[nodiscard]] ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem);
 
 /// By how much the evidence of a set is too good, nats: it goes to where straight lines are lowest, be that
 /// possible or not.
-[[nodiscard]] double bound_penalty_nats(const EffectSubset& set, const Linearised& linear, const Library& library,
-                                        const Priors& priors);
+[[nodiscard]] double bound_penalty_nats(const EffectSubset& set, const LinearGaussianModel& model);
 
 /// What a linearisation about a set's own estimate says of it, with the estimate itself, tolerances included,
 /// simulated until it stays.
-[[nodiscard]] ModelFit refine(const EffectSubset& set, Linearised linear, const Replay& replay,
-                              const Library& library, const Whitening& whitening, const Priors& priors);
+[[nodiscard]] ModelFit refine(const EffectSubset& set, Linearised linear, const InferenceProblem& problem);
 
 /// Of all unknowns; those that cannot be negative, lags above all, and would be stay at zero, and the others are
 /// as they are then: what is answered must be a vehicle that can be simulated.
-[[nodiscard]] Evidence::Posterior bounded_posterior(const Linearised& linear, const Library& library,
-                                                    const Priors& priors,
+[[nodiscard]] Evidence::Posterior bounded_posterior(const LinearGaussianModel& model,
                                                     const std::vector<Eigen::Index>& members);
 
 /// Priors by which these effects may be there unnamed, as strong as they like.

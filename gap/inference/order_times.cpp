@@ -85,7 +85,7 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
   const Eigen::VectorXd at = with_biases_found(replay, library, threads);
   // A gap is not to be made up for by the instants, so whatever the library knows is left free; but not far, or
   // lags would make up for the instants.
-  const Linearised linear = linearise(replay, library, whitening, at, threads);
+  const Linearised linear = linearise({replay, library, whitening, threads}, at);
   Eigen::VectorXd widths(at.size());
   for (Eigen::Index j = 0; j < widths.size(); ++j) {
     widths[j] =
@@ -97,7 +97,7 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
   std::array<double, kPhases> cost{};
   base::in_parallel(threads, cost.size(), [&](std::size_t i) {
     const Mission ordered = ordered_at(looked_at, kPhase_s * static_cast<double>(i));
-    const Eigen::VectorXd residual = residual_at(Replay(ordered, vehicle), library, whitening, at);
+    const Eigen::VectorXd residual = residual_at({Replay(ordered, vehicle), library, whitening}, at);
     const Eigen::VectorXd score = widths.cwiseProduct(linear.design.transpose() * residual);
     cost[i] = residual.squaredNorm() - score.dot(free.solve(score));
   });

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <vector>
 
 #include "gap/inference/model_fit.h"
@@ -22,22 +21,17 @@ struct SearchResult {
   /// Posterior of all unknowns where the best set's are zero and the others within tolerance. Were its own within
   /// tolerance, too, strong data would make them what they are in spite of it.
   Eigen::VectorXd mean_without_effects;
-  /// Of each of the best set's effects: what this mission would tell of it, nats, if it had the direction that was
-  /// found and its typical strength.
-  std::vector<double> expected_information_nats;
+  std::vector<double> expected_information_nats;  ///< of the best set
 };
 
 /// Those of the best set that this mission hardly shows, were they as strong as usual.
 [[nodiscard]] EffectSubset unobservable_effects(const SearchResult& result);
 
-/// Singles, pairs and triples of effects by their evidence. Leading sets are simulated and linearised again at
-/// their own estimate: what is left of second order would otherwise recruit innocent effects.
-[[nodiscard]] SearchResult search(const Replay& replay, const Library& library, const Whitening& whitening,
-                                  const Linearised& nominal, const Priors& priors, unsigned threads,
-                                  const std::function<void(double)>& progress);
+/// Of each effect of a fit: what the mission would tell of it, nats, if it had the direction that was found and
+/// its typical strength.
+[[nodiscard]] std::vector<double> expected_information_nats(const ModelFit& fit, const InferenceProblem& problem);
 
-/// As if no effect had been looked at.
-[[nodiscard]] SearchResult nothing_found(const Replay& replay, const Library& library, const Whitening& whitening,
-                                         const Linearised& nominal, const Priors& priors, unsigned threads);
+/// The result of a search of no subsets but the empty one.
+[[nodiscard]] SearchResult nothing_found(const InferenceProblem& problem);
 
 }  // namespace navcal::gap

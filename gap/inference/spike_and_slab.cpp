@@ -11,8 +11,6 @@
 namespace navcal::gap {
 namespace {
 
-/// When the fins were ordered to move is found no finer, where it was not recorded (gap/inference/order_times.h).
-constexpr double kOrdersOff_s = 0.005;
 /// Where expectation and maximisation begins, in typical values.
 constexpr double kFirstGuess = 0.03;
 constexpr int kIterations = 60;

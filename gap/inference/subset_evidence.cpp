@@ -9,16 +9,14 @@
 #include "gap/thresholds.h"
 
 namespace navcal::gap {
-namespace {}  // namespace
-
 Evidence evidence_of(const Linearised& linear, const Priors& priors) {
   return {linear.gram, linear.score + linear.gram * linear.at, priors.spike, priors.slab};
 }
 
-SubsetEvidence::SubsetEvidence(const Linearised& linear, const Library& library, const Priors& priors)
-    : library_(library),
-      evidence_(evidence_of(linear, priors)),
-      data_(-0.5 * residual_at_zero(linear).squaredNorm()) {}
+SubsetEvidence::SubsetEvidence(const LinearGaussianModel& model)
+    : library_(model.library),
+      evidence_(evidence_of(model.linear, model.priors)),
+      data_(-0.5 * residual_at_zero(model.linear).squaredNorm()) {}
 
 double SubsetEvidence::operator()(const EffectSubset& set) const {
   if (set.empty()) return data_ + evidence_.base();

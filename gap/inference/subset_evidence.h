@@ -8,6 +8,14 @@
 
 namespace navcal::gap {
 
+/// One linearisation with the priors of its unknowns: a Gaussian model whose posteriors are closed forms.
+/// References; valid as long as what they refer to.
+struct LinearGaussianModel {
+  const Linearised& linear;
+  const Library& library;
+  const Priors& priors;
+};
+
 /// Referred to no effects at all, whatever point it was linearised about.
 [[nodiscard]] Evidence evidence_of(const Linearised& linear, const Priors& priors);
 
@@ -15,8 +23,8 @@ namespace navcal::gap {
 /// that words from several linearisations may be compared.
 class SubsetEvidence {
  public:
-  /// `library` must outlive it.
-  SubsetEvidence(const Linearised& linear, const Library& library, const Priors& priors);
+  /// The model's library must outlive it.
+  explicit SubsetEvidence(const LinearGaussianModel& model);
 
   /// Log of the joint probability of set and data, nats, apart from a constant.
   [[nodiscard]] double operator()(const EffectSubset& set) const;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gap/nulls/bank_file.h"
+#include "gap/thresholds.h"
 #include "record/log/checksum.h"
 #include "record/whole_file.h"
 
@@ -43,7 +44,6 @@ std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder)
 
 /// What of a mission's commands decides about its nulls, in units of what may differ: a row for each ten seconds.
 std::vector<double> fingerprint(const Replay& replay, const Trajectory10Hz& course) {
-  constexpr double kShaft_rps = 0.5, kTurn_rad_s = 0.05, kDepth_m = 0.4, kFixes = 4;
   const auto window = static_cast<std::size_t>(kWindow_s / kInterval_s);
   std::vector<double> all;
   for (std::size_t from = 0; from + window <= course.time_s.size(); from += window) {
@@ -57,17 +57,17 @@ std::vector<double> fingerprint(const Replay& replay, const Trajectory10Hz& cour
       if (fix.time_s >= course.time_s[from] && fix.time_s < course.time_s[from] + kWindow_s) fixes += 1;
     }
     const auto n = static_cast<double>(window);
-    all.insert(all.end(), {shaft / n / kShaft_rps, turn / n / kTurn_rad_s, depth / n / kDepth_m, fixes / kFixes});
+    all.insert(all.end(), {shaft / n / kSameShaft_rps, turn / n / kSameTurn_rad_s, depth / n / kSameDepth_m,
+                           fixes / kSameFixes});
   }
   return all;
 }
 
 /// Whether the Earth's field is as good as the same: what compass and heading show differs by a hundredth or two.
 bool in_same_field(const KeptBank& kept, const EarthField& field) {
-  constexpr double kApart_uT = 0.5;
   const auto &a = kept.field_uT, &b = field.north_east_down_uT;
   return kept.field_is_fitted == (field.source == EarthField::Source::fitted) &&
-         std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kApart_uT;
+         std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kSameField_uT;
 }
 
 /// Root mean square difference, in tolerances; infinite between missions of different lengths.

@@ -9,6 +9,7 @@
 #include "gap/inference/library.h"
 #include "gap/inference/linearised.h"
 #include "gap/inference/whitening.h"
+#include "gap/nulls/null_mission.h"
 #include "gap/replay/regimes.h"
 #include "gap/replay/replay.h"
 
@@ -38,10 +39,10 @@ struct BankOptions {
   unsigned threads = 1;
 };
 
-/// Simulates, replays and learns. `recorded` is only steered by: its innovations are not looked at. `at` is where
-/// its design is taken.
-[[nodiscard]] NullBank make_null_bank(const Replay& recorded, const Trajectory10Hz& course,
-                                      const config::VehicleSettings& vehicle, const Library& library,
+/// Simulates, replays and learns. The recorded mission is only steered by: its innovations are not looked at.
+/// `at`: values of all unknowns of `library` about which its design is taken. `progress` gets the share that is
+/// done.
+[[nodiscard]] NullBank make_null_bank(const RepeatedMission& repeated, const Library& library,
                                       const Eigen::VectorXd& at, const BankOptions& options,
                                       const std::function<void(double)>& progress);
 

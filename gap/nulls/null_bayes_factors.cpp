@@ -19,8 +19,6 @@ namespace {
 /// a member.
 std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, const Linearised& linear,
                                           const Priors& priors) {
-  constexpr std::size_t kMost = 6;
-  constexpr double kLeast = 2;  // standard errors of the member that it looks like
   std::vector<std::pair<double, Eigen::Index>> others;
   for (Eigen::Index k = Library::kBiases; k < linear.gram.rows(); ++k) {
     if (std::find(members.begin(), members.end(), k) != members.end()) continue;
@@ -28,25 +26,26 @@ std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, con
     for (const Eigen::Index j : members) {
       most = std::max(most, priors.spike[k] * std::abs(linear.gram(j, k)) / std::sqrt(linear.gram(j, j)));
     }
-    if (most > kLeast) others.emplace_back(-most, k);
+    if (most > kLikeness_sigma) others.emplace_back(-most, k);
   }
   std::sort(others.begin(), others.end());
-  for (std::size_t i = 0; i < std::min(kMost, others.size()); ++i) members.push_back(others[i].second);
+  for (std::size_t i = 0; i < std::min(kMostLikenesses, others.size()); ++i) members.push_back(others[i].second);
   return members;
 }
 
 /// Of unknowns of the library, whitened in the shape of the recorded mission: a column each.
-Eigen::MatrixXd signatures(const Replay& replay, const Library& library, const Whitening& whitening,
-                           const Layout& layout, const Eigen::VectorXd& white,
+Eigen::MatrixXd signatures(const ResidualModel& model, const Layout& layout, const Eigen::VectorXd& white,
                            const std::vector<Eigen::Index>& unknowns) {
+  const Library& library = model.library;
   Eigen::MatrixXd columns(white.size(), static_cast<Eigen::Index>(unknowns.size()));
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(unknowns[k])];
     const double step = unknown.step * unknown.typical;
     Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
     values[unknowns[k]] = step;
-    const Innovations stepped = replay.run(library.model(values));
-    columns.col(static_cast<Eigen::Index>(k)) = (white - whitening(fitted_into(stepped, layout), layout)) / step;
+    const Innovations stepped = model.replay.run(library.model(values));
+    columns.col(static_cast<Eigen::Index>(k)) =
+        (white - model.whitening(fitted_into(stepped, layout), layout)) / step;
   }
   return columns;
 }
@@ -73,28 +72,25 @@ Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eige
 
 }  // namespace
 
-double gain_over_none(const EffectSubset& set, const Linearised& linear, const Library& library,
-                      const Priors& priors) {
-  const SubsetEvidence evidence(linear, library, priors);
-  return evidence(set) - bound_penalty_nats(set, linear, library, priors) - evidence({}) +
-         bound_penalty_nats({}, linear, library, priors);
+double gain_over_none(const EffectSubset& set, const LinearGaussianModel& model) {
+  const SubsetEvidence evidence(model);
+  return evidence(set) - bound_penalty_nats(set, model) - evidence({}) + bound_penalty_nats({}, model);
 }
 
-std::vector<double> null_bayes_factors(const EffectSubset& set, const Replay& recorded,
-                                       const Trajectory10Hz& course, const config::VehicleSettings& vehicle,
-                                       const Library& library, const Whitening& whitening,
-                                       const Linearised& linear, const Priors& priors,
-                                       const BankOptions& options) {
-  const auto columns = with_likenesses(parameter_indices(library, set), linear, priors);
-  const Layout layout = layout_of(recorded);
+std::vector<double> null_bayes_factors(const EffectSubset& set, const RepeatedMission& repeated,
+                                       const InferenceProblem& problem, const BankOptions& options) {
+  const Library& library = problem.model.library;
+  const Whitening& whitening = problem.model.whitening;
+  const auto columns = with_likenesses(parameter_indices(library, set), problem.nominal, problem.priors);
+  const Layout layout = layout_of(repeated.recorded);
   return simulate_feasible(options, Seeds::null_gains, [&](std::size_t, std::uint64_t seed) {
     const Model truth = library.model(benign_mismatch(library, seed));
-    const Mission mission = null_mission(recorded, course, vehicle, truth.effects, seed);
-    const Replay replay(mission, vehicle);
+    const Mission mission = null_mission(repeated, truth.effects, seed);
+    const Replay replay(mission, repeated.vehicle);
     Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
-    const Eigen::MatrixXd own = signatures(replay, library, whitening, layout, white, columns);
-    const Linearised null = seen_by(linear, std::move(white), own, columns);
-    return gain_over_none(set, null, library, priors);
+    const Eigen::MatrixXd own = signatures({replay, library, whitening}, layout, white, columns);
+    const Linearised null = seen_by(problem.nominal, std::move(white), own, columns);
+    return gain_over_none(set, problem.about(null));
   });
 }
 

@@ -53,8 +53,8 @@ void keep_fixes(const Mission& recorded, Mission& simulated) {
 
 }  // namespace
 
-Mission null_mission(const Replay& recorded, const Trajectory10Hz& course, const config::VehicleSettings& vehicle,
-                     const sim::EffectSet& mismatch, std::uint64_t seed) {
+Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mismatch, std::uint64_t seed) {
+  const auto& [recorded, course, vehicle] = repeated;
   // Full seconds of the simulated sky are where the recorded mission had its fixes.
   const auto& fixes = recorded.mission().fixes;
   const double phase_s = fixes.empty() ? 0 : fixes.front().time_s - std::floor(fixes.front().time_s);

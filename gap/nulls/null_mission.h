@@ -8,11 +8,17 @@
 
 namespace navcal::gap {
 
+/// What null missions repeat. References; valid as long as what they refer to.
+struct RepeatedMission {
+  const Replay& recorded;
+  const Trajectory10Hz& course;  ///< of the nominal vehicle in the recorded mission
+  const config::VehicleSettings& vehicle;
+};
+
 /// The recorded mission once more, by a simulated vehicle without a gap: as the recorded one was steered, with
 /// the instruments of the recording through their bytes and the pipeline, and with fixes when it had some. The
 /// gyros have no turn-on bias. Throws sim::UnstableVehicle.
-[[nodiscard]] Mission null_mission(const Replay& recorded, const Trajectory10Hz& course,
-                                   const config::VehicleSettings& vehicle, const sim::EffectSet& mismatch,
+[[nodiscard]] Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mismatch,
                                    std::uint64_t seed);
 
 /// Values of all unknowns of a vehicle within tolerance; biases are zero.

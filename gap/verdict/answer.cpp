@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "gap/inference/subset_evidence.h"
 #include "gap/replay/regimes.h"
@@ -15,9 +16,6 @@
 
 namespace navcal::gap {
 namespace {
-
-constexpr double kWorthNaming = 0.01;
-constexpr double kLeastDistance_m = 20;
 
 std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found, const Library& library,
                                   const Evidence& evidence) {
@@ -29,9 +27,8 @@ std::vector<Confusion> confusions(std::size_t effect, const SearchResult& found,
     if (other == effect || !library.holds(other) || std::find(set.begin(), set.end(), other) != set.end())
       continue;
     const double left = evidence.separation(members, found.best.mean, parameter_indices(library, {other}));
-    if (left < kObservable_nats && left < 0.5 * alone) {
-      all.push_back(
-          {std::string(library[other].name), tie_breaker(library[effect].name, library[other].name), left});
+    if (left < kObservable_nats && left < kConfusedBelow * alone) {
+      all.push_back({std::string(library[other].name), tie_breaker(library[effect], library[other]), left});
     }
   }
   std::sort(all.begin(), all.end(),
@@ -53,19 +50,116 @@ double rms(const Eigen::MatrixXd& values) {
   return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.rows())) : 0;
 }
 
+/// Before, after and floor of one channel; nothing where it was not measured.
+std::optional<ChannelClosure> closure_of(std::size_t channel, const std::vector<Comparison>& compared) {
+  double before = 0, after = 0, floor = 0;
+  for (const Comparison& each : compared) {
+    before += std::pow(rms(series_of(channel, each.nominal, each.course, each.fix_times_s).values), 2);
+    after += std::pow(rms(series_of(channel, each.improved, each.course, each.fix_times_s).values), 2);
+    floor += std::pow(each.channel_floor[static_cast<Eigen::Index>(channel)], 2);
+  }
+  if (!(before > 0)) return std::nullopt;
+  const auto n = static_cast<double>(compared.size());
+  const auto& named = reported_channels()[channel];
+  ChannelClosure one{std::string(named.name),
+                     std::string(named.unit),
+                     {std::sqrt(before / n), std::sqrt(after / n), std::sqrt(floor / n), {}, {}}};
+  // Closure is a share of power: root mean squares do not add.
+  if (floor > 0 && before > kChannelGapFactor * floor) one.closure.closed = 1 - (after - floor) / (before - floor);
+  return one;
+}
+
+/// Root mean square of the heading's innovations, before and after.
+std::optional<std::array<double, 2>> heading_errors_rad(const std::vector<Comparison>& compared) {
+  std::array<double, 2> square{};
+  double headings = 0;
+  for (const Comparison& each : compared) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Innovations& which = i == 0 ? each.nominal : each.improved;
+      for (Eigen::Index row = 0; row < which.grid.rows(); ++row) {
+        const double missed = which.grid(row, heading);
+        if (!std::isfinite(missed)) continue;
+        square[i] += missed * missed;
+        headings += 0.5;
+      }
+    }
+  }
+  if (!(headings > 0)) return std::nullopt;
+  return std::array{std::sqrt(square[0] / headings), std::sqrt(square[1] / headings)};
+}
+
+/// Position error at surfacing for each 100 m through the water, before and after.
+std::optional<std::array<double, 2>> dead_reckoning_m_per_100m(const std::vector<Comparison>& compared) {
+  std::array<double, 2> error_m{}, distance_m{};
+  for (const Comparison& each : compared) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (const Resurfacing& one : (i == 0 ? each.nominal : each.improved).resurfacings) {
+        if (one.distance_m < kLeastDistance_m) continue;
+        error_m[i] += one.error_m;
+        distance_m[i] += one.distance_m;
+      }
+    }
+  }
+  if (!(distance_m[0] > 0 && distance_m[1] > 0)) return std::nullopt;
+  return std::array{100 * error_m[0] / distance_m[0], 100 * error_m[1] / distance_m[1]};
+}
+
+/// The sentence of a gap that is explained, and what tells the effects from others.
+void write_explained(Diagnosis& answer) {
+  std::vector<std::string_view> names;
+  for (const EffectFinding& effect : answer.effects) names.push_back(effect.name);
+  answer.sentence = fmt::format("{} {} the gap (probability {:.2f})", fmt::join(names, " and "),
+                                names.size() == 1 ? "explains" : "explain", answer.effects.back().probability);
+  if (answer.gap.pooled.closed) {
+    answer.sentence += fmt::format(": {:.0f} % of it goes away{}.", 100 * std::min(1.0, *answer.gap.pooled.closed),
+                                   answer.gap.held_out ? " on missions held out" : "");
+  } else {
+    answer.sentence += "; it is too small to say by how much it shrinks.";
+  }
+  if (answer.gap.pooled.closed_ci && (*answer.gap.pooled.closed_ci)[0] > kOverClosedFrom) {
+    answer.remarks.emplace_back(
+        "more of the gap goes away than there was above the floor: the floor is too high here");
+  }
+  for (const EffectFinding& effect : answer.effects) {
+    for (const Confusion& other : effect.confused_with) {
+      answer.next.push_back(fmt::format("to tell {} from {}: {}", effect.name, other.name, other.tie_breaker));
+      break;
+    }
+  }
+  answer.next.emplace_back("take the effects into the simulator and calibrate or mend what causes them");
+}
+
+/// The sentence of a gap that is not explained, its candidates and what tells whether it is one of them.
+void write_unknown(Diagnosis& answer) {
+  answer.sentence = "There is a gap, and no effect of the library explains it well enough to be named.";
+  if (answer.candidates.empty() || answer.candidates.front().probability < kLikelyFrom) {
+    answer.next.emplace_back("look at what is left unexplained and add an effect for it to the simulator");
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(answer.candidates.size(), 3); ++i) {
+    const EffectFinding& candidate = answer.candidates[i];
+    if (candidate.probability < kToldFrom) break;
+    answer.unexplained.push_back(
+        fmt::format("candidate: {} fits {} of the library's effects, and does not explain the recording",
+                    candidate.name, i == 0 ? "best" : "next best"));
+    answer.next.push_back(fmt::format("to see whether it is {}: {}", candidate.name, candidate.manoeuvre));
+  }
+}
+
 }  // namespace
 
-void write_findings(const SearchResult& found, const Library& library, const Priors& priors, Diagnosis& answer) {
+void write_findings(const FoundEffects& result, const Library& library, Diagnosis& answer) {
+  const SearchResult& found = result.found;
   std::map<std::size_t, double> included;
   for (const Candidate& candidate : found.candidates) {
     for (const std::size_t effect : candidate.effects) included[effect] += candidate.probability;
   }
-  const Evidence evidence = evidence_of(found.best.linear, priors);
+  const Evidence evidence = evidence_of(found.best.linear, result.priors);
   for (const auto& [effect, probability] : included) {
     const auto& set = found.best.effects;
     const bool member = std::find(set.begin(), set.end(), effect) != set.end();
-    if (!member && probability < kWorthNaming) continue;
+    if (!member && probability < kReportedFrom) continue;
     EffectFinding finding{std::string(library[effect].name), std::min(probability, 1.0), {}, {}};
+    finding.manoeuvre = library[effect].manoeuvre.text();
     if (member) {
       finding.parameters = parameters(effect, found, library);
       finding.confused_with = confusions(effect, found, library, evidence);
@@ -89,91 +183,25 @@ void write_gap(const std::vector<Comparison>& compared, const PooledClosure& clo
     gap.pooled.closed = closure.closed;
     gap.pooled.closed_ci = std::array<double, 2>{closure.lower, closure.upper};
   }
-  std::array<double, 2> error_m{}, distance_m{}, heading_square{};
-  double headings = 0;
-  for (std::size_t c = 0; c < reported_channels().size(); ++c) {
-    const auto& channel = reported_channels()[c];
-    double before = 0, after = 0, floor = 0;
-    for (const Comparison& each : compared) {
-      before += std::pow(rms(series_of(c, each.nominal, each.course, each.fix_times_s).values), 2);
-      after += std::pow(rms(series_of(c, each.improved, each.course, each.fix_times_s).values), 2);
-      floor += std::pow(each.channel_floor[static_cast<Eigen::Index>(c)], 2);
-    }
-    if (!(before > 0)) continue;
-    const auto n = static_cast<double>(compared.size());
-    ChannelClosure one{std::string(channel.name),
-                       std::string(channel.unit),
-                       {std::sqrt(before / n), std::sqrt(after / n), std::sqrt(floor / n), {}, {}}};
-    // Of the power: root mean squares do not add.
-    if (floor > 0 && before > 1.5 * floor) one.closure.closed = 1 - (after - floor) / (before - floor);
-    gap.channels.push_back(std::move(one));
+  for (std::size_t channel = 0; channel < reported_channels().size(); ++channel) {
+    if (auto one = closure_of(channel, compared)) gap.channels.push_back(std::move(*one));
   }
-  for (const Comparison& each : compared) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Innovations& which = i == 0 ? each.nominal : each.improved;
-      for (const Resurfacing& one : which.resurfacings) {
-        if (one.distance_m < kLeastDistance_m) continue;
-        error_m[i] += one.error_m;
-        distance_m[i] += one.distance_m;
-      }
-      for (Eigen::Index row = 0; row < which.grid.rows(); ++row) {
-        const double missed = which.grid(row, heading);
-        if (!std::isfinite(missed)) continue;
-        heading_square[i] += missed * missed;
-        headings += 0.5;
-      }
-    }
-  }
-  if (headings > 0) {
-    gap.heading_error_rad = {std::sqrt(heading_square[0] / headings), std::sqrt(heading_square[1] / headings)};
-  }
-  if (distance_m[0] > 0 && distance_m[1] > 0) {
-    gap.dead_reckoning_m_per_100m = {100 * error_m[0] / distance_m[0], 100 * error_m[1] / distance_m[1]};
-  }
+  gap.heading_error_rad = heading_errors_rad(compared);
+  gap.dead_reckoning_m_per_100m = dead_reckoning_m_per_100m(compared);
 }
 
 void write_words(Diagnosis& answer) {
-  if (answer.verdict == Verdict::no_gap) {
-    answer.sentence = "No gap: this recording shows nothing beyond what a vehicle within 2 % of the model shows.";
-    return;
-  }
-  if (answer.verdict == Verdict::explained) {
-    std::vector<std::string_view> names;
-    for (const EffectFinding& effect : answer.effects) names.push_back(effect.name);
-    answer.sentence = fmt::format("{} {} the gap (probability {:.2f})", fmt::join(names, " and "),
-                                  names.size() == 1 ? "explains" : "explain", answer.effects.back().probability);
-    if (answer.gap.pooled.closed) {
-      answer.sentence +=
-          fmt::format(": {:.0f} % of it goes away{}.", 100 * std::min(1.0, *answer.gap.pooled.closed),
-                      answer.gap.held_out ? " on missions held out" : "");
-    } else {
-      answer.sentence += "; it is too small to say by how much it shrinks.";
-    }
-    if (answer.gap.pooled.closed_ci && (*answer.gap.pooled.closed_ci)[0] > 1.02) {
-      answer.remarks.emplace_back(
-          "more of the gap goes away than there was above the floor: the floor is too high here");
-    }
-    for (const EffectFinding& effect : answer.effects) {
-      for (const Confusion& other : effect.confused_with) {
-        answer.next.push_back(fmt::format("to tell {} from {}: {}", effect.name, other.name, other.tie_breaker));
-        break;
-      }
-    }
-    answer.next.emplace_back("take the effects into the simulator and calibrate or mend what causes them");
-    return;
-  }
-  answer.sentence = "There is a gap, and no effect of the library explains it well enough to be named.";
-  if (answer.candidates.empty() || answer.candidates.front().probability < 0.2) {
-    answer.next.emplace_back("look at what is left unexplained and add an effect for it to the simulator");
-  }
-  for (std::size_t i = 0; i < std::min<std::size_t>(answer.candidates.size(), 3); ++i) {
-    const EffectFinding& candidate = answer.candidates[i];
-    if (candidate.probability < 0.1) break;
-    answer.unexplained.push_back(
-        fmt::format("candidate: {} fits {} of the library's effects, and does not explain the recording",
-                    candidate.name, i == 0 ? "best" : "next best"));
-    answer.next.push_back(
-        fmt::format("to see whether it is {}: {}", candidate.name, telling_manoeuvre(candidate.name)));
+  switch (answer.verdict) {
+    case Verdict::no_gap:
+      answer.sentence =
+          "No gap: this recording shows nothing beyond what a vehicle within 2 % of the model shows.";
+      return;
+    case Verdict::explained:
+      write_explained(answer);
+      return;
+    case Verdict::unknown:
+      write_unknown(answer);
+      return;
   }
 }
 

@@ -4,15 +4,14 @@
 #include <vector>
 
 #include "gap/inference/library.h"
-#include "gap/inference/search.h"
-#include "gap/inference/spike_and_slab.h"
 #include "gap/verdict/diagnosis.h"
+#include "gap/verdict/find_effects.h"
 #include "gap/verdict/holdout.h"
 
 namespace navcal::gap {
 
 /// The effects of the verdict, or the candidates where there is none; with what they may be confused with.
-void write_findings(const SearchResult& found, const Library& library, const Priors& priors, Diagnosis& answer);
+void write_findings(const FoundEffects& result, const Library& library, Diagnosis& answer);
 
 /// How far the gap shrinks, pooled and by channel, and what that means for whoever navigates.
 void write_gap(const std::vector<Comparison>& compared, const PooledClosure& closure, bool held_out,

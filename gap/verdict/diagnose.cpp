@@ -35,14 +35,14 @@ Innovations rest_of(const Replay& replay, const Library& library, const ModelFit
   Innovations rest = replay.run(library.model(best.mean));
   // Rolling comes from the small sum of three fins' angles, and its gyro feels each turning point of a servo
   // between two reports. The missions of the backlash null bank, steered by what was reported, have none there.
-  if (has_play(library, best.effects)) rest.grid.col(gyro_roll).setZero();
+  if (has_backlash(library, best.effects)) rest.grid.col(gyro_roll).setZero();
   return rest;
 }
 
 /// Cells of the residual map that are significant although all that was found is in the model; `seen`: a cell was
 /// significant before.
-std::vector<WhereEntry> leftover_of(const Problem& problem, const FoundEffects& result, const Comparison& here,
-                                    bool seen) {
+std::vector<WhereEntry> leftover_of(const DiagnosisProblem& problem, const FoundEffects& result,
+                                    const Comparison& here, bool seen) {
   const NullBank& bank = problem.prepared.bank;
   Innovations rest = rest_of(*problem.prepared.replay, problem.library, result.found.best);
   const auto map_of = [&] { return explained_rms(rest, here.course, here.fix_times_s); };
@@ -65,7 +65,7 @@ std::vector<WhereEntry> leftover_of(const Problem& problem, const FoundEffects& 
 
 /// The third step. Only the effects named go into the hold-outs' models; a prediction of a hold-out uses all
 /// parameters, tolerances included, because a vehicle is the same in all missions.
-Comparisons compare_all(const Problem& problem, const SearchResult& found, const HoldOuts& holdouts) {
+Comparisons compare_all(const DiagnosisProblem& problem, const SearchResult& found, const HoldOuts& holdouts) {
   const Library& library = problem.library;
   Eigen::VectorXd members = Eigen::VectorXd::Zero(found.best.mean.size());
   for (const Eigen::Index j : parameter_indices(library, found.best.effects)) members[j] = found.best.mean[j];
@@ -75,15 +75,14 @@ Comparisons compare_all(const Problem& problem, const SearchResult& found, const
   result.predictions.resize(found.best.effects.empty() ? 0 : holdouts.size());
   base::in_parallel(problem.threads, holdouts.size() + 1, [&](std::size_t i) {
     if (i == holdouts.size()) {
-      const Prepared& a = problem.prepared;
-      result.here = compare(*a.replay, library, a.bank, a.at, members);
+      result.here = compare(problem.prepared, library, members);
       return;
     }
     const Prepared& other = *holdouts[i];
-    result.holdouts[i] = compare(*other.replay, library, other.bank, other.at, members);
+    result.holdouts[i] = compare(other, library, members);
     if (!result.predictions.empty()) {
       result.predictions[i] =
-          foretold(*other.replay, library, other.bank.whitening, found.mean_without_effects, found.best.mean);
+          predict_held_out(other.model(library, 1), found.mean_without_effects, found.best.mean);
     }
   });
   return result;
@@ -102,14 +101,16 @@ void remark_on(const FoundEffects& result, const Library& library, Diagnosis& an
 }
 
 /// The verdict, the gap's size and how much of it the effects close.
-void judge_into(const Problem& problem, const FoundEffects& result, Comparisons compared, Diagnosis& answer) {
+void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Comparisons compared,
+                Diagnosis& answer) {
   const auto leftover = leftover_of(problem, result, compared.here, !answer.where.empty());
   const ModelFit& best = result.found.best;
   const bool blocks = compared.holdouts.empty();
   std::vector<double> gains_nats;
   PooledClosure closure_by_all;
   if (blocks) {
-    gains_nats = gains_of_blocks(best, problem.library, result.priors, layout_of(*problem.prepared.replay));
+    gains_nats = gains_of_blocks(best.effects, {best.linear, problem.library, result.priors},
+                                 layout_of(*problem.prepared.replay));
     compared.holdouts.push_back(compared.here);
   } else if (!compared.predictions.empty()) {
     std::vector<Power> by_all;
@@ -139,7 +140,7 @@ void write_pictures(const Prepared& a, const Comparison& here, bool with_effects
 }
 
 /// The ladder of gap/README.md from the search on.
-void diagnose_prepared(const Problem& problem, const HoldOuts& holdouts, Diagnosis& answer) {
+void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts, Diagnosis& answer) {
   const Prepared& a = problem.prepared;
   FoundEffects result = find_effects(problem);
   SearchResult& found = result.found;
@@ -161,7 +162,7 @@ void diagnose_prepared(const Problem& problem, const HoldOuts& holdouts, Diagnos
   }
   answer.bank = {a.bank.missions, a.bank.seed, a.from_cache, a.bank.seconds};
   if (result.backlash_bank) correct(found.best, problem.library, *result.backlash_bank);
-  write_findings(found, problem.library, result.priors, answer);
+  write_findings(result, problem.library, answer);
   write_pictures(a, here, with_effects, answer);
   write_words(answer);
 }

@@ -49,6 +49,7 @@ struct EffectFinding {
   double probability = 0;
   std::vector<EffectParameterEstimate> parameters;
   std::vector<Confusion> confused_with;
+  std::string manoeuvre = {};  ///< that tells it
 };
 
 /// How much of the gap goes away. `closed` = 1 - (after - floor) / (before - floor), on what was held out; absent

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gap/inference/subset_search.h"
 #include "gap/nulls/null_bayes_factors.h"
 #include "gap/thresholds.h"
 #include "gap/verdict/where.h"
@@ -11,39 +12,33 @@
 namespace navcal::gap {
 namespace {
 
-/// Simulated vehicles with the backlash, or without the gap, that was found: enough for a floor, few enough to
-/// wait for.
-constexpr int kBacklashMissions = 16;
-
-SearchResult search_by(const Priors& priors, const Problem& problem, const Linearised& nominal) {
-  return search(*problem.prepared.replay, problem.library, problem.prepared.bank.whitening, nominal, priors,
-                problem.threads, [&](double done) { problem.progress("searching", done); });
+SearchResult search_by(const Priors& priors, const DiagnosisProblem& problem, const Linearised& nominal) {
+  return SubsetSearch(problem.inference(nominal, priors)).run();
 }
 
 /// A search, and a second one with wider priors when the first found backlash.
-FoundEffects search_with_backlash(const Problem& problem, const Linearised& nominal) {
-  const Priors priors =
-      fit_spike_widths(problem.library, problem.prepared.bank.gram, problem.prepared.bank.scores);
+FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Linearised& nominal) {
+  const Library& library = problem.library;
+  const Priors priors = fit_spike_widths(library, problem.prepared.bank.gram, problem.prepared.bank.scores);
   FoundEffects result{search_by(priors, problem, nominal), priors, {}, {}, {}};
-  if (!has_play(problem.library, result.found.best.effects)) return result;
-  problem.progress("vehicles with such a play", 0);
-  BacklashNullBank twins =
-      backlash_null_bank(*problem.prepared.replay, problem.prepared.course, problem.request.vehicle,
-                         problem.library, problem.prepared.bank.whitening, result.found.best,
+  if (!has_backlash(library, result.found.best.effects)) return result;
+  problem.progress("null missions with backlash", 0);
+  BacklashNullBank bank =
+      backlash_null_bank(result.found.best, problem.repeated(), problem.prepared.model(library, problem.threads),
                          {kBacklashMissions, problem.request.bank_seed, problem.threads});
-  if (twins.missions <= kBacklashMissions / 2) return result;
-  // Once more: beside a play, others are recruited for what it leaves.
-  const Priors wider = with_twins(priors, problem.library, result.found.best, twins);
-  if (SearchResult again = search_by(wider, problem, nominal); has_play(problem.library, again.best.effects)) {
+  if (bank.missions <= kBacklashMissions / 2) return result;
+  // Once more: beside a backlash, other effects are recruited for what it leaves.
+  const Priors wider = widened(priors, library, result.found.best, bank);
+  if (SearchResult again = search_by(wider, problem, nominal); has_backlash(library, again.best.effects)) {
     result.found = std::move(again);
     result.priors = wider;
   }
-  result.backlash_bank = std::move(twins);
+  result.backlash_bank = std::move(bank);
   return result;
 }
 
 /// Whether a cell of the residual map is significant against the null bank.
-bool is_seen(const Problem& problem) {
+bool is_seen(const DiagnosisProblem& problem) {
   const Innovations nominal = problem.prepared.replay->run(problem.library.model(problem.prepared.at));
   const auto map =
       residual_map(explained_rms(nominal, problem.prepared.course, problem.prepared.mission.fix_times_s()),
@@ -52,44 +47,46 @@ bool is_seen(const Problem& problem) {
 }
 
 /// Whether simulated vehicles without a gap would show the effects found as well: null Bayes factors.
-bool is_chance(const Problem& problem, const Linearised& nominal, const FoundEffects& searched) {
+bool is_chance(const DiagnosisProblem& problem, const Linearised& nominal, const FoundEffects& searched) {
   const ModelFit& best = searched.found.best;
   if (best.effects.empty() || best.log_odds > kBeyondNulls_nats || is_seen(problem)) return false;
-  problem.progress("vehicles without a gap", 0);
-  // As nulls are looked at: signatures taken anew at an estimate far off gain some nats that nothing is behind.
+  problem.progress("null missions to compare the evidence with", 0);
+  // Linearising again far from the nominal inflates the evidence: the nominal Jacobian, by which the nulls are
+  // scored, scores the recording, too.
+  const InferenceProblem inference = problem.inference(nominal, searched.priors);
   const bool curved = std::any_of(best.effects.begin(), best.effects.end(),
                                   [&](std::size_t effect) { return problem.library.is_curved(effect); });
-  const double gain =
-      curved ? best.log_odds : gain_over_none(best.effects, nominal, problem.library, searched.priors);
-  return !stands_out(
-      gain, null_bayes_factors(best.effects, *problem.prepared.replay, problem.prepared.course,
-                               problem.request.vehicle, problem.library, problem.prepared.bank.whitening, nominal,
-                               searched.priors, {kBacklashMissions, problem.request.bank_seed, problem.threads}));
+  const double gain = curved ? best.log_odds : gain_over_none(best.effects, inference.about(nominal));
+  return !stands_out(gain, null_bayes_factors(best.effects, problem.repeated(), inference,
+                                              {kBacklashMissions, problem.request.bank_seed, problem.threads}));
 }
 
 }  // namespace
 
-FoundEffects find_effects(const Problem& problem) {
+InferenceProblem DiagnosisProblem::inference(const Linearised& nominal, const Priors& priors) const {
+  return {prepared.model(library, threads), nominal, priors,
+          [report = &progress](double done) { (*report)("searching", done); }};
+}
+
+FoundEffects find_effects(const DiagnosisProblem& problem) {
   problem.progress("linearising", 0);
-  const Linearised nominal = linearise(*problem.prepared.replay, problem.library, problem.prepared.bank.whitening,
-                                       problem.prepared.at, problem.threads);
+  const Library& library = problem.library;
+  const Linearised nominal = linearise(problem.prepared.model(library, problem.threads), problem.prepared.at);
   FoundEffects result = search_with_backlash(problem, nominal);
   if (is_chance(problem, nominal, result)) {
     result.by_chance = result.found.best.effects;
-    result.found = nothing_found(*problem.prepared.replay, problem.library, problem.prepared.bank.whitening,
-                                 nominal, result.priors, problem.threads);
+    result.found = nothing_found(problem.inference(nominal, result.priors));
     result.backlash_bank.reset();
     return result;
   }
-  // What this mission could not show may be there unnoticed, and takes what is not its own: it cannot be named,
-  // but is allowed for, and the others are asked again. Twins of another play are not made.
+  // An effect that this mission could not show may be there unnoticed, and absorbs what belongs to others. It
+  // cannot be named, so it becomes a nuisance parameter of a second search. No second backlash null bank is made.
   const EffectSubset hidden = unobservable_effects(result.found);
   if (hidden.empty()) return result;
-  FoundEffects again{
-      {}, as_nuisance_parameters(result.priors, problem.library, hidden), result.backlash_bank, hidden, {}};
+  FoundEffects again{{}, as_nuisance_parameters(result.priors, library, hidden), result.backlash_bank, hidden, {}};
   again.found = search_by(again.priors, problem, nominal);
   const bool can_be_told = !again.found.best.effects.empty() && unobservable_effects(again.found).empty() &&
-                           has_play(problem.library, again.found.best.effects) == result.backlash_bank.has_value();
+                           has_backlash(library, again.found.best.effects) == result.backlash_bank.has_value();
   return can_be_told && !is_chance(problem, nominal, again) ? again : result;
 }
 

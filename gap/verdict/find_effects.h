@@ -3,19 +3,26 @@
 
 #include <optional>
 
+#include "gap/inference/problem.h"
 #include "gap/inference/search.h"
 #include "gap/nulls/backlash_null_bank.h"
 #include "gap/verdict/prepare.h"
 
 namespace navcal::gap {
 
-/// What a search needs beside its priors. References, valid as long as the diagnosis runs.
-struct Problem {
+/// What the steps of a diagnosis share once the recording is prepared. References, valid as long as the diagnosis
+/// runs.
+struct DiagnosisProblem {
   const Prepared& prepared;
   const Library& library;
   const Request& request;
   const Progress& progress;
   unsigned threads = 1;
+
+  /// The question to the search, by one linearisation about the nominal vehicle and by priors.
+  [[nodiscard]] InferenceProblem inference(const Linearised& nominal, const Priors& priors) const;
+  /// What null missions repeat.
+  [[nodiscard]] RepeatedMission repeated() const { return {*prepared.replay, prepared.course, request.vehicle}; }
 };
 
 /// The effects that a search found, and what they were compared with.
@@ -30,6 +37,6 @@ struct FoundEffects {
 /// The second step of a diagnosis: the most probable subset of effects. Backlash is judged by a null bank of
 /// vehicles that have it; a subset of little evidence by null Bayes factors; and effects that the mission cannot
 /// show become nuisance parameters of a second search.
-[[nodiscard]] FoundEffects find_effects(const Problem& problem);
+[[nodiscard]] FoundEffects find_effects(const DiagnosisProblem& problem);
 
 }  // namespace navcal::gap

@@ -12,21 +12,17 @@
 namespace navcal::gap {
 namespace {
 
-constexpr double kBlock_s = 10;
-constexpr int kResamples = 1000;
-
 /// The innovations by these effects with the biases that fit them, and their whitened form.
 struct Fitted {
   Innovations innovations;
   Eigen::VectorXd white;
 };
 
-Fitted fitted(const Replay& replay, const Library& library, const Whitening& whitening, Eigen::VectorXd values,
-              Trajectory10Hz* course) {
-  values = with_biases_fitted(replay, library, whitening, std::move(values), 1);
+Fitted fitted(const ResidualModel& model, Eigen::VectorXd values, Trajectory10Hz* course) {
+  values = with_biases_fitted(model, std::move(values));
   Fitted result;
-  result.innovations = replay.run(library.model(values), course);
-  result.white = whitening(result.innovations, layout_of(replay));
+  result.innovations = model.replay.run(model.library.model(values), course);
+  result.white = model.whitening(result.innovations, layout_of(model.replay));
   return result;
 }
 
@@ -49,22 +45,54 @@ Power power_of(const Eigen::VectorXd& white, const Layout& layout) {
   return {white.squaredNorm() / static_cast<double>(Whitening::count(white)), blocks(white, layout)};
 }
 
+/// The floor of several missions together, and the number of their measurements.
+struct PooledFloor {
+  double mean = 0, std = 0, measurements = 0;
+};
+
+/// Closures of a bootstrap: blocks are drawn anew, and the floor scatters. Resamples without a gap are left out.
+std::vector<double> resampled_closures(const std::vector<Comparison>& comparisons, const std::vector<Power>& after,
+                                       const PooledFloor& floor) {
+  std::mt19937_64 dice(1);
+  std::normal_distribution<double> normal;
+  std::vector<double> closures;
+  for (int n = 0; n < kResamples; ++n) {
+    double was = 0, is = 0;
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+      const auto& blocks = comparisons[i].before.blocks;
+      std::uniform_int_distribution<std::size_t> pick(0, blocks.size() - 1);
+      for (std::size_t k = 0; k < blocks.size(); ++k) {
+        const std::size_t block = pick(dice);
+        was += blocks[block];
+        is += after[i].blocks[block];
+      }
+    }
+    // The floor's spread holds that of the noise, which before and after share.
+    const double level = floor.mean + floor.std * normal(dice);
+    const double gap = was / floor.measurements - level;
+    if (gap > 0) closures.push_back(1 - (is / floor.measurements - level) / gap);
+  }
+  std::sort(closures.begin(), closures.end());
+  return closures;
+}
+
 }  // namespace
 
-Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
-                   const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects) {
-  const Layout layout = layout_of(replay);
+Comparison compare(const Prepared& mission, const Library& library, const Eigen::VectorXd& effects) {
+  const ResidualModel model = mission.model(library, 1);
+  const NullBank& bank = mission.bank;
+  const Layout layout = layout_of(model.replay);
   Eigen::VectorXd improved = effects;
-  improved.head<Library::kBiases>() = nominal.head<Library::kBiases>();
+  improved.head<Library::kBiases>() = mission.at.head<Library::kBiases>();
   Comparison result;
-  Fitted before = fitted(replay, library, bank.whitening, nominal, nullptr);
-  Fitted after = fitted(replay, library, bank.whitening, improved, &result.course);
+  Fitted before = fitted(model, mission.at, nullptr);
+  Fitted after = fitted(model, improved, &result.course);
   result.measurements = static_cast<double>(Whitening::count(before.white));
   result.before = power_of(before.white, layout);
   result.after = power_of(after.white, layout);
   result.nominal = std::move(before.innovations);
   result.improved = std::move(after.innovations);
-  result.fix_times_s = replay.mission().fix_times_s();
+  result.fix_times_s = mission.mission.fix_times_s();
   result.channel_floor = bank.explained_rms.mean_square.col(overall_regime()).cwiseSqrt();
   double square = 0;
   for (const double power : bank.powers) result.floor += power / static_cast<double>(bank.powers.size());
@@ -73,11 +101,11 @@ Comparison compare(const Replay& replay, const Library& library, const NullBank&
   return result;
 }
 
-HeldOutPrediction foretold(const Replay& replay, const Library& library, const Whitening& whitening,
-                           const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
-  const Eigen::VectorXd poorer = fitted(replay, library, whitening, without, nullptr).white;
-  const Eigen::VectorXd better = fitted(replay, library, whitening, with, nullptr).white;
-  return {0.5 * (poorer.squaredNorm() - better.squaredNorm()), power_of(better, layout_of(replay))};
+HeldOutPrediction predict_held_out(const ResidualModel& model, const Eigen::VectorXd& without,
+                                   const Eigen::VectorXd& with) {
+  const Eigen::VectorXd poorer = fitted(model, without, nullptr).white;
+  const Eigen::VectorXd better = fitted(model, with, nullptr).white;
+  return {0.5 * (poorer.squaredNorm() - better.squaredNorm()), power_of(better, layout_of(model.replay))};
 }
 
 PooledClosure pooled_closure(const std::vector<Comparison>& comparisons) {
@@ -104,31 +132,12 @@ PooledClosure pooled_closure(const std::vector<Comparison>& comparisons, const s
   pooled.clear = pooled.before - pooled.floor > kHoldoutGap_sigma * floor_std;
   if (!pooled.clear) return pooled;
   pooled.closed = 1 - (pooled.after - pooled.floor) / (pooled.before - pooled.floor);
-
-  std::mt19937_64 dice(1);
-  std::normal_distribution<double> normal;
-  std::vector<double> closures;
-  for (int n = 0; n < kResamples; ++n) {
-    double was = 0, is = 0;
-    for (std::size_t i = 0; i < comparisons.size(); ++i) {
-      const auto& blocks = comparisons[i].before.blocks;
-      std::uniform_int_distribution<std::size_t> pick(0, blocks.size() - 1);
-      for (std::size_t k = 0; k < blocks.size(); ++k) {
-        const std::size_t block = pick(dice);
-        was += blocks[block];
-        is += after[i].blocks[block];
-      }
-    }
-    // The floor's spread holds that of the noise, which before and after share.
-    const double floor = pooled.floor + floor_std * normal(dice);
-    const double gap = was / measurements - floor;
-    if (gap > 0) closures.push_back(1 - (is / measurements - floor) / gap);
-  }
+  const std::vector<double> closures =
+      resampled_closures(comparisons, after, {pooled.floor, floor_std, measurements});
   if (closures.size() < kResamples / 2) {
     pooled.clear = false;
     return pooled;
   }
-  std::sort(closures.begin(), closures.end());
   const auto quantile = [&](double q) {
     return closures[static_cast<std::size_t>(q * static_cast<double>(closures.size() - 1))];
   };

@@ -4,9 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "gap/inference/library.h"
-#include "gap/nulls/null_bank.h"
-#include "gap/replay/replay.h"
+#include "gap/inference/linearised.h"
+#include "gap/verdict/prepare.h"
 
 namespace navcal::gap {
 
@@ -28,18 +27,17 @@ struct Comparison {
   Eigen::VectorXd channel_floor;  ///< root mean square of each reported channel among the nulls
 };
 
-/// `nominal`: the values of all unknowns without effects, by with_biases_found().
-[[nodiscard]] Comparison compare(const Replay& replay, const Library& library, const NullBank& bank,
-                                 const Eigen::VectorXd& nominal, const Eigen::VectorXd& effects);
+/// `effects`: values of all unknowns; their biases are not used.
+[[nodiscard]] Comparison compare(const Prepared& mission, const Library& library, const Eigen::VectorXd& effects);
 
-/// How well all that another mission says of the vehicle foretells this one.
+/// How well the parameters that another mission gave predict this one.
 struct HeldOutPrediction {
   double gain_nats = 0;  ///< by how much its log likelihood is greater with the effects than without
   Power power;           ///< with them
 };
 /// By two sets of values of all unknowns; the gyros' biases are fitted anew for each.
-[[nodiscard]] HeldOutPrediction foretold(const Replay& replay, const Library& library, const Whitening& whitening,
-                                         const Eigen::VectorXd& without, const Eigen::VectorXd& with);
+[[nodiscard]] HeldOutPrediction predict_held_out(const ResidualModel& model, const Eigen::VectorXd& without,
+                                                 const Eigen::VectorXd& with);
 
 /// Of several missions together: 1 - (after - floor) / (before - floor), with its 95 % interval by a bootstrap of
 /// the blocks and of what is known of the floors.

@@ -49,19 +49,19 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
     answer.remarks.push_back(name + ": " + shortcoming);
     return nullptr;
   }
-  if (prepared->mission.fixes.size() < 3) {
+  if (prepared->mission.fixes.size() < kLeastFixes) {
     answer.remarks.push_back(name +
                              ": hardly a GPS fix, so nothing can be said of declination, current, GPS and speed");
   }
   replay_orders(*prepared, name, answer);
-  if (prepared->replay->intervals() < 200) {
+  if (prepared->replay->intervals() < kLeastIntervals) {
     answer.remarks.push_back(name + ": compass, inertial card and motor card have less than 20 s in common");
     return nullptr;
   }
   prepared->at = with_biases_found(*prepared->replay, library_, threads_);
   (void)prepared->replay->run(library_.model(prepared->at), &prepared->course);
   find_bank(*prepared, name, answer);
-  if (prepared->bank.missions < 10) {
+  if (prepared->bank.missions < kLeastNulls) {
     answer.remarks.push_back(name +
                              ": no simulated vehicle could follow this mission, so nothing can be compared");
     return nullptr;
@@ -91,7 +91,7 @@ void Preparation::find_bank(Prepared& prepared, const std::string& name, Diagnos
     prepared.from_cache = true;
     return;
   }
-  prepared.bank = make_null_bank(*prepared.replay, prepared.course, request_.vehicle, library_, prepared.at,
+  prepared.bank = make_null_bank({*prepared.replay, prepared.course, request_.vehicle}, library_, prepared.at,
                                  options, [&](double done) { progress_("null bank of " + name, done); });
   const std::string refusal = cache_.keep(*prepared.replay, prepared.course, prepared.bank);
   if (!refusal.empty())

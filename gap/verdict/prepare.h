@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gap/data/shared_content.h"
+#include "gap/inference/linearised.h"
 #include "gap/nulls/bank_cache.h"
 #include "gap/nulls/null_bank.h"
 #include "gap/replay/replay.h"
@@ -25,6 +26,11 @@ struct Prepared {
   Trajectory10Hz course;
   NullBank bank;
   bool from_cache = false;
+
+  /// Its whitened residuals. The references are valid as long as this and `library`.
+  [[nodiscard]] ResidualModel model(const Library& library, unsigned threads) const {
+    return {*replay, library, bank.whitening, threads};
+  }
 };
 
 /// The first step of a diagnosis: recordings to residuals, each with its null bank.

@@ -13,8 +13,6 @@
 namespace navcal::gap {
 namespace {
 
-constexpr std::size_t kMostReasons = 4;
-
 std::string names(const Library& library, const std::vector<std::size_t>& effects) {
   std::vector<std::string_view> all;
   all.reserve(effects.size());
@@ -83,18 +81,9 @@ std::string closure_words(const PooledClosure& closure, const std::string& set) 
                      100 * std::max(0.0, closure.lower), 100 * closure.upper);
 }
 
-}  // namespace
-
-Judgement judge(const Grounds& grounds) {
+/// Whether the set is not clearly the most probable one.
+void add_rivals(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
   const auto& best = grounds.found.best;
-  Judgement judgement;
-  auto& reasons = judgement.reasons;
-  if (best.effects.empty()) {
-    add_leftover(grounds, reasons);
-    judgement.verdict = reasons.empty() ? Verdict::no_gap : Verdict::unknown;
-    return judgement;
-  }
-  const std::string set = names(grounds.library, best.effects);
   const auto& candidates = grounds.found.candidates;
   const auto first = std::find_if(candidates.begin(), candidates.end(),
                                   [&](const Candidate& candidate) { return candidate.effects == best.effects; });
@@ -111,8 +100,11 @@ Judgement judge(const Grounds& grounds) {
     reasons.push_back(fmt::format("{} is the best candidate, but only with probability {:.2f}; others: {}", set,
                                   probability, others));
   }
-  add_held_out(grounds, set, reasons);
-  if (!closes(grounds)) reasons.push_back(closure_words(grounds.closure, set));
+}
+
+/// Effects that the mission hardly shows, and strengths that no cause has.
+void add_strengths(const Grounds& grounds, std::vector<std::string>& reasons) {
+  const auto& best = grounds.found.best;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     const std::size_t effect = best.effects[i];
     const double size = strength_of(grounds.library, effect, best.mean);
@@ -132,8 +124,27 @@ Judgement judge(const Grounds& grounds) {
           size < kLargestReported ? fmt::format("{:.1f}", size) : fmt::format("over {:.0f}", kLargestReported)));
     }
   }
+}
+
+}  // namespace
+
+Judgement judge(const Grounds& grounds) {
+  const auto& best = grounds.found.best;
+  Judgement judgement;
+  auto& reasons = judgement.reasons;
+  if (best.effects.empty()) {
+    add_leftover(grounds, reasons);
+    judgement.verdict = reasons.empty() ? Verdict::no_gap : Verdict::unknown;
+    return judgement;
+  }
+  const std::string set = names(grounds.library, best.effects);
+  add_rivals(grounds, set, reasons);
+  add_held_out(grounds, set, reasons);
+  if (!closes(grounds)) reasons.push_back(closure_words(grounds.closure, set));
+  add_strengths(grounds, reasons);
   add_leftover(grounds, reasons);
   judgement.verdict = reasons.empty() ? Verdict::explained : Verdict::unknown;
+  const auto& candidates = grounds.found.candidates;
   const auto none = std::find_if(candidates.begin(), candidates.end(),
                                  [](const Candidate& candidate) { return candidate.effects.empty(); });
   const bool may_be_none = none != candidates.end() && none->probability > kNoGapBelow;

@@ -149,7 +149,6 @@ WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixX
 
 std::vector<ChangePoint> change_points(const Innovations& innovations, const Trajectory10Hz& course,
                                        const std::vector<double>& fix_times_s, const RegimeStatistics& nulls) {
-  constexpr double kTimesUsual = 3;  // of the slow part that nulls have
   const auto slow = static_cast<Eigen::Index>(index_of("slow", regimes()));
   std::vector<ChangePoint> changes;
   for (std::size_t c = 0; c < reported_channels().size(); ++c) {
@@ -159,7 +158,7 @@ std::vector<ChangePoint> change_points(const Innovations& innovations, const Tra
     std::vector<double> means;
     for (const Piece& piece : pieces) means.push_back(piece.mean);
     LevelChanges levels;
-    levels.least_difference = kTimesUsual * nulls.floor(static_cast<Eigen::Index>(c), slow);
+    levels.least_difference = kLevelChangeFactor * nulls.floor(static_cast<Eigen::Index>(c), slow);
     std::vector<std::size_t> bounds = levels.of(means);
     bounds.insert(bounds.begin(), 0);
     bounds.push_back(means.size());

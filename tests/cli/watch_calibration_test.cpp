@@ -83,15 +83,24 @@ TEST(CompassRose, NorthIsUpAndEastIsRight) {
   EXPECT_GE(column + 2, rows.front().size());
 }
 
-TEST(WatchCalibration, WrongTypesAreSurvived) {
-  WatchView view;
+TEST(WatchCalibration, AWrongTypeIsReplacedByTheNextReport) {
+  WatchView untouched;
+  untouched.take(kReport);
+  const std::string page = untouched.page(WatchView::Colour::none), line = untouched.line();
   for (const char* key : {"name", "calibrators", "heading", "rose", "part", "tcm2"}) {
     for (const char* value :
          {"1", "null", "\"x\"", "[]", "{}", "[1]", "[{}]", "[[]]", "-1", "1e300", R"({"score":[],"state":1})",
           R"([{"calibrator":1,"verdict":[],"estimate":[],"std":1,"held":"x"}])"}) {
-      view.take(std::string(R"({"class":"CALIB",")") + key + "\":" + value + "}");
-      (void)view.page(WatchView::Colour::ansi);
-      (void)view.line();
+      WatchView view;
+      const std::string wrong = std::string(R"({"class":"CALIB",")") + key + "\":" + value + "}";
+      view.take(wrong);
+      for (const char c : view.page(WatchView::Colour::none)) {
+        EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << wrong << ' ' << static_cast<int>(c);
+      }
+      EXPECT_FALSE(report_has(view.page(WatchView::Colour::none), "7-1a2b3c4d")) << wrong;
+      view.take(kReport);
+      EXPECT_EQ(view.page(WatchView::Colour::none), page) << wrong;
+      EXPECT_EQ(view.line(), line) << wrong;
     }
   }
 }

@@ -116,7 +116,7 @@ TEST(GapTrialCases, EverySecondPairIsEasilyConfounded) {
   const auto numbers = validation::case_numbers({validation::TrialArm::pairs}, 6);
   for (std::size_t i = 1; i < numbers.size(); i += 2) {
     const auto effects = validation::drawn_case(5, numbers[i], 10).effects;
-    const auto& twins = validation::signature_of(effects.at(0).name)->twins;
+    const auto& twins = validation::signature_of(effects.at(0).name)->confounders;
     EXPECT_NE(std::find(twins.begin(), twins.end(), effects.at(1).name), twins.end());
   }
 }

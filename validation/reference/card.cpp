@@ -58,7 +58,7 @@ Vector3 Card::forces(const Snapshot& s) {
 }
 
 double Card::depth(const Snapshot& s) {
-  const double half_m = departures_.depth_play_m / 2, true_m = s.position_m.z();
+  const double half_m = departures_.depth_backlash_m / 2, true_m = s.position_m.z();
   seat_m_ = std::clamp(seat_m_, true_m - half_m, true_m + half_m);
   return seat_m_ * (1 + departures_.depth_scale) +
          departures_.depth_temperature_m_per_K * (s.electronics_C - kReferenceTemperature_C) +

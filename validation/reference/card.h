@@ -32,7 +32,7 @@ class Card final : public Instrument {
   CardDeviations departures_;
   PerGyro bias_rad_s_ = PerGyro::Zero();
   std::array<bool, 4> jumped_{};  ///< which gyros stand beside their bias
-  double seat_m_ = 0;             ///< of the play in the depth sensor
+  double seat_m_ = 0;             ///< of the backlash in the depth sensor
   std::uint8_t sequence_;
   Reading reading_;
 };

@@ -30,9 +30,30 @@ struct Size {
   bool symmetric = false;  ///< xx yy zz xy xz yz of a matrix, whose size is its Frobenius norm
 };
 
+/// Where a departure may well be the strongest excess: where it enters, and where that leads (a wrong rate turns
+/// the predicted attitude, and with it heading, tilt and field). validation/confounded_effects.cpp has the
+/// channels.
+enum class Trace : std::uint8_t {
+  field,
+  heading,
+  tilt,
+  rates,
+  force,
+  card,  ///< all that the inertial card measures
+  depth,
+  fixes,
+  drift,
+  thrust,
+  fins,
+  rise,
+  supply,  ///< the battery's voltage
+  waves,
+};
+
 /// One kind of departure by name. The parameters are the keys that a diagnosis answers; each carries its unit.
 struct EffectKind {
   std::string_view name;
+  Trace trace;
   std::vector<std::string_view> parameters;
   Size size;
   double* (*field)(ParameterDeviations&) = nullptr;  ///< of the first parameter; the others follow it

@@ -9,7 +9,7 @@
 namespace navcal::reference {
 
 /// From the commanded angles to those of the fins: servo (first-order lag, reported), gain, further first-order
-/// lag, play, offset. Between two commands both lags have a solution in closed form, so no integrator touches
+/// lag, backlash, offset. Between two commands both lags have a solution in closed form, so no integrator touches
 /// them:
 ///     s(t) = c + (s0 - c) exp(-t/T)
 ///     x(t) = c + (x0 - c) exp(-t/tau) + (s0 - c) (exp(-t/T) - exp(-t/tau)) T / (T - tau)
@@ -19,7 +19,7 @@ class FinLinkage {
   FinLinkage(double servo_time_s, const VehicleDeviations& deviations)
       : servo_time_s_(servo_time_s),
         lag_s_(deviations.fin_lag_s),
-        play_rad_(deviations.fin_play_rad),
+        backlash_rad_(deviations.fin_backlash_rad),
         gain_(1 + deviations.fin_gain),
         offset_rad_(mixed(deviations.rudder_rad, deviations.elevator_rad)) {}
 
@@ -40,12 +40,14 @@ class FinLinkage {
   [[nodiscard]] Vector3 servos_rad(double after_s) const {
     return command_rad_ + std::exp(-after_s / servo_time_s_) * (servo_rad_ - command_rad_);
   }
-  [[nodiscard]] Vector3 fins_rad(double after_s) const { return played(lagged_rad(after_s)) + offset_rad_; }
+  [[nodiscard]] Vector3 fins_rad(double after_s) const {
+    return within_backlash(lagged_rad(after_s)) + offset_rad_;
+  }
 
-  /// Takes the present as the new beginning; play remembers it.
+  /// Takes the present as the new beginning; backlash remembers it.
   void settle(double after_s) {
     const Vector3 lagged = lagged_rad(after_s);
-    seat_rad_ = played(lagged);
+    seat_rad_ = within_backlash(lagged);
     servo_rad_ = servos_rad(after_s);
     lagged_rad_ = lagged;
   }
@@ -62,12 +64,12 @@ class FinLinkage {
     return gain_ * command_rad_ + lag * (lagged_rad_ - gain_ * command_rad_) +
            (after_s / lag_s_ * servo * mean) * gain_ * (servo_rad_ - command_rad_);
   }
-  [[nodiscard]] Vector3 played(const Vector3& driven_rad) const {
-    const Vector3 half = Vector3::Constant(play_rad_ / 2);
+  [[nodiscard]] Vector3 within_backlash(const Vector3& driven_rad) const {
+    const Vector3 half = Vector3::Constant(backlash_rad_ / 2);
     return seat_rad_.cwiseMax(driven_rad - half).cwiseMin(driven_rad + half);
   }
 
-  double servo_time_s_, lag_s_, play_rad_, gain_;
+  double servo_time_s_, lag_s_, backlash_rad_, gain_;
   Vector3 offset_rad_;
   Vector3 command_rad_ = Vector3::Zero();
   Vector3 servo_rad_ = Vector3::Zero();

@@ -21,7 +21,7 @@ struct VehicleDeviations {
   double rudder_rad = 0, elevator_rad = 0;
   double fin_gain = 0;  ///< relative
   double fin_lag_s = 0;
-  double fin_play_rad = 0;  ///< total width
+  double fin_backlash_rad = 0;  ///< total width
   double yaw_damping_per_s = 0;
   double lift_N = 0;                                      ///< upwards, at the origin
   Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  ///< north, east
@@ -72,7 +72,7 @@ struct CardDeviations {
 
   // Deviations outside the library.
   Vector3 gyro_twist_rad_per_K2 = Vector3::Zero();
-  double depth_play_m = 0;
+  double depth_backlash_m = 0;
   double gyro_jump_rad_s = 0;
 };
 

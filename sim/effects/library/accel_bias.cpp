@@ -7,8 +7,14 @@ namespace {
 constexpr std::array<EffectParameter, 3> kAccelBiasParameters{
     {{"x_m_s2", 0.12, -20, 20}, {"y_m_s2", 0.12, -20, 20}, {"z_m_s2", 0.12, -20, 20}}};
 
-constexpr EffectDescription kAccelBias{
-    .name = "accel_bias", .equation = "f += b", .parameters = kAccelBiasParameters, .vector = 3};
+constexpr std::array<std::string_view, 2> kAccelBiasConfounders{"tilt_offset", "accel_scale"};
+
+constexpr EffectDescription kAccelBias{.name = "accel_bias",
+                                       .equation = "f += b",
+                                       .parameters = kAccelBiasParameters,
+                                       .manoeuvre = "pitch through more than 30 degrees",
+                                       .confounders = kAccelBiasConfounders,
+                                       .vector = 3};
 
 /// The accelerometers' zeros are off.
 class AccelBias final : public EffectOf<AccelBias, 3> {

@@ -7,8 +7,13 @@ namespace {
 constexpr std::array<EffectParameter, 3> kAccelScaleParameters{
     {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}}};
 
-constexpr EffectDescription kAccelScale{
-    .name = "accel_scale", .equation = "f += s f", .parameters = kAccelScaleParameters};
+constexpr std::array<std::string_view, 3> kAccelScaleConfounders{"tilt_offset", "accel_bias", "thrust_scale"};
+
+constexpr EffectDescription kAccelScale{.name = "accel_scale",
+                                        .equation = "f += s f",
+                                        .parameters = kAccelScaleParameters,
+                                        .manoeuvre = "pitch through more than 30 degrees",
+                                        .confounders = kAccelScaleConfounders};
 
 /// Each accelerometer's scale is off.
 class AccelScale final : public EffectOf<AccelScale, 3> {

@@ -7,8 +7,15 @@ namespace {
 constexpr std::array<EffectParameter, 3> kAccelVibrationParameters{
     {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}}};
 
+constexpr std::array<std::string_view, 1> kAccelVibrationConfounders{"adc_droop"};
+
 constexpr EffectDescription kAccelVibration{
-    .name = "accel_vibration", .equation = "f += k I^2", .parameters = kAccelVibrationParameters, .vector = 3};
+    .name = "accel_vibration",
+    .equation = "f += k I^2",
+    .parameters = kAccelVibrationParameters,
+    .manoeuvre = "step the shaft speed through its whole range, straight and level",
+    .confounders = kAccelVibrationConfounders,
+    .vector = 3};
 
 /// The motor's vibration is rectified by the accelerometers.
 class AccelVibration final : public EffectOf<AccelVibration, 3> {

@@ -6,8 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kAdcDroopParameters{{{"per_A", 0.0015, -0.1, 0.1}}};
 
-constexpr EffectDescription kAdcDroop{
-    .name = "adc_droop", .equation = "every raw channel in mV: v *= 1 + k I", .parameters = kAdcDroopParameters};
+constexpr std::array<std::string_view, 2> kAdcDroopConfounders{"motor_field", "accel_vibration"};
+
+constexpr EffectDescription kAdcDroop{.name = "adc_droop",
+                                      .equation = "every raw channel in mV: v *= 1 + k I",
+                                      .parameters = kAdcDroopParameters,
+                                      .manoeuvre = "step the motor current, straight and level",
+                                      .confounders = kAdcDroopConfounders};
 
 /// The converter's reference follows the motor's load.
 class AdcDroop final : public EffectOf<AdcDroop, 1> {

@@ -15,6 +15,7 @@ constexpr std::array<EffectParameter, 4> kArrivalJitterParameters{{{"compass_mea
 constexpr EffectDescription kArrivalJitter{.name = "arrival_jitter",
                                            .equation = "arrival += Exp(mean)",
                                            .parameters = kArrivalJitterParameters,
+                                           .manoeuvre = TellingManoeuvre::none(),
                                            .place = EffectPlace::lines};
 
 /// The host takes frames late, by exponential delays.

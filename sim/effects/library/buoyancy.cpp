@@ -6,9 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kBuoyancyParameters{{{"force_N", 0.4, -20, 20}}};
 
+constexpr std::array<std::string_view, 2> kBuoyancyConfounders{"depth_scale", "elevator_offset"};
+
 constexpr EffectDescription kBuoyancy{.name = "buoyancy",
                                       .equation = "Z_world -= F at the origin",
                                       .parameters = kBuoyancyParameters,
+                                      .manoeuvre = "glide or hover with the propeller off",
+                                      .confounders = kBuoyancyConfounders,
                                       .place = EffectPlace::vehicle};
 
 /// The vehicle is not of the water's weight.

@@ -10,6 +10,7 @@ constexpr std::array<EffectParameter, 3> kClockErrorParameters{
 constexpr EffectDescription kClockError{.name = "clock_error",
                                         .equation = "period *= 1 + e",
                                         .parameters = kClockErrorParameters,
+                                        .manoeuvre = TellingManoeuvre::none(),
                                         .place = EffectPlace::lines};
 
 /// The clocks of compass and cards run slow; the receiver's is that of its satellites.

@@ -7,9 +7,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kCompassLagParameters{{{"tau_s", 0.2, 0, 10}}};
 
+constexpr std::array<std::string_view, 2> kCompassLagConfounders{"imu_latency", "gyro_scale"};
+
 constexpr EffectDescription kCompassLag{.name = "compass_lag",
                                         .equation = "tau m' + m = field",
                                         .parameters = kCompassLagParameters,
+                                        .manoeuvre = "turn both ways at two different rates",
+                                        .confounders = kCompassLagConfounders,
                                         .order = 4,
                                         .kind = EffectKind::lag};
 

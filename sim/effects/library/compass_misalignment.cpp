@@ -10,9 +10,14 @@ namespace {
 constexpr std::array<EffectParameter, 3> kCompassMisalignmentParameters{
     {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}}};
 
+constexpr std::array<std::string_view, 4> kCompassMisalignmentConfounders{"tilt_offset", "declination",
+                                                                          "hard_iron", "soft_iron"};
+
 constexpr EffectDescription kCompassMisalignment{.name = "compass_misalignment",
                                                  .equation = "m = (1 - [a]x) m, as a rotation",
                                                  .parameters = kCompassMisalignmentParameters,
+                                                 .manoeuvre = "steer by GPS course and pitch up and down",
+                                                 .confounders = kCompassMisalignmentConfounders,
                                                  .vector = 3,
                                                  .order = 1};
 

@@ -9,8 +9,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kDeclinationParameters{{{"angle_deg", 4, -180, 180}}};
 
-constexpr EffectDescription kDeclination{
-    .name = "declination", .equation = "B = Rz(d) B", .parameters = kDeclinationParameters};
+constexpr std::array<std::string_view, 2> kDeclinationConfounders{"compass_misalignment", "water_current"};
+
+constexpr EffectDescription kDeclination{.name = "declination",
+                                         .equation = "B = Rz(d) B",
+                                         .parameters = kDeclinationParameters,
+                                         .manoeuvre = "run straight at the surface on three headings",
+                                         .confounders = kDeclinationConfounders};
 
 /// The earth's field is turned about the vertical, positive to the east.
 class Declination final : public EffectOf<Declination, 1> {

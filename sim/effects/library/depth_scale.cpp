@@ -6,8 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kDepthScaleParameters{{{"scale", 0.06, -0.9, 1}}};
 
-constexpr EffectDescription kDepthScale{
-    .name = "depth_scale", .equation = "z += s z", .parameters = kDepthScaleParameters};
+constexpr std::array<std::string_view, 1> kDepthScaleConfounders{"buoyancy"};
+
+constexpr EffectDescription kDepthScale{.name = "depth_scale",
+                                        .equation = "z += s z",
+                                        .parameters = kDepthScaleParameters,
+                                        .manoeuvre = "hold two depths far apart",
+                                        .confounders = kDepthScaleConfounders};
 
 /// The pressure gauge's scale is off.
 class DepthScale final : public EffectOf<DepthScale, 1> {

@@ -6,8 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kDepthTemperatureParameters{{{"m_per_C", 0.025, -1, 1}}};
 
-constexpr EffectDescription kDepthTemperature{
-    .name = "depth_temperature", .equation = "z += c T, T above 15 C", .parameters = kDepthTemperatureParameters};
+constexpr std::array<std::string_view, 2> kDepthTemperatureConfounders{"buoyancy", "depth_scale"};
+
+constexpr EffectDescription kDepthTemperature{.name = "depth_temperature",
+                                              .equation = "z += c T, T above 15 C",
+                                              .parameters = kDepthTemperatureParameters,
+                                              .manoeuvre = "hold one depth while the electronics warm up",
+                                              .confounders = kDepthTemperatureConfounders};
 
 /// The pressure gauge's zero moves as the electronics warm up.
 class DepthTemperature final : public EffectOf<DepthTemperature, 1> {

@@ -13,6 +13,7 @@ constexpr std::array<EffectParameter, 4> kDroppedFramesParameters{{{"compass_pro
 constexpr EffectDescription kDroppedFrames{.name = "dropped_frames",
                                            .equation = "lost with probability p",
                                            .parameters = kDroppedFramesParameters,
+                                           .manoeuvre = TellingManoeuvre::none(),
                                            .place = EffectPlace::lines};
 
 /// Frames are lost on their way to the host.

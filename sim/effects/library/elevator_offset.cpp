@@ -8,9 +8,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kElevatorOffsetParameters{{{"angle_deg", 1, -20, 20}}};
 
+constexpr std::array<std::string_view, 2> kElevatorOffsetConfounders{"fin_gain", "fin_offset"};
+
 constexpr EffectDescription kElevatorOffset{.name = "elevator_offset",
                                             .equation = "d += mixed elevator o",
                                             .parameters = kElevatorOffsetParameters,
+                                            .manoeuvre = "elevator doublets, level",
+                                            .confounders = kElevatorOffsetConfounders,
                                             .place = EffectPlace::vehicle};
 
 /// The fins stand off in the sense of an elevator command, between servo and fin.

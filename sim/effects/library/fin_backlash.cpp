@@ -8,14 +8,18 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kFinBacklashParameters{{{"width_deg", 2, 0, 30}}};
 
+constexpr std::array<std::string_view, 1> kFinBacklashConfounders{"fin_lag"};
+
 constexpr EffectDescription kFinBacklash{.name = "fin_backlash",
                                          .equation = "d stays within b/2 of the servo",
                                          .parameters = kFinBacklashParameters,
+                                         .manoeuvre = "small fin reversals about zero",
+                                         .confounders = kFinBacklashConfounders,
                                          .place = EffectPlace::vehicle,
                                          .order = 2,
-                                         .kind = EffectKind::play};
+                                         .kind = EffectKind::backlash};
 
-/// Play of total width b between the servo that is reported and the fin.
+/// Backlash of total width b between the servo that is reported and the fin.
 class FinBacklash final : public EffectOf<FinBacklash, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kFinBacklash; }

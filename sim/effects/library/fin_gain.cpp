@@ -6,9 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kFinGainParameters{{{"scale", 0.08, -0.9, 1}}};
 
+constexpr std::array<std::string_view, 3> kFinGainConfounders{"fin_lag", "yaw_damping", "thrust_scale"};
+
 constexpr EffectDescription kFinGain{.name = "fin_gain",
                                      .equation = "d *= 1 + k",
                                      .parameters = kFinGainParameters,
+                                     .manoeuvre = "rudder doublets of two sizes at two speeds",
+                                     .confounders = kFinGainConfounders,
                                      .place = EffectPlace::vehicle,
                                      .order = 0};
 

@@ -7,9 +7,14 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kFinLagParameters{{{"tau_s", 0.2, 0, 5}}};
 
+constexpr std::array<std::string_view, 4> kFinLagConfounders{"fin_gain", "yaw_damping", "thrust_scale",
+                                                             "imu_latency"};
+
 constexpr EffectDescription kFinLag{.name = "fin_lag",
                                     .equation = "tau d' + d = servo",
                                     .parameters = kFinLagParameters,
+                                    .manoeuvre = "fast rudder doublets",
+                                    .confounders = kFinLagConfounders,
                                     .place = EffectPlace::vehicle,
                                     .order = 1,
                                     .kind = EffectKind::lag};

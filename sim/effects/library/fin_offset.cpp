@@ -8,9 +8,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kFinOffsetParameters{{{"angle_deg", 1, -20, 20}}};
 
+constexpr std::array<std::string_view, 2> kFinOffsetConfounders{"fin_gain", "elevator_offset"};
+
 constexpr EffectDescription kFinOffset{.name = "fin_offset",
                                        .equation = "d += mixed rudder o",
                                        .parameters = kFinOffsetParameters,
+                                       .manoeuvre = "rudder doublets, straight",
+                                       .confounders = kFinOffsetConfounders,
                                        .place = EffectPlace::vehicle};
 
 /// The fins stand off in the sense of a rudder command, between servo and fin.

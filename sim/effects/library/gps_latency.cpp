@@ -6,9 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kGpsLatencyParameters{{{"tau_s", 1, 0, 10}}};
 
+constexpr std::array<std::string_view, 1> kGpsLatencyConfounders{"gps_lever_arm"};
+
 constexpr EffectDescription kGpsLatency{.name = "gps_latency",
                                         .equation = "p(t - tau), v(t - tau)",
                                         .parameters = kGpsLatencyParameters,
+                                        .manoeuvre = "run straight at the surface at two speeds",
+                                        .confounders = kGpsLatencyConfounders,
                                         .kind = EffectKind::lag};
 
 /// Position and velocity are older than the second that the message states.

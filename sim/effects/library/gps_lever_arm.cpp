@@ -6,9 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 2> kGpsLeverArmParameters{{{"x_m", 0.45, -10, 10}, {"y_m", 0.45, -10, 10}}};
 
+constexpr std::array<std::string_view, 1> kGpsLeverArmConfounders{"gps_latency"};
+
 constexpr EffectDescription kGpsLeverArm{.name = "gps_lever_arm",
                                          .equation = "p += R l, v += R (w x l)",
                                          .parameters = kGpsLeverArmParameters,
+                                         .manoeuvre = "turn on the spot at the surface",
+                                         .confounders = kGpsLeverArmConfounders,
                                          .vector = 2};
 
 /// The antenna is off the origin by l = (x, y, 0), in body axes.

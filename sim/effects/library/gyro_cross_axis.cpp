@@ -13,8 +13,14 @@ constexpr std::array<EffectParameter, 8> kGyroCrossAxisParameters{{{"ax_from_y",
                                                                    {"bz_from_x", 0.03, -0.5, 0.5},
                                                                    {"bz_from_y", 0.03, -0.5, 0.5}}};
 
-constexpr EffectDescription kGyroCrossAxis{
-    .name = "gyro_cross_axis", .equation = "w_i += k w_j", .parameters = kGyroCrossAxisParameters};
+constexpr std::array<std::string_view, 3> kGyroCrossAxisConfounders{"compass_misalignment", "tilt_offset",
+                                                                    "gyro_g_sensitivity"};
+
+constexpr EffectDescription kGyroCrossAxis{.name = "gyro_cross_axis",
+                                           .equation = "w_i += k w_j",
+                                           .parameters = kGyroCrossAxisParameters,
+                                           .manoeuvre = "turn level, then turn pitched up",
+                                           .confounders = kGyroCrossAxisConfounders};
 
 /// Each gyro feels the rates about the two other axes.
 class GyroCrossAxis final : public EffectOf<GyroCrossAxis, 8> {

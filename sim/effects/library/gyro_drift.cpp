@@ -10,8 +10,13 @@ constexpr std::array<EffectParameter, 4> kGyroDriftParameters{{{"deg_per_s2_ax",
                                                                {"deg_per_s2_by", 0.001, -1, 1},
                                                                {"deg_per_s2_bz", 0.001, -1, 1}}};
 
-constexpr EffectDescription kGyroDrift{
-    .name = "gyro_drift", .equation = "w += c t", .parameters = kGyroDriftParameters};
+constexpr std::array<std::string_view, 1> kGyroDriftConfounders{"gyro_temperature"};
+
+constexpr EffectDescription kGyroDrift{.name = "gyro_drift",
+                                       .equation = "w += c t",
+                                       .parameters = kGyroDriftParameters,
+                                       .manoeuvre = "run long straight legs",
+                                       .confounders = kGyroDriftConfounders};
 
 /// Each gyro's zero drifts steadily from the beginning of the mission.
 class GyroDrift final : public EffectOf<GyroDrift, 4> {

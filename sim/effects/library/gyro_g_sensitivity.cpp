@@ -18,9 +18,13 @@ constexpr std::array<EffectParameter, 12> kGyroGSensitivityParameters{{{"ax_x_de
                                                                        {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
                                                                        {"bz_z_deg_per_s_per_g", 0.6, -50, 50}}};
 
+constexpr std::array<std::string_view, 2> kGyroGSensitivityConfounders{"tilt_offset", "gyro_cross_axis"};
+
 constexpr EffectDescription kGyroGSensitivity{.name = "gyro_g_sensitivity",
                                               .equation = "w_i += G_i . f",
                                               .parameters = kGyroGSensitivityParameters,
+                                              .manoeuvre = "hold a pitch without turning",
+                                              .confounders = kGyroGSensitivityConfounders,
                                               .vector = 3};
 
 /// Each gyro feels the specific force, too.

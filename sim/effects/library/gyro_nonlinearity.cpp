@@ -12,8 +12,13 @@ constexpr std::array<EffectParameter, 4> kGyroNonlinearityParameters{{{"s_per_de
                                                                       {"s_per_deg_by", 0.0008, -0.01, 0.01},
                                                                       {"s_per_deg_bz", 0.0008, -0.01, 0.01}}};
 
-constexpr EffectDescription kGyroNonlinearity{
-    .name = "gyro_nonlinearity", .equation = "w += k w |w|", .parameters = kGyroNonlinearityParameters};
+constexpr std::array<std::string_view, 1> kGyroNonlinearityConfounders{"gyro_scale"};
+
+constexpr EffectDescription kGyroNonlinearity{.name = "gyro_nonlinearity",
+                                              .equation = "w += k w |w|",
+                                              .parameters = kGyroNonlinearityParameters,
+                                              .manoeuvre = "turn at two very different rates",
+                                              .confounders = kGyroNonlinearityConfounders};
 
 /// Each gyro's scale grows with the rate.
 class GyroNonlinearity final : public EffectOf<GyroNonlinearity, 4> {

@@ -17,6 +17,7 @@ constexpr std::array<EffectParameter, 4> kGyroRandomWalkParameters{{{"deg_per_s_
 constexpr EffectDescription kGyroRandomWalk{.name = "gyro_random_walk",
                                             .equation = "w += integral of white noise",
                                             .parameters = kGyroRandomWalkParameters,
+                                            .manoeuvre = TellingManoeuvre::none(),
                                             .place = EffectPlace::lines};
 
 /// Each gyro's zero walks at random.

@@ -9,8 +9,14 @@ constexpr std::array<EffectParameter, 4> kGyroScaleParameters{{{"scale_ax", 0.03
                                                                {"scale_by", 0.03, -0.9, 1},
                                                                {"scale_bz", 0.03, -0.9, 1}}};
 
-constexpr EffectDescription kGyroScale{
-    .name = "gyro_scale", .equation = "w += k w", .parameters = kGyroScaleParameters};
+constexpr std::array<std::string_view, 4> kGyroScaleConfounders{"fin_gain", "imu_latency", "compass_lag",
+                                                                "gyro_nonlinearity"};
+
+constexpr EffectDescription kGyroScale{.name = "gyro_scale",
+                                       .equation = "w += k w",
+                                       .parameters = kGyroScaleParameters,
+                                       .manoeuvre = "turn two full revolutions one way",
+                                       .confounders = kGyroScaleConfounders};
 
 /// Each gyro's scale is off.
 class GyroScale final : public EffectOf<GyroScale, 4> {

@@ -10,8 +10,13 @@ constexpr std::array<EffectParameter, 4> kGyroTemperatureParameters{{{"deg_per_s
                                                                      {"deg_per_s_per_C_by", 0.06, -5, 5},
                                                                      {"deg_per_s_per_C_bz", 0.06, -5, 5}}};
 
-constexpr EffectDescription kGyroTemperature{
-    .name = "gyro_temperature", .equation = "w += c T, T above 15 C", .parameters = kGyroTemperatureParameters};
+constexpr std::array<std::string_view, 1> kGyroTemperatureConfounders{"gyro_drift"};
+
+constexpr EffectDescription kGyroTemperature{.name = "gyro_temperature",
+                                             .equation = "w += c T, T above 15 C",
+                                             .parameters = kGyroTemperatureParameters,
+                                             .manoeuvre = "run once from cold and once warmed up",
+                                             .confounders = kGyroTemperatureConfounders};
 
 /// Each gyro's zero moves as the electronics warm up.
 class GyroTemperature final : public EffectOf<GyroTemperature, 4> {

@@ -7,8 +7,15 @@ namespace {
 constexpr std::array<EffectParameter, 3> kHardIronParameters{
     {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}}};
 
-constexpr EffectDescription kHardIron{
-    .name = "hard_iron", .equation = "m += b", .parameters = kHardIronParameters, .vector = 3};
+constexpr std::array<std::string_view, 4> kHardIronConfounders{"soft_iron", "compass_misalignment", "motor_field",
+                                                               "mag_temperature"};
+
+constexpr EffectDescription kHardIron{.name = "hard_iron",
+                                      .equation = "m += b",
+                                      .parameters = kHardIronParameters,
+                                      .manoeuvre = "turn full circles with pitch of both signs",
+                                      .confounders = kHardIronConfounders,
+                                      .vector = 3};
 
 /// Permanent magnetism of the vehicle.
 class HardIron final : public EffectOf<HardIron, 3> {

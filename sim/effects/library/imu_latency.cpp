@@ -6,8 +6,14 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kImuLatencyParameters{{{"tau_s", 0.05, 0, 1}}};
 
-constexpr EffectDescription kImuLatency{
-    .name = "imu_latency", .equation = "x(t - tau)", .parameters = kImuLatencyParameters, .kind = EffectKind::lag};
+constexpr std::array<std::string_view, 2> kImuLatencyConfounders{"compass_lag", "fin_lag"};
+
+constexpr EffectDescription kImuLatency{.name = "imu_latency",
+                                        .equation = "x(t - tau)",
+                                        .parameters = kImuLatencyParameters,
+                                        .manoeuvre = "fast rudder and elevator doublets",
+                                        .confounders = kImuLatencyConfounders,
+                                        .kind = EffectKind::lag};
 
 /// All channels of the inertial card are older than nominal.
 class ImuLatency final : public EffectOf<ImuLatency, 1> {

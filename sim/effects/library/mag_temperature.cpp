@@ -7,9 +7,13 @@ namespace {
 constexpr std::array<EffectParameter, 3> kMagTemperatureParameters{
     {{"x_uT_per_C", 0.15, -10, 10}, {"y_uT_per_C", 0.15, -10, 10}, {"z_uT_per_C", 0.15, -10, 10}}};
 
+constexpr std::array<std::string_view, 2> kMagTemperatureConfounders{"hard_iron", "gyro_drift"};
+
 constexpr EffectDescription kMagTemperature{.name = "mag_temperature",
                                             .equation = "m += c T, T above 15 C",
                                             .parameters = kMagTemperatureParameters,
+                                            .manoeuvre = "let the electronics warm up with the motor off",
+                                            .confounders = kMagTemperatureConfounders,
                                             .vector = 3};
 
 /// The magnetometers' zeros move as the electronics warm up.

@@ -9,9 +9,13 @@ constexpr double kMemory_s = 60;
 
 constexpr std::array<EffectParameter, 1> kMagneticHysteresisParameters{{{"gain", 0.06, -0.03, 1}}};
 
+constexpr std::array<std::string_view, 2> kMagneticHysteresisConfounders{"hard_iron", "soft_iron"};
+
 constexpr EffectDescription kMagneticHysteresis{.name = "magnetic_hysteresis",
                                                 .equation = "m += k lowpass(m, 60 s)",
                                                 .parameters = kMagneticHysteresisParameters,
+                                                .manoeuvre = "come to the same heading from both sides",
+                                                .confounders = kMagneticHysteresisConfounders,
                                                 .order = 2};
 
 /// Iron that remembers the field of the last minute.

@@ -7,8 +7,14 @@ namespace {
 constexpr std::array<EffectParameter, 3> kMotorFieldParameters{
     {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}}};
 
-constexpr EffectDescription kMotorField{
-    .name = "motor_field", .equation = "m += k I", .parameters = kMotorFieldParameters, .vector = 3};
+constexpr std::array<std::string_view, 2> kMotorFieldConfounders{"hard_iron", "adc_droop"};
+
+constexpr EffectDescription kMotorField{.name = "motor_field",
+                                        .equation = "m += k I",
+                                        .parameters = kMotorFieldParameters,
+                                        .manoeuvre = "step the motor current on a constant heading",
+                                        .confounders = kMotorFieldConfounders,
+                                        .vector = 3};
 
 /// The motor's supply makes a field of its own.
 class MotorField final : public EffectOf<MotorField, 3> {

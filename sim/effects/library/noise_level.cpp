@@ -10,6 +10,7 @@ constexpr std::array<EffectParameter, 4> kNoiseLevelParameters{
 constexpr EffectDescription kNoiseLevel{.name = "noise_level",
                                         .equation = "sigma *= 1 + k",
                                         .parameters = kNoiseLevelParameters,
+                                        .manoeuvre = TellingManoeuvre::none(),
                                         .place = EffectPlace::lines};
 
 /// Every instrument's noise is stronger.

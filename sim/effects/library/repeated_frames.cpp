@@ -13,6 +13,7 @@ constexpr std::array<EffectParameter, 4> kRepeatedFramesParameters{{{"compass_pr
 constexpr EffectDescription kRepeatedFrames{.name = "repeated_frames",
                                             .equation = "twice with probability p",
                                             .parameters = kRepeatedFramesParameters,
+                                            .manoeuvre = TellingManoeuvre::none(),
                                             .place = EffectPlace::lines};
 
 /// Frames come twice.

@@ -16,9 +16,14 @@ constexpr std::array<EffectParameter, 6> kSoftIronParameters{{{"xx", kNorm, -0.5
                                                               {"xz", kNorm / std::numbers::sqrt2, -0.5, 0.5},
                                                               {"yz", kNorm / std::numbers::sqrt2, -0.5, 0.5}}};
 
+constexpr std::array<std::string_view, 3> kSoftIronConfounders{"hard_iron", "compass_misalignment",
+                                                               "magnetic_hysteresis"};
+
 constexpr EffectDescription kSoftIron{.name = "soft_iron",
                                       .equation = "m = (1 + S) m, S symmetric",
                                       .parameters = kSoftIronParameters,
+                                      .manoeuvre = "turn full circles at two pitch angles",
+                                      .confounders = kSoftIronConfounders,
                                       .vector = 6,
                                       .order = 0};
 

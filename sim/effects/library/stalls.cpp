@@ -12,6 +12,7 @@ constexpr std::array<EffectParameter, 2> kStallsParameters{{{"duration_s", 0.5, 
 constexpr EffectDescription kStalls{.name = "stalls",
                                     .equation = "at random instants, so many a minute",
                                     .parameters = kStallsParameters,
+                                    .manoeuvre = TellingManoeuvre::none(),
                                     .place = EffectPlace::lines};
 
 /// The host takes nothing from a line for a while, then all at once; each line on its own.

@@ -6,9 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kThrustScaleParameters{{{"scale", 0.08, -0.9, 1}}};
 
+constexpr std::array<std::string_view, 3> kThrustScaleConfounders{"water_current", "fin_gain", "accel_scale"};
+
 constexpr EffectDescription kThrustScale{.name = "thrust_scale",
                                          .equation = "thrust *= 1 + k",
                                          .parameters = kThrustScaleParameters,
+                                         .manoeuvre = "run reciprocal legs with speed steps at the surface",
+                                         .confounders = kThrustScaleConfounders,
                                          .place = EffectPlace::vehicle};
 
 /// The propeller pushes more than nominal.

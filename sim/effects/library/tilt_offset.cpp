@@ -8,8 +8,13 @@ namespace {
 constexpr std::array<EffectParameter, 2> kTiltOffsetParameters{
     {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}}};
 
-constexpr EffectDescription kTiltOffset{
-    .name = "tilt_offset", .equation = "tilt += o", .parameters = kTiltOffsetParameters};
+constexpr std::array<std::string_view, 2> kTiltOffsetConfounders{"accel_bias", "compass_misalignment"};
+
+constexpr EffectDescription kTiltOffset{.name = "tilt_offset",
+                                        .equation = "tilt += o",
+                                        .parameters = kTiltOffsetParameters,
+                                        .manoeuvre = "pitch up and down by the same angle",
+                                        .confounders = kTiltOffsetConfounders};
 
 /// The inclinometer is mounted askew.
 class TiltOffset final : public EffectOf<TiltOffset, 2> {

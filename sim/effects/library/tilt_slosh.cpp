@@ -8,7 +8,8 @@ constexpr std::array<EffectParameter, 1> kTiltSloshParameters{{{"gain", 0.3, -0.
 
 constexpr EffectDescription kTiltSlosh{.name = "tilt_slosh",
                                        .equation = "roll -= k a_y/g, pitch += k a_x/g, before the fluid's lag",
-                                       .parameters = kTiltSloshParameters};
+                                       .parameters = kTiltSloshParameters,
+                                       .manoeuvre = "turn at one rate and two speeds"};
 
 /// The inclinometer's fluid sees gravity less a share of the vehicle's acceleration.
 class TiltSlosh final : public EffectOf<TiltSlosh, 1> {

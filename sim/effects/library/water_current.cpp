@@ -7,9 +7,13 @@ namespace {
 constexpr std::array<EffectParameter, 2> kWaterCurrentParameters{
     {{"north_m_s", 0.06, -5, 5}, {"east_m_s", 0.06, -5, 5}}};
 
+constexpr std::array<std::string_view, 2> kWaterCurrentConfounders{"thrust_scale", "declination"};
+
 constexpr EffectDescription kWaterCurrent{.name = "water_current",
                                           .equation = "v_world += c",
                                           .parameters = kWaterCurrentParameters,
+                                          .manoeuvre = "run reciprocal legs at the surface",
+                                          .confounders = kWaterCurrentConfounders,
                                           .place = EffectPlace::vehicle,
                                           .vector = 2};
 

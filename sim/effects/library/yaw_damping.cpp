@@ -6,9 +6,13 @@ namespace {
 
 constexpr std::array<EffectParameter, 1> kYawDampingParameters{{{"per_s", 0.3, -0.15, 10}}};
 
+constexpr std::array<std::string_view, 3> kYawDampingConfounders{"fin_gain", "fin_lag", "thrust_scale"};
+
 constexpr EffectDescription kYawDamping{.name = "yaw_damping",
                                         .equation = "N -= k M66 r",
                                         .parameters = kYawDampingParameters,
+                                        .manoeuvre = "rudder doublets of two sizes at two speeds",
+                                        .confounders = kYawDampingConfounders,
                                         .place = EffectPlace::vehicle};
 
 /// The hull resists turning more than nominal.

@@ -15,7 +15,6 @@ struct MadeUp {
     layout.intervals = 1200;
     std::mt19937_64 dice(1);
     std::normal_distribution<double> normal;
-    Linearised& linear = explanation.linear;
     linear.at = Eigen::VectorXd::Zero(unknowns);
     linear.design =
         Eigen::MatrixXd::NullaryExpr(layout.intervals * kEvidenceChannels, unknowns, [&] { return normal(dice); });
@@ -26,17 +25,20 @@ struct MadeUp {
     }
     priors.spike = 0.03 * priors.slab;
     const std::size_t effect = 5;
-    explanation.effects = {effect};
+    effects = {effect};
     Eigen::VectorXd values = Eigen::VectorXd::Zero(unknowns);
-    const auto member = parameter_indices(library, explanation.effects).front();
+    const auto member = parameter_indices(library, effects).front();
     values[member] = strength * priors.slab[member];
     linear.residual = linear.design * values;
     for (double& each : linear.residual) each += normal(dice);
   }
-  [[nodiscard]] std::vector<double> gains() const { return gains_of_blocks(explanation, library, priors, layout); }
+  [[nodiscard]] std::vector<double> gains() const {
+    return gains_of_blocks(effects, {linear, library, priors}, layout);
+  }
 
   Library library{{}};
-  ModelFit explanation;
+  EffectSubset effects;
+  Linearised linear;
   Priors priors;
   Layout layout;
 };

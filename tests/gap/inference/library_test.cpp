@@ -38,8 +38,8 @@ TEST(Library, OnlyTimesAndWidthsEndAtZero) {
   }
 }
 
-// A play's step is long where there is none yet, and short where it is: with the long one a search led away from
-// the play that was there.
+// The step of a backlash is long where there is none yet, and short where it is: with the long one a search led
+// away from the backlash that was there.
 TEST(Library, WhatBendsIsStepped) {
   const std::vector<std::string_view> lags{"compass_lag", "fin_lag", "gps_latency", "imu_latency"};
   const Library library({});

@@ -51,11 +51,11 @@ class Explained : public testing::Test {
 TEST_F(Explained, ALagBelowZeroIsNoMeritOfTheSetThatHoldsIt) {
   truth_[library_.first(lag_)] = -0.3;
   const Linearised linear = made_up(library_, truth_);
-  const double with_lag = bound_penalty_nats({lag_}, linear, library_, priors_);
+  const double with_lag = bound_penalty_nats({lag_}, {linear, library_, priors_});
   EXPECT_GT(with_lag, 10);
-  EXPECT_GE(
-      bounded_posterior(linear, library_, priors_, parameter_indices(library_, {lag_})).mean[library_.first(lag_)],
-      -1e-6);
+  EXPECT_GE(bounded_posterior({linear, library_, priors_}, parameter_indices(library_, {lag_}))
+                .mean[library_.first(lag_)],
+            -1e-6);
 }
 
 TEST_F(Explained, WhatIsPossibleCostsNothing) {
@@ -65,7 +65,7 @@ TEST_F(Explained, WhatIsPossibleCostsNothing) {
   const Linearised linear = made_up(library_, truth_, 0);
   for (const EffectSubset& set :
        {EffectSubset{}, EffectSubset{lag_}, EffectSubset{std::min(lag_, iron_), std::max(lag_, iron_)}}) {
-    EXPECT_NEAR(bound_penalty_nats(set, linear, library_, priors_), 0, 0.01);
+    EXPECT_NEAR(bound_penalty_nats(set, {linear, library_, priors_}), 0, 0.01);
   }
 }
 
@@ -76,7 +76,7 @@ TEST_F(Explained, TheImpossibleIsNeverCheaper) {
     for (Eigen::Index j = Library::kBiases; j < truth_.size(); ++j) {
       truth_[j] = 0.1 * normal(dice) * library_.unknowns()[static_cast<std::size_t>(j)].typical;
     }
-    EXPECT_GE(bound_penalty_nats({iron_}, made_up(library_, truth_), library_, priors_), -1e-6);
+    EXPECT_GE(bound_penalty_nats({iron_}, {made_up(library_, truth_), library_, priors_}), -1e-6);
   }
 }
 
@@ -87,14 +87,15 @@ TEST_F(Explained, AStepThatSimulationRefusesIsNotTheAnswer) {
   const config::VehicleSettings vehicle;
   const Replay replay(mission, vehicle);
   const Whitening whitening = Whitening::nominal({});
-  const Linearised honest = linearise(replay, library_, whitening, truth_, 2);
+  const Linearised honest = linearise({replay, library_, whitening, 2}, truth_);
   const Eigen::Index x = library_.first(iron_);
-  const ModelFit found = refine({iron_}, honest, replay, library_, whitening, priors_);
+  const InferenceProblem problem{{replay, library_, whitening}, honest, priors_};
+  const ModelFit found = refine({iron_}, honest, problem);
   EXPECT_NEAR(found.mean[x], 2, 0.2);
   Linearised lying = honest;
   lying.design *= -1;
   lying.score *= -1;
-  const ModelFit misled = refine({iron_}, lying, replay, library_, whitening, priors_);
+  const ModelFit misled = refine({iron_}, lying, problem);
   EXPECT_EQ(misled.mean, lying.at);
   EXPECT_LT(misled.log_odds, found.log_odds - 1000);
 }
@@ -106,13 +107,13 @@ TEST_F(Explained, WhatIsAllowedForGainsNothingByBeingNamed) {
     truth_[library_.first(iron_) + j] = 4 * library_.unknowns()[unknown].typical;
   }
   const Linearised linear = made_up(library_, truth_);
-  const SubsetEvidence as_usual(linear, library_, priors_);
+  const SubsetEvidence as_usual({linear, library_, priors_});
   EXPECT_GT(as_usual({iron_}), as_usual({}) + 100);
   const Priors freed = as_nuisance_parameters(priors_, library_, {iron_});
-  const SubsetEvidence allowed(linear, library_, freed);
+  const SubsetEvidence allowed({linear, library_, freed});
   EXPECT_LT(allowed({iron_}), allowed({}));
   const Eigen::Index x = library_.first(iron_);
-  EXPECT_NEAR(bounded_posterior(linear, library_, freed, {}).mean[x], truth_[x], 0.1 * std::abs(truth_[x]));
+  EXPECT_NEAR(bounded_posterior({linear, library_, freed}, {}).mean[x], truth_[x], 0.1 * std::abs(truth_[x]));
 }
 
 }  // namespace

@@ -10,17 +10,17 @@
 namespace navcal::gap {
 namespace {
 
-TEST(BacklashNullBank, ShowWhatAPlayLeavesBesideItself) {
+TEST(BacklashNullBank, ShowsWhatABacklashLeavesBesideItself) {
   const config::VehicleSettings vehicle;
   const Library library({});
-  std::size_t play = 0, gain = 0;
+  std::size_t backlash = 0, gain = 0;
   for (std::size_t e = 0; e < library.size(); ++e) {
-    if (library.is_backlash(e)) play = e;
+    if (library.is_backlash(e)) backlash = e;
     if (library[e].name == "fin_gain") gain = e;
   }
-  EXPECT_TRUE(has_play(library, {gain, play}));
-  EXPECT_FALSE(has_play(library, {gain}));
-  EXPECT_FALSE(has_play(library, {}));
+  EXPECT_TRUE(has_backlash(library, {gain, backlash}));
+  EXPECT_FALSE(has_backlash(library, {gain}));
+  EXPECT_FALSE(has_backlash(library, {}));
 
   // Without the orders, as of a host that recorded none, the reports alone tell where servos turned.
   Mission mission = test::simulated_mission("identification", "[fin_backlash]\nwidth_deg = 2\n", 150, 3);
@@ -30,18 +30,18 @@ TEST(BacklashNullBank, ShowWhatAPlayLeavesBesideItself) {
   Trajectory10Hz course;
   (void)replay.run(library.model(at), &course);
   const BankOptions options{20, 1, 2};
-  const NullBank bank = make_null_bank(replay, course, vehicle, library, at, options, [](double) {});
+  const NullBank bank = make_null_bank({replay, course, vehicle}, library, at, options, [](double) {});
   const Priors priors = fit_spike_widths(library, bank.gram, bank.scores);
-  const Linearised nominal = linearise(replay, library, bank.whitening, at, 2);
-  const ModelFit found = fit_model({play}, replay, library, bank.whitening, nominal, priors, 2);
-  const BacklashNullBank twins =
-      backlash_null_bank(replay, course, vehicle, library, bank.whitening, found, options);
-  ASSERT_GE(twins.missions, 15);
+  const Linearised nominal = linearise({replay, library, bank.whitening, 2}, at);
+  const ModelFit found = fit_model({backlash}, {{replay, library, bank.whitening, 2}, nominal, priors});
+  const BacklashNullBank with_backlash =
+      backlash_null_bank(found, {replay, course, vehicle}, {replay, library, bank.whitening}, options);
+  ASSERT_GE(with_backlash.missions, 15);
 
-  // The width, as the twins correct it, is that of the vehicle.
-  const Eigen::Index width = library.first(play);
+  // The width, as the bank corrects it, is that of the vehicle.
+  const Eigen::Index width = library.first(backlash);
   ModelFit corrected = found;
-  correct(corrected, library, twins);
+  correct(corrected, library, with_backlash);
   EXPECT_NEAR(corrected.mean[width], 2, 0.15);
   EXPECT_GE(corrected.std[width], found.std[width]);
   corrected.mean[width] = corrected.std[width] = 0;
@@ -49,11 +49,11 @@ TEST(BacklashNullBank, ShowWhatAPlayLeavesBesideItself) {
   as_it_was.mean[width] = as_it_was.std[width] = 0;
   EXPECT_EQ(corrected.mean, as_it_was.mean);
   EXPECT_EQ(corrected.std, as_it_was.std);
-  EXPECT_GT(twins.scatter[width], 0);
-  EXPECT_LT(twins.scatter[width], 0.2);
-  EXPECT_EQ(twins.excess.cwiseAbs().sum(), std::abs(twins.excess[width]));
+  EXPECT_GT(with_backlash.scatter[width], 0);
+  EXPECT_LT(with_backlash.scatter[width], 0.2);
+  EXPECT_EQ(with_backlash.excess.cwiseAbs().sum(), std::abs(with_backlash.excess[width]));
 
-  // Where the fins stand in their play is not told by the reports: more is left than of vehicles without.
+  // The reports do not tell where the fins stand in the dead band: more is left than of vehicles without.
   const auto left = [](const RegimeStatistics& statistics, std::string_view channel) {
     double sum = 0;
     for (std::size_t c = 0; c < reported_channels().size(); ++c) {
@@ -63,9 +63,9 @@ TEST(BacklashNullBank, ShowWhatAPlayLeavesBesideItself) {
     return sum;
   };
   for (const auto channel : {"vehicle.pitch_rate", "vehicle.yaw_rate"}) {
-    EXPECT_GT(left(twins.explained_rms, channel), left(bank.explained_rms, channel)) << channel;
+    EXPECT_GT(left(with_backlash.explained_rms, channel), left(bank.explained_rms, channel)) << channel;
   }
-  const Priors wider = with_twins(priors, library, found, twins);
+  const Priors wider = widened(priors, library, found, with_backlash);
   EXPECT_TRUE((wider.spike.array() >= priors.spike.array()).all());
   EXPECT_GT((wider.spike - priors.spike).sum(), 0);
 }

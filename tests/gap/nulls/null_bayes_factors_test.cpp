@@ -43,10 +43,11 @@ class AmongNulls : public testing::Test {
   explicit AmongNulls(Mission mission)
       : mission_(std::move(mission)), replay_(mission_, vehicle_), at_(with_biases_found(replay_, library_, 2)) {
     (void)replay_.run(library_.model(at_), &course_);
-    bank_ = make_null_bank(replay_, course_, vehicle_, library_, at_, {30, 1, 2}, [](double) {});
+    bank_ = make_null_bank(repeated(), library_, at_, {30, 1, 2}, [](double) {});
     priors_ = fit_spike_widths(library_, bank_.gram, bank_.scores);
-    nominal_ = linearise(replay_, library_, bank_.whitening, at_, 2);
+    nominal_ = linearise({replay_, library_, bank_.whitening, 2}, at_);
   }
+  [[nodiscard]] RepeatedMission repeated() const { return {replay_, course_, vehicle_}; }
   [[nodiscard]] EffectSubset named(std::string_view name) const {
     for (std::size_t e = 0; e < library_.size(); ++e) {
       if (library_[e].name == name) return {e};
@@ -54,7 +55,7 @@ class AmongNulls : public testing::Test {
     return {};
   }
   [[nodiscard]] std::vector<double> gains(const EffectSubset& set) const {
-    return null_bayes_factors(set, replay_, course_, vehicle_, library_, bank_.whitening, nominal_, priors_,
+    return null_bayes_factors(set, repeated(), {{replay_, library_, bank_.whitening}, nominal_, priors_},
                               {12, 1, 2});
   }
   /// Gains of the bank's missions by the recorded mission's regressors.
@@ -66,7 +67,7 @@ class AmongNulls : public testing::Test {
       null.residual = Eigen::VectorXd::Zero(1);
       null.gram = bank_.gram;
       null.score = bank_.scores.col(i);
-      const SubsetEvidence evidence(null, library_, priors_);
+      const SubsetEvidence evidence({null, library_, priors_});
       all.push_back(evidence(set) - evidence({}));
     }
     return all;

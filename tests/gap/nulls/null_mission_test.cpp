@@ -34,11 +34,11 @@ TEST(NullMission, OfAVehicleThatIsItsModelSpeaksForNothing) {
   ASSERT_EQ(asked.size(), 5U);
   Eigen::ArrayXd scores = Eigen::ArrayXd::Zero(5), squares = scores;
   for (std::uint64_t seed = 1; seed <= kNullMissions; ++seed) {
-    const Mission mission = null_mission(replay, course, vehicle, sim::EffectSet(), seed);
+    const Mission mission = null_mission({replay, course, vehicle}, sim::EffectSet(), seed);
     const Replay own(mission, vehicle);
     const auto white = Whitening::nominal(mission.instruments);
-    const Eigen::VectorXd residual = residual_at(own, library, white, nothing);
-    const Eigen::MatrixXd design = design_at(own, library, white, nothing, residual, asked, 2);
+    const Eigen::VectorXd residual = residual_at({own, library, white, 2}, nothing);
+    const Eigen::MatrixXd design = design_at({own, library, white, 2}, nothing, residual, asked);
     scores += (design.transpose() * residual).array() / kNullMissions;
     squares += design.colwise().squaredNorm().transpose().array() / kNullMissions;
   }

@@ -66,6 +66,30 @@ TEST(PooledClosure, WhatIsGivenAsLeftCountsInsteadOfTheEffectsAlone) {
   EXPECT_NEAR(pooled_closure({effects_alone}).closed, 0.5, 1e-9);
 }
 
+TEST(PooledClosure, MissionsThatDifferOnlyByTheirGapAreWeighedByTheirGap) {
+  // One gap of 3 is closed, one of 1 stays: three quarters of the power are gone.
+  EXPECT_NEAR(pooled_closure({mission(4, 1), mission(2, 2)}).closed, 0.75, 1e-9);
+}
+
+TEST(PooledClosure, TheIntervalIsThatOfTheBlocksAndOfTheFloor) {
+  const PooledClosure exact = pooled_closure({mission(3, 1.5, 0)});
+  EXPECT_NEAR(exact.lower, 0.75, 1e-9) << "blocks alike and a floor that is known";
+  EXPECT_NEAR(exact.upper, 0.75, 1e-9);
+  const PooledClosure narrow = pooled_closure({mission(3, 1.5, 0.05)}),
+                      wide = pooled_closure({mission(3, 1.5, 0.2)});
+  EXPECT_LT(narrow.lower, 0.75);
+  EXPECT_GT(narrow.upper, 0.75);
+  EXPECT_GT(wide.upper - wide.lower, 2 * (narrow.upper - narrow.lower));
+  EXPECT_EQ(pooled_closure({mission(3, 1.5, 0.2)}).lower, wide.lower) << "the same draws each time";
+}
+
+TEST(PooledClosure, AGapThatGrowsHasANegativeInterval) {
+  const PooledClosure grown = pooled_closure({mission(3, 5)});
+  ASSERT_TRUE(grown.clear);
+  EXPECT_NEAR(grown.closed, -1, 1e-9);
+  EXPECT_LT(grown.upper, 0);
+}
+
 TEST(PooledClosure, TheIntervalHoldsTheTruthAsOftenAsItSays) {
   constexpr double kTruth = 0.9;
   int held = 0;

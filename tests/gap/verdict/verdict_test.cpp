@@ -83,7 +83,7 @@ TEST(Verdict, ATolerancedEffectIsNoCauseOfAGapThatItDoesNotClose) {
   EXPECT_EQ(Case(0.15).verdict(0.3, 0.99), Verdict::unknown);
 }
 
-// Play of a hundredth of the usual was named with certainty: every vehicle has that, and the data were clear.
+// Backlash of a hundredth of the usual was named with certainty: every vehicle has that, and the data were clear.
 TEST(Verdict, AToleranceIsNoCauseHoweverClearItIs) { EXPECT_EQ(Case(0.03).verdict(0.99, 0.99), Verdict::unknown); }
 
 // On a straight course an effect of many parameters was named that such a mission does not show at all.

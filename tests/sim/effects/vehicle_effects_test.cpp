@@ -55,7 +55,7 @@ TEST(VehicleEffects, OffsetsAreThoseOfRudderAndElevator) {
 TEST(VehicleEffects, BacklashActsAtReversalsOnly) {
   EffectSet set = one("fin_backlash", {2});
   EXPECT_EQ(fins(set, {0, 0, 0})[0], 0);
-  EXPECT_NEAR(fins(set, {0.5 * base::kRadiansPerDegree, 0, 0})[0], 0, 1e-12) << "within the play";
+  EXPECT_NEAR(fins(set, {0.5 * base::kRadiansPerDegree, 0, 0})[0], 0, 1e-12) << "within the dead band";
   EXPECT_NEAR(fins(set, {5 * base::kRadiansPerDegree, 0, 0})[0], 4 * base::kRadiansPerDegree, 1e-12);
   EXPECT_NEAR(fins(set, {3.5 * base::kRadiansPerDegree, 0, 0})[0], 4 * base::kRadiansPerDegree, 1e-12);
   EXPECT_NEAR(fins(set, {-5 * base::kRadiansPerDegree, 0, 0})[0], -4 * base::kRadiansPerDegree, 1e-12);

@@ -65,7 +65,7 @@ TEST(FinLinkage, AVanishingLagIsNoLag) {
 
 TEST(FinLinkage, PlayHoldsTheFinUntilItIsTakenUp) {
   VehicleDeviations deviations;
-  deviations.fin_play_rad = 2 / kDegrees;
+  deviations.fin_backlash_rad = 2 / kDegrees;
   FinLinkage linkage(kServo_s, deviations);
   const auto fin_after = [&](double angle_deg) {
     linkage.command({angle_deg / kDegrees, 0, 0});
