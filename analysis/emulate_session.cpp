@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -12,6 +13,8 @@
 #include "analysis/failure.h"
 #include "analysis/simulated_place.h"
 #include "ports/port.h"
+#include "protocols/device_types.h"
+#include "sim/instruments/emulators.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/tcm2.h"
 #include "sim/motion_in_field.h"
@@ -27,20 +30,52 @@ std::int64_t utc_minus_monotonic() {
   return utc - ports::monotonic_ns();
 }
 
-std::vector<config::PortSettings> port_lines(int compass_baud) {
-  using protocols::Protocol;
-  const auto port = [](std::string name, Protocol protocol, int baud) {
-    config::PortSettings settings;
-    settings.name = std::move(name);
-    settings.protocol = protocol;
-    settings.baud = baud;
-    return settings;
+std::uint64_t next_seed(sim::Noise& seeds) { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); }
+
+const EmulatedDevice* device_at(const EmulateArguments& arguments, std::string_view port) {
+  const auto found = std::find_if(arguments.devices.begin(), arguments.devices.end(),
+                                  [&](const EmulatedDevice& device) { return device.port == port; });
+  return found == arguments.devices.end() ? nullptr : &*found;
+}
+
+std::unique_ptr<sim::Device> emulator_of(const EmulatedDevice& device, const sim::Origin& origin,
+                                         const sim::Motion& motion, sim::Noise& seeds) {
+  return sim::make_emulator(device.protocol, {.seed = next_seed(seeds), .origin = origin}, motion);
+}
+
+/// The lines of the ports, in the order in which the session adds them.
+std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments) {
+  std::vector<config::PortSettings> lines;
+  const auto add = [&](std::string_view name, protocols::Protocol protocol, int baud) {
+    config::PortSettings& line = lines.emplace_back();
+    line.name = name;
+    line.protocol = protocol;
+    line.baud = baud;
   };
-  return {port("compass", Protocol::tcm2, compass_baud), port("imu", Protocol::imu_card, 57600),
-          port("gps", Protocol::oncore, 9600), port("motor", Protocol::motor_card, 19200)};
+  for (const protocols::DeviceType& type : protocols::kDeviceTypes) {
+    if (type.vehicle.name.empty() || device_at(arguments, type.vehicle.name) != nullptr) continue;
+    const bool is_compass = type.protocol == protocols::Protocol::tcm2;
+    add(type.vehicle.name, type.protocol, is_compass ? arguments.compass_baud : type.vehicle.baud);
+    const bool is_nmea = type.protocol == protocols::Protocol::oncore && arguments.gps == sim::Oncore::Kind::nmea;
+    if (is_nmea) lines.back().protocol = protocols::Protocol::nmea;
+  }
+  for (const EmulatedDevice& device : arguments.devices) {
+    add(device.port, device.protocol, protocols::device_type(device.protocol).baud);
+  }
+  return lines;
 }
 
 }  // namespace
+
+std::optional<EmulatedDevice> parse_emulated_device(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string_view::npos) return std::nullopt;
+  const std::string_view port = text.substr(0, equals);
+  const auto in_name = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  const auto protocol = protocols::protocol_named(text.substr(equals + 1));
+  if (!protocol || !std::all_of(port.begin(), port.end(), in_name)) return std::nullopt;
+  return EmulatedDevice{std::string(port), *protocol};
+}
 
 EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments)
     : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()) {
@@ -49,35 +84,14 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   motion_ = emulate_motion(arguments, start_ns);
   motion_ = std::make_unique<sim::MotionInField>(std::move(motion_), place.field_world_uT);
   if (!arguments.sent_log.empty()) {
-    auto lines = port_lines(arguments.compass_baud);
-    if (arguments.gps == sim::Oncore::Kind::nmea) lines[2].protocol = protocols::Protocol::nmea;
-    log_ = std::make_unique<SentLog>(arguments.sent_log, lines);
+    log_ = std::make_unique<SentLog>(arguments.sent_log, port_lines(arguments));
     log_->comment(place.field_event());
   }
   sim::Noise seeds(arguments.seed);
-  const auto seed = [&] { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); };
-
-  sim::Tcm2::Options compass;
-  compass.baud = arguments.compass_baud;
-  compass.seed = seed();
-  compass.clock_ppm = sim::clock_ppm(arguments.clocks, "compass", compass.clock_ppm);
-  add(arguments, "compass", std::make_unique<sim::Tcm2>(compass, *motion_));
-  sim::ImuCard::Options imu;
-  imu.seed = seed();
-  imu.clock_ppm = arguments.imu_ppm.value_or(seeds.uniform(-kGreatest_ppm, kGreatest_ppm));
-  imu.clock_ppm = sim::clock_ppm(arguments.clocks, "imu", imu.clock_ppm);
-  auto card = std::make_unique<sim::ImuCard>(imu, *motion_);
-  imu_ = card.get();
-  add(arguments, "imu", std::move(card));
-  sim::Oncore::Options gps;
-  gps.kind = arguments.gps;
-  gps.receiver.origin = place.origin;
-  gps.seed = seed();
-  add(arguments, "gps", std::make_unique<sim::Oncore>(gps, *motion_));
-  sim::MotorCard::Options motor;
-  motor.seed = seed();
-  motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
-  add(arguments, "motor", std::make_unique<sim::MotorCard>(motor, *motion_));
+  add_vehicle_devices(arguments, place.origin, seeds);
+  for (const EmulatedDevice& device : arguments.devices) {
+    add(arguments, device.port, emulator_of(device, place.origin, *motion_, seeds));
+  }
 
   for (const StallPlan& plan : arguments.stalls) stall_regularly(plan);
   for (const UnplugPlan& plan : arguments.unplugs) {
@@ -87,6 +101,34 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
     after(plan.at_s + plan.duration_s, [port] { port->replug(); });
   }
   if (arguments.seconds > 0) after(arguments.seconds, [this] { stop(); });
+}
+
+void EmulateSession::add_vehicle_devices(const EmulateArguments& arguments, const sim::Origin& origin,
+                                         sim::Noise& seeds) {
+  const auto add_own = [&](std::string name, std::unique_ptr<sim::Device> device) {
+    if (device_at(arguments, name) == nullptr) add(arguments, std::move(name), std::move(device));
+  };
+  sim::Tcm2::Options compass;
+  compass.baud = arguments.compass_baud;
+  compass.seed = next_seed(seeds);
+  compass.clock_ppm = sim::clock_ppm(arguments.clocks, "compass", compass.clock_ppm);
+  add_own("compass", std::make_unique<sim::Tcm2>(compass, *motion_));
+  sim::ImuCard::Options imu;
+  imu.seed = next_seed(seeds);
+  imu.clock_ppm = arguments.imu_ppm.value_or(seeds.uniform(-kGreatest_ppm, kGreatest_ppm));
+  imu.clock_ppm = sim::clock_ppm(arguments.clocks, "imu", imu.clock_ppm);
+  auto card = std::make_unique<sim::ImuCard>(imu, *motion_);
+  if (device_at(arguments, "imu") == nullptr) imu_ = card.get();
+  add_own("imu", std::move(card));
+  sim::Oncore::Options gps;
+  gps.kind = arguments.gps;
+  gps.receiver.origin = origin;
+  gps.seed = next_seed(seeds);
+  add_own("gps", std::make_unique<sim::Oncore>(gps, *motion_));
+  sim::MotorCard::Options motor;
+  motor.seed = next_seed(seeds);
+  motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
+  add_own("motor", std::make_unique<sim::MotorCard>(motor, *motion_));
 }
 
 void EmulateSession::add(const EmulateArguments& arguments, std::string name,

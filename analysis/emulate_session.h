@@ -16,9 +16,19 @@
 #include "sim/instruments/clock_factor.h"
 #include "sim/instruments/imu_card.h"
 #include "sim/instruments/oncore.h"
+#include "sim/noise.h"
 #include "sim/state.h"
 
 namespace navcal::analysis {
+
+/// An emulated device beside those of the vehicle, or in the place of the one at that port.
+struct EmulatedDevice {
+  std::string port;
+  protocols::Protocol protocol = protocols::Protocol::nmea;
+};
+
+/// "gps=nmea": a port name of letters, digits, `-` and `_`, and a protocol. nullopt when it is not such a text.
+[[nodiscard]] std::optional<EmulatedDevice> parse_emulated_device(std::string_view text);
 
 struct EmulateArguments {
   std::filesystem::path dir;
@@ -33,13 +43,14 @@ struct EmulateArguments {
   PlaceArguments where;
   int compass_baud = 38400;
   sim::Oncore::Kind gps = sim::Oncore::Kind::twelve_channels;
+  std::vector<EmulatedDevice> devices;
   double noise = 0;
   double drop = 0;
   std::vector<StallPlan> stalls;
   std::vector<UnplugPlan> unplugs;
 };
 
-/// The four instruments of the vehicle, live.
+/// The instruments of the vehicle, live, and the devices that were asked for.
 class EmulateSession {
  public:
   /// Makes the ports. Throws sim::BadPath, config::Error, Failure, or what ports::PtyHost throws.
@@ -48,12 +59,17 @@ class EmulateSession {
   [[nodiscard]] const std::vector<std::unique_ptr<EmulatedPort>>& ports() const { return ports_; }
   /// nullptr when there is none of this name.
   [[nodiscard]] EmulatedPort* find(std::string_view name) const;
-  void set_imu_status(std::uint8_t status) { imu_->set_status(status); }
+  /// False when no inertial card is emulated.
+  bool set_imu_status(std::uint8_t status) {
+    if (imu_ != nullptr) imu_->set_status(status);
+    return imu_ != nullptr;
+  }
   void stop() { io_.stop(); }
   /// To standard error: what became of the bytes.
   void report() const;
 
  private:
+  void add_vehicle_devices(const EmulateArguments& arguments, const sim::Origin& origin, sim::Noise& seeds);
   void add(const EmulateArguments& arguments, std::string name, std::unique_ptr<sim::Device> device);
   void after(double seconds, std::function<void()> what);
   void stall_regularly(const StallPlan& plan);

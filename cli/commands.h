@@ -7,8 +7,8 @@
 
 namespace navcal::cli {
 
-// One file per subcommand; each adds itself to the application with its options, help and example. The callback
-// runs the command and throws Failure when it cannot.
+// One file and one line here per subcommand: the build calls all of them in this order. Each adds itself to the
+// application with its options, help and example. The callback runs the command and throws Failure when it cannot.
 void add_calibrate(CLI::App& app);
 void add_completion(CLI::App& app);
 void add_decode(CLI::App& app);
@@ -22,5 +22,8 @@ void add_ports(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_watch(CLI::App& app);
+
+/// All of them (written by cli/command_table.cmake).
+void add_commands(CLI::App& parent);
 
 }  // namespace navcal::cli

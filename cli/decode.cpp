@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "analysis/decode_describe.h"
-#include "analysis/decode_stream.h"
+#include "analysis/decode_frames.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
 #include "cli/decode_input.h"
 #include "cli/decode_port.h"
-#include "protocols/imu_card.h"
-#include "protocols/motor_card.h"
-#include "protocols/nmea.h"
-#include "protocols/oncore.h"
-#include "protocols/tcm2.h"
+#include "protocols/device_types.h"
 
 namespace navcal::cli {
 namespace {
@@ -34,23 +28,20 @@ struct DecodeArguments {
   bool json = false;
 };
 
-constexpr std::array kProtocols{Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card,
-                                Protocol::nmea};
-
-// Oncore receivers are of an age that has seen the week counter roll over; a stream of NMEA may come from
-// anything, so its dates are only touched when asked for.
+// Dates are only touched without being asked for when the device is known to send such as have rolled over.
 std::optional<Date> pivot_of(const DecodeArguments& arguments, Protocol protocol) {
   if (!arguments.pivot.empty()) return protocols::parse_iso_date(arguments.pivot);
-  return protocol == Protocol::oncore ? std::optional<Date>(protocols::kRolloverPivot) : std::nullopt;
+  return protocols::device_type(protocol).dates_roll_over ? std::optional<Date>(protocols::kRolloverPivot)
+                                                          : std::nullopt;
 }
 
-template <protocols::Scanner S>
-analysis::DecodeSummary decode_with(analysis::Describe describe, Protocol protocol,
-                                    const std::optional<Date>& pivot, DecodeSource& input,
-                                    analysis::FieldWriter& fields) {
+analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, DecodeSource& input,
+                               analysis::FieldWriter& fields) {
   const std::string_view name = name_of(protocol);
+  const analysis::Describe describe = analysis::description_of(protocol);
   analysis::Progress progress("decode");
-  return analysis::decode_stream<S>(
+  return analysis::decode_frames(
+      protocol,
       [&] {
         const protocols::Bytes bytes = input.next();
         input.show(progress);
@@ -61,25 +52,6 @@ analysis::DecodeSummary decode_with(analysis::Describe describe, Protocol protoc
         describe(fields, frame, pivot);
         fields.end_frame();
       });
-}
-
-analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& pivot, DecodeSource& input,
-                               analysis::FieldWriter& fields) {
-  switch (protocol) {
-    case Protocol::tcm2:
-      return decode_with<protocols::tcm2::Scanner>(analysis::describe_tcm2, protocol, pivot, input, fields);
-    case Protocol::imu_card:
-      return decode_with<protocols::imu_card::Scanner>(analysis::describe_imu_card, protocol, pivot, input,
-                                                       fields);
-    case Protocol::oncore:
-      return decode_with<protocols::oncore::Scanner>(analysis::describe_oncore, protocol, pivot, input, fields);
-    case Protocol::motor_card:
-      return decode_with<protocols::motor_card::Scanner>(analysis::describe_motor_card, protocol, pivot, input,
-                                                         fields);
-    case Protocol::nmea:
-      return decode_with<protocols::nmea::Scanner>(analysis::describe_nmea, protocol, pivot, input, fields);
-  }
-  throw analysis::Failure(analysis::Exit::usage, "unknown protocol");
 }
 
 void run(const DecodeArguments& arguments) {
@@ -116,8 +88,8 @@ void add_decode(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("decode", "Decode the frames of a raw byte stream, and summarise it");
   std::vector<std::string> names;
-  names.reserve(kProtocols.size());
-  for (const Protocol protocol : kProtocols) names.emplace_back(name_of(protocol));
+  names.reserve(protocols::kDeviceCount);
+  for (const auto& device : protocols::kDeviceTypes) names.emplace_back(device.name);
 
   command
       ->add_option("--protocol", arguments->protocol,

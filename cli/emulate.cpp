@@ -17,6 +17,7 @@
 #include "cli/emulate_input.h"
 #include "cli/place_options.h"
 #include "config/mission_file.h"
+#include "protocols/device_types.h"
 #include "sim/path.h"
 #include "sim/vehicle/vehicle.h"
 
@@ -66,6 +67,12 @@ std::string mission_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string protocol_names() {
+  std::vector<std::string_view> names;
+  for (const auto& device : protocols::kDeviceTypes) names.push_back(device.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 void add_emulate(CLI::App& app) {
@@ -93,6 +100,10 @@ void add_emulate(CLI::App& app) {
                    "messages of the receiver: ha (Ha and Ea), ea (Ea only), or nmea sentences")
       ->transform(CLI::CheckedTransformer(receivers))
       ->option_text("ea|ha|nmea");  // the library would print the enumeration's values, as characters
+  add_plans(command, "--device", arguments->devices, &analysis::parse_emulated_device,
+            "PORT=PROTOCOL: a device of this protocol, as delivered, at DIR/PORT, in the place of the vehicle's\n"
+            "own or beside them: " +
+                protocol_names() + "; repeatable");
   command->add_option("--compass-baud", arguments->compass_baud, "line speed of the compass")
       ->capture_default_str();
   command

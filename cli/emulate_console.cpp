@@ -58,8 +58,8 @@ std::string obey_line(analysis::EmulateSession& session, std::string_view line) 
     unsigned bits = 0;
     if (!(words >> bits) || bits > 15)
       return "bits from 0 to 15: 1 leak forward, 2 leak aft, 4 over range, 8 low supply";
-    session.set_imu_status(static_cast<std::uint8_t>(bits));
-    return {};
+    const bool is_set = session.set_imu_status(static_cast<std::uint8_t>(bits));
+    return is_set ? "" : "no inertial card is emulated";
   }
   if (verb == "quit") {
     session.stop();

@@ -17,19 +17,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Each command has its own help: navcal decode --help");
 
-  navcal::cli::add_calibrate(app);
-  navcal::cli::add_completion(app);
-  navcal::cli::add_decode(app);
-  navcal::cli::add_doctor(app);
-  navcal::cli::add_emulate(app);
-  navcal::cli::add_field(app);
-  navcal::cli::add_gap(app);
-  navcal::cli::add_log(app);
-  navcal::cli::add_play(app);
-  navcal::cli::add_ports(app);
-  navcal::cli::add_replay(app);
-  navcal::cli::add_simulate(app);
-  navcal::cli::add_watch(app);
+  navcal::cli::add_commands(app);
   navcal::share::add_manual(app);
 
   try {

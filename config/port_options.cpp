@@ -1,27 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/options.h"
 #include "config/text_rules.h"
+#include "protocols/device_types.h"
 
 namespace navcal::config {
 namespace {
 
 using P = PortSettings;
-using protocols::Protocol;
 
 const std::vector<std::string_view> kAngles{"deg", "mils", "counts16"};
-const std::vector<Protocol> kCompasses{Protocol::tcm2, Protocol::nmea};
-const std::vector<Protocol> kReceivers{Protocol::oncore, Protocol::nmea};
 
 std::vector<std::string_view> protocol_names() {
   std::vector<std::string_view> names;
-  for (const auto protocol :
-       {Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card, Protocol::nmea}) {
-    names.push_back(protocols::name_of(protocol));
-  }
+  for (const auto& device : protocols::kDeviceTypes) names.push_back(device.name);
   return names;
 }
 
+/// The devices that have a table of options.
+std::vector<protocols::Protocol> devices_with(bool protocols::OptionTables::*table) {
+  std::vector<protocols::Protocol> devices;
+  for (const auto& device : protocols::kDeviceTypes) {
+    if (device.options.*table) devices.push_back(device.protocol);
+  }
+  return devices;
+}
+
 std::vector<Option<P>> make_port_options() {
+  const auto with_units = devices_with(&protocols::OptionTables::units);
+  const auto with_channels = devices_with(&protocols::OptionTables::channels);
+  const auto with_fix = devices_with(&protocols::OptionTables::fix);
   return {
       choice<P>(
           {.key = "protocol", .description = "Protocol of the device.", .choices = protocol_names()},
@@ -81,21 +88,21 @@ std::vector<Option<P>> make_port_options() {
            .key = "heading",
            .description = "Unit of the heading on the wire; mils: 6400 to the turn, counts16: 65536.",
            .choices = kAngles,
-           .only_for = kCompasses},
+           .only_for = with_units},
           [](auto& p) -> auto& { return p.compass.heading_unit; }),
       choice<P>(
           {.table = "units",
            .key = "tilt",
            .description = "Unit of pitch and roll on the wire.",
            .choices = kAngles,
-           .only_for = kCompasses},
+           .only_for = with_units},
           [](auto& p) -> auto& { return p.compass.tilt_unit; }),
       choice<P>(
           {.table = "units",
            .key = "temperature",
            .description = "Unit of the temperature on the wire; some TCM2 are delivered in F.",
            .choices = {"C", "F"},
-           .only_for = kCompasses},
+           .only_for = with_units},
           [](auto& p) -> auto& { return p.compass.temperature_unit; }),
 
       channels<P>(
@@ -105,7 +112,7 @@ std::vector<Option<P>> make_port_options() {
            .unit = kMillivolts,
            .low = -10000,
            .high = 10000,
-           .only_for = {Protocol::imu_card}},
+           .only_for = with_channels},
           [](auto& p) -> auto& { return p.imu_card.zero_mV; }),
       channels<P>(
           {.table = "channels",
@@ -115,7 +122,7 @@ std::vector<Option<P>> make_port_options() {
            .low = -100000,
            .high = 100000,
            .zero_allowed = false,
-           .only_for = {Protocol::imu_card}},
+           .only_for = with_channels},
           [](auto& p) -> auto& { return p.imu_card.scale; }),
 
       text<P>(
@@ -125,7 +132,7 @@ std::vector<Option<P>> make_port_options() {
                           "set it once and keep it.",
            .text_rule = "a date, YYYY-MM-DD, from 1980-01-06 on",
            .text_holds = is_gps_date,
-           .only_for = kReceivers},
+           .only_for = with_fix},
           [](auto& p) -> auto& { return p.gps.rollover_pivot; }),
       real<P>(
           {.table = "fix",
@@ -134,7 +141,7 @@ std::vector<Option<P>> make_port_options() {
            .unit = kMetresPerSecond,
            .low = 0,
            .high = 100,
-           .only_for = kReceivers},
+           .only_for = with_fix},
           [](auto& p) -> auto& { return p.gps.course_gate_m_s; }),
   };
 }

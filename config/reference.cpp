@@ -3,20 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
 #include <vector>
 
 #include "config/load.h"
 #include "config/options.h"
+#include "protocols/device_types.h"
 
 namespace navcal::config {
 namespace {
 
 using protocols::Protocol;
-
-constexpr std::array kProtocols{Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card,
-                                Protocol::nmea};
 
 /// One of path, udev_name and usb_serial.
 bool is_place(const OptionInfo& option) { return option.table.empty() && option.kind == Kind::text; }
@@ -32,12 +29,12 @@ std::string default_words(const Option<PortSettings>& option) {
   std::vector<std::string> each;
   std::string first;
   bool all_equal = true;
-  for (const Protocol protocol : kProtocols) {
-    if (!option.applies_to(protocol)) continue;
-    const std::string value = option.write(option.get(default_port("", protocol, default_baud(protocol))));
+  for (const protocols::DeviceType& device : protocols::kDeviceTypes) {
+    if (!option.applies_to(device.protocol)) continue;
+    const std::string value = option.write(option.get(default_port("", device.protocol, device.baud)));
     if (each.empty()) first = value;
     all_equal = all_equal && value == first;
-    each.push_back(fmt::format("{} {}", protocols::name_of(protocol), value));
+    each.push_back(fmt::format("{} {}", device.name, value));
   }
   return all_equal ? first : fmt::format("{}", fmt::join(each, ", "));
 }
@@ -126,15 +123,12 @@ std::string markdown(const std::vector<Option<Owner>>& options, std::string_view
 
 Settings shipped_settings() {
   Settings settings;
-  const auto add = [&settings](std::string name, Protocol protocol, int baud) {
-    PortSettings port = default_port(std::move(name), protocol, baud);
+  for (const protocols::DeviceType& device : protocols::kDeviceTypes) {
+    if (device.vehicle.name.empty()) continue;
+    PortSettings port = default_port(std::string(device.vehicle.name), device.protocol, device.vehicle.baud);
     port.udev_name = "/dev/navcal/" + port.name;
     settings.ports.push_back(std::move(port));
-  };
-  add("compass", Protocol::tcm2, 38400);
-  add("imu", Protocol::imu_card, 57600);
-  add("gps", Protocol::oncore, 9600);
-  add("motor", Protocol::motor_card, 19200);
+  }
   return settings;
 }
 

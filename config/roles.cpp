@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/roles.h"
 
-namespace navcal::config {
+#include "protocols/device_types.h"
 
-using protocols::Protocol;
+namespace navcal::config {
 
 std::string_view name_of(Role role) {
   constexpr std::array<std::string_view, kRoles.size()> kNames{"heading", "field",    "rates",    "acceleration",
@@ -11,23 +11,27 @@ std::string_view name_of(Role role) {
   return kNames.at(static_cast<std::size_t>(role));
 }
 
-bool can_deliver(Protocol protocol, Role role) {
+bool can_deliver(protocols::Protocol protocol, Role role) {
+  const protocols::Delivery& delivers = protocols::device_type(protocol).delivers;
   switch (role) {
     case Role::heading:
-      return protocol == Protocol::tcm2 || protocol == Protocol::nmea;
+      return delivers.heading;
     case Role::field:
-      return protocol == Protocol::tcm2;
+      return delivers.field;
     case Role::rates:
+      return delivers.rates;
     case Role::acceleration:
+      return delivers.acceleration;
     case Role::depth:
-      return protocol == Protocol::imu_card;
+      return delivers.depth;
     case Role::position:
+      return delivers.position;
     case Role::velocity:
-      return protocol == Protocol::oncore || protocol == Protocol::nmea;
+      return delivers.velocity;
     case Role::shaft:
       break;
   }
-  return protocol == Protocol::motor_card;
+  return delivers.shaft;
 }
 
 Role leader_of(Role role) {

@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::string_view kOk = "{\"ok\":true}\n";
 
-/// gpsd's clients ask which devices are receivers.
-bool may_give_positions(protocols::Protocol protocol) {
-  return protocol == protocols::Protocol::oncore || protocol == protocols::Protocol::nmea;
-}
-
 }  // namespace
 
 std::optional<std::uint16_t> Daemon::device_named(std::string_view name) const {
@@ -40,7 +35,8 @@ void Daemon::append_device(std::string& out, std::uint16_t port) const {
   device.driver = protocols::name_of(settings.protocol);
   device.baud = settings.baud;
   device.cycle_s = settings.rate_Hz > 0 ? 1 / settings.rate_Hz : 0;
-  device.gps = may_give_positions(settings.protocol);
+  // gpsd's clients ask which devices are receivers.
+  device.gps = config::can_deliver(settings.protocol, config::Role::position);
   if (session.open_port()) {
     device.tty = session.open_port()->path;
     device.activated_utc_ns = utc(session.opened_ns());

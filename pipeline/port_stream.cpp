@@ -13,28 +13,11 @@ constexpr std::int64_t kSilenceMargin_ns = 250'000'000;
 
 }  // namespace
 
-PortStream::Parser PortStream::make_parser(protocols::Protocol protocol) {
-  using protocols::Protocol;
-  switch (protocol) {
-    case Protocol::tcm2:
-      return protocols::tcm2::Parser{};
-    case Protocol::imu_card:
-      return protocols::imu_card::Parser{};
-    case Protocol::oncore:
-      return protocols::GpsStreamParser{};
-    case Protocol::motor_card:
-      return protocols::motor_card::Parser{};
-    case Protocol::nmea:
-      break;
-  }
-  return protocols::nmea::Parser{};
-}
-
 PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, UtcMapping& mapping)
     : port_(port),
       latency_ns_(std::llround(settings.latency_s * 1e9)),
       nominal_rate_Hz_(settings.rate_Hz),
-      parser_(make_parser(settings.protocol)),
+      parser_(protocols::make_port_parser(settings.protocol)),
       track_(settings.baud),
       instrument_(instruments::make_instrument(settings)),
       clock_(settings.rate_Hz, settings.latency_std_s),

@@ -4,7 +4,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <variant>
 
 #include "config/settings.h"
 #include "instruments/clock_news.h"
@@ -13,11 +12,7 @@
 #include "pipeline/arrival_track.h"
 #include "pipeline/gps_time_watch.h"
 #include "pipeline/pipeline.h"
-#include "protocols/gps_stream.h"
-#include "protocols/imu_card.h"
-#include "protocols/motor_card.h"
-#include "protocols/nmea.h"
-#include "protocols/tcm2.h"
+#include "protocols/parsers.h"
 
 namespace navcal::pipeline {
 
@@ -37,10 +32,6 @@ class PortStream : private instruments::Receiver {
   [[nodiscard]] PortStatistics statistics() const;
 
  private:
-  using Parser = std::variant<protocols::tcm2::Parser, protocols::imu_card::Parser, protocols::GpsStreamParser,
-                              protocols::motor_card::Parser, protocols::nmea::Parser>;
-  static Parser make_parser(protocols::Protocol protocol);
-
   void on_frame(const protocols::Frame& frame);
   void on_measurement(const instruments::Measurement& measurement) override;
   void tell_news(instruments::ClockNews news);
@@ -48,7 +39,7 @@ class PortStream : private instruments::Receiver {
   std::uint16_t port_;
   std::int64_t latency_ns_;
   double nominal_rate_Hz_;
-  Parser parser_;
+  protocols::AnyPortParser parser_;
   ArrivalTrack track_;
   std::unique_ptr<instruments::Instrument> instrument_;
   instruments::FrameClock clock_;

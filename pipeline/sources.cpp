@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pipeline/nav_reading.h"
+#include "protocols/device_types.h"
 
 namespace navcal::pipeline {
 namespace {
@@ -70,7 +71,7 @@ bool is_chosen(const config::Settings& settings, std::uint16_t port, Role role) 
 /// 0: chosen; 1: its protocol always says it; 2: it may.
 int rank(const config::Settings& settings, std::uint16_t port, Role role) {
   if (is_chosen(settings, port, role)) return 0;
-  return settings.ports[port].protocol == protocols::Protocol::nmea ? 2 : 1;
+  return protocols::device_type(settings.ports[port].protocol).delivers_always ? 1 : 2;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "protocols/device_types.h"
 #include "tests/support/temporary_folder.h"
 
 // The program itself, run by a shell as people run it.
@@ -46,7 +47,8 @@ std::vector<nlohmann::json> lines(const std::string& text) {
 }
 
 TEST_F(Decode, AnswersEveryStreamAsExpectedToTheByte) {
-  for (const std::string protocol : {"oncore", "nmea", "tcm2", "imu-card", "motor-card"}) {
+  for (const auto& device : protocols::kDeviceTypes) {
+    const std::string protocol(device.name);
     const auto outcome = run("decode --protocol " + protocol + " --json " + kFixtures + protocol + ".bin");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_EQ(outcome.output, navcal::test::read_file(kFixtures + protocol + ".jsonl")) << protocol;
@@ -62,7 +64,8 @@ TEST_F(Decode, StandardInputInSmallPiecesGivesTheSame) {
 }
 
 TEST_F(Decode, EveryByteIsInExactlyOnePlace) {
-  for (const std::string protocol : {"oncore", "nmea", "tcm2", "imu-card", "motor-card"}) {
+  for (const auto& device : protocols::kDeviceTypes) {
+    const std::string protocol(device.name);
     const auto all =
         lines(run("decode --protocol " + protocol + " --json " + kFixtures + protocol + ".bin").output);
     ASSERT_FALSE(all.empty());

@@ -57,6 +57,29 @@ TEST_F(Emulate, AClientAtTheWrongSpeedHearsGarbageAndIsNotUnderstood) {
   EXPECT_NE(motor.read_until("$MCS,").find("$MCS,"), std::string::npos);
 }
 
+TEST_F(Emulate, DevicesOfAnyProtocolBesideTheVehiclesAndInTheirPlace) {
+  const fs::path log = folder.path() / "sent.cap";
+  start({"--device", "gps=motor-card", "--device", "second=nmea", "--sent-log", log.string()});
+  EXPECT_NE(Client(dir / "gps").read_until("$MCS,").find("$MCS,"), std::string::npos);
+  EXPECT_NE(Client(dir / "second").read_until("$GP").find("$GP"), std::string::npos);
+  program->interrupt();
+  EXPECT_EQ(program->wait(), 0);
+  const auto recording = record::Recording::open(log);
+  std::map<std::string, protocols::Protocol> protocols;
+  for (const auto& port : recording->settings().ports) protocols[port.name] = port.protocol;
+  EXPECT_EQ(protocols.size(), 5U);
+  EXPECT_EQ(protocols.at("gps"), protocols::Protocol::motor_card);
+  EXPECT_EQ(protocols.at("second"), protocols::Protocol::nmea);
+  EXPECT_EQ(protocols.at("compass"), protocols::Protocol::tcm2);
+}
+
+TEST_F(Emulate, ADeviceThatIsNoneIsRefused) {
+  for (const char* device : {"gps=loran", "gps", "=nmea", "../gps=nmea"}) {
+    Program refused({"emulate", "--dir", dir.string(), "--device", device});
+    EXPECT_EQ(refused.wait(), 2) << device;
+  }
+}
+
 TEST_F(Emulate, LinksAreRemovedAtTheEndHoweverItComes) {
   start({"--seconds", "0.5"});
   EXPECT_EQ(program->wait(), 0);

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
+#include "protocols/device_types.h"
 #include "tests/config/expect_problems.h"
 
 namespace navcal::config {
 namespace {
 
-using protocols::Protocol;
+using protocols::kDeviceTypes;
 
 constexpr std::string_view kPorts =
     "[port.compass]\nprotocol = \"tcm2\"\npath = \"/dev/ttyS1\"\n"
@@ -48,17 +49,16 @@ TEST(ConfigRoles, AnUnknownRoleIsFound) {
 }
 
 TEST(ConfigRoles, EveryRoleHasAProtocolAndEveryProtocolARole) {
-  constexpr std::array kProtocols{Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card,
-                                  Protocol::nmea};
   for (const Role role : kRoles) {
-    EXPECT_TRUE(std::any_of(kProtocols.begin(), kProtocols.end(), [&](Protocol p) {
-      return can_deliver(p, role);
+    EXPECT_TRUE(std::any_of(kDeviceTypes.begin(), kDeviceTypes.end(), [&](const auto& device) {
+      return can_deliver(device.protocol, role);
     })) << name_of(role);
     EXPECT_EQ(leader_of(leader_of(role)), leader_of(role)) << name_of(role);
   }
-  for (const Protocol protocol : kProtocols) {
-    EXPECT_TRUE(std::any_of(kRoles.begin(), kRoles.end(), [&](Role role) { return can_deliver(protocol, role); }))
-        << protocols::name_of(protocol);
+  for (const auto& device : kDeviceTypes) {
+    EXPECT_TRUE(std::any_of(kRoles.begin(), kRoles.end(), [&](Role role) {
+      return can_deliver(device.protocol, role);
+    })) << device.name;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "protocols/parsers.h"
 #include "tests/protocols/gps_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
@@ -14,9 +15,15 @@ bool operator==(const Scan& a, const Scan& b) { return a.kind == b.kind && a.len
 template <class S>
 class ScannerContract : public testing::Test {};
 
-using Scanners = testing::Types<tcm2::Scanner, tcm2::CommandScanner, imu_card::Scanner, motor_card::Scanner,
-                                oncore::Scanner, oncore::CommandScanner, nmea::Scanner, GpsStreamScanner>;
-TYPED_TEST_SUITE(ScannerContract, Scanners);
+/// The scanner of each device, those of what is sent to devices, and that of a port where two protocols can come.
+template <class Rows>
+struct AllScanners;
+template <std::size_t... Row>
+struct AllScanners<std::index_sequence<Row...>> {
+  using Types = testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
+                               oncore::CommandScanner, GpsStreamScanner>;
+};
+TYPED_TEST_SUITE(ScannerContract, AllScanners<std::make_index_sequence<kDeviceCount>>::Types);
 
 TYPED_TEST(ScannerContract, DecidesOnThePrefixAndStaysWithIt) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {

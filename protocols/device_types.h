@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "protocols/frame.h"
+
+/// The table of devices. Each Protocol has one row in it, and one entry in every PerDevice table; a device that
+/// lacks one of them does not compile (docs/contributing.md).
+namespace navcal::protocols {
+
+/// What a device measures; the members are those of config::Role.
+struct Delivery {
+  bool heading = false;
+  bool field = false;
+  bool rates = false;
+  bool acceleration = false;
+  bool depth = false;
+  bool position = false;
+  bool velocity = false;
+  bool shaft = false;
+};
+
+/// The tables of options that a port of this device has: [port.NAME.units], [port.NAME.channels], [port.NAME.fix].
+struct OptionTables {
+  bool units = false;
+  bool channels = false;
+  bool fix = false;
+};
+
+/// The port of the device on the reference vehicle.
+struct VehiclePort {
+  std::string_view name{};  ///< empty: the vehicle has no such device
+  int baud = 0;
+};
+
+struct DeviceType {
+  std::string_view name{};   ///< of its protocol in configurations, captures, logs and options
+  int baud = 9600;           ///< line speed as delivered
+  double latency_s = 0;      ///< from the measurement to the first byte on the wire
+  double latency_std_s = 0;  ///< its uncertainty, one standard deviation
+  double rate_Hz = 0;        ///< nominal frame rate; 0: none is known
+  Delivery delivers{};
+  bool delivers_always = true;   ///< false: which of these it sends depends on the single device
+  bool dates_roll_over = false;  ///< its dates can be whole epochs of 1024 weeks too early
+  OptionTables options{};
+  VehiclePort vehicle{};
+  Protocol protocol{};  ///< kDeviceTypes fills it in
+};
+
+/// One row for each device. Values that are not in the enumeration have a row without a name.
+constexpr DeviceType device_row(Protocol protocol) {
+  switch (protocol) {
+    case Protocol::tcm2:
+      return {.name = "tcm2",
+              .baud = 9600,
+              .latency_s = 0.050,
+              .latency_std_s = 0.002,
+              .rate_Hz = 10,
+              .delivers = {.heading = true, .field = true},
+              .options = {.units = true},
+              .vehicle = {"compass", 38400}};
+    case Protocol::imu_card:
+      return {.name = "imu-card",
+              .baud = 57600,
+              .latency_s = 0.025,
+              .latency_std_s = 0.0005,
+              .rate_Hz = 20,
+              .delivers = {.rates = true, .acceleration = true, .depth = true},
+              .options = {.channels = true},
+              .vehicle = {"imu", 57600}};
+    case Protocol::oncore:
+      return {.name = "oncore",
+              .baud = 9600,
+              .latency_s = 0.300,
+              .latency_std_s = 0.020,
+              .rate_Hz = 1,
+              .delivers = {.position = true, .velocity = true},
+              .dates_roll_over = true,
+              .options = {.fix = true},
+              .vehicle = {"gps", 9600}};
+    case Protocol::motor_card:
+      return {.name = "motor-card",
+              .baud = 19200,
+              .latency_s = 0.005,
+              .latency_std_s = 0.001,
+              .rate_Hz = 10,
+              .delivers = {.shaft = true},
+              .vehicle = {"motor", 19200}};
+    case Protocol::nmea:
+      // Receivers and compasses of all kinds: nothing is known of them but that they are not quicker than this.
+      return {.name = "nmea",
+              .baud = 4800,
+              .latency_std_s = 0.050,
+              .delivers = {.heading = true, .position = true, .velocity = true},
+              .delivers_always = false,
+              .options = {.units = true, .fix = true}};
+  }
+  return {};
+}
+
+inline constexpr std::size_t kDeviceCount = [] {
+  std::size_t count = 0;
+  while (!device_row(static_cast<Protocol>(count)).name.empty()) ++count;
+  return count;
+}();
+
+/// All rows, in the order of Protocol.
+inline constexpr std::array<DeviceType, kDeviceCount> kDeviceTypes = [] {
+  std::array<DeviceType, kDeviceCount> rows{};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = device_row(static_cast<Protocol>(i));
+    rows[i].protocol = static_cast<Protocol>(i);
+  }
+  return rows;
+}();
+
+/// `protocol` must be one of the enumeration.
+[[nodiscard]] constexpr const DeviceType& device_type(Protocol protocol) {
+  return kDeviceTypes.at(static_cast<std::size_t>(protocol));
+}
+
+/// What a room adds to each row, such as the maker of a device's instrument. Declare it constexpr: entries that
+/// are fewer than the devices, or in another order than Protocol, then do not compile.
+template <class T>
+class PerDevice {
+ public:
+  struct Entry {
+    Protocol protocol;
+    T value;
+  };
+
+  template <std::size_t N>
+  constexpr explicit PerDevice(const Entry (&entries)[N]) {
+    static_assert(N == kDeviceCount, "each device of protocols/device_types.h needs one entry in this table");
+    for (std::size_t i = 0; i < N; ++i) {
+      if (entries[i].protocol != kDeviceTypes[i].protocol) throw "the entries must be in the order of Protocol";
+      values_[i] = entries[i].value;
+    }
+  }
+  [[nodiscard]] constexpr const T& operator[](Protocol protocol) const {
+    return values_.at(static_cast<std::size_t>(protocol));
+  }
+
+ private:
+  std::array<T, kDeviceCount> values_{};
+};
+
+}  // namespace navcal::protocols

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include "protocols/device_types.h"
+#include "protocols/gps_stream.h"
+#include "protocols/imu_card.h"
+#include "protocols/motor_card.h"
+#include "protocols/nmea.h"
+#include "protocols/oncore.h"
+#include "protocols/tcm2.h"
+
+/// Which parser each device has.
+namespace navcal::protocols {
+
+/// `Own` finds the frames of the protocol, `AtPort` also those of another one that the device may change to.
+template <Scanner S, Scanner Port = S>
+struct Scanners {
+  using Own = S;
+  using AtPort = Port;
+};
+
+/// Not defined, so that a device without its line below does not compile.
+template <Protocol>
+struct ScannersOf;
+template <>
+struct ScannersOf<Protocol::tcm2> : Scanners<tcm2::Scanner> {};
+template <>
+struct ScannersOf<Protocol::imu_card> : Scanners<imu_card::Scanner> {};
+template <>
+struct ScannersOf<Protocol::oncore> : Scanners<oncore::Scanner, GpsStreamScanner> {};
+template <>
+struct ScannersOf<Protocol::motor_card> : Scanners<motor_card::Scanner> {};
+template <>
+struct ScannersOf<Protocol::nmea> : Scanners<nmea::Scanner> {};
+
+template <class Rows>
+struct PortParsers;
+template <std::size_t... Row>
+struct PortParsers<std::index_sequence<Row...>> {
+  using Any = std::variant<StreamParser<typename ScannersOf<kDeviceTypes[Row].protocol>::AtPort>...>;
+  template <std::size_t Place>
+  static Any make() {
+    return Any(std::in_place_index<Place>);
+  }
+  static constexpr std::array<Any (*)(), sizeof...(Row)> kMakers{&make<Row>...};
+};
+
+/// The parser of a port, whichever device is there.
+using AnyPortParser = PortParsers<std::make_index_sequence<kDeviceCount>>::Any;
+
+[[nodiscard]] inline AnyPortParser make_port_parser(Protocol protocol) {
+  return PortParsers<std::make_index_sequence<kDeviceCount>>::kMakers.at(static_cast<std::size_t>(protocol))();
+}
+
+}  // namespace navcal::protocols

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every subcommand is listed, says what it is for, and shows how it is used.
+#include "cli/commands.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::cli {
+namespace {
+
+using Visit = std::function<void(const CLI::App& command, const std::string& path)>;
+
+void for_each_command(const CLI::App& app, const std::string& path, const Visit& visit) {
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    const std::string below = path + ' ' + command->get_name();
+    visit(*command, below);
+    for_each_command(*command, below, visit);
+  }
+}
+
+TEST(Commands, EachHasADescriptionAndAnExampleOfItself) {
+  CLI::App app("", "navcal");
+  add_commands(app);
+  int commands = 0;
+  for_each_command(app, "navcal", [&](const CLI::App& command, const std::string& path) {
+    ++commands;
+    EXPECT_FALSE(command.get_description().empty()) << path;
+    const std::string notes = command.get_footer();
+    const std::size_t example = notes.find("Example");
+    ASSERT_NE(example, std::string::npos) << path << ": no example";
+    EXPECT_NE(notes.find(path, example), std::string::npos) << path << ": its example does not show it";
+    for (const CLI::Option* option : command.get_options()) {
+      EXPECT_FALSE(option->get_description().empty()) << path << ' ' << option->get_name();
+    }
+  });
+  EXPECT_GT(commands, 12);
+}
+
+// A file with a subcommand whose line in cli/commands.h was forgotten compiles, and nobody could call it.
+TEST(Commands, EachSourceOfOneIsListed) {
+  CLI::App app("", "navcal");
+  add_commands(app);
+  const std::regex definition("(^|\n)void add_([a-z_]+)\\(CLI::App& app\\) \\{");
+  std::set<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.insert(command->get_name());
+  std::size_t definitions = 0;
+  for (const auto& file : std::filesystem::directory_iterator(NAVCAL_SOURCE_DIR "/cli")) {
+    if (file.path().extension() != ".cpp") continue;
+    const std::string text = test::read_file(file.path());
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), definition); it != std::sregex_iterator();
+         ++it) {
+      ++definitions;
+      EXPECT_EQ(names.count((*it)[2].str()), 1U) << file.path();
+    }
+  }
+  EXPECT_EQ(definitions, names.size());
+}
+
+}  // namespace
+}  // namespace navcal::cli
