@@ -75,7 +75,7 @@ std::vector<Option<Settings>> command_options() {
                           "watched.",
            .unit = kSeconds,
            .low = 0,
-           .high = 60},
+           .high = 5},
           [](auto& s) -> auto& { return s.command.echo_timeout_s; }),
       real<S>(
           {.table = "command",

@@ -185,6 +185,18 @@ void Port::send(protocols::Bytes bytes) {
   if (!state.writing) state.write_some();
 }
 
+std::optional<std::int64_t> Port::send_now(protocols::Bytes bytes) {
+  State& state = *state_;
+  if (!state.tty || state.writing || !state.outgoing.empty()) return std::nullopt;
+  const ssize_t n = ::write(state.tty->fd(), bytes.data(), bytes.size());
+  const std::int64_t now_ns = monotonic_ns();
+  // After an error the reading side finds out what became of the port.
+  if (n <= 0) return std::nullopt;
+  const auto taken = static_cast<std::size_t>(n);
+  state.listener.on_sent(now_ns, bytes.first(taken));
+  return taken == bytes.size() ? std::optional(now_ns) : std::nullopt;
+}
+
 void Port::stop() {
   if (state_->stopped) return;
   state_->stopped = true;
