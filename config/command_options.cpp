@@ -14,8 +14,9 @@ std::vector<Option<Settings>> command_options() {
       real<S>(
           {.table = "command",
            .key = "max_rpm",
-           .description = "Greatest shaft speed that an order may ask for, ahead and astern; beyond it the order is "
-                          "refused.",
+           .description =
+               "Greatest shaft speed that an order may ask for, ahead and astern; beyond it the order is "
+               "refused.",
            .unit = kCardRpm,
            .low = 0,
            .high = 100000},
@@ -55,7 +56,8 @@ std::vector<Option<Settings>> command_options() {
       real<S>(
           {.table = "command",
            .key = "max_timeout_s",
-           .description = "Longest time without an order that it may choose: so long may the shaft turn unattended.",
+           .description =
+               "Longest time without an order that it may choose: so long may the shaft turn unattended.",
            .unit = kSeconds,
            .low = 0.05,
            .high = 3600},
@@ -71,8 +73,9 @@ std::vector<Option<Settings>> command_options() {
       real<S>(
           {.table = "command",
            .key = "echo_timeout_s",
-           .description = "A card that has not shown an order for this long raises the alarm command_not_echoed; 0: not "
-                          "watched.",
+           .description =
+               "A card that has not shown an order for this long raises the alarm command_not_echoed; 0: not "
+               "watched.",
            .unit = kSeconds,
            .low = 0,
            .high = 5},

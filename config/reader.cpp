@@ -193,9 +193,11 @@ void Reader::check_command() {
   };
   if (command.min_timeout_s > command.max_timeout_s)
     problem("min_timeout_s", "max_timeout_s",
-            fmt::format("min_timeout_s {} is more than max_timeout_s {}", command.min_timeout_s, command.max_timeout_s));
+            fmt::format("min_timeout_s {} is more than max_timeout_s {}", command.min_timeout_s,
+                        command.max_timeout_s));
   if (std::abs(command.safe_rpm) > command.max_rpm)
-    problem("safe_rpm", "max_rpm", fmt::format("safe_rpm {} is beyond max_rpm {}", command.safe_rpm, command.max_rpm));
+    problem("safe_rpm", "max_rpm",
+            fmt::format("safe_rpm {} is beyond max_rpm {}", command.safe_rpm, command.max_rpm));
   for (const double fin_deg : command.safe_fins_deg) {
     if (std::abs(fin_deg) <= command.max_fin_deg) continue;
     problem("safe_fins_deg", "max_fin_deg",

@@ -134,13 +134,13 @@ struct NavigationSettings {
   bool operator==(const NavigationSettings&) const = default;
 };
 
-/// What orders to the motor card may ask for, and what is ordered when nobody is in charge (docs/control.md). Speeds
-/// and angles are in the card's own units.
+/// What orders to the motor card may ask for, and what is ordered when nobody is in charge (docs/control.md).
+/// Speeds and angles are in the card's own units.
 struct CommandSettings {
   bool enabled = true;
-  double max_rpm = 1200;       ///< ahead and astern
-  double max_fin_deg = 25;     ///< either way
-  double slew_rpm_s = 2000;    ///< how fast the order on the wire moves; 0: at once
+  double max_rpm = 1200;     ///< ahead and astern
+  double max_fin_deg = 25;   ///< either way
+  double slew_rpm_s = 2000;  ///< how fast the order on the wire moves; 0: at once
   double slew_fin_deg_s = 200;
   double min_timeout_s = 0.2;  ///< bounds of a lease's own
   double max_timeout_s = 5;

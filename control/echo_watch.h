@@ -11,8 +11,8 @@
 namespace navcal::control {
 
 /// Follows lines from the wire until a status shows them. A status shows the newest line that had reached the card
-/// when the status was measured and that has its shaft speed: the card has no echo of the fins. Older lines are then
-/// superseded. Records come out in the order in which their lines were sent.
+/// when the status was measured and that has its shaft speed: the card has no echo of the fins. Older lines are
+/// then superseded. Records come out in the order in which their lines were sent.
 class EchoWatch {
  public:
   /// `timeout_s` 0: a line waits for ever, and none counts as not echoed. `transit_ns`: of a line on the wire.

@@ -5,8 +5,8 @@
 
 namespace navcal::record {
 
-void append_json(std::string& out, const pipeline::UtcMapping& mapping, std::int64_t now_ns, std::string_view device,
-                 const control::OrderRecord& record) {
+void append_json(std::string& out, const pipeline::UtcMapping& mapping, std::int64_t now_ns,
+                 std::string_view device, const control::OrderRecord& record) {
   JsonObject json(out, "COMMAND");
   const auto utc = [&](std::string_view key, const std::optional<std::int64_t>& at_ns) {
     at_ns ? json.seconds(key, mapping.to_utc(*at_ns)) : json.null(key);

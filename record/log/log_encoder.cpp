@@ -228,9 +228,8 @@ void LogEncoder::calib(std::string& out, std::int64_t now_ns, std::string_view j
 void LogEncoder::command(std::string& out, std::int64_t now_ns, std::string_view device,
                          const control::OrderRecord& record) {
   const std::int64_t publish_ns = record.sent_ns.value_or(record.asked_ns.value_or(now_ns));
-  state_->json_message(out, topic::kCommand, now_ns, publish_ns, [&](std::string& text) {
-    append_json(text, state_->mapping, now_ns, device, record);
-  });
+  state_->json_message(out, topic::kCommand, now_ns, publish_ns,
+                       [&](std::string& text) { append_json(text, state_->mapping, now_ns, device, record); });
 }
 
 void LogEncoder::finish(std::string& out, std::int64_t /*now_ns*/) {

@@ -13,9 +13,10 @@ Problems command_problems(std::string_view command, const Overrides& overrides =
 }
 
 TEST(ConfigCommand, WhatIsGivenIsTakenAndComesBack) {
-  const Settings settings = parse(
-      std::string("[command]\nmax_rpm = 900\nsafe_rpm = -30\nsafe_fins_deg = [0, 12.5, -12.5]\n").append(kGoodPort),
-      "t.toml", {});
+  const Settings settings =
+      parse(std::string("[command]\nmax_rpm = 900\nsafe_rpm = -30\nsafe_fins_deg = [0, 12.5, -12.5]\n")
+                .append(kGoodPort),
+            "t.toml", {});
   EXPECT_EQ(settings.command.max_rpm, 900);
   EXPECT_EQ(settings.command.safe_rpm, -30);
   EXPECT_EQ(settings.command.safe_fins_deg, (std::array<double, 3>{0, 12.5, -12.5}));
@@ -35,8 +36,9 @@ TEST(ConfigCommand, ContradictionsNameTheKeyThatWasGiven) {
 TEST(ConfigCommand, EachValueHasItsRange) {
   EXPECT_EQ(command_problems("max_fin_deg = 26\n"),
             Problems{"t.toml:2: command.max_fin_deg: 26 is out of range: 0 to 25 deg"});
-  EXPECT_EQ(command_problems("safe_fins_deg = [0, 0]\n"),
-            Problems{"t.toml:2: command.safe_fins_deg: three numbers, each -25 to 25 deg are wanted, not an array"});
+  EXPECT_EQ(
+      command_problems("safe_fins_deg = [0, 0]\n"),
+      Problems{"t.toml:2: command.safe_fins_deg: three numbers, each -25 to 25 deg are wanted, not an array"});
   EXPECT_EQ(command_problems("max_orders_hz = 5\n"),
             Problems{"t.toml:2: command.max_orders_hz: unknown key; did you mean max_orders_Hz?"});
   EXPECT_EQ(command_problems("max_rpm = nan\n").size(), 1U);

@@ -19,7 +19,9 @@ OrderRecord line(std::uint64_t sequence, std::int64_t sent_ns, int rpm) {
 
 class EchoWatchTest : public testing::Test {
  protected:
-  void sent(std::uint64_t sequence, std::int64_t at_ms, int rpm) { watch_.sent(line(sequence, at_ms * kMs, rpm), out_); }
+  void sent(std::uint64_t sequence, std::int64_t at_ms, int rpm) {
+    watch_.sent(line(sequence, at_ms * kMs, rpm), out_);
+  }
   void status(std::int64_t measured_ms, std::optional<double> rpm) {
     watch_.status(measured_ms * kMs, (measured_ms + 30) * kMs, rpm, out_);
   }

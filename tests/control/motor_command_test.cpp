@@ -263,8 +263,8 @@ TEST_F(ShapedMotorCommandTest, TheWayToAnOrderIsSentTwentyTimesASecondAndTheSafe
   EXPECT_EQ(lines(800), (Lines{"700:-50", "750:-100"})) << "on from the safe state";
 }
 
-// Whatever controllers do: after the last time-out the card was last sent the safe state, and nothing was sent that is
-// beyond the limits.
+// Whatever controllers do: after the last time-out the card was last sent the safe state, and nothing was sent
+// that is beyond the limits.
 TEST_F(ShapedMotorCommandTest, AtTheEndTheShaftStands) {
   std::mt19937 random(7);  // NOLINT: the same orders in every run
   const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
