@@ -296,7 +296,9 @@ TEST_F(MotorProcess, AFloodHurtsNobody) {
       ++refused;
       ASSERT_EQ(answer["error"], "more than 40 orders a second");
     }
-    if (i % 100 == 0) EXPECT_EQ(other.health()["motor"]["holder"], "flood");
+    if (i % 100 == 0) {
+      EXPECT_EQ(other.health()["motor"]["holder"], "flood");
+    }
   }
   EXPECT_GT(taken, 0);
   EXPECT_GT(refused, 0);

@@ -35,17 +35,17 @@ class ControlledVehicle : public testing::Test {
       if (std::string_view(port) == "compass") config << "baud = 38400\n";
     }
     config.close();
-    emulator_ = std::make_unique<Process>(
-        std::vector<std::string>{tool("cli/navcal"), "emulate", "--dir", (folder_ / "ports").string(), "--seed", "5"},
-        folder_ / "emulate");
+    emulator_ = std::make_unique<Process>(std::vector<std::string>{tool("cli/navcal"), "emulate", "--dir",
+                                                                   (folder_ / "ports").string(), "--seed", "5"},
+                                          folder_ / "emulate");
     ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kPatience))
         << emulator_->err();
     status_port_ = free_port();
     daemon_ = std::make_unique<Process>(
-        std::vector<std::string>{tool("daemon/navcald"), "--config", (folder_ / "navcald.toml").string(), "--set",
-                                 "log.directory=" + (folder_ / "logs").string(), "--set",
-                                 "status.port=" + std::to_string(status_port_), "--set",
-                                 "control.socket=" + (folder_ / "control").string(), "--set", "log.free_floor_MB=0"},
+        std::vector<std::string>{
+            tool("daemon/navcald"), "--config", (folder_ / "navcald.toml").string(), "--set",
+            "log.directory=" + (folder_ / "logs").string(), "--set", "status.port=" + std::to_string(status_port_),
+            "--set", "control.socket=" + (folder_ / "control").string(), "--set", "log.free_floor_MB=0"},
         folder_ / "navcald");
     ASSERT_TRUE(eventually([&] { return !state("1").is_null(); }, kPatience)) << daemon_->err();
   }
@@ -64,7 +64,8 @@ class ControlledVehicle : public testing::Test {
   [[nodiscard]] Json state(const std::string& rate_Hz) const {
     try {
       daemon::Client client(status_port_);
-      client.send(R"(?WATCH={"enable":true,"json":true,"classes":["STATE"],"rate_Hz":{"STATE":)" + rate_Hz + "}};\n");
+      client.send(R"(?WATCH={"enable":true,"json":true,"classes":["STATE"],"rate_Hz":{"STATE":)" + rate_Hz +
+                  "}};\n");
       const Json found = Json::parse(client.line_with("\"STATE\",\"time\""));
       return found["shaft_rpm"].is_null() || found["heading_rad"].is_null() ? Json() : found;
     } catch (const std::runtime_error&) {
@@ -79,12 +80,12 @@ class ControlledVehicle : public testing::Test {
   }
   std::string run_python(double seconds, double rpm) {
     return run({"python3", NAVCAL_SOURCE_DIR "/docs/examples/controller.py", "--control",
-                (folder_ / "control").string(), "--status", std::to_string(status_port_), "--heading", "90", "--rpm",
-                std::to_string(rpm), "--seconds", std::to_string(seconds)});
+                (folder_ / "control").string(), "--status", std::to_string(status_port_), "--heading", "90",
+                "--rpm", std::to_string(rpm), "--seconds", std::to_string(seconds)});
   }
   std::string run_cpp(double seconds, double rpm) {
-    return run({CONTROLLER, (folder_ / "control").string(), std::to_string(status_port_), "90", std::to_string(rpm),
-                std::to_string(seconds)});
+    return run({CONTROLLER, (folder_ / "control").string(), std::to_string(status_port_), "90",
+                std::to_string(rpm), std::to_string(seconds)});
   }
   /// Ends the daemon; COMMAND lines of the replay of its log.
   std::vector<Json> replayed_commands() {
@@ -146,8 +147,9 @@ TEST_F(ControlledVehicle, BothExamplesDriveItAndLeaveItStanding) {
 
 TEST_F(ControlledVehicle, AControllerThatIsKilledLeavesItStanding) {
   {
-    Process controller({CONTROLLER, (folder_ / "control").string(), std::to_string(status_port_), "90", "500", "60"},
-                       folder_ / "controller");
+    Process controller(
+        {CONTROLLER, (folder_ / "control").string(), std::to_string(status_port_), "90", "500", "60"},
+        folder_ / "controller");
     EXPECT_TRUE(eventually([&] {
       const Json now = state("10");
       return now.is_object() && now["shaft_rpm"] > 400;
