@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "daemon/json_text.h"
 #include "pipeline/sources.h"
@@ -149,6 +150,7 @@ void MotorControl::stop() {
   const std::int64_t now_ns = ports::monotonic_ns();
   command_.shut_down(now_ns);
   if (drive(now_ns)) session_.flush(kLastLine);
+  stopped_ = true;
   echo_.give_up(records_);
   take_records(now_ns);
   timer_.stop();
@@ -158,6 +160,8 @@ void MotorControl::stop() {
 void MotorControl::ring() { drive(ports::monotonic_ns()); }
 
 std::optional<std::int64_t> MotorControl::drive(std::int64_t now_ns) {
+  // Connections that close with the program must not set the timer again.
+  if (stopped_) return std::nullopt;
   std::optional<std::int64_t> sent_ns;
   while (const auto line = command_.next(now_ns)) {
     if (const auto at_ns = send(*line, now_ns)) sent_ns = at_ns;
@@ -174,9 +178,11 @@ std::optional<std::int64_t> MotorControl::send(const control::Line& line, std::i
   marker_.set(command_.is_card_commanded());
   const auto sent_ns = session_.send_now(protocols::motor_card::encode_command(line.command));
   if (!sent_ns) {
+    if (std::exchange(busy_, true)) return std::nullopt;
     owner_.on_motor_event(now_ns, "warning", "motor.busy", "the line to the card takes nothing now");
     return std::nullopt;
   }
+  busy_ = false;
   ++sent_;
   control::OrderRecord record;
   record.source = line.source;

@@ -93,6 +93,8 @@ class MotorControl {
   std::uint64_t sent_ = 0, echoed_ = 0, not_echoed_ = 0, superseded_ = 0;
   bool is_deaf_ = false;
   bool is_open_ = false;
+  bool busy_ = false;  ///< told that the line takes nothing
+  bool stopped_ = false;
 };
 
 }  // namespace navcal::daemon
