@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
+#include <utility>
 
 #include "base/angles.h"
 
@@ -72,16 +74,25 @@ void StateCollector::take(const instruments::Sample& sample) {
 
 bool StateCollector::is_serving_compass(const instruments::Sample& sample) const {
   const auto* compass = std::get_if<instruments::CompassSample>(&sample.value);
-  return compass != nullptr && compass->heading_rad && pipeline_.sources()[Role::heading] == sample.port;
+  return compass != nullptr && compass->heading_rad &&
+         pipeline_.sources()[Role::heading].value_or(sample.port) == sample.port;
 }
 
 StateCollector::Last StateCollector::serving() const {
   const auto sources = pipeline_.sources();
+  // A pipeline without estimator and calibrators appoints nobody: then the first that delivered serves.
+  const auto pick = [&](Role role, auto Last::*kind) {
+    using Kind = std::remove_cvref_t<decltype(std::declval<Last>().*kind)>;
+    if (const auto port = sources[role]) return Kind(last_[*port].*kind);
+    const auto found =
+        std::find_if(last_.begin(), last_.end(), [&](const Last& last) { return (last.*kind).has_value(); });
+    return found != last_.end() ? Kind((*found).*kind) : Kind();
+  };
   Last last;
-  if (const auto port = sources[Role::heading]) last.compass = last_[*port].compass;
-  if (const auto port = sources[Role::rates]) last.imu = last_[*port].imu;
-  if (const auto port = sources[Role::shaft]) last.motor = last_[*port].motor;
-  if (const auto port = sources[Role::position]) last.fix = last_[*port].fix;
+  last.compass = pick(Role::heading, &Last::compass);
+  last.imu = pick(Role::rates, &Last::imu);
+  last.motor = pick(Role::shaft, &Last::motor);
+  last.fix = pick(Role::position, &Last::fix);
   return last;
 }
 

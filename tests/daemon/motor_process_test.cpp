@@ -324,9 +324,9 @@ TEST_F(MotorProcess, StateIsPacedAndSaysWhoIsInChargeAndHowLateTheOrderCame) {
   ASSERT_EQ(pilot.order(120, {1, 0, 0}, state["time"])["ok"], true);
   ASSERT_TRUE(card_.serve_until([&] { return pilot.health()["motor"]["echoed"] == 1; }));
   json after;
-  do {
+  for (int i = 0; i < 1000 && after["shaft_rpm"] != 120; ++i)
     after = json::parse(watcher.line_with("\"sequence\":1"));
-  } while (after["shaft_rpm"] != 120);
+  ASSERT_EQ(after["shaft_rpm"], 120);
   EXPECT_GE(after["order"]["late_s"].get<double>(), 0);
   EXPECT_LT(after["order"]["late_s"].get<double>(), 60);
   EXPECT_EQ(after["fins_deg"], json::parse("[1,0,0]"));
