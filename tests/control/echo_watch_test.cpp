@@ -6,8 +6,8 @@
 namespace navcal::control {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kTransit_ns = 15 * kMs;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kTransit_ns = 15 * kMillisecond_ns;
 
 OrderRecord line(std::uint64_t sequence, std::int64_t sent_ns, int rpm) {
   OrderRecord record;
@@ -20,10 +20,10 @@ OrderRecord line(std::uint64_t sequence, std::int64_t sent_ns, int rpm) {
 class EchoWatchTest : public testing::Test {
  protected:
   void sent(std::uint64_t sequence, std::int64_t at_ms, int rpm) {
-    watch_.sent(line(sequence, at_ms * kMs, rpm), out_);
+    watch_.sent(line(sequence, at_ms * kMillisecond_ns, rpm), out_);
   }
   void status(std::int64_t measured_ms, std::optional<double> rpm) {
-    watch_.status(measured_ms * kMs, (measured_ms + 30) * kMs, rpm, out_);
+    watch_.status(measured_ms * kMillisecond_ns, (measured_ms + 30) * kMillisecond_ns, rpm, out_);
   }
   /// "3 echoed" for each record that came since.
   std::vector<std::string> came() {
@@ -49,7 +49,7 @@ TEST_F(EchoWatchTest, TheNextStatusWithItsSpeedShowsALine) {
   EXPECT_EQ(came(), Words{}) << "a card that does not say";
   status(330, 780);
   ASSERT_EQ(out_.size(), 1U);
-  EXPECT_EQ(out_[0].echoed_ns, 360 * kMs);
+  EXPECT_EQ(out_[0].echoed_ns, 360 * kMillisecond_ns);
   EXPECT_EQ(came(), Words{"1 echoed"});
   status(430, 780);
   EXPECT_EQ(came(), Words{}) << "once";
@@ -70,7 +70,7 @@ TEST_F(EchoWatchTest, OfSeveralLinesTheNewestThatFitsIsShownAndOlderOnesAreSuper
 TEST_F(EchoWatchTest, ARampDoesNotLookLikeADeafCard) {
   for (int step = 0; step < 100; ++step) {
     sent(static_cast<std::uint64_t>(step), 50 * step, 10 * step);
-    watch_.update(50 * step * kMs, out_);
+    watch_.update(50 * step * kMillisecond_ns, out_);
     if (step % 2 == 1) status(50 * step - 20, 10 * (step - 1));
     ASSERT_FALSE(watch_.is_deaf()) << step;
   }
@@ -78,11 +78,11 @@ TEST_F(EchoWatchTest, ARampDoesNotLookLikeADeafCard) {
 
 TEST_F(EchoWatchTest, ACardThatDoesNotShowAnOrderIsDeafUntilItDoes) {
   sent(1, 100, 780);
-  EXPECT_EQ(watch_.deadline_ns(), 600 * kMs);
-  watch_.update(600 * kMs - 1, out_);
+  EXPECT_EQ(watch_.deadline_ns(), 600 * kMillisecond_ns);
+  watch_.update(600 * kMillisecond_ns - 1, out_);
   EXPECT_EQ(came(), Words{});
   EXPECT_FALSE(watch_.is_deaf());
-  watch_.update(600 * kMs, out_);
+  watch_.update(600 * kMillisecond_ns, out_);
   EXPECT_EQ(came(), Words{"1 not_echoed"});
   EXPECT_TRUE(watch_.is_deaf());
   status(700, 780);
@@ -105,8 +105,8 @@ TEST_F(EchoWatchTest, WhatWaitsIsGivenUpAtTheEnd) {
 TEST(EchoWatch, WithoutATimeOutNothingIsDeafAndNothingGrows) {
   EchoWatch watch(0, kTransit_ns);
   std::vector<OrderRecord> out;
-  for (int i = 0; i < 1000; ++i) watch.sent(line(static_cast<std::uint64_t>(i), i * kMs, i), out);
-  watch.update(1'000'000 * kMs, out);
+  for (int i = 0; i < 1000; ++i) watch.sent(line(static_cast<std::uint64_t>(i), i * kMillisecond_ns, i), out);
+  watch.update(1'000'000 * kMillisecond_ns, out);
   EXPECT_FALSE(watch.is_deaf());
   EXPECT_EQ(out.size(), 1000U - 64U);
   EXPECT_EQ(out.back().outcome, Outcome::superseded);

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string line_of(const VehicleState& state) {
+std::string state_line(const VehicleState& state) {
   std::string line;
   append_state(line, state);
   EXPECT_EQ(line.find('\n'), line.size() - 1);
@@ -21,7 +21,7 @@ std::string line_of(const VehicleState& state) {
 }
 
 TEST(StateReport, WhatIsNotKnownIsNullAndEveryKeyIsThere) {
-  const json state = json::parse(line_of({}));
+  const json state = json::parse(state_line({}));
   EXPECT_EQ(state,
             json::parse(R"({"class":"STATE","time":null,"time_std":null,"north":"magnetic","heading_rad":null,
       "pitch_rad":null,"roll_rad":null,"rate_rad_s":null,"depth_m":null,"lat":null,"lon":null,"position_std_m":null,
@@ -44,7 +44,7 @@ TEST(StateReport, WhatIsKnownIsSaidInTheUnitsOfTheContract) {
   state.priority = 2;
   state.expires_in_s = 0.25;
   state.order_sequence = 7;
-  const std::string line = line_of(state);
+  const std::string line = state_line(state);
   EXPECT_NE(line.find("\"time\":1700000000.125000001,"), std::string::npos) << line;
   const json said = json::parse(line);
   EXPECT_EQ(said["north"], "true");
@@ -60,7 +60,7 @@ TEST(StateReport, WhatIsNoNumberIsNull) {
   VehicleState state;
   state.heading_rad = std::numeric_limits<double>::quiet_NaN();
   state.depth_m = std::numeric_limits<double>::infinity();
-  const json said = json::parse(line_of(state));
+  const json said = json::parse(state_line(state));
   EXPECT_TRUE(said["heading_rad"].is_null());
   EXPECT_TRUE(said["depth_m"].is_null());
 }
