@@ -34,8 +34,8 @@ struct EstimatePoint {
   double time_s = 0, value = 0, std = 0;
 };
 
-/// What the pictures of a calibration need: readings and estimates over time, in bounded memory however long the
-/// recording. Listens to the pipeline and hands everything on.
+/// Data for the plots of a calibration: readings and estimates over time, in bounded memory for any length of the
+/// recording. Listens to the pipeline and forwards everything.
 class CalibrateHistory final : public pipeline::Sink {
  public:
   static constexpr std::size_t kMostSamples = 8192, kMostPoints = 160;
@@ -47,7 +47,7 @@ class CalibrateHistory final : public pipeline::Sink {
   void on_sample(const instruments::Sample& sample) override;
   /// To be called between the calls of the pipeline: takes down the estimates when it is time to.
   void look(const pipeline::Pipeline& pipeline);
-  /// What comes is of another clock, after a pause of unknown length.
+  /// The following readings are from another clock, after a pause of unknown length.
   void begin_recording();
   /// No more samples come: takes down the last estimates, which are those of the report.
   void finish(const pipeline::Pipeline& pipeline);

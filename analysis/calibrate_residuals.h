@@ -18,7 +18,8 @@ struct HeadingResidual {
                              ///< of the curve
 };
 
-/// By the gyro of `estimates`; empty without one, or where nothing turned. Blocks turn by half a radian or more.
+/// Residuals by the gyro of `estimates`; empty without one, or without turns. Blocks turn by half a radian or
+/// more.
 [[nodiscard]] std::vector<HeadingResidual> heading_residuals(const std::vector<TurnedSample>& samples,
                                                              const calib::Correction& estimates);
 

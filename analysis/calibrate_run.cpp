@@ -68,7 +68,7 @@ void CalibrateRun::at(const std::string& file, std::int64_t time_ns) {
       if (!first) begin_recording(file, time_ns);
       newest_ns_ = time_ns;
     }
-    if (first) begin_swing();
+    if (first) begin_ordered();
     file_begins_ = false;
   }
   if (time_ns <= newest_ns_) return;
@@ -82,15 +82,18 @@ void CalibrateRun::begin_recording(const std::string& file, std::int64_t time_ns
   if (pipeline_->calibrates() && pipeline_->restore_calibration(state)) {
     pipeline_->begin_calibration_run();
   } else if (pipeline_->calibrates()) {
-    remarks_.push_back(file + ": what the files before it taught was lost");
+    remarks_.push_back(file + ": the estimates from the files before it were lost");
   }
   if (history_ != nullptr) history_->begin_recording();
   newest_ns_ = time_ns;
 }
 
-/// A swing shows by its rests; nobody has to say that one begins.
-void CalibrateRun::begin_swing() {
-  pipeline_->order_calibration(pipeline::CalibrationOrder::start, calib::Calibrator::swing, newest_ns_, sink_);
+/// A recording needs no order: a swing shows by its rests.
+void CalibrateRun::begin_ordered() {
+  for (const auto calibrator : calib::calibrators()) {
+    if (calib::row_of(calibrator).by_order)
+      pipeline_->order_calibration(pipeline::CalibrationOrder::start, calibrator, newest_ns_, sink_);
+  }
 }
 
 void CalibrateRun::take(const record::Entry& entry, const std::vector<int>& ports) {
@@ -101,9 +104,9 @@ void CalibrateRun::take(const record::Entry& entry, const std::vector<int>& port
   } else if (const auto* change = std::get_if<record::MappingChange>(&entry)) {
     pipeline_->set_mapping(change->mapping, sink_);
   } else if (const auto* order = std::get_if<pipeline::CalibrationChange>(&entry)) {
-    const bool swing =
-        order->cause == pipeline::CalibrationChange::Cause::start && order->calibrator == calib::Calibrator::swing;
-    if (swing) begin_swing();
+    const bool starts = order->cause == pipeline::CalibrationChange::Cause::start && order->calibrator;
+    if (starts && calib::row_of(*order->calibrator).by_order)
+      pipeline_->order_calibration(pipeline::CalibrationOrder::start, *order->calibrator, newest_ns_, sink_);
   }
 }
 

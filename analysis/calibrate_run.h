@@ -29,16 +29,16 @@ class CalibrateRun {
   [[nodiscard]] calib::Report finish();
 
   [[nodiscard]] const config::Settings& settings() const { return settings_; }
-  /// Of all files, pauses between them left out.
+  /// Duration of all files, without the pauses between them.
   [[nodiscard]] double duration_s() const { return static_cast<double>(duration_ns_) * 1e-9; }
-  /// What was not as it should be, each with its file.
+  /// Irregularities, each with its file.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
   void begin_recording(const std::string& file, std::int64_t time_ns);
   void take(const record::Entry& entry, const std::vector<int>& ports);
   void at(const std::string& file, std::int64_t time_ns);
-  void begin_swing();
+  void begin_ordered();
 
   config::Settings settings_;
   CalibrateHistory* history_;

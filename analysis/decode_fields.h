@@ -30,12 +30,12 @@ class FieldWriter {
     begin_field(key);
     write_integer(static_cast<std::int64_t>(value));
   }
-  /// With at most `decimals` of them, zeros at the end left out.
+  /// Writes a number with at most `decimals` decimals, without trailing zeros.
   void number(std::string_view key, double value, int decimals) {
     begin_field(key);
     write_number(value, decimals);
   }
-  /// With the fewest digits that say exactly this number.
+  /// Writes a number with the fewest digits that identify it exactly.
   void number(std::string_view key, double value);
   void number(std::string_view key, const protocols::nmea::Decimal& value) {
     begin_field(key);

@@ -27,7 +27,7 @@ void write_text(Output& output, const DecodeSummary& summary) {
     output.append(fmt::format("{}{} {}", separator, id.view(), count));
     separator = ", ";
   }
-  output.append(fmt::format("\n{} bytes: {} in frames, {} skipped, {} of an unfinished frame at the end\n",
+  output.append(fmt::format("\n{} bytes: {} in frames, {} skipped, {} in an incomplete frame at the end\n",
                             counters.bytes, counters.framed_bytes, summary.skipped_bytes(),
                             summary.incomplete_bytes));
   if (counters.bad_checksum > 0) output.append(fmt::format("{} bad checksums\n", counters.bad_checksum));

@@ -9,7 +9,7 @@
 
 namespace navcal::analysis {
 
-/// What a stream consisted of: bytes = framed + skipped + incomplete.
+/// Composition of a stream: bytes = framed + skipped + incomplete.
 struct DecodeSummary {
   protocols::Counters counters;
   /// Behind the last frame, from where a frame began that the end of the input cut.

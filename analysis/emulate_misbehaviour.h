@@ -27,7 +27,7 @@ struct UnplugPlan {
 [[nodiscard]] std::optional<StallPlan> parse_stall(std::string_view text);
 [[nodiscard]] std::optional<UnplugPlan> parse_unplug(std::string_view text);
 
-/// What a bad line does to frames.
+/// Effects of a bad line on frames.
 class Misbehaviour {
  public:
   explicit Misbehaviour(std::uint64_t seed) : random_(seed) {}

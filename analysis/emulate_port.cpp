@@ -94,7 +94,7 @@ void EmulatedPort::stall(double seconds) {
 }
 
 void EmulatedPort::unplug() {
-  // What is on the wire when the plug is pulled arrives nowhere; the device itself goes on.
+  // Bytes on the wire are lost when the plug is pulled; the device itself goes on.
   writer_.clear();
   held_back_.clear();
   host_.unplug();

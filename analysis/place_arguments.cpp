@@ -41,7 +41,7 @@ std::optional<base::GeodeticPosition> PlaceArguments::position() const {
   const std::vector<double> numbers = numbers_in(*place);
   if (numbers.size() != 2 && numbers.size() != 3) {
     throw Failure(Exit::usage,
-                  fmt::format("--place {}: wanted is LAT,LON or LAT,LON,HEIGHT_M, in degrees and metres "
+                  fmt::format("--place {}: expected LAT,LON or LAT,LON,HEIGHT_M, in degrees and metres "
                               "(such as 59.33,18.07)",
                               *place));
   }
@@ -66,7 +66,7 @@ std::optional<std::int64_t> PlaceArguments::day_ns() const {
   const bool read = std::sscanf(date->c_str(), "%4d-%2u-%2u%n", &y, &m, &d, &length) == 3;
   const year_month_day day_read{year(y), month(m), day(d)};
   if (!read || length != static_cast<int>(date->size()) || !day_read.ok()) {
-    throw Failure(Exit::usage, fmt::format("--date {}: wanted is a day, YYYY-MM-DD", *date));
+    throw Failure(Exit::usage, fmt::format("--date {}: expected a day, YYYY-MM-DD", *date));
   }
   return duration_cast<nanoseconds>(sys_days(day_read).time_since_epoch()).count();
 }
@@ -77,7 +77,7 @@ std::optional<std::array<double, 3>> PlaceArguments::field_uT() const {
   if (numbers.size() != 3) {
     throw Failure(
         Exit::usage,
-        fmt::format("--field {}: wanted is NORTH,EAST,DOWN in microtesla (such as 19.0,0.6,44.0)", *field));
+        fmt::format("--field {}: expected NORTH,EAST,DOWN in microtesla (such as 19.0,0.6,44.0)", *field));
   }
   const double size = std::hypot(numbers[0], numbers[1], numbers[2]);
   if (!(size > 1 && size <= kGreatestField_uT)) {

@@ -47,7 +47,7 @@ asio::awaitable<void> PlaySession::wait_for_readers() {
     co_await pause(kLookAgain);
   for (const auto& host : hosts_) {
     if (arguments_.wait_s > 0 && !host->has_client()) {
-      fmt::print(stderr, "navcal play: starts although nobody has opened {}\n", host->link().string());
+      fmt::print(stderr, "navcal play: starts although no program has opened {}\n", host->link().string());
     }
   }
 }

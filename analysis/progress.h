@@ -21,9 +21,9 @@ class Progress {
 
   /// 0 to 1 of the whole.
   void show(double share);
-  /// Of a job in parts, with the part that is being done.
+  /// Shows the progress of a job in parts, with the current part.
   void show(std::string_view part, double share);
-  /// Of an input whose length may not be known.
+  /// Shows the progress over an input whose length may be unknown.
   void show_bytes(std::uint64_t done, std::optional<std::uint64_t> total);
 
  private:

@@ -29,7 +29,7 @@ struct SimulateArguments {
   std::optional<double> seconds;
   std::filesystem::path capture, truth, report;
   PlaceArguments where;
-  // What `where` says; simulate() fills it in.
+  // Begin that `where` determines; simulate() sets it.
   std::int64_t begin_ns = kSimulatedBegin_ns;
   SimulatedPlace place;
 };

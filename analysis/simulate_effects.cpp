@@ -32,7 +32,7 @@ void add_by_strength(std::string_view text, sim::EffectSet& set, sim::Noise& noi
     const std::string_view number = text.substr(equals + 1);
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), strength);
     if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(strength)) {
-      fail("NAME=STRENGTH is wanted, such as motor_field=1: how many times its typical strength");
+      fail("NAME=STRENGTH is expected, such as motor_field=1: a multiple of the typical strength");
     }
   }
   const auto& parameters = effect->description().parameters;
@@ -65,7 +65,7 @@ void refuse_on_path(const sim::EffectSet& set) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto& about = set[i].description();
     if (about.place != sim::EffectPlace::vehicle) continue;
-    throw Failure(Exit::usage, fmt::format("{} changes how the vehicle moves, and --path says how it moves: take "
+    throw Failure(Exit::usage, fmt::format("{} changes the vehicle's motion, which --path determines: use "
                                            "--drive or --mission",
                                            about.name));
   }

@@ -12,7 +12,7 @@
 
 namespace navcal::analysis {
 
-/// With the seconds since the beginning.
+/// A value with its time in seconds since the beginning.
 template <class Value>
 struct Timed {
   double time_s = 0;
@@ -28,8 +28,8 @@ struct SimulatedSeries {
   std::vector<Timed<instruments::MotorSample>> motor;
 };
 
-/// What the pictures of a simulation need: the truth, and each instrument's output as a daemon makes it of the
-/// bytes. However long the mission is, some thousands of each.
+/// Data for the plots of a simulation: the truth, and each instrument's output as a daemon decodes it from the
+/// bytes. Some thousands of each, for any length of the mission.
 class SimulateHistory final : public pipeline::Sink {
  public:
   /// The first port is the compass's, then come card, receiver and motor card.

@@ -10,22 +10,22 @@
 
 namespace navcal::analysis {
 
-/// Where a simulated vehicle is.
+/// Place and field of a simulated vehicle.
 struct SimulatedPlace {
   sim::Origin origin;
   sim::Vector3 field_world_uT =
       sim::State{}.field_world_uT;  ///< north, east, down; by default the reference field
 
-  /// What a recording says of it, as an `#event` line.
+  /// The field as an `#event` line of a recording.
   [[nodiscard]] std::string field_event() const;
 };
 
-/// What the arguments say; the model's field is that of --date, or of `otherwise_ns` (UTC) without it. Throws
-/// Failure for what cannot be read, and beyond 89 degrees of latitude, where the simulator's flat map ends.
+/// Place of the arguments; the model's field is that of --date, or of `otherwise_ns` (UTC) without it. Throws
+/// Failure for invalid arguments, and beyond 89 degrees of latitude, where the simulator's flat map ends.
 [[nodiscard]] SimulatedPlace simulated_place(const PlaceArguments& arguments, std::int64_t otherwise_ns);
 
-/// Where emulated instruments are at `now_ns` (UTC). Without a field the model's at the place counts, also at the
-/// simulator's own place: a navcald that listens looks it up at the fixes.
+/// Place of emulated instruments at `now_ns` (UTC). Without a stated field it has the model's field, also at the
+/// simulator's own place, because a navcald that listens computes the model's field at the fixes.
 [[nodiscard]] SimulatedPlace emulated_place(const PlaceArguments& arguments, std::int64_t now_ns);
 
 }  // namespace navcal::analysis

@@ -19,7 +19,7 @@ constexpr double kMicroteslaPerNanotesla = 1e-3;
 constexpr double kSmallestCosine = 1e-9;
 
 constexpr int kSize = kWmm2025Degree + 1;
-/// By degree and order.
+/// Coefficients by degree and order.
 using Triangle = std::array<std::array<double, kSize>, kSize>;
 
 /// Point in spherical coordinates about the Earth's centre.

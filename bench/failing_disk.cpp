@@ -35,7 +35,7 @@ auto* real_pwrite() {
   return function;
 }
 
-/// What lies on the medium and beyond it in the cache, for each file.
+/// Sizes of each file on the medium and, beyond it, in the cache.
 struct Extent {
   off_t synced = 0, end = 0;
 };

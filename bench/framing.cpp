@@ -72,7 +72,7 @@ Buffer motor_card_stream() {
   });
 }
 
-/// What a receiver sends in a second: Ha, Bb and Bo, filled with anything.
+/// Messages of a receiver in one second: Ha, Bb and Bo, with arbitrary content.
 Buffer oncore_stream() {
   return stream_of([](unsigned i) {
     Buffer second;
@@ -117,7 +117,7 @@ std::uint64_t framed_bytes_of(Bytes stream) {
   return parser.counters().framed_bytes;
 }
 
-/// Of this thread alone, so that a busy machine does not blur the comparison.
+/// CPU time of this thread alone, so that a busy machine does not disturb the comparison.
 double cpu_time_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -34,6 +34,13 @@ void Archive::tag(std::string_view name) {
   if (found != name) ok_ = false;
 }
 
+bool Archive::tag_either(std::string_view older, std::string_view newer, bool use_newer) {
+  std::string found(use_newer ? newer : older);
+  (*this)(found);
+  if (found != older && found != newer) ok_ = false;
+  return found == newer;
+}
+
 void Archive::operator()(std::string& text) {
   std::uint64_t size = text.size();
   (*this)(size);

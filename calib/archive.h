@@ -27,8 +27,15 @@ class Archive {
   /// Whether a restore has used up everything.
   [[nodiscard]] bool at_end() const { return source_.empty(); }
 
+  /// For what restores a value that cannot be.
+  void fail() { ok_ = false; }
+
   /// Name and version of a layout, e.g. "turn_filter 1"; restoring another one fails.
   void tag(std::string_view name);
+
+  /// For a layout that has grown: saves `newer` if `use_newer`, else `older`. Says whether the newer one is saved
+  /// or was found; restoring a third fails.
+  bool tag_either(std::string_view older, std::string_view newer, bool use_newer);
 
   template <class T>
   requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(T& value) { raw(&value, sizeof value); }

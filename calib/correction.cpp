@@ -2,53 +2,60 @@
 #include "calib/correction.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/angles.h"
 
 namespace navcal::calib {
-namespace {
 
-constexpr std::array<std::string_view, kCalibrators.size()> kNames{
-    "gyro",  "gyro_b",       "compass",       "magnetometer", "gps_compass",
-    "swing", "misalignment", "compass_delay", "course_delay", "motor_current"};
-
-/// `visit(value)` with the optional of that calibrator.
-template <class Corrections, class Visit>
-auto visit_value(Corrections& c, Calibrator calibrator, Visit visit) {
-  switch (calibrator) {
-    case Calibrator::gyro:
-      return visit(&Correction::gyro, c);
-    case Calibrator::gyro_b:
-      return visit(&Correction::gyro_b, c);
-    case Calibrator::compass:
-      return visit(&Correction::compass, c);
-    case Calibrator::magnetometer:
-      return visit(&Correction::magnetometer, c);
-    case Calibrator::gps_compass:
-      return visit(&Correction::gps_compass, c);
-    case Calibrator::swing:
-      return visit(&Correction::swing, c);
-    case Calibrator::misalignment:
-      return visit(&Correction::misalignment_rad, c);
-    case Calibrator::compass_delay:
-      return visit(&Correction::compass_delay_s, c);
-    case Calibrator::course_delay:
-      return visit(&Correction::course_delay_s, c);
-    case Calibrator::motor_current:
-      break;
-  }
-  return visit(&Correction::motor_current, c);
+void AddedValues::Value::archive(Archive& archive) {
+  calib::archive(archive, calibrator);
+  archive(numbers);
 }
 
-}  // namespace
+std::span<const AddedValues::Value> AddedValues::all() const {
+  return values_ ? std::span<const Value>(*values_) : std::span<const Value>();
+}
 
-std::string_view name_of(Calibrator calibrator) { return kNames.at(static_cast<std::size_t>(calibrator)); }
-
-std::optional<Calibrator> calibrator_named(std::string_view name) {
-  for (const Calibrator calibrator : kCalibrators) {
-    if (name_of(calibrator) == name) return calibrator;
+std::span<const double> AddedValues::of(Calibrator calibrator) const {
+  for (const Value& value : all()) {
+    if (value.calibrator == calibrator) return value.numbers;
   }
-  return std::nullopt;
+  return {};
+}
+
+void AddedValues::set(Calibrator calibrator, std::span<const double> numbers) {
+  std::vector<Value> values(all().begin(), all().end());
+  std::erase_if(values, [&](const Value& value) { return value.calibrator == calibrator; });
+  if (!numbers.empty()) values.push_back({calibrator, {numbers.begin(), numbers.end()}});
+  values_ = values.empty() ? nullptr : std::make_shared<const std::vector<Value>>(std::move(values));
+}
+
+void AddedValues::archive(Archive& archive) {
+  std::vector<Value> values(all().begin(), all().end());
+  archive(values);
+  if (archive.saving()) return;
+  if (!archive.ok()) values.clear();
+  values_ = values.empty() ? nullptr : std::make_shared<const std::vector<Value>>(std::move(values));
+}
+
+void Correction::archive(Archive& archive) {
+  const bool with_added = archive.tag_either("correction 2", "correction 3", !added.all().empty());
+  archive(gyro, gyro_b, compass, magnetometer, gps_compass, swing);
+  archive(misalignment_rad, compass_delay_s, course_delay_s, motor_current);
+  if (with_added) {
+    archive(added);
+  } else {
+    added = {};
+  }
+}
+
+bool has_added(const Correction& correction, Calibrator calibrator) {
+  return !correction.added.of(calibrator).empty();
+}
+
+void copy_added(Correction& to, const Correction& from, Calibrator calibrator) {
+  to.added.set(calibrator, from.added.of(calibrator));
 }
 
 double DeviationCorrection::operator()(double measured_rad) const {
@@ -76,12 +83,11 @@ std::optional<double> Correction::offset_rad() const {
 }
 
 bool has(const Correction& correction, Calibrator calibrator) {
-  return visit_value(correction, calibrator,
-                     [](auto member, const Correction& c) { return (c.*member).has_value(); });
+  return row_of(calibrator).place.has(correction, calibrator);
 }
 
 void copy_value(Correction& to, const Correction& from, Calibrator calibrator) {
-  visit_value(to, calibrator, [&](auto member, Correction& c) { c.*member = from.*member; });
+  row_of(calibrator).place.copy(to, from, calibrator);
 }
 
 double levelled_heading(const Eigen::Vector3d& field, double roll_rad, double pitch_rad) {
@@ -121,6 +127,11 @@ std::optional<double> corrected_heading(const Correction& correction, const Comp
     heading = (*correction.swing)(*reading.heading_rad);
   } else if (correction.motor_current) {
     heading = reading.heading_rad;
+  }
+  for (const AddedValues::Value& value : correction.added.all()) {
+    const auto apply = row_of(value.calibrator).apply;
+    const auto before = heading ? heading : reading.heading_rad;
+    if (apply != nullptr && before) heading = apply(value.numbers, reading, *before);
   }
   if (const auto offset_rad = correction.offset_rad())
     heading = heading.value_or(*reading.heading_rad) - *offset_rad;

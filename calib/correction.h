@@ -3,36 +3,16 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
+#include <memory>
 #include <optional>
-#include <string_view>
+#include <span>
+#include <vector>
 
 #include "calib/archive.h"
+#include "calib/calibrator.h"
 #include "calib/readings.h"
 
 namespace navcal::calib {
-
-/// What can be calibrated, each by an estimator of its own and each with a place of its own in a Correction.
-enum class Calibrator : std::uint8_t {
-  gyro,           ///< A's z axis
-  gyro_b,         ///< B's z axis
-  compass,        ///< deviation B..E from the gyro
-  magnetometer,   ///< hard and soft iron from the field itself
-  gps_compass,    ///< deviation A..E from GPS
-  swing,          ///< table of eight headings
-  misalignment,   ///< A from straight runs by GPS
-  compass_delay,  ///< of the compass against the gyro
-  course_delay,   ///< of the GPS course against the heading
-  motor_current,  ///< field of the motor's current
-};
-inline constexpr std::array kCalibrators{
-    Calibrator::gyro,         Calibrator::gyro_b,       Calibrator::compass,      Calibrator::magnetometer,
-    Calibrator::gps_compass,  Calibrator::swing,        Calibrator::misalignment, Calibrator::compass_delay,
-    Calibrator::course_delay, Calibrator::motor_current};
-
-/// "gyro", "gyro_b", "compass", ...
-[[nodiscard]] std::string_view name_of(Calibrator calibrator);
-[[nodiscard]] std::optional<Calibrator> calibrator_named(std::string_view name);
 
 /// true rate = scale * measured + bias (thesis 2.12).
 struct RateCorrection {
@@ -73,6 +53,27 @@ struct MotorCurrentCorrection {
   void archive(Archive& archive) { archive(slope_uT_per_A); }
 };
 
+/// Values of the calibrators that have no member in Correction: up to 64 numbers each. Copies share the numbers,
+/// so that copying a correction allocates nothing.
+class AddedValues {
+ public:
+  struct Value {
+    Calibrator calibrator = Calibrator::gyro;
+    std::vector<double> numbers;
+    void archive(Archive& archive);
+  };
+
+  /// Empty when the calibrator has none.
+  [[nodiscard]] std::span<const double> of(Calibrator calibrator) const;
+  /// No numbers: takes the value away.
+  void set(Calibrator calibrator, std::span<const double> numbers);
+  [[nodiscard]] std::span<const Value> all() const;
+  void archive(Archive& archive);
+
+ private:
+  std::shared_ptr<const std::vector<Value>> values_;  ///< null: none
+};
+
 /// One value for each calibrator that has one: what is in force, or what the estimators now say.
 struct Correction {
   std::optional<RateCorrection> gyro, gyro_b;
@@ -83,14 +84,12 @@ struct Correction {
   std::optional<double> misalignment_rad;
   std::optional<double> compass_delay_s, course_delay_s;
   std::optional<MotorCurrentCorrection> motor_current;
+  AddedValues added;
 
   /// A, which no turn tells: the misalignment, or what GpsCompass found with it.
   [[nodiscard]] std::optional<double> offset_rad() const;
-  void archive(Archive& archive) {
-    archive.tag("correction 2");
-    archive(gyro, gyro_b, compass, magnetometer, gps_compass, swing);
-    archive(misalignment_rad, compass_delay_s, course_delay_s, motor_current);
-  }
+  /// Without added values the layout is that of version 2; with some, version 3 appends them.
+  void archive(Archive& archive);
 };
 
 [[nodiscard]] bool has(const Correction& correction, Calibrator calibrator);
@@ -103,7 +102,8 @@ void copy_value(Correction& to, const Correction& from, Calibrator calibrator);
                                                  std::optional<double> current_A);
 
 /// Magnetic heading of a reading after all that applies to it, 0..2 pi: from the calibrated and levelled field
-/// where there is one; else by the deviation; never by both. Nothing applies, or nothing to apply it to: nullopt.
+/// where there is one; else by the deviation; never by both. Then by each added value. Nothing applies, or nothing
+/// to apply it to: nullopt.
 [[nodiscard]] std::optional<double> corrected_heading(const Correction& correction, const CompassReading& reading);
 
 /// The same, and where nothing applies the heading as the device says it.

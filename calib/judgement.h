@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace navcal::calib {
 
@@ -26,6 +27,13 @@ enum class HeldOutQuantity : std::uint8_t {
   constexpr double kShare = 0.1, kMost_rad = 0.175;
   return std::max(limit_rad, std::min(kShare * removed_error_rad, kMost_rad));
 }
+
+/// One number of an estimate with its standard error. Units as in its name: rad, rad/s, s, uT, or none.
+struct Quantity {
+  std::string_view name;  ///< "scale", "bias_rad_s", "B_rad"
+  double value = 0;       ///< not a number when it is not determined
+  double std = 0;         ///< infinite when it is not known
+};
 
 /// What a calibrator thinks of its own estimate.
 struct Judgement {

@@ -70,10 +70,10 @@ void calibrate(const CalibrateCommandOptions& options) {
 void add_calibrate(CLI::App& app) {
   auto options = std::make_shared<CalibrateCommandOptions>();
   auto* command =
-      app.add_subcommand("calibrate", "what a recording says of compass and gyros, and how sure it is");
+      app.add_subcommand("calibrate", "calibrations of compass and gyros from recordings, with standard errors");
   command
       ->add_option("FILE", options->files,
-                   "logs (.mcap) or captures (.cap), in their order; of one series, or several recordings")
+                   "logs (.mcap) or captures (.cap) in order of time; one series, or several recordings")
       ->required();
   command->add_option("--config", options->config, "configuration to use instead of the recording's own");
   command->add_flag("--json", options->json, "one JSON object instead of text");

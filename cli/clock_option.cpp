@@ -37,12 +37,13 @@ void add_clock_option(CLI::App* command, std::vector<sim::ClockFactor>& clocks) 
             for (const std::string& text : texts) {
               const auto clock = parse(text);
               if (!clock)
-                throw CLI::ValidationError("--clock",
-                                           "not compass, imu or motor = 0.25 to 4 (rate over nominal): " + text);
+                throw CLI::ValidationError(
+                    "--clock", "must be compass, imu or motor = 0.25 to 4 (rate over nominal): " + text);
               clocks.push_back(*clock);
             }
           },
-          "rate of compass, imu or motor over the nominal one, by its own clock: compass=0.99; repeatable")
+          "true rate of compass, imu or motor over the nominal one, by its clock, such as compass=0.99; "
+          "repeatable")
       ->option_text("PORT=FACTOR");
 }
 

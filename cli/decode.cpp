@@ -114,22 +114,23 @@ void run(const DecodeArguments& arguments) {
 void add_decode(CLI::App& app) {
   auto arguments = std::make_shared<DecodeArguments>();
   CLI::App* const command =
-      app.add_subcommand("decode", "Show the frames of a raw byte stream, then what it consisted of");
+      app.add_subcommand("decode", "Decode the frames of a raw byte stream, and summarise it");
   std::vector<std::string> names;
   names.reserve(kProtocols.size());
   for (const Protocol protocol : kProtocols) names.emplace_back(name_of(protocol));
 
   command
       ->add_option("--protocol", arguments->protocol,
-                   "Language of the device; with --port, the one that the recording names unless given")
+                   "Protocol of the device; with --port the default is the one in the recording")
       ->check(CLI::IsMember(names));
-  command->add_option("--port", arguments->port, "FILE is a capture or log; decode what this port of it received")
+  command
+      ->add_option("--port", arguments->port, "FILE is a capture or log; decode the bytes that this port received")
       ->type_name("NAME");
   command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
   command
       ->add_option("--pivot", arguments->pivot,
-                   "Dates before this one are moved up by whole epochs of 1024 weeks (GPS week rollover); oncore: "
-                   "2019-04-07 unless given, nmea: dates as sent unless given")
+                   "Dates before this one are advanced by whole epochs of 1024 weeks (GPS week rollover); default "
+                   "for oncore 2019-04-07, for nmea the dates as sent")
       ->type_name("YYYY-MM-DD")
       ->check([](const std::string& text) {
         return protocols::parse_iso_date(text) ? std::string{} : text + " is not a date, such as 2019-04-07";

@@ -47,26 +47,27 @@ void run(const Arguments& arguments) {
     fmt::print("{}", doctor_text(findings));
   }
   if (const auto faults = count_of(findings, Finding::Severity::fault); faults > 0) {
-    throw analysis::Failure(analysis::Exit::failed, fmt::format("{} {} between you and good data", faults,
-                                                                faults == 1 ? "fault stands" : "faults stand"));
+    throw analysis::Failure(analysis::Exit::failed,
+                            fmt::format("{} {} found", faults, faults == 1 ? "fault" : "faults"));
   }
 }
 
 }  // namespace
 
 void add_doctor(CLI::App& app) {
-  auto* command = app.add_subcommand("doctor", "what stands between you and good data, and how to mend it");
+  auto* command =
+      app.add_subcommand("doctor", "checks this machine for obstacles to good data, and names the repairs");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("--config", arguments->configuration, "the daemon's configuration")
       ->type_name("FILE")
       ->capture_default_str();
-  command->add_flag("--json", arguments->json, "one object, with all that was looked at");
+  command->add_flag("--json", arguments->json, "one object with all checks");
   command->footer(
       "Looks at the configuration, at each port (there, permitted, held by another program, latency of its "
       "adapter),\n"
-      "the status socket, the log folder with its speed, the clock and limits. By root it is judged for the "
+      "the status socket, the log folder with its speed, the clock and limits. Root checks the rights of the "
       "service's\n"
-      "user. The exit status is 1 when there is a fault; warnings leave it 0.\n\n"
+      "user. The exit status is 1 if there is a fault; warnings leave it 0.\n\n"
       "Example: sudo navcal doctor");
   command->callback([arguments] { run(*arguments); });
 }

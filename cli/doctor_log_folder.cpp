@@ -69,14 +69,14 @@ Finding check_log_folder(const config::LogSettings& settings, const Account& acc
                                    account.name));
   }
   if (error) {
-    return fault(topic, fmt::format("{}: a record cannot be written: {}", folder, error.message()),
+    return fault(topic, fmt::format("{}: writing a record failed: {}", folder, error.message()),
                  "look at `df -h " + folder + "` and at `dmesg`");
   }
   const std::string speed =
       fmt::format("{}, {:.0f} MB free, a record is safe after {:.3g} ms at most", folder, free_MB, sync_s * 1e3);
   if (sync_s > settings.sync_interval_s) {
     return warning(topic, speed,
-                   fmt::format("slower than log.sync_interval_s = {}: a power cut costs more; use a faster medium",
+                   fmt::format("slower than log.sync_interval_s = {}: a power cut loses more; use a faster medium",
                                settings.sync_interval_s));
   }
   return good(topic, speed);

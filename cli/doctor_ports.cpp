@@ -14,7 +14,7 @@ std::string mend_of_holder(const std::string& holder, const std::string& device)
   if (holder.starts_with("gpsd")) return "sudo systemctl disable --now gpsd.socket gpsd.service";
   if (holder.starts_with("ModemManager")) return "sudo systemctl disable --now ModemManager.service";
   if (holder.starts_with("agetty")) return "sudo systemctl disable --now serial-getty@" + tty + ".service";
-  return "end that program: two readers of one port each get a part of the bytes";
+  return "end that program: of two readers of a port each gets only a part of the bytes";
 }
 
 }  // namespace
@@ -23,8 +23,7 @@ Finding check_port(const config::PortSettings& settings, const Account& account)
   const std::string topic = "port " + settings.name;
   std::string why;
   const auto found = ports::find_port(settings, why);
-  if (!found)
-    return fault(topic, why, "connect it; `navcal ports` shows what is there and what can be configured");
+  if (!found) return fault(topic, why, "connect it; `navcal ports` lists the ports and how to configure them");
 
   const std::string what =
       found->description.empty() ? found->path : fmt::format("{} ({})", found->path, found->description);
@@ -39,7 +38,7 @@ Finding check_port(const config::PortSettings& settings, const Account& account)
   }
   if (const auto timer_ms = ports::SysfsTty(found->path).latency_timer_ms(); timer_ms && *timer_ms > 1) {
     const std::string tty = std::filesystem::path(found->path).filename();
-    return warning(topic, fmt::format("{}: its adapter keeps bytes back for {} ms", what, *timer_ms),
+    return warning(topic, fmt::format("{}: its adapter delays bytes by {} ms", what, *timer_ms),
                    fmt::format("install the udev rule 60-navcal.rules, or for now: echo 1 | sudo tee "
                                "/sys/bus/usb-serial/devices/{}/latency_timer",
                                tty));

@@ -47,7 +47,7 @@ std::string doctor_text(const Findings& findings) {
   const auto faults = count_of(findings, Finding::Severity::fault);
   const auto warnings = count_of(findings, Finding::Severity::warning);
   if (faults + warnings == 0) {
-    out += "Nothing stands in the way.\n";
+    out += "No faults and no warnings.\n";
   } else {
     append(fmt::runtime("{}, {}.\n"), number_of(faults, "fault"), number_of(warnings, "warning"));
   }

@@ -72,8 +72,8 @@ Finding check_status_port(const config::StatusSettings& settings, const fs::path
   if (gpsd_enabled) return fault(topic, "gpsd.socket and navcald.socket are both enabled for " + place, mend);
   if (program.empty() || program == "systemd") {
     if (navcald_enabled) return good(topic, place + " is held by navcald.socket");
-    return warning(topic, place + " is taken by a program that cannot be seen from here",
-                   "sudo navcal doctor says which");
+    return warning(topic, place + " is taken by a program that this user cannot identify",
+                   "sudo navcal doctor names it");
   }
   return fault(topic, fmt::format("{} is taken by {}", place, program),
                "end that program, or choose another status.port");

@@ -18,8 +18,9 @@ Finding judge_clock(const ClockState& state) {
   if (state.synchronised) {
     return good("clock", fmt::format("UTC is known within {:.3g} ms", state.max_error_s * 1e3));
   }
-  return warning("clock", "not synchronised: until a GPS fix tells the time, UTC is what the clock says",
-                 "sudo timedatectl set-ntp true, where there is a network");
+  return warning(
+      "clock", "not synchronised: until a GPS fix, UTC is taken from the clock of the machine, with unknown error",
+      "sudo timedatectl set-ntp true, if there is a network");
 }
 
 Finding check_limits(const config::Settings& settings) {

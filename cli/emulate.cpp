@@ -74,32 +74,36 @@ void add_emulate(CLI::App& app) {
   const std::map<std::string, sim::Oncore::Kind> receivers{{"ha", sim::Oncore::Kind::twelve_channels},
                                                            {"ea", sim::Oncore::Kind::eight_channels},
                                                            {"nmea", sim::Oncore::Kind::nmea}};
-  command->add_option("--dir", arguments->dir, "where the ports are made; made when missing")->required();
+  command->add_option("--dir", arguments->dir, "folder for the ports; created if missing")->required();
   command->add_option(
       "--path", arguments->path,
-      "CSV (t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3) along which the vehicle moves; one\n"
-      "that ends as it began is repeated, after any other the last turn and speed go on. Without it:\n"
+      "CSV (t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3) along which the vehicle moves. A path\n"
+      "that ends at its beginning is repeated; after any other the last turn and speed continue. Default:\n"
       "two and a half minutes of legs, circles and a dive, repeated");
-  auto* const mission = command->add_option(
-      "--mission", arguments->mission,
-      "an autopiloted mission, begun again at its end: " + mission_names() + ", or a TOML file");
+  auto* const mission =
+      command->add_option("--mission", arguments->mission,
+                          "an autopiloted mission, repeated at its end: " + mission_names() + ", or a TOML file");
   mission->excludes(command->get_option("--path"));
-  command->add_option("--vehicle", arguments->vehicle, "TOML file of the vehicle that does the mission")
-      ->needs(mission);
-  command->add_option("--seconds", arguments->seconds, "stop after so long; 0: not")->check(CLI::Range(0.0, 1e9));
-  command->add_option("--seed", arguments->seed, "of every noise and bias")->capture_default_str();
+  command->add_option("--vehicle", arguments->vehicle, "TOML file of the vehicle")->needs(mission);
+  command->add_option("--seconds", arguments->seconds, "stop after this time; 0: never")
+      ->check(CLI::Range(0.0, 1e9));
+  command->add_option("--seed", arguments->seed, "seed of all noise and biases")->capture_default_str();
   command
-      ->add_option("--gps", arguments->gps, "what the receiver knows: ha (and Ea), ea (only), or nmea sentences")
+      ->add_option("--gps", arguments->gps,
+                   "messages of the receiver: ha (Ha and Ea), ea (Ea only), or nmea sentences")
       ->transform(CLI::CheckedTransformer(receivers))
       ->option_text("ea|ha|nmea");  // the library would print the enumeration's values, as characters
-  command->add_option("--compass-baud", arguments->compass_baud, "speed of the compass")->capture_default_str();
-  command->add_option("--imu-ppm", arguments->imu_ppm, "by how much the card's seconds are too long (by the seed)")
+  command->add_option("--compass-baud", arguments->compass_baud, "line speed of the compass")
+      ->capture_default_str();
+  command
+      ->add_option("--imu-ppm", arguments->imu_ppm,
+                   "excess length of the card's second, ppm (default: drawn by the seed)")
       ->check(CLI::Range(-1e4, 1e4));
   add_clock_option(command, arguments->clocks);
   add_place_and_field(command, arguments->where);
-  command->add_option("--date", arguments->where.date, "day of the model's field, instead of today")
+  command->add_option("--date", arguments->where.date, "date for the field model; default: today")
       ->option_text("YYYY-MM-DD");
-  command->add_option("--sent-log", arguments->sent_log, "capture of exactly what went over the lines, both ways");
+  command->add_option("--sent-log", arguments->sent_log, "capture of all bytes on the lines, in both directions");
   const auto* const misbehaviour = "Misbehaviour";
   command->add_option("--noise", arguments->noise, "probability of a flipped bit in a frame or garbage before it")
       ->check(CLI::Range(0.0, 1.0))
@@ -108,15 +112,16 @@ void add_emulate(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->group(misbehaviour);
   add_plans(command, "--stall", arguments->stalls, &analysis::parse_stall,
-            "SECONDS@EVERY: all bytes are held back so long, then come at once, every so many seconds");
+            "SECONDS@EVERY: all bytes are held back for SECONDS and then delivered at once, repeated every EVERY "
+            "seconds");
   add_plans(command, "--unplug", arguments->unplugs, &analysis::parse_unplug,
-            "PORT@T+DURATION: the port is gone from T seconds on, for so long; repeatable");
+            "PORT@T+DURATION: the port is unplugged at T seconds for DURATION seconds; repeatable");
   command->get_option("--stall")->group(misbehaviour);
   command->get_option("--unplug")->group(misbehaviour);
   command->footer(
-      fmt::format("The instruments answer commands and keep the pace of their lines; what nobody reads is lost. "
+      fmt::format("The instruments answer commands and send at the rate of their lines; unread bytes are lost. "
                   "`ready` is printed\n"
-                  "when they can be opened. While it runs it obeys lines on standard input:\n  {}\n\n"
+                  "when the ports can be opened. Commands on standard input:\n  {}\n\n"
                   "Example: navcal emulate --dir /tmp/ports --noise 0.01 --unplug compass@20+3",
                   kConsoleHelp));
   command->callback([arguments] {

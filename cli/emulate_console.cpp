@@ -37,7 +37,7 @@ std::string act_on_port(analysis::EmulateSession& session, const std::string& ve
     port->power_cycle();
   } else {
     double seconds = 0;
-    if (!(words >> seconds) || seconds <= 0) return "how many seconds?";
+    if (!(words >> seconds) || seconds <= 0) return "the number of seconds is missing";
     port->stall(seconds);
   }
   return {};

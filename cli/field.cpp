@@ -51,14 +51,14 @@ void show_field(const FieldCommandOptions& options) {
 void add_field(CLI::App& app) {
   const auto options = std::make_shared<FieldCommandOptions>();
   auto* const command =
-      app.add_subcommand("field", "the Earth's magnetic field at a place, as lines for navcald.toml");
+      app.add_subcommand("field", "Earth's magnetic field at a place, as lines for navcald.toml");
   command->add_option("--place", options->where.place, "degrees north and east, and metres above the ellipsoid")
       ->option_text("LAT,LON[,HEIGHT_M]")
       ->required();
-  command->add_option("--date", options->where.date, "day, instead of today")->option_text("YYYY-MM-DD");
+  command->add_option("--date", options->where.date, "date; default: today")->option_text("YYYY-MM-DD");
   command->add_flag("--json", options->json, "one JSON object instead of lines for the configuration");
   command->footer(
-      "By the World Magnetic Model 2025. Rock, harbours and ships are not in it: within a harbour a compass may "
+      "World Magnetic Model 2025. The model does not contain rock, harbours and ships: in a harbour a compass may "
       "see\n"
       "several degrees more.\n\n"
       "Example: navcal field --place 59.33,18.07 --date 2026-06-01");

@@ -110,7 +110,7 @@ void find_gap(const GapCommandOptions& options) {
 
 void add_gap(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "gap", "what a recording shows that the model does not: where, from which effect, how much");
+      "gap", "diagnosis of the gap between a recording and the model: where, from which effect, how much");
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
   command->add_option("FILE", source.mission, "the mission to be diagnosed: a capture (.cap) or a log (.mcap)");
@@ -126,7 +126,7 @@ void add_gap(CLI::App& app) {
                    "the Earth's field in uT (north, east, down), instead of the World Magnetic Model's where the "
                    "fixes are")
       ->option_text("N,E,D");
-  command->add_option("--exclude", source.excluded, "an effect that the library is to be without; repeatable")
+  command->add_option("--exclude", source.excluded, "removes this effect from the library; repeatable")
       ->option_text("NAME")
       ->allow_extra_args(false);
   command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
@@ -135,19 +135,19 @@ void add_gap(CLI::App& app) {
       ->option_text("FILE.html");
   command->add_option("--effects-out", source.effects_file, "the effects found, for navcal simulate --effects")
       ->option_text("FILE.toml");
-  const auto* const bank = "Nominal missions, simulated to know what is no gap";
+  const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
   command->add_option("--bank", options->bank_missions, "so many")
       ->check(CLI::Range(2, 10'000))
       ->capture_default_str()
       ->group(bank);
-  command->add_option("--seed", options->bank_seed, "of their noise and tolerances")
+  command->add_option("--seed", options->bank_seed, "seed of their noise and tolerances")
       ->capture_default_str()
       ->group(bank);
-  command->add_option("--cache", options->cache, "where they are kept, instead of ~/.cache/navcal")
+  command->add_option("--cache", options->cache, "folder in which they are kept; default: ~/.cache/navcal")
       ->option_text("DIR")
       ->group(bank);
   command->footer(
-      "A gap of which nothing in the library is the cause is an answer, too: the exit status is 0.\n\n"
+      "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"
       "Example: navcal gap --holdout b.cap --holdout c.cap --report a.html a.cap");
   add_gap_trial(*command);
   command->callback([command, options] {

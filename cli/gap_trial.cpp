@@ -94,14 +94,15 @@ report::TrialReport report_on(const GapTrialCommandOptions& options, std::size_t
 
 void run(GapTrialCommandOptions options) {
   if ((options.cases > 0) == !options.only.empty())
-    throw analysis::Failure(analysis::Exit::usage, "either --cases N or --only CASE says which cases are asked");
+    throw analysis::Failure(analysis::Exit::usage, "either --cases N or --only CASE is required");
   options.asking.timeout = std::chrono::seconds(options.timeout_s);
   const base::Interruptible interruptible;
   const std::vector<validation::TrialCase> cases = cases_of(options);
   Outputs outputs(options);
   std::FILE* const out = outputs.talk();
 
-  fmt::print(out, "Sealed: SHA-256 of the truth of each case and a salt; both follow after the last answer.\n");
+  fmt::print(out,
+             "Commitment: SHA-256 of each case's truth and salt, which are published after the last answer.\n");
   std::vector<validation::Commitment> seals;
   for (const validation::TrialCase& drawn : cases) {
     seals.push_back(validation::commitment_to(validation::truth_text(drawn, options.seed)));
@@ -132,50 +133,55 @@ void run(GapTrialCommandOptions options) {
 }  // namespace
 
 void add_gap_trial(CLI::App& gap) {
-  auto* command = gap.add_subcommand("trial", "checks the diagnosis on effects that are withheld from it");
+  auto* command = gap.add_subcommand("trial", "blind validation of the diagnosis on withheld effects");
   const auto options = std::make_shared<GapTrialCommandOptions>();
   auto& asking = options->asking;
-  command->add_option("--cases", options->cases, "so many; each has three missions of one vehicle")
+  command->add_option("--cases", options->cases, "number of cases; each has three missions of one vehicle")
       ->check(CLI::Range(1, 100000))
       ->option_text("N");
-  command->add_option("--seed", options->seed, "of effects, strengths, vehicles and noise")->capture_default_str();
-  command->add_option("--minutes", options->minutes, "of a mission, where the arm has no length of its own")
+  command->add_option("--seed", options->seed, "seed of effects, strengths, vehicles and noise")
+      ->capture_default_str();
+  command->add_option("--minutes", options->minutes, "length of a mission, unless the arm has its own")
       ->check(CLI::IsMember({3, 10}))
       ->capture_default_str();
   command
-      ->add_option(
-          "--places", options->places,
-          "so many places, dates and waters are drawn, and one of them for each case; null missions of the "
-          "diagnosis serve one place each")
+      ->add_option("--places", options->places,
+                   "number of places, dates and waters that are drawn, one of them for each case; null missions "
+                   "serve one place each")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--arms", options->arms, "only these: nulls, singles, pairs, triples, short, removed, ...")
+  command
+      ->add_option("--arms", options->arms, "only these arms: nulls, singles, pairs, triples, short, removed, ...")
       ->delimiter(',')
       ->option_text("LIST");
   command->add_option("--only", options->only, "only these cases, by number")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
       ->option_text("CASE");
-  command->add_option("--jobs", asking.jobs, "cases at a time; a diagnosis uses all cores by itself")
+  command->add_option("--jobs", asking.jobs, "number of cases at a time; one diagnosis uses all cores")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--bank", asking.bank_missions, "null missions of the diagnosis, if not its own choice")
+  command
+      ->add_option("--bank", asking.bank_missions,
+                   "number of null missions of the diagnosis; default: that of navcal gap")
       ->check(CLI::Range(1, 100000))
       ->option_text("N");
-  command->add_option("--timeout", options->timeout_s, "seconds that a diagnosis may take")
+  command->add_option("--timeout", options->timeout_s, "time limit of a diagnosis, seconds")
       ->check(CLI::Range(1, 86400))
       ->capture_default_str();
   command->add_option("--json", options->json, "all cases, truths and scores; - is standard output")
       ->option_text("FILE|-");
   command->add_option("--report", options->report, "page with scores and pictures; needs no other file")
       ->option_text("FILE.html");
-  command->add_option("--keep", asking.keep, "keeps recordings and answers there, a folder for each case")
+  command
+      ->add_option("--keep", asking.keep,
+                   "keeps recordings and answers in this folder, one subfolder for each case")
       ->option_text("DIR");
-  command->add_option("--program", asking.program, "the diagnosing program")->group("");
+  command->add_option("--program", asking.program, "the program that diagnoses")->group("");
   command->footer(
-      "Effects are drawn, and recordings made by a simulator that the diagnosis does not know; it is run as a "
-      "process of its own, which is told file names only. A case keeps its number and its truth in a trial of any "
-      "length: 32 to a round, a third of them without an effect.\n\n"
+      "Effects are drawn, and a second, independent simulator makes the recordings. The diagnosis is a separate "
+      "process that receives file names only. A case has the same number and truth in a trial of any length: 32 "
+      "cases make a round, a third of them without an effect.\n\n"
       "Example: navcal gap trial --cases 544 --seed 7 --json trial.json --report trial.html");
   command->callback([options] { run(*options); });
 }

@@ -86,8 +86,7 @@ void add_log(CLI::App& app) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  auto* const log =
-      app.add_subcommand("log", "what is in a log; give it its index; export it; make one of a capture");
+  auto* const log = app.add_subcommand("log", "information on a log; finish it; export it; import a capture");
   log->require_subcommand(1);
   log->footer("Example: navcal log info navcal-20261121T023000Z-000123.mcap");
 
@@ -98,7 +97,7 @@ void add_log(CLI::App& app) {
   info->footer("Example: navcal log info --json dive.mcap");
   info->callback([options] { show_info(options->file, options->json); });
 
-  auto* const end = log->add_subcommand("finish", "give an unfinished log its index; it becomes read-only");
+  auto* const end = log->add_subcommand("finish", "write the index of an unfinished log; it becomes read-only");
   end->add_option("FILE", options->file, "log (.mcap)")->required();
   end->footer("Example: navcal log finish dive.mcap");
   end->callback([options] { finish(options->file); });
@@ -109,7 +108,7 @@ void add_log(CLI::App& app) {
   in->footer("Example: navcal log import -o survey.mcap survey.cap");
   in->callback([options] { import_log(options->file, options->to); });
 
-  auto* const out = log->add_subcommand("export", "topics as tables, or the raw bytes as a capture");
+  auto* const out = log->add_subcommand("export", "export topics as tables, or the raw bytes as a capture");
   out->add_option("FILE", options->file, "log (.mcap); with --cap also a capture")->required();
   /// What it can be exported to.
   struct Form {
@@ -132,12 +131,12 @@ void add_log(CLI::App& app) {
           options->exporter = form.exporter;
         },
         form.description);
-    option->option_text(form.value)->group("Form (one of these)");
+    option->option_text(form.value)->group("Format (one of these)");
     for (auto* const other : forms) option->excludes(other);
     forms.push_back(option);
   }
   out->footer(
-      "The tables' columns are told in docs/export.md.\n\nExample: navcal log export --csv dive/ dive.mcap\n"
+      "docs/export.md describes the columns of the tables.\n\nExample: navcal log export --csv dive/ dive.mcap\n"
       "         navcal log export --netcdf dive.nc dive.mcap");
   out->callback([options] {
     if (options->exporter == nullptr) throw CLI::RequiredError("one of --csv, --netcdf, --mat and --cap");

@@ -11,11 +11,11 @@ int main(int argc, char** argv) {
   CLI::App app{
       "navcal: watch, decode, replay, log, simulate and emulate the instruments of a small underwater vehicle, "
       "and "
-      "say where it departs from its model",
+      "diagnose where it departs from its model",
       "navcal"};
   app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
   app.require_subcommand(1);
-  app.footer("Each command explains itself: navcal decode --help");
+  app.footer("Each command has its own help: navcal decode --help");
 
   navcal::cli::add_calibrate(app);
   navcal::cli::add_completion(app);

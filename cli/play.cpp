@@ -49,9 +49,8 @@ void add_play(CLI::App& app) {
   auto* command = app.add_subcommand("play", "play a recording into pseudo-terminals at its own pace");
   const auto arguments = std::make_shared<analysis::PlayArguments>();
   command->add_option("FILE", arguments->file, "capture (.cap) or log (.mcap)")->required();
-  command->add_option("--dir", arguments->dir, "where the ports are made, DIR/<port>; made when missing")
-      ->required();
-  command->add_option("--speed", arguments->speed, "so many times faster than recorded")
+  command->add_option("--dir", arguments->dir, "folder for the ports, DIR/<port>; created if missing")->required();
+  command->add_option("--speed", arguments->speed, "factor of the speed over the recorded one")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
   command
@@ -61,9 +60,9 @@ void add_play(CLI::App& app) {
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
   command->footer(
-      "Like a real line it waits for no reader: what nobody takes is lost, and counted at the end. What was sent "
+      "Like a real line it waits for no reader: unread bytes are lost, and counted at the end. Bytes sent "
       "to\n"
-      "the devices is not played. Each read comes in one piece, as it was recorded.\n\n"
+      "the devices are not played. Each read is one piece, as it was recorded.\n\n"
       "Example: navcal play dive.cap --dir /tmp/ports & navcald --config navcald.toml");
   command->callback([arguments] {
     try {

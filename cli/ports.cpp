@@ -46,22 +46,23 @@ void run(bool json) {
     }
   }
   if (list.empty()) {
-    fmt::print(stderr,
-               "This machine has no serial ports. A USB adapter shows up here once it is plugged in; without any, "
-               "`navcal emulate --dir DIR` makes instruments to try things with.\n");
+    fmt::print(
+        stderr,
+        "This machine has no serial ports. A USB adapter is listed once it is plugged in; without hardware, "
+        "`navcal emulate --dir DIR` emulates instruments.\n");
   }
 }
 
 }  // namespace
 
 void add_ports(CLI::App& app) {
-  auto* command = app.add_subcommand("ports", "serial ports of this machine and what is known of them");
+  auto* command = app.add_subcommand("ports", "serial ports of this machine and their properties");
   const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "one JSON object a line; what is not known is null");
+  command->add_flag("--json", *json, "one JSON object a line; unknown values are null");
   command->footer(
       "A port can be configured by its path or, better, by the serial number of its USB adapter (usb_serial), "
       "which\n"
-      "stays the same whichever socket it is plugged into.\n\nExample: navcal ports");
+      "is the same at any USB socket.\n\nExample: navcal ports");
   command->callback([json] { run(*json); });
 }
 

@@ -45,7 +45,7 @@ void expect_no_overwriting(const std::vector<fs::path>& inputs, const std::vecto
     for (const fs::path& input : inputs) {
       if (!is_file_name(input) || !would_write_to(outputs[i], input)) continue;
       throw analysis::Failure(analysis::Exit::usage,
-                              fmt::format("{}: it is to be read and to be written; nothing was done. Give the "
+                              fmt::format("{}: this file is both input and output; nothing was done. Give the "
                                           "output another name.",
                                           outputs[i].string()));
     }

@@ -43,11 +43,10 @@ void simulate(SimulateCommandOptions& options) {
   auto& arguments = options.arguments;
   const int given = int{!arguments.path.empty()} + int{!arguments.drive.empty()} + int{!arguments.mission.empty()};
   if (given != 1) {
-    throw analysis::Failure(analysis::Exit::usage,
-                            "one of --path, --drive and --mission says how the vehicle moves");
+    throw analysis::Failure(analysis::Exit::usage, "one of --path, --drive and --mission is required");
   }
   if (arguments.capture.empty())
-    throw analysis::Failure(analysis::Exit::usage, "-o FILE.cap says where the recording goes");
+    throw analysis::Failure(analysis::Exit::usage, "-o FILE.cap is required: the recording");
   expect_not_ending(arguments.capture, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
   expect_no_overwriting(
       {arguments.path, arguments.drive, arguments.mission, arguments.vehicle, arguments.effects_file},
@@ -60,13 +59,13 @@ void simulate(SimulateCommandOptions& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app) {
-  auto* command = app.add_subcommand("simulate", "a recording from the simulator, with the truth beside it");
+  auto* command = app.add_subcommand("simulate", "simulates a recording and its true motion");
   const auto options = std::make_shared<SimulateCommandOptions>();
   auto& arguments = options->arguments;
-  const auto* const motion = "How the vehicle moves (one of these)";
+  const auto* const motion = "Motion of the vehicle (one of these)";
   command
       ->add_option("--path", arguments.path,
-                   "carried along a path: t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3")
+                   "moved along a path: t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3")
       ->option_text("CSV")
       ->group(motion);
   command
@@ -74,12 +73,12 @@ void add_simulate(CLI::App& app) {
                    "driven by the shaft speed and the fins of such a file, from the state in its first row")
       ->option_text("CSV")
       ->group(motion);
-  command->add_option("--mission", arguments.mission, "under its autopilot: a mission that is shipped, or a file")
+  command->add_option("--mission", arguments.mission, "autopiloted mission: a shipped one, or a file")
       ->option_text("NAME|FILE")
       ->group(motion);
   command->add_option("--vehicle", arguments.vehicle, "the vehicle, if it is not the reference vehicle")
       ->option_text("FILE.toml");
-  command->add_option("--seconds", arguments.seconds, "for so long, instead of to the end of path or mission")
+  command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
       ->check(CLI::Range(0.01, 1e6));
   command
       ->add_option(
@@ -87,15 +86,16 @@ void add_simulate(CLI::App& app) {
           "departure from the nominal model, in typical strengths; its direction comes from the seed; repeatable")
       ->option_text("NAME=STRENGTH");
   command
-      ->add_option("--effects", arguments.effects_file,
-                   "departures with exact parameters: a table [NAME] each, with from_s and until_s")
+      ->add_option(
+          "--effects", arguments.effects_file,
+          "departures with exact parameters: one table [NAME] for each, which may have from_s and until_s")
       ->option_text("FILE.toml");
   add_clock_option(command, arguments.clocks);
   add_place_and_field(command, arguments.where);
   command->add_option("--date", arguments.where.date, "day on which the mission begins, at 00:00 UTC")
       ->option_text("YYYY-MM-DD");
-  command->add_option("--seed", arguments.seed, "of noise, biases and directions")->capture_default_str();
-  command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
+  command->add_option("--seed", arguments.seed, "seed of noise, biases and directions")->capture_default_str();
+  command->add_flag("--no-noise", arguments.no_noise, "instruments without noise; resolution and latency stay");
   command->add_option("-o,--output", arguments.capture, "the recording")->option_text("FILE.cap");
   command->add_option("--truth", arguments.truth, "the true motion, with the columns of --path, 100 rows a second")
       ->option_text("FILE.csv");

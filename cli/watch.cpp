@@ -125,12 +125,12 @@ void watch(const WatchCommandOptions& options) {
 void add_watch(CLI::App& app) {
   auto* command = app.add_subcommand("watch", "live view of a running navcald");
   const auto options = std::make_shared<WatchCommandOptions>();
-  command->add_option("--host", options->host, "where it runs")->capture_default_str();
+  command->add_option("--host", options->host, "host of navcald")->capture_default_str();
   command->add_option("--port", options->port, "its status port")
       ->check(CLI::Range(1, 65535))
       ->capture_default_str();
-  command->add_flag("--json", options->json, "pass the stream on as it comes");
-  command->add_option("--seconds", options->seconds, "end after so long (0: at Ctrl-C)")
+  command->add_flag("--json", options->json, "print the stream unchanged");
+  command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
   command->footer(
       "Example: navcal watch --host vehicle.local\n"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "cli/watch_text.h"
 
@@ -19,10 +20,6 @@ constexpr int kRows = 13, kColumns = 27;  // odd: there is a middle
 constexpr int kMiddleRow = kRows / 2, kMiddleColumn = kColumns / 2;
 /// A sector with so many readings has seen enough of them.
 constexpr double kOften = 20;
-/// In the order in which people read of them.
-constexpr std::array<const char*, 10> kOrder{"gyro",         "gyro_b",       "compass",      "magnetometer",
-                                             "gps_compass",  "swing",        "misalignment", "compass_delay",
-                                             "course_delay", "motor_current"};
 
 /// "scale 1.111 +- 0.0012, bias_deg_s -6.37 +- 0.02".
 std::string estimate_of(const Json& calibrator) {
@@ -106,8 +103,9 @@ void WatchCalibration::take(const Json& calib) {
   tcm2_ = calib.value("tcm2", Json());
   const Json calibrators = calib.value("calibrators", Json::array());
   if (calibrators.is_array()) {
+    if (!(number(calib, "part") > 1)) place_ = 0;
     for (const Json& calibrator : calibrators) {
-      if (calibrator.is_object()) calibrators_[text(calibrator, "calibrator")] = calibrator;
+      if (calibrator.is_object()) take_calibrator(calibrator);
     }
   }
   const Json rose = calib.value("rose", Json::array());
@@ -116,18 +114,29 @@ void WatchCalibration::take(const Json& calib) {
     rose_[i] = rose[i].is_number() ? rose[i].get<double>() : 0;
 }
 
+void WatchCalibration::take_calibrator(const Json& calibrator) {
+  std::string name = text(calibrator, "calibrator");
+  const auto place = calibrators_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, calibrators_.size()));
+  const auto found =
+      std::find_if(calibrators_.begin(), calibrators_.end(), [&](const auto& one) { return one.first == name; });
+  if (found == calibrators_.end()) {
+    calibrators_.insert(place, {std::move(name), calibrator});
+  } else {
+    found->second = calibrator;
+    if (found > place) std::rotate(place, found, found + 1);
+  }
+  ++place_;
+}
+
 void WatchCalibration::append(std::string& out) const {
   if (calibrators_.empty()) return;
   std::vector<std::string> lines;
-  for (const char* name : kOrder) {
-    const auto found = calibrators_.find(name);
-    if (found != calibrators_.end()) append_calibrator(lines, found->first, found->second);
-  }
+  for (const auto& [name, calibrator] : calibrators_) append_calibrator(lines, name, calibrator);
   append_tcm2(lines, tcm2_);
-  fmt::format_to(std::back_inserter(out), "calibration in force: {}", name_);
+  fmt::format_to(std::back_inserter(out), "active calibration: {}", name_);
   if (heading_.is_object() && number(heading_, "blocks") > 0) {
     fmt::format_to(std::back_inserter(out),
-                   "; heading held out: {} deg raw, {} in force, {} by the newest estimates",
+                   "; held-out heading: {} deg raw, {} active, {} by the newest estimates",
                    shown(number(heading_, "before_rms_deg"), 2), shown(number(heading_, "in_force_rms_deg"), 2),
                    shown(number(heading_, "after_rms_deg"), 2));
   }

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
-#include <map>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace navcal::cli {
@@ -21,9 +22,11 @@ class WatchCalibration {
  private:
   using Json = nlohmann::json;
   static constexpr std::size_t kSectors = 36;
+  void take_calibrator(const Json& calibrator);
 
   std::string name_;
-  std::map<std::string, Json> calibrators_;
+  std::vector<std::pair<std::string, Json>> calibrators_;  ///< in the order in which the daemon reports them
+  std::size_t place_ = 0;                                  ///< of the next one of a report
   Json heading_;
   Json tcm2_;
   std::array<double, kSectors> rose_{};

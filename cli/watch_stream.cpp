@@ -98,7 +98,7 @@ std::optional<std::string> WatchStream::next(Clock::time_point until) {
     if (n <= 0) {
       disconnect(n == 0 ? "the daemon closed the connection" : std::strerror(errno));
     } else if (bytes_.size() > kMaxLine) {
-      disconnect("that is no navcald: it sends no lines");
+      disconnect("the peer is not navcald: it sends no lines");
     } else {
       bytes_.append(chunk.data(), static_cast<std::size_t>(n));
     }

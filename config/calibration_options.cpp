@@ -12,13 +12,12 @@ std::vector<Option<Settings>> calibration_options() {
       boolean<S>(
           {.table = "calibration",
            .key = "automatic",
-           .description = "Whether estimates come into force by themselves; else only by calibration.accept."},
+           .description = "Whether estimates become active by themselves; otherwise only by calibration.accept."},
           [](auto& s) -> auto& { return s.calibration.automatic; }),
       real<S>(
           {.table = "calibration",
            .key = "margin_percent",
-           .description =
-               "By how much an estimate must be better on readings held out before it comes into force by itself.",
+           .description = "Improvement on held-out readings that an estimate needs to become active by itself.",
            .unit = kPercent,
            .low = 0,
            .high = 90},
@@ -26,7 +25,7 @@ std::vector<Option<Settings>> calibration_options() {
       real<S>(
           {.table = "calibration",
            .key = "motor_settle_s",
-           .description = "Magnetic readings are left out so long after the motor was switched on or off.",
+           .description = "Time after a switching of the motor during which magnetic readings are left out.",
            .unit = kSeconds,
            .low = 0,
            .high = 60},
@@ -42,7 +41,7 @@ std::vector<Option<Settings>> calibration_options() {
       real<S>(
           {.table = "calibration",
            .key = "gyro_noise_deg_s",
-           .description = "Noise of the gyros' rates, likewise.",
+           .description = "Noise of the gyros' rates, one standard deviation of a reading.",
            .unit = kDegreesPerSecond,
            .low = 0.0001,
            .high = 20},
@@ -50,7 +49,7 @@ std::vector<Option<Settings>> calibration_options() {
       real<S>(
           {.table = "calibration",
            .key = "field_noise_uT",
-           .description = "Noise of each axis of the magnetic field, likewise.",
+           .description = "Noise of each axis of the magnetic field, one standard deviation of a reading.",
            .unit = kMicrotesla,
            .low = 0.001,
            .high = 20},
@@ -58,7 +57,7 @@ std::vector<Option<Settings>> calibration_options() {
       real<S>(
           {.table = "calibration",
            .key = "bias_walk_deg_s",
-           .description = "How far a gyro's bias may wander in one second (grows with the root of time), one "
+           .description = "Random walk of a gyro's bias in one second (grows with the root of time), one "
                           "standard deviation.",
            .unit = kDegreesPerSecond,
            .low = 0,
@@ -67,7 +66,7 @@ std::vector<Option<Settings>> calibration_options() {
       real<S>(
           {.table = "calibration",
            .key = "tilt_lag_s",
-           .description = "First-order lag of the compass's inclinometer; 0 when it has none.",
+           .description = "First-order lag of the compass's inclinometer; 0 if it has none.",
            .unit = kSeconds,
            .low = 0,
            .high = 10},
@@ -91,7 +90,7 @@ std::vector<Option<Settings>> calibration_options() {
       real<S>(
           {.table = "calibration",
            .key = "current_m_s",
-           .description = "Currents to be reckoned with, one standard deviation of each axis.",
+           .description = "Expected water current, one standard deviation of each axis.",
            .unit = kMetresPerSecond,
            .low = 0,
            .high = 10},
@@ -99,8 +98,8 @@ std::vector<Option<Settings>> calibration_options() {
       real<S>(
           {.table = "calibration",
            .key = "advance_m",
-           .description = "Way through the water for one revolution of the shaft, straight ahead; 0 when not "
-                          "known (no GPS-aided compass then).",
+           .description = "Distance through the water for one revolution of the shaft, straight ahead; 0 if "
+                          "unknown (then the compass is not calibrated by GPS).",
            .unit = kMetres,
            .low = 0,
            .high = 10},

@@ -14,7 +14,7 @@ std::vector<Option<Settings>> make_daemon_options() {
       text<Settings>(
           {.table = "log",
            .key = "directory",
-           .description = "Folder of the log files; made when it is missing.",
+           .description = "Folder of the log files; created if it is missing.",
            .text_rule = "an absolute path",
            .text_holds = is_absolute_path},
           [](auto& s) -> auto& { return s.log.directory; }),
@@ -24,7 +24,7 @@ std::vector<Option<Settings>> make_daemon_options() {
       real<Settings>(
           {.table = "log",
            .key = "sync_interval_s",
-           .description = "How often what was written is brought to the disk: what a power cut can cost.",
+           .description = "Interval of syncs to the disk: a power cut loses at most the data of this time.",
            .unit = kSeconds,
            .low = 0.01,
            .high = 60},
@@ -32,7 +32,7 @@ std::vector<Option<Settings>> make_daemon_options() {
       real<Settings>(
           {.table = "log",
            .key = "rotate_MB",
-           .description = "A log file that has grown to this is finished, and a new one begun.",
+           .description = "Size at which a log file is finished and a new one begun.",
            .unit = kMegabytes,
            .low = 0.1,
            .high = 1e6},
@@ -40,7 +40,7 @@ std::vector<Option<Settings>> make_daemon_options() {
       real<Settings>(
           {.table = "log",
            .key = "rotate_age_h",
-           .description = "Likewise a log file of this age.",
+           .description = "Age at which a log file is finished and a new one begun.",
            .unit = kHours,
            .low = 0.001,
            .high = 8760},
@@ -56,7 +56,7 @@ std::vector<Option<Settings>> make_daemon_options() {
       real<Settings>(
           {.table = "log",
            .key = "queue_MB",
-           .description = "What may wait in memory for a stalled disk before records are lost (and counted).",
+           .description = "Memory for records that wait for a stalled disk; further records are lost and counted.",
            .unit = kMegabytes,
            .low = 0.1,
            .high = 4096},
@@ -65,22 +65,23 @@ std::vector<Option<Settings>> make_daemon_options() {
       text<Settings>(
           {.table = "status",
            .key = "address",
-           .description =
-               "Address of the status socket. Whoever reaches it can read everything: mind the network.",
+           .description = "Address of the status socket. Everyone who can reach it can read all data: choose the "
+                          "network accordingly.",
            .text_rule = "an IPv4 or IPv6 address, or localhost",
            .text_holds = is_ip_address},
           [](auto& s) -> auto& { return s.status.address; }),
       integer<Settings>(
           {.table = "status",
            .key = "port",
-           .description = "TCP port of the status socket; 0 takes a free one. 2947 is gpsd's own.",
+           .description = "TCP port of the status socket; 0: any free port. 2947 is gpsd's.",
            .low = 0,
            .high = 65535},
           [](auto& s) -> auto& { return s.status.port; }),
       real<Settings>(
           {.table = "status",
            .key = "client_queue_kB",
-           .description = "What may wait for one slow client before it misses reports (and is told how many).",
+           .description = "Memory for reports to one slow client; further reports are dropped, and the client "
+                          "receives their number.",
            .unit = kKilobytes,
            .low = 4,
            .high = 65536},
@@ -88,14 +89,15 @@ std::vector<Option<Settings>> make_daemon_options() {
       integer<Settings>(
           {.table = "status",
            .key = "max_clients",
-           .description = "Clients served at once; further ones are turned away.",
+           .description = "Maximum number of clients at once; further ones are refused.",
            .low = 1,
            .high = 10000},
           [](auto& s) -> auto& { return s.status.max_clients; }),
       real<Settings>(
           {.table = "status",
            .key = "health_interval_s",
-           .description = "How often HEALTH is reported and logged; changes of state are reported at once.",
+           .description =
+               "Interval at which HEALTH is reported and logged; changes of state are reported at once.",
            .unit = kSeconds,
            .low = 0.1,
            .high = 3600},
@@ -104,7 +106,7 @@ std::vector<Option<Settings>> make_daemon_options() {
       text<Settings>(
           {.table = "control",
            .key = "socket",
-           .description = "Unix socket that takes commands; its permissions decide who may give them.",
+           .description = "Unix socket for commands; its file permissions determine who may send them.",
            .text_rule = "an absolute path of at most 107 bytes",
            .text_holds = is_socket_path},
           [](auto& s) -> auto& { return s.control.socket; }),
@@ -120,8 +122,8 @@ std::vector<Option<Settings>> make_daemon_options() {
       boolean<Settings>(
           {.table = "environment",
            .key = "model",
-           .description = "Whether declination, field and dip that are 0 here follow from the World Magnetic "
-                          "Model, from the first fix on."},
+           .description = "Whether declination, field and dip that are 0 here are computed from the World "
+                          "Magnetic Model, from the first fix on."},
           [](auto& s) -> auto& { return s.environment.model; }),
       real<Settings>(
           {.table = "environment",
@@ -134,7 +136,7 @@ std::vector<Option<Settings>> make_daemon_options() {
       real<Settings>(
           {.table = "environment",
            .key = "field_uT",
-           .description = "Magnitude of the Earth's field here; 0 when not known.",
+           .description = "Magnitude of the Earth's field here; 0 if unknown.",
            .unit = kMicrotesla,
            .low = 0,
            .high = 100},

@@ -115,7 +115,7 @@ std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& pr
 std::optional<Entry> read_override(std::string_view text, std::vector<Problem>& problems) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string_view::npos) {
-    problems.push_back({0, std::string(text), "key=value is wanted"});
+    problems.push_back({0, std::string(text), "key=value is expected"});
     return std::nullopt;
   }
   Entry entry;

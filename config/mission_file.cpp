@@ -87,7 +87,7 @@ class StepReader {
     for (const auto* groups : {&rule.required, &rule.optional}) {
       for (const auto& group : *groups) {
         if (said_of(group) > 1)
-          complain(entries_.table, fmt::format("only one of {} can be said", fmt::join(group, " and ")));
+          complain(entries_.table, fmt::format("only one of {} may be given", fmt::join(group, " and ")));
       }
     }
   }
@@ -126,7 +126,7 @@ Mission parse_mission(std::string_view toml, std::string_view name) {
       }
       if (entry.keys.size() > 1) steps.back().keys.push_back(entry);
     } else if (table == kStep) {
-      if (entry.keys.size() == 1) problems.push_back({entry.line, "step", "tables [[step]] are wanted"});
+      if (entry.keys.size() == 1) problems.push_back({entry.line, "step", "tables [[step]] are expected"});
     } else if (auto refused = take_entry(mission_options(), mission, entry, {std::string(kStep)})) {
       problems.push_back({entry.line, entry.name(), std::move(*refused)});
     }

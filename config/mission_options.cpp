@@ -31,14 +31,14 @@ std::vector<Option<M>> make_mission_options() {
       text<M>(
           {.table = "mission",
            .key = "description",
-           .description = "What it is for.",
+           .description = "Purpose of the mission.",
            .text_rule = "a text without control characters",
            .text_holds = is_printable},
           [](auto& m) -> auto& { return m.description; }),
       choice<M>(
           {.table = "mission",
            .key = "at_end",
-           .description = "Begin again, or go on as at the end.",
+           .description = "Repeat the mission, or continue as at its end.",
            .choices = {"repeat", "hold"}},
           [](auto& m) -> auto& { return m.at_end; }),
       real<M>(
@@ -75,16 +75,16 @@ std::vector<Option<Step>> make_step_options() {
   return {
       choice<Step>(
           {.key = "do",
-           .description = "What is done.",
+           .description = "Kind of the step.",
            .choices = {"leg", "turn", "circle", "spiral", "zigzag", "pirouette", "dive", "surface", "speed",
                        "swing", "doublet", "direct"}},
           [](auto& s) -> auto& { return s.kind; }),
       choice<Step>(
           {.key = "on",
-           .description = "What a doublet moves.",
+           .description = "Control surface that a doublet moves.",
            .choices = {"rudder", "elevator", "fin1", "fin2", "fin3"}},
           [](auto& s) -> auto& { return s.on; }),
-      number("heading_deg", &Step::heading_rad, kDegrees, -360, 360, "True heading; the shorter way round."),
+      number("heading_deg", &Step::heading_rad, kDegrees, -360, 360, "True heading, reached by the shorter turn."),
       number("by_deg", &Step::by_rad, kDegrees, -36000, 36000, "Change of heading, to starboard."),
       number("turns", &Step::turns, kNoUnit, -1000, 1000, "Turns, to starboard."),
       number("rate_deg_s", &Step::rate_rad_s, kDegreesPerSecond, 0.1, 90, "Rate of turn."),
@@ -98,11 +98,11 @@ std::vector<Option<Step>> make_step_options() {
       number("fin1_deg", &Step::fin1_rad, kDegrees, -80, 80, "Angle of the fin."),
       number("fin2_deg", &Step::fin2_rad, kDegrees, -80, 80, "Angle of the fin."),
       number("fin3_deg", &Step::fin3_rad, kDegrees, -80, 80, "Angle of the fin."),
-      number("reach_deg", &Step::reach_rad, kDegrees, 1, 170, "How far the heading goes either way."),
+      number("reach_deg", &Step::reach_rad, kDegrees, 1, 170, "Change of the heading to either side."),
       number("amplitude_deg", &Step::amplitude_rad, kDegrees, -50, 50,
-             "How far the surface goes from where it is."),
+             "Deflection of the control surface from its position."),
       count("times", &Step::times, 1, 10000, "How often."),
-      count("stations", &Step::stations, 2, 360, "Headings, evenly all round."),
+      count("stations", &Step::stations, 2, 360, "Number of headings, evenly around the circle."),
   };
 }
 

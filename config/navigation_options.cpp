@@ -14,7 +14,7 @@ std::vector<Option<Settings>> navigation_options() {
       real<S>(
           {.table = "navigation",
            .key = "interval_s",
-           .description = "How often the estimate is reported and logged.",
+           .description = "Interval at which the estimate is reported and logged.",
            .unit = kSeconds,
            .low = 0.05,
            .high = 60},
@@ -22,8 +22,8 @@ std::vector<Option<Settings>> navigation_options() {
       real<S>(
           {.table = "navigation",
            .key = "heading_error_deg",
-           .description = "How far the heading may be off all along a leg, one standard deviation, while no "
-                          "calibration of the compass is in force.",
+           .description = "Constant error of the heading along a leg, one standard deviation, without an active "
+                          "calibration of the compass.",
            .unit = kDegrees,
            .low = 0,
            .high = 90},
@@ -31,7 +31,8 @@ std::vector<Option<Settings>> navigation_options() {
       real<S>(
           {.table = "navigation",
            .key = "heading_error_calibrated_deg",
-           .description = "Likewise while one is.",
+           .description =
+               "Constant error of the heading along a leg, one standard deviation, with an active calibration.",
            .unit = kDegrees,
            .low = 0,
            .high = 90},
@@ -39,7 +40,7 @@ std::vector<Option<Settings>> navigation_options() {
       real<S>(
           {.table = "navigation",
            .key = "speed_error_percent",
-           .description = "How far the speed by the shaft may be off all along, one standard deviation.",
+           .description = "Constant error of the speed that is computed from the shaft, one standard deviation.",
            .unit = kPercent,
            .low = 0,
            .high = 100},
@@ -47,8 +48,7 @@ std::vector<Option<Settings>> navigation_options() {
       real<S>(
           {.table = "navigation",
            .key = "speed_lag_s",
-           .description = "How fast the vehicle's speed follows its shaft's: the time constant of a first-order "
-                          "lag; 0: at once.",
+           .description = "Time constant of the first-order lag from shaft speed to vehicle speed; 0: no lag.",
            .unit = kSeconds,
            .low = 0,
            .high = 60},

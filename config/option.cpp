@@ -51,7 +51,7 @@ bool OptionInfo::applies_to(protocols::Protocol protocol) const {
 
 std::optional<std::string> OptionInfo::adopt(Value& value) const {
   const auto wrong_type = [&](std::string_view wanted) {
-    return fmt::format("{} is wanted ({}), not {}", wanted, allowed(), words_for(value));
+    return fmt::format("{} is expected ({}), not {}", wanted, allowed(), words_for(value));
   };
   const auto out_of_range = [&](double number) {
     // Written so that NaN is outside.
@@ -65,7 +65,7 @@ std::optional<std::string> OptionInfo::adopt(Value& value) const {
   switch (kind) {
     case Kind::boolean:
       if (!std::holds_alternative<bool>(value))
-        return fmt::format("true or false is wanted, not {}", words_for(value));
+        return fmt::format("true or false is expected, not {}", words_for(value));
       return std::nullopt;
     case Kind::integer: {
       const auto* whole = std::get_if<std::int64_t>(&value);
@@ -83,7 +83,7 @@ std::optional<std::string> OptionInfo::adopt(Value& value) const {
     case Kind::channels: {
       const auto* numbers = std::get_if<std::vector<double>>(&value);
       if (numbers == nullptr || numbers->size() != count) {
-        return fmt::format("{} are wanted, not {}", allowed(), words_for(value));
+        return fmt::format("{} are expected, not {}", allowed(), words_for(value));
       }
       const auto bad = std::find_if(numbers->begin(), numbers->end(), out_of_range);
       if (bad != numbers->end()) return out_of_range_words(*bad);

@@ -65,7 +65,7 @@ std::optional<std::string> take_entry(const std::vector<Option<Owner>>& options,
   }
   if (entry.keys.size() == 1) {
     if (std::holds_alternative<Table>(entry.value)) return std::nullopt;
-    return "a table [" + table + "] is wanted";
+    return "a table [" + table + "] is expected";
   }
   const auto* option = find(options, table, entry.keys[1]);
   if (option != nullptr && entry.keys.size() == 2) return set(*option, owner, entry);

@@ -24,17 +24,17 @@ std::vector<std::string_view> protocol_names() {
 std::vector<Option<P>> make_port_options() {
   return {
       choice<P>(
-          {.key = "protocol", .description = "What the device speaks.", .choices = protocol_names()},
+          {.key = "protocol", .description = "Protocol of the device.", .choices = protocol_names()},
           [](auto& p) -> auto& { return p.protocol; }),
       text<P>(
           {.key = "path",
-           .description = "Where it is: a tty, a pseudo-terminal or a link to one.",
+           .description = "Path of the device: a tty, a pseudo-terminal or a link to one.",
            .text_rule = "a path on this machine without control characters",
            .text_holds = is_local_path},
           [](auto& p) -> auto& { return p.path; }),
       text<P>(
           {.key = "udev_name",
-           .description = "Instead of path: a link that udev keeps, such as /dev/navcal/compass.",
+           .description = "Instead of path: a link created by udev, such as /dev/navcal/compass.",
            .text_rule = "a name without control characters",
            .text_holds = is_printable},
           [](auto& p) -> auto& { return p.udev_name; }),
@@ -48,28 +48,29 @@ std::vector<Option<P>> make_port_options() {
           {.key = "baud", .description = "Line speed, 8N1.", .unit = kBits, .low = 50, .high = 4000000},
           [](auto& p) -> auto& { return p.baud; }),
       boolean<P>(
-          {.key = "start_up", .description = "Bring the device to what is configured here, by its commands."},
+          {.key = "start_up",
+           .description = "Set the device to this configuration at start-up, by its own commands."},
           [](auto& p) -> auto& { return p.start_up; }),
       boolean<P>(
-          {.key = "low_latency", .description = "Ask the driver to hand over bytes at once."},
+          {.key = "low_latency", .description = "Ask the driver to deliver bytes without delay."},
           [](auto& p) -> auto& { return p.low_latency; }),
       real<P>(
           {.key = "latency_ms",
-           .description = "From the measurement to the first byte on the wire.",
+           .description = "Time from the measurement to the first byte on the wire.",
            .unit = kMilliseconds,
            .low = 0,
            .high = 10000},
           [](auto& p) -> auto& { return p.latency_s; }),
       real<P>(
           {.key = "latency_std_ms",
-           .description = "Uncertainty of that, one standard deviation.",
+           .description = "Uncertainty of latency_ms, one standard deviation.",
            .unit = kMilliseconds,
            .low = 0,
            .high = 10000},
           [](auto& p) -> auto& { return p.latency_std_s; }),
       real<P>(
           {.key = "rate_Hz",
-           .description = "Nominal frame rate; 0 when the device keeps none.",
+           .description = "Nominal frame rate; 0 if the device has none.",
            .unit = kHertz,
            .low = 0,
            .high = 1000},
@@ -109,7 +110,7 @@ std::vector<Option<P>> make_port_options() {
       channels<P>(
           {.table = "channels",
            .key = "scale",
-           .description = "Sensitivity of the same channels; negative when one is mounted the other way round.",
+           .description = "Sensitivity of the same channels; negative for a sensor that is mounted in reverse.",
            .unit = kMillivoltsPer,
            .low = -100000,
            .high = 100000,
@@ -120,7 +121,8 @@ std::vector<Option<P>> make_port_options() {
       text<P>(
           {.table = "fix",
            .key = "rollover_pivot",
-           .description = "Dates before it are moved up by whole epochs of 1024 weeks; fix it once and leave it.",
+           .description = "Dates before this one are advanced by whole epochs of 1024 weeks (GPS week rollover); "
+                          "set it once and keep it.",
            .text_rule = "a date, YYYY-MM-DD, from 1980-01-06 on",
            .text_holds = is_gps_date,
            .only_for = kReceivers},

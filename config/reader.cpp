@@ -35,7 +35,7 @@ void Reader::take(const std::vector<Entry>& entries) {
     if (entry.keys.front() != kPort) {
       take_daemon(entry);
     } else if (entry.keys.size() == 1) {
-      if (!std::holds_alternative<Table>(entry.value)) complain(entry, "tables [port.NAME] are wanted");
+      if (!std::holds_alternative<Table>(entry.value)) complain(entry, "tables [port.NAME] are expected");
     } else {
       const std::string& name = entry.keys[1];
       auto port = std::find_if(ports.begin(), ports.end(), [&](const auto& known) { return known.first == name; });
@@ -69,7 +69,7 @@ void Reader::take_port(const std::string& name, const std::vector<const Entry*>&
   const Entry& table = *entries.front();
   if (!is_port_name(name)) complain(table, "a port's name is 1 to 31 of a-z, 0-9, _ and -");
   if (table.keys.size() != 2 || !std::holds_alternative<Table>(table.value)) {
-    complain(table, "a table is wanted");
+    complain(table, "a table is expected");
     return;
   }
   // Everything else of a port starts from what is usual for its protocol, so that comes first.
@@ -92,7 +92,7 @@ void Reader::take_port(const std::string& name, const std::vector<const Entry*>&
     if (entry->keys.size() > 2) {
       take_port_entry(port, *entry, protocol_known);
     } else if (entry != &table) {
-      complain(*entry, "a table is wanted");
+      complain(*entry, "a table is expected");
     }
   }
   settings_.ports.push_back(std::move(port));
@@ -106,7 +106,7 @@ void Reader::take_port_entry(PortSettings& port, const Entry& entry, bool protoc
   if (key == options.front().key && entry.keys.size() == 3) return;  // the protocol was taken first
   const bool in_table = contains(tables, key);
   if (in_table && entry.keys.size() == 3) {
-    if (!std::holds_alternative<Table>(entry.value)) complain(entry, "a table is wanted");
+    if (!std::holds_alternative<Table>(entry.value)) complain(entry, "a table is expected");
     return;
   }
   const auto* option = in_table ? find(options, key, entry.keys[3]) : find(options, "", key);
@@ -144,9 +144,9 @@ void Reader::check_ports() {
     const std::string key = "port." + port.name;
     const int places = int{!port.path.empty()} + int{!port.udev_name.empty()} + int{!port.usb_serial.empty()};
     if (places == 0)
-      problems_.push_back({port_lines_[i], key, "where it is is missing: path, udev_name or usb_serial"});
+      problems_.push_back({port_lines_[i], key, "the place is missing: path, udev_name or usb_serial"});
     if (places > 1)
-      problems_.push_back({port_lines_[i], key, "only one of path, udev_name and usb_serial can say where it is"});
+      problems_.push_back({port_lines_[i], key, "only one of path, udev_name and usb_serial may be given"});
     for (std::size_t j = 0; j < i; ++j) {
       const PortSettings& other = settings_.ports[j];
       const auto same = [&](std::string_view what, const std::string& mine, const std::string& others) {

@@ -27,7 +27,7 @@ std::string default_words(const Option<Settings>& option) { return option.write(
 /// One value when all protocols that have the option agree on it, else each protocol's.
 std::string default_words(const Option<PortSettings>& option) {
   if (option.table.empty() && option.kind == Kind::text)
-    return "none: one of path, udev_name, usb_serial must be said";
+    return "none: one of path, udev_name, usb_serial is required";
   if (option.key == "protocol" || is_place(option)) return {};
   std::vector<std::string> each;
   std::string first;
@@ -138,9 +138,9 @@ Settings shipped_settings() {
 
 std::string shipped_file() {
   std::string out =
-      "# The settings of navcald. What is not said has the default that is stated beside it; a key that navcald "
-      "does\n"
-      "# not know is an error. `navcald --config FILE --check` reads a file and says what is wrong with it.\n"
+      "# The settings of navcald. A setting that is not given has the default stated beside it; a key that "
+      "navcald does\n"
+      "# not know is an error. `navcald --config FILE --check` reads a file and reports its mistakes.\n"
       "# This file is written from the program's own table of options: docs/configuration.md.\n";
   out += daemon_part();
   out += port_part();

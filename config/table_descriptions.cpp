@@ -13,12 +13,13 @@ struct Description {
 
 constexpr std::array<Description, 12> kDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
-    {"status", "The status socket: gpsd's protocol over TCP, for reading only."},
+    {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control",
-     "The control socket: what changes the daemon (calibrations, marks in the log, orders to the motor)."},
+     "The control socket: commands that change the daemon (calibrations, marks in the log, orders to the"
+     " motor)."},
     {"environment", "Where the vehicle is used."},
     {"roles",
-     "Which port serves what, where several deliver the same. Another one takes over while it is silent."},
+     "The port for each quantity, if several deliver it. Another one takes over while that port is silent."},
     {"calibration", "The calibrators of compass and gyros (docs/calibration.md)."},
     {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
     {"command",
@@ -26,9 +27,9 @@ constexpr std::array<Description, 12> kDescriptions{{
     {"",
      "A serial port with its device. NAME (1 to 31 of a-z, 0-9, _ and -) is the device's name in reports, log and "
      "messages."},
-    {"units", "How a compass speaks: the unit is not in its words."},
+    {"units", "Units of the compass's output, which its words do not state."},
     {"channels", "Zeros and sensitivities of the inertial card, per unit, channel by channel."},
-    {"fix", "How positions are taken from a receiver."},
+    {"fix", "Processing of the receiver's positions."},
 }};
 
 }  // namespace

@@ -36,10 +36,10 @@ VehicleSettings load_vehicle(const std::filesystem::path& file) {
 
 std::string vehicle_file(const VehicleSettings& settings) {
   std::string out =
-      "# A vehicle as the simulator takes it: navcal simulate --vehicle FILE, navcal emulate --vehicle FILE. What "
+      "# A vehicle of the simulator: navcal simulate --vehicle FILE, navcal emulate --vehicle FILE. What "
       "is "
       "not\n"
-      "# said is as here: a miniature AUV with one propeller and three fins. The equations are in "
+      "# given is as here: a miniature AUV with one propeller and three fins. The equations are in "
       "docs/simulator.md.\n";
   std::string_view table;
   for (const Option<VehicleSettings>& option : vehicle_options()) {

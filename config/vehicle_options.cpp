@@ -69,17 +69,17 @@ void add_fins(std::vector<Option<V>>& options) {
   using S = FinSettings;
   add<S>(options, "fins", &V::fins,
          {
-             {"area_m2", &S::area_m2, kSquareMetres, 0, 10, "Area of each."},
-             {"lift_slope_per_rad", &S::lift_slope_per_rad, kPerRadian, 0, 10, "Slope of the lift of each."},
+             {"area_m2", &S::area_m2, kSquareMetres, 0, 10, "Area of each fin."},
+             {"lift_slope_per_rad", &S::lift_slope_per_rad, kPerRadian, 0, 10, "Slope of the lift of each fin."},
              {"induced_drag", &S::induced_drag, kNoUnit, 0, 20,
               "Drag over pressure, area and the square of the angle of attack (rad)."},
              {"stall_rad", &S::stall_rad, kRadians, 0.02, 1.57,
-              "The angle of attack beyond which lift grows no more."},
+              "Angle of attack beyond which the lift no longer increases."},
              {"station_m", &S::station_m, kMetres, -10, 10,
-              "Where they stand, forward of the origin: negative at the tail."},
-             {"radius_m", &S::radius_m, kMetres, 0, 2, "Of their centres of pressure from the axis."},
+              "Position of the fins, forward of the origin: negative at the tail."},
+             {"radius_m", &S::radius_m, kMetres, 0, 2, "Distance of their centres of pressure from the axis."},
              {"lag_s", &S::lag_s, kSeconds, 0.001, 10, "First-order lag of the servos."},
-             {"limit_deg", &S::limit_rad, kDegrees, 0, 80, "How far the servos go, both ways."},
+             {"limit_deg", &S::limit_rad, kDegrees, 0, 80, "Maximum angle of the servos, to both sides."},
          });
 }
 
@@ -91,11 +91,11 @@ void add_propeller(std::vector<Option<V>>& options) {
              {"thrust_at_rest", &S::thrust_at_rest, kNoUnit, 0, 2, "KT at J = 0."},
              {"thrust_slope", &S::thrust_slope, kNoUnit, -5, 0, "Slope of KT over J."},
              {"torque", &S::torque, kNoUnit, 0, 1, "Torque coefficient KQ."},
-             {"torque_felt", &S::torque_felt, kNoUnit, 0, 1, "The part of the torque that reaches the hull."},
+             {"torque_felt", &S::torque_felt, kNoUnit, 0, 1, "Share of the torque that acts on the hull."},
              {"lag_s", &S::lag_s, kSeconds, 0.001, 60, "First-order lag of the shaft speed."},
-             {"idle_current_A", &S::idle_current_A, kAmperes, 0, 100, "What the motor draws at no speed."},
+             {"idle_current_A", &S::idle_current_A, kAmperes, 0, 100, "Current of the motor at standstill."},
              {"current_A_s3", &S::current_A_s3, kAmperesSecondsCubed, 0, 1,
-              "What it draws more, over the cube of the shaft speed in rev/s."},
+              "Additional current of the motor, over the cube of the shaft speed in rev/s."},
          });
 }
 
@@ -103,9 +103,9 @@ void add_damping(std::vector<Option<V>>& options) {
   using S = DampingSettings;
   add<S>(options, "damping", &V::damping,
          {
-             {"roll_ratio", &S::roll_ratio, kNoUnit, 0, 10, "Of roll, as a ratio of the critical."},
-             {"pitch_ratio", &S::pitch_ratio, kNoUnit, 0, 10, "Of pitch, as a ratio of the critical."},
-             {"yaw_per_s", &S::yaw_per_s, kPerSecond, 0, 100, "Of yaw: moment over inertia and rate."},
+             {"roll_ratio", &S::roll_ratio, kNoUnit, 0, 10, "Damping of roll, as a ratio of the critical one."},
+             {"pitch_ratio", &S::pitch_ratio, kNoUnit, 0, 10, "Damping of pitch, as a ratio of the critical one."},
+             {"yaw_per_s", &S::yaw_per_s, kPerSecond, 0, 100, "Damping of yaw: moment over inertia and rate."},
          });
 }
 
@@ -113,10 +113,10 @@ void add_autopilot(std::vector<Option<V>>& options) {
   using S = AutopilotSettings;
   add<S>(options, "autopilot", &V::autopilot,
          {
-             {"period_s", &S::period_s, kSeconds, 0.01, 10, "How often it gives orders."},
+             {"period_s", &S::period_s, kSeconds, 0.01, 10, "Rate of the autopilot's commands."},
              {"rudder_per_heading", &S::rudder_per_heading, kNoUnit, 0, 20, "Rudder over heading error."},
              {"rudder_per_turn_s", &S::rudder_per_turn_s, kSeconds, 0, 20,
-              "Rudder over rate of turn beyond the one wanted."},
+              "Rudder over rate of turn in excess of the commanded one."},
              {"rudder_limit_deg", &S::rudder_limit_rad, kDegrees, 1, 60, "Greatest rudder."},
              {"pitch_per_depth_deg_m", &S::pitch_per_depth_rad_m, kDegreesPerMetre, 0, 500,
               "Pitch over depth error."},
@@ -129,10 +129,10 @@ void add_autopilot(std::vector<Option<V>>& options) {
              {"elevator_per_turn_s", &S::elevator_per_turn_s, kSeconds, 0, 20, "Elevator over rate of pitch."},
              {"elevator_limit_deg", &S::elevator_limit_rad, kDegrees, 1, 60, "Greatest elevator."},
              {"shaft_per_speed_per_m", &S::shaft_per_speed_per_m, kPerMetre, 0, 100,
-              "Shaft speed (rev/s) over speed error (m/s), beyond what the drag at that speed takes."},
+              "Shaft speed (rev/s) over speed error (m/s), added to the shaft speed that balances the drag."},
              {"shaft_per_way_per_m_s", &S::shaft_per_way_per_m_s, kPerMetreSecond, 0, 100,
               "Shaft speed (rev/s) over the integral of speed error (m)."},
-             {"shaft_limit_rpm", &S::shaft_limit_rps, kRpm, 1, 60000, "Greatest shaft speed."},
+             {"shaft_limit_rpm", &S::shaft_limit_rps, kRpm, 1, 60000, "Maximum shaft speed."},
          });
 }
 

@@ -61,7 +61,7 @@ std::optional<std::string> CalibrationStore::load() {
   }
   const auto separator = read.content.find(kSeparator);
   if (separator == std::string::npos) {
-    keep_aside(".damaged", "it does not say of which instruments it is");
+    keep_aside(".damaged", "it does not state its instruments");
     return std::nullopt;
   }
   const std::string before = read.content.substr(0, separator + 1);
@@ -79,7 +79,7 @@ void CalibrationStore::keep_aside(std::string_view suffix, std::string_view reas
   std::error_code error;
   std::filesystem::rename(file_, aside, error);
   note(fmt::format("{} is not used: {}; {}; the calibrators begin anew", file_.string(), reason,
-                   error ? "it cannot be kept aside: " + error.message() : "kept as " + aside.string()));
+                   error ? "it cannot be renamed: " + error.message() : "kept as " + aside.string()));
 }
 
 void CalibrationStore::save(std::string state) {
@@ -114,7 +114,7 @@ void CalibrationStore::run() {
     if (error && !std::exchange(failing_, true)) {
       note(fmt::format("{} cannot be written: {}", file_.string(), error.message()));
     } else if (!error && std::exchange(failing_, false)) {
-      note(fmt::format("{} is written again", file_.string()));
+      note(fmt::format("{} can be written again", file_.string()));
     }
   }
 }

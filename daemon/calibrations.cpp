@@ -24,7 +24,7 @@ void Calibrations::begin(std::int64_t now_ns) {
     if (pipeline_.restore_calibration(*state)) {
       pipeline_.begin_calibration_run();
     } else {
-      store_.reject("it is of another version of the program");
+      store_.reject("it was written by another version of the program");
     }
   }
   log_.calib(now_ns, beginning(now_ns));
@@ -86,7 +86,7 @@ std::string Calibrations::answer(const ControlRequest& request, std::int64_t now
   const auto calibrator = calib::calibrator_named(request.calibrator);
   if (!calibrator) {
     std::string known;
-    for (const auto one : calib::kCalibrators) {
+    for (const auto one : calib::calibrators()) {
       known += known.empty() ? "" : ", ";
       known += calib::name_of(one);
     }

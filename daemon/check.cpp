@@ -69,9 +69,9 @@ void append_calibration(std::string& out, const config::Settings& settings) {
   }
   out += fmt::format("calibration: of {}", fmt::join(learnt, ", "));
   if (settings.calibration.automatic) {
-    out += fmt::format("; estimates come into force when better by {:.0f} %\n", settings.calibration.margin * 100);
+    out += fmt::format("; estimates become active when better by {:.0f} %\n", settings.calibration.margin * 100);
   } else {
-    out += "; estimates come into force by calibration.accept\n";
+    out += "; estimates become active by calibration.accept\n";
   }
 }
 

@@ -156,9 +156,9 @@ void Daemon::on_calibration(const pipeline::CalibrationChange& change) {
   calibrations_.on_change(change);
   const bool forced = change.cause == pipeline::CalibrationChange::Cause::force;
   event(change.time_ns, forced ? "warning" : "info", "calibration.changed", "",
-        fmt::format("{} {}: in force is now {}{}", calib::name_of(change.calibrator.value()),
+        fmt::format("{} {}: active is now {}{}", calib::name_of(change.calibrator.value()),
                     pipeline::name_of(change.cause), change.name.text(),
-                    forced ? "; the operator put it in force although it may be refused" : ""));
+                    forced ? "; activated by an operator command with force" : ""));
 }
 
 void Daemon::on_field_step(const calib::FieldStep& step, std::int64_t now_ns) {

@@ -61,7 +61,7 @@ std::string Daemon::answer(const ControlRequest& request, const ControlOrigin& o
       event(ports::monotonic_ns(), "info", "mark", "", request.text);
       return std::string(kOk);
     case ControlCommand::log_rotate:
-      if (!log_.enabled()) return control_error("the log is switched off (log.enabled)");
+      if (!log_.enabled()) return control_error("the log is disabled (log.enabled)");
       rotate_log();
       return std::string(kOk);
     case ControlCommand::calibration_start:
@@ -72,7 +72,8 @@ std::string Daemon::answer(const ControlRequest& request, const ControlOrigin& o
       return calibrations_.answer(request, ports::monotonic_ns(), *this);
     case ControlCommand::calibration_stop:
       if (request.calibrator == "tcm2") return answer_tcm2(request);
-      return control_error("only tcm2, the compass's calibration of itself, is stopped; ours never end");
+      return control_error(
+          "only tcm2, the compass's own calibration, can be stopped; navcald's calibrators run all the time");
     case ControlCommand::motor_lease:
     case ControlCommand::motor_order:
     case ControlCommand::motor_release:

@@ -18,8 +18,7 @@ std::string Daemon::answer_tcm2(const ControlRequest& request) {
   PortSession* const compass = tcm2();
   if (compass == nullptr) return control_error("the configuration has no TCM2");
   const std::int64_t now_ns = ports::monotonic_ns();
-  std::string why_not =
-      "the TCM2 takes its calibration over by itself: there is nothing to accept or to roll back";
+  std::string why_not = "the TCM2 applies its calibration itself: there is nothing to accept or to roll back";
   if (request.command == ControlCommand::calibration_start) why_not = compass->calibrate_compass(now_ns);
   if (request.command == ControlCommand::calibration_stop) why_not = compass->stop_calibrating_compass(now_ns);
   if (!why_not.empty()) return control_error(why_not);
@@ -48,14 +47,13 @@ void Daemon::on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
                 calibration.state());
   if (!calibration.touched()) return;
   // What was learnt of the compass before is of another compass: it corrects its field and heading otherwise now.
-  for (const auto calibrator : {calib::Calibrator::compass, calib::Calibrator::magnetometer,
-                                calib::Calibrator::gps_compass, calib::Calibrator::misalignment}) {
+  for (const auto calibrator : calib::calibrators()) {
+    if (!calib::row_of(calibrator).of_compass) continue;
     pipeline_.order_calibration(pipeline::CalibrationOrder::start, calibrator, now_ns, *this);
   }
-  event(
-      now_ns, "warning", "calibration.notice", settings_.ports[port].name,
-      "the compass corrects itself otherwise than before: what is in force for it was made for the compass as it "
-      "was, and its calibrators begin anew");
+  event(now_ns, "warning", "calibration.notice", settings_.ports[port].name,
+        "the compass has a new internal correction: its active calibration was made for the old one, and its "
+        "calibrators begin anew");
 }
 
 }  // namespace navcal::daemon

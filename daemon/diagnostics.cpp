@@ -28,7 +28,7 @@ class StandardError final : public spdlog::sinks::base_sink<spdlog::details::nul
       return;
     }
     if (dropped_ > 0) {
-      write_all(fmt::format("{} messages were dropped: nobody read standard error\n", dropped_));
+      write_all(fmt::format("{} messages were dropped: standard error was not read\n", dropped_));
       dropped_ = 0;
     }
     spdlog::memory_buf_t text;

@@ -98,7 +98,7 @@ void DiskThread::run() {
   }
   finish_file();
   if (given_up_bytes_ > 0)
-    note(fmt::format("{} bytes that waited for the disk were never written", given_up_bytes_));
+    note(fmt::format("{} bytes in the queue for the disk were never written", given_up_bytes_));
   update_state();
 }
 

@@ -33,7 +33,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--set", options.overrides, "a setting that overrides the file, KEY=VALUE; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
-  app.add_flag("--check", options.check, "only read the configuration and say what it would do");
+  app.add_flag("--check", options.check, "only read the configuration and print what navcald would do");
   app.footer("Example: navcald --config navcald.toml --set port.compass.path=/dev/ttyUSB0 --check");
   navcal::share::add_manual(app);
   try {

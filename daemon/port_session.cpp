@@ -95,8 +95,7 @@ std::string PortSession::calibrate_compass(std::int64_t now_ns) {
   compass_calibration_->begin(now_ns);
   calibrating_compass_ = true;
   owner_.on_port_event(index_, now_ns, "info", "tcm2.calibration",
-                       "begun: turn twice, slowly, with as much tilt "
-                       "as can be had");
+                       "begun: turn twice, slowly, with as much tilt as possible");
   talk(now_ns);
   return {};
 }
@@ -150,7 +149,7 @@ PortSession::State PortSession::judge(const pipeline::PortStatistics& statistics
   const double silent_s = static_cast<double>(now_ns - last_bytes_ns_) * 1e-9;
   const double patience_s = std::max(kSilent_s, settings_.rate_Hz > 0 ? 3 / settings_.rate_Hz : 0.0);
   if (silent_s > patience_s) {
-    reason = fmt::format("nothing came for {:.0f} s", silent_s);
+    reason = fmt::format("no bytes for {:.0f} s", silent_s);
     return State::silent;
   }
   reason = speed_check_.message();

@@ -60,7 +60,7 @@ std::string SpeedCheck::message() const {
     case Verdict::wrong_speed:
       return fmt::format("{} bytes, no intact frame: wrong speed? (configured {})", judged_bytes_, baud_);
     case Verdict::no_frames:
-      return fmt::format("{} bytes, no intact frame, yet plain text: another device or mode than {}?",
+      return fmt::format("{} bytes, no intact frame, but plain text: another device or mode than {}?",
                          judged_bytes_, protocols::name_of(protocol_));
     case Verdict::noise:
       return fmt::format("noise: {} of {} bytes belong to no frame", judged_skipped_, judged_bytes_);

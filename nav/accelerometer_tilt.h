@@ -35,7 +35,7 @@ class AccelerometerTilt {
   void take(const ShaftReading& reading);
   void take(const FixReading& reading);
 
-  /// As it was at `time_ns`, at most 0.2 s beyond the newest reading and some seconds before it.
+  /// Tilt at `time_ns`, at most 0.2 s beyond the newest reading and some seconds before it.
   [[nodiscard]] std::optional<TiltReading> at(std::int64_t time_ns) const;
   [[nodiscard]] std::optional<TiltReading> newest() const;
 

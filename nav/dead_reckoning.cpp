@@ -40,7 +40,7 @@ void DeadReckoning::advance(const Way& way) {
   set_m_s_ *= kept;
 }
 
-/// What the errors that stay add to the variance of north and east.
+/// Contribution of constant errors to the variance of north and east.
 Vector2d DeadReckoning::standing_variance_m2() const {
   const Vector2d turned(across_m_.y(), across_m_.x());
   return (turned.cwiseAbs2() + along_m_.cwiseAbs2()).array() + blind_m_ * blind_m_;

@@ -11,7 +11,7 @@
 
 namespace navcal::nav {
 
-/// What the vehicle did since the last step, as far as is known. World axes north, east.
+/// Motion of the vehicle since the last step, as far as it is known. World axes north, east.
 struct Way {
   double duration_s = 0;
   double speed_m_s = 0;  ///< through the water, ahead, as far as it is known
@@ -55,7 +55,7 @@ class DeadReckoning {
   Eigen::Vector2d reckoned_m_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d correction_m_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d set_m_s_ = Eigen::Vector2d::Zero();
-  // Of correction and set, each axis.
+  // Variances of correction and set, each axis.
   double variance_m2_ = 0, covariance_m2_s_ = 0, set_variance_m2_s2_ = 0;
   // Since the last fix: one standard deviation of heading and of speed as displacements, and how far it may have
   // gone while nothing told where to.

@@ -23,7 +23,7 @@ constexpr double kGyroDrift_rad_s = 0.005, kBlindDrift_rad_s = 0.2;
 /// A heading of which nothing is known: uniform around the circle.
 const double kAnyHeading_rad = std::numbers::pi / std::sqrt(3.0);
 
-/// Beyond these an instrument has lost its mind, whatever it is. What is no number is beyond everything.
+/// Readings beyond these limits are faults of any instrument. A value that is not finite exceeds all limits.
 constexpr double kMostDepth_m = 12'000, kMostAngle_rad = 100, kMostShaft_per_s = 1000;
 constexpr double kMostPosition_m = 2e7, kMostVelocity_m_s = 1e4, kLeastFixStd_m = 1e-3, kMostFixStd_m = 1e5;
 

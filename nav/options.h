@@ -9,7 +9,7 @@ namespace navcal::nav {
 struct AttitudeOptions {
   double heading_gain_per_s = 0.2;
   double tilt_gain_per_s = 0.5;
-  /// What the gyros' zeros are corrected by: these times the difference, each second.
+  /// Integral gains from the differences to the gyro zeros, per second.
   double heading_zero_gain_per_s2 = 0.002;
   double tilt_zero_gain_per_s2 = 0.01;
   double tilt_lag_s = 0.3;  ///< of the inclinometer

@@ -15,9 +15,8 @@ struct Pose {
   Eigen::Vector2d reckoned_m = Eigen::Vector2d::Zero();  ///< DeadReckoning's track, without its corrections
 };
 
-/// What was thought of the last seconds: a reading that comes late is compared with what was thought of the time
-/// at which it was measured. Bounded: entries lie 40 ms apart or more, so that 128 of them reach back five
-/// seconds.
+/// Estimates of the last seconds. A late reading is compared with the estimate for the time of its measurement.
+/// The memory is bounded: entries are at least 40 ms apart, so 128 of them span five seconds.
 class PastPoses {
  public:
   static constexpr std::size_t kCapacity = 128;

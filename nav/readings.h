@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-/// What the estimator is told: readings in SI units and body axes (x forward, y starboard, z down), each with the
-/// time at which it was measured, in nanoseconds on one clock of the caller's choice. Nothing here reads a clock.
+/// Inputs of the estimator: readings in SI units and body axes (x forward, y starboard, z down), each with the
+/// time of its measurement, in nanoseconds on one clock of the caller's choice. Nothing here reads a clock.
 namespace navcal::nav {
 
 struct RateReading {

@@ -11,7 +11,7 @@
 
 namespace navcal::pipeline {
 
-/// What an operator may ask for.
+/// Commands of an operator.
 enum class CalibrationOrder : std::uint8_t {
   accept,     ///< the newest estimate comes into force
   force,      ///< the same, also when the estimate is refused

@@ -20,10 +20,10 @@ struct CalibratedPorts {
 /// Before anything has come: the best of each kind by the configuration (Sources).
 [[nodiscard]] CalibratedPorts calibrated_ports(const config::Settings& settings);
 
-/// What the calibrators take of the Earth's field, with standard deviations.
+/// The Earth's field for the calibrators, with standard deviations.
 [[nodiscard]] calib::LocalField local_field(const EarthField& field);
 
-/// What the calibrators must know, in their units.
+/// Configuration of the calibrators, in their units.
 [[nodiscard]] calib::SuiteOptions suite_options(const config::Settings& settings, const CalibratedPorts& ports);
 
 }  // namespace navcal::pipeline

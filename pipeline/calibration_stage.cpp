@@ -154,13 +154,15 @@ CalibrationChange CalibrationStage::beginning(std::int64_t now_ns) {
 }
 
 bool CalibrationStage::restore(std::string_view state) {
-  // Tried on another first: half of a damaged state is worse than none.
-  CalibrationStage other = *this;
+  calib::Archive before;
+  archive(before);
   calib::Archive restoring(state);
-  other.archive(restoring);
-  if (!restoring.ok() || !restoring.at_end()) return false;
-  *this = std::move(other);
-  return true;
+  archive(restoring);
+  if (restoring.ok() && restoring.at_end()) return true;
+  // Half of a damaged state is worse than none.
+  calib::Archive back(before.bytes());
+  archive(back);
+  return false;
 }
 
 void CalibrationStage::begin_run() {

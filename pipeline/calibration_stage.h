@@ -37,7 +37,7 @@ class CalibrationStage {
   [[nodiscard]] CalibrationChange beginning(std::int64_t now_ns);
   /// Everything, to the last bit, from a state of beginning(). False when it is none; nothing has changed then.
   bool restore(std::string_view state);
-  /// What was restored is of an earlier run, with another monotonic clock.
+  /// The restored state is of an earlier run, with another monotonic clock.
   void begin_run();
   /// The ports that are learnt from, once it is known which deliver.
   void use(const CalibratedPorts& ports) { ports_ = ports; }

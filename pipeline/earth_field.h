@@ -21,7 +21,7 @@ struct EarthField {
   Source size_source = Source::none;
 
   EarthField() = default;
-  /// What the configuration says.
+  /// Begins with the configured field.
   explicit EarthField(const config::EnvironmentSettings& settings);
 };
 
@@ -31,7 +31,7 @@ struct EarthField {
 /// "declination 8.21 deg west by the model, ...", for people.
 [[nodiscard]] std::string words_for(const EarthField& field);
 
-/// Where and when the model was asked for the field.
+/// Place and time for which the model was evaluated.
 struct FieldPlace {
   double latitude_rad = 0, longitude_rad = 0;
   std::int64_t time_utc_ns = 0;

@@ -11,7 +11,7 @@
 
 namespace navcal::pipeline {
 
-/// What reports and log call it, where an instrument's sample has the name of its port.
+/// Device name of the estimate in reports and log, in the place of an instrument's port name.
 inline constexpr std::string_view kNavigationDevice = "navigation";
 
 /// Whence a position is.

@@ -62,7 +62,7 @@ class NavigationStage {
   std::int64_t told_ = 0;  ///< intervals of the monotonic clock, up to the one that was last told of
 };
 
-/// What the estimator must know, in its units.
+/// Configuration of the estimator, in its units.
 [[nodiscard]] nav::Options navigation_options(const config::Settings& settings);
 
 }  // namespace navcal::pipeline

@@ -29,7 +29,7 @@ struct StreamEvent {
   std::string message{};        ///< for people
 };
 
-/// What comes out. Called from within Pipeline::bytes() and Pipeline::advance(); must not call back.
+/// Receiver of the output. Called from within Pipeline::bytes() and Pipeline::advance(); must not call back.
 class Sink {
  public:
   virtual ~Sink() = default;
@@ -50,7 +50,7 @@ class Sink {
   virtual void on_navigation(const NavigationSample& /*sample*/) {}
 };
 
-/// What is known of one port's stream; everything counted from the beginning.
+/// Statistics of one port's stream, counted from the beginning.
 struct PortStatistics {
   protocols::Counters bytes;
   std::uint64_t held_bytes = 0;  ///< waiting in the parser
@@ -88,14 +88,14 @@ class Pipeline {
   std::string order_calibration(CalibrationOrder order, calib::Calibrator calibrator, std::int64_t now_ns,
                                 Sink& sink);
   [[nodiscard]] calib::Report calibration_report() const;
-  /// With which a log begins. advance() must have been called with the same time, in replay too.
+  /// The change with which a log begins. advance() must have been called with the same time, in replay too.
   [[nodiscard]] CalibrationChange calibration_beginning(std::int64_t now_ns);
   /// From such a beginning. False when its state is none of ours; nothing has changed then.
   bool restore_calibration(std::string_view state);
   /// A recorded change, made again. What follows from the bytes is not: it will happen by itself. Returns what was
   /// wrong with it, for people.
   std::string replay_calibration(const CalibrationChange& change, Sink& sink);
-  /// What was restored is of an earlier run of the program.
+  /// The restored state is of an earlier run of the program.
   void begin_calibration_run();
   /// No more bytes come: the calibrators use all that they have.
   void finish_calibration(Sink& sink);

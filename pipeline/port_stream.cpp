@@ -6,9 +6,9 @@
 namespace navcal::pipeline {
 namespace {
 
-// What may lie between two bytes of one frame without its being torn: a USB adapter's latency timer (16 ms), an
-// instrument that pauses to compute, and a host that is late itself: ours was seen to read 200 ms late under load,
-// and a frame given up for that is lost although it is whole. Longer would keep what follows a torn one waiting.
+// Longest pause between two bytes of one frame. It covers a USB adapter's latency timer (16 ms), an instrument
+// that pauses to compute, and a late host: reads were observed 200 ms late under load, and the frame would be lost
+// although it is whole. A longer margin would delay what follows a torn frame.
 constexpr std::int64_t kSilenceMargin_ns = 250'000'000;
 
 }  // namespace

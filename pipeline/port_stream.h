@@ -56,7 +56,7 @@ class PortStream : private instruments::Receiver {
   UtcMapping& mapping_;
   PortStatistics statistics_;
   std::int64_t last_arrival_ns_ = 0;
-  // Of the frame being read; only while a call is under way.
+  // Sink of the frame being read; set only during a call.
   Sink* sink_ = nullptr;
   ArrivalTrack::Frame place_;
 };

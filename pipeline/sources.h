@@ -72,11 +72,11 @@ class Sources {
   /// Nothing is known of what the ports deliver. The calibrators go on with the instruments they had.
   void begin_run();
 
-  /// Those that serve navigation.
+  /// Ports that serve navigation.
   [[nodiscard]] RolePorts serving() const;
-  /// Those of them that have delivered.
+  /// Ports among them that have delivered.
   [[nodiscard]] RolePorts delivering() const;
-  /// Those that the calibrators learn from. The compass is the one that gives the field, where there is one.
+  /// Ports from which the calibrators learn. The compass is the one that delivers the field, if there is one.
   [[nodiscard]] CalibratedPorts learnt() const;
   /// The calibrators have learnt from these before; a port that is no candidate is passed over.
   void go_on_with(const CalibratedPorts& learnt);

@@ -15,9 +15,8 @@
 
 namespace navcal::pipeline {
 
-/// What a stamped sample goes through: which port serves what, the Earth's field at the fixes, tilt by the
-/// accelerometers, the calibration in force; then the estimator of position sees it, and the calibrators learn
-/// from it. Any stage may be absent.
+/// Stages of a stamped sample: selection of the port, the Earth's field at the fixes, tilt by the accelerometers,
+/// the active calibration; then the position estimator and the calibrators. Any stage may be absent.
 class Stages {
  public:
   explicit Stages(const config::Settings& settings);
@@ -27,7 +26,7 @@ class Stages {
 
   /// Null when there is nothing to calibrate.
   [[nodiscard]] CalibrationStage* calibration() const { return calibration_.get(); }
-  /// As CalibrationStage::restore(); the instruments and the place are those of the state.
+  /// Restores like CalibrationStage::restore(), with instruments and place of the state.
   bool restore_calibration(std::string_view state);
   void begin_navigation_run();
   /// As Pipeline::navigation().

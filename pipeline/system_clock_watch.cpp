@@ -39,7 +39,7 @@ SystemClockWatch::Outcome SystemClockWatch::update(const SystemClockReading& rea
   if (in_force.source == UtcMapping::Source::none) {
     outcome.mapping = candidate;
   } else if (in_force.source == UtcMapping::Source::file || candidate.bound_ns >= bound_now_ns) {
-    // What is in force is at least as good.
+    // The present mapping is at least as good.
   } else {
     const bool better_kind = in_force.source != candidate.source;
     const bool old = reading.monotonic_ns - in_force.at_ns > kMappingRefreshAge_ns;

@@ -8,7 +8,7 @@
 
 namespace navcal::ports {
 
-/// Where a configured port is now, under whatever name, and what the system says of it.
+/// Present place of a configured port, under any name, and its properties in the system.
 struct Found {
   std::string path;  ///< links resolved
   std::string description;

@@ -8,7 +8,7 @@
 
 namespace navcal::ports {
 
-/// What was done for a port's latency, in words, and what has to be undone.
+/// Measures taken for a port's latency, in words, and those to be undone.
 struct LowLatency {
   std::string report;
   std::optional<int> former_flags;  ///< of the driver, to be given back by restore_latency()

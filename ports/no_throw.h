@@ -6,7 +6,7 @@
 
 namespace navcal::ports {
 
-/// For co_await: an operation that fails gives its error code with its result, and throws nothing.
+/// Token for co_await: a failed operation returns its error code with its result, and throws nothing.
 inline constexpr auto kNoThrow = boost::asio::as_tuple(boost::asio::use_awaitable);
 
 }  // namespace navcal::ports

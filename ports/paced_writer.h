@@ -29,7 +29,7 @@ class PacedWriter {
   /// The first bit is on the wire at `start_ns` (monotonic), or when the bytes before it have passed. 8N1: ten
   /// bits to a byte.
   void send(std::int64_t start_ns, int baud, protocols::Bytes bytes);
-  /// What is still on its way is lost.
+  /// Discards the bytes that are still on their way.
   void clear();
   [[nodiscard]] bool idle() const { return pieces_.empty(); }
 

@@ -14,7 +14,7 @@
 
 namespace navcal::ports {
 
-/// What is known of an opened port.
+/// Properties of an opened port.
 struct OpenPort {
   std::string path;  ///< what was opened, links resolved
   bool pseudo_terminal = false;

@@ -16,10 +16,10 @@ namespace navcal::ports {
 /// Like a UART it never waits for its reader: what finds nobody listening, or no room, is lost and counted.
 class PtyHost {
  public:
-  /// What a client wrote, at `now_ns` (monotonic).
+  /// Receives bytes that a client wrote, at `now_ns` (monotonic).
   using OnBytes = std::function<void(std::int64_t now_ns, protocols::Bytes bytes)>;
 
-  /// What became of the bytes written.
+  /// Fate of the bytes written.
   struct Tally {
     std::uint64_t taken = 0;    ///< handed to whoever has the line open
     std::uint64_t unheard = 0;  ///< lost: nobody had it open

@@ -8,7 +8,7 @@
 
 namespace navcal::ports {
 
-/// What the kernel says of one tty under /sys/class/tty. `root` stands in for /sys in tests.
+/// Entry of one tty under /sys/class/tty. `root` replaces /sys in tests.
 class SysfsTty {
  public:
   /// `device`: "/dev/ttyUSB0" or "ttyUSB0".

@@ -109,7 +109,7 @@ inline constexpr auto kHexValue = [] {
   return Scan::bad_checksum();
 }
 
-/// What stands between `$` and `*` of an intact line.
+/// The text between `$` and `*` of an intact line.
 [[nodiscard]] inline std::string_view body_of(Bytes line) {
   const std::string_view text(reinterpret_cast<const char*>(line.data()), line.size());
   const std::size_t star = text.rfind('*');

@@ -6,7 +6,7 @@
 
 namespace navcal::protocols {
 
-/// What a receiver says of its position.
+/// Kind of a receiver's position.
 enum class Fix : std::uint8_t {
   none,
   fix_2d,  ///< height held

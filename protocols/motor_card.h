@@ -31,7 +31,7 @@ struct Scanner {
 };
 using Parser = StreamParser<Scanner>;
 
-/// What the card knows; an empty field is absent.
+/// Values reported by the card; an empty field is absent.
 struct Status {
   std::optional<std::uint8_t> sequence;  ///< +1 per line, wraps 255 to 0
   std::optional<std::int32_t> rpm_commanded;
@@ -52,8 +52,8 @@ struct Command {
 /// The card rejects a command whose fins lie beyond +- this.
 inline constexpr double kFinLimit_deg = 25.0;
 
-/// Of an intact MCS or MCC line; nullopt when the number of fields is another, a field is not a number, or a field
-/// of a command is empty.
+/// Decodes an intact MCS or MCC line; nullopt if the number of fields is wrong, a field is not a number, or a
+/// field of a command is empty.
 [[nodiscard]] std::optional<Status> decode_status(Bytes frame);
 [[nodiscard]] std::optional<Command> decode_command(Bytes frame);
 

@@ -11,7 +11,7 @@
 
 namespace navcal::protocols::nmea {
 
-/// What a receiver knows, for the sentences of the emulator and the tests.
+/// State of a receiver, for the sentences of the emulator and the tests.
 struct Navigation {
   Date date;
   TimeOfDay time;  ///< sent with hundredths of a second
@@ -40,7 +40,7 @@ using Satellites = std::vector<SatelliteInView>;
 [[nodiscard]] std::vector<std::uint8_t> encode_vtg(const Navigation& navigation);
 [[nodiscard]] std::vector<std::uint8_t> encode_gsa(const Navigation& navigation, const Satellites& satellites);
 [[nodiscard]] std::vector<std::uint8_t> encode_zda(const Navigation& navigation);
-/// As many sentences as it takes, four satellites in each.
+/// Satellites in view in the necessary number of sentences, four satellites in each.
 [[nodiscard]] std::vector<std::uint8_t> encode_gsv(const Satellites& satellites);
 
 }  // namespace navcal::protocols::nmea

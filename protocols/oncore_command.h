@@ -12,7 +12,7 @@ namespace navcal::protocols::oncore {
 /// take no rate byte (ICD section 2).
 [[nodiscard]] std::vector<std::uint8_t> encode_poll(FrameId id, std::uint8_t rate);
 
-/// What a host asks for.
+/// Request of a host.
 struct Command {
   FrameId id;
   std::optional<std::uint8_t> rate;  ///< nullopt for those without a rate byte

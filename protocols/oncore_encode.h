@@ -13,8 +13,8 @@ namespace navcal::protocols::oncore {
 /// `@@`, the letters, data, checksum, CR LF.
 [[nodiscard]] std::vector<std::uint8_t> encode_frame(FrameId id, Bytes data);
 
-// What a receiver sends, for the emulator and the tests. Values are rounded to the resolution of the message and
-// fields that it has no place for are left out; optional ones that are absent become 0.
+// Messages of a receiver, for the emulator and the tests. Values are rounded to the resolution of the message.
+// Fields that the message lacks are left out; absent optional ones become 0.
 [[nodiscard]] std::vector<std::uint8_t> encode_ha(const Position& position);
 [[nodiscard]] std::vector<std::uint8_t> encode_ea(const Position& position);
 [[nodiscard]] std::vector<std::uint8_t> encode_bb(const VisibleSatellites& satellites);

@@ -10,7 +10,7 @@
 
 namespace navcal::protocols {
 
-/// What stands at a place where a frame may begin.
+/// Result of a scan at a place where a frame may begin.
 struct Scan {
   enum class Kind : std::uint8_t {
     frame,         ///< `length` bytes from here are an intact frame
@@ -28,10 +28,10 @@ struct Scan {
   static constexpr Scan incomplete(std::size_t missing) { return {Kind::incomplete, missing, {}}; }
 };
 
-/// What a protocol must supply. `scan` sees a candidate from its first byte on and must decide on the shortest
-/// prefix that suffices: once it has answered anything but `incomplete`, more bytes never change the answer.
-/// Given kMaxFrameLength bytes it never answers `incomplete`.
-/// From this follows that the frames of a stream do not depend on how its bytes were cut.
+/// Requirements on a protocol. `scan` sees a candidate from its first byte on and must decide on the shortest
+/// prefix that suffices: once it has answered anything but `incomplete`, more bytes never change the answer. Given
+/// kMaxFrameLength bytes it never answers `incomplete`. Therefore the frames of a stream do not depend on how its
+/// bytes were divided into reads.
 template <class S>
 concept Scanner = requires(const std::uint8_t* p) {
   { S::kMaxFrameLength } -> std::convertible_to<std::size_t>;
@@ -56,7 +56,7 @@ class StreamParser {
       held_ += appended;
       next += appended;
       drain(sink);
-      // What is left lies wholly in the caller's bytes: go on there, without copies.
+      // The remaining bytes are all in the caller's buffer: continue there without copies.
       if (const auto fresh = static_cast<std::size_t>(next - bytes.data()); held_ <= fresh) {
         next -= held_;
         held_ = 0;

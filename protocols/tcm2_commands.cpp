@@ -27,7 +27,7 @@ constexpr std::array<std::pair<Verb, std::string_view>, 10> kVerbs{{
     {Verb::warm_restart, "ax"},
 }};
 
-/// What a parameter may be set to: one of `letters`, or a number when there are none.
+/// Permitted values of a parameter: one of `letters`, or a number if there are none.
 struct Values {
   Parameter parameter;
   std::string_view name;

@@ -9,7 +9,7 @@
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"
 
-/// What a host says to a TCM2 (ICD section 1): case-sensitive, ended by CR; LF is ignored.
+/// Commands to a TCM2 (ICD section 1): case-sensitive, ended by CR; LF is ignored.
 namespace navcal::protocols::tcm2 {
 
 enum class Verb : std::uint8_t {

@@ -35,7 +35,7 @@ struct Reply {
   bool operator==(const Reply&) const = default;
 };
 
-/// Of a whole line, CR LF included or not; nullopt when it is no reply.
+/// Decodes a whole line, with or without CR LF; nullopt if it is no reply.
 [[nodiscard]] std::optional<Reply> decode_reply(Bytes line);
 [[nodiscard]] std::vector<std::uint8_t> encode_reply(const Reply& reply);
 

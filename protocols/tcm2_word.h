@@ -46,8 +46,8 @@ struct WordFormat {
   int temperature = 1;
 };
 
-/// Of an intact WORD frame; nullopt when its text is not fields in their order. A colon before `E`, which some
-/// firmware prints, is passed over.
+/// Decodes an intact WORD frame; nullopt if its text does not consist of fields in their order. A colon before
+/// `E`, which some firmware prints, is skipped.
 [[nodiscard]] std::optional<Word> decode_word(Bytes frame);
 [[nodiscard]] std::vector<std::uint8_t> encode_word(const Word& word, const WordFormat& format = {});
 

@@ -23,7 +23,7 @@ struct TimeOfDay {
   constexpr auto operator<=>(const TimeOfDay&) const = default;
 };
 
-/// Of the calendar, years 1 to 9999.
+/// Whether the date exists in the calendar, years 1 to 9999.
 [[nodiscard]] bool is_valid(const Date& date);
 [[nodiscard]] bool is_valid(const TimeOfDay& time);
 

@@ -10,7 +10,7 @@
 
 namespace navcal::record {
 
-/// Of a pipe and the like.
+/// Size of a pipe or another source of unknown length.
 inline constexpr std::uint64_t kUnknownSize = UINT64_MAX;
 
 /// Bytes that are read once, from front to back.

@@ -25,7 +25,7 @@ class ReadWindow {
     begin_ += n;
     offset_ += n;
   }
-  /// Of the cursor, in the source.
+  /// Offset of the cursor in the source.
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
   [[nodiscard]] std::uint64_t size() const { return source_->size(); }
 

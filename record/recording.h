@@ -30,7 +30,7 @@ struct RawRead {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Of a log; of a capture its `#event` lines, at the time of the last read before them.
+/// An event of a log, or an `#event` line of a capture at the time of the last read before it.
 struct LoggedEvent {
   std::int64_t time_ns = 0;
   std::string json;
@@ -63,7 +63,7 @@ class Recording {
   [[nodiscard]] virtual const config::Settings& settings() const = 0;
   /// The next entry; nullopt at the end. Throws BadRecording for what cannot be read over.
   virtual std::optional<Entry> next() = 0;
-  /// What is to be told to the user: "last line cut short", "unfinished: 12 bytes after the last whole record".
+  /// Remarks for the user: "last line cut short", "unfinished: 12 bytes after the last whole record".
   [[nodiscard]] virtual const std::vector<std::string>& remarks() const = 0;
   /// How far the file has been read, 0..1, for progress.
   [[nodiscard]] virtual double progress() const = 0;

@@ -22,7 +22,7 @@ struct Curve {
   const char* estimate;
   const char* name;
 };
-/// What is shown in one diagram.
+/// Curves of one diagram.
 struct Group {
   const char* title;
   const char* unit;
@@ -54,11 +54,11 @@ constexpr std::array kGroups{
 };
 constexpr std::array kCalibratorInks{Ink::first, Ink::second, Ink::third, Ink::fourth};
 
-/// Where an error is this many times that of the end, the estimate has lost its support for a while.
+/// Error, as a multiple of the final one, above which an estimate is treated as not supported for a while.
 constexpr double kMuchWorse = 5;
 
-/// What the second half of the time needs: the first estimates of all are anywhere, and a short time of little
-/// support would leave no room for the rest.
+/// Values that the second half of the time needs. The first estimates scatter widely, and a short time of poor
+/// support would compress the rest.
 Range late_range(const std::vector<std::span<const analysis::EstimatePoint>>& curves, double factor) {
   double least = INFINITY, most = -INFINITY;
   for (const auto curve : curves) {
@@ -72,7 +72,7 @@ Range late_range(const std::vector<std::span<const analysis::EstimatePoint>>& cu
   return {least - margin, most + margin};
 }
 
-/// From the first estimate of any curve on.
+/// Times count from the first estimate of any curve.
 EarlyTimeAxis time_axis(const std::vector<std::span<const analysis::EstimatePoint>>& curves) {
   double first_s = INFINITY, last_s = 0;
   for (const auto curve : curves) {
@@ -85,7 +85,7 @@ EarlyTimeAxis time_axis(const std::vector<std::span<const analysis::EstimatePoin
   return EarlyTimeAxis({std::min(first_s, last_s), last_s});
 }
 
-/// Points with an error: others are not determined, and shown as zero.
+/// Points with an error. The others are not determined, and shown as zero.
 std::size_t determined(const std::vector<analysis::EstimatePoint>& points) {
   return static_cast<std::size_t>(
       std::count_if(points.begin(), points.end(),
@@ -125,10 +125,10 @@ std::vector<Figure> convergence_figures(const analysis::CalibrateHistory::Estima
     SvgPlot plot(group.title, time.axis(), {group.unit, late_range(curves, group.factor)});
     for (std::size_t i = 0; i < curves.size(); ++i)
       draw(plot, kCalibratorInks[i], names[i], curves[i], time, group.factor);
-    figures.push_back(
-        {group.title, plot.svg(),
-         "With two standard errors to either side; what the first estimates need is not shown. The first "
-         "minute is enlarged."});
+    figures.push_back({group.title, plot.svg(),
+                       "With two standard errors to either side; large errors of the first estimates are outside "
+                       "the plot. The first "
+                       "minute is enlarged."});
   }
   return figures;
 }

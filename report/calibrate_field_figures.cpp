@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The magnetometer before and after.
+// Figures of the magnetometer, before and after calibration.
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
@@ -23,12 +23,12 @@ constexpr std::size_t kMostFieldDots = 1500;
 constexpr double kSide = 460;
 constexpr std::array<const char*, 3> kAxisTitles{"forward, uT", "starboard, uT", "down, uT"};
 
-/// With more tilt, the vertical field shows in the horizontal axes as much as the heading does.
+/// Tilt above which the vertical field affects the horizontal axes as much as the heading does.
 constexpr double kLevel_rad = 15 * std::numbers::pi / 180;
-/// Share of the readings that may be steeper where headings are marked.
+/// Share of steeper readings up to which headings are marked.
 constexpr double kMostSteep = 0.1;
 
-/// The readings of the field, levelled where a horizontal ellipse was fitted.
+/// Readings of the field, levelled if a horizontal ellipse was fitted.
 struct Fields {
   std::vector<double> time_s;
   std::vector<Eigen::Vector3d> before, after;
@@ -58,7 +58,7 @@ Fields fields_of(const std::vector<analysis::TurnedSample>& samples,
   return fields;
 }
 
-/// Components `across` and `up` of every so many.
+/// Components `across` and `up` of every n-th reading.
 std::vector<Point> projected(const std::vector<Eigen::Vector3d>& fields, int across, int up) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < fields.size(); i += fields.size() / kMostFieldDots + 1) {
@@ -67,8 +67,8 @@ std::vector<Point> projected(const std::vector<Eigen::Vector3d>& fields, int acr
   return points;
 }
 
-/// Outline of {m: |matrix (m - offset)| = size}, seen along the axis that is neither `across` nor `up`: of the
-/// ellipsoid's inverse form the part of those two.
+/// Outline of {m: |matrix (m - offset)| = size}, seen along the axis that is neither `across` nor `up`: the part
+/// of the ellipsoid's inverse form in those two axes.
 std::vector<Point> outline(const calib::FieldCorrection& correction, double size_uT, int across, int up) {
   const Eigen::Matrix3d inverse = correction.matrix.inverse() * size_uT;
   const Eigen::Matrix3d form = inverse * inverse.transpose();
@@ -106,8 +106,8 @@ SvgPlot square_plot(std::string_view title, int across, int up, const std::vecto
           {kSide, height}};
 }
 
-/// Where the bow pointed: with the bow to the east, north is to port. Just within the circle of the points, which
-/// are seen from above, starboard across and forward up.
+/// Direction of the bow: with the bow to the east, north is to port. The marks lie just within the circle of the
+/// points, which are seen from above, starboard across and forward up.
 void mark_headings(SvgPlot& plot, const std::vector<Point>& points) {
   if (points.empty()) return;
   double radius = 0;

@@ -19,11 +19,11 @@ namespace {
 using Ink = SvgPlot::Ink;
 
 constexpr std::size_t kMostDots = 1500;
-/// A curve that is known no better is not worth a picture.
+/// Standard error above which a curve is not drawn.
 constexpr double kWorstCurve_rad = 0.3;
-const SvgPlot::Axis kHeadingAxis{"heading as the compass says it, degrees", {0, 360}, 45};
+const SvgPlot::Axis kHeadingAxis{"heading of the compass, degrees", {0, 360}, 45};
 
-/// Every so many, so that not more than kMostDots remain.
+/// Every n-th reading, so that at most kMostDots remain.
 std::size_t stride_for(std::size_t count) { return count / kMostDots + 1; }
 
 std::vector<Point> over_heading(const std::vector<analysis::HeadingResidual>& residuals,
@@ -40,7 +40,7 @@ void append_heights(std::vector<double>& heights, const std::vector<Point>& poin
   for (const Point& point : points) heights.push_back(point.y);
 }
 
-/// Standard error of the deviation at a heading, by the whole covariance of B..E.
+/// Standard error of the deviation at a heading, from the whole covariance of B..E.
 double deviation_std_rad(const calib::CalibratorReport& compass, double heading_rad) {
   const Eigen::Vector4d f(std::sin(heading_rad), std::cos(heading_rad), std::sin(2 * heading_rad),
                           std::cos(2 * heading_rad));
@@ -75,8 +75,8 @@ std::optional<Figure> deviation_figure(const calib::Report& report,
   plot.band(Ink::after, "two standard errors", lower, upper);
   plot.line(Ink::fit, "fitted", curve);
   return Figure{"Deviation", plot.svg(),
-                "Measured heading less true heading, without A, which no turn tells. Each block of turning is set "
-                "upon the curve by its mean, since the gyro knows no north."};
+                "Measured heading less true heading, without A, which no turn reveals. Each block of turning is "
+                "aligned with the curve by its mean, since the gyro does not measure north."};
 }
 
 std::optional<Figure> residual_figure(const calib::Report& report,
@@ -89,11 +89,11 @@ std::optional<Figure> residual_figure(const calib::Report& report,
   append_heights(heights, after);
   SvgPlot plot("Heading against the gyro", kHeadingAxis, {"residual, degrees", range_of(heights)});
   plot.level(0);
-  plot.points(Ink::before, "as the compass says it", before);
+  plot.points(Ink::before, "as measured", before);
   plot.points(Ink::after, "calibrated", after);
   std::string caption = fmt::format(
       "Heading less the integrated gyro, by blocks of turning. Root-mean-square {:.2f} degrees, "
-      "calibrated {:.2f}. These readings had a part in the estimates; the figures on top had none.",
+      "calibrated {:.2f}. These readings were used for the estimates; those of the figures above were not.",
       analysis::root_mean_square(residuals, &analysis::HeadingResidual::before_rad) * base::kDegreesPerRadian,
       analysis::root_mean_square(residuals, &analysis::HeadingResidual::after_rad) * base::kDegreesPerRadian);
   const auto accepted = accepted_estimates(report);
@@ -104,7 +104,7 @@ std::optional<Figure> residual_figure(const calib::Report& report,
 Figure rose_figure(const calib::Report& report) {
   const std::string missing = calib::missing_turn(report.rose);
   return {"Headings seen", svg_rose(report.rose),
-          fmt::format("{} of {} sectors of ten degrees{}{}. The area tells how often.",
+          fmt::format("{} of {} sectors of ten degrees{}{}. The area is the number of readings.",
                       calib::visited(report.rose), report.rose.size(), missing.empty() ? "" : "; ", missing)};
 }
 

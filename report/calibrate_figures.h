@@ -12,10 +12,10 @@
 
 namespace navcal::report {
 
-/// Deviation curve with its band and what was measured of it; nullopt without an estimate.
+/// Deviation curve with its band and the measured deviations; nullopt without an estimate.
 [[nodiscard]] std::optional<Figure> deviation_figure(const calib::Report& report,
                                                      const std::vector<analysis::HeadingResidual>& residuals);
-/// Heading against the gyro's, before and after, over the heading.
+/// Heading less the gyro's, before and after calibration, over the heading.
 [[nodiscard]] std::optional<Figure> residual_figure(const calib::Report& report,
                                                     const std::vector<analysis::HeadingResidual>& residuals);
 [[nodiscard]] Figure rose_figure(const calib::Report& report);

@@ -45,16 +45,16 @@ void append_verdicts(HtmlPage& page, const calib::Report& report) {
     const bool no_better = calibrator.outcome == calib::Outcome::no_better;
     sentence += ": " + (accepted ? joined(shown(calibrator)) : objection_of(calibrator)) + ".";
     if (const auto held_out = held_out_of(calibrator, kArrow); accepted && !held_out.empty())
-      sentence += " On readings held out " + held_out + ".";
+      sentence += " On held-out readings " + held_out + ".";
     if (accepted && calibrator.verdict == calib::Verdict::in_force)
-      sentence += " On the vehicle it would have come into force by itself.";
+      sentence += " On the vehicle it would have become active by itself.";
     page.fact(no_better ? "plain" : accepted ? "good" : "bad", verdict_of(calibrator), sentence);
   }
 }
 
 void append_heading(HtmlPage& page, const calib::Report& report, const analysis::CalibrateHistory& history) {
   calib::Correction estimates = accepted_estimates(report);
-  // The curve is shown before it is accepted, too, once there is something to see; the gyro must be.
+  // The curve is shown before it is accepted, too, if it is good enough; the gyro must be accepted.
   if (!estimates.compass) estimates.compass = report.estimates.compass;
   const auto residuals = analysis::heading_residuals(history.samples(), estimates);
   std::vector<Figure> figures;
@@ -64,7 +64,7 @@ void append_heading(HtmlPage& page, const calib::Report& report, const analysis:
   if (any_heading) figures.push_back(rose_figure(report));
   page.section("Heading");
   if (residuals.empty()) {
-    page.paragraph("There is nothing to hold the heading against: that takes a calibrated gyro, and turns.");
+    page.paragraph("The heading has no reference: that needs a calibrated gyro, and turns.");
   }
   if (!any_heading) page.paragraph("No headings in the recording.");
   if (!figures.empty()) page.figures(figures);
@@ -86,7 +86,7 @@ void append_estimates(HtmlPage& page, const calib::Report& report) {
       std::vector<std::string> row{title, quantity.name, quantity.value, quantity.error, quantity.unit};
       row.insert(row.end(), facts.begin(), facts.end());
       rows.push_back(std::move(row));
-      // What is the same for all stands in the first row only.
+      // A cell that is the same in all rows is written in the first row only.
       title.clear();
       for (auto& fact : facts) fact.clear();
     }
@@ -101,8 +101,8 @@ void append_field_history(HtmlPage& page, const calib::Report& report) {
   const auto lines = field_history_of(report);
   if (lines.empty()) return;
   page.paragraph(
-      "The field of the compass stepped during the recording. What is calibrated is the last field; the "
-      "spread of each segment is about its own hard iron, with soft iron in common.");
+      "The field of the compass stepped during the recording. The calibration is that of the last segment; the "
+      "spread of each segment is about its own hard iron, with common soft iron.");
   for (const std::string& line : lines) page.paragraph(line + ".");
 }
 
@@ -115,15 +115,15 @@ void append_left_out(HtmlPage& page, const calib::Report& report, const PageSour
     rows.push_back({std::string(calib::name_of(stream)), std::to_string(report.gate.taken[i]),
                     left_out.empty() ? "nothing" : left_out, std::to_string(report.gate.gaps[i])});
   }
-  page.section("What was left out");
+  page.section("Readings left out");
   if (rows.empty()) {
     page.paragraph(report.calibrators.empty() ? "Without a compass no readings were examined."
                                               : "No readings came.");
   } else {
-    page.table({"Instrument", "Readings", "Left out, and why", "Gaps"}, rows);
+    page.table({"Instrument", "Readings", "Left out, by reason", "Gaps"}, rows);
   }
   if (const std::string distortion = distortion_of(report.gate); !distortion.empty())
-    page.paragraph(distortion + ". Nothing is left out for that.");
+    page.paragraph(distortion + ". No readings are left out for it.");
   for (const auto& remark : source.remarks) page.paragraph(remark);
 }
 
@@ -135,7 +135,7 @@ void append_source(HtmlPage& page, const PageSource& source) {
   rows.push_back({"Duration", duration_text(source.duration_s)});
   rows.push_back({"Configuration", source.config.empty() ? "the recording's own" : source.config});
   rows.push_back(
-      {"Noise reckoned with",
+      {"Assumed noise",
        fmt::format("heading {:.2g} deg, gyro {:.2g} deg/s, field {:.2g} uT, gyro bias {:.2g} deg/s in a second",
                    calibration.heading_noise_rad * base::kDegreesPerRadian,
                    calibration.gyro_noise_rad_s * base::kDegreesPerRadian, calibration.field_noise_uT,
@@ -166,7 +166,7 @@ std::string calibrate_page(const calib::Report& report, const analysis::Calibrat
       page.figures(field);
     }
     if (const auto figures = convergence_figures(history.estimates()); !figures.empty()) {
-      page.section("How the estimates came about");
+      page.section("Convergence of the estimates");
       page.figures(figures);
     }
     append_estimates(page, report);

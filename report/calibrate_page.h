@@ -10,7 +10,7 @@
 
 namespace navcal::report {
 
-/// Of what a page is made, for its foot.
+/// Source of a page, for its foot.
 struct PageSource {
   std::vector<std::string> files;
   std::string config;  ///< empty: the recording's own
@@ -19,7 +19,7 @@ struct PageSource {
   std::vector<std::string> remarks;
 };
 
-/// The report of `navcal calibrate --report`: what was found, in sentences and pictures, as one HTML file.
+/// Report of `navcal calibrate --report`: the results in sentences and plots, as one HTML file.
 [[nodiscard]] std::string calibrate_page(const calib::Report& report, const analysis::CalibrateHistory& history,
                                          const PageSource& source);
 

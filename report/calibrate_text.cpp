@@ -81,9 +81,9 @@ std::string calibrate_text(const calib::Report& report, double duration_s) {
   out += sentence_of(report.heading) + "\n";
   const auto lacks = [&](calib::Calibrator calibrator) { return report.find(calibrator) == nullptr; };
   if (lacks(calib::Calibrator::gyro))
-    out += "No gyro in the recording (a port of protocol imu-card): none of what turns on it.\n";
+    out += "No gyro in the recording (a port of protocol imu-card): no calibrations that need it.\n";
   if (lacks(calib::Calibrator::misalignment))
-    out += "No GPS in the recording: A, which no turn tells, stays unknown.\n";
+    out += "No GPS in the recording: A, which no turn reveals, stays unknown.\n";
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 namespace navcal::report {
 
-/// The answer of `navcal calibrate` for people, in lines of a terminal.
+/// The answer of `navcal calibrate` as text for a terminal.
 [[nodiscard]] std::string calibrate_text(const calib::Report& report, double duration_s);
 
 }  // namespace navcal::report

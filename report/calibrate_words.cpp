@@ -14,14 +14,7 @@
 namespace navcal::report {
 namespace {
 
-using calib::Calibrator;
-
-constexpr std::array<std::string_view, calib::kCalibrators.size()> kTitles{
-    "Gyro A",         "Gyro B",         "Compass deviation", "Magnetometer",        "Compass by GPS",
-    "Eight headings", "Misalignment A", "Delay of compass",  "Delay of GPS course", "Motor current"};
-
-/// How a quantity is shown: what its name ends with, by how much it is multiplied, the unit, and the error beyond
-/// which nothing is known of it.
+/// How a quantity is shown: ending of its name, factor, unit, and the error above which it counts as unknown.
 struct Unit {
   std::string_view ending;
   double factor;
@@ -37,21 +30,21 @@ constexpr std::array kUnits{Unit{"_rad_s", base::kDegreesPerRadian, "deg/s", 100
                             Unit{"delay_s", 1000, "ms", 10000},
                             Unit{"_s", 1, "s", 100}};
 
-/// "bias_rad_s" becomes "bias"; "delay_s" keeps its noun.
+/// Short name: "bias_rad_s" becomes "bias"; "delay_s" keeps its noun.
 std::string name_without(std::string_view name, std::string_view ending) {
   name.remove_suffix(ending.starts_with('_') ? ending.size() : 2);
   return std::string(name);
 }
 
-/// Where nothing is known a number would only mislead; empty where something is.
+/// Text instead of a number if nothing is known, because a number would mislead; empty otherwise.
 std::string_view instead_of_value(const calib::Quantity& quantity, double error, double unknown) {
   if (std::isnan(quantity.value)) return "not determined";
   if (std::isfinite(error)) return error > unknown ? "not determined" : "";
-  // An ellipse in the horizontal plane says nothing of the vertical.
+  // An ellipse in the horizontal plane does not determine the vertical.
   return quantity.name.starts_with("offset_") ? "not determined" : "";
 }
 
-/// Two codes of the compass leave a part of its words out, not the whole.
+/// Two error codes of the compass exclude only a part of its words.
 std::string reason_in_words(calib::Rejection rejection) {
   if (rejection == calib::Rejection::tilt_out_of_range) return "heading and tilt by E002";
   if (rejection == calib::Rejection::field_out_of_range) return "heading and field by E004";
@@ -62,12 +55,13 @@ std::string reason_in_words(calib::Rejection rejection) {
 
 }  // namespace
 
-std::string_view title_of(Calibrator calibrator) { return kTitles.at(static_cast<std::size_t>(calibrator)); }
+std::string_view title_of(calib::Calibrator calibrator) { return calib::row_of(calibrator).title; }
 
 std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
   std::vector<ShownQuantity> all;
   for (const calib::Quantity& quantity : report.estimate) {
-    if (quantity.name.starts_with("matrix_")) continue;  // for programs: people look at the heading's error
+    if (quantity.name.starts_with("matrix_"))
+      continue;  // the matrix is for programs: users need the heading's error
     const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
                                    [&](const Unit& u) { return quantity.name.ends_with(u.ending); });
     const bool found = unit != kUnits.end();
@@ -85,7 +79,7 @@ std::vector<ShownQuantity> shown(const calib::CalibratorReport& report) {
       all.push_back(std::move(one));
       continue;
     }
-    // What has an error and no value of its own: the corrected heading at its worst.
+    // A quantity with an error and no value: the worst corrected heading.
     if (quantity.name != "worst_heading_rad") one.value = fmt::format("{:.{}f}", value, decimals);
     if (std::isfinite(error)) one.error = fmt::format("{:.{}f}", error, decimals);
     all.push_back(std::move(one));
@@ -106,7 +100,7 @@ std::string_view verdict_of(const calib::CalibratorReport& report) { return cali
 std::string objection_of(const calib::CalibratorReport& report) {
   const auto& judgement = report.judgement;
   if (report.outcome == calib::Outcome::no_better) {
-    return "the estimate is supported, but readings that had no part in it are no better with it than before";
+    return "the data support the estimate, but held-out readings are no better with it";
   }
   if (judgement.accepted) return {};
   if (judgement.manoeuvre.empty()) return judgement.reason;
@@ -131,12 +125,12 @@ std::string held_out_of(const calib::CalibratorReport& report, std::string_view 
 
 std::string sentence_of(const calib::HeadingCheck& heading) {
   if (heading.blocks == 0) {
-    return "The heading could not be judged: that takes a gyro (inertial card) that was calibrated, and turns "
+    return "The heading could not be judged: that needs a calibrated gyro (inertial card), and turns "
            "after that.";
   }
   return fmt::format(
-      "Heading against the calibrated gyro, on readings that had no part in the estimates: {:.2f} deg as the "
-      "compass says it, {:.2f} deg calibrated (root-mean-square over {} blocks of turns).",
+      "Heading against the calibrated gyro, on held-out readings: {:.2f} deg as measured, {:.2f} deg calibrated "
+      "(root-mean-square over {} blocks of turns).",
       heading.before_rad * base::kDegreesPerRadian, heading.after_rad * base::kDegreesPerRadian, heading.blocks);
 }
 

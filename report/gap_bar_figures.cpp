@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bars beside names: probabilities of causes, and how much of the gap closes.
+// Bars beside names: probabilities of causes, and the share of the gap that closes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostCauses = 8;
 
-/// A part of the range in percent of its length, for a style.
+/// A part of the range, in percent of its length, for a style.
 std::string placed(Range range, double from, double to) {
   const auto share = [&](double value) {
     return 100 * (std::clamp(value, range.least, range.most) - range.least) / range.length();
@@ -40,14 +40,14 @@ void append_detail(std::string& html, std::string_view text) {
   if (!text.empty()) html += "<span class=\"detail\">" + escaped(text) + "</span>\n";
 }
 
-/// With spaces at which no line ends.
+/// Text with no-break spaces.
 std::string unbroken(std::string_view text) {
   std::string out;
   for (const char c : text) out += c == ' ' ? std::string("\u00a0") : std::string(1, c);
   return out;
 }
 
-/// How a cause is shown: on which the verdict rests, considered beside it, or of those that explain nothing.
+/// Display of a cause: part of the verdict, considered beside it, or one of those that explain too little.
 enum class Standing { named, considered, unconvincing };
 
 void append_cause(std::string& html, const gap::EffectFinding& effect, Standing standing) {
@@ -69,7 +69,7 @@ void append_cause(std::string& html, const gap::EffectFinding& effect, Standing 
   for (const auto& other : effect.confused_with) append_detail(html, text_of(other));
 }
 
-/// From none to all, and further where a closure lies outside.
+/// Range from none to all, extended if a closure lies outside.
 Range range_of_closures(const gap::Gap& gap) {
   constexpr double kFarthest = 0.5;
   Range range{0, 1};
@@ -122,7 +122,7 @@ std::optional<Figure> cause_figure(const gap::Diagnosis& diagnosis) {
   }
   html += "</div>\n";
   if (effects.empty() && others == 0) return std::nullopt;
-  return Figure{effects.empty() ? "Considered, and not convincing" : "Causes by probability", std::move(html),
+  return Figure{effects.empty() ? "Considered, but not sufficient" : "Causes by probability", std::move(html),
                 effects.empty()
                     ? "No cause is named. " + std::string(kNoneExplains)
                     : "Blue: the set on which the verdict rests, with standard errors. Grey: considered "
@@ -140,7 +140,7 @@ std::optional<Figure> closure_figure(const gap::Diagnosis& diagnosis, const GapS
   }
   html += "</div>\n";
   return Figure{"How much of the gap closes", std::move(html),
-                "From none to all of what lies above the floor, with 95 % intervals, " + judged_on(gap, source) +
+                "From none to all of the gap above the floor, with 95 % intervals, " + judged_on(gap, source) +
                     ". Altogether: power of the whitened residuals; channels: root mean square."};
 }
 

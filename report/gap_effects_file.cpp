@@ -28,7 +28,7 @@ Written written(const gap::EffectParameterEstimate& estimate, std::span<const si
   if (found == known.end()) return {estimate.value, error};
   const double within = std::clamp(estimate.value, found->least, found->greatest);
   if (within == estimate.value) return {within, error};
-  return {within, fmt::format("{:.4g} {}, which the simulator does not take", estimate.value, error)};
+  return {within, fmt::format("{:.4g} {}, outside the range of the simulator", estimate.value, error)};
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace navcal::report {
 
-/// The effects that were found as `navcal simulate --effects` takes them (docs/simulator.md), with standard errors
-/// beside the values. What the simulator would refuse is brought within its range, and said.
+/// The effects found, in the format of `navcal simulate --effects` (docs/simulator.md), with standard errors
+/// beside the values. A value outside the simulator's range is moved to the bound, with a comment.
 [[nodiscard]] std::string gap_effects_file(const gap::Diagnosis& diagnosis);
 
 }  // namespace navcal::report

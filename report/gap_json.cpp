@@ -128,7 +128,7 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
     record::append_calibrate_json(alone, *diagnosis.instruments_alone);
     json["instruments_alone"] = OrderedJson::parse(alone);
   }
-  // A file's name in a remark may be no UTF-8.
+  // A file name in a remark may be invalid UTF-8.
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 

@@ -7,7 +7,7 @@
 
 namespace navcal::report {
 
-/// The answer of `navcal gap --json` (docs/gap.md): one object, no newline. What is no finite number is null.
+/// The answer of `navcal gap --json` (docs/gap.md): one object, no newline. Values that are not finite are null.
 [[nodiscard]] std::string gap_json(const gap::Diagnosis& diagnosis);
 
 }  // namespace navcal::report

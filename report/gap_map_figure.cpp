@@ -13,7 +13,7 @@
 namespace navcal::report {
 namespace {
 
-/// How many times the floor a shade begins at.
+/// Multiple of the floor at which a shade begins.
 constexpr std::array kShades{0.0, 1.5, 3.0, 6.0, 12.0};
 constexpr double kMostShown = 999;
 
@@ -67,7 +67,7 @@ void append_legend(std::string& html) {
                                                         : fmt::format("{:g} to {:g}", kShades[i], kShades[i + 1]);
     fmt::format_to(std::back_inserter(html), "<span><i class=\"heat{}\"></i>{}</span>", i, range);
   }
-  html += "<span><i class=\"heat0 clear\"></i>stands clear of chance</span></div>\n";
+  html += "<span><i class=\"heat0 clear\"></i>significant</span></div>\n";
 }
 
 }  // namespace
@@ -92,9 +92,9 @@ std::optional<Figure> map_figure(const gap::Diagnosis& diagnosis) {
   }
   html += "</tbody>\n</table></div>\n";
   append_legend(html);
-  return Figure{"Residuals by channel and by what they follow", std::move(html),
-                "How many times larger than on the nominal vehicle the part of each channel's residuals is that "
-                "follows a regime."};
+  return Figure{"Residuals by channel and covariate", std::move(html),
+                "The part of each channel's residuals that follows a covariate, as a multiple of that of the "
+                "nominal vehicle."};
 }
 
 }  // namespace navcal::report

@@ -50,7 +50,7 @@ void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {
     }
     page.table({"Channel", "Follows", "Gap", "Nominal vehicle", "By chance"}, rows);
   }
-  // Side by side the map would be cut.
+  // In two columns the map would be cut off.
   if (auto figure = map_figure(diagnosis)) page.figures({std::move(*figure)});
   if (auto figure = track_figure(diagnosis)) page.figures({std::move(*figure)});
 }
@@ -70,7 +70,7 @@ void append_causes(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSou
 
 void append_left_over(HtmlPage& page, const gap::Diagnosis& diagnosis) {
   if (diagnosis.unexplained.empty() && diagnosis.changes.empty()) return;
-  page.section("What is left over");
+  page.section("Remaining residuals");
   for (const auto& sentence : diagnosis.unexplained) page.fact("plain", "left", sentence);
   for (const auto& change : diagnosis.changes) page.fact("plain", "changed", text_of(change, kArrow));
 }

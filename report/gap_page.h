@@ -8,7 +8,7 @@
 
 namespace navcal::report {
 
-/// The report of `navcal gap --report`: verdict, where, causes, before and after, what to do, as one HTML file.
+/// The report of `navcal gap --report`: verdict, where, causes, before and after, next steps, as one HTML file.
 [[nodiscard]] std::string gap_page(const gap::Diagnosis& diagnosis, const GapSource& source);
 
 }  // namespace navcal::report

@@ -22,7 +22,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + ", " + unit;
 }
 
-/// As many as all have; fewer where there are too many to be seen.
+/// Number of intervals: all of them, or fewer if there are too many to be visible.
 std::vector<Point> paired(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = std::min(x.size(), y.size());
   std::vector<Point> points;
@@ -85,7 +85,7 @@ std::optional<Figure> scatter_figure(const gap::Diagnosis& diagnosis) {
   plot.line(Ink::before, "", trend(before));
   plot.line(Ink::after, "", trend(after));
   return Figure{title, plot.svg(),
-                "Each dot a residual of the mission; lines: means. What is explained lies flat."};
+                "Each dot is a residual of the mission; lines are means. Explained residuals are flat."};
 }
 
 CourseFigures course_figures(const gap::Diagnosis& diagnosis) {

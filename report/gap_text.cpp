@@ -14,10 +14,10 @@ namespace navcal::report {
 namespace {
 
 constexpr std::string_view kPlusMinusText = "+-", kArrowText = "->";
-constexpr std::size_t kTitleWidth = 17;  ///< column where what is said begins
+constexpr std::size_t kTitleWidth = 17;  ///< column at which the text begins
 constexpr std::size_t kMostWhere = 5, kMostCandidates = 5;
 
-/// A title in the left column; on the lines below it is empty.
+/// Title in the left column; empty on the following lines.
 void begin(std::string& out, std::string_view title) { append_format(out, "{:<{}}", title, kTitleWidth); }
 
 void append_lines(std::string& out, std::string_view title, const std::vector<std::string>& lines) {
@@ -45,7 +45,7 @@ void append_where(std::string& out, const gap::Diagnosis& diagnosis) {
   }
 }
 
-/// Without a probability where that is only a share among effects of which none explains the recording.
+/// Text without a probability, if that is only a share among effects of which none explains the recording.
 void append_effect(std::string& out, const gap::EffectFinding& effect, bool with_probability) {
   constexpr std::size_t kIndent = kTitleWidth + 2;
   out += effect.name;
@@ -103,7 +103,7 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
     if (any) append_lines(out, "not convincing", {std::string(kNoneExplains)});
     append_effects(out, any ? "" : "not convincing", diagnosis.candidates, kMostCandidates, !unknown);
   }
-  append_lines(out, "what it means", consequences(diagnosis.gap, kArrowText));
+  append_lines(out, "consequence", consequences(diagnosis.gap, kArrowText));
   append_lines(out, "left over", diagnosis.unexplained);
   std::vector<std::string> changes;
   for (const auto& change : diagnosis.changes) changes.push_back(text_of(change, kArrowText));

@@ -8,7 +8,7 @@
 
 namespace navcal::report {
 
-/// The answer of `navcal gap` for people, in lines of a terminal.
+/// The answer of `navcal gap` as text for a terminal.
 [[nodiscard]] std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source);
 
 }  // namespace navcal::report

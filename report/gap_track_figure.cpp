@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the vehicle was, and where the model would have gone.
+// Track of the vehicle, and track of the model.
 #include <vector>
 
 #include "report/gap_figures.h"
@@ -20,7 +20,7 @@ std::vector<Point> points_of(const gap::Track& track) {
 
 }  // namespace
 
-/// A metre is as long to the north as to the east.
+/// Both axes have the same scale, a metre north as long as a metre east.
 std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   if (!diagnosis.tracks || diagnosis.tracks->fixes.time_s.empty()) return std::nullopt;
   const gap::Tracks& tracks = *diagnosis.tracks;
@@ -38,10 +38,9 @@ std::optional<Figure> track_figure(const gap::Diagnosis& diagnosis) {
   plot.line(Ink::before, "nominal model", points_of(tracks.nominal));
   const char* const after = diagnosis.effects.empty() ? "with the best candidates" : "with the effects found";
   if (!tracks.improved.time_s.empty()) plot.line(Ink::after, after, points_of(tracks.improved));
-  return Figure{
-      "Track", plot.svg(),
-      "What was measured, and where the model would have gone from the first fix on, by the recorded shaft "
-      "and its own view of compass and gyros, without any further fix. A current moves the fixes only."};
+  return Figure{"Track", plot.svg(),
+                "The fixes, and the path of the model from the first fix on, by the recorded shaft and the "
+                "model's own compass and gyros, without any further fix. A current moves the fixes only."};
 }
 
 }  // namespace navcal::report

@@ -6,8 +6,8 @@
 
 namespace navcal::report {
 
-/// A parameter's name apart from the unit that stands in it: "x_uT_per_A" is "x" in "uT/A", "deg_per_s_per_C_ax"
-/// is "ax" in "deg/s/C", "per_A" is nameless in "1/A", "gain" has no unit.
+/// Splits a parameter's name into name and unit: "x_uT_per_A" is "x" in "uT/A", "deg_per_s_per_C_ax" is "ax" in
+/// "deg/s/C", "per_A" is nameless in "1/A", "gain" has no unit.
 struct NameAndUnit {
   std::string name, unit;
 };

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kNoNumber = "-";
 
-/// As a shell takes it.
+/// The text quoted for a shell.
 std::string quoted(const std::string& file) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-+=,:@%";
   if (!file.empty() && file.find_first_not_of(kPlain) == std::string::npos) return file;
@@ -36,13 +36,13 @@ std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
   if (!diagnosis.sentence.empty()) return diagnosis.sentence;
   switch (diagnosis.verdict) {
     case gap::Verdict::no_gap:
-      return "Nothing exceeds what the nominal vehicle would show.";
+      return "No residuals exceed those of the nominal vehicle.";
     case gap::Verdict::explained:
       return "The effects below explain the gap.";
     case gap::Verdict::unknown:
       break;
   }
-  return "Nothing in the library explains what was recorded.";
+  return "No effect of the library explains the recording.";
 }
 
 std::vector<std::string> further_remarks(const gap::Diagnosis& diagnosis) {
@@ -53,8 +53,8 @@ std::vector<std::string> further_remarks(const gap::Diagnosis& diagnosis) {
 }
 
 std::string nowhere_text(const gap::Diagnosis& diagnosis) {
-  return diagnosis.map.empty() ? "Nothing was compared with the nominal vehicle."
-                               : "Nowhere: no residuals stand clear of those of the nominal vehicle.";
+  return diagnosis.map.empty() ? "There was no comparison with the nominal vehicle."
+                               : "Nowhere: no residuals differ significantly from those of the nominal vehicle.";
 }
 
 std::string spaced(std::string_view name) {
@@ -114,7 +114,7 @@ std::string text_of(const gap::Confusion& confusion) {
 }
 
 std::string closed_text(const gap::Closure& closure) {
-  // Further below zero the digits of a share mean nothing: what is left has grown.
+  // Further below zero the digits of a share have no meaning: the residuals have grown.
   constexpr double kGrows = -1;
   if (!closure.closed || !std::isfinite(*closure.closed)) return "nothing to close";
   if (*closure.closed < kGrows) return "grows";
@@ -139,9 +139,9 @@ std::string size_text(const gap::Closure& closure) {
 }
 
 std::string judged_on(const gap::Gap& gap, const GapSource& source) {
-  if (!gap.held_out) return "on blocks of the same recording, which says less than others would";
+  if (!gap.held_out) return "on blocks of the same recording, which is a weaker check than another recording";
   const std::size_t n = source.holdouts.size();
-  return n == 1 ? "on the recording held out" : fmt::format("on {} recordings held out", n);
+  return n == 1 ? "on the held-out recording" : fmt::format("on {} held-out recordings", n);
 }
 
 std::vector<std::string> consequences(const gap::Gap& gap, std::string_view arrow) {
@@ -167,17 +167,17 @@ std::string text_of(const gap::ChangePoint& change, std::string_view arrow) {
 std::vector<std::string> instruments_alone_lines(const calib::Report& report, std::string_view plus_minus) {
   std::vector<std::string> lines;
   for (const auto& calibrator : report.calibrators) {
-    if (calibrator.calibrator == calib::Calibrator::swing) continue;  // begun by the operator only
+    if (calib::row_of(calibrator.calibrator).by_order) continue;  // only an operator can begin it
     std::string line = fmt::format("{}: ", title_of(calibrator.calibrator));
     if (calibrator.outcome == calib::Outcome::refused) {
-      lines.push_back(line + "nothing can be said, " + objection_of(calibrator));
+      lines.push_back(line + "not determined, " + objection_of(calibrator));
       continue;
     }
     std::vector<std::string> pieces;
     for (const ShownQuantity& quantity : shown(calibrator)) pieces.push_back(text_of(quantity, plus_minus));
     line += fmt::format("{}", fmt::join(pieces, ", "));
     if (const auto held_out = held_out_of(calibrator, "to"); !held_out.empty())
-      line += fmt::format("; on readings held out from {}", held_out);
+      line += fmt::format("; on held-out readings from {}", held_out);
     lines.push_back(std::move(line));
   }
   return lines;
@@ -195,7 +195,8 @@ std::string simulate_hint(const gap::Diagnosis& diagnosis, const GapSource& sour
   const std::string vehicle = source.vehicle.empty() ? "" : " --vehicle " + quoted(source.vehicle);
   const std::string command =
       fmt::format("navcal simulate --mission survey{} --effects {} -o with.cap", vehicle, file);
-  return source.effects_file.empty() ? "--effects-out FILE.toml writes what was found; then " + command : command;
+  return source.effects_file.empty() ? "--effects-out FILE.toml writes the effects found; then " + command
+                                     : command;
 }
 
 }  // namespace navcal::report

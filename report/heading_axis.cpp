@@ -27,7 +27,8 @@ HeadingAxis::HeadingAxis(const std::vector<double>& headings_deg) {
     const auto sector = static_cast<std::size_t>(in_circle(heading_deg) / kSector_deg);
     ++counts.at(std::min(sector, kSectors - 1));
   }
-  // The middle of the sector that has the fewest, itself and its neighbours; of several the nearest to south.
+  // The middle of the sector with the fewest headings, counted with its neighbours; of several the nearest to
+  // south.
   std::size_t best = kSectors / 2, least = SIZE_MAX;
   for (std::size_t i = 0; i < kSectors; ++i) {
     const std::size_t sector = (kSectors / 2 + (i % 2 == 0 ? i / 2 : kSectors - (i + 1) / 2)) % kSectors;

@@ -7,14 +7,14 @@
 
 namespace navcal::report {
 
-/// Headings on an axis that is cut open where the vehicle pointed least, so that a course about north is no jump
-/// from the top to the bottom. Marks are N, NE, E and so on. Degrees.
+/// Axis of headings that is cut open at the least visited heading, so that a course about north does not jump from
+/// the top to the bottom. Marks are N, NE, E and so on. Degrees.
 class HeadingAxis {
  public:
-  /// All that is to be shown.
+  /// All headings to be shown.
   explicit HeadingAxis(const std::vector<double>& headings_deg);
 
-  /// Within the axis.
+  /// The heading within the axis.
   [[nodiscard]] double operator()(double heading_deg) const;
   [[nodiscard]] SvgPlot::Axis axis(std::string label) const;
 

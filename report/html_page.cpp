@@ -7,7 +7,7 @@
 namespace navcal::report {
 namespace {
 
-/// Colours keep their meaning for the colour-blind, too: blue and orange (Okabe and Ito), and a word beside each.
+/// Colours that colour-blind readers can tell apart, blue and orange (Okabe and Ito), each with a word beside it.
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark; --ink:#1b2733; --soft:#5a6775; --line:#dfe4ea; --strong:#aeb8c3; --page:#ffffff;
   --card:#f6f8fa; --before:#c2571a; --after:#0b6fa8; --fit:#1b2733; --second:#c2571a; --third:#1d7f58;
@@ -96,10 +96,11 @@ summary { margin:14px 0; color:var(--soft); cursor:pointer; }
 @media (max-width:600px) { .ranks .detail { grid-column:1/-1; margin-top:-4px; } main { padding:20px 14px 36px; } }
 )";
 
-/// Longer cells break anywhere: digests and file names have no spaces.
+/// Long cells break anywhere: digests and file names have no spaces.
 constexpr std::size_t kLongCell = 40;
 
-/// Length of the UTF-8 character at the beginning of `text`; 0 where there is none: a file's name may be anything.
+/// Length of the UTF-8 character at the beginning of `text`; 0 if there is none, because a file name may be any
+/// bytes.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = static_cast<unsigned char>(text.front());
   const std::size_t length = byte < 0x80   ? 1

@@ -3,12 +3,12 @@
 
 #include <string>
 
-// Numbers as people read them.
+// Numbers in the form shown to users.
 namespace navcal::report {
 
-/// Two digits of the error, or four of the value where the error is not known.
+/// Two digits of the error, or four of the value if the error is unknown.
 [[nodiscard]] int decimals_for(double value, double error);
-/// "10 min 2 s"; "-" for what is no number.
+/// Duration, such as "10 min 2 s"; "-" if it is not finite.
 [[nodiscard]] std::string duration_text(double seconds);
 
 }  // namespace navcal::report

@@ -40,7 +40,7 @@ std::vector<Point> fixes_of(const analysis::SimulatedSeries& series, const sim::
   return points;
 }
 
-/// A metre is as long to the north as to the east.
+/// Both axes have the same scale, a metre north as long as a metre east.
 Figure track(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
   constexpr double kTrackSide = 460, kLeastLength_m = 2;
   std::vector<Point> way;
@@ -92,21 +92,22 @@ std::vector<Figure> motion_figures(const analysis::SimulatedSeries& series, cons
                          .dots(Ink::before, "card", series.imu, [](const auto& record) { return record.depth_m; })
                          .line(Ink::after, "truth", states, [](const State& state) { return state.position_m[2]; })
                          .svg("Depth", "m"),
-                     "Of the origin, down."});
+                     "Depth of the origin."});
   figures.push_back({"Speed",
                      plot()
                          .dots(Ink::before, "GPS", series.gps, [](const auto& fix) { return fix.speed_m_s; })
                          .line(Ink::after, "ahead, through the water", states,
                                [](const State& state) { return state.velocity_body_m_s[0]; })
                          .svg("Speed", "m/s"),
-                     "The receiver's is over ground, and zero where it has none."});
+                     "The receiver's speed is over ground, and zero while it has no fix."});
   auto fins = plot();
   constexpr std::array<const char*, 3> kFinNames{"1", "2", "3"};
   for (std::size_t i = 0; i < 3; ++i) {
     fins.line(kSimulatedInks[i], kFinNames[i], series.motor,
               [i](const auto& status) { return degrees(status.fins_rad[i]); });
   }
-  figures.push_back({"Fins", fins.svg("Fins", "degrees"), "As the motor card reports the servos' shafts."});
+  figures.push_back(
+      {"Fins", fins.svg("Fins", "degrees"), "Angles of the servo shafts, as the motor card reports them."});
   return figures;
 }
 
@@ -134,14 +135,15 @@ std::vector<Figure> instrument_figures(const analysis::SimulatedSeries& series) 
       plot().line(kSimulatedInks[0], "", series.motor, [](const auto& status) { return status.current_A; });
   const auto warm =
       plot().line(kSimulatedInks[0], "", series.compass, [](const auto& word) { return word.temperature_C; });
-  return {{"Field", field.svg("Compass: field", "uT"), "In body axes."},
-          {"Tilt", tilt.svg("Compass: tilt", "degrees"), "Of the inclinometer, whose fluid lags."},
-          {"Temperature", warm.svg("Compass: temperature", "C"), "Of the electronics."},
-          {"Gyros", rates.svg("Inertial card: rates", "degrees a second"), "With the biases of this power-on."},
-          {"Accelerometers", force.svg("Inertial card: specific force", "m/s2"),
-           "In body axes; level, \u22129.81 down."},
-          {"Shaft", shaft.svg("Motor card: shaft", "rpm"), "As measured."},
-          {"Current", current.svg("Motor card: current", "A"), "Of the propulsion motor."}};
+  return {
+      {"Field", field.svg("Compass: field", "uT"), "In body axes."},
+      {"Tilt", tilt.svg("Compass: tilt", "degrees"), "Output of the inclinometer, whose fluid lags."},
+      {"Temperature", warm.svg("Compass: temperature", "C"), "Temperature of the electronics."},
+      {"Gyros", rates.svg("Inertial card: rates", "degrees a second"), "Including the biases of this power-on."},
+      {"Accelerometers", force.svg("Inertial card: specific force", "m/s2"),
+       "In body axes; level, \u22129.81 down."},
+      {"Shaft", shaft.svg("Motor card: shaft", "rpm"), "As measured."},
+      {"Current", current.svg("Motor card: current", "A"), "Current of the propulsion motor."}};
 }
 
 }  // namespace navcal::report

@@ -9,10 +9,10 @@
 
 namespace navcal::report {
 
-/// Where the vehicle went, and how it moved; with what the instruments said of it.
+/// Track and motion of the vehicle, with the output of the instruments.
 [[nodiscard]] std::vector<Figure> motion_figures(const analysis::SimulatedSeries& series,
                                                  const sim::Origin& origin);
-/// What instruments said that is no motion itself: rates, forces, field, tilt, shaft, current, temperature.
+/// Instrument outputs that are no motion: rates, forces, field, tilt, shaft, current, temperature.
 [[nodiscard]] std::vector<Figure> instrument_figures(const analysis::SimulatedSeries& series);
 
 }  // namespace navcal::report

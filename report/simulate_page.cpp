@@ -19,7 +19,7 @@ std::string effect_interval_text(const sim::Interval& when) {
   return fmt::format("{:g} to {:g} s", when.from_s, when.until_s);
 }
 
-/// Those with a picture; of the others one sentence.
+/// Instruments with a figure; one sentence names the others.
 void append_figures(HtmlPage& page, std::vector<Figure> figures) {
   std::string missing;
   for (const Figure& figure : figures) {

@@ -10,7 +10,8 @@
 
 namespace navcal::report {
 
-/// The page of a simulation: track, heading, depth, speed, fins, and what each instrument said beside the truth.
+/// The page of a simulation: track, heading, depth, speed, fins, and the output of each instrument beside the
+/// truth.
 [[nodiscard]] std::string simulate_page(const analysis::SimulateHistory& history,
                                         const analysis::SimulateArguments& arguments,
                                         const analysis::SimulatedRun& run, const sim::EffectSet& effects);

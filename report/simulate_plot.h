@@ -12,12 +12,12 @@
 
 namespace navcal::report {
 
-/// Curves over the time of a mission: dots lie below lines.
+/// Curves over the time of a mission; dots are drawn below lines.
 class SimulatedPlot {
  public:
   explicit SimulatedPlot(const std::vector<analysis::Timed<sim::State>>& states) : time_(times_of(states)) {}
 
-  /// A value of each element; one that is absent is left out.
+  /// A value of each element; absent ones are left out.
   template <class Value, class Get>
   SimulatedPlot& dots(SvgPlot::Ink ink, const char* name, const std::vector<analysis::Timed<Value>>& list,
                       Get get) {
@@ -31,7 +31,7 @@ class SimulatedPlot {
     return *this;
   }
 
-  /// Empty without a value.
+  /// Empty without values.
   [[nodiscard]] std::string svg(const char* title, const char* unit) const {
     std::vector<double> values;
     for (const auto* curves : {&dots_, &lines_}) {

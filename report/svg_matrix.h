@@ -7,8 +7,8 @@
 
 namespace navcal::report {
 
-/// Counts of one thing against another as SVG that stands within a page (svg_plot.h). A cell is as dark as its
-/// share of the row; where row and column are the same in kind it is blue, else orange.
+/// Matrix of counts as SVG within a page (svg_plot.h). A cell is as dark as its share of the row. It is blue if
+/// row and column are of the same kind, else orange.
 struct SvgMatrix {
   std::vector<std::string> rows, columns;
   std::vector<std::vector<int>> counts;     ///< by row

@@ -15,12 +15,12 @@
 namespace navcal::report {
 namespace {
 
-constexpr double kLetterWidth = 6.3;  // of the legend's type, on the average
+constexpr double kLetterWidth = 6.3;  // mean width in the legend's type
 constexpr std::array<std::string_view, 7> kInks{"before", "after", "fit", "first", "second", "third", "fourth"};
 
 std::string_view name_of(SvgPlot::Ink ink) { return kInks[static_cast<std::size_t>(ink)]; }
 
-/// A tick as people write it: no digits that the distance between ticks does not need.
+/// Label of a tick, with only the digits that the distance between ticks needs.
 std::string tick_text(double value, double step) {
   const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
   std::string text = fmt::format("{:.{}f}", std::abs(value) < step * 1e-6 ? 0.0 : value, decimals);
@@ -48,7 +48,7 @@ std::vector<double> multiples(Range range, double step) {
 
 namespace {
 
-/// Those that are given, or numbers at about so many round values.
+/// The given ticks, or numbers at round values.
 std::vector<SvgPlot::Tick> ticks_of(const SvgPlot::Axis& axis, int about) {
   if (!axis.ticks.empty()) return axis.ticks;
   const auto values = axis.step > 0 ? multiples(axis.range, axis.step) : round_values(axis.range, about);
@@ -58,18 +58,18 @@ std::vector<SvgPlot::Tick> ticks_of(const SvgPlot::Axis& axis, int about) {
   return ticks;
 }
 
-/// A value that lies further out than this many lengths of what is within it is an outlier.
+/// A value further from the inner range than this many of its lengths is an outlier.
 constexpr double kJump = 2;
-/// No axis is longer than this many times the range that holds the middle four fifths of the values.
+/// An axis is at most this many times as long as the range of the middle four fifths of the values.
 constexpr double kLongest = 40;
 
-/// Range of sorted values without outliers: grows outwards from the middle four fifths, and ends where the next
-/// value would lengthen it by a jump.
+/// Range of sorted values without outliers. It grows outwards from the middle four fifths, and ends before a value
+/// that would lengthen it by a jump.
 Range without_outliers(const std::vector<double>& sorted) {
   const std::size_t n = sorted.size(), few = n / 300;
   std::size_t low = n / 10, high = n - 1 - n / 10;
   const double middle = sorted[high] - sorted[low];
-  // Where most values are the same, any other would be a jump.
+  // If most values are equal, any other would be a jump.
   if (!(middle > 0)) return {sorted[few], sorted[n - 1 - few]};
   const double most = kLongest * middle;
   while (low > few && sorted[high] - sorted[low - 1] <= std::min(most, (1 + kJump) * (sorted[high] - sorted[low])))
@@ -82,7 +82,7 @@ Range without_outliers(const std::vector<double>& sorted) {
 }
 
 Range with_margin(Range range) {
-  // What does not vary is drawn as such, not with ticks that differ in the seventh place.
+  // Constant values get one tick, not ticks that differ in the seventh digit.
   const double size = std::abs(range.least);
   const bool constant = range.length() <= 1e-6 * size;
   const double margin = constant ? (size > 0 ? 0.01 * size : 1) : 0.06 * range.length();
@@ -136,7 +136,7 @@ bool SvgPlot::visible(const Point& point) const {
   return x_.range.contains(point.x) && y_.range.contains(point.y);
 }
 
-/// Far outside is as good as just outside, and does not overflow a browser's numbers.
+/// Points far outside are moved to just outside, so that they do not overflow a browser's numbers.
 void SvgPlot::append_path(std::string& path, std::span<const Point> points, bool& begun) const {
   for (const Point& point : points) {
     const double x = x_of(point.x), y = y_of(point.y);
@@ -168,7 +168,7 @@ void SvgPlot::points(Ink ink, std::string_view name, std::span<const Point> poin
   std::string path;
   for (const Point& point : points) {
     mark_cut(point);
-    // A line of no length with round ends is a dot, in a third of the bytes of a circle.
+    // A line of zero length with round ends is a dot, in a third of the bytes of a circle.
     if (visible(point)) append_format(path, "M{:.1f} {:.1f}h0", x_of(point.x), y_of(point.y));
   }
   if (path.empty()) return;
@@ -281,7 +281,7 @@ std::string SvgPlot::svg() const {
                 size_.width, size_.height + (any_cut() ? kCutWords : 0));
   append_format(out, "<title>{}</title>\n", title_);
   append_axes(out);
-  // A picture within the picture cuts off what lies outside the axes.
+  // A nested picture clips content outside the axes.
   append_format(out, "<svg x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n", kLeft, kTop,
                 width, height, body_);
   append_format(out, "<path class=\"frame\" d=\"M{:.1f} {:.1f}h{:.1f}v{:.1f}h-{:.1f}Z\"/>\n", kLeft, kTop, width,

@@ -21,20 +21,20 @@ struct Range {
   [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
 };
 
-/// Around all finite values but the outermost few in a thousand on either side and outliers, which lie far from
-/// all others; with a margin; never empty.
+/// Range of all finite values except outliers and the outermost few in a thousand on either side; with a margin;
+/// never empty.
 [[nodiscard]] Range range_of(std::vector<double> values);
-/// Around all finite values, outliers included; with a margin; never empty.
+/// Range of all finite values, outliers included; with a margin; never empty.
 [[nodiscard]] Range whole_range_of(const std::vector<double>& values);
-/// Both about their middles, as long as the longer one, and at least so long: a metre is as long to the north as
-/// to the east.
+/// Both ranges about their middles, as long as the longer one and at least that long, so that a metre north is as
+/// long as a metre east.
 void make_equally_long(Range& x, Range& y, double least_length = 0);
-/// Round values within a range, about so many, 1, 2 or 5 apart in their leading digit.
+/// About that many round values within a range, 1, 2 or 5 apart in their leading digit.
 [[nodiscard]] std::vector<double> round_values(Range range, int about);
 
-/// A diagram as SVG that stands within a page: colours come from the page's style by class (html_page.cpp), so
-/// that one picture serves light, dark and paper. Written by hand because no Debian or npm package draws for C++
-/// without a JavaScript library in every page.
+/// A diagram as SVG within a page. Colours come from the page's style by class (html_page.cpp), so that one
+/// diagram serves light, dark and print. No Debian or npm package draws for C++ without a JavaScript library in
+/// every page.
 class SvgPlot {
  public:
   struct Tick {
@@ -44,7 +44,7 @@ class SvgPlot {
   struct Axis {
     std::string label;
     Range range;
-    double step = 0;            ///< between ticks; 0: round values
+    double step = 0;            ///< between ticks; 0: chosen round values
     std::vector<Tick> ticks{};  ///< instead of numbers
   };
   /// Colours of the page.
@@ -57,13 +57,13 @@ class SvgPlot {
   SvgPlot(std::string_view title, Axis x, Axis y, Size size);
   SvgPlot(std::string_view title, Axis x, Axis y) : SvgPlot(title, std::move(x), std::move(y), Size()) {}
 
-  // What is drawn first lies below. A name enters the legend once; an empty one does not. Points that are not
-  // finite are left out and end a line; what lies outside the axes is cut off. A triangle at the edge says where
-  // points or lines lie outside, and a line of words how many. Bands are cut without a mark.
+  // Elements are drawn in the order of the calls, the first lowest. A name enters the legend once; an empty one
+  // does not. Points that are not finite are left out and end a line. Content outside the axes is clipped: a
+  // triangle at the edge marks the place, and a line of text gives the number. Bands are clipped without a mark.
   void band(Ink ink, std::string_view name, std::span<const Point> lower, std::span<const Point> upper);
   void points(Ink ink, std::string_view name, std::span<const Point> points);
   void line(Ink ink, std::string_view name, std::span<const Point> points);
-  /// A thin level line.
+  /// A thin horizontal line.
   void level(double y);
   /// A word at a point.
   void word(const Point& at, std::string_view text);
@@ -83,8 +83,8 @@ class SvgPlot {
   void append_cuts(std::string& out) const;
   [[nodiscard]] bool any_cut() const;
 
-  static constexpr double kCutWords = 16;  ///< height of the line that counts what lies outside
-  static constexpr int kCutMark_px = 6;    ///< width of a triangle, so that they do not overlap
+  static constexpr double kCutWords = 16;  ///< height of the line with the number of clipped points
+  static constexpr int kCutMark_px = 6;    ///< width of a triangle, so that triangles do not overlap
 
   std::string title_;
   Axis x_, y_;
@@ -93,10 +93,10 @@ class SvgPlot {
   double legend_x_ = kLeft;
   enum Side { above, below, left, right };
   struct Cut {
-    std::set<int> at_px;  ///< along the edge
+    std::set<int> at_px;  ///< position along the edge
     std::size_t points = 0;
   };
-  std::array<Cut, 4> cuts_;  ///< by side
+  std::array<Cut, 4> cuts_;  ///< one for each side
 };
 
 }  // namespace navcal::report

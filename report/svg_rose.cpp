@@ -37,7 +37,7 @@ std::string svg_rose(const calib::HeadingHistogram& rose) {
   std::string sectors;
   for (std::size_t i = 0; i < rose.size(); ++i) {
     if (rose[i] == 0) continue;
-    // Never so short that it cannot be seen.
+    // A minimum length keeps the sector visible.
     const double radius = kRadius * std::max(0.08, std::sqrt(rose[i] / most));
     const auto [x1, y1] = place(radius, width_deg * static_cast<double>(i));
     const auto [x2, y2] = place(radius, width_deg * static_cast<double>(i + 1));

@@ -37,8 +37,8 @@ class TimeAxis {
   std::string label_ = "seconds";
 };
 
-/// Times since the first one, of which the first minute takes as much room as the four after it: the place of t
-/// is log(1 + t / 20 s). For what changes much at first and little later.
+/// Times since the first one on a scale whose first minute is as long as the four after it: t is at log(1 + t / 20
+/// s). For quantities that change much at first and little later.
 class EarlyTimeAxis {
  public:
   /// In seconds from the beginning of the recording, increasing.

@@ -32,7 +32,7 @@ std::vector<Figure> power_figure(const std::vector<validation::TrialPower>& powe
   const std::array<Point, 4> targets{{{0.1, 100.0 / 3}, {0.2, 80}, {0.5, 95}, {1, 95}}};
   plot.points(Ink::before, "target", targets);
   return {{"Power against the size of the gap", plot.svg(),
-           "Share of single effects that were named, and no other, by strength."}};
+           "Share of single effects that were named exactly, by strength."}};
 }
 
 std::vector<Figure> calibration_figure(const validation::TrialScores& scores) {
@@ -52,7 +52,7 @@ std::vector<Figure> calibration_figure(const validation::TrialScores& scores) {
   if (points.empty()) return {};
   plot.points(Ink::before, "in tenths, with 95 %", points);
   return {{"Calibration of the probabilities", plot.svg(),
-           fmt::format("Probabilities of effects in explained cases against the share that was there; mean "
+           fmt::format("Probabilities of effects in explained cases against the share that was present; mean "
                        "distance {:.3f}.",
                        validation::calibration_error(scores.calibration))}};
 }
@@ -77,7 +77,7 @@ std::vector<Figure> closure_figure(const std::vector<double>& closures) {
     plot.line(Ink::first, "", ceiling);
   }
   return {{"Closure", plot.svg(),
-           fmt::format("Of {} exact outcomes at half the typical strength or more; what lies outside stands in "
+           fmt::format("{} exact outcomes at half the typical strength or more; values outside the axis are in "
                        "the outermost bars.",
                        closures.size())}};
 }
@@ -103,8 +103,8 @@ std::vector<Figure> confusion_figure(const validation::TrialConfusion& confusion
                                        (nothing_there && answer == "no gap"));
     }
   }
-  return {{"What was there (rows) against what was answered (columns)", matrix.svg("Confusion matrix"),
-           "Blue: as it should be. Orange: not. A case counts for each effect that is there; effects at less than "
+  return {{"Truth (rows) against answer (columns)", matrix.svg("Confusion matrix"),
+           "Blue: right. Orange: wrong. A case counts for each effect that is present; effects at less than "
            "half their typical strength and the poor missions are left out."}};
 }
 

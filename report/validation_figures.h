@@ -8,9 +8,9 @@
 
 namespace navcal::report {
 
-/// Power by strength, calibration of the probabilities, closures; what there are no cases for is left out.
+/// Power by strength, calibration of the probabilities, closures; figures without cases are left out.
 [[nodiscard]] std::vector<Figure> trial_figures(const validation::TrialScores& scores);
-/// Empty where nothing was answered.
+/// Empty if nothing was answered.
 [[nodiscard]] std::vector<Figure> confusion_figure(const validation::TrialConfusion& confusion);
 
 }  // namespace navcal::report

@@ -15,7 +15,7 @@ OrderedJson or_null(const std::optional<Value>& value) {
 
 OrderedJson json_of(const validation::TrialScore& score) {
   OrderedJson json{{"name", score.name}, {"value", or_null(score.value)}, {"cases", score.cases}};
-  // A share is told as it is, 0 to 1.
+  // Shares are numbers from 0 to 1.
   if (score.unit == "s") json["unit"] = score.unit;
   if (score.interval) {
     json["hits"] = score.hits;
@@ -33,7 +33,7 @@ OrderedJson json_of(const validation::TrialResult& result) {
                    {"sha256", result.seal.digest}, {"truth", result.seal.truth},
                    {"salt", result.seal.salt},     {"outcome", validation::name_of(judgement.outcome)},
                    {"right", judgement.right},     {"seconds", result.seconds}};
-  // What was read once may be written as it was read; what could not be read is told as text.
+  // An answer that was parsed is written as JSON; one that could not be parsed is written as text.
   json["answer"] = result.answer ? OrderedJson::parse(result.answer_json) : OrderedJson();
   if (!result.failure.empty()) json["failure"] = result.failure;
   if (!result.answer && !result.answer_json.empty()) json["answer_text"] = result.answer_json;

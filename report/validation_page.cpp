@@ -15,7 +15,7 @@ void append_verdict(HtmlPage& page, const TrialReport& report) {
     if (score.met() != false) continue;
     missed = true;
     page.fact("bad", "missed",
-              fmt::format("{}: {} ({}), wanted {}.", score.name, value_text(score), count_text(score),
+              fmt::format("{}: {} ({}), target {}.", score.name, value_text(score), count_text(score),
                           target_text(score)));
   }
   page.fact(missed ? "plain" : "good", "targets", targets_text(report.scores));
@@ -87,7 +87,7 @@ std::string trial_page(const TrialReport& report) {
   append_verdict(page, report);
   append_scores(page, report.scores);
   if (const auto figures = trial_figures(report.scores); !figures.empty()) {
-    page.section("How small a gap is named, how far to trust it, how far it closes");
+    page.section("Detectable strength, reliability of the answers, closure of the gap");
     page.figures(figures);
   }
   append_arms(page, report.scores);

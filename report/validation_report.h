@@ -10,26 +10,26 @@
 
 namespace navcal::report {
 
-/// A trial after its last answer: from here on the truth may be told.
+/// A trial after its last answer, when the truth may be published.
 struct TrialReport {
   std::uint64_t seed = 0;
   int minutes = 10;
   int places = validation::kTrialPlaces;
-  std::size_t asked_for = 0;  ///< cases
-  std::string ended_early;    ///< why
+  std::size_t asked_for = 0;  ///< number of cases
+  std::string ended_early;    ///< reason; empty if it ran to the end
   std::vector<validation::TrialResult> results;
   validation::TrialScores scores;
   validation::TrialConfusion confusion;
 };
 
-/// For a terminal.
+/// The trial as text for a terminal.
 [[nodiscard]] std::string trial_text(const TrialReport& report);
-/// Everything, with truths, salts and answers, as one JSON object.
+/// All cases with truths, salts and answers, as one JSON object.
 [[nodiscard]] std::string trial_json(const TrialReport& report);
-/// One page that needs no other file.
+/// One self-contained page.
 [[nodiscard]] std::string trial_page(const TrialReport& report);
 
-/// How a case is asked again by itself.
+/// Command that repeats a single case.
 [[nodiscard]] std::string rerun_command(const TrialReport& report, int number);
 
 }  // namespace navcal::report

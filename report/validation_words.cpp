@@ -11,7 +11,7 @@ std::string quantity(double value, const std::string& unit) {
   return unit.empty() ? fmt::format("{:.3f}", value) : fmt::format("{:.1f} {}", value, unit);
 }
 
-/// A target as people write it.
+/// Text of a target.
 std::string goal(double value, const std::string& unit) {
   if (unit == "%") return fmt::format("{:.3g} %", 100 * value);
   return unit.empty() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, unit);
@@ -63,7 +63,7 @@ std::string truth_words(const validation::TrialCase& drawn) {
   std::string text;
   for (const reference::Effect& effect : drawn.effects) text.append(text.empty() ? "" : ", ").append(effect.name);
   if (text.empty()) return "no effect";
-  return drawn.excluded.empty() ? text : text + ", of which the library is without";
+  return drawn.excluded.empty() ? text : text + ", with removed from the library";
 }
 
 std::string answer_words(const validation::TrialResult& result) {

@@ -8,15 +8,15 @@
 
 namespace navcal::report {
 
-/// Of a line of text for a terminal.
+/// Length of a line of text for a terminal.
 inline constexpr std::size_t kLineWidth = 110;
 
-/// Pieces in lines of kLineWidth; the first stands where `out` ends, which is column `indent`, and further lines
-/// begin there.
+/// Pieces in lines of kLineWidth. The first piece stands at the end of `out`, which is column `indent`, and
+/// further lines begin there.
 void append_wrapped(std::string& out, std::size_t indent, const std::vector<std::string>& pieces,
                     std::string_view between);
 
-/// What stands between spaces.
+/// The words between spaces.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view text);
 
 }  // namespace navcal::report

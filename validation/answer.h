@@ -26,7 +26,7 @@ struct TrialFinding {
   std::map<std::string, TrialEstimate, std::less<>> parameters;
 };
 
-/// What a trial scores of the answer of `navcal gap --json`.
+/// The scored part of the answer of `navcal gap --json`.
 struct TrialAnswer {
   TrialVerdict verdict = TrialVerdict::unknown;
   std::vector<std::string> channels;     ///< strongest excess first

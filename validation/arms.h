@@ -9,7 +9,7 @@
 
 namespace navcal::validation {
 
-/// What is asked of the diagnosis in one part of a trial.
+/// Kinds of cases in a trial.
 enum class TrialArm : std::uint8_t {
   nulls,         ///< no effect: the vehicle is off by 2 % everywhere, as all vehicles of a trial are
   nulls_6,       ///< no effect, off by 6 % everywhere: a gap without one cause

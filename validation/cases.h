@@ -13,7 +13,7 @@
 
 namespace navcal::validation {
 
-/// What no diagnosis may know before it has answered.
+/// Truth of one case, which a diagnosis must not know before it has answered.
 struct TrialCase {
   int number = 1;  ///< from 1
   TrialArm arm = TrialArm::nulls;

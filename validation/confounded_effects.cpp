@@ -8,7 +8,7 @@ namespace {
 
 using Channels = std::vector<std::string_view>;
 
-/// What depends on where the body's axes are thought to point.
+/// Channels that depend on the assumed direction of the body axes.
 const Channels kField{"compass.field", "compass.heading"};
 const Channels kHeading{"compass.heading", "compass.field", "gps.velocity", "gps.position"};
 const Channels kTilt{"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"};

@@ -7,8 +7,8 @@
 
 namespace navcal::validation {
 
-/// What one effect is easily taken for, and where it shows. Reckoned from first principles, not from what any
-/// diagnosis said.
+/// Effects with which one effect is easily confounded, and channels in which it shows. Derived from first
+/// principles, not from the output of any diagnosis.
 struct TrialSignature {
   std::string_view effect;
   /// Library effects that leave nearly the same traces: the column "confounded with" of the specification, and
@@ -19,7 +19,7 @@ struct TrialSignature {
   std::vector<std::string_view> channels;
 };
 
-/// Of all effects, those of the library and the foreign ones.
+/// Signatures of all effects, those of the library and the foreign ones.
 [[nodiscard]] std::span<const TrialSignature> trial_signatures();
 /// nullptr when there is none of this name.
 [[nodiscard]] const TrialSignature* signature_of(std::string_view effect);

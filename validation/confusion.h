@@ -9,8 +9,8 @@
 
 namespace navcal::validation {
 
-/// What was there against what was answered. A case counts once for each effect that is there: where it is named,
-/// as itself; else as each wrong name, or as left out where there is none, or as the verdict without names.
+/// Truth against answer. A case counts once for each effect that is present: under its own name if it is named;
+/// else under each wrong name, or as left out without one, or under the verdict without names.
 struct TrialConfusion {
   std::vector<std::string> truths, answers;  ///< only those that occur
   std::vector<std::vector<int>> counts;      ///< by truth, then answer
@@ -18,7 +18,7 @@ struct TrialConfusion {
   [[nodiscard]] int count(std::string_view truth, std::string_view answer) const;
 };
 
-/// Of all cases but those at less than half the typical strength and the poor missions.
+/// Confusion over all cases except the poor missions and those at less than half the typical strength.
 [[nodiscard]] TrialConfusion trial_confusion(std::span<const TrialResult> results);
 
 }  // namespace navcal::validation

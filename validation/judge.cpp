@@ -10,7 +10,7 @@
 namespace navcal::validation {
 namespace {
 
-/// Of candidates only what is worth a bet: hundreds of impossible ones would make any calibration look good.
+/// Least probability of a candidate that counts. Hundreds of improbable ones would improve any calibration error.
 constexpr double kLeastBet = 0.05;
 
 bool holds(const std::vector<reference::Effect>& effects, std::string_view name) {

@@ -33,7 +33,7 @@ class Script {
   }
   /// On as before.
   Script& on(double seconds) { return for_s(seconds); }
-  /// With the rudder held; ends on whatever heading it has.
+  /// Holds the rudder; ends on any heading.
   Script& circle(double rudder_deg, double seconds) {
     reference::Order order = order_;
     order.heading_rad.reset();

@@ -7,7 +7,7 @@
 
 namespace navcal::validation {
 
-/// Where and when the missions of a case are swum.
+/// Place and date of the missions of a case.
 struct TrialPlace {
   reference::Anchorage anchorage;
   reference::Waters waters;

@@ -75,7 +75,7 @@ Question is(TrialOutcome outcome) {
   return [outcome](const Judged& one) { return one.judgement.outcome == outcome; };
 }
 std::optional<bool> is_right(const Judged& one) { return one.judgement.right; }
-/// Of those that were answered with names.
+/// Whether an answer with names is exact; absent if no effect was named.
 std::optional<bool> exact_of_named(const Judged& one) {
   const auto outcome = one.judgement.outcome;
   if (outcome == TrialOutcome::exact) return true;

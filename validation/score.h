@@ -23,7 +23,8 @@ struct TrialScore {
   int hits = 0, cases = 0;                        ///< of a share; else `cases` values went in
   std::optional<std::array<double, 2>> interval;  ///< of a share
   std::optional<double> least, most;              ///< the target
-  /// With fewer cases the 95 % interval of a share spans half of the scale and more: they decide nothing.
+  /// Least number of cases for a judgement. With fewer the 95 % interval of a share spans half of the scale and
+  /// more.
   static constexpr int kLeastCasesToJudge = 10;
   /// Absent where there is no target, or too little to hold against it.
   [[nodiscard]] std::optional<bool> met() const;
@@ -48,7 +49,7 @@ struct TrialScores {
   std::vector<TrialPower> power;
   std::array<TrialCalibrationBin, kCalibrationBins> calibration;
   std::vector<double> closures;  ///< of exact outcomes at half the typical strength or more
-  /// By arm, in the order of trial_arms(), and outcome.
+  /// Counts by arm, in the order of trial_arms(), and outcome.
   std::vector<std::array<int, kTrialOutcomes>> outcomes;
 };
 

@@ -15,7 +15,8 @@ struct CostItem {
   std::size_t longest = 10'000'000;  ///< samples; less where more would take minutes
 };
 
-/// Of one package each; a new estimator is one more entry in one of them, a new package one more line in cost.cpp.
+/// Costs of one package each. A new estimator is one more entry in one of them, a new package one more line in
+/// cost.cpp.
 [[nodiscard]] std::vector<CostItem> turn_costs();
 [[nodiscard]] std::vector<CostItem> suite_costs();
 

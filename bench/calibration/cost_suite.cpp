@@ -19,7 +19,7 @@ namespace {
 /// vehicle: 20 Hz inertial card, 10 Hz compass and motor card, 1 Hz GPS.
 class Vehicle {
  public:
-  /// Of one step of the inertial card.
+  /// Processes one step of the inertial card.
   void step(Suite& suite) {
     const double t = 0.05 * static_cast<double>(steps_);
     const double rate = std::fmod(t, 120) > 60 ? 0 : 0.3 + 0.25 * std::sin(0.2 * t);

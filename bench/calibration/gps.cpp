@@ -52,7 +52,7 @@ GpsCompass::Parameters parameters_for(const GpsNoise& noise) {
   parameters.summary.position_std_m = std::max(noise.position_std_m, 0.01);
   // The speed is the path's own here, so that only the slip is not quite as modelled.
   parameters.summary.model_std_m_s = 0.003;
-  // As large as the deviations injected.
+  // Priors as large as the injected deviations.
   parameters.deviation_std_rad = parameters.offset_std_rad = 0.1;
   return parameters;
 }

@@ -23,7 +23,7 @@ constexpr double kGoalWithoutNoise[2] = {0.005, 0.02};
 constexpr double kGoal[8][2] = {{0.98, 3.86}, {0.08, 0.28}, {0.08, 0.30}, {0.08, 0.30},
                                 {0.06, 0.35}, {0.06, 0.37}, {0.54, 4.19}, {2.16, 4.65}};
 
-/// Of scale and bias, from what was added to them.
+/// Errors of scale and bias, in percent of the injected ones.
 Eigen::Vector2d percent(const Eigen::Vector2d& error) {
   return 100 * Eigen::Vector2d(error[0] / kTrueScale, error[1] / kTrueBias_rad_s).cwiseAbs();
 }

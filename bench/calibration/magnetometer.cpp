@@ -31,7 +31,7 @@ constexpr Printed kPrinted_4_11{{0.04, 0.05, 0.08, 0.10, 0.04, 0.05, 0.04, 0.05}
 constexpr Printed kPrinted_4_12{{0.06, 0.06, 0.11, 0.11, 0.06, 0.06, 0.05, 0.05},
                                 {0.08, 0.08, 0.15, 0.15, 0.08, 0.08, 0.07, 0.08}};
 
-/// Of one method over the runs of a row.
+/// Results of one method over the runs of a row.
 struct Tally {
   std::vector<double> largest_deg;
   double square_deg2 = 0;

@@ -7,8 +7,8 @@
 #include "calib/magnetometer/ellipse_gyro.h"
 #include "tests/calib/thesis_paths.h"
 
-/// What the noise of the thesis lets one know of an ellipse: root-mean-square error of heading over the circle by
-/// the Cramer-Rao bound, degrees.
+/// Accuracy of an ellipse with the noise of the thesis: root-mean-square error of heading over the circle by the
+/// Cramer-Rao bound, degrees.
 namespace navcal::bench {
 
 [[nodiscard]] calib::EllipseEstimator::Parameters ellipse_parameters();

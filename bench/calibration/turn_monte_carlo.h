@@ -7,14 +7,14 @@
 
 namespace navcal::bench {
 
-/// What our filter did on one path in many runs with the thesis's noise; vectors in the order of sought().
+/// Results of our filter on one path in many runs with the thesis's noise; vectors in the order of sought().
 struct TurnStatistics {
   Eigen::VectorXd rms, bound;
   Eigen::VectorXd covered;  ///< share of runs with the truth within two standard errors
   CurveError curve;         ///< means of the runs' own, degrees
   double reduced_chi_squared = 0;
 
-  /// Of root-mean-square error to bound, the worst coefficient's.
+  /// Ratio of root-mean-square error to bound, of the worst coefficient.
   [[nodiscard]] double worst_ratio() const { return (rms.array() / bound.array()).maxCoeff(); }
 };
 

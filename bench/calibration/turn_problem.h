@@ -16,16 +16,16 @@ enum class TurnProblem {
   both      ///< neither (11.3)
 };
 
-/// Those that a problem asks for, as indices of TurnCoefficient.
+/// Coefficients that a problem estimates, as indices of TurnCoefficient.
 [[nodiscard]] std::vector<int> sought(TurnProblem problem);
-/// What is true on the reference paths.
+/// True coefficients on the reference paths.
 [[nodiscard]] calib::TurnCoefficients true_coefficients(TurnProblem problem);
 /// Readings of the problem's compass and gyro along a path.
 [[nodiscard]] std::vector<calib::test::Measured> measure(TurnProblem problem,
                                                          const std::vector<calib::test::TruePoint>& path,
                                                          const calib::test::Noise& noise,
                                                          calib::test::Random& random);
-/// What our filter makes of the readings; the noise it is told is the thesis's.
+/// Our filter after the readings; its configured noise is the thesis's.
 [[nodiscard]] calib::TurnFilter filtered(TurnProblem problem, std::span<const calib::test::Measured> readings);
 
 /// Cramer-Rao bound on the standard deviation of the coefficients sought, in their order.

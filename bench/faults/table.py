@@ -33,20 +33,20 @@ def faults(r):
     return "\n\n".join([
         f"{r['faults']} faults in {r['seconds']} s.",
         rows(["fault", "count", "bytes in the log", "intact frames", "not decoded", "lost at other ports",
-              "back after, ms", "of that navcald's, ms", "told after, ms"], lines),
+              "recovered after, ms", "of that by navcald, ms", "reported after, ms"], lines),
         rows(["port", "bytes written", "missing in the log", "in flight when cut", "intact frames", "not decoded",
-              "without a sample", "torn by a pause", "damaged, and their checksum holds", "times opened"], ports),
+              "without a sample", "torn by a pause", "damaged, with a valid checksum", "times opened"], ports),
         f"Arrival stamps, median / 99th / 99.9th percentile of their error: {pair(r['arrival_error_us'], 'reads')}.",
         f"Times of validity of the inertial card, likewise: {pair(r['imu_validity_error_us'], 'samples')}.",
-        f"Descriptors {r['descriptors']['before']} before and {r['descriptors']['after']} after; memory of its own "
+        f"Descriptors {r['descriptors']['before']} before and {r['descriptors']['after']} after; private memory "
         f"{r['anonymous_KiB']['at_first']} KiB after 30 faults, {r['anonymous_KiB']['at_end']} KiB at the end."])
 
 
 def clock(r):
     beside = r["imu_validity_error_us"]["undisturbed"]
-    return (f"{r['steps']} steps of 1 to 12 hours, {r['told']} told; {r['bytes_missing']} bytes and "
+    return (f"{r['steps']} steps of 1 to 12 hours, {r['told']} reported; {r['bytes_missing']} bytes and "
             f"{sum(lost + none for _, lost, none in r['frames_lost_unsampled'].values())} frames lost; "
-            f"{r['arrivals_backwards']} arrivals before the one before; UTC of a sample off by "
+            f"{r['arrivals_backwards']} arrivals earlier than their predecessor; UTC of a sample off by "
             f"{r['utc_error_ms']['median']} ms in the median, {r['utc_error_ms']['max']} ms at most; times of validity of the "
             f"inertial card {beside['median']} / {beside['p99']} us (median, 99th percentile).")
 
@@ -60,7 +60,7 @@ def kill(r):
 
 
 def storage(r):
-    return rows(["disk", "bytes written", "missing in the log", "what navcald says", "stopped after, s", "fsck"],
+    return rows(["disk", "bytes written", "missing in the log", "log state of navcald", "stopped after, s", "fsck"],
                 [[name, k["written"], k["missing"], "; ".join(k["said"]), k["stop_s"],
                   "clean" if k["fsck"] == 0 else k["fsck"]] for name, k in r["kinds"].items()])
 
@@ -82,15 +82,15 @@ def gpsd(r):
     def line(label, value):
         return [label] + [value(r[kind]) for kind in ("navcald", "gpsd")]
     return rows(["fault", "navcald", "gpsd"], [
-        line("hang-ups, and how many it never came back from (20 s)", lambda k: f"{k['hang_up']['cycles']}, {k['hang_up']['never_back']}"),
-        line("back after, s (median / greatest)", lambda k: seconds(k["hang_up"]["return_s"])),
-        line("client told after, s", lambda k: seconds(k["hang_up"]["told_s"])),
+        line("hang-ups, and those without recovery (20 s)", lambda k: f"{k['hang_up']['cycles']}, {k['hang_up']['never_back']}"),
+        line("recovered after, s (median / greatest)", lambda k: seconds(k["hang_up"]["return_s"])),
+        line("reported to the client after, s", lambda k: seconds(k["hang_up"]["told_s"])),
         line("0 to 63 random bytes before each record: records kept", lambda k: f"{k['garbage']['kept']} of {k['garbage']['sent']} "
              f"({100 * k['garbage']['kept'] / k['garbage']['sent']:.1f} %)"),
         line("their latency, us (median / 99th percentile)", lambda k: f"{k['garbage']['p50_us']:.0f} / {k['garbage']['p99_us']:.0f}"),
-        line("a client that never reads: another's records answered", lambda k: f"{k['stalled_client']['answered']} of "
+        line("a client that never reads: records of another client answered", lambda k: f"{k['stalled_client']['answered']} of "
              f"{k['stalled_client']['sent']}"),
-        line("longest silence of that other, s", lambda k: k["stalled_client"]["longest_silence_s"]),
+        line("longest silence of that other client, s", lambda k: k["stalled_client"]["longest_silence_s"]),
     ])
 
 
@@ -101,10 +101,10 @@ def memory(r):
     return "\n".join([
         f"- valgrind's memcheck, leaks included, {v['frames']} frames with a hang-up of each port: {found}.",
         f"- {alone['allocations']} allocations for {alone['samples']} samples in {alone['seconds']:g} s, log, one client, calibration and "
-        f"navigation on: {alone['each']} each, when the reports that come by the clock (HEALTH, CALIB) are left out; with them "
+        f"navigation on: {alone['each']} each, without the periodic reports (HEALTH, CALIB); with them "
         f"{n['allocations']} for {n['samples']}: {n['each']}.",
         f"- {d['hours']:g} hours of simulated mission ({d['recording_MB']} MB, {d['samples']} samples) replayed at "
-        f"{d['times_real_time']} times real time: memory of its own {m['after_a_tenth']} KiB after a tenth, {m['at_half']} KiB at half, "
+        f"{d['times_real_time']} times real time: private memory {m['after_a_tenth']} KiB after a tenth, {m['at_half']} KiB at half, "
         f"{m['at_end']} KiB at the end."])
 
 
@@ -128,7 +128,7 @@ def text():
     parts_of_page = []
     for name, r in parts.results(SECTIONS).items():
         title, write_section = SECTIONS[name]
-        made = f"`{r['command']}`, {r['date']}, {r['machine']['cpus']} cores, load {r['machine']['load']} besides."
+        made = f"`{r['command']}`, {r['date']}, {r['machine']['cpus']} cores, load {r['machine']['load']} from other programs."
         found = "".join(f"\n\n**{p}**" for p in r["problems"])
         parts_of_page.append(f"### {title}\n\n{made}\n\n{write_section(r)}{found}")
     return "\n\n".join(parts_of_page)

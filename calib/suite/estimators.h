@@ -2,32 +2,24 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "calib/archive.h"
 #include "calib/correction.h"
-#include "calib/delay/delay_estimator.h"
-#include "calib/judgement.h"
-#include "calib/magnetometer/magnetometer.h"
-#include "calib/magnetometer/motor_current.h"
-#include "calib/suite/gps_calibrators.h"
-#include "calib/suite/report.h"
+#include "calib/suite/calibrator_unit.h"
+#include "calib/suite/reading_queue.h"
+#include "calib/suite/shared_estimators.h"
 #include "calib/suite/suite_options.h"
-#include "calib/swing/swing.h"
-#include "calib/turn/gyro_pair.h"
-#include "calib/turn/turn_calibrator.h"
 #include "calib/turn/turn_integrator.h"
 
 namespace navcal::calib {
 
-/// A reading of the compass with the turn that led to it, where the gyro tells it.
-struct TurnedReading {
-  CompassReading reading;
-  std::optional<TurnStep> turn;
-};
-
-/// All estimators, fed with readings in the order of their times.
+/// The units of all calibrators, fed with readings in the order of their times. Prepares what they take: turns
+/// between readings of the compass, the field without the motor's, and the order in time across instruments.
 class Estimators {
  public:
   explicit Estimators(const SuiteOptions& options);
@@ -42,35 +34,25 @@ class Estimators {
   std::optional<TurnedReading> next(const Correction& in_force);
   /// No more readings come.
   void finish();
-  void settle() { magnetometer_.settle(); }
+  void settle();
 
   /// From here on.
   void set_local_field(const LocalField& field);
-  /// One calibrator forgets what it has seen; the compass keeps what is known of the gyro.
-  void start(Calibrator calibrator);
   /// What is in force changed for one calibrator: those that build on it begin anew.
   void on_in_force(Calibrator calibrator, const Correction& in_force);
 
   /// The newest estimate of each calibrator that has one.
   [[nodiscard]] Correction estimates() const;
-  /// Of one calibrator, put into its place in `into`, or that place emptied.
-  void put_estimate(Calibrator calibrator, Correction& into) const;
-  [[nodiscard]] Judgement judgement(Calibrator calibrator) const;
-  [[nodiscard]] std::vector<Quantity> quantities(Calibrator calibrator) const;
-  /// As in CalibratorReport.
-  [[nodiscard]] Eigen::MatrixXd covariance(Calibrator calibrator) const;
-  [[nodiscard]] const Magnetometer& magnetometer() const { return magnetometer_; }
-  [[nodiscard]] const Comparison& misalignment_comparison() const { return surface_.comparison(); }
-  /// Of the field's misfit about changes of the motor's current, uT.
-  [[nodiscard]] const Comparison& motor_comparison() const { return motor_current_.comparison(); }
+  [[nodiscard]] CalibratorUnit& unit(Calibrator calibrator) { return *units_[index_of(calibrator)]; }
+  [[nodiscard]] const CalibratorUnit& unit(Calibrator calibrator) const { return *units_[index_of(calibrator)]; }
+  [[nodiscard]] const Magnetometer& magnetometer() const { return shared_->magnetometer; }
+  /// All but the units from the eleventh on: Suite archives those by name.
   void archive(Archive& archive);
 
  private:
   static constexpr std::size_t kPending = 64, kBeside = 512;
 
-  [[nodiscard]] TurnPrior compass_prior() const;
-  [[nodiscard]] const TurnCalibrator& turn_calibrator(Calibrator calibrator) const;
-  /// Of what is in force, or estimated well enough to serve the other calibrators.
+  /// Gyro A in force, or estimated well enough to serve the other calibrators.
   [[nodiscard]] std::optional<RateCorrection> known_gyro(const Correction& in_force) const;
   TurnedReading take_pending(std::optional<TurnStep> turn);
   /// A fix or a reading of the shaft waits for the readings of the compass before it, which wait for their turns.
@@ -78,22 +60,12 @@ class Estimators {
   /// Those up to `time_s` are learnt from.
   void release(double time_s, const Correction& in_force);
   void learn(const TurnedReading& turned, const Correction& in_force);
-  void tell_magnetometer_of_gyro();
-  void learn_field(const TurnedReading& turned);
-  void learn_swing(const TurnStep& turn, const Correction& in_force);
 
   SuiteOptions options_;
   TurnIntegrator turns_;
-  TurnCalibrator gyro_, gyro_b_, compass_;
-  Magnetometer magnetometer_;
-  GpsCalibrators surface_;
-  DelayEstimator delays_;
-  GyroPair gyros_;
-  MotorCurrent motor_current_;
-  std::optional<Swing> swing_;  ///< begun by the operator
-  double swing_reference_rad_ = 0, swing_heading_rad_ = 0;
-  bool swing_anchored_ = false;
-  std::array<CompassReading, kPending> pending_{};  ///< ring: their turns are not known yet
+  std::unique_ptr<SharedEstimators> shared_;            ///< the units refer to it
+  std::vector<std::unique_ptr<CalibratorUnit>> units_;  ///< in the order of the table
+  std::array<CompassReading, kPending> pending_{};      ///< ring: their turns are not known yet
   std::size_t first_pending_ = 0, pending_count_ = 0;
   std::deque<QueuedReading> beside_;  ///< fixes and readings of the shaft, in the order of their times
   std::optional<TurnStep> turn_;      ///< of a pending reading, or of a later one

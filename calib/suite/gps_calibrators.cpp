@@ -109,14 +109,12 @@ void GpsCalibrators::set_declination(double declination_rad) {
   gps_compass_.set_declination(declination_rad);
 }
 
-void GpsCalibrators::start(Calibrator calibrator) {
-  if (calibrator == Calibrator::gps_compass) {
-    gps_compass_ = GpsCompass(gps_parameters(options_));
-  } else {
-    misalignment_ = Misalignment(misalignment_parameters(options_));
-    comparison_ = {};
-    fixes_ = 0;
-  }
+void GpsCalibrators::start_compass() { gps_compass_ = GpsCompass(gps_parameters(options_)); }
+
+void GpsCalibrators::start_misalignment() {
+  misalignment_ = Misalignment(misalignment_parameters(options_));
+  comparison_ = {};
+  fixes_ = 0;
 }
 
 void GpsCalibrators::archive(Archive& archive) {

@@ -26,7 +26,8 @@ class GpsCalibrators {
   void update(const CompassReading& reading, const WaterTrackReading& track, const Correction& in_force);
   void update(const MotorReading& motor);
   void update(const GroundReading& ground, const Correction& in_force);
-  void start(Calibrator calibrator);
+  void start_compass();
+  void start_misalignment();
   void set_declination(double declination_rad);
 
   [[nodiscard]] const Misalignment& misalignment() const { return misalignment_; }

@@ -53,6 +53,11 @@ void InForce::rename() {
   name_.sum = sum_of(content.bytes());
 }
 
+void InForce::Change::archive(Archive& archive) {
+  calib::archive(archive, calibrator);
+  archive(before);
+}
+
 void InForce::archive(Archive& archive) {
   archive.tag("in_force 1");
   archive(correction_, name_.number, name_.sum, history_);

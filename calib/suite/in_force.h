@@ -44,7 +44,7 @@ class InForce {
   struct Change {
     Calibrator calibrator = Calibrator::gyro;
     Correction before;
-    void archive(Archive& archive) { archive(calibrator, before); }
+    void archive(Archive& archive);
   };
   void rename();
 

@@ -32,13 +32,6 @@ enum class Outcome : std::uint8_t {
 /// "refused", "no better", "accepted".
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 
-/// One number of an estimate with its standard error. Units as in its name: rad, rad/s, s, uT, or none.
-struct Quantity {
-  std::string_view name;  ///< "scale", "bias_rad_s", "B_rad"
-  double value = 0;       ///< not a number when it is not determined
-  double std = 0;         ///< infinite when it is not known
-};
-
 /// What one calibrator says now.
 struct CalibratorReport {
   Calibrator calibrator = Calibrator::gyro;
@@ -73,7 +66,7 @@ struct Report {
   CorrectionName name;  ///< of the calibration in force
   Correction in_force;
   Correction estimates;                       ///< the newest of each calibrator that has one, accepted or not
-  std::vector<CalibratorReport> calibrators;  ///< those that have instruments, in the order of kCalibrators
+  std::vector<CalibratorReport> calibrators;  ///< those that have instruments, in the order of the table
   HeadingCheck heading;
   HeadingHistogram rose{};             ///< headings visited, as the compass says them
   std::vector<FieldStep> steps;        ///< of the field of the compass

@@ -1,47 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/suite/suite.h"
 
+#include <utility>
+
 #include "calib/coverage.h"
 
 namespace navcal::calib {
 namespace {
 
-/// Readings of the compass from one judgement to the next: each calibrator is judged every 27.
+/// Readings of the compass from one judgement to the next: each of ten calibrators is judged every 30.
 constexpr std::uint64_t kJudgeEvery = 3;
-
-/// Those that improve the heading or the rate; delays and the swing come into force by the operator's word alone.
-constexpr std::array kAutomatic{Calibrator::gyro,         Calibrator::gyro_b,      Calibrator::compass,
-                                Calibrator::magnetometer, Calibrator::gps_compass, Calibrator::misalignment,
-                                Calibrator::motor_current};
-
-/// Those without which a calibrator cannot begin.
-Instruments instruments_of(Calibrator calibrator) {
-  switch (calibrator) {
-    case Calibrator::magnetometer:
-      return {.compass = true};
-    case Calibrator::gps_compass:
-      return {.compass = true, .ground = true, .motor = true};
-    case Calibrator::misalignment:
-    case Calibrator::course_delay:
-      return {.compass = true, .ground = true};
-    case Calibrator::motor_current:
-      return {.compass = true, .rate = true, .motor = true};
-    case Calibrator::gyro:
-    case Calibrator::gyro_b:
-    case Calibrator::compass:
-    case Calibrator::swing:
-    case Calibrator::compass_delay:
-      break;
-  }
-  return {.compass = true, .rate = true};
-}
-
-std::size_t index(Calibrator calibrator) { return static_cast<std::size_t>(calibrator); }
 
 }  // namespace
 
 Suite::Suite(const SuiteOptions& options, Instruments instruments)
-    : options_(options), instruments_(instruments), gate_(options.gate), estimators_(options) {}
+    : options_(options),
+      instruments_(instruments),
+      gate_(options.gate),
+      estimators_(options),
+      flags_(calibrators().size()) {}
 
 void Suite::set_local_field(const LocalField& field) {
   options_.local_field = field;
@@ -81,7 +58,8 @@ void Suite::take_turned() {
 }
 
 void Suite::judge(const TurnedReading& turned) {
-  if (readings_ % kJudgeEvery == 0) refresh_accepted(kCalibrators[readings_ / kJudgeEvery % kCalibrators.size()]);
+  if (readings_ % kJudgeEvery == 0)
+    refresh_accepted(calibrators()[readings_ / kJudgeEvery % calibrators().size()]);
   ++readings_;
   if (field_.update(turned.reading, in_force_.correction(), accepted_)) adopt_what_is_better();
   if (!turned.turn) return;
@@ -89,32 +67,34 @@ void Suite::judge(const TurnedReading& turned) {
 }
 
 void Suite::refresh_accepted(Calibrator calibrator) {
-  if (estimators_.judgement(calibrator).accepted) {
-    estimators_.put_estimate(calibrator, accepted_);
+  const CalibratorUnit& unit = estimators_.unit(calibrator);
+  if (unit.judgement().accepted) {
+    unit.put_estimate(accepted_);
   } else {
     copy_value(accepted_, Correction{}, calibrator);
   }
 }
 
 const Comparison& Suite::comparison(Calibrator calibrator) const {
-  if (calibrator == Calibrator::motor_current) return estimators_.motor_comparison();
-  return calibrator == Calibrator::misalignment ? estimators_.misalignment_comparison() : held_out_.of(calibrator);
+  const Comparison* const own = estimators_.unit(calibrator).comparison().comparison;
+  return own != nullptr ? *own : held_out_.of(calibrator);
 }
 
 bool Suite::is_better(Calibrator calibrator) const {
   const Comparison& found = comparison(calibrator);
   if (found.better_by(options_.margin)) return true;
   // Where no gyro serves as reference, the field itself does.
-  return calibrator == Calibrator::magnetometer && field_.comparison().better_by(options_.margin) &&
-         !found.contradicts();
+  return row_of(calibrator).field_alone && field_.comparison().better_by(options_.margin) && !found.contradicts();
 }
 
 void Suite::adopt_what_is_better() {
   if (!options_.automatic) return;
-  for (const Calibrator calibrator : kAutomatic) {
-    if (held_[index(calibrator)] || !has(accepted_, calibrator) || !is_better(calibrator)) continue;
+  for (const Calibrator calibrator : calibrators()) {
+    Flags& flags = flags_[index_of(calibrator)];
+    if (!row_of(calibrator).automatic || flags.held) continue;
+    if (!has(accepted_, calibrator) || !is_better(calibrator)) continue;
     adopt(calibrator, accepted_);
-    adopted_[index(calibrator)] = true;
+    flags.adopted = true;
   }
 }
 
@@ -127,14 +107,15 @@ void Suite::on_change(Calibrator calibrator) {
   held_out_.on_change();
   field_.on_change();
   estimators_.on_in_force(calibrator, in_force_.correction());
-  refresh_accepted(Calibrator::misalignment);  // it may have begun anew
+  for (const Calibrator other : calibrators()) {
+    // It may have begun anew.
+    if (row_of(other).corrects == Corrects::offset) refresh_accepted(other);
+  }
 }
 
 std::optional<Calibrator> Suite::take_adopted() {
-  for (const Calibrator calibrator : kCalibrators) {
-    if (!adopted_[index(calibrator)]) continue;
-    adopted_[index(calibrator)] = false;
-    return calibrator;
+  for (const Calibrator calibrator : calibrators()) {
+    if (std::exchange(flags_[index_of(calibrator)].adopted, false)) return calibrator;
   }
   return std::nullopt;
 }
@@ -149,8 +130,8 @@ std::optional<FieldStep> Suite::take_field_step() {
 std::string Suite::accept(Calibrator calibrator, bool force) {
   if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
   Correction estimates;
-  estimators_.put_estimate(calibrator, estimates);
-  const Judgement judgement = estimators_.judgement(calibrator);
+  estimators_.unit(calibrator).put_estimate(estimates);
+  const Judgement judgement = estimators_.unit(calibrator).judgement();
   if (!judgement.accepted && !force) {
     const std::string hint = has(estimates, calibrator) ? ". \"force\":true puts it in force all the same" : "";
     return "refused: " + judgement.reason + (judgement.manoeuvre.empty() ? "" : "; " + judgement.manoeuvre) + hint;
@@ -158,33 +139,34 @@ std::string Suite::accept(Calibrator calibrator, bool force) {
   if (!has(estimates, calibrator)) {
     return "there is no estimate yet" + (judgement.reason.empty() ? "" : ": " + judgement.reason);
   }
-  held_[index(calibrator)] = false;
+  flags_[index_of(calibrator)].held = false;
   adopt(calibrator, estimates);
   return {};
 }
 
 std::string Suite::roll_back(Calibrator calibrator) {
   if (!in_force_.roll_back(calibrator)) return "nothing to go back to";
-  held_[index(calibrator)] = true;
+  flags_[index_of(calibrator)].held = true;
   on_change(calibrator);
   return {};
 }
 
 std::string Suite::start(Calibrator calibrator) {
   if (!has_instruments(calibrator)) return "the configuration has no instruments for it";
-  estimators_.start(calibrator);
+  estimators_.unit(calibrator).start();
   held_out_.forget(calibrator);
-  if (calibrator == Calibrator::magnetometer) field_.forget();
-  held_[index(calibrator)] = false;
-  if (calibrator == Calibrator::compass || calibrator == Calibrator::magnetometer) rose_ = {};
+  if (row_of(calibrator).field_alone) field_.forget();
+  flags_[index_of(calibrator)].held = false;
+  if (row_of(calibrator).clears_rose) rose_ = {};
   refresh_accepted(calibrator);
   return {};
 }
 
 bool Suite::has_instruments(Calibrator calibrator) const {
-  const Instruments needed = instruments_of(calibrator);
+  const CalibratorRow& row = row_of(calibrator);
+  const Instruments& needed = row.needs;
   const auto& [compass, rate, ground, motor] = instruments_;
-  if (calibrator == Calibrator::gps_compass && !(options_.advance_m > 0)) return false;
+  if (row.needs_advance && !(options_.advance_m > 0)) return false;
   return (compass || !needed.compass) && (rate || !needed.rate) && (ground || !needed.ground) &&
          (motor || !needed.motor);
 }
@@ -193,7 +175,7 @@ std::string Suite::silent_instrument(Calibrator calibrator) const {
   const auto silent = [&](bool needed, Stream stream) {
     return needed && gate_.counts().taken[static_cast<std::size_t>(stream)] == 0;
   };
-  const Instruments needed = instruments_of(calibrator);
+  const Instruments& needed = row_of(calibrator).needs;
   if (silent(needed.compass, Stream::compass)) return "the compass";
   if (silent(needed.rate, Stream::rate)) return "the inertial card";
   if (silent(needed.ground, Stream::ground)) return "the GPS receiver";
@@ -211,19 +193,17 @@ void Suite::judge(CalibratorReport& report, const Correction& in_force) const {
   if (const std::string silent = silent_instrument(report.calibrator); !silent.empty()) {
     judgement.reason = "no reading of " + silent + " so far";
     judgement.manoeuvre.clear();
-  } else if (report.calibrator == Calibrator::magnetometer && judgement.samples == 0 && gives_no_field()) {
+  } else if (row_of(report.calibrator).field_alone && judgement.samples == 0 && gives_no_field()) {
     judgement.reason = "the compass gives headings without the field that it measures";
     judgement.manoeuvre.clear();
   }
-  const bool by_field =
-      report.calibrator == Calibrator::magnetometer && !comparison(report.calibrator).is_judged();
+  const bool by_field = row_of(report.calibrator).field_alone && !comparison(report.calibrator).is_judged();
   const Comparison& held_out = by_field ? field_.comparison() : comparison(report.calibrator);
   judgement.held_out_before = held_out.before_rms();
   judgement.held_out_after = held_out.estimate_rms();
-  judgement.held_out_quantity = held_out.blocks() == 0                           ? HeldOutQuantity::none
-                                : by_field                                       ? HeldOutQuantity::field
-                                : report.calibrator == Calibrator::motor_current ? HeldOutQuantity::motor_field
-                                                                                 : HeldOutQuantity::heading;
+  judgement.held_out_quantity = held_out.blocks() == 0 ? HeldOutQuantity::none
+                                : by_field             ? HeldOutQuantity::field
+                                                       : estimators_.unit(report.calibrator).comparison().quantity;
   const bool is_worse = held_out.is_judged() && judgement.held_out_after >= judgement.held_out_before;
   report.outcome = !judgement.accepted ? Outcome::refused : is_worse ? Outcome::no_better : Outcome::accepted;
   report.verdict = has(in_force, report.calibrator) ? Verdict::in_force
@@ -236,15 +216,16 @@ Report Suite::report() const {
   report.name = in_force_.name();
   report.in_force = in_force_.correction();
   report.estimates = estimators_.estimates();
-  for (const Calibrator calibrator : kCalibrators) {
+  for (const Calibrator calibrator : calibrators()) {
     if (!has_instruments(calibrator)) continue;
+    const CalibratorUnit& unit = estimators_.unit(calibrator);
     CalibratorReport& one = report.calibrators.emplace_back();
     one.calibrator = calibrator;
-    one.judgement = estimators_.judgement(calibrator);
+    one.judgement = unit.judgement();
     judge(one, report.in_force);
-    one.estimate = estimators_.quantities(calibrator);
-    one.covariance = estimators_.covariance(calibrator);
-    one.held = held_[index(calibrator)];
+    one.estimate = unit.quantities();
+    one.covariance = unit.covariance();
+    one.held = flags_[index_of(calibrator)].held;
     one.steps_back = in_force_.steps_back(calibrator);
   }
   const Comparison& heading = held_out_.heading();
@@ -257,9 +238,37 @@ Report Suite::report() const {
 }
 
 void Suite::archive(Archive& archive) {
-  archive.tag("suite 3");
-  archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_, held_, adopted_, rose_,
-          told_steps_);
+  const auto all = calibrators();
+  const bool with_added = archive.tag_either("suite 3", "suite 4", all.size() > kNamedCalibrators);
+  archive(gate_, estimators_, held_out_, field_, in_force_, accepted_, readings_);
+  for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].held);
+  for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].adopted);
+  archive(rose_, told_steps_);
+  if (!archive.saving()) {
+    // What the state lacks, because it is older than the calibrator, begins anew.
+    for (const Calibrator calibrator : all.subspan(kNamedCalibrators)) {
+      estimators_.unit(calibrator).start();
+      held_out_.forget_added(calibrator);
+      flags_[index_of(calibrator)] = {};
+    }
+  }
+  if (with_added) archive_added(archive);
+}
+
+void Suite::archive_added(Archive& archive) {
+  const auto added = calibrators().subspan(kNamedCalibrators);
+  std::uint64_t count = added.size();
+  archive(count);
+  for (std::uint64_t i = 0; i < count && archive.ok(); ++i) {
+    Calibrator calibrator = archive.saving() ? added[i] : Calibrator::gyro;
+    calib::archive(archive, calibrator);
+    if (!archive.ok()) return;
+    if (index_of(calibrator) < kNamedCalibrators) return archive.fail();
+    Flags& flags = flags_[index_of(calibrator)];
+    archive(flags.held, flags.adopted);
+    held_out_.archive_added(archive, calibrator);
+    estimators_.unit(calibrator).archive(archive);
+  }
 }
 
 }  // namespace navcal::calib

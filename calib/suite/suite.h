@@ -18,17 +18,13 @@
 
 namespace navcal::calib {
 
-/// Which instruments there are: a calibrator without its own is not reported.
-struct Instruments {
-  bool compass = false, rate = false, ground = false, motor = false;
-};
-
 /// Everything that calibrates: readings in, the calibration in force and what is thought of it out. Readings go
 /// through the Gate to all estimators; their estimates run in shadow, are judged on readings held out (HeldOut),
 /// and come into force when they are accepted and better by the margin, or by the operator's word. The same calls
 /// in the same order give the same results to the last bit.
 class Suite {
  public:
+  /// `instruments`: a calibrator that lacks one of its own is not reported.
   Suite(const SuiteOptions& options, Instruments instruments);
 
   void put(const Reading& reading);
@@ -57,6 +53,11 @@ class Suite {
   void archive(Archive& archive);
 
  private:
+  struct Flags {
+    bool held = false;     ///< rolled back: only the operator brings it back
+    bool adopted = false;  ///< not told yet
+  };
+
   void process(const Reading& reading);
   void take_turned();
   void judge(const TurnedReading& turned);
@@ -75,6 +76,7 @@ class Suite {
   void judge(CalibratorReport& report, const Correction& in_force) const;
   void adopt(Calibrator calibrator, const Correction& estimates);
   void on_change(Calibrator calibrator);
+  void archive_added(Archive& archive);
 
   SuiteOptions options_;
   Instruments instruments_;
@@ -85,8 +87,7 @@ class Suite {
   InForce in_force_;
   Correction accepted_;  ///< as of not long ago: one calibrator is judged after the other, for it takes time
   std::uint64_t readings_ = 0;
-  std::array<bool, kCalibrators.size()> held_{};     ///< rolled back: only the operator brings it back
-  std::array<bool, kCalibrators.size()> adopted_{};  ///< not told yet
+  std::vector<Flags> flags_;  ///< by calibrator
   HeadingHistogram rose_{};
   std::uint32_t told_steps_ = 0;
 };

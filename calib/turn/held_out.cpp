@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/angles.h"
 
@@ -11,24 +12,10 @@ namespace {
 
 /// Of a block beside the newest.
 constexpr double kForgetting = 0.9;
+/// Calibrators with a number in stored states that correct the heading.
+constexpr std::size_t kNamedHeadings = 4;
 /// A block that turns by less does not tell deviations apart.
 constexpr double kLeastTurn_rad = 0.5;
-
-/// `base` with the estimate of one calibrator.
-Correction with(const Correction& base, const Correction& estimates, Calibrator calibrator) {
-  Correction changed = base;
-  copy_value(changed, estimates, calibrator);
-  return changed;
-}
-
-/// `base` with every estimate that there is.
-Correction with_all(const Correction& base, const Correction& estimates) {
-  Correction changed = base;
-  for (const Calibrator calibrator : kCalibrators) {
-    if (has(estimates, calibrator)) copy_value(changed, estimates, calibrator);
-  }
-  return changed;
-}
 
 }  // namespace
 
@@ -79,12 +66,20 @@ void HeldOut::Scatter::add(double residual_rad) {
 
 void HeldOut::Block::archive(Archive& archive) {
   archive(in_force, estimates, readings, measured_rad, measured_b_rad, bias_s, tilt_rad, least_turn_rad,
-          most_turn_rad, before, with_in_force, with_all, with, gyros);
+          most_turn_rad, before, with_in_force, with_all);
+  for (std::size_t i = 0; i < kNamedHeadings; ++i) archive(with[i]);
+  archive(gyros);
 }
 
-const Comparison& HeldOut::of(Calibrator calibrator) const {
-  return comparisons_[static_cast<std::size_t>(calibrator)];
+HeldOut::HeldOut() : comparisons_(calibrators().size()) {
+  for (const Calibrator calibrator : calibrators()) {
+    if (row_of(calibrator).corrects == Corrects::heading) headings_.push_back(calibrator);
+  }
+  block_.with.resize(headings_.size());
+  with_.resize(headings_.size());
 }
+
+const Comparison& HeldOut::of(Calibrator calibrator) const { return comparisons_[index_of(calibrator)]; }
 
 void HeldOut::on_change() {
   for (Comparison& comparison : comparisons_) comparison.on_change();
@@ -93,15 +88,30 @@ void HeldOut::on_change() {
 }
 
 void HeldOut::forget(Calibrator calibrator) {
-  comparisons_[static_cast<std::size_t>(calibrator)] = {};
+  comparisons_[index_of(calibrator)] = {};
   in_block_ = false;
 }
 
 void HeldOut::begin(const Correction& in_force, const Correction& estimates) {
+  std::vector<Scatter> with = std::move(block_.with);  // keeps its memory
+  std::fill(with.begin(), with.end(), Scatter{});
   block_ = {};
+  block_.with = std::move(with);
   block_.in_force = in_force;
   block_.estimates = estimates;
   in_block_ = true;
+  combine();
+}
+
+void HeldOut::combine() {
+  with_all_ = block_.in_force;
+  for (const Calibrator calibrator : calibrators()) {
+    if (has(block_.estimates, calibrator)) copy_value(with_all_, block_.estimates, calibrator);
+  }
+  for (std::size_t i = 0; i < headings_.size(); ++i) {
+    with_[i] = block_.in_force;
+    copy_value(with_[i], block_.estimates, headings_[i]);
+  }
 }
 
 bool HeldOut::update(const CompassReading& reading, const TurnStep& step, const Correction& in_force,
@@ -145,15 +155,14 @@ void HeldOut::judge_headings(const CompassReading& reading) {
   };
   block_.before.add(*reading.heading_rad - turn_rad);
   block_.with_in_force.add(residual(block_.in_force));
-  block_.with_all.add(residual(with_all(block_.in_force, block_.estimates)));
-  for (std::size_t i = 0; i < kHeadings.size(); ++i) {
-    if (has(block_.estimates, kHeadings[i]))
-      block_.with[i].add(residual(with(block_.in_force, block_.estimates, kHeadings[i])));
+  block_.with_all.add(residual(with_all_));
+  for (std::size_t i = 0; i < headings_.size(); ++i) {
+    if (has(block_.estimates, headings_[i])) block_.with[i].add(residual(with_[i]));
   }
 }
 
 void HeldOut::judge_gyros(const CompassReading& reading) {
-  const double heading_rad = best_heading(with_all(block_.in_force, block_.estimates), reading).value_or(0);
+  const double heading_rad = best_heading(with_all_, reading).value_or(0);
   for (std::size_t i = 0; i < kGyros.size(); ++i) {
     if (!has(block_.estimates, kGyros[i])) continue;
     const bool b = kGyros[i] == Calibrator::gyro_b;
@@ -167,21 +176,36 @@ void HeldOut::end() {
   for (std::size_t i = 0; i < kGyros.size(); ++i) {
     const auto& [before, in_force, estimate] = block_.gyros[i];
     if (estimate.count > 0) {
-      comparisons_[static_cast<std::size_t>(kGyros[i])].add(before.square(), in_force.square(), estimate.square());
+      comparisons_[index_of(kGyros[i])].add(before.square(), in_force.square(), estimate.square());
     }
   }
   if (!reference_gyro() || block_.most_turn_rad - block_.least_turn_rad < kLeastTurn_rad) return;
   const double before = block_.before.square(), in_force = block_.with_in_force.square();
   heading_.add(before, in_force, block_.with_all.square());
-  for (std::size_t i = 0; i < kHeadings.size(); ++i) {
+  for (std::size_t i = 0; i < headings_.size(); ++i) {
     if (block_.with[i].count > 0)
-      comparisons_[static_cast<std::size_t>(kHeadings[i])].add(before, in_force, block_.with[i].square());
+      comparisons_[index_of(headings_[i])].add(before, in_force, block_.with[i].square());
   }
 }
 
 void HeldOut::archive(Archive& archive) {
   archive.tag("held_out 1");
-  archive(block_, in_block_, comparisons_, heading_);
+  archive(block_, in_block_);
+  for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(comparisons_[i]);
+  archive(heading_);
+  if (!archive.saving()) combine();
+}
+
+void HeldOut::forget_added(Calibrator calibrator) {
+  comparisons_[index_of(calibrator)] = {};
+  const auto found = std::find(headings_.begin(), headings_.end(), calibrator);
+  if (found != headings_.end()) block_.with[static_cast<std::size_t>(found - headings_.begin())] = {};
+}
+
+void HeldOut::archive_added(Archive& archive, Calibrator calibrator) {
+  archive(comparisons_[index_of(calibrator)]);
+  const auto found = std::find(headings_.begin(), headings_.end(), calibrator);
+  if (found != headings_.end()) archive(block_.with[static_cast<std::size_t>(found - headings_.begin())]);
 }
 
 }  // namespace navcal::calib

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "calib/archive.h"
 #include "calib/correction.h"
@@ -60,11 +61,12 @@ class HeldOut {
  public:
   static constexpr std::uint32_t kReadings = 100;
 
+  HeldOut();
   /// `estimates`: those that are accepted, at this reading. True when a block was ended by it.
   bool update(const CompassReading& reading, const TurnStep& step, const Correction& in_force,
               const Correction& estimates);
 
-  /// Of gyro, gyro_b, compass, magnetometer, gps_compass, swing; empty for others.
+  /// Of the gyros and of the calibrators that correct the heading; empty for others.
   [[nodiscard]] const Comparison& of(Calibrator calibrator) const;
   /// Of the heading with all estimates together.
   [[nodiscard]] const Comparison& heading() const { return heading_; }
@@ -72,7 +74,12 @@ class HeldOut {
   void on_change();
   /// A calibrator begins anew.
   void forget(Calibrator calibrator);
+  /// All but the calibrators from the eleventh on.
   void archive(Archive& archive);
+  /// As forget(), but the block goes on.
+  void forget_added(Calibrator calibrator);
+  /// What archive() leaves out, of one of them.
+  void archive_added(Archive& archive, Calibrator calibrator);
 
  private:
   /// Mean and scatter of residuals, by Welford.
@@ -82,8 +89,6 @@ class HeldOut {
     [[nodiscard]] double square() const { return count > 0 ? sum / count : 0; }
     void archive(Archive& archive) { archive(count, mean, sum); }
   };
-  static constexpr std::array kHeadings{Calibrator::compass, Calibrator::magnetometer, Calibrator::gps_compass,
-                                        Calibrator::swing};
   static constexpr std::array kGyros{Calibrator::gyro, Calibrator::gyro_b};
   struct GyroScatter {
     Scatter before, in_force, estimate;
@@ -96,21 +101,26 @@ class HeldOut {
            tilt_rad = 0;  ///< TurnStep, summed from its beginning
     double least_turn_rad = 0, most_turn_rad = 0;
     Scatter before, with_in_force, with_all;
-    std::array<Scatter, kHeadings.size()> with;  ///< what is in force but for one
+    std::vector<Scatter> with;  ///< what is in force but for one, of headings_
     std::array<GyroScatter, kGyros.size()> gyros;
     void archive(Archive& archive);
   };
 
   void begin(const Correction& in_force, const Correction& estimates);
+  /// Puts the corrections together by which the block is judged.
+  void combine();
   void judge_headings(const CompassReading& reading);
   void judge_gyros(const CompassReading& reading);
   void end();
   [[nodiscard]] double turn(const std::optional<RateCorrection>& gyro, bool b) const;
   [[nodiscard]] const std::optional<RateCorrection>& reference_gyro() const;
 
+  std::vector<Calibrator> headings_;  ///< those that correct the heading
   Block block_;
+  std::vector<Correction> with_;  ///< what is in force but for one, of headings_
+  Correction with_all_;           ///< what is in force, with all estimates
   bool in_block_ = false;
-  std::array<Comparison, kCalibrators.size()> comparisons_{};
+  std::vector<Comparison> comparisons_;
   Comparison heading_;
 };
 

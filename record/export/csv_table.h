@@ -12,7 +12,7 @@ namespace navcal::record {
 /// How the messages of one topic become lines of a table.
 class CsvTable {
  public:
-  /// Of a topic with members that are listed.
+  /// Table of a topic with listed members.
   explicit CsvTable(const Topic& topic);
 
   /// "time_s,...,heading_rad,...\n"

@@ -42,7 +42,7 @@ MatVariable text(const char* name, const std::string& value) {
   return variable(name, MAT_C_CHAR, MAT_T_UINT16, row.empty() ? 0 : 1, row.size(), row.data());
 }
 
-/// Of a yes and no, with NaN for neither: MATLAB's logical has no third value.
+/// Booleans as numbers, with NaN for an absent value: MATLAB's logical has no third value.
 std::vector<double> as_doubles(const BooleanColumn& column) {
   std::vector<double> rows(column.rows.size());
   std::ranges::transform(column.rows, rows.begin(), [](std::int8_t value) {

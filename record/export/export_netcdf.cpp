@@ -37,8 +37,8 @@ int netcdf_type(const TopicTable::Values& values) {
   return NC_STRING;
 }
 
-/// As in the tables of the other exports; but the coordinate has its dimension's name, and intervals are in
-/// nanoseconds.
+/// Name of a variable, the same as in the other exports, except that the coordinate has its dimension's name, and
+/// intervals are in nanoseconds.
 std::string variable_name(const TopicTable::Column& column) {
   if (!std::holds_alternative<NanosecondColumn>(column.values)) return column.head.title;
   return std::string(column.head.field->name);

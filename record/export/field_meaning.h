@@ -5,7 +5,7 @@
 
 namespace navcal::record {
 
-/// What a column means, in the words of the CF conventions.
+/// Meaning of a column, in the terms of the CF conventions.
 struct FieldMeaning {
   std::string_view topic;          ///< empty: wherever no line of its own stands
   std::string_view field;          ///< as Field::name

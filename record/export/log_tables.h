@@ -10,7 +10,7 @@
 
 namespace navcal::record {
 
-/// What a log holds besides raw bytes, as tables in memory.
+/// Content of a log except raw bytes, as tables in memory.
 struct LogTables {
   std::vector<TopicTable> tables;  ///< in the order of their first messages; none is empty
   std::string configuration;       ///< TOML; empty when the log has none

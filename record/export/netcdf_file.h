@@ -33,7 +33,7 @@ class NetcdfFile {
   [[nodiscard]] Group add_group(const std::string& name);
   /// Its number within the group.
   [[nodiscard]] int add_dimension(Group group, const std::string& name, std::size_t length);
-  /// Of `type` NC_DOUBLE, NC_INT64, NC_BYTE (compressed) or NC_STRING, over one dimension of so many values.
+  /// Adds a variable of `type` NC_DOUBLE, NC_INT64, NC_BYTE (compressed) or NC_STRING over one dimension.
   [[nodiscard]] Variable add_variable(Group group, const std::string& name, int type, int dimension,
                                       std::size_t length);
 

@@ -10,8 +10,8 @@
 
 namespace navcal::record {
 
-/// For libraries that open files themselves: what they write to part() gets its name by commit(); left half-way,
-/// nothing remains.
+/// Temporary path for libraries that open files themselves. The file written at part() gets its name by commit();
+/// without commit() it is removed.
 class PartPath {
  public:
   explicit PartPath(std::filesystem::path path) : path_(std::move(path)), part_(path_.string() + ".part") {}

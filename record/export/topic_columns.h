@@ -15,10 +15,10 @@ struct TopicColumn {
   const Field* field = nullptr;
 };
 
-/// Those of a topic with members that are listed; a vector becomes three, _x _y _z, or _1 _2 _3 of fins.
+/// Columns of a topic with listed members; a vector becomes three, _x _y _z, or _1 _2 _3 of fins.
 [[nodiscard]] std::vector<TopicColumn> topic_columns(const Topic& topic);
 
-/// What tables call a topic: "imu" for "/imu", "raw_compass" for "/raw/compass".
+/// Name of a topic in tables: "imu" for "/imu", "raw_compass" for "/raw/compass".
 [[nodiscard]] std::string table_name(std::string_view topic);
 
 /// Null where a topic's messages are kept as whole JSON: they have more members than are listed.

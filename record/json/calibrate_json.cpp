@@ -19,33 +19,12 @@ Json value_of(const calib::CalibratorReport* report, std::string_view name, doub
   return quantity == nullptr ? Json(nullptr) : number_json(quantity->*which * unit);
 }
 
-/// The instruments without which a calibrator cannot begin.
-std::string_view needs_of(Calibrator calibrator) {
-  switch (calibrator) {
-    case Calibrator::magnetometer:
-      return "a compass that gives its field (protocol tcm2)";
-    case Calibrator::gps_compass:
-      return "a compass, a GPS receiver and the motor card";
-    case Calibrator::misalignment:
-    case Calibrator::course_delay:
-      return "a compass and a GPS receiver (protocol oncore or nmea)";
-    case Calibrator::motor_current:
-      return "a compass that gives its field, an inertial card and a motor card";
-    case Calibrator::gyro:
-    case Calibrator::gyro_b:
-    case Calibrator::compass:
-    case Calibrator::swing:
-    case Calibrator::compass_delay:
-      break;
-  }
-  return "a compass and an inertial card (protocol imu-card)";
-}
-
-/// What stands against it and what would help, in one sentence for people.
+/// Objection and remedy, in one sentence for users.
 std::string reason_of(const calib::CalibratorReport* report, Calibrator calibrator) {
-  if (report == nullptr) return "the recording lacks an instrument: it takes " + std::string(needs_of(calibrator));
+  if (report == nullptr)
+    return "the recording lacks an instrument: it takes " + std::string(calib::row_of(calibrator).needs_text);
   if (report->outcome == calib::Outcome::no_better) {
-    return "readings that had no part in the estimate are no better with it than before";
+    return "the data support the estimate, but held-out readings are no better with it";
   }
   const auto& judgement = report->judgement;
   if (judgement.accepted || judgement.manoeuvre.empty()) return judgement.reason;
@@ -179,6 +158,9 @@ void append_calibrate_json(std::string& out, const calib::Report& report) {
   json["motor_current"] = motor_json(report.find(Calibrator::motor_current));
   json["rose"] = report.rose;
   json["left_out"] = gate_json(report.gate);
+  for (const Calibrator calibrator : calib::calibrators().subspan(calib::kNamedCalibrators)) {
+    json[std::string(calib::name_of(calibrator))] = beside(report, calibrator);
+  }
   out += json.dump();
 }
 

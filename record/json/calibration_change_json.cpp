@@ -23,7 +23,7 @@ std::optional<Cause> cause_named(std::string_view name) {
 
 std::string in_force_json(const calib::Correction& correction) {
   auto json = nlohmann::ordered_json::object();
-  for (const auto calibrator : calib::kCalibrators) {
+  for (const auto calibrator : calib::calibrators()) {
     if (calib::has(correction, calibrator))
       json[std::string(calib::name_of(calibrator))] = correction_json(correction, calibrator);
   }

@@ -57,7 +57,7 @@ Json heading_in_force_json(const calib::HeadingCheck& heading) {
   return json;
 }
 
-/// What all lines of a report have.
+/// Members that all lines of a report have.
 std::string beginning(const calib::Report& report, std::optional<std::int64_t> utc_ns) {
   std::string out;
   {

@@ -28,7 +28,7 @@ void append_json(std::string& out, const pipeline::UtcMapping& mapping, const pi
 
 /// Told from CALIB without reading it whole.
 [[nodiscard]] bool is_calibration_change(std::string_view json);
-/// What replay needs of such an object: time, cause, calibrator and state; nullopt when it is another one.
+/// The members that replay needs: time, cause, calibrator and state; nullopt if the object is of another kind.
 [[nodiscard]] std::optional<pipeline::CalibrationChange> calibration_from_json(std::string_view json);
 
 }  // namespace navcal::record

@@ -11,38 +11,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using calib::Calibrator;
 
-Json rate_json(const std::optional<calib::RateCorrection>& rate) {
-  if (!rate) return nullptr;
-  Json json;
-  json["scale"] = rate->scale;
-  json["bias_deg_s"] = rate->bias_rad_s * base::kDegreesPerRadian;
-  return json;
-}
-
-Json swing_json(const calib::SwingCorrection& swing) {
-  Json json;
-  for (const double deviation_rad : swing.deviation_rad)
-    json["deviation_deg"].push_back(deviation_rad * base::kDegreesPerRadian);
-  return json;
-}
-
-Json field_json(const calib::FieldCorrection& field) {
-  Json json;
-  json["offset_uT"] = vector_json(field.offset_uT);
-  json["matrix"] = matrix_json(field.matrix);
-  return json;
-}
-
 /// UTC seconds.
 Json time_json(std::int64_t utc_ns) {
   return utc_ns == 0 ? Json(nullptr) : Json(static_cast<double>(utc_ns) * 1e-9);
-}
-
-Json named(std::string_view name, const std::optional<double>& value, double unit) {
-  if (!value) return nullptr;
-  Json json;
-  json[std::string(name)] = *value * unit;
-  return json;
 }
 
 /// "bias_rad_s" -> "bias_deg_s", with the factor.
@@ -52,6 +23,20 @@ double in_degrees(std::string& name) {
   if (at == std::string::npos) return 1;
   name.replace(at, kRadians.size(), "_deg");
   return base::kDegreesPerRadian;
+}
+
+/// A number, or a list of numbers, or a list of the rows of a matrix.
+Json numbers_json(const calib::NamedNumbers& numbers, double unit) {
+  const auto number = [&](double value) { return number_json(value * unit); };
+  if (numbers.rows == 0) return number(numbers.values.front());
+  Json rows = Json::array();
+  const std::size_t columns = numbers.values.size() / numbers.rows;
+  for (std::size_t row = 0; row < numbers.rows; ++row) {
+    Json json = Json::array();
+    for (std::size_t i = 0; i < columns; ++i) json.push_back(number(numbers.values[row * columns + i]));
+    rows.push_back(std::move(json));
+  }
+  return numbers.rows == 1 ? rows.front() : rows;
 }
 
 }  // namespace
@@ -66,42 +51,13 @@ Json matrix_json(const Eigen::Matrix3d& matrix) {
   return json;
 }
 
-Json deviation_json(const calib::DeviationCorrection& deviation) {
-  Json json;
-  std::string name = "A_deg";
-  for (const double coefficient_rad : deviation.coefficients_rad) {
-    json[name] = coefficient_rad * base::kDegreesPerRadian;
-    ++name.front();
-  }
-  return json;
-}
-
 Json correction_json(const calib::Correction& correction, Calibrator calibrator) {
-  switch (calibrator) {
-    case Calibrator::gyro:
-      return rate_json(correction.gyro);
-    case Calibrator::gyro_b:
-      return rate_json(correction.gyro_b);
-    case Calibrator::compass:
-      return correction.compass ? deviation_json(*correction.compass) : Json(nullptr);
-    case Calibrator::magnetometer:
-      return correction.magnetometer ? field_json(*correction.magnetometer) : Json(nullptr);
-    case Calibrator::gps_compass:
-      return correction.gps_compass ? deviation_json(*correction.gps_compass) : Json(nullptr);
-    case Calibrator::swing:
-      return correction.swing ? swing_json(*correction.swing) : Json(nullptr);
-    case Calibrator::misalignment:
-      return named("A_deg", correction.misalignment_rad, base::kDegreesPerRadian);
-    case Calibrator::compass_delay:
-      return named("delay_s", correction.compass_delay_s, 1);
-    case Calibrator::course_delay:
-      return named("delay_s", correction.course_delay_s, 1);
-    case Calibrator::motor_current:
-      break;
-  }
-  if (!correction.motor_current) return nullptr;
   Json json;
-  json["slope_uT_per_A"] = vector_json(correction.motor_current->slope_uT_per_A);
+  for (const calib::NamedNumbers& numbers : calib::values_of(correction, calibrator)) {
+    std::string name(numbers.name);
+    const double unit = in_degrees(name);
+    json[name] = numbers_json(numbers, unit);
+  }
   return json;
 }
 

@@ -10,21 +10,16 @@
 
 namespace navcal::record {
 
-/// What a correction says for one calibrator, angles in degrees: {"scale":1.1,"bias_deg_s":-6.4}; null when
-/// nothing.
+/// The correction of one calibrator, angles in degrees: {"scale":1.1,"bias_deg_s":-6.4}; null if there is none.
 [[nodiscard]] nlohmann::ordered_json correction_json(const calib::Correction& correction,
                                                      calib::Calibrator calibrator);
-
-/// {"A_deg":..,"B_deg":..,...}.
-[[nodiscard]] nlohmann::ordered_json deviation_json(const calib::DeviationCorrection& deviation);
 
 /// Values of an estimate by name, angles in degrees: "bias_rad_s" becomes "bias_deg_s"; null for what is not
 /// finite.
 [[nodiscard]] nlohmann::ordered_json values_json(const std::vector<calib::Quantity>& quantities,
                                                  double calib::Quantity::*which);
 
-/// By instrument: readings taken, those left out by reason, gaps.
-/// Steps of the field, [{"time","size_uT":[3],"std_uT":[3],"returned"}]; what is not known is null.
+/// Steps of the field, [{"time","size_uT":[3],"std_uT":[3],"returned"}]; unknown values are null.
 [[nodiscard]] nlohmann::ordered_json steps_json(const std::vector<calib::FieldStep>& steps);
 /// The time between them, [{"from","to","readings","spread_raw","spread_calibrated"}]: UTC seconds, standard
 /// deviation of the field's size over its mean.

@@ -13,7 +13,7 @@ std::optional<double> degrees(const std::optional<double>& rad) {
   return *rad * base::kDegreesPerRadian;
 }
 
-/// What is said of a position, where there is one.
+/// The value if a position is known.
 std::optional<double> of_position(const nav::Estimate& estimate, double value) {
   if (!estimate.position_m) return std::nullopt;
   return value;

@@ -23,9 +23,9 @@ class LogFile {
 
   /// All or nothing: after an error the file is as before, and the same bytes may be offered again.
   [[nodiscard]] std::error_code append(std::string_view bytes);
-  /// What was appended survives a loss of power once this has returned without error. After an error the kernel
-  /// may have dropped what it could not write and call it clean: all that was appended since the last good sync is
-  /// kept until then, and written anew by the next attempt.
+  /// Makes all appended bytes durable: they survive a loss of power once this has returned without error. After an
+  /// error the kernel may have dropped pages and marked them clean. Therefore all bytes since the last good sync
+  /// are kept until then, and the next attempt writes them again.
   [[nodiscard]] std::error_code sync();
   /// Gives back the space not used and makes the file read-only, which marks it as finished. The footer
   /// (LogEncoder::finish) was appended before.

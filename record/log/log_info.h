@@ -15,7 +15,7 @@ namespace navcal::record {
 /// Called now and then with how far a file has been read, 0..1.
 using Progress = std::function<void(double)>;
 
-/// What is in a log or a capture.
+/// Summary of a log or a capture.
 struct RecordingInfo {
   struct Port {
     std::string name, protocol;
@@ -48,7 +48,7 @@ struct RecordingInfo {
 /// Throws BadRecording.
 [[nodiscard]] RecordingInfo read_info(const std::filesystem::path& file, const Progress& progress);
 
-/// For people, and as one JSON object.
+/// The summary as text, and as one JSON object.
 [[nodiscard]] std::string to_text(const RecordingInfo& info);
 [[nodiscard]] std::string to_json(const RecordingInfo& info);
 

@@ -61,7 +61,7 @@ std::string to_json(const RecordingInfo& info) {
   json["kind"] = info.log ? "log" : "capture";
   json["bytes"] = info.bytes;
   json["finished"] = info.finished;
-  // As text, because a reader's doubles would lose the last hundred nanoseconds.
+  // Times are text, because a reader's doubles would lose the last hundred nanoseconds.
   json["start"] = exact(info.start_utc_ns);
   json["end"] = exact(info.end_utc_ns);
   json["duration_s"] = seconds(info.end_utc_ns - info.start_utc_ns);

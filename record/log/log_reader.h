@@ -56,7 +56,7 @@ class LogReader {
   [[nodiscard]] const Findings& findings() const { return findings_; }
   [[nodiscard]] const std::map<std::uint16_t, LogChannel>& channels() const { return channels_; }
   [[nodiscard]] const McapSummary& summary() const { return summary_; }
-  /// For people; of very many the first, and a count.
+  /// Remarks for the user; if there are very many, the first ones and a count.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   /// log_time less monotonic time.
   [[nodiscard]] std::int64_t log_offset_ns() const { return log_offset_ns_; }

@@ -33,7 +33,7 @@ std::error_code mask(DiskFile& file, const LogReader::Stretch& stretch) {
   std::uint64_t offset = stretch.offset;
   std::uint64_t rest = stretch.length;
   while (rest >= kRecordHead) {
-    // What remains behind must be able to hold a record head, too.
+    // The remainder must be long enough for another record head.
     std::uint64_t length = std::min(rest, kMaxRecord);
     if (rest > length && rest - length < kRecordHead) length -= kRecordHead;
     std::string head(1, static_cast<char>(Opcode::masked));

@@ -10,7 +10,7 @@
 
 namespace navcal::record {
 
-/// What was done to one unfinished log.
+/// Result of finishing one log.
 struct Repair {
   std::string file;            ///< its name
   std::error_code error;       ///< why nothing was done, or why it could not be completed

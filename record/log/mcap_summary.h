@@ -8,7 +8,7 @@
 
 namespace navcal::record {
 
-/// What the end of a file says of the rest of it, gathered while the file is written, or read again.
+/// Data for the summary at the end of a file, gathered while the file is written, or read again.
 class McapSummary {
  public:
   struct Channel {

@@ -32,7 +32,7 @@ std::optional<double> number(const config::Value& value) {
 /// Empty when it was taken, else why not.
 std::string take(Draft& draft, const std::string& key, const config::Value& value) {
   const auto given = number(value);
-  if (!given) return "a number is wanted, not " + config::words_for(value);
+  if (!given) return "a number is expected, not " + config::words_for(value);
   if (key == "from_s" || key == "until_s") {
     (key == "from_s" ? draft.when.from_s : draft.when.until_s) = *given;
     return {};
@@ -74,7 +74,7 @@ void add_effects(std::string_view toml, EffectSet& set, std::vector<config::Prob
       if (!effect) {
         complain(unknown_effect(entry.keys[0]));
       } else if (!table) {
-        complain("a table with its parameters is wanted");
+        complain("a table with its parameters is expected");
       } else {
         std::vector<double> zeros(effect->description().parameters.size());
         drafts.push_back({std::move(effect), std::move(zeros), {}, entry.line, false});

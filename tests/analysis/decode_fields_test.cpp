@@ -15,7 +15,7 @@
 namespace navcal::cli {
 namespace {
 
-/// What `write(fields)` puts out, in either format.
+/// Output of `write(fields)`, in either format.
 template <class Write>
 std::string written(analysis::FieldWriter::Format format, Write write) {
   std::array<int, 2> ends{};

@@ -48,7 +48,7 @@ struct Iron {
 /// `turn_deg` forth and back, with roll and pitch of two other periods.
 [[nodiscard]] std::vector<Attitude> swinging(int readings, double turn_deg, double roll_deg, double pitch_deg);
 [[nodiscard]] Eigen::Vector3d field_in_body(const Attitude& attitude);
-/// With the noise of the reference instruments: 0.15 uT, tilt 0.1 degrees.
+/// Field readings with the noise of the reference instruments: 0.15 uT, tilt 0.1 degrees.
 [[nodiscard]] std::vector<FieldReading> field_on(const std::vector<Attitude>& motion, const Iron& iron,
                                                  Random& random);
 

@@ -35,8 +35,8 @@ struct Noise {
 };
 inline constexpr Noise kNoNoise{0, 0, 0, 0};
 
-/// What the thesis injects: omega_m = (1 + a) omega + b with a = -0.1, b = 0.1 rad/s (2.11), that is
-/// omega = scale omega_m + bias (2.12).
+/// Errors that the thesis injects: omega_m = (1 + a) omega + b with a = -0.1, b = 0.1 rad/s (2.11), that is omega
+/// = scale omega_m + bias (2.12).
 inline constexpr double kTrueScale = 1 / 0.9;
 inline constexpr double kTrueBias_rad_s = -0.1 / 0.9;
 

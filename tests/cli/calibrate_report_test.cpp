@@ -34,7 +34,7 @@ TEST_F(CalibrateReport, IsWholeAndHasEveryPicture) {
                               "Gyros: bias", "Compass deviation", "Magnetometer: offset"}) {
     EXPECT_EQ(count(page, "<title>" + std::string(picture) + "</title>"), 1) << picture;
   }
-  for (const char* said : {"two standard errors", "fitted ellipse", "What was left out", "Estimates", "a.cap",
+  for (const char* said : {"two standard errors", "fitted ellipse", "Readings left out", "Estimates", "a.cap",
                            "navcal " NAVCAL_VERSION, "prefers-color-scheme: dark", "@media print"}) {
     EXPECT_NE(page.find(said), std::string::npos) << said;
   }
@@ -53,7 +53,7 @@ TEST_F(CalibrateReport, WhatCannotBeShownIsSaid) {
   options.duration_s = 20;
   const std::string straight = page_of(simulated_recording(straight_path(20), options));
   EXPECT_EQ(flaw_in(straight), "");
-  EXPECT_NE(straight.find("nothing to hold the heading against"), std::string::npos);
+  EXPECT_NE(straight.find("The heading has no reference"), std::string::npos);
   options.compass = false;
   const std::string no_compass = page_of(simulated_recording(straight_path(20), options));
   EXPECT_EQ(flaw_in(no_compass), "");

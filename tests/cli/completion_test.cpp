@@ -7,7 +7,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-// What a bash that has read the script offers, asked as bash asks.
+// Completions that a bash offers after it has read the script, requested as bash does.
 namespace navcal::cli {
 namespace {
 
@@ -52,7 +52,8 @@ TEST_F(Completion, FilesWhereAValueOrAFileIsWanted) {
   EXPECT_EQ(offered("navcal gap --report x miss"), "mission.cap") << "after the value";
 }
 
-// As zsh's own keys ask, in a terminal; from a folder of completions, where it is read when first needed.
+// Keys as a user presses them in a zsh on a terminal; the script is in a folder of completions, which is read when
+// first needed.
 TEST_F(Completion, ZshCompletesAtTheFirstTab) {
   if (std::system("command -v zsh > /dev/null") != 0) GTEST_SKIP() << "there is no zsh here";
   const auto path = folder_.path().string();

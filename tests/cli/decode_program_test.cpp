@@ -114,7 +114,7 @@ TEST_F(Decode, PeopleGetAListingAndASummary) {
   EXPECT_NE(outcome.output.find(" Ha       time=2026-11-21T23:59:60.250000123Z "), std::string::npos);
   EXPECT_NE(outcome.output.find("fix=3d"), std::string::npos);
   EXPECT_NE(outcome.output.find("12 frames: Bb 1, Bo 3, Cj 1, Ea 2, Eq 1, Gj 1, Ha 2, Hn 1\n"), std::string::npos);
-  EXPECT_NE(outcome.output.find("1308 bytes: 1065 in frames, 203 skipped, 40 of an unfinished frame at the end\n"),
+  EXPECT_NE(outcome.output.find("1308 bytes: 1065 in frames, 203 skipped, 40 in an incomplete frame at the end\n"),
             std::string::npos);
 }
 

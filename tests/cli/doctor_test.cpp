@@ -23,7 +23,7 @@ class Doctor : public testing::Test {
     arguments.insert(arguments.end(), options.begin(), options.end());
     return test::run_command(add_doctor, arguments);
   }
-  /// Of a daemon on a pseudo-terminal, with its log here and a status port that nobody else takes.
+  /// Configuration of a daemon on a pseudo-terminal, with its log here and a status port that is not in use.
   [[nodiscard]] std::string healthy() const {
     return "[log]\ndirectory = \"" + folder_.path().string() +
            "\"\nrotate_MB = 16\nfree_floor_MB = 0\n[status]\nport = 1\n[port.compass]\nprotocol = \"tcm2\"\npath "
@@ -46,7 +46,7 @@ TEST_F(Doctor, AFaultHasItsMendAndTheStatus) {
   const auto outcome =
       run("[port.imu]\nprotocol = \"imu-card\"\npath = \"" + (folder_ / "gone").string() + "\"\n" + healthy());
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_EQ(outcome.message, "1 fault stands between you and good data") << outcome.output;
+  EXPECT_EQ(outcome.message, "1 fault found") << outcome.output;
   EXPECT_NE(outcome.output.find("fault    port imu"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("-> connect it"), std::string::npos) << outcome.output;
 }
@@ -86,8 +86,8 @@ TEST_F(Doctor, JsonHasAllThatWasLookedAt) {
 }
 
 TEST(DoctorReport, CountsInWords) {
-  EXPECT_EQ(doctor_text({}), "Nothing stands in the way.\n");
-  EXPECT_EQ(doctor_text({good("a", "x")}), "ok       a  x\nNothing stands in the way.\n");
+  EXPECT_EQ(doctor_text({}), "No faults and no warnings.\n");
+  EXPECT_EQ(doctor_text({good("a", "x")}), "ok       a  x\nNo faults and no warnings.\n");
   EXPECT_EQ(
       doctor_text({fault("log", "x", "y"), warning("clock", "z", "w")}),
       "fault    log    x\n                -> y\nwarning  clock  z\n                -> w\n1 fault, 1 warning.\n");

@@ -85,7 +85,7 @@ TEST_F(Simulate, TheTruthDrivesTheVehicleToTheSamePlaceAgain) {
     std::string x, y;
     std::getline(one, x, ',');
     std::getline(two, y, ',');
-    // What drives holds the fins over a step, as the reference paths were made; a mission lets them move on.
+    // A drive holds the fins over a step, as the reference paths were made; a mission lets them move.
     EXPECT_NEAR(std::stod(x), std::stod(y), 5e-4) << a << '\n' << b;
   }
 }
@@ -130,7 +130,7 @@ TEST_F(Simulate, RefusesWithTheReasonAndLeavesNothingBehind) {
            {"not a path", "--path bad.csv -o a.cap", 3, "bad.csv:1: "},
            {"no such mission", "--mission nowhere -o a.cap", 3, "nowhere"},
            {"unknown effect", "--mission survey --effect motor_fields=1 -o a.cap", 2, "did you mean motor_field?"},
-           {"no strength", "--mission survey --effect motor_field=x -o a.cap", 2, "NAME=STRENGTH is wanted"},
+           {"no strength", "--mission survey --effect motor_field=x -o a.cap", 2, "NAME=STRENGTH is expected"},
            {"beyond its range", "--mission survey --effect fin_lag=1000 -o a.cap", 2,
             "tau_s lies between 0 and 5"},
            {"unknown in a file", "--mission survey --effects effects.toml -o a.cap", 3,
@@ -139,7 +139,7 @@ TEST_F(Simulate, RefusesWithTheReasonAndLeavesNothingBehind) {
            {"no such effects", "--mission survey --effects none.toml -o a.cap", 3, "none.toml"},
            {"a path that is driven off",
             "--path " NAVCAL_SOURCE_DIR "/fixtures/paths/path3.csv --effect buoyancy=1 -o a.cap", 2,
-            "buoyancy changes how the vehicle moves"},
+            "buoyancy changes the vehicle's motion"},
            {"nowhere to write", "--mission survey --seconds 1 -o none/a.cap", 1, "none/a.cap"}}) {
     const auto outcome = run(std::string("navcal simulate ") + command);
     EXPECT_EQ(outcome.status, status) << what << ": " << outcome.errors;

@@ -42,7 +42,7 @@ TEST_F(WrongUsage, NoOutputIsWrittenOverAnInput) {
   std::filesystem::create_hard_link(folder_ / "a.cap", folder_ / "part.cap.part");
   const std::string capture = navcal::test::read_file(folder_ / "a.cap");
   const std::string log = navcal::test::read_file(folder_ / "a.mcap");
-  const std::string words = "to be read and to be written";
+  const std::string words = "this file is both input and output";
   expect_refused("log export --cap a.mcap a.mcap", 2, words);
   expect_refused("log export --cap ./a.cap a.cap", 2, words);
   expect_refused("log export --mat a.mcap a.mcap", 2, words);

@@ -33,31 +33,32 @@ TEST(ConfigErrors, AKeyOutsideEveryTable) {
 
 TEST(ConfigErrors, AValueWhereATableIsWanted) {
   EXPECT_EQ(problems_of(std::string("log = 3\n").append(kGoodPort)),
-            Problems{"t.toml:1: log: a table [log] is wanted"});
+            Problems{"t.toml:1: log: a table [log] is expected"});
   EXPECT_EQ(problems_beside_a_port("[[status]]\nport = 1\n"),
-            Problems{"t.toml:6: status: a table [status] is wanted"});
+            Problems{"t.toml:6: status: a table [status] is expected"});
 }
 
 TEST(ConfigErrors, ANumberWithItsUnitInQuotes) {
   EXPECT_EQ(
       problems_beside_a_port("[log]\nsync_interval_s = \"10 ms\"\n"),
-      Problems{"t.toml:7: log.sync_interval_s: a number in s is wanted (0.01 to 60 s), not the text \"10 ms\""});
+      Problems{"t.toml:7: log.sync_interval_s: a number in s is expected (0.01 to 60 s), not the text \"10 ms\""});
 }
 
 TEST(ConfigErrors, WrongTypes) {
   EXPECT_EQ(problems_beside_a_port("[log]\nenabled = 1\n"),
-            Problems{"t.toml:7: log.enabled: true or false is wanted, not the number 1"});
+            Problems{"t.toml:7: log.enabled: true or false is expected, not the number 1"});
   EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = true\n"),
-            Problems{"t.toml:7: log.directory: a text is wanted (an absolute path), not true"});
+            Problems{"t.toml:7: log.directory: a text is expected (an absolute path), not true"});
   EXPECT_EQ(problems_beside_a_port("[log]\ndirectory = {}\n"),
-            Problems{"t.toml:7: log.directory: a text is wanted (an absolute path), not a table"});
+            Problems{"t.toml:7: log.directory: a text is expected (an absolute path), not a table"});
   EXPECT_EQ(problems_beside_a_port("[status]\nport = 2947.5\n"),
-            Problems{"t.toml:7: status.port: a whole number is wanted (0 to 65535), not the number 2947.5"});
+            Problems{"t.toml:7: status.port: a whole number is expected (0 to 65535), not the number 2947.5"});
   EXPECT_EQ(
       problems_beside_a_port("[status]\nmax_clients = [1, 2]\n"),
-      Problems{"t.toml:7: status.max_clients: a whole number is wanted (1 to 10000), not an array of 2 numbers"});
+      Problems{
+          "t.toml:7: status.max_clients: a whole number is expected (1 to 10000), not an array of 2 numbers"});
   EXPECT_EQ(problems_beside_a_port("[log]\nrotate_age_h = 12:00:00\n"),
-            Problems{"t.toml:7: log.rotate_age_h: a number in h is wanted (0.001 to 8760 h), not a time"});
+            Problems{"t.toml:7: log.rotate_age_h: a number in h is expected (0.001 to 8760 h), not a time"});
 }
 
 TEST(ConfigErrors, OutOfRangeSaysTheRangeAndItsUnit) {

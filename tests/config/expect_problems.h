@@ -15,7 +15,7 @@ namespace navcal::config {
 inline constexpr std::string_view kGoodPort =
     "[port.gps]\nprotocol = \"oncore\"\npath = \"/dev/ttyS0\"\nbaud = 9600\n\n";
 
-/// What a file is told to have wrong, line by line; empty when it is accepted.
+/// Problems reported for a file, line by line; empty if it is accepted.
 inline std::vector<std::string> problems_of(std::string_view toml, const Overrides& overrides = {}) {
   try {
     static_cast<void>(parse(toml, "t.toml", overrides));

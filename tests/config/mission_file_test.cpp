@@ -55,7 +55,7 @@ TEST(MissionFile, MistakesAreNamedByStep) {
   EXPECT_EQ(problems_of_mission("[[step]]\ndo = \"leg\"\n"),
             Problems{"m.toml:1: step[1]: seconds or metres is missing"});
   EXPECT_EQ(problems_of_mission("[[step]]\ndo = \"leg\"\nseconds = 5\nmetres = 6\n"),
-            Problems{"m.toml:1: step[1]: only one of seconds and metres can be said"});
+            Problems{"m.toml:1: step[1]: only one of seconds and metres may be given"});
   EXPECT_EQ(
       problems_of_mission("[[step]]\ndo = \"speed\"\nseconds = 5\nshaft_rpm = 600\ndepth_m = 2\n"),
       Problems{"m.toml:5: step[1].depth_m: a speed has no such key; it takes seconds, shaft_rpm, speed_m_s"});
@@ -69,7 +69,7 @@ TEST(MissionFile, MistakesAreNamedByStep) {
 
 TEST(MissionFile, MistakesAroundTheSteps) {
   EXPECT_EQ(problems_of_mission(""), Problems{"m.toml:1: step: a mission has a [[step]] or more"});
-  EXPECT_EQ(problems_of_mission("[step]\ndo = \"leg\"\n").front(), "m.toml:1: step: tables [[step]] are wanted");
+  EXPECT_EQ(problems_of_mission("[step]\ndo = \"leg\"\n").front(), "m.toml:1: step: tables [[step]] are expected");
   EXPECT_EQ(problems_of_mission("[strat]\n[[step]]\ndo = \"leg\"\nseconds = 1\n"),
             Problems{"m.toml:1: strat: unknown key; did you mean start?"});
   EXPECT_EQ(problems_of_mission("mission.at_end = \"stop\"\n[[step]]\ndo = \"leg\"\nseconds = 1\n"),

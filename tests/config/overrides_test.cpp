@@ -53,13 +53,13 @@ TEST(ConfigOverrides, Problems) {
   EXPECT_EQ(problems_of(kGoodPort, {"stats.port=1"}),
             Problems{"--set: stats.port: unknown key; did you mean status?"});
   EXPECT_EQ(problems_of(kGoodPort, {"log.enabled=maybe"}),
-            Problems{"--set: log.enabled: true or false is wanted, not the text \"maybe\""});
+            Problems{"--set: log.enabled: true or false is expected, not the text \"maybe\""});
   EXPECT_EQ(
       problems_of(kGoodPort, {"log.sync_interval_s=10 ms"}),
-      Problems{"--set: log.sync_interval_s: a number in s is wanted (0.01 to 60 s), not the text \"10 ms\""});
+      Problems{"--set: log.sync_interval_s: a number in s is expected (0.01 to 60 s), not the text \"10 ms\""});
   EXPECT_EQ(problems_of(kGoodPort, {"port.gsp.baud=9600"}),
             Problems{"--set: port.gsp.baud: the file has no port of this name; did you mean gps?"});
-  EXPECT_EQ(problems_of(kGoodPort, {"port.gps.units=1"}), Problems{"--set: port.gps.units: a table is wanted"});
+  EXPECT_EQ(problems_of(kGoodPort, {"port.gps.units=1"}), Problems{"--set: port.gps.units: a table is expected"});
   EXPECT_EQ(problems_of(kGoodPort, {"port.gps.fix.a.b=1"}), Problems{"--set: port.gps.fix.a.b: unknown key"});
   EXPECT_EQ(problems_of(kGoodPort, {"log.directory=/a\xff"}),
             Problems{"--set: log.directory: the value is not UTF-8, or too long"});

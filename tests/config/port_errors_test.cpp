@@ -34,25 +34,25 @@ TEST(ConfigPortErrors, MissingProtocol) {
 
 TEST(ConfigPortErrors, NoPlace) {
   EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm2\"\n"),
-            Problems{"t.toml:1: port.compass: where it is is missing: path, udev_name or usb_serial"});
+            Problems{"t.toml:1: port.compass: the place is missing: path, udev_name or usb_serial"});
 }
 
 TEST(ConfigPortErrors, AnEmptyPlaceIsNone) {
   EXPECT_EQ(
       problems_of("[port.compass]\nprotocol = \"tcm2\"\nusb_serial = \"\"\n"),
-      (Problems{"t.toml:1: port.compass: where it is is missing: path, udev_name or usb_serial",
+      (Problems{"t.toml:1: port.compass: the place is missing: path, udev_name or usb_serial",
                 "t.toml:3: port.compass.usb_serial: \"\" is not a serial number without control characters"}));
 }
 
 TEST(ConfigPortErrors, AnAddressIsNoPath) {
   EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm2\"\npath = \"tcp://vehicle:4001\"\n"),
-            (Problems{"t.toml:1: port.compass: where it is is missing: path, udev_name or usb_serial",
+            (Problems{"t.toml:1: port.compass: the place is missing: path, udev_name or usb_serial",
                       "t.toml:3: port.compass.path: \"tcp://vehicle:4001\" is not a path on this machine without "
                       "control characters"}));
 }
 
 TEST(ConfigPortErrors, SeveralPlaces) {
-  const Problems several{"t.toml:1: port.compass: only one of path, udev_name and usb_serial can say where it is"};
+  const Problems several{"t.toml:1: port.compass: only one of path, udev_name and usb_serial may be given"};
   EXPECT_EQ(problems_of(compass("udev_name = \"x\"\n")), several);
   EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\n")), several);
   EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\nudev_name = \"y\"\n")), several);
@@ -98,16 +98,18 @@ TEST(ConfigPortErrors, UnknownKeys) {
             Problems{"t.toml:5: port.compass.units.head: unknown key"});
   EXPECT_EQ(
       problems_of(compass("[port.compass.units]\nheading.x.y.z = 1\n")),
-      Problems{"t.toml:5: port.compass.units.heading: a text is wanted (deg, mils or counts16), not a table"});
+      Problems{"t.toml:5: port.compass.units.heading: a text is expected (deg, mils or counts16), not a table"});
 }
 
 TEST(ConfigPortErrors, TablesAndValuesInEachOthersPlace) {
   EXPECT_EQ(problems_of(compass("units = \"deg\"\n")),
-            Problems{"t.toml:4: port.compass.units: a table is wanted"});
-  EXPECT_EQ(problems_of(compass("baud.x = 9600\n")),
-            Problems{"t.toml:4: port.compass.baud: a whole number is wanted (50 to 4000000 bit/s), not a table"});
-  EXPECT_EQ(problems_of("port = 3\n").at(0), "t.toml:1: port: tables [port.NAME] are wanted");
-  EXPECT_EQ(problems_of("[port]\ncompass = \"/dev/ttyS0\"\n").at(1), "t.toml:2: port.compass: a table is wanted");
+            Problems{"t.toml:4: port.compass.units: a table is expected"});
+  EXPECT_EQ(
+      problems_of(compass("baud.x = 9600\n")),
+      Problems{"t.toml:4: port.compass.baud: a whole number is expected (50 to 4000000 bit/s), not a table"});
+  EXPECT_EQ(problems_of("port = 3\n").at(0), "t.toml:1: port: tables [port.NAME] are expected");
+  EXPECT_EQ(problems_of("[port]\ncompass = \"/dev/ttyS0\"\n").at(1),
+            "t.toml:2: port.compass: a table is expected");
 }
 
 TEST(ConfigPortErrors, SettingsOfAnotherProtocol) {
@@ -122,12 +124,11 @@ TEST(ConfigPortErrors, Channels) {
   };
   EXPECT_EQ(imu("zero_mV = [1, 2, 3, 4, 5, 6, 7, 8.5]\n"), Problems{});
   EXPECT_EQ(imu("zero_mV = [1, 2, 3]\n"), Problems{"t.toml:5: port.imu.channels.zero_mV: eight numbers, each "
-                                                   "-10000 to 10000 mV are wanted, not an array of "
+                                                   "-10000 to 10000 mV are expected, not an array of "
                                                    "3 numbers"});
-  EXPECT_EQ(
-      imu("zero_mV = [1, 2, 3, 4, 5, 6, 7, \"8\"]\n"),
-      Problems{
-          "t.toml:5: port.imu.channels.zero_mV: eight numbers, each -10000 to 10000 mV are wanted, not an array"});
+  EXPECT_EQ(imu("zero_mV = [1, 2, 3, 4, 5, 6, 7, \"8\"]\n"),
+            Problems{"t.toml:5: port.imu.channels.zero_mV: eight numbers, each -10000 to 10000 mV are expected, "
+                     "not an array"});
   EXPECT_EQ(imu("scale = [1, 1, 1, 1, 1, 1, 1, 0]\n"),
             Problems{"t.toml:5: port.imu.channels.scale: 0 is out of range: eight numbers, each -100000 to 100000 "
                      "mV per deg/s, "

@@ -63,7 +63,7 @@ TEST(VehicleFile, MistakesAreNamed) {
             Problems{"v.toml:2: hull.mas_kg: unknown key; did you mean mass_kg?"});
   EXPECT_EQ(problems_of_vehicle("[rotor]\ndiameter_m = 5\n"), Problems{"v.toml:1: rotor: unknown key"});
   EXPECT_EQ(problems_of_vehicle("[fins]\nlag_s = \"0.1 s\"\n"),
-            Problems{"v.toml:2: fins.lag_s: a number in s is wanted (0.001 to 10 s), not the text \"0.1 s\""});
+            Problems{"v.toml:2: fins.lag_s: a number in s is expected (0.001 to 10 s), not the text \"0.1 s\""});
   EXPECT_EQ(problems_of_vehicle("[hull]\nlength_m = 0.3\ndiameter_m = 0.4\n"),
             Problems{"v.toml:3: hull.diameter_m: 0.4 m is not less than the length, 0.3 m"});
   EXPECT_EQ(problems_of_vehicle("[hull\n").size(), 1U);

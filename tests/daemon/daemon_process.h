@@ -46,7 +46,7 @@ class FakeLine {
     std::snprintf(tail, sizeof tail, "*%02X\r\n", checksum);
     write("$" + std::string(body) + tail);
   }
-  /// What the daemon has sent since, waiting up to `limit_ms` for it to begin.
+  /// Bytes that the daemon has sent since, waiting up to `limit_ms` for the first.
   [[nodiscard]] std::string read(int limit_ms) const {
     pollfd ready{master_, POLLIN, 0};
     char bytes[256];

@@ -71,7 +71,7 @@ class DifficultDisk : public record::Disk {
     std::error_code make_read_only() override { return real_->make_read_only(); }
 
    private:
-    /// As the kernel does: the pages are clean afterwards, and hold what the medium holds.
+    /// Drops unsynced data as the kernel does: the pages are clean afterwards, and contain what is on the medium.
     std::error_code drop_unsynced() {
       const std::string hole(static_cast<std::size_t>(end_ - synced_), '\0');
       if (const auto error = real_->write_at(synced_, hole)) return error;

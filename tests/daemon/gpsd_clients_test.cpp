@@ -46,7 +46,7 @@ class Talking {
   std::thread thread_;
 };
 
-/// What a command prints.
+/// Output of a command.
 std::string output_of(const std::string& command) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
   std::string out;

@@ -14,7 +14,7 @@ using protocols::Counters;
 using protocols::Protocol;
 using Verdict = SpeedCheck::Verdict;
 
-/// What a UART at `factor` times the sender's speed reads: each of its bits samples the line as it was then.
+/// Bytes that a UART at `factor` times the sender's speed reads: each of its bits samples the line at that time.
 std::vector<std::uint8_t> at_wrong_speed(const std::string& text, double factor) {
   std::vector<bool> line(20, true);
   for (const char c : text) {

@@ -71,7 +71,7 @@ class Client {
     throw std::runtime_error("closed before a line with " + std::string(text));
   }
 
-  /// What came of a line that was not completed.
+  /// The received part of an incomplete line.
   [[nodiscard]] const std::string& rest() const { return bytes_; }
 
  private:

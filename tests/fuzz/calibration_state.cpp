@@ -10,7 +10,7 @@ namespace {
 
 using namespace navcal::calib;
 
-/// Of a suite that has seen some turns.
+/// State of a suite that has seen some turns.
 std::string saved_state() {
   Suite suite({}, {true, true, true, true});
   for (int k = 0; k < 2000; ++k) {

@@ -20,7 +20,7 @@ void decode(const navcal::protocols::Frame& frame) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<motor_card::Scanner>({data, size}, decode);
-  // With a good checksum, whatever the fields.
+  // A line with a valid checksum and arbitrary fields.
   const std::string_view body(reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 80));
   const auto line = checked_line(body);
   static_cast<void>(motor_card::decode_status(line));

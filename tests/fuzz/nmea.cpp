@@ -16,7 +16,7 @@ void require_on_earth(const std::optional<nmea::LatLon>& place) {
   navcal::fuzz::require(std::fabs(place->latitude_deg) <= 90 && std::fabs(place->longitude_deg) <= 180);
 }
 
-// By every decoder, whatever the sentence calls itself.
+// Runs every decoder, whatever the type of the sentence.
 void decode_everything(navcal::protocols::Bytes frame) {
   const nmea::Sentence sentence(frame);
   std::size_t bytes = sentence.address().size();

@@ -8,8 +8,8 @@
 
 #include "protocols/stream_parser.h"
 
-// What must hold of every stream parser whatever the bytes and the cuts are. The first byte of an input seeds the
-// cuts, so that the fuzzer can vary them too.
+// Invariants of every stream parser for any bytes and any division into reads. The first byte of an input seeds
+// the division, so that the fuzzer can vary it too.
 namespace navcal::fuzz {
 
 inline void require(bool condition) {
@@ -87,8 +87,8 @@ void check_stream(protocols::Bytes input, Use&& use) {
   require(in_pieces.counters().bad_checksum == at_once.counters().bad_checksum);
   require(in_pieces.held() == at_once.held() && in_pieces.missing() == at_once.missing());
 
-  // With silences in between: other frames may come, but each byte still lies in one place, and all that is held
-  // can be given up.
+  // Silences in between may produce other frames, but each byte still lies in one place, and all held bytes can be
+  // given up.
   protocols::StreamParser<S> with_silences;
   std::uint64_t end = 0;
   const auto in_order = [&](const protocols::Frame& frame) {

@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                             parsed);
     }
   });
-  // With a good checksum, whatever the fields: what was read is read again from what is printed of it.
+  // A line with a valid checksum and arbitrary fields: a decoded value that is printed decodes to itself.
   const std::string_view body(reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 80));
   if (const auto word = tcm2::decode_word(checked_line(body)); word && word->error) {
     navcal::fuzz::require(tcm2::decode_word(tcm2::encode_word({.error = word->error})) ==

@@ -52,7 +52,7 @@ class Dialogue {
         {protocols::FrameId(id), 0, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}}, now_ns_);
   }
 
-  /// What was sent, one after the other, CR shown as a blank.
+  /// Bytes sent, in order, with CR shown as a blank.
   [[nodiscard]] std::string transcript() const {
     std::string text;
     for (const Sent& command : sent) text += command.text;

@@ -30,7 +30,7 @@ class Tcm2CalibrationBench {
   /// Runs to the end of the dialogue, or for so long. `each` is called every millisecond.
   void run_for(
       std::int64_t duration_ns, const std::function<void()>& each = [] {});
-  /// What was sent, one after the other, CR shown as a blank.
+  /// Bytes sent, in order, with CR shown as a blank.
   [[nodiscard]] std::string transcript() const;
   /// Words that came in the last second of the run.
   [[nodiscard]] bool words_flow();

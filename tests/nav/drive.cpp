@@ -10,7 +10,7 @@
 namespace navcal::nav::test {
 namespace {
 
-/// Of one instrument.
+/// Timing of one instrument.
 struct Timing {
   std::int64_t period_ns;
   std::int64_t latency_ns;

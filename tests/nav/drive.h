@@ -9,7 +9,7 @@
 #include "nav/navigator.h"
 #include "sim/path.h"
 
-/// What the instruments of a vehicle on a known way would have told the navigator.
+/// Readings that the instruments of a vehicle on a known path would give to the navigator.
 namespace navcal::nav::test {
 
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -21,7 +21,7 @@ using Reading = std::variant<RateReading, CompassReading, ShaftReading, FixReadi
 struct DriveOptions {
   bool rates = true, compass = true, shaft = true;
   std::function<bool(double t_s)> fixed = [](double) { return true; };  ///< whether there is a fix
-  /// What the compass says of a true heading, before its noise.
+  /// Compass output for a true heading, before noise.
   std::function<double(double heading_rad)> compass_says = [](double heading_rad) { return heading_rad; };
   Eigen::Vector3d zero_rad_s = Eigen::Vector3d::Zero();   ///< of the gyros
   Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  ///< moves the position
@@ -50,7 +50,7 @@ void give(Navigator& navigator, const std::vector<Arrived>& readings, double unt
 /// Where the vehicle is over ground: the way, and the current since the start.
 [[nodiscard]] Eigen::Vector2d true_position_m(const sim::Motion& motion, std::int64_t time_ns,
                                               const Eigen::Vector2d& current_m_s = Eigen::Vector2d::Zero());
-/// Of the estimate, at its time.
+/// Error of the estimate at its time.
 [[nodiscard]] double position_error_m(const Navigator& navigator, const sim::Motion& motion,
                                       const Eigen::Vector2d& current_m_s = Eigen::Vector2d::Zero());
 [[nodiscard]] double heading_error_rad(const Navigator& navigator, const sim::Motion& motion);

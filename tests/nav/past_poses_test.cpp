@@ -61,7 +61,7 @@ TEST(PastPoses, ACorrectionIsOneOfThePastToo) {
   EXPECT_NEAR(found->roll_rad, 0.1, 1e-12);
   EXPECT_NEAR(found->pitch_rad, 0.2, 1e-12);
   EXPECT_NEAR(found->heading_rad, 1.8, 1e-12);
-  // What is told after a correction has it in it already.
+  // A pose added after a correction contains the correction already.
   EXPECT_NEAR(past.at(100 * kMillisecond_ns)->heading_rad, 2.3, 1e-12);
   EXPECT_NEAR(past.at(50 * kMillisecond_ns)->heading_rad, 2.3, 1e-12);
 }

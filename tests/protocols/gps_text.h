@@ -7,7 +7,7 @@
 #include "tests/protocols/stream.h"
 #include "tests/protocols/text.h"
 
-// What the tests of the receivers' protocols share.
+// Helpers shared by the tests of the receivers' protocols.
 namespace navcal::protocols::test {
 
 /// "Ea Bo Ea " for three frames.

@@ -5,7 +5,7 @@
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
 
-// What StreamParser asks of every scanner (protocols/stream_parser.h).
+// Requirements of StreamParser on every scanner (protocols/stream_parser.h).
 namespace navcal::protocols::test {
 namespace {
 

@@ -9,8 +9,8 @@
 
 #include "protocols/stream_parser.h"
 
-// What the tests of all stream parsers share: running a parser over a stream cut in any way, and streams to run it
-// over.
+// Helpers shared by the tests of all stream parsers: running a parser over a stream divided in any way, and
+// streams for it.
 namespace navcal::protocols::test {
 
 using Buffer = std::vector<std::uint8_t>;

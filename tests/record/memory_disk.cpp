@@ -33,7 +33,7 @@ class MemoryDisk::Handle final : public DiskFile {
     const std::uint64_t end = offset + bytes.size();
     const std::uint64_t growth = end > file_->content.size() ? end - file_->content.size() : 0;
     if (disk_.used() + growth > disk_.capacity) {
-      // As the real thing: what fits is written.
+      // A real disk writes as much as fits, too.
       const std::uint64_t room = disk_.capacity - std::min(disk_.capacity, disk_.used());
       file_->content.resize(file_->content.size() + room);
       return code(std::errc::no_space_on_device);

@@ -18,8 +18,8 @@ class MemoryDisk final : public Disk {
   std::uint64_t operations = 0;
   std::uint64_t capacity = UINT64_MAX;
 
-  /// What the medium holds when power comes back: all that was synced, and of the rest anything from nothing to
-  /// all, cut at a byte, or (where space was taken) zeros.
+  /// State of the medium after a power cycle: all synced data, and of the rest any part from none to all, cut at a
+  /// byte, or zeros where space was allocated.
   void power_cycle(std::mt19937& random);
 
   std::unique_ptr<DiskFile> create(const std::filesystem::path& file, std::error_code& error) override;

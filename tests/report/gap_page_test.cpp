@@ -61,7 +61,7 @@ TEST(GapPage, ShowsWhereWhatAndHowMuch) {
   const std::string page = report::gap_page(test::explained_gap(), gap_source());
   for (const char* said :
        {"Gap between model and a.cap", "class=\"good\">explained", "to do", "What causes it", "motor_field",
-        "0.8031\u00a0\u00b1\u00a00.0042\u00a0uT/A", "98 % (95 to 101 %)", "on 2 recordings held out",
+        "0.8031\u00a0\u00b1\u00a00.0042\u00a0uT/A", "98 % (95 to 101 %)", "on 2 held-out recordings",
         "may as well be fin_gain", "compass.field against motor current", "The other channels", "adc_droop",
         "dives/a.cap", "c.cap", "navcal simulate --mission survey --effects found.toml",
         "navcal " NAVCAL_VERSION}) {
@@ -80,7 +80,7 @@ TEST(GapPage, AnUnknownGapNamesNoCause) {
   EXPECT_NE(page.find("none of them explains the recording"), std::string::npos);
   EXPECT_NE(page.find("class=\"bad\">unknown"), std::string::npos);
   EXPECT_NE(page.find("No cause is named"), std::string::npos);
-  EXPECT_NE(page.find("What is left over"), std::string::npos);
+  EXPECT_NE(page.find("Remaining residuals"), std::string::npos);
   EXPECT_EQ(page.find("How much of the gap closes"), std::string::npos);
 }
 

@@ -8,8 +8,8 @@
 
 namespace navcal::cli::test {
 
-/// What keeps a text from being XML, with its place; empty when it is well-formed: tags nested and closed,
-/// attributes quoted, no bare `<` or `&`.
+/// Reason why a text is not XML, with its place; empty if it is well-formed: tags nested and closed, attributes
+/// quoted, no bare `<` or `&`.
 inline std::string flaw_in(std::string_view text) {
   const auto at = [&](std::size_t place) { return " at byte " + std::to_string(place); };
   if (text.starts_with("<!DOCTYPE html>")) text.remove_prefix(15);

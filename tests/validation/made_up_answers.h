@@ -9,7 +9,7 @@
 // Cases and answers that nobody drew or gave, so that every score can be reckoned by hand.
 namespace navcal::cli::test {
 
-/// Of this arm; the effects have their typical strength in their first parameter.
+/// A case of this arm; the effects have their typical strength in their first parameter.
 inline validation::TrialCase made_up_case(validation::TrialArm arm, const std::vector<std::string>& effects) {
   validation::TrialCase made_up;
   while (validation::arm_of_case(made_up.number) != arm) ++made_up.number;

@@ -17,7 +17,7 @@ constexpr double kMiddle_mV = 2048, kRate_mV_s_per_deg = 10, kForce_mV_per_g = 1
 constexpr double kSurface_mV = 250, kDepth_mV_per_m = 187.5;
 constexpr double kLargest = 65520;
 constexpr double kBetweenJumps_s = 20;  ///< in the mean
-/// Of the supply's relative loss, how much the converter's reference loses.
+/// Loss of the converter's reference, as a share of the supply's relative loss.
 constexpr double kReferenceShare = 0.05;
 
 }  // namespace

@@ -17,7 +17,7 @@ class Card final : public Instrument {
  public:
   Card(const Fitting& fitting, const CardDeviations& deviations);
 
-  /// What the helmsman last read.
+  /// Last reading that the helmsman received.
   struct Reading {
     double pitch_rate_rad_s = 0, yaw_rate_rad_s = 0, depth_m = 0;
   };

@@ -21,7 +21,7 @@ class Compass final : public Instrument {
   Compass(const Fitting& fitting, const CompassDeviations& deviations,
           const Vector3& field_uT = Waters{}.field_uT);
 
-  /// What the helmsman last read, radians; heading is magnetic.
+  /// Last reading that the helmsman received, radians; heading is magnetic.
   struct Reading {
     double heading_rad = 0, pitch_rad = 0, roll_rad = 0;
   };

@@ -38,11 +38,11 @@ struct EffectKind {
   double* (*field)(ParameterDeviations&) = nullptr;  ///< of the first parameter; the others follow it
 };
 
-/// Those that the diagnosis knows too, in the order of docs/trial.md.
+/// The effects that the diagnosis knows too, in the order of docs/trial.md.
 [[nodiscard]] std::span<const EffectKind> library_effects();
-/// Those that no library holds: a diagnosis must say that it does not know them.
+/// The effects that no library contains: a diagnosis must answer unknown.
 [[nodiscard]] std::span<const EffectKind> foreign_effects();
-/// Of either; nullptr when there is none.
+/// An effect of either kind by name; nullptr if there is none.
 [[nodiscard]] const EffectKind* find_effect(std::string_view name);
 
 /// An effect with its strength: values in the units of the keys; what is not named is zero.

@@ -36,7 +36,7 @@ class FinLinkage {
     held_ = true;
   }
 
-  /// What the card reports, `after_s` from the last settle().
+  /// The servo angles that the card reports, `after_s` from the last settle().
   [[nodiscard]] Vector3 servos_rad(double after_s) const {
     return command_rad_ + std::exp(-after_s / servo_time_s_) * (servo_rad_ - command_rad_);
   }

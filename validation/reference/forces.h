@@ -17,12 +17,13 @@ struct Flow {
 /// Force and moment about the origin, body axes: (X, Y, Z, K, M, N).
 using Wrench = Vector6;
 
-/// What the water does to the hull: axial drag, cross-flow drag (strip theory: each station by its own velocity
-/// across; Fossen, Handbook, ch. 6), lift of the body. The factors are 1 nominally.
+/// Force and moment of the water on the hull: axial drag, cross-flow drag (strip theory: each station by its own
+/// velocity across; Fossen, Handbook, ch. 6), lift of the body. The factors are 1 nominally.
 [[nodiscard]] Wrench hull_wrench(const Hull& hull, const Flow& flow, double axial_factor, double crossflow_factor);
 
-/// What the three fins do, 120 degrees apart, each a plate in its own stream with lift linear in the angle of
-/// attack up to 0.45 rad and induced drag; beyond `kStall_rad` the share `stall_loss` of the angle is lost.
+/// Force and moment of the three fins, 120 degrees apart, each a plate in its own stream with lift linear in the
+/// angle of attack up to 0.45 rad and induced drag; beyond `kStall_rad` the share `stall_loss` of the angle is
+/// lost.
 [[nodiscard]] Wrench fin_wrench(const Hull& hull, const Flow& flow, const Vector3& fins_rad, double stall_loss);
 inline constexpr double kStall_rad = 8 * 0.017453292519943295;
 

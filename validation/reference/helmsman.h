@@ -7,7 +7,7 @@
 
 namespace navcal::reference {
 
-/// What the helmsman sets.
+/// Commands of the helmsman.
 struct Controls {
   double shaft_rev_s = 0;
   Vector3 fins_rad = Vector3::Zero();

@@ -11,7 +11,7 @@
 
 namespace navcal::reference {
 
-/// What every instrument shares: its noise (`noisy` false: none, for tests of equations), its own clock, its line.
+/// Properties common to all instruments: noise (`noisy` false: none, for tests of equations), clock, line.
 struct Fitting {
   std::uint64_t seed = 0;
   bool noisy = true;

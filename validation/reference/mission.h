@@ -11,7 +11,8 @@
 
 namespace navcal::reference {
 
-/// What is to be done from a time on, until the next order. What is not steered by an instrument is set by hand.
+/// Commands from a time on, until the next order. Without a target for an instrument, fins or shaft are set
+/// directly.
 struct Order {
   double from_s = 0;
   std::optional<double> heading_rad{};  ///< true, as the compass has it; else the rudder stays

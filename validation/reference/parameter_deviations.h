@@ -26,7 +26,7 @@ struct VehicleDeviations {
   double lift_N = 0;                                      ///< upwards, at the origin
   Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  ///< north, east
 
-  // Beyond the library.
+  // Deviations outside the library.
   double crossflow_per_m2 = 0;  ///< relative change of the cross-flow drag, times the square of the depth
   double torque_leak = 0;       ///< further share of the propeller's torque that reaches the hull
   Eigen::Vector2d tide_m_s = Eigen::Vector2d::Zero();  ///< at the beginning: it turns with the tide
@@ -48,7 +48,7 @@ struct CompassDeviations {
   double slosh = 0;
   std::array<double, 2> tilt_offset_rad{};  ///< roll, pitch
 
-  // Beyond the library.
+  // Deviations outside the library.
   Eigen::Vector2d lag_by_heading_s = Eigen::Vector2d::Zero();  ///< when heading north, east
   double saturation_per_uT2 = 0;
 };
@@ -70,7 +70,7 @@ struct CardDeviations {
   double depth_scale = 0;
   double depth_temperature_m_per_K = 0;
 
-  // Beyond the library.
+  // Deviations outside the library.
   Vector3 gyro_twist_rad_per_K2 = Vector3::Zero();
   double depth_play_m = 0;
   double gyro_jump_rad_s = 0;
@@ -80,7 +80,7 @@ struct GpsDeviations {
   double latency_s = 0;
   Eigen::Vector2d lever_arm_m = Eigen::Vector2d::Zero();  ///< forward, starboard
 
-  // Beyond the library.
+  // Deviations outside the library.
   Eigen::Vector2d multipath_m = Eigen::Vector2d::Zero();  ///< north, east, when heading north
 };
 

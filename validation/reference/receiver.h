@@ -6,7 +6,7 @@
 
 namespace navcal::reference {
 
-/// Where north, east, down = 0 lies (WGS84).
+/// Origin of the coordinates north, east, down (WGS84).
 struct Anchorage {
   double latitude_deg = 37.0629, longitude_deg = -80.6275, height_m = 562;
 };

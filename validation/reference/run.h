@@ -11,7 +11,7 @@
 
 namespace navcal::reference {
 
-/// What this vehicle is, apart from its mission.
+/// Properties of the vehicle, apart from its mission.
 struct VehicleUnderTest {
   Hull hull;
   ParameterDeviations deviations;

@@ -12,7 +12,7 @@ namespace navcal::reference {
 
 enum class Port : std::uint8_t { compass, imu, gps, motor };
 
-/// What the header of a recording says of a port.
+/// Entry for one port in the header of a recording.
 struct PortFacts {
   std::string_view name, protocol;
   int baud;
@@ -31,13 +31,13 @@ struct Transfer {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Where a run goes. This room opens no files: whoever calls it writes the recording.
+/// Destination of a run. This room opens no files: the caller writes the recording.
 class Sink {
  public:
   virtual ~Sink() = default;
   /// In order of time.
   virtual void transfer(const Transfer& transfer) = 0;
-  /// What was really so, ten times a second; no diagnosis may see it.
+  /// The true state, ten times a second; no diagnosis may see it.
   virtual void truth(const Snapshot& /*snapshot*/) {}
 };
 

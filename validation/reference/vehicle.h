@@ -12,7 +12,7 @@
 
 namespace navcal::reference {
 
-/// Where and how a vehicle begins.
+/// Initial state of a vehicle.
 struct Start {
   Vector3 position_m = Vector3::Zero();
   Eigen::Quaterniond world_from_body = Eigen::Quaterniond::Identity();
@@ -43,8 +43,8 @@ class Vehicle {
   void advance(double to_s);
 
   [[nodiscard]] Snapshot snapshot() const;
-  /// Of body and carried water, with the potential energy of the low centre of gravity; constant where nothing
-  /// drives and nothing damps.
+  /// Energy of body and carried water, with the potential energy of the low centre of gravity; constant without
+  /// drive and damping.
   [[nodiscard]] double energy_J() const;
   [[nodiscard]] bool finite() const;
   [[nodiscard]] double time_s() const { return time_s_; }
@@ -71,7 +71,7 @@ class Vehicle {
   double charge_C_ = 0;  ///< taken from the battery
 };
 
-/// Of the propulsion motor.
+/// Current of the propulsion motor.
 [[nodiscard]] double motor_current_A(double shaft_rev_s);
 
 }  // namespace navcal::reference

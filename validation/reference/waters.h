@@ -5,7 +5,7 @@
 
 namespace navcal::reference {
 
-/// Where a vehicle swims, as far as it feels it. The defaults are a reference that belongs to no real place.
+/// Surroundings of a vehicle. The defaults are a reference that belongs to no real place.
 struct Waters {
   Eigen::Vector3d field_uT{19.0, 0.6, 44.0};  ///< the Earth's: north, east, down
   double surface_C = 15;

@@ -38,7 +38,7 @@ TEST(Ellipsoid, InSlicesEqualsTheWholeOnItsSummary) {
   feed(whole, sphere_readings(900, 1));
   whole.settle();
   ASSERT_TRUE(whole.fit() && whole.fit()->settled);
-  // As the vehicle lies still the summary does not change but in counts; only iterations go on.
+  // While the vehicle lies still the summary changes only in counts; only iterations go on.
   EllipsoidFit fit = *sliced.fit();
   EllipsoidNoise noise;
   noise.field_uT = 0.15;

@@ -11,10 +11,10 @@
 
 namespace navcal::calib::test {
 
-/// Of gyro B: true = 1.05 measured - 0.02.
+/// Correction of gyro B: true = 1.05 measured - 0.02.
 inline constexpr RateCorrection kGyroB{1.05, -0.02};
 
-/// What compass and gyros of the thesis's vehicle say along a path, in the order of their times; the motor runs.
+/// Readings of compass and gyros of the thesis's vehicle along a path, in order of time; the motor runs.
 inline std::vector<Reading> readings_along(const std::string& path, const Deviation& deviation, const Noise& noise,
                                            std::uint64_t seed) {
   Random random(seed);
@@ -33,7 +33,7 @@ inline std::vector<Reading> readings_along(const std::string& path, const Deviat
   return readings;
 }
 
-/// As the thesis's vehicle: its noise, a constant bias, an inclinometer that does not lag.
+/// Options for the thesis's vehicle: its noise, a constant bias, an inclinometer without lag.
 inline SuiteOptions thesis_options() {
   SuiteOptions options;
   options.heading_noise_rad = 0.004;

@@ -37,7 +37,7 @@ TEST(TurnCoverage, TwoStandardErrorsCoverTheTruthOnFullAndHalfCircles) {
       }
     }
   }
-  // Of 300, but errors of one run go together: the limits are those of fifty.
+  // The sample is 300, but errors of one run are correlated: the limits are those of fifty.
   EXPECT_GT(covered, 300 * 0.82);
 }
 

@@ -99,7 +99,7 @@ TEST_F(Explained, AStepThatSimulationRefusesIsNotTheAnswer) {
   EXPECT_LT(misled.log_odds, found.log_odds - 1000);
 }
 
-// What a mission hardly shows took its part of an innocent companion, and won as a member of any set.
+// An effect that the mission hardly shows may take the part of another effect, and so win as a member of any set.
 TEST_F(Explained, WhatIsAllowedForGainsNothingByBeingNamed) {
   for (Eigen::Index j = 0; j < library_.count(iron_); ++j) {
     const auto unknown = static_cast<std::size_t>(library_.first(iron_) + j);

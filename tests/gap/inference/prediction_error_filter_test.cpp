@@ -39,7 +39,7 @@ double mean_square(const Eigen::MatrixXd& rows, Eigen::Index column) {
 
 TEST(PredictionErrorFilter, LeavesWhatTheBestPredictionLeaves) {
   const Eigen::MatrixXd errors = learnt().errors(wandering(5, 40000));
-  // Of a Kalman filter with both channels: its variance p of the common one solves the Riccati equation.
+  // Kalman filter with both channels: its variance p of the common one solves the Riccati equation.
   double p = 1;
   for (int i = 0; i < 1000; ++i) p = 0.95 * 0.95 * (p - p * p * 2 / (2 * p + 1)) + 0.09;
   EXPECT_NEAR(mean_square(errors, 0), 1 + p, 0.03 * (1 + p));

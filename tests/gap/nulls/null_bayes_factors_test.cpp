@@ -57,7 +57,7 @@ class AmongNulls : public testing::Test {
     return null_bayes_factors(set, replay_, course_, vehicle_, library_, bank_.whitening, nominal_, priors_,
                               {12, 1, 2});
   }
-  /// Of the bank's missions by the recorded mission's signatures.
+  /// Gains of the bank's missions by the recorded mission's regressors.
   [[nodiscard]] std::vector<double> gains_by_recorded(const EffectSubset& set) const {
     std::vector<double> all;
     for (Eigen::Index i = 0; i < bank_.scores.cols(); ++i) {
@@ -121,8 +121,8 @@ TEST_F(OnAStraightCourse, WhatIsSeenPlainlyGainsNothingAmongNulls) {
   EXPECT_EQ(gains(set), own) << "the same seed, the same nulls";
 }
 
-// By the recorded mission's signature a null's lag of the fins was not its own, and two of sixteen nulls showed a
-// late card by 35 and 47 nats: a real one of 10 ms with 44 was dropped.
+// The recorded mission's regressors do not contain a null's own lag of the fins. With them two of sixteen nulls
+// show a late card by 35 and 47 nats, and a real one of 10 ms with 44 would be dropped.
 TEST_F(OnCorners, ALagOfTheFinsWithinToleranceIsNoLateCard) {
   const auto own = gains(named("imu_latency"));
   ASSERT_GE(own.size(), 10U);

@@ -93,9 +93,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"[hard_iron]\nx_ut = 1\n", "2: hard_iron.x_ut: unknown key; did you mean x_uT?"},
         Refused{"[hard_iron]\nx_uT = 1\n[fin_lag]\ntau_s = 11\n",
                 "4: fin_lag.tau_s: tau_s lies between 0 and 5, not at 11"},
-        Refused{"[fin_lag]\ntau_s = '1'\n", "2: fin_lag.tau_s: a number is wanted, not the text \"1\""},
-        Refused{"[fin_lag]\ntau_s = nan\n", "2: fin_lag.tau_s: a number is wanted"},
-        Refused{"fin_lag = 1\n", "1: fin_lag: a table with its parameters is wanted"},
+        Refused{"[fin_lag]\ntau_s = '1'\n", "2: fin_lag.tau_s: a number is expected, not the text \"1\""},
+        Refused{"[fin_lag]\ntau_s = nan\n", "2: fin_lag.tau_s: a number is expected"},
+        Refused{"fin_lag = 1\n", "1: fin_lag: a table with its parameters is expected"},
         Refused{"[fin_lag]\n", "1: fin_lag: none of its parameters is given"},
         Refused{"[fin_lag]\ntau_s = 1\nfrom_s = 5\nuntil_s = 5\n", "1: fin_lag: until_s must lie after from_s"},
         Refused{"[fin_lag.tau_s]\nx = 1\n", "1: fin_lag"}, Refused{"[fin_lag", "1: : "}));

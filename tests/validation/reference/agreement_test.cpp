@@ -133,7 +133,7 @@ sim::State state_of(const Snapshot& s) {
   return state;
 }
 
-/// What the simulator's card would convert at this instant, in mV.
+/// Voltages that the simulator's card would convert at this instant, in mV.
 sim::CardVoltages_mV voltages(sim::EffectSet& effects, const sim::Instant& now) {
   const sim::State& s = now.state;
   sim::GyroRates rates{s.rate_rad_s[0], s.rate_rad_s[2], s.rate_rad_s[1], s.rate_rad_s[2]};
@@ -197,7 +197,7 @@ TEST(Agreement, EffectsOnTheFieldAreTheSame) {
     double felt_s = 0;
     felt_field_uT(world, effects, felt_s);
     for (const CompassSample& sample : compass_along(world, with(effect.name, effect.parameters).compass)) {
-      // What remembers has to be led along, as the simulator's compass does.
+      // Effects with memory must be advanced along, as the simulator's compass does.
       while (felt_s + 0.01 < sample.time_s) felt_field_uT(world, effects, felt_s += 0.01);
       felt_s = sample.time_s;
       ASSERT_LT((sample.field_uT - felt_field_uT(world, effects, felt_s)).cwiseAbs().maxCoeff(), 0.04)

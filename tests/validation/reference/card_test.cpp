@@ -23,7 +23,7 @@ const World& card_world() {
   return swung_about;
 }
 
-/// What a channel should read of the vehicle's state.
+/// Expected reading of a channel for the vehicle's state.
 double nominal(const Snapshot& s, std::size_t channel) {
   if (channel < 4) return s.rate_rad_s(kGyroAxes[channel]);
   const Vector3 force = s.acceleration_m_s2 - kGravity_m_s2 * s.down();

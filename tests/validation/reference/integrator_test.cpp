@@ -9,7 +9,7 @@
 namespace navcal::reference::testing {
 namespace {
 
-/// What drives and damps taken away; the fins too.
+/// A hull without drive and damping, and without fins.
 Hull frictionless() {
   Hull hull;
   hull.axial_drag = hull.crossflow_drag = hull.lift_slope_per_rad = 0;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gyros A and B: scale and bias of each from turns, and how far they disagree.
+#include "calib/suite/calibrator_unit.h"
+#include "calib/suite/shared_estimators.h"
+
+namespace navcal::calib {
+namespace {
+
+// Standard errors from which on the readings have not told more than was known before them.
+constexpr double kScaleUndetermined = 1;
+constexpr double kRateUndetermined_rad_s = 1;
+
+std::optional<RateCorrection> rate_of(const TurnCalibrator& gyro) {
+  if (!gyro.has_estimate()) return std::nullopt;
+  const TurnCoefficients estimate = gyro.filter().estimate();
+  return RateCorrection{estimate[kScale], estimate[kBias]};
+}
+
+std::vector<Quantity> quantities_of_gyro(const TurnCalibrator& gyro) {
+  if (!gyro.has_estimate()) return {};
+  const TurnCoefficients estimate = gyro.filter().estimate();
+  const TurnCovariance covariance = gyro.filter().covariance();
+  return {determined("scale", estimate[kScale], std_of(covariance(kScale, kScale)), kScaleUndetermined),
+          determined("bias_rad_s", estimate[kBias], std_of(covariance(kBias, kBias)), kRateUndetermined_rad_s)};
+}
+
+std::vector<NamedNumbers> values_of_rate(const RateCorrection& rate) {
+  return {{"scale", {rate.scale}}, {"bias_rad_s", {rate.bias_rad_s}}};
+}
+
+class GyroUnit : public CalibratorUnit {
+ public:
+  GyroUnit(const SuiteOptions&, SharedEstimators& shared) : gyro_(shared.gyro) {}
+  void update_turn(const TurnStep& step) override { gyro_.update(step); }
+  void start() override { gyro_.start(); }
+  void put_estimate(Correction& into) const override { into.gyro = rate_of(gyro_); }
+  [[nodiscard]] Judgement judgement() const override { return gyro_.judgement(); }
+  [[nodiscard]] std::vector<Quantity> quantities() const override { return quantities_of_gyro(gyro_); }
+  void archive(Archive& archive) override { archive(gyro_); }
+
+ private:
+  TurnCalibrator& gyro_;
+};
+
+class GyroBUnit : public CalibratorUnit {
+ public:
+  GyroBUnit(const SuiteOptions& options, SharedEstimators& shared)
+      : gyro_(TurnCalibrator::Subject::gyro, turn_parameters(options)), pair_(shared.gyros) {}
+  void update_rate(const RateReading& reading) override { pair_.update(reading); }
+  void update_turn(const TurnStep& step) override { gyro_.update(step.with_gyro_b()); }
+  void start() override { gyro_.start(); }
+  void on_in_force(Calibrator changed, const Correction& in_force) override {
+    if (changed != Calibrator::gyro && changed != Calibrator::gyro_b) return;
+    const auto line = [](const std::optional<RateCorrection>& rate) {
+      return GyroPair::Line{rate.value_or(RateCorrection{}).scale, rate.value_or(RateCorrection{}).bias_rad_s};
+    };
+    pair_.set_calibration(line(in_force.gyro), line(in_force.gyro_b));
+  }
+  void put_estimate(Correction& into) const override { into.gyro_b = rate_of(gyro_); }
+  [[nodiscard]] Judgement judgement() const override { return gyro_.judgement(); }
+  [[nodiscard]] std::vector<Quantity> quantities() const override {
+    auto quantities = quantities_of_gyro(gyro_);
+    // Each gyro as corrected by what is in force.
+    if (const auto disagreement = pair_.disagreement_rad_s())
+      quantities.push_back({"disagreement_rad_s", *disagreement, pair_.standard_error_rad_s()});
+    return quantities;
+  }
+  void archive(Archive& archive) override { archive(gyro_); }
+
+ private:
+  TurnCalibrator gyro_;
+  GyroPair& pair_;  ///< archived with the shared estimators
+};
+
+}  // namespace
+
+namespace calibrator_rows {
+extern const CalibratorRow gyro, gyro_b;
+constinit const CalibratorRow gyro{
+    .name = "gyro",
+    .title = "Gyro A",
+    .needs = {.compass = true, .rate = true},
+    .needs_text = "a compass and an inertial card (protocol imu-card)",
+    .corrects = Corrects::rate,
+    .automatic = true,
+    .place = place_of<&Correction::gyro>(),
+    .values = [](const Correction& correction) { return values_of_rate(*correction.gyro); },
+    .make = make_unit<GyroUnit>};
+constinit const CalibratorRow gyro_b{
+    .name = "gyro_b",
+    .title = "Gyro B",
+    .needs = {.compass = true, .rate = true},
+    .needs_text = "a compass and an inertial card (protocol imu-card)",
+    .corrects = Corrects::rate,
+    .automatic = true,
+    .place = place_of<&Correction::gyro_b>(),
+    .values = [](const Correction& correction) { return values_of_rate(*correction.gyro_b); },
+    .make = make_unit<GyroBUnit>};
+}  // namespace calibrator_rows
+}  // namespace navcal::calib
