@@ -22,6 +22,7 @@ Settings parse(std::string_view toml, std::string_view name, const Overrides& ov
     reader.check_ports();
     reader.check_roles();
     reader.check_instruments(entries);
+    reader.check_command();
   }
   auto& found = reader.problems();
   problems.insert(problems.end(), found.begin(), found.end());

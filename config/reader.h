@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ class Reader {
   void check_roles();
   /// A key that has moved beside the one that replaces it, and a longest time that is shorter than the shortest.
   void check_instruments(const std::vector<Entry>& entries);
+  /// Limits of orders that contradict each other.
+  void check_command();
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] std::vector<Problem>& problems() { return problems_; }
@@ -34,6 +37,7 @@ class Reader {
   Settings settings_;
   std::vector<unsigned> port_lines_;                  ///< where each port's table begins
   std::array<unsigned, kRoles.size()> role_lines_{};  ///< where each role was given last; 0: the command line
+  std::map<std::string, unsigned, std::less<>> command_lines_;  ///< where each key of [command] was given last
   std::vector<Problem> problems_;
 };
 

@@ -14,7 +14,9 @@ struct Description {
 constexpr std::array<Description, 12> kDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
-    {"control", "The control socket: commands that change the daemon (calibrations, marks in the log)."},
+    {"control",
+     "The control socket: commands that change the daemon (calibrations, marks in the log, orders to the"
+     " motor)."},
     {"environment", "Where the vehicle is used."},
     {"roles",
      "The port for each quantity, if several deliver it. Another one takes over while that port is silent."},
@@ -24,6 +26,8 @@ constexpr std::array<Description, 12> kDescriptions{{
      "and turn-on bias. Simulator, diagnosis, navigation and calibrators share it."},
     {"calibration", "The calibrators of compass and gyros (docs/calibration.md)."},
     {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
+    {"command",
+     "Orders to the motor card: limits, leases, and the state without anybody in charge (docs/control.md)."},
     {"",
      "A serial port with its device. NAME (1 to 31 of a-z, 0-9, _ and -) is the device's name in reports, log and "
      "messages."},

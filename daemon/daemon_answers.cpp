@@ -13,6 +13,11 @@ namespace {
 
 constexpr std::string_view kOk = "{\"ok\":true}\n";
 
+std::string_view why_no_orders(const config::Settings& settings) {
+  return settings.command.enabled ? "the configuration has no motor card"
+                                  : "orders are switched off (command.enabled)";
+}
+
 }  // namespace
 
 std::optional<std::uint16_t> Daemon::device_named(std::string_view name) const {
@@ -46,7 +51,7 @@ void Daemon::append_device(std::string& out, std::uint16_t port) const {
 
 void Daemon::append_poll(std::string& out) const { publisher_.append_poll(out, utc(ports::monotonic_ns())); }
 
-std::string Daemon::answer(const ControlRequest& request) {
+std::string Daemon::answer(const ControlRequest& request, const ControlOrigin& origin) {
   switch (request.command) {
     case ControlCommand::event:
       event(ports::monotonic_ns(), "info", "mark", "", request.text);
@@ -65,6 +70,11 @@ std::string Daemon::answer(const ControlRequest& request) {
       if (request.calibrator == "tcm2") return answer_tcm2(request);
       return control_error(
           "only tcm2, the compass's own calibration, can be stopped; navcald's calibrators run all the time");
+    case ControlCommand::motor_lease:
+    case ControlCommand::motor_order:
+    case ControlCommand::motor_release:
+      if (!motor_) return control_error(why_no_orders(settings_));
+      return motor_->answer(request, origin);
     case ControlCommand::status:
       break;
   }

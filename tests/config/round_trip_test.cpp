@@ -50,7 +50,7 @@ Value some_value(const OptionInfo& option, Random& random) {
     case Kind::channels:
       break;
   }
-  std::vector<double> numbers(8);
+  std::vector<double> numbers(option.count);
   for (double& number : numbers) number = number_within(option, random);
   return numbers;
 }
@@ -85,6 +85,12 @@ Settings some_settings(Random& random) {
   }
   auto& gps = settings.instruments.gps;
   if (gps.longest_search_s < gps.least_search_s) std::swap(gps.longest_search_s, gps.least_search_s);
+  CommandSettings& command = settings.command;
+  if (command.min_timeout_s > command.max_timeout_s) std::swap(command.min_timeout_s, command.max_timeout_s);
+  if (std::abs(command.safe_rpm) > command.max_rpm) command.safe_rpm = command.max_rpm;
+  for (double& fin_deg : command.safe_fins_deg) {
+    if (std::abs(fin_deg) > command.max_fin_deg) fin_deg = command.max_fin_deg;
+  }
   const auto ports = 1 + random() % 6;
   for (std::size_t i = 0; i < ports; ++i) settings.ports.push_back(some_port(i, random));
   for (const Role role : kRoles) {
