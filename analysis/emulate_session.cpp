@@ -10,10 +10,10 @@
 
 #include "analysis/emulate_motion.h"
 #include "analysis/failure.h"
+#include "analysis/simulate_effects.h"
 #include "analysis/simulated_place.h"
 #include "ports/port.h"
-#include "sim/instruments/motor_card.h"
-#include "sim/instruments/tcm2.h"
+#include "sim/instruments/exact.h"
 #include "sim/motion_in_field.h"
 
 namespace navcal::analysis {
@@ -40,44 +40,45 @@ std::vector<config::PortSettings> port_lines(int compass_baud) {
           port("gps", Protocol::oncore, 9600), port("motor", Protocol::motor_card, 19200)};
 }
 
+/// The effects asked for. Along a path the vehicle cannot be moved otherwise.
+sim::EffectSet effects_of(const EmulateArguments& arguments, std::int64_t start_ns) {
+  SimulateArguments wanted;
+  wanted.effects = arguments.effects;
+  wanted.effects_file = arguments.effects_file;
+  wanted.seed = arguments.seed;
+  wanted.begin_ns = start_ns;
+  if (!arguments.ordered && arguments.mission.empty()) wanted.path = "path";
+  return simulate_effects(wanted);
+}
+
+template <class Options>
+Options options_of(const EmulateArguments& arguments) {
+  Options options;
+  if (arguments.no_noise) sim::make_exact(options);
+  return options;
+}
+
 }  // namespace
 
 EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments)
-    : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()) {
-  const std::int64_t start_ns = ports::monotonic_ns() + utc_minus_monotonic_ns_;
+    : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()), truth_timer_(io) {
+  const std::int64_t start_ns = now_ns();
   const SimulatedPlace place = emulated_place(arguments.where, start_ns);
-  motion_ = emulate_motion(arguments, start_ns);
-  motion_ = std::make_unique<sim::MotionInField>(std::move(motion_), place.field_world_uT);
+  effects_ = effects_of(arguments, start_ns);
+  EmulatedMotion made = emulate_motion(arguments, start_ns, effects_, [this] { return now_ns(); });
+  ordered_ = made.ordered;
+  motion_ = std::make_unique<sim::MotionInField>(std::move(made.motion), place.field_world_uT);
+  if (!arguments.truth.empty()) {
+    truth_ = std::make_unique<EmulateTruth>(arguments.truth, *motion_, start_ns);
+    write_truth();
+  }
   if (!arguments.sent_log.empty()) {
     auto lines = port_lines(arguments.compass_baud);
     if (arguments.gps == sim::Oncore::Kind::nmea) lines[2].protocol = protocols::Protocol::nmea;
     log_ = std::make_unique<SentLog>(arguments.sent_log, lines);
     log_->comment(place.field_event());
   }
-  sim::Noise seeds(arguments.seed);
-  const auto seed = [&] { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); };
-
-  sim::Tcm2::Options compass;
-  compass.baud = arguments.compass_baud;
-  compass.seed = seed();
-  compass.clock_ppm = sim::clock_ppm(arguments.clocks, "compass", compass.clock_ppm);
-  add(arguments, "compass", std::make_unique<sim::Tcm2>(compass, *motion_));
-  sim::ImuCard::Options imu;
-  imu.seed = seed();
-  imu.clock_ppm = arguments.imu_ppm.value_or(seeds.uniform(-kGreatest_ppm, kGreatest_ppm));
-  imu.clock_ppm = sim::clock_ppm(arguments.clocks, "imu", imu.clock_ppm);
-  auto card = std::make_unique<sim::ImuCard>(imu, *motion_);
-  imu_ = card.get();
-  add(arguments, "imu", std::move(card));
-  sim::Oncore::Options gps;
-  gps.kind = arguments.gps;
-  gps.receiver.origin = place.origin;
-  gps.seed = seed();
-  add(arguments, "gps", std::make_unique<sim::Oncore>(gps, *motion_));
-  sim::MotorCard::Options motor;
-  motor.seed = seed();
-  motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
-  add(arguments, "motor", std::make_unique<sim::MotorCard>(motor, *motion_));
+  add_instruments(arguments, place);
 
   for (const StallPlan& plan : arguments.stalls) stall_regularly(plan);
   for (const UnplugPlan& plan : arguments.unplugs) {
@@ -89,11 +90,66 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   if (arguments.seconds > 0) after(arguments.seconds, [this] { stop(); });
 }
 
+void EmulateSession::add_instruments(const EmulateArguments& arguments, const SimulatedPlace& place) {
+  sim::Noise seeds(arguments.seed);
+  const auto seed = [&] { return static_cast<std::uint64_t>(seeds.uniform(1, 9e15)); };
+
+  auto compass = options_of<sim::Tcm2::Options>(arguments);
+  compass.baud = arguments.compass_baud;
+  compass.seed = seed();
+  compass.sensor.effects = &effects_;
+  compass.clock_ppm = sim::clock_ppm(arguments.clocks, "compass", compass.clock_ppm);
+  add(arguments, "compass", std::make_unique<sim::Tcm2>(compass, *motion_));
+  auto imu = options_of<sim::ImuCard::Options>(arguments);
+  imu.seed = seed();
+  imu.effects = &effects_;
+  imu.clock_ppm = arguments.imu_ppm.value_or(seeds.uniform(-kGreatest_ppm, kGreatest_ppm));
+  imu.clock_ppm = sim::clock_ppm(arguments.clocks, "imu", imu.clock_ppm);
+  auto card = std::make_unique<sim::ImuCard>(imu, *motion_);
+  imu_ = card.get();
+  add(arguments, "imu", std::move(card));
+  auto gps = options_of<sim::Oncore::Options>(arguments);
+  gps.kind = arguments.gps;
+  gps.receiver.origin = place.origin;
+  gps.receiver.effects = &effects_;
+  gps.seed = seed();
+  add(arguments, "gps", std::make_unique<sim::Oncore>(gps, *motion_));
+  auto motor = options_of<sim::MotorCard::Options>(arguments);
+  motor.seed = seed();
+  motor.effects = &effects_;
+  motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
+  if (ordered_ != nullptr) {
+    motor.obey = [this](std::int64_t t_ns, const auto& command) { ordered_->order(t_ns, command); };
+  }
+  add(arguments, "motor", std::make_unique<sim::MotorCard>(motor, *motion_));
+}
+
+std::int64_t EmulateSession::now_ns() const { return ports::monotonic_ns() + utc_minus_monotonic_ns_; }
+
+void EmulateSession::write_truth() {
+  constexpr auto kEvery = std::chrono::milliseconds(500);
+  truth_->advance(now_ns());
+  truth_timer_.expires_after(kEvery);
+  truth_timer_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) write_truth();
+  });
+}
+
+void EmulateSession::finish() {
+  if (truth_ == nullptr) return;
+  truth_->advance(now_ns());
+  truth_->finish();
+}
+
+void EmulateSession::finish_after_error() {
+  if (truth_ != nullptr) truth_->finish();
+}
+
 void EmulateSession::add(const EmulateArguments& arguments, std::string name,
                          std::unique_ptr<sim::Device> device) {
   const auto index = static_cast<std::uint16_t>(ports_.size());
-  const EmulatedPort::Place place{arguments.dir, std::move(name), index, utc_minus_monotonic_ns_,
-                                  arguments.seed + index};
+  const EmulatedPort::Place place{arguments.dir,           std::move(name),        index,
+                                  utc_minus_monotonic_ns_, arguments.seed + index, &effects_};
   ports_.push_back(std::make_unique<EmulatedPort>(io_.get_executor(), place, std::move(device), log_.get()));
   ports_.back()->misbehaviour().set_noise(arguments.noise);
   ports_.back()->misbehaviour().set_drop(arguments.drop);

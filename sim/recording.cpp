@@ -9,43 +9,17 @@
 #include "config/load.h"
 #include "protocols/motor_card.h"
 #include "protocols/oncore_command.h"
-#include "sim/instruments/imu_card.h"
-#include "sim/instruments/motor_card.h"
-#include "sim/instruments/oncore.h"
-#include "sim/instruments/tcm2.h"
+#include "sim/instruments/exact.h"
 
 namespace navcal::sim {
 namespace {
 
 constexpr std::uint8_t kEverySecond = 1;
 
-Tcm2::Options compass_options(bool noise) {
-  Tcm2::Options options;
-  options.go_at_power_on = options.field_at_power_on = true;
-  if (!noise) {
-    options.sensor.field_noise_uT = options.sensor.tilt_noise_deg = options.sensor.temperature_noise_C = 0;
-  }
-  return options;
-}
-
-ImuCard::Options card_options(bool noise) {
-  ImuCard::Options options;
-  if (!noise) {
-    options.rate_noise_deg_s = options.turn_on_bias_deg_s = 0;
-    options.force_noise_m_s2 = options.depth_noise_m = 0;
-  }
-  return options;
-}
-
-Oncore::Options receiver_options(bool noise) {
-  Oncore::Options options;
-  if (!noise) options.receiver.position_noise_m = options.receiver.velocity_noise_m_s = 0;
-  return options;
-}
-
-MotorCard::Options motor_options(bool noise) {
-  MotorCard::Options options;
-  if (!noise) options.fin_noise_deg = options.current_noise_A = 0;
+template <class Options>
+Options options_of(bool noise) {
+  Options options;
+  if (!noise) make_exact(options);
   return options;
 }
 
@@ -68,18 +42,19 @@ Recording::Recording(const Options& options, const Motion& motion)
     device->power_on(options.begin_ns);
     channels_.push_back({std::move(device), HostLine(line)});
   };
-  auto compass = compass_options(options.noise);
+  auto compass = options_of<Tcm2::Options>(options.noise);
+  compass.go_at_power_on = compass.field_at_power_on = true;
   compass.seed = seed();
   compass.sensor.effects = &effects_;
   compass.clock_ppm = clock_ppm(options.clocks, "compass", compass.clock_ppm);
   add(Instrument::compass, std::make_unique<Tcm2>(compass, motion));
-  auto card = card_options(options.noise);
+  auto card = options_of<ImuCard::Options>(options.noise);
   card.seed = seed();
   card.effects = &effects_;
   card.clock_ppm = clock_ppm(options.clocks, "imu", card.clock_ppm);
   if (!options.turn_on_bias) card.turn_on_bias_deg_s = 0;
   add(Instrument::imu, std::make_unique<ImuCard>(card, motion));
-  auto receiver = receiver_options(options.noise);
+  auto receiver = options_of<Oncore::Options>(options.noise);
   receiver.seed = seed();
   receiver.receiver.effects = &effects_;
   receiver.receiver.origin = options.origin;
@@ -88,7 +63,7 @@ Recording::Recording(const Options& options, const Motion& motion)
     receiver.receiver.least_search_s = receiver.receiver.longest_search_s = 0;
   }
   add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
-  auto motor = motor_options(options.noise);
+  auto motor = options_of<MotorCard::Options>(options.noise);
   motor.seed = seed();
   motor.effects = &effects_;
   motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);
