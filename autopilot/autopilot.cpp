@@ -32,8 +32,7 @@ Autopilot::Autopilot(const config::VehicleSettings& settings)
       propeller_(settings.propeller),
       fin_limit_rad_(settings.fins.limit_rad),
       density_kg_m3_(settings.water.density_kg_m3),
-      drag_kg_m_(0.5 * settings.water.density_kg_m3 * settings.hull.axial_drag * std::numbers::pi *
-                 settings.hull.diameter_m * settings.hull.diameter_m / 4) {}
+      drag_kg_m_(axial_drag_kg_m(settings)) {}
 
 Orders Autopilot::orders(const Demand& demand, const VehicleState& state, double period_s) {
   Orders orders;

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   navcal::cli::add_field(app);
   navcal::cli::add_gap(app);
   navcal::cli::add_log(app);
+  navcal::cli::add_pilot(app);
   navcal::cli::add_play(app);
   navcal::cli::add_ports(app);
   navcal::cli::add_replay(app);
