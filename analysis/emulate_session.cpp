@@ -40,15 +40,23 @@ std::vector<config::PortSettings> port_lines(int compass_baud) {
           port("gps", Protocol::oncore, 9600), port("motor", Protocol::motor_card, 19200)};
 }
 
-/// The effects asked for. Along a path the vehicle cannot be moved otherwise.
+/// The effects asked for. Throws Failure where an effect moves a vehicle whose path is given.
 sim::EffectSet effects_of(const EmulateArguments& arguments, std::int64_t start_ns) {
   SimulateArguments wanted;
   wanted.effects = arguments.effects;
   wanted.effects_file = arguments.effects_file;
   wanted.seed = arguments.seed;
   wanted.begin_ns = start_ns;
-  if (!arguments.ordered && arguments.mission.empty()) wanted.path = "path";
-  return simulate_effects(wanted);
+  sim::EffectSet set = simulate_effects(wanted);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const auto& about = set[i].description();
+    const bool on_path = !arguments.ordered && arguments.mission.empty();
+    if (!on_path || about.place != sim::EffectPlace::vehicle) continue;
+    throw Failure(Exit::usage, fmt::format("{} changes how the vehicle moves, and a path says how it moves: take "
+                                           "--vehicle or --mission",
+                                           about.name));
+  }
+  return set;
 }
 
 template <class Options>

@@ -92,8 +92,7 @@ class PilotRun {
       return;
     }
     // A port that is away for a moment may come back within the time for which a lease holds.
-    if (!accepted_s_) accepted_s_ = now_s;
-    if (now_s - *accepted_s_ < options_.lease.timeout_s) return;
+    if (now_s - accepted_s_ < options_.lease.timeout_s) return;
     const std::string first = pilot_.reason() ? *pilot_.reason() + "; " : "";
     fail_pilot(first + "the vehicle cannot be steered any more: " + *refusal);
   }
@@ -103,7 +102,7 @@ class PilotRun {
   const PilotCommandOptions& options_;
   double planned_s_;
   unsigned orders_ = 0;
-  std::optional<double> accepted_s_;
+  double accepted_s_ = seconds_of(PilotClock::now());
 };
 
 void run_pilot(PilotCommandOptions& options) {

@@ -11,8 +11,6 @@
 namespace navcal::cli {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::string_view kStateRequest =
     "?WATCH={\"enable\":true,\"json\":true,\"classes\":[\"STATE\"],\"rate_Hz\":{\"STATE\":10}};\n";
 /// An answer later than this is none: the lease ends by itself before long.
@@ -44,40 +42,40 @@ PilotLink::Answer PilotLink::ask(const std::string& request) {
   do line = control_.next(until);
   while (!line && Clock::now() < until);
   if (!line) throw std::runtime_error("navcald does not answer on its control socket");
-  const json answer = json::parse(*line, nullptr, false);
+  const nlohmann::json answer = nlohmann::json::parse(*line, nullptr, false);
   if (!answer.is_object()) throw std::runtime_error("no answer of a navcald: " + *line);
   if (answer.value("ok", false)) return {std::nullopt, answer.value("lease", "")};
   return {answer.value("error", "refused without a reason"), {}};
 }
 
 void PilotLink::lease(const Lease& wanted) {
-  const json request{{"command", "motor.lease"},
-                     {"holder", "pilot"},
-                     {"priority", wanted.priority},
-                     {"timeout_s", wanted.timeout_s}};
+  const nlohmann::json request{{"command", "motor.lease"},
+                               {"holder", "pilot"},
+                               {"priority", wanted.priority},
+                               {"timeout_s", wanted.timeout_s}};
   const Answer answer = ask(request.dump());
   if (answer.refusal) throw std::runtime_error("no lease of the motor card: " + *answer.refusal);
   lease_ = answer.lease;
 }
 
 std::optional<std::string> PilotLink::order(const autopilot::Orders& orders, double state_time_s) {
-  json fins = json::array();
+  nlohmann::json fins = nlohmann::json::array();
   for (const double fin_rad : orders.fins_rad) {
     // Tenths of a degree, the resolution of the card; never -0.
     fins.push_back(std::round(10 * fin_rad * base::kDegreesPerRadian) / 10 + 0.0);
   }
-  const json request{{"command", "motor.order"},
-                     {"lease", lease_},
-                     {"shaft_rpm", std::lround(60 * orders.shaft_rps)},
-                     {"fins_deg", fins},
-                     {"state_time", state_time_s}};
+  const nlohmann::json request{{"command", "motor.order"},
+                               {"lease", lease_},
+                               {"shaft_rpm", std::lround(60 * orders.shaft_rps)},
+                               {"fins_deg", fins},
+                               {"state_time", state_time_s}};
   return ask(request.dump()).refusal;
 }
 
 void PilotLink::release() noexcept {
   if (lease_.empty()) return;
   try {
-    (void)ask(json{{"command", "motor.release"}, {"lease", lease_}}.dump());
+    (void)ask(nlohmann::json{{"command", "motor.release"}, {"lease", lease_}}.dump());
   } catch (const std::exception&) {
     // The lease ends by itself, and the daemon then stops the vehicle.
   }

@@ -8,26 +8,24 @@
 namespace navcal::cli {
 namespace {
 
-using nlohmann::json;
-
-const json& member(const json& object, const char* key) {
-  static const json kAbsent;
+const nlohmann::json& member(const nlohmann::json& object, const char* key) {
+  static const nlohmann::json kAbsent;
   const auto found = object.is_object() ? object.find(key) : object.end();
   return object.is_object() && found != object.end() ? *found : kAbsent;
 }
 
-std::optional<double> number(const json& object, const char* key) {
-  const json& value = member(object, key);
+std::optional<double> number(const nlohmann::json& object, const char* key) {
+  const nlohmann::json& value = member(object, key);
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
-std::optional<double> angle(const json& object, const char* key) {
+std::optional<double> angle(const nlohmann::json& object, const char* key) {
   const auto degrees = number(object, key);
   return degrees ? std::optional(*degrees * base::kRadiansPerDegree) : std::nullopt;
 }
 
-std::optional<Eigen::Vector3d> vector(const json& object, const char* key) {
-  const json& value = member(object, key);
+std::optional<Eigen::Vector3d> vector(const nlohmann::json& object, const char* key) {
+  const nlohmann::json& value = member(object, key);
   if (!value.is_array() || value.size() != 3) return std::nullopt;
   Eigen::Vector3d all;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -40,7 +38,7 @@ std::optional<Eigen::Vector3d> vector(const json& object, const char* key) {
 }  // namespace
 
 std::optional<StateLine> parse_state(std::string_view line) {
-  const json report = json::parse(line, nullptr, false);
+  const nlohmann::json report = nlohmann::json::parse(line, nullptr, false);
   if (!report.is_object() || member(report, "class") != "STATE") return std::nullopt;
   const auto time_s = number(report, "time");
   if (!time_s) return std::nullopt;
@@ -56,11 +54,11 @@ std::optional<StateLine> parse_state(std::string_view line) {
   reading.latitude_rad = angle(report, "lat");
   reading.longitude_rad = angle(report, "lon");
   reading.speed_m_s = number(report, "speed_m_s");
-  const json& age = member(report, "age_s");
+  const nlohmann::json& age = member(report, "age_s");
   reading.compass_age_s = number(age, "compass");
   reading.imu_age_s = number(age, "imu");
   reading.motor_age_s = number(age, "motor");
-  for (const json& alarm : member(report, "alarms")) {
+  for (const nlohmann::json& alarm : member(report, "alarms")) {
     if (alarm.is_string()) reading.alarms.push_back(alarm.get<std::string>());
   }
   return state;
