@@ -54,6 +54,8 @@ class Printer : public pipeline::Sink {
     line_ += '\n';
     output_.append(line_);
   }
+  /// As it was logged: what became of an order does not follow from the bytes.
+  void command(const record::LoggedCommand& command) { output_.append(command.json + '\n'); }
 
  private:
   const config::Settings& settings_;
@@ -89,6 +91,8 @@ void play(record::Recording& recording, const std::string& file, pipeline::Pipel
     } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) {
       newest_ns = std::max(newest_ns, event->time_ns);
       if (is_daemon_start(*event)) pipeline.begin_navigation_run();
+    } else if (const auto* command = std::get_if<record::LoggedCommand>(&*entry)) {
+      printer.command(*command);
     }
     progress.show(recording.progress());
   }

@@ -2,15 +2,16 @@
 # tests/rooms compares it with every #include, and the table of ARCHITECTURE.md is compared with it. In the order in which
 # the rooms may use each other; each line names all rooms that are included directly. A folder within a room can be a room of
 # its own (validation/reference); the room around it then does not contain it.
-set(NAVCAL_ROOMS base protocols config instruments calib nav pipeline record ports autopilot sim gap analysis validation/reference validation report share daemon cli)
+set(NAVCAL_ROOMS base protocols config control instruments calib nav pipeline record ports autopilot sim gap analysis validation/reference validation report share daemon cli)
 set(NAVCAL_MAY_INCLUDE_base)
 set(NAVCAL_MAY_INCLUDE_protocols)
 set(NAVCAL_MAY_INCLUDE_config protocols)
+set(NAVCAL_MAY_INCLUDE_control protocols config)
 set(NAVCAL_MAY_INCLUDE_instruments base protocols config)
 set(NAVCAL_MAY_INCLUDE_calib base)
 set(NAVCAL_MAY_INCLUDE_nav base)
 set(NAVCAL_MAY_INCLUDE_pipeline base protocols config instruments calib nav)
-set(NAVCAL_MAY_INCLUDE_record base protocols config instruments calib pipeline)
+set(NAVCAL_MAY_INCLUDE_record base protocols config control instruments calib pipeline)
 set(NAVCAL_MAY_INCLUDE_ports base protocols config)
 set(NAVCAL_MAY_INCLUDE_autopilot base config)
 set(NAVCAL_MAY_INCLUDE_sim base protocols config autopilot)
@@ -20,7 +21,7 @@ set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
 set(NAVCAL_MAY_INCLUDE_validation base config record analysis validation/reference)
 set(NAVCAL_MAY_INCLUDE_report base config calib pipeline record sim gap analysis validation)
 set(NAVCAL_MAY_INCLUDE_share)
-set(NAVCAL_MAY_INCLUDE_daemon base protocols config instruments pipeline record ports share)
+set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports share)
 set(NAVCAL_MAY_INCLUDE_cli base protocols config pipeline record ports autopilot sim gap analysis validation report share)
 
 # The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.

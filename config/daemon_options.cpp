@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/calibration_options.h"
+#include "config/command_options.h"
 #include "config/navigation_options.h"
 #include "config/options.h"
 #include "config/role_options.h"
@@ -150,6 +151,7 @@ std::vector<Option<Settings>> make_daemon_options() {
   for (auto& option : role_options()) options.push_back(std::move(option));
   for (auto& option : calibration_options()) options.push_back(std::move(option));
   for (auto& option : navigation_options()) options.push_back(std::move(option));
+  for (auto& option : command_options()) options.push_back(std::move(option));
   return options;
 }
 

@@ -21,6 +21,7 @@ Settings parse(std::string_view toml, std::string_view name, const Overrides& ov
     reader.take(entries);
     reader.check_ports();
     reader.check_roles();
+    reader.check_command();
   }
   auto& found = reader.problems();
   problems.insert(problems.end(), found.begin(), found.end());

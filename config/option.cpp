@@ -35,7 +35,8 @@ std::string OptionInfo::allowed() const {
     case Kind::real:
       return range;
     case Kind::channels:
-      return fmt::format("eight numbers, each {}{}", range, zero_allowed ? "" : " and not 0");
+      return fmt::format("{} numbers, each {}{}", count == 3 ? "three" : "eight", range,
+                         zero_allowed ? "" : " and not 0");
     case Kind::choice:
       return list(choices);
     case Kind::text:
@@ -81,7 +82,7 @@ std::optional<std::string> OptionInfo::adopt(Value& value) const {
     }
     case Kind::channels: {
       const auto* numbers = std::get_if<std::vector<double>>(&value);
-      if (numbers == nullptr || numbers->size() != 8) {
+      if (numbers == nullptr || numbers->size() != count) {
         return fmt::format("{} are wanted, not {}", allowed(), words_for(value));
       }
       const auto bad = std::find_if(numbers->begin(), numbers->end(), out_of_range);

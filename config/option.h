@@ -31,6 +31,7 @@ struct OptionInfo {
   double high = 0;
   bool zero_allowed = true;
   bool octal = false;                              ///< as file modes are written
+  std::size_t count = 8;                           ///< of the numbers of `channels`: eight or three
   std::vector<std::string_view> choices{};         ///< in the order of the enumeration's values
   std::string_view text_rule{};                    ///< what a text must be, in words ...
   bool (*text_holds)(std::string_view) = nullptr;  ///< ... and in code

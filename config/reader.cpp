@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "config/load.h"
@@ -57,6 +58,7 @@ void Reader::take(const std::vector<Entry>& entries) {
 void Reader::take_daemon(const Entry& entry) {
   if (auto refused = take_entry(daemon_options(), settings_, entry, {std::string(kPort)}))
     complain(entry, std::move(*refused));
+  if (entry.keys.front() == "command" && entry.keys.size() == 2) command_lines_[entry.keys[1]] = entry.line;
   if (entry.keys.front() != "roles" || entry.keys.size() != 2) return;
   for (const Role role : kRoles) {
     if (entry.keys[1] == name_of(role)) role_lines_.at(static_cast<std::size_t>(role)) = entry.line;
@@ -177,6 +179,30 @@ void Reader::check_roles() {
       problem(fmt::format("port {} is of protocol {}, which has no {}", name, protocols::name_of(port->protocol),
                           name_of(role)));
     }
+  }
+}
+
+void Reader::check_command() {
+  const CommandSettings& command = settings_.command;
+  // A limit of the file may contradict a default: then the one that was given is named.
+  const auto problem = [&](const char* key, const char* limit, std::string message) {
+    const bool is_given = command_lines_.contains(key);
+    const auto line = command_lines_.find(is_given ? key : limit);
+    problems_.push_back({line != command_lines_.end() ? line->second : 1,
+                         fmt::format("command.{}", is_given ? key : limit), std::move(message)});
+  };
+  if (command.min_timeout_s > command.max_timeout_s)
+    problem("min_timeout_s", "max_timeout_s",
+            fmt::format("min_timeout_s {} is more than max_timeout_s {}", command.min_timeout_s,
+                        command.max_timeout_s));
+  if (std::abs(command.safe_rpm) > command.max_rpm)
+    problem("safe_rpm", "max_rpm",
+            fmt::format("safe_rpm {} is beyond max_rpm {}", command.safe_rpm, command.max_rpm));
+  for (const double fin_deg : command.safe_fins_deg) {
+    if (std::abs(fin_deg) <= command.max_fin_deg) continue;
+    problem("safe_fins_deg", "max_fin_deg",
+            fmt::format("safe_fins_deg {} is beyond max_fin_deg {}", fin_deg, command.max_fin_deg));
+    break;
   }
 }
 

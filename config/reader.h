@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ class Reader {
   void check_ports();
   /// Roles given to ports that are missing or cannot deliver them.
   void check_roles();
+  /// Limits of orders that contradict each other.
+  void check_command();
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] std::vector<Problem>& problems() { return problems_; }
@@ -32,6 +35,7 @@ class Reader {
   Settings settings_;
   std::vector<unsigned> port_lines_;                  ///< where each port's table begins
   std::array<unsigned, kRoles.size()> role_lines_{};  ///< where each role was given last; 0: the command line
+  std::map<std::string, unsigned, std::less<>> command_lines_;  ///< where each key of [command] was given last
   std::vector<Problem> problems_;
 };
 

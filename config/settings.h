@@ -134,6 +134,24 @@ struct NavigationSettings {
   bool operator==(const NavigationSettings&) const = default;
 };
 
+/// What orders to the motor card may ask for, and what is ordered when nobody is in charge (docs/control.md).
+/// Speeds and angles are in the card's own units.
+struct CommandSettings {
+  bool enabled = true;
+  double max_rpm = 1200;     ///< ahead and astern
+  double max_fin_deg = 25;   ///< either way
+  double slew_rpm_s = 2000;  ///< how fast the order on the wire moves; 0: at once
+  double slew_fin_deg_s = 200;
+  double min_timeout_s = 0.2;  ///< bounds of a lease's own
+  double max_timeout_s = 5;
+  double max_orders_Hz = 40;
+  double echo_timeout_s = 0.5;  ///< the card must have shown an order within this; 0: not watched
+  double safe_rpm = 0;
+  std::array<double, 3> safe_fins_deg{};
+
+  bool operator==(const CommandSettings&) const = default;
+};
+
 struct Settings {
   LogSettings log;
   StatusSettings status;
@@ -142,6 +160,7 @@ struct Settings {
   RoleSettings roles;
   CalibrationSettings calibration;
   NavigationSettings navigation;
+  CommandSettings command;
   std::vector<PortSettings> ports;
 
   bool operator==(const Settings&) const = default;

@@ -38,6 +38,11 @@ inline constexpr Unit kKilogramsPerCubicMetre{"kg/m3"};
 inline constexpr Unit kAmperes{"A"};
 inline constexpr Unit kAmperesSecondsCubed{"A s3"};
 inline constexpr Unit kRpm{"rpm", 1, 60};
+/// As the motor card takes them, unlike the two above: its orders are compared with limits in its own units.
+inline constexpr Unit kCardRpm{"rpm"};
+inline constexpr Unit kCardRpmPerSecond{"rpm/s"};
+inline constexpr Unit kCardDegrees{"deg"};
+inline constexpr Unit kCardDegreesPerSecond{"deg/s"};
 inline constexpr Unit kRadians{"rad"};
 inline constexpr Unit kPerRadian{"1/rad"};
 inline constexpr Unit kPerSecond{"1/s"};

@@ -15,9 +15,11 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
     case Alarm::over_range:
       return imu.over_range;
     case Alarm::low_supply:
+      return imu.low_supply;
+    case Alarm::command_not_echoed:
       break;
   }
-  return imu.low_supply;
+  return false;
 }
 
 }  // namespace
@@ -31,24 +33,24 @@ std::string_view name_of(Alarm alarm) {
     case Alarm::over_range:
       return "over_range";
     case Alarm::low_supply:
+      return "low_supply";
+    case Alarm::command_not_echoed:
       break;
   }
-  return "low_supply";
+  return "command_not_echoed";
 }
 
 const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const instruments::ImuSample& imu,
                                                   std::int64_t now_ns) {
   changes_.clear();
-  for (const Alarm alarm : kAlarms) {
+  for (const Alarm alarm : kCardAlarms) {
     const auto found = std::find_if(standing_.begin(), standing_.end(),
                                     [&](const Standing& s) { return s.port == port && s.alarm == alarm; });
     if (says(imu, alarm)) {
       if (found != standing_.end()) {
         found->last_seen_ns = now_ns;
       } else {
-        standing_.push_back({port, alarm, now_ns, now_ns});
-        std::stable_sort(standing_.begin(), standing_.end(),
-                         [](const Standing& a, const Standing& b) { return a.alarm < b.alarm; });
+        raise(port, alarm, now_ns);
         changes_.push_back({port, alarm, true});
       }
     } else if (found != standing_.end() && now_ns - found->last_seen_ns >= kClear_ns) {
@@ -57,6 +59,24 @@ const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const inst
     }
   }
   return changes_;
+}
+
+bool Alarms::set(std::uint16_t port, Alarm alarm, bool stands, std::int64_t now_ns) {
+  const auto found = std::find_if(standing_.begin(), standing_.end(),
+                                  [&](const Standing& s) { return s.port == port && s.alarm == alarm; });
+  if (stands == (found != standing_.end())) return false;
+  if (stands) {
+    raise(port, alarm, now_ns);
+  } else {
+    standing_.erase(found);
+  }
+  return true;
+}
+
+void Alarms::raise(std::uint16_t port, Alarm alarm, std::int64_t now_ns) {
+  standing_.push_back({port, alarm, now_ns, now_ns});
+  std::stable_sort(standing_.begin(), standing_.end(),
+                   [](const Standing& a, const Standing& b) { return a.alarm < b.alarm; });
 }
 
 }  // namespace navcal::daemon

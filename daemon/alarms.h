@@ -10,14 +10,17 @@
 
 namespace navcal::daemon {
 
-enum class Alarm : std::uint8_t { leak_forward, leak_aft, over_range, low_supply };
+/// The first four are the inertial card's; the last is the motor card's.
+enum class Alarm : std::uint8_t { leak_forward, leak_aft, over_range, low_supply, command_not_echoed };
 
-/// "leak_forward", "leak_aft", "over_range", "low_supply".
+/// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed".
 [[nodiscard]] std::string_view name_of(Alarm alarm);
-inline constexpr std::array kAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range, Alarm::low_supply};
+inline constexpr std::array kCardAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range,
+                                        Alarm::low_supply};
 
-/// Which alarms of the inertial cards stand. A leak stays until the card says for `kClear_ns` without a break that
-/// there is none: water that sloshes over a sensor is one leak, not twenty a second. The others likewise.
+/// Which alarms stand. Those of the inertial cards: A leak stays until the card says for `kClear_ns` without a
+/// break that there is none: water that sloshes over a sensor is one leak, not twenty a second. The others
+/// likewise.
 class Alarms {
  public:
   static constexpr std::int64_t kClear_ns = 2'000'000'000;
@@ -37,10 +40,14 @@ class Alarms {
   /// What changed by one sample; usually nothing.
   [[nodiscard]] const std::vector<Change>& update(std::uint16_t port, const instruments::ImuSample& imu,
                                                   std::int64_t now_ns);
+  /// An alarm that somebody else judges. Whether that is a change.
+  [[nodiscard]] bool set(std::uint16_t port, Alarm alarm, bool stands, std::int64_t now_ns);
   /// Leaks first.
   [[nodiscard]] const std::vector<Standing>& standing() const { return standing_; }
 
  private:
+  void raise(std::uint16_t port, Alarm alarm, std::int64_t now_ns);
+
   std::vector<Standing> standing_;
   std::vector<Change> changes_;
 };

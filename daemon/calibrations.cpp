@@ -48,14 +48,16 @@ void Calibrations::on_change(const pipeline::CalibrationChange& change) {
 void Calibrations::report(std::int64_t now_ns) { report(now_ns, now_ns >= next_log_ns_); }
 
 void Calibrations::report(std::int64_t now_ns, bool into_log) {
-  if (!pipeline_.calibrates() || (!into_log && !server_.watched())) return;
+  const bool watched = server_.watched(ReportClass::calib);
+  if (!pipeline_.calibrates() || (!into_log && !watched)) return;
   const auto& mapping = pipeline_.mapping();
   const bool utc_known = mapping.source != pipeline::UtcMapping::Source::none;
   const auto lines = record::calib_lines(pipeline_.calibration_report(),
                                          utc_known ? std::optional(mapping.to_utc(now_ns)) : std::nullopt, tcm2_);
+  std::uint16_t slot = 0;
   for (const std::string& line : lines) {
     if (into_log) log_.calib(now_ns, line);
-    if (server_.watched()) server_.publish(line + "\n");
+    if (watched) server_.publish(ReportClass::calib, line + "\n", slot++);
   }
   if (into_log) next_log_ns_ = now_ns + kLogInterval_ns;
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/motor_control.h"
 #include "instruments/start_up.h"
 #include "pipeline/calibration_options.h"
 #include "pipeline/sources.h"
@@ -88,6 +89,25 @@ void append_earth_field(std::string& out, const config::Settings& settings) {
   out += "\n";
 }
 
+void append_command(std::string& out, const config::Settings& settings) {
+  const auto port = motor_port(settings);
+  if (!port) {
+    out += settings.command.enabled ? "orders: no motor card to give them to\n" : "orders: off\n";
+    return;
+  }
+  const auto& command = settings.command;
+  const auto slew = [](double rate, std::string_view unit) {
+    return rate > 0 ? fmt::format("{} {}", rate, unit) : std::string("at once");
+  };
+  out += fmt::format(
+      "orders: to {} up to {} rpm ({}) and {} deg ({}), at most {} a second; a lease of {} to {} s; then {} rpm, "
+      "fins "
+      "{} deg\n",
+      settings.ports[*port].name, command.max_rpm, slew(command.slew_rpm_s, "rpm/s"), command.max_fin_deg,
+      slew(command.slew_fin_deg_s, "deg/s"), command.max_orders_Hz, command.min_timeout_s, command.max_timeout_s,
+      command.safe_rpm, fmt::join(command.safe_fins_deg, " "));
+}
+
 }  // namespace
 
 std::string describe(const config::Settings& settings) {
@@ -116,6 +136,7 @@ std::string describe(const config::Settings& settings) {
   } else {
     line(fmt::runtime("navigation: off"));
   }
+  append_command(out, settings);
   line(fmt::runtime("status: TCP {} port {}, at most {} clients"), settings.status.address, settings.status.port,
        settings.status.max_clients);
   line(fmt::runtime("control: {} with permissions {:04o}"), settings.control.socket.string(),

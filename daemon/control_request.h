@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+
+#include "control/lease_desk.h"
+#include "control/order.h"
 
 namespace navcal::daemon {
 
@@ -18,15 +22,28 @@ enum class ControlCommand {
   calibration_accept,
   calibration_rollback,
   calibration_stop,
+  motor_lease,
+  motor_order,
+  motor_release,
   status,
 };
 
 /// One line of the control socket, e.g. {"command":"event","text":"dive 3"}.
 struct ControlRequest {
   ControlCommand command = ControlCommand::status;
-  std::string text;        ///< of an event
-  std::string calibrator;  ///< of calibration.*
-  bool force = false;      ///< of calibration.accept: an estimate that is refused, too
+  std::string text;                        ///< of an event
+  std::string calibrator;                  ///< of calibration.*
+  bool force = false;                      ///< of calibration.accept: an estimate that is refused, too
+  control::LeaseRequest lease_request;     ///< of motor.lease
+  std::string lease;                       ///< of motor.order and motor.release
+  control::Order order;                    ///< of motor.order
+  std::optional<double> state_time_utc_s;  ///< of motor.order: the STATE that it answers
+};
+
+/// Whence a request came.
+struct ControlOrigin {
+  std::uint64_t client = 0;     ///< number of the connection
+  std::int64_t arrival_ns = 0;  ///< monotonic: when the read returned that completed the line
 };
 
 /// The request, or why it is none, for people.

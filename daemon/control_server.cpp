@@ -11,8 +11,10 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 
+#include "control/order_rate.h"
 #include "daemon/line_reader.h"
 #include "ports/no_throw.h"
+#include "ports/port.h"
 
 namespace navcal::daemon {
 namespace asio = boost::asio;
@@ -20,12 +22,18 @@ namespace {
 
 constexpr std::size_t kMaxClients = 16;
 constexpr auto kAcceptPause = std::chrono::milliseconds(500);
+/// A connection that sends more lines than this is read only now and then.
+constexpr double kMaxLines_Hz = 200;
+constexpr auto kSlowDown = std::chrono::milliseconds(50);
 
 }  // namespace
 
 ControlServer::ControlServer(asio::local::stream_protocol::acceptor acceptor, std::filesystem::path own_path,
-                             Handler handler)
-    : acceptor_(std::move(acceptor)), own_path_(std::move(own_path)), handler_(std::move(handler)) {}
+                             Handler handler, Gone gone)
+    : acceptor_(std::move(acceptor)),
+      own_path_(std::move(own_path)),
+      handler_(std::move(handler)),
+      gone_(std::move(gone)) {}
 
 ControlServer::~ControlServer() {
   std::error_code ignored;
@@ -54,32 +62,47 @@ asio::awaitable<void> ControlServer::accept_clients() {
     if (clients_.size() >= kMaxClients) continue;
     auto socket = std::make_shared<Socket>(std::move(accepted));
     clients_.insert(socket);
-    asio::co_spawn(acceptor_.get_executor(), serve(socket), [this, socket](const std::exception_ptr& failure) {
-      if (failure) spdlog::warn("control socket: a client was dropped after an internal error");
-      clients_.erase(socket);
-    });
+    const std::uint64_t client = ++last_client_;
+    asio::co_spawn(acceptor_.get_executor(), serve(socket, client),
+                   [this, socket, client](const std::exception_ptr& failure) {
+                     if (failure) spdlog::warn("control socket: a client was dropped after an internal error");
+                     clients_.erase(socket);
+                     gone_(client);
+                   });
   }
 }
 
-asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket) {
+asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::uint64_t client) {
   std::array<char, 1024> chunk{};
   LineReader lines(kMaxControlLength);
+  control::OrderRate rate(kMaxLines_Hz);
+  asio::steady_timer pause(acceptor_.get_executor());
   for (;;) {
     const auto [error, n] = co_await socket->async_read_some(asio::buffer(chunk), ports::kNoThrow);
+    const ControlOrigin origin{client, ports::monotonic_ns()};
     if (error) co_return;
     std::string answers;
-    const bool accepted = lines.feed({chunk.data(), n}, [&](std::string_view line) { answers += answer(line); });
+    bool too_fast = false;
+    const bool accepted = lines.feed({chunk.data(), n}, [&](std::string_view line) {
+      too_fast = !rate.take(origin.arrival_ns) || too_fast;
+      answers += answer(line, origin);
+    });
     if (!accepted) answers += control_error("line too long");
     const auto [write_error, written] =
         co_await asio::async_write(*socket, asio::buffer(answers), ports::kNoThrow);
     if (write_error || !accepted) co_return;
+    if (!too_fast) continue;
+    // What it sends meanwhile waits in its own socket, and then it waits itself.
+    pause.expires_after(kSlowDown);
+    co_await pause.async_wait(ports::kNoThrow);
+    if (!acceptor_.is_open()) co_return;
   }
 }
 
-std::string ControlServer::answer(std::string_view line) const {
+std::string ControlServer::answer(std::string_view line, const ControlOrigin& origin) const {
   const auto parsed = parse_control(line);
   if (const auto* error = std::get_if<std::string>(&parsed)) return control_error(*error);
-  return handler_(std::get<ControlRequest>(parsed));
+  return handler_(std::get<ControlRequest>(parsed), origin);
 }
 
 }  // namespace navcal::daemon

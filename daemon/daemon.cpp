@@ -37,18 +37,28 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
       pipeline_(settings_),
       server_(sockets.status ? std::move(*sockets.status) : listen_status(executor, settings_.status),
               settings_.status, *this),
-      control_(sockets.control ? std::move(*sockets.control) : listen_control(executor, settings_.control),
-               sockets.control ? std::filesystem::path() : settings_.control.socket,
-               [this](const ControlRequest& request) { return answer(request); }),
+      control_(
+          sockets.control ? std::move(*sockets.control) : listen_control(executor, settings_.control),
+          sockets.control ? std::filesystem::path() : settings_.control.socket,
+          [this](const ControlRequest& request, const ControlOrigin& origin) { return answer(request, origin); },
+          [this](std::uint64_t client) { control_client_gone(client); }),
       log_(settings_, started_ns_, first_mapping()),
       calibrations_(settings_, pipeline_, log_, server_),
       publisher_(settings_, server_),
       notifier_(executor),
+      motor_port_(daemon::motor_port(settings_)),
+      state_(settings_, pipeline_),
+      state_timer_(executor, [this] { ring_state(); }),
       deadline_timer_(executor, [this] { advance(); }),
       tick_timer_(executor, [this] { tick(); }) {
   PortOwner& owner = *this;
   for (std::uint16_t port = 0; port < Daemon::device_count(); ++port) {
     sessions_.push_back(std::make_unique<PortSession>(executor, port, settings_.ports[port], owner));
+  }
+  if (motor_port_) {
+    MotorOwner& motor_owner = *this;
+    motor_ = std::make_unique<MotorControl>(executor, settings_, *sessions_[*motor_port_], log_, pipeline_,
+                                            motor_owner);
   }
 }
 
@@ -72,7 +82,9 @@ void Daemon::stop(std::string_view reason) {
   // Replay will advance to the time of the event that follows: what it then gives up must have been given up here.
   pipeline_.advance(now_ns, *this);
   event(now_ns, "info", "daemon.stop", "", reason);
+  if (motor_) motor_->stop();
   for (const auto& session : sessions_) session->stop();
+  state_timer_.stop();
   deadline_timer_.stop();
   tick_timer_.stop();
   server_.stop();
@@ -97,6 +109,12 @@ void Daemon::rotate_log() {
 void Daemon::on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) {
   log_.raw(port, record::Direction::received, arrival_ns, bytes);
   pipeline_.bytes(port, arrival_ns, bytes, *this);
+  // Behind the pipeline, so that the estimate has the word in it.
+  if (word_came_) {
+    word_came_ = false;
+    const std::int64_t now_ns = ports::monotonic_ns();
+    server_.publish_state(state_report(now_ns), now_ns, true);
+  }
   deadline_timer_.arm(pipeline_.next_deadline_ns());
 }
 
@@ -112,6 +130,11 @@ void Daemon::on_sample(const instruments::Sample& sample) {
   publisher_.sample(sample);
   sessions_[sample.port]->published(ports::monotonic_ns() - sample.stamp.arrival_ns);
   log_.sample(sample);
+  state_.take(sample);
+  word_came_ = word_came_ || (server_.wants_state_of_words() && state_.is_serving_compass(sample));
+  if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value);
+      motor != nullptr && motor_ && sample.port == motor_port_)
+    motor_->status(sample.stamp, *motor);
   if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
     update_alarms(sample, *imu);
     if (PortSession* const compass = tcm2(); compass != nullptr && imu->yaw_rate_calibrated_rad_s)
@@ -173,8 +196,10 @@ void Daemon::on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_
 }
 
 void Daemon::on_port_changed(std::uint16_t port) {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  if (motor_ && port == motor_port_) motor_->port_changed(now_ns);
   server_.publish_device(port);
-  report_health(ports::monotonic_ns());
+  report_health(now_ns);
 }
 
 void Daemon::event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
@@ -201,6 +226,8 @@ void Daemon::tick() {
   for (const std::string& notice : calibrations_.take_notices())
     event(now_ns, "warning", "calibration.notice", "", notice);
   for (const std::string& notice : log_.take_notices()) event(now_ns, "warning", "log.notice", "", notice);
+  for (const std::string& notice : motor_ ? motor_->take_notices() : std::vector<std::string>())
+    event(now_ns, "warning", "motor.notice", "", notice);
   if (now_ns >= next_health_ns_) {
     report_health(now_ns);
     calibrations_.set_tcm2(tcm2_json());
@@ -226,14 +253,17 @@ void Daemon::watch_system_clock() {
 void Daemon::report_health(std::int64_t now_ns) {
   auto lines = health(now_ns);
   for (const std::string& line : lines) log_.health(now_ns, line + "}");
-  std::string reports;
-  if (server_.watched()) {
-    record::append_json(reports, now_ns, pipeline_.mapping());
-    reports += '\n';
-    append_log_report(reports, log_.enabled(), log_.state());
-  }
   server_.publish_health(std::move(lines));
-  if (!reports.empty()) server_.publish(reports);
+  if (server_.watched(ReportClass::time)) {
+    std::string report;
+    record::append_json(report, now_ns, pipeline_.mapping());
+    server_.publish(ReportClass::time, report + '\n');
+  }
+  if (server_.watched(ReportClass::log)) {
+    std::string report;
+    append_log_report(report, log_.enabled(), log_.state());
+    server_.publish(ReportClass::log, report);
+  }
 }
 
 std::vector<std::string> Daemon::health(std::int64_t now_ns) const {
@@ -241,6 +271,7 @@ std::vector<std::string> Daemon::health(std::int64_t now_ns) const {
   health.utc_ns = utc(now_ns);
   health.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   health.alarms = alarms_.standing();
+  if (motor_) health.motor = motor_->health(now_ns);
   health.ports = sessions_;
   health.pipeline = &pipeline_;
   health.log_enabled = log_.enabled();

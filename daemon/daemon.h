@@ -15,10 +15,12 @@
 #include "daemon/control_server.h"
 #include "daemon/lazy_timer.h"
 #include "daemon/log_writer.h"
+#include "daemon/motor_control.h"
 #include "daemon/notifier.h"
 #include "daemon/port_session.h"
 #include "daemon/publisher.h"
 #include "daemon/socket_activation.h"
+#include "daemon/state_collector.h"
 #include "daemon/status_server.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/system_clock_watch.h"
@@ -27,7 +29,7 @@ namespace navcal::daemon {
 
 /// The service: ports, pipeline, log and sockets put together on one I/O thread. Bytes arrive from a port, go into
 /// the log as they are, through the pipeline, and come back as samples, which are published and logged.
-class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
+class Daemon : private pipeline::Sink, private PortOwner, private StatusSource, private MotorOwner {
  public:
   /// Opens what cannot be done without: log folder and sockets. Throws StartError.
   Daemon(const boost::asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets);
@@ -67,8 +69,17 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   [[nodiscard]] std::string_view device_name(std::uint16_t port) const override;
   void append_device(std::string& out, std::uint16_t port) const override;
   void append_poll(std::string& out) const override;
+  void on_watch_changed() override { state_timer_.arm(server_.next_state_ns()); }
+  // MotorOwner
+  void on_motor_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
+                      std::string_view message) override;
+  void on_motor_deaf(std::int64_t now_ns, bool is_deaf) override;
 
-  [[nodiscard]] std::string answer(const ControlRequest& request);
+  [[nodiscard]] std::string answer(const ControlRequest& request, const ControlOrigin& origin);
+  void control_client_gone(std::uint64_t client);
+  /// STATE at its rates, and the next ring of its timer.
+  void ring_state();
+  [[nodiscard]] const std::string& state_report(std::int64_t now_ns);
   [[nodiscard]] std::string answer_tcm2(const ControlRequest& request);
   /// The session of the compass that can calibrate itself; null when there is none.
   [[nodiscard]] PortSession* tcm2() const;
@@ -97,6 +108,12 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource {
   Notifier notifier_;
   Alarms alarms_;
   std::vector<std::unique_ptr<PortSession>> sessions_;
+  std::optional<std::uint16_t> motor_port_;
+  std::unique_ptr<MotorControl> motor_;  ///< null where no orders are taken
+  StateCollector state_;
+  std::string state_report_;
+  bool word_came_ = false;  ///< within these bytes, from the compass that serves
+  LazyTimer state_timer_;
   LazyTimer deadline_timer_;
   LazyTimer tick_timer_;
   std::int64_t next_tick_ns_ = 0;

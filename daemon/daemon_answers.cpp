@@ -18,6 +18,11 @@ bool may_give_positions(protocols::Protocol protocol) {
   return protocol == protocols::Protocol::oncore || protocol == protocols::Protocol::nmea;
 }
 
+std::string_view why_no_orders(const config::Settings& settings) {
+  return settings.command.enabled ? "the configuration has no motor card"
+                                  : "orders are switched off (command.enabled)";
+}
+
 }  // namespace
 
 std::optional<std::uint16_t> Daemon::device_named(std::string_view name) const {
@@ -50,7 +55,7 @@ void Daemon::append_device(std::string& out, std::uint16_t port) const {
 
 void Daemon::append_poll(std::string& out) const { publisher_.append_poll(out, utc(ports::monotonic_ns())); }
 
-std::string Daemon::answer(const ControlRequest& request) {
+std::string Daemon::answer(const ControlRequest& request, const ControlOrigin& origin) {
   switch (request.command) {
     case ControlCommand::event:
       event(ports::monotonic_ns(), "info", "mark", "", request.text);
@@ -68,6 +73,11 @@ std::string Daemon::answer(const ControlRequest& request) {
     case ControlCommand::calibration_stop:
       if (request.calibrator == "tcm2") return answer_tcm2(request);
       return control_error("only tcm2, the compass's calibration of itself, is stopped; ours never end");
+    case ControlCommand::motor_lease:
+    case ControlCommand::motor_order:
+    case ControlCommand::motor_release:
+      if (!motor_) return control_error(why_no_orders(settings_));
+      return motor_->answer(request, origin);
     case ControlCommand::status:
       break;
   }

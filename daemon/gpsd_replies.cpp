@@ -13,6 +13,19 @@ namespace {
 constexpr int kSeenGps = 1;  ///< gpsd's flag for a device that has delivered positions
 constexpr std::string_view boolean(bool value) { return value ? "true" : "false"; }
 
+void append_rates(std::string& out, const ReportIntervals& intervals_ns) {
+  std::string_view separator = ",\"rate_Hz\":{";
+  for (std::size_t i = 0; i < kReportClasses; ++i) {
+    const std::int64_t interval_ns = intervals_ns.at(i);
+    if (interval_ns == 0) continue;
+    fmt::format_to(std::back_inserter(out), FMT_STRING("{}\"{}\":"), separator,
+                   name_of(static_cast<ReportClass>(i)));
+    append_shortest(out, 1e9 / static_cast<double>(interval_ns), 3);
+    separator = ",";
+  }
+  if (separator == ",") out += '}';
+}
+
 }  // namespace
 
 void append_version(std::string& out) {
@@ -44,16 +57,27 @@ void append_device_object(std::string& out, const DeviceState& device) {
   out += '}';
 }
 
-void append_watch(std::string& out, bool enable, bool json, std::optional<std::string_view> device) {
+void append_watch(std::string& out, const WatchPolicy& policy) {
   fmt::format_to(
       std::back_inserter(out),
       FMT_STRING(R"({{"class":"WATCH","enable":{},"json":{},"nmea":false,"raw":0,"scaled":false,"timing":false,)"
                  R"("split24":false,"pps":false)"),
-      boolean(enable), boolean(json));
-  if (device) {
+      boolean(policy.enable), boolean(policy.json));
+  if (policy.device) {
     out += ",\"device\":";
-    append_quoted(out, *device);
+    append_quoted(out, *policy.device);
   }
+  if (policy.classes != ReportClasses::usual()) {
+    std::string_view separator = ",\"classes\":[";
+    for (std::size_t i = 0; i < kReportClasses; ++i) {
+      const auto report = static_cast<ReportClass>(i);
+      if (!policy.classes.has(report)) continue;
+      fmt::format_to(std::back_inserter(out), FMT_STRING("{}\"{}\""), separator, name_of(report));
+      separator = ",";
+    }
+    out += separator == "," ? "]" : ",\"classes\":[]";
+  }
+  append_rates(out, policy.intervals_ns);
   out += "}\n";
 }
 

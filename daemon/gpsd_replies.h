@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/report_class.h"
+
 namespace navcal::daemon {
 
 // What the status socket says of itself, in gpsd's words. Each appends one line, newline included, unless it says
@@ -29,8 +31,16 @@ struct DeviceState {
 void append_version(std::string& out);
 /// The object alone, without newline.
 void append_device_object(std::string& out, const DeviceState& device);
-/// The policy in force. NMEA and raw pass-through are not offered, which "nmea":false and "raw":0 say.
-void append_watch(std::string& out, bool enable, bool json, std::optional<std::string_view> device);
+/// The policy in force; classes and rates only where a client chose them. NMEA and raw pass-through are not
+/// offered, which "nmea":false and "raw":0 say.
+struct WatchPolicy {
+  bool enable = false;
+  bool json = false;
+  std::optional<std::string_view> device;
+  ReportClasses classes = ReportClasses::usual();
+  ReportIntervals intervals_ns{};
+};
+void append_watch(std::string& out, const WatchPolicy& policy);
 void append_error(std::string& out, std::string_view message);
 
 }  // namespace navcal::daemon

@@ -123,6 +123,7 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
                    lines);
   }
   append_sources(out, health);
+  if (first == 0 && !health.motor.empty()) out += ",\"motor\":" + health.motor;
   out += ",\"ports\":[";
   for (std::size_t i = first; i < last; ++i) {
     if (i > first) out += ',';

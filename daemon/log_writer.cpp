@@ -85,6 +85,10 @@ void LogWriter::calib(std::int64_t now_ns, std::string_view json) {
   append([&](std::string& out) { encoder_.calib(out, now_ns, json); });
 }
 
+void LogWriter::command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record) {
+  append([&](std::string& out) { encoder_.command(out, now_ns, device, record); });
+}
+
 void LogWriter::rotate(std::int64_t now_ns) {
   if (!disk_) return;
   disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });

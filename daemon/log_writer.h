@@ -34,6 +34,8 @@ class LogWriter {
   void health(std::int64_t now_ns, std::string_view json);
   void calib(std::int64_t now_ns, std::string_view json);
 
+  void command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record);
+
   /// What every file from now on begins with, besides configuration and time: one object for /calib.
   void begin_files_with(std::function<std::string(std::int64_t)> calibration) {
     calibration_ = std::move(calibration);

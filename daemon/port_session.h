@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -53,6 +54,9 @@ class PortSession : private ports::PortListener {
   void start() { port_.start(); }
   void stop();
 
+  /// As ports::Port: a whole line at once, or nothing; and waits until it is on the wire, at most so long.
+  [[nodiscard]] std::optional<std::int64_t> send_now(protocols::Bytes bytes) { return port_.send_now(bytes); }
+  void flush(std::chrono::milliseconds limit) { port_.flush(limit); }
   /// From the pipeline, within on_port_bytes().
   void on_frame(const protocols::Frame& frame, std::int64_t arrival_ns);
   void published(std::int64_t latency_ns) { latency_.add(latency_ns); }

@@ -20,6 +20,18 @@ struct Overloaded : Ts... {
 template <class... Ts>
 Overloaded(Ts...) -> Overloaded<Ts...>;
 
+ReportClass class_of(const instruments::Sample& sample) {
+  return std::visit(Overloaded{
+                        [](const instruments::CompassSample&) { return ReportClass::att; },
+                        [](const instruments::ImuSample&) { return ReportClass::att; },
+                        [](const instruments::GpsSample&) { return ReportClass::tpv; },
+                        [](const instruments::SkySample&) { return ReportClass::sky; },
+                        [](const instruments::MotorSample&) { return ReportClass::motor; },
+                        [](const instruments::AltimeterSample&) { return ReportClass::altimeter; },
+                    },
+                    sample.value);
+}
+
 }  // namespace
 
 Publisher::Publisher(const config::Settings& settings, StatusServer& server)
@@ -34,26 +46,29 @@ void Publisher::sample(const instruments::Sample& sample) {
     last.sky = *sky;
     last.sky_stamp = sample.stamp;
   }
-  if (!server_.watched(sample.port)) return;
+  const ReportClass report = class_of(sample);
+  if (!server_.watched(report, sample.port)) return;
   report_.clear();
   ReportSource from = source(sample.port);
   from.calibration = sample.calibration;
   append(sample, from);
-  server_.publish(sample.port, report_);
+  server_.publish(report, sample.port, report_);
 }
 
 void Publisher::navigation(const pipeline::NavigationSample& sample) {
   last_navigation_ = sample;
   const std::uint16_t device = navigation_device(settings_);
-  if (!server_.watched(device)) return;
-  report_.clear();
-  record::append_json(report_, sample);
-  report_ += '\n';
-  server_.publish(device, report_);
-  if (sample.source != pipeline::PositionSource::reckoned) return;
+  if (server_.watched(ReportClass::nav, device)) {
+    report_.clear();
+    record::append_json(report_, sample);
+    report_ += '\n';
+    server_.publish(ReportClass::nav, device, report_);
+  }
+  const bool is_reckoned = sample.source == pipeline::PositionSource::reckoned;
+  if (!is_reckoned || !server_.watched(ReportClass::tpv, device)) return;
   report_.clear();
   append_tpv(report_, sample, utc_known_);
-  server_.publish(device, report_);
+  server_.publish(ReportClass::tpv, device, report_);
 }
 
 void Publisher::append(const instruments::Sample& sample, ReportSource source) {

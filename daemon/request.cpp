@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace navcal::daemon {
@@ -84,12 +85,51 @@ bool take(const Json& object, const char* key, std::optional<T>& value) {
   return true;
 }
 
+/// ["STATE","TPV"]; null: the usual ones. Why it is neither; empty: taken.
+std::string take_classes(const Json& object, std::optional<ReportClasses>& value) {
+  const auto found = object.find("classes");
+  if (found == object.end()) return {};
+  if (found->is_null()) value = ReportClasses::usual();
+  if (found->is_null()) return {};
+  if (!found->is_array()) return "Invalid WATCH: classes is a list of classes, or null";
+  ReportClasses classes;
+  for (const Json& name : *found) {
+    const auto report = name.is_string() ? report_class_named(name.get<std::string>()) : std::nullopt;
+    if (!report)
+      return fmt::format("Invalid WATCH: a class that is not known; known are {}", known_report_classes());
+    classes.add(*report);
+  }
+  value = classes;
+  return {};
+}
+
+/// {"STATE":10}; null: no limits. Likewise.
+std::string take_intervals(const Json& object, std::optional<ReportIntervals>& value) {
+  const auto found = object.find("rate_Hz");
+  if (found == object.end()) return {};
+  ReportIntervals intervals_ns{};
+  if (!found->is_null() && !found->is_object()) return "Invalid WATCH: rate_Hz is an object, or null";
+  for (const auto& [name, rate] : found->items()) {
+    const auto report = report_class_named(name);
+    if (!report)
+      return fmt::format("Invalid WATCH: a class that is not known; known are {}", known_report_classes());
+    const double rate_Hz = rate.is_number() ? rate.get<double>() : 0;
+    if (!(rate_Hz >= kMinReportRate_Hz && rate_Hz <= kMaxReportRate_Hz))
+      return fmt::format("Invalid WATCH: a rate is {} to {} Hz", kMinReportRate_Hz, kMaxReportRate_Hz);
+    intervals_ns.at(static_cast<std::size_t>(*report)) = std::llround(1e9 / rate_Hz);
+  }
+  value = intervals_ns;
+  return {};
+}
+
 Request watch(const Json& object) {
   WatchChange change;
   std::optional<bool> enable;
   if (!take(object, "enable", enable)) return not_understood("Invalid WATCH: enable is true or false");
   if (!take(object, "json", change.json)) return not_understood("Invalid WATCH: json is true or false");
   if (!take(object, "device", change.device)) return not_understood("Invalid WATCH: device is a string");
+  if (auto problem = take_classes(object, change.classes); !problem.empty()) return not_understood(problem);
+  if (auto problem = take_intervals(object, change.intervals_ns); !problem.empty()) return not_understood(problem);
   change.enable = enable.value_or(true);
   Request request;
   request.kind = Request::Kind::watch;

@@ -7,16 +7,24 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/report_class.h"
+
 namespace navcal::daemon {
 
 /// Longest request line taken; gpsd's own clients stay below 200 bytes.
 inline constexpr std::size_t kMaxRequestLength = 4096;
+
+/// Bounds of the rates in ?WATCH.
+inline constexpr double kMinReportRate_Hz = 0.01;
+inline constexpr double kMaxReportRate_Hz = 100;
 
 /// What ?WATCH={...} asked for; what it did not mention stays as it is.
 struct WatchChange {
   bool enable = true;
   std::optional<bool> json;
   std::optional<std::string> device;
+  std::optional<ReportClasses> classes;
+  std::optional<ReportIntervals> intervals_ns;
 };
 
 /// One command of gpsd's protocol.

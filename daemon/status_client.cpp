@@ -14,6 +14,7 @@
 #include "daemon/gpsd_replies.h"
 #include "daemon/line_reader.h"
 #include "ports/no_throw.h"
+#include "ports/port.h"
 
 namespace navcal::daemon {
 namespace asio = boost::asio;
@@ -88,6 +89,16 @@ asio::awaitable<void> StatusClient::refuse(std::string_view reason) {
     if (error) break;
   }
   give_up_.cancel();
+}
+
+bool StatusClient::is_due(ReportClass report, std::uint16_t slot) const {
+  const std::int64_t interval = interval_ns(report);
+  return interval == 0 || pacer_.is_due(report, slot, interval, ports::monotonic_ns());
+}
+
+bool StatusClient::take_turn(ReportClass report, std::uint16_t slot) {
+  const std::int64_t interval = interval_ns(report);
+  return interval == 0 || pacer_.take(report, slot, interval, ports::monotonic_ns());
 }
 
 void StatusClient::take_line(std::string_view line) {

@@ -10,6 +10,8 @@
 #include <string_view>
 
 #include "daemon/client_queue.h"
+#include "daemon/report_class.h"
+#include "daemon/report_pacer.h"
 #include "daemon/request.h"
 
 namespace navcal::daemon {
@@ -34,6 +36,9 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
     bool enable = false;
     bool json = false;
     std::optional<std::uint16_t> port;  ///< one device only
+    ReportClasses classes = ReportClasses::usual();
+    ReportIntervals intervals_ns{};
+    std::int64_t state_due_ns = 0;  ///< of the next STATE at a rate
   };
 
   StatusClient(boost::asio::ip::tcp::socket socket, std::size_t queue_bytes, ClientOwner& owner);
@@ -43,9 +48,23 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   void send(std::string_view report);
   void close();
 
-  [[nodiscard]] bool watches() const { return policy_.enable && policy_.json; }
-  [[nodiscard]] bool watches(std::uint16_t port) const { return watches() && policy_.port.value_or(port) == port; }
+  [[nodiscard]] bool watches(ReportClass report) const {
+    return policy_.enable && policy_.json && policy_.classes.has(report);
+  }
+  [[nodiscard]] bool watches(ReportClass report, std::uint16_t port) const {
+    return watches(report) && policy_.port.value_or(port) == port;
+  }
+  /// Whether the rate that it chose allows one more now, of this class and slot (a device, a part).
+  [[nodiscard]] bool is_due(ReportClass report, std::uint16_t slot) const;
+  /// The same, and counts it.
+  [[nodiscard]] bool take_turn(ReportClass report, std::uint16_t slot);
+  /// Shortest time between two reports; 0: no limit.
+  [[nodiscard]] std::int64_t interval_ns(ReportClass report) const {
+    return policy_.intervals_ns.at(static_cast<std::size_t>(report));
+  }
   [[nodiscard]] Policy& policy() { return policy_; }
+  /// Other rates are in force: what came before does not count.
+  void begin_pacing() { pacer_.forget(); }
   [[nodiscard]] std::uint64_t dropped() const { return queue_.dropped(); }
   [[nodiscard]] std::size_t queued_bytes() const { return queue_.size(); }
 
@@ -62,6 +81,7 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   ClientQueue queue_;
   ClientOwner& owner_;
   Policy policy_;
+  ReportPacer pacer_;
   std::uint64_t told_dropped_ = 0;
   bool waiting_ = false;
 };

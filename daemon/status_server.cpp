@@ -118,6 +118,13 @@ void StatusServer::change_watch(StatusClient& client, const WatchChange& change)
   }
   policy.enable = change.enable;
   policy.json = change.json.value_or(policy.json);
+  policy.classes = change.classes.value_or(policy.classes);
+  if (change.intervals_ns) {
+    policy.intervals_ns = *change.intervals_ns;
+    policy.state_due_ns = 0;  // the first one comes at once
+    client.begin_pacing();
+  }
+  source_.on_watch_changed();
   append_devices();
   append_policy(client);
 }
@@ -135,33 +142,64 @@ void StatusServer::append_policy(StatusClient& client) {
   const auto& policy = client.policy();
   std::optional<std::string_view> device;
   if (policy.port) device = source_.device_name(*policy.port);
-  append_watch(answer_, policy.enable, policy.json, device);
+  append_watch(answer_, {policy.enable, policy.json, device, policy.classes, policy.intervals_ns});
 }
 
-bool StatusServer::watched(std::uint16_t port) const {
-  return std::any_of(clients_.begin(), clients_.end(), [&](const auto& client) { return client->watches(port); });
+bool StatusServer::watched(ReportClass report, std::uint16_t port) const {
+  return std::any_of(clients_.begin(), clients_.end(), [&](const auto& client) {
+    return client->watches(report, port) && client->is_due(report, port);
+  });
 }
 
-bool StatusServer::watched() const {
-  return std::any_of(clients_.begin(), clients_.end(), [](const auto& client) { return client->watches(); });
+bool StatusServer::watched(ReportClass report) const {
+  return std::any_of(clients_.begin(), clients_.end(),
+                     [&](const auto& client) { return client->watches(report) && client->is_due(report, 0); });
 }
 
-void StatusServer::publish(std::uint16_t port, std::string_view report) {
+void StatusServer::publish(ReportClass report, std::uint16_t port, std::string_view line) {
   for (const auto& client : clients_) {
-    if (client->watches(port)) client->send(report);
+    if (client->watches(report, port) && client->take_turn(report, port)) client->send(line);
   }
 }
 
-void StatusServer::publish(std::string_view report) {
+void StatusServer::publish(ReportClass report, std::string_view line, std::uint16_t slot) {
   for (const auto& client : clients_) {
-    if (client->watches()) client->send(report);
+    if (client->watches(report) && client->take_turn(report, slot)) client->send(line);
+  }
+}
+
+std::int64_t StatusServer::next_state_ns() const {
+  std::int64_t next_ns = INT64_MAX;
+  for (const auto& client : clients_) {
+    if (client->watches(ReportClass::state) && client->interval_ns(ReportClass::state) > 0)
+      next_ns = std::min(next_ns, client->policy().state_due_ns);
+  }
+  return next_ns;
+}
+
+bool StatusServer::wants_state_of_words() const {
+  return std::any_of(clients_.begin(), clients_.end(), [](const auto& client) {
+    return client->watches(ReportClass::state) && client->interval_ns(ReportClass::state) == 0;
+  });
+}
+
+void StatusServer::publish_state(std::string_view line, std::int64_t now_ns, bool of_word) {
+  for (const auto& client : clients_) {
+    if (!client->watches(ReportClass::state)) continue;
+    const std::int64_t interval_ns = client->interval_ns(ReportClass::state);
+    if (of_word != (interval_ns == 0)) continue;
+    if (!of_word) {
+      if (now_ns < client->policy().state_due_ns) continue;
+      client->policy().state_due_ns = (now_ns / interval_ns + 1) * interval_ns;
+    }
+    client->send(line);
   }
 }
 
 void StatusServer::publish_health(std::vector<std::string> beginnings) {
   health_ = std::move(beginnings);
   for (const auto& client : clients_) {
-    if (client->watches()) send_health(*client);
+    if (client->watches(ReportClass::health) && client->take_turn(ReportClass::health, 0)) send_health(*client);
   }
 }
 
@@ -174,15 +212,15 @@ void StatusServer::send_health(StatusClient& client) {
 }
 
 void StatusServer::publish_device(std::uint16_t port) {
-  if (!watched(port)) return;
+  if (!watched(ReportClass::device, port)) return;
   answer_.clear();
   source_.append_device(answer_, port);
   answer_ += '\n';
-  publish(port, answer_);
+  publish(ReportClass::device, port, answer_);
 }
 
 void StatusServer::on_caught_up(StatusClient& client) {
-  if (client.watches()) send_health(client);
+  if (client.watches(ReportClass::health)) send_health(client);
 }
 
 std::uint64_t StatusServer::dropped() const {

@@ -27,6 +27,8 @@ class StatusSource {
   virtual void append_device(std::string& out, std::uint16_t port) const = 0;
   /// The answer to ?POLL;, one line.
   virtual void append_poll(std::string& out) const = 0;
+  /// Somebody watches other reports from here on, at other rates.
+  virtual void on_watch_changed() = 0;
 };
 
 /// gpsd's protocol on TCP (docs/status-protocol.md). Everything a client can do here is reading.
@@ -38,13 +40,21 @@ class StatusServer : private ClientOwner {
   void start();
   void stop();
 
-  /// Whether anybody would see a report of this port: if not, it need not be written.
-  [[nodiscard]] bool watched(std::uint16_t port) const;
-  [[nodiscard]] bool watched() const;
+  /// Whether anybody would see a report of this port now: if not, it need not be written.
+  [[nodiscard]] bool watched(ReportClass report, std::uint16_t port) const;
+  /// Likewise a report of no port.
+  [[nodiscard]] bool watched(ReportClass report) const;
   /// One whole line about one port, to everybody who watches it.
-  void publish(std::uint16_t port, std::string_view report);
-  /// One whole line to every watcher.
-  void publish(std::string_view report);
+  void publish(ReportClass report, std::uint16_t port, std::string_view line);
+  /// One whole line to everybody who watches the class; `slot` numbers lines that belong together.
+  void publish(ReportClass report, std::string_view line, std::uint16_t slot = 0);
+  /// STATE at a rate: when the next one is due to any client, monotonic; INT64_MAX: to none. The grid is the same
+  /// for all clients of one rate.
+  [[nodiscard]] std::int64_t next_state_ns() const;
+  /// Whether any client wants a STATE with each compass word.
+  [[nodiscard]] bool wants_state_of_words() const;
+  /// To those whose time has come, or, with `of_word`, to those who want one with each word.
+  void publish_state(std::string_view line, std::int64_t now_ns, bool of_word);
   /// HEALTH lines without their end; each client's own count of dropped reports is added. Kept for clients that
   /// catch up.
   void publish_health(std::vector<std::string> beginnings);

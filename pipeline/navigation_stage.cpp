@@ -155,10 +155,21 @@ void NavigationStage::tell(const instruments::Sample& trigger, const UtcMapping&
   if (interval <= told_ && !outage) return;
   told_ = std::max(told_, interval);
 
-  NavigationSample sample;
+  NavigationSample sample = *newest(mapping);
   sample.calibration = trigger.calibration;
+  instruments::Stamp stamp = trigger.stamp;
+  stamp.validity_ns = sample.stamp.validity_ns;
+  stamp.validity_utc_ns = sample.stamp.validity_utc_ns;
+  sample.stamp = stamp;
+  sample.outage = outage;
+  if (uncalibrated_outage) sample.outage_error_uncalibrated_m = uncalibrated_outage->error_m;
+  sink.on_navigation(sample);
+}
+
+std::optional<NavigationSample> NavigationStage::newest(const UtcMapping& mapping) const {
+  if (!calibrated_.started()) return std::nullopt;
+  NavigationSample sample;
   sample.estimate = calibrated_.estimate();
-  sample.stamp = trigger.stamp;
   sample.stamp.validity_ns = sample.estimate.time_ns;
   sample.stamp.validity_utc_ns = mapping.to_utc(sample.estimate.time_ns);
   if (const auto& position_m = sample.estimate.position_m; position_m && plane_) {
@@ -168,9 +179,7 @@ void NavigationStage::tell(const instruments::Sample& trigger, const UtcMapping&
     sample.source =
         sample.estimate.since_fix_s <= kFixIsCurrent_s ? PositionSource::fixes : PositionSource::reckoned;
   }
-  sample.outage = outage;
-  if (uncalibrated_outage) sample.outage_error_uncalibrated_m = uncalibrated_outage->error_m;
-  sink.on_navigation(sample);
+  return sample;
 }
 
 }  // namespace navcal::pipeline

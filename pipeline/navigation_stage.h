@@ -29,6 +29,8 @@ class NavigationStage {
   /// are any. The sink must have had the sample.
   void take(const instruments::Sample& original, const instruments::Sample& corrected,
             const std::optional<nav::TiltReading>& tilt, const UtcMapping& mapping, Sink& sink);
+  /// The estimate as it is now, without an outage; its stamp has no arrival. Nullopt before anything came.
+  [[nodiscard]] std::optional<NavigationSample> newest(const UtcMapping& mapping) const;
   /// Everything begins anew.
   void begin_run();
   /// Other ports serve from here on.

@@ -120,6 +120,8 @@ void Pipeline::finish_calibration(Sink& sink) {
   if (state_->stages.calibration()) state_->stages.calibration()->finish(sink);
 }
 
+std::optional<NavigationSample> Pipeline::navigation() const { return state_->stages.navigation(state_->mapping); }
+
 void Pipeline::begin_navigation_run() { state_->stages.begin_navigation_run(); }
 
 RolePorts Pipeline::sources() const { return state_->stages.sources().delivering(); }

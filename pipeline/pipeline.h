@@ -103,6 +103,9 @@ class Pipeline {
   /// The vehicle may have been anywhere since: position and attitude are estimated anew.
   void begin_navigation_run();
 
+  /// The estimate of now, between its reports; nullopt without an estimator, and before anything came.
+  [[nodiscard]] std::optional<NavigationSample> navigation() const;
+
   /// Which port serves which role now, of those that have delivered.
   [[nodiscard]] RolePorts sources() const;
   [[nodiscard]] const EarthField& earth_field() const;

@@ -30,6 +30,10 @@ class Stages {
   /// As CalibrationStage::restore(); the instruments and the place are those of the state.
   bool restore_calibration(std::string_view state);
   void begin_navigation_run();
+  /// As Pipeline::navigation().
+  [[nodiscard]] std::optional<NavigationSample> navigation(const UtcMapping& mapping) const {
+    return navigation_ ? navigation_->newest(mapping) : std::nullopt;
+  }
   [[nodiscard]] const Sources& sources() const { return sources_; }
   [[nodiscard]] const EarthField& earth_field() const { return field_.field(); }
 

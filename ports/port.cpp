@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ports/port.h"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/asio/as_tuple.hpp>
@@ -15,6 +18,7 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -183,6 +187,31 @@ void Port::send(protocols::Bytes bytes) {
   if (!state.tty || state.outgoing.size() + bytes.size() > kSendBytes) return;
   state.outgoing.insert(state.outgoing.end(), bytes.begin(), bytes.end());
   if (!state.writing) state.write_some();
+}
+
+std::optional<std::int64_t> Port::send_now(protocols::Bytes bytes) {
+  State& state = *state_;
+  if (!state.tty || state.writing || !state.outgoing.empty()) return std::nullopt;
+  const ssize_t n = ::write(state.tty->fd(), bytes.data(), bytes.size());
+  const std::int64_t now_ns = monotonic_ns();
+  // After an error the reading side finds out what became of the port.
+  if (n <= 0) return std::nullopt;
+  const auto taken = static_cast<std::size_t>(n);
+  state.listener.on_sent(now_ns, bytes.first(taken));
+  return taken == bytes.size() ? std::optional(now_ns) : std::nullopt;
+}
+
+void Port::flush(milliseconds limit) {
+  const State& state = *state_;
+  if (!state.tty) return;
+  const auto end = std::chrono::steady_clock::now() + limit;
+  int waiting = 0;
+  while (::ioctl(state.tty->fd(), TIOCOUTQ, &waiting) == 0 && waiting > 0 &&
+         std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(milliseconds(1));
+  // The driver has handed over all; the UART's own FIFO holds sixteen bytes of ten bits.
+  if (!state.tty->info().pseudo_terminal)
+    std::this_thread::sleep_for(std::chrono::microseconds(160'000'000 / state.settings.baud));
 }
 
 void Port::stop() {

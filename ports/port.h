@@ -2,8 +2,10 @@
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -45,6 +47,13 @@ class Port {
   void start();
   /// Queues bytes for sending; silently dropped while the port is away (bounded at 4 KiB).
   void send(protocols::Bytes bytes);
+  /// Writes a whole line at once: nothing waits before it, and the driver has taken all of it when this returns.
+  /// The time at which it had; nullopt when the port is away, other bytes still wait, or there is no room for the
+  /// whole of it (the beginning may then have been taken). on_sent() is called within.
+  [[nodiscard]] std::optional<std::int64_t> send_now(protocols::Bytes bytes);
+  /// Waits, at most so long, until what the driver has taken is on the wire: closing a serial port sets its former
+  /// speed back at once, whatever is still on its way.
+  void flush(std::chrono::milliseconds limit);
   /// Closes, restoring the tty's former settings; no callbacks afterwards.
   void stop();
 

@@ -36,12 +36,18 @@ struct LoggedEvent {
   std::string json;
 };
 
+/// What became of an order to the motor card; of a log.
+struct LoggedCommand {
+  std::int64_t time_ns = 0;
+  std::string json;
+};
+
 struct MappingChange {
   std::int64_t time_ns = 0;
   pipeline::UtcMapping mapping;
 };
 
-using Entry = std::variant<RawRead, MappingChange, LoggedEvent, pipeline::CalibrationChange>;
+using Entry = std::variant<RawRead, MappingChange, LoggedEvent, LoggedCommand, pipeline::CalibrationChange>;
 
 /// Whether a file begins as a log does. Throws BadRecording when it cannot be read.
 [[nodiscard]] bool is_log(const std::filesystem::path& file);

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <vector>
 
+#include "record/json/command_json.h"
 #include "record/json/event_json.h"
 #include "record/json/json_object.h"
 #include "record/json/mapping_json.h"
@@ -222,6 +223,13 @@ void LogEncoder::health(std::string& out, std::int64_t now_ns, std::string_view 
 
 void LogEncoder::calib(std::string& out, std::int64_t now_ns, std::string_view json) {
   state_->json_message(out, topic::kCalib, now_ns, now_ns, [&](std::string& text) { text += json; });
+}
+
+void LogEncoder::command(std::string& out, std::int64_t now_ns, std::string_view device,
+                         const control::OrderRecord& record) {
+  const std::int64_t publish_ns = record.sent_ns.value_or(record.asked_ns.value_or(now_ns));
+  state_->json_message(out, topic::kCommand, now_ns, publish_ns,
+                       [&](std::string& text) { append_json(text, state_->mapping, now_ns, device, record); });
 }
 
 void LogEncoder::finish(std::string& out, std::int64_t /*now_ns*/) {

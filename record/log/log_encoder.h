@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "config/settings.h"
+#include "control/order.h"
 #include "instruments/samples.h"
 #include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
@@ -39,6 +40,8 @@ class LogEncoder {
   /// `json` is one object {...} as it goes to the status socket; "crc" is added.
   void health(std::string& out, std::int64_t now_ns, std::string_view json);
   void calib(std::string& out, std::int64_t now_ns, std::string_view json);
+  /// What became of an order to the motor card at port `device`.
+  void command(std::string& out, std::int64_t now_ns, std::string_view device, const control::OrderRecord& record);
   /// DataEnd, summary (schemas, channels, statistics), Footer, magic.
   void finish(std::string& out, std::int64_t now_ns);
 

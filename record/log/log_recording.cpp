@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::size_t kMaxRecordingRemarks = 100;
 
+/// The object as it was before its checksum was added.
+std::string without_sum(std::string_view data) {
+  return std::string(data.substr(0, data.size() - kJsonTail)) + '}';
+}
+
 }  // namespace
 
 LogRecording::LogRecording(std::unique_ptr<ByteSource> source, std::string name)
@@ -88,8 +93,13 @@ std::optional<Entry> LogRecording::entry_of(const LogMessage& message) {
   } else if (channel.topic == "/event") {
     const auto json = FlatJson::parse(message.data);
     const auto at = json ? nanoseconds(json->get("monotonic")) : std::nullopt;
-    if (at) return LoggedEvent{*at, std::string(message.data.substr(0, message.data.size() - kJsonTail)) + '}'};
+    if (at) return LoggedEvent{*at, without_sum(message.data)};
     remark(message, "an event that cannot be read: passed over");
+  } else if (channel.topic == "/command") {
+    const auto json = FlatJson::parse(message.data);
+    const auto at = json ? nanoseconds(json->get("monotonic")) : std::nullopt;
+    if (at) return LoggedCommand{*at, without_sum(message.data)};
+    remark(message, "an order that cannot be read: passed over");
   } else if (channel.topic == "/calib" && is_calibration_change(message.data)) {
     auto change = calibration_from_json(message.data);
     if (change) return std::move(*change);

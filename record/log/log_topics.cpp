@@ -115,6 +115,16 @@ constexpr std::array kNav{Field{"time", number, "s"},
                           Field{"outage_error_uncalibrated_m"},
                           Field{"calibration", text}};
 
+constexpr std::array kCommandFields{Field{"time", number, "s"},   Field{"monotonic", number, "s"},
+                                    Field{"device", text},        Field{"outcome", text},
+                                    Field{"source", text},        Field{"sequence"},
+                                    Field{"holder", text},        Field{"priority"},
+                                    Field{"asked", number, "s"},  Field{"sent", number, "s"},
+                                    Field{"echoed", number, "s"}, Field{"late_s"},
+                                    Field{"shaft_rpm"},           Field{"fins_deg", vector3},
+                                    Field{"shaft_sent_rpm"},      Field{"fins_sent_deg", vector3},
+                                    Field{"reason", text},        Field{"refused_since"}};
+
 constexpr std::array kTopics{
     Topic{topic::kConfig, "/config", "navcal.Config", kConfig},
     Topic{topic::kTime, "/time", "navcal.Time", kTimeFields},
@@ -127,6 +137,7 @@ constexpr std::array kTopics{
     Topic{topic::kMotor, "/motor", "navcal.Motor", kMotor},
     Topic{topic::kAltimeter, "/altimeter", "navcal.Altimeter", kAltimeter},
     Topic{topic::kNav, "/nav", "navcal.Nav", kNav},
+    Topic{topic::kCommand, "/command", "navcal.Command", kCommandFields},
 };
 
 nlohmann::ordered_json schema_of(const Field& field) {

@@ -50,7 +50,7 @@ Value some_value(const OptionInfo& option, Random& random) {
     case Kind::channels:
       break;
   }
-  std::vector<double> numbers(8);
+  std::vector<double> numbers(option.count);
   for (double& number : numbers) number = number_within(option, random);
   return numbers;
 }
@@ -82,6 +82,12 @@ Settings some_settings(Random& random) {
     Value value = some_value(option, random);
     EXPECT_EQ(option.adopt(value), std::nullopt) << option.name();
     option.set(settings, value);
+  }
+  CommandSettings& command = settings.command;
+  if (command.min_timeout_s > command.max_timeout_s) std::swap(command.min_timeout_s, command.max_timeout_s);
+  if (std::abs(command.safe_rpm) > command.max_rpm) command.safe_rpm = command.max_rpm;
+  for (double& fin_deg : command.safe_fins_deg) {
+    if (std::abs(fin_deg) > command.max_fin_deg) fin_deg = command.max_fin_deg;
   }
   const auto ports = 1 + random() % 6;
   for (std::size_t i = 0; i < ports; ++i) settings.ports.push_back(some_port(i, random));

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/motor_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace navcal::control {
+namespace {
+
+/// The safe state is repeated so often where no time-out of the echo is configured.
+constexpr double kSafeRepeat_s = 0.5;
+
+}  // namespace
+
+MotorCommand::MotorCommand(const config::CommandSettings& settings)
+    : settings_(settings),
+      safe_{settings.safe_rpm, settings.safe_fins_deg},
+      rate_(settings.max_orders_Hz),
+      shaper_(settings) {
+  shaper_.jump(0, safe_);
+}
+
+std::string MotorCommand::problem_with(const LeaseRequest& request) const {
+  if (request.holder.empty() || request.holder.size() > kMaxHolderLength)
+    return fmt::format("holder is a name of 1 to {} bytes", kMaxHolderLength);
+  if (request.priority < 0 || request.priority > kMaxPriority)
+    return fmt::format("priority is 0 to {}", kMaxPriority);
+  const bool fits = request.timeout_s >= settings_.min_timeout_s && request.timeout_s <= settings_.max_timeout_s;
+  if (!fits) return fmt::format("timeout_s is {} to {}", settings_.min_timeout_s, settings_.max_timeout_s);
+  return {};
+}
+
+std::string MotorCommand::lease(std::int64_t now_ns, const LeaseRequest& request, std::string token,
+                                std::uint64_t client) {
+  if (auto problem = problem_with(request); !problem.empty()) return problem;
+  const auto before = holder();
+  if (auto refusal = desk_.grant(now_ns, request, std::move(token), client); !refusal.empty()) return refusal;
+  const bool takes_over = before && before->client != client;
+  // The new holder must not suffer from what the one before has used up.
+  if (takes_over) rate_.refill();
+  events_.push_back({takes_over ? "warning" : "info", "motor.lease",
+                     fmt::format("{} is in charge{}, time-out {} s", words_for(*holder()),
+                                 takes_over ? " instead of " + words_for(*before) : "", request.timeout_s)});
+  return {};
+}
+
+std::string MotorCommand::order(std::int64_t now_ns, std::string_view token, const Order& order) {
+  // An order that comes late must find its lease expired, whoever looked last.
+  if (holder() && now_ns >= holder()->expires_ns)
+    end_lease(now_ns, fmt::format("the lease expired: no order came for {} s", holder()->timeout_s));
+  if (auto problem = desk_.problem_with(token); !problem.empty()) return problem;
+  if (auto problem = beyond_limits(order, settings_); !problem.empty()) return problem;
+  if (!port_open_) return "the motor card is away: " + away_;
+  if (!rate_.take(now_ns)) return fmt::format("more than {} orders a second", settings_.max_orders_Hz);
+  desk_.renew(now_ns);
+  ++sequence_;
+  following_ = order_due_ = true;
+  safe_due_ns_ = kNever_ns;
+  shaper_.aim(order);
+  return {};
+}
+
+std::string MotorCommand::release(std::int64_t now_ns, std::string_view token) {
+  if (auto problem = desk_.problem_with(token); !problem.empty()) return problem;
+  end_lease(now_ns, "the lease was released");
+  return {};
+}
+
+void MotorCommand::client_gone(std::int64_t now_ns, std::uint64_t client) {
+  if (holder() && holder()->client == client) end_lease(now_ns, "its connection was closed");
+}
+
+void MotorCommand::shut_down(std::int64_t now_ns) {
+  if (holder()) {
+    end_lease(now_ns, "navcald stops");
+  } else if (commanded_) {
+    safe_due_ns_ = now_ns;
+  }
+}
+
+void MotorCommand::port_opened(std::int64_t now_ns) {
+  port_open_ = true;
+  if (!holder() && commanded_) make_safe(now_ns, "the port is open again");
+}
+
+void MotorCommand::port_lost(std::string reason) {
+  port_open_ = false;
+  order_due_ = false;
+  away_ = std::move(reason);
+}
+
+void MotorCommand::commanded_before(std::int64_t now_ns) {
+  commanded_ = true;
+  if (port_open_) make_safe(now_ns, "an earlier run left the card with an order");
+}
+
+void MotorCommand::safe_echoed() {
+  if (following_) return;
+  commanded_ = false;
+  safe_due_ns_ = kNever_ns;
+}
+
+void MotorCommand::end_lease(std::int64_t now_ns, std::string reason) {
+  const std::string who = words_for(*holder());
+  desk_.end(reason);
+  // The card has the safe state already, or it is being repeated: leases that come and go fill no line.
+  const bool is_safe = !following_ && last_line_ && last_line_->source == Source::safe;
+  if (is_safe) return events_.push_back({"info", "motor.lease", fmt::format("{}: {}", who, reason)});
+  make_safe(now_ns, fmt::format("{}: {}", who, reason));
+}
+
+void MotorCommand::make_safe(std::int64_t now_ns, std::string_view why) {
+  following_ = order_due_ = false;
+  commanded_ = true;
+  safe_due_ns_ = now_ns;
+  events_.push_back({"warning", "motor.safe", fmt::format("{}; the safe state is ordered", why)});
+}
+
+Line MotorCommand::sent(const Order& order, Source source) {
+  last_line_ = Line{rounded_for_card(order), source};
+  return *last_line_;
+}
+
+std::optional<Line> MotorCommand::next(std::int64_t now_ns) {
+  if (holder() && now_ns >= holder()->expires_ns)
+    end_lease(now_ns, fmt::format("the lease expired: no order came for {} s", holder()->timeout_s));
+  if (!port_open_) return std::nullopt;
+  if (now_ns >= safe_due_ns_) {
+    const double repeat_s = settings_.echo_timeout_s > 0 ? settings_.echo_timeout_s : kSafeRepeat_s;
+    safe_due_ns_ = now_ns + static_cast<std::int64_t>(std::llround(repeat_s * 1e9));
+    shaper_.jump(now_ns, safe_);
+    return sent(safe_, Source::safe);
+  }
+  if (!following_ || (!order_due_ && now_ns < shaper_.next_ns())) return std::nullopt;
+  commanded_ = true;
+  const Source source = std::exchange(order_due_, false) ? Source::order : Source::ramp;
+  return sent(shaper_.step(now_ns), source);
+}
+
+std::int64_t MotorCommand::deadline_ns() const {
+  std::int64_t deadline_ns = holder() ? holder()->expires_ns : kNever_ns;
+  if (!port_open_) return deadline_ns;
+  deadline_ns = std::min(deadline_ns, safe_due_ns_);
+  if (following_) deadline_ns = std::min(deadline_ns, order_due_ ? 0 : shaper_.next_ns());
+  return deadline_ns;
+}
+
+}  // namespace navcal::control

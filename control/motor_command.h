@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "control/lease_desk.h"
+#include "control/order.h"
+#include "control/order_rate.h"
+#include "control/shaper.h"
+
+namespace navcal::control {
+
+/// Decides what is sent to the motor card, and when (docs/control.md): leases, limits, rate, slew, and the safe
+/// state when nobody is in charge. Who owns one asks next() after every call, and again at deadline_ns(), until it
+/// has no line left.
+///
+/// Assumption: a card obeys the last line that reached it until the next one comes. So a vehicle without a holder
+/// is safe only after the safe state was sent, and the safe state is sent again until a status has shown it.
+class MotorCommand {
+ public:
+  /// What people are told.
+  struct Event {
+    std::string_view severity;  ///< "info" or "warning"
+    std::string_view name;      ///< "motor.lease", "motor.safe"
+    std::string message;
+  };
+
+  explicit MotorCommand(const config::CommandSettings& settings);
+
+  /// Each of the three: why it is refused; empty: done. `client` is the connection that asks.
+  [[nodiscard]] std::string lease(std::int64_t now_ns, const LeaseRequest& request, std::string token,
+                                  std::uint64_t client);
+  [[nodiscard]] std::string order(std::int64_t now_ns, std::string_view token, const Order& order);
+  [[nodiscard]] std::string release(std::int64_t now_ns, std::string_view token);
+
+  void client_gone(std::int64_t now_ns, std::uint64_t client);
+  /// The program ends: the safe state is due if the card has another order.
+  void shut_down(std::int64_t now_ns);
+  void port_opened(std::int64_t now_ns);
+  void port_lost(std::string reason);
+  /// An earlier run of the program left the card with an order.
+  void commanded_before(std::int64_t now_ns);
+  /// A status has shown the safe state.
+  void safe_echoed();
+
+  /// Ends a lease whose time is over. The line that is to be sent now, if any; it counts as sent.
+  [[nodiscard]] std::optional<Line> next(std::int64_t now_ns);
+  [[nodiscard]] std::int64_t deadline_ns() const;
+
+  [[nodiscard]] const std::optional<Holder>& holder() const { return desk_.holder(); }
+  [[nodiscard]] const Order& wanted() const { return shaper_.wanted(); }
+  /// What the card was sent last; nullopt: nothing by this run.
+  [[nodiscard]] const std::optional<Line>& last_line() const { return last_line_; }
+  /// The last order was not reached at once.
+  [[nodiscard]] bool is_shaping() const { return !shaper_.arrived(); }
+  /// Number of the last order taken; 0: none.
+  [[nodiscard]] std::uint64_t sequence() const { return sequence_; }
+  /// The card may obey an order that is not the safe state.
+  [[nodiscard]] bool is_card_commanded() const { return commanded_; }
+  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
+
+ private:
+  [[nodiscard]] std::string problem_with(const LeaseRequest& request) const;
+  void end_lease(std::int64_t now_ns, std::string reason);
+  void make_safe(std::int64_t now_ns, std::string_view why);
+  [[nodiscard]] Line sent(const Order& order, Source source);
+
+  config::CommandSettings settings_;
+  Order safe_;
+  LeaseDesk desk_;
+  OrderRate rate_;
+  Shaper shaper_;
+  std::optional<Line> last_line_;
+  std::vector<Event> events_;
+  std::uint64_t sequence_ = 0;
+  std::int64_t safe_due_ns_ = kNever_ns;  ///< when the safe state is to be sent (again)
+  bool order_due_ = false;
+  bool following_ = false;  ///< an order, not the safe state
+  bool commanded_ = false;
+  bool port_open_ = false;
+  std::string away_ = "not opened yet";
+};
+
+}  // namespace navcal::control

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders to the motor card, and the state that controllers answer with them.
+#include "daemon/daemon.h"
+
+namespace navcal::daemon {
+
+void Daemon::control_client_gone(std::uint64_t client) {
+  if (motor_) motor_->client_gone(client);
+}
+
+void Daemon::on_motor_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
+                            std::string_view message) {
+  event(now_ns, severity, name, settings_.ports[*motor_port_].name, message);
+}
+
+void Daemon::on_motor_deaf(std::int64_t now_ns, bool is_deaf) {
+  if (!alarms_.set(*motor_port_, Alarm::command_not_echoed, is_deaf, now_ns)) return;
+  on_motor_event(now_ns, is_deaf ? "alarm" : "info", is_deaf ? "alarm.raised" : "alarm.cleared",
+                 name_of(Alarm::command_not_echoed));
+  report_health(now_ns);
+}
+
+void Daemon::ring_state() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  if (now_ns >= server_.next_state_ns()) server_.publish_state(state_report(now_ns), now_ns, false);
+  state_timer_.arm(server_.next_state_ns());
+}
+
+const std::string& Daemon::state_report(std::int64_t now_ns) {
+  VehicleState state = state_.at(now_ns);
+  for (const auto& standing : alarms_.standing()) state.alarms.push_back(name_of(standing.alarm));
+  if (motor_) {
+    const auto& command = motor_->command();
+    if (const auto& holder = command.holder()) {
+      state.holder = holder->name;
+      state.priority = holder->priority;
+      state.expires_in_s = static_cast<double>(holder->expires_ns - now_ns) * 1e-9;
+    }
+    state.order_sequence = command.sequence();
+    state.order_late_s = motor_->late_s();
+  }
+  state_report_.clear();
+  append_state(state_report_, state);
+  return state_report_;
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/motor_control.h"
+
+#include <fmt/format.h>
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "daemon/json_text.h"
+#include "pipeline/sources.h"
+#include "record/json/json_object.h"
+
+namespace navcal::daemon {
+namespace {
+
+/// The longest line for the card, `$MCC,-99999,-25.0,-25.0,-25.0*hh<CR><LF>`.
+constexpr std::int64_t kMccLine_bytes = 35;
+/// So long may the end of the program wait for a line to leave.
+constexpr std::chrono::milliseconds kLastLine{200};
+/// Refusals and events that are recorded each second.
+constexpr double kRecords_Hz = 10;
+
+/// 128 bits from the kernel in hexadecimal; empty when it gives none.
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) return {};
+  std::string token;
+  for (const unsigned char byte : bytes) fmt::format_to(std::back_inserter(token), FMT_STRING("{:02x}"), byte);
+  return token;
+}
+
+std::int64_t transit_ns(const config::PortSettings& port) {
+  return kMccLine_bytes * 10'000'000'000 / std::max(1, port.baud);
+}
+
+}  // namespace
+
+std::optional<std::uint16_t> motor_port(const config::Settings& settings) {
+  if (!settings.command.enabled) return std::nullopt;
+  for (const std::uint16_t port : pipeline::candidates(settings, config::Role::shaft)) {
+    if (settings.ports[port].protocol == protocols::Protocol::motor_card) return port;
+  }
+  return std::nullopt;
+}
+
+MotorControl::MotorControl(const boost::asio::any_io_executor& executor, const config::Settings& settings,
+                           PortSession& session, LogWriter& log, const pipeline::Pipeline& pipeline,
+                           MotorOwner& owner)
+    : settings_(settings),
+      session_(session),
+      log_(log),
+      pipeline_(pipeline),
+      owner_(owner),
+      command_(settings.command),
+      echo_(settings.command.echo_timeout_s, transit_ns(session.settings())),
+      refusals_(kRecords_Hz),
+      events_(kRecords_Hz),
+      marker_(settings.log.directory / "motor.commanded"),
+      timer_(executor, [this] { ring(); }) {
+  if (marker_.is_there()) command_.commanded_before(ports::monotonic_ns());
+}
+
+std::string MotorControl::answer(const ControlRequest& request, const ControlOrigin& origin) {
+  if (request.command == ControlCommand::motor_lease) return answer_lease(request, origin);
+  if (request.command == ControlCommand::motor_order) return answer_order(request, origin);
+  std::string problem = command_.release(origin.arrival_ns, request.lease);
+  drive(ports::monotonic_ns());
+  return problem.empty() ? "{\"ok\":true}\n" : control_error(problem);
+}
+
+std::string MotorControl::answer_lease(const ControlRequest& request, const ControlOrigin& origin) {
+  std::string token = random_token();
+  if (token.empty()) return control_error("no random numbers for a lease");
+  std::string problem = command_.lease(origin.arrival_ns, request.lease_request, token, origin.client);
+  drive(ports::monotonic_ns());
+  if (!problem.empty()) return control_error(problem);
+  return fmt::format("{{\"ok\":true,\"lease\":\"{}\",\"timeout_s\":{}}}\n", token,
+                     request.lease_request.timeout_s);
+}
+
+std::string MotorControl::answer_order(const ControlRequest& request, const ControlOrigin& origin) {
+  if (!session_.open_port()) command_.port_lost(session_.reason());
+  if (auto problem = command_.order(origin.arrival_ns, request.lease, request.order); !problem.empty())
+    return refuse(request, origin, std::move(problem));
+  asked_ns_ = origin.arrival_ns;
+  late_s_.reset();
+  if (request.state_time_utc_s)
+    late_s_ = static_cast<double>(pipeline_.mapping().to_utc(asked_ns_)) * 1e-9 - *request.state_time_utc_s;
+  const auto sent_ns = drive(ports::monotonic_ns());
+  if (!sent_ns) return refuse(request, origin, "the line to the card takes nothing now");
+  std::string out = "{\"ok\":true,\"sent\":";
+  record::append_seconds(out, pipeline_.mapping().to_utc(*sent_ns));
+  out += fmt::format(",\"sequence\":{},\"shaped\":{}}}\n", command_.sequence(), command_.is_shaping());
+  return out;
+}
+
+std::string MotorControl::refuse(const ControlRequest& request, const ControlOrigin& origin, std::string reason) {
+  drive(ports::monotonic_ns());
+  ++refused_;
+  refusal_ = reason;
+  const std::int64_t now_ns = ports::monotonic_ns();
+  if (!refusals_.take(now_ns)) {
+    ++refused_since_;
+    return control_error(reason);
+  }
+  control::OrderRecord record;
+  record.outcome = control::Outcome::refused;
+  record.sequence = command_.sequence();
+  if (const auto& holder = command_.holder()) {
+    record.holder = holder->name;
+    record.priority = holder->priority;
+  }
+  record.asked_ns = origin.arrival_ns;
+  record.wanted = request.order;
+  record.reason = std::move(reason);
+  record.refused_since = std::exchange(refused_since_, 0);
+  log_.command(now_ns, session_.settings().name, record);
+  return control_error(record.reason);
+}
+
+void MotorControl::client_gone(std::uint64_t client) {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  command_.client_gone(now_ns, client);
+  drive(now_ns);
+}
+
+void MotorControl::port_changed(std::int64_t now_ns) {
+  const bool is_open = session_.open_port().has_value();
+  if (is_open == is_open_) return;
+  is_open_ = is_open;
+  if (is_open) {
+    command_.port_opened(now_ns);
+  } else {
+    command_.port_lost(session_.reason());
+    echo_.give_up(records_);
+  }
+  drive(now_ns);
+}
+
+void MotorControl::status(const instruments::Stamp& stamp, const instruments::MotorSample& motor) {
+  echo_.status(stamp.validity_ns, stamp.arrival_ns, motor.rpm_commanded, records_);
+  if (!records_.empty()) drive(ports::monotonic_ns());
+}
+
+void MotorControl::stop() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  command_.shut_down(now_ns);
+  if (drive(now_ns)) session_.flush(kLastLine);
+  echo_.give_up(records_);
+  take_records(now_ns);
+  timer_.stop();
+  marker_.stop();
+}
+
+void MotorControl::ring() { drive(ports::monotonic_ns()); }
+
+std::optional<std::int64_t> MotorControl::drive(std::int64_t now_ns) {
+  std::optional<std::int64_t> sent_ns;
+  while (const auto line = command_.next(now_ns)) {
+    if (const auto at_ns = send(*line, now_ns)) sent_ns = at_ns;
+  }
+  echo_.update(now_ns, records_);
+  take_records(now_ns);
+  tell(now_ns);
+  timer_.arm(std::min(command_.deadline_ns(), echo_.deadline_ns()));
+  return sent_ns;
+}
+
+std::optional<std::int64_t> MotorControl::send(const control::Line& line, std::int64_t now_ns) {
+  // Before the line: whatever happens to the program afterwards, the next run knows of it.
+  marker_.set(command_.is_card_commanded());
+  const auto sent_ns = session_.send_now(protocols::motor_card::encode_command(line.command));
+  if (!sent_ns) {
+    owner_.on_motor_event(now_ns, "warning", "motor.busy", "the line to the card takes nothing now");
+    return std::nullopt;
+  }
+  ++sent_;
+  control::OrderRecord record;
+  record.source = line.source;
+  record.sequence = command_.sequence();
+  if (const auto& holder = command_.holder()) {
+    record.holder = holder->name;
+    record.priority = holder->priority;
+  }
+  if (line.source != control::Source::safe) {
+    record.asked_ns = asked_ns_;
+    record.late_s = late_s_;
+  }
+  record.sent_ns = sent_ns;
+  record.wanted = command_.wanted();
+  record.sent = line.command;
+  echo_.sent(std::move(record), records_);
+  return sent_ns;
+}
+
+void MotorControl::take_records(std::int64_t now_ns) {
+  for (const control::OrderRecord& record : records_) {
+    log_.command(now_ns, session_.settings().name, record);
+    if (record.outcome == control::Outcome::superseded) ++superseded_;
+    if (record.outcome == control::Outcome::not_echoed) ++not_echoed_;
+    if (record.outcome != control::Outcome::echoed) continue;
+    ++echoed_;
+    echo_s_ = static_cast<double>(*record.echoed_ns - *record.sent_ns) * 1e-9;
+    if (record.source == control::Source::safe) command_.safe_echoed();
+  }
+  records_.clear();
+  marker_.set(command_.is_card_commanded());
+}
+
+void MotorControl::tell(std::int64_t now_ns) {
+  for (auto& event : command_.take_events()) {
+    if (!events_.take(now_ns)) {
+      ++events_left_out_;
+      continue;
+    }
+    if (events_left_out_ > 0)
+      event.message += fmt::format(" ({} events before this one were left out)", events_left_out_);
+    events_left_out_ = 0;
+    owner_.on_motor_event(now_ns, event.severity, event.name, event.message);
+  }
+  if (echo_.is_deaf() == is_deaf_) return;
+  is_deaf_ = echo_.is_deaf();
+  owner_.on_motor_deaf(now_ns, is_deaf_);
+}
+
+std::string MotorControl::health(std::int64_t now_ns) const {
+  std::string out = "{\"device\":";
+  append_quoted(out, session_.settings().name);
+  if (const auto& holder = command_.holder()) {
+    out += ",\"holder\":";
+    append_quoted(out, holder->name);
+    out += fmt::format(",\"priority\":{},\"expires_in_s\":", holder->priority);
+    append_shortest(out, static_cast<double>(holder->expires_ns - now_ns) * 1e-9, 3);
+  } else {
+    out += ",\"holder\":null,\"priority\":null,\"expires_in_s\":null";
+  }
+  if (const auto& line = command_.last_line()) {
+    const auto& fins = line->command.fins_deg;
+    out += fmt::format(",\"shaft_rpm\":{},\"fins_deg\":[{},{},{}],\"safe\":{}", line->command.rpm, fins[0],
+                       fins[1], fins[2], line->source == control::Source::safe);
+  } else {
+    out += ",\"shaft_rpm\":null,\"fins_deg\":null,\"safe\":null";
+  }
+  out += fmt::format(",\"orders\":{},\"refused\":{},\"refusal\":", command_.sequence(), refused_);
+  append_quoted(out, refusal_);
+  out += fmt::format(",\"sent\":{},\"echoed\":{},\"not_echoed\":{},\"superseded\":{},\"echo_s\":", sent_, echoed_,
+                     not_echoed_, superseded_);
+  echo_s_ ? append_shortest(out, *echo_s_, 4) : void(out += "null");
+  return out + '}';
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/asio/any_io_executor.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/settings.h"
+#include "control/echo_watch.h"
+#include "control/motor_command.h"
+#include "control/order_rate.h"
+#include "daemon/control_request.h"
+#include "daemon/lazy_timer.h"
+#include "daemon/log_writer.h"
+#include "daemon/marker_file.h"
+#include "daemon/port_session.h"
+#include "pipeline/pipeline.h"
+
+namespace navcal::daemon {
+
+/// The motor card of a configuration: that of the role shaft, where several could serve; nullopt: orders are not
+/// taken.
+[[nodiscard]] std::optional<std::uint16_t> motor_port(const config::Settings& settings);
+
+/// Told by MotorControl what happens.
+class MotorOwner {
+ public:
+  virtual ~MotorOwner() = default;
+  virtual void on_motor_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
+                              std::string_view message) = 0;
+  /// The card shows no orders any more, or does again.
+  virtual void on_motor_deaf(std::int64_t now_ns, bool is_deaf) = 0;
+};
+
+/// Orders of controllers to the motor card (docs/control.md): between the control socket, the card's port, log and
+/// reports. The rules are control::MotorCommand's.
+class MotorControl {
+ public:
+  /// `session` is the card's; all three live longer.
+  MotorControl(const boost::asio::any_io_executor& executor, const config::Settings& settings,
+               PortSession& session, LogWriter& log, const pipeline::Pipeline& pipeline, MotorOwner& owner);
+
+  /// A motor.* command; its answer, newline included.
+  [[nodiscard]] std::string answer(const ControlRequest& request, const ControlOrigin& origin);
+  void client_gone(std::uint64_t client);
+  /// The card's port came or went.
+  void port_changed(std::int64_t now_ns);
+  /// A status of the card.
+  void status(const instruments::Stamp& stamp, const instruments::MotorSample& motor);
+  /// Orders the safe state if the card has another one, and waits until that is on the wire.
+  void stop();
+  /// For people.
+  [[nodiscard]] std::vector<std::string> take_notices() { return marker_.take_notices(); }
+
+  [[nodiscard]] const control::MotorCommand& command() const { return command_; }
+  /// How late the last order came after the STATE that it answers.
+  [[nodiscard]] std::optional<double> late_s() const { return late_s_; }
+  /// "motor" of HEALTH, an object of JSON.
+  [[nodiscard]] std::string health(std::int64_t now_ns) const;
+
+ private:
+  [[nodiscard]] std::string answer_lease(const ControlRequest& request, const ControlOrigin& origin);
+  [[nodiscard]] std::string answer_order(const ControlRequest& request, const ControlOrigin& origin);
+  [[nodiscard]] std::string refuse(const ControlRequest& request, const ControlOrigin& origin, std::string reason);
+  /// Sends what is due. The time at which the last line was on the wire; nullopt: none was.
+  std::optional<std::int64_t> drive(std::int64_t now_ns);
+  std::optional<std::int64_t> send(const control::Line& line, std::int64_t now_ns);
+  void ring();
+  /// Logs and counts records that came since.
+  void take_records(std::int64_t now_ns);
+  void tell(std::int64_t now_ns);
+
+  const config::Settings& settings_;
+  PortSession& session_;
+  LogWriter& log_;
+  const pipeline::Pipeline& pipeline_;
+  MotorOwner& owner_;
+  control::MotorCommand command_;
+  control::EchoWatch echo_;
+  control::OrderRate refusals_, events_;  ///< of records and events: a flood fills no log
+  MarkerFile marker_;
+  LazyTimer timer_;
+  std::vector<control::OrderRecord> records_;
+  std::int64_t asked_ns_ = 0;  ///< arrival of the last order
+  std::optional<double> late_s_;
+  std::string refusal_;
+  std::optional<double> echo_s_;
+  std::uint64_t refused_ = 0, refused_since_ = 0, events_left_out_ = 0;
+  std::uint64_t sent_ = 0, echoed_ = 0, not_echoed_ = 0, superseded_ = 0;
+  bool is_deaf_ = false;
+  bool is_open_ = false;
+};
+
+}  // namespace navcal::daemon

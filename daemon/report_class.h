@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace navcal::daemon {
+
+/// What a client of the status socket can choose from. Answers to requests belong to none of them.
+enum class ReportClass : std::uint8_t {
+  tpv,
+  sky,
+  att,
+  motor,
+  altimeter,
+  nav,
+  health,
+  time,
+  log,
+  calib,
+  device,
+  state
+};
+inline constexpr std::size_t kReportClasses = 12;
+
+/// "TPV", "SKY", ...
+[[nodiscard]] std::string_view name_of(ReportClass report);
+[[nodiscard]] std::optional<ReportClass> report_class_named(std::string_view name);
+/// "TPV, SKY, ...", for people.
+[[nodiscard]] std::string known_report_classes();
+
+/// A set of them.
+class ReportClasses {
+ public:
+  /// All but STATE: what a client gets that does not choose.
+  [[nodiscard]] static ReportClasses usual();
+
+  void add(ReportClass report) { bits_ |= 1U << static_cast<unsigned>(report); }
+  [[nodiscard]] bool has(ReportClass report) const { return (bits_ >> static_cast<unsigned>(report) & 1U) != 0; }
+  bool operator==(const ReportClasses&) const = default;
+
+ private:
+  unsigned bits_ = 0;
+};
+
+/// Shortest time between two reports of each class, nanoseconds; 0: no limit.
+using ReportIntervals = std::array<std::int64_t, kReportClasses>;
+
+}  // namespace navcal::daemon

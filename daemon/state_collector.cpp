@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/state_collector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/angles.h"
+
+namespace navcal::daemon {
+namespace {
+
+using config::Role;
+
+constexpr double kMostCarried_s = 0.5;
+constexpr std::uint64_t kFewestReadings = 10;
+/// About so many readings are remembered.
+constexpr double kRememberedReadings = 50;
+constexpr double kEarthRadius_m = 6371000;
+
+double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns - from_ns) * 1e-9;
+}
+
+double turned(double heading_rad, double by_rad) {
+  const double sum = std::fmod(heading_rad + by_rad, 2 * std::numbers::pi);
+  return sum < 0 ? sum + 2 * std::numbers::pi : sum;
+}
+
+/// How fast roll, pitch and heading change while the body turns at these rates (Fossen, Handbook of Marine Craft
+/// Hydrodynamics and Motion Control, eq. 2.28).
+struct AngleRates {
+  double roll_rad_s = 0, pitch_rad_s = 0, heading_rad_s = 0;
+};
+
+AngleRates angle_rates(const std::array<double, 3>& body_rad_s, double roll_rad, double pitch_rad) {
+  const double across = body_rad_s[1] * std::sin(roll_rad) + body_rad_s[2] * std::cos(roll_rad);
+  // Near the vertical a heading means nothing.
+  const double cos_pitch = std::copysign(std::max(std::abs(std::cos(pitch_rad)), 0.1), std::cos(pitch_rad));
+  return {body_rad_s[0] + across * std::sin(pitch_rad) / cos_pitch,
+          body_rad_s[1] * std::cos(roll_rad) - body_rad_s[2] * std::sin(roll_rad), across / cos_pitch};
+}
+
+}  // namespace
+
+void Spread::add(double difference) {
+  ++count_;
+  const double weight = 1 / std::min(static_cast<double>(count_), kRememberedReadings);
+  mean_square_ += weight * (difference * difference - mean_square_);
+}
+
+std::optional<double> Spread::std() const {
+  if (count_ < kFewestReadings) return std::nullopt;
+  return std::sqrt(mean_square_);
+}
+
+StateCollector::StateCollector(const config::Settings& settings, const pipeline::Pipeline& pipeline)
+    : settings_(settings), pipeline_(pipeline), last_(settings.ports.size()) {}
+
+void StateCollector::take(const instruments::Sample& sample) {
+  Last& last = last_[sample.port];
+  if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
+    last.compass = {sample.stamp, *compass};
+  } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
+    last.imu = {sample.stamp, *imu};
+  } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
+    last.motor = {sample.stamp, *motor};
+  } else if (const auto* gps = std::get_if<instruments::GpsSample>(&sample.value)) {
+    if (gps->latitude_rad && gps->longitude_rad) last.fix = {sample.stamp, *gps};
+  }
+}
+
+bool StateCollector::is_serving_compass(const instruments::Sample& sample) const {
+  const auto* compass = std::get_if<instruments::CompassSample>(&sample.value);
+  return compass != nullptr && compass->heading_rad && pipeline_.sources()[Role::heading] == sample.port;
+}
+
+StateCollector::Last StateCollector::serving() const {
+  const auto sources = pipeline_.sources();
+  Last last;
+  if (const auto port = sources[Role::heading]) last.compass = last_[*port].compass;
+  if (const auto port = sources[Role::rates]) last.imu = last_[*port].imu;
+  if (const auto port = sources[Role::shaft]) last.motor = last_[*port].motor;
+  if (const auto port = sources[Role::position]) last.fix = last_[*port].fix;
+  return last;
+}
+
+VehicleState StateCollector::at(std::int64_t now_ns) {
+  const Last last = serving();
+  VehicleState state;
+  if (pipeline_.mapping().source != pipeline::UtcMapping::Source::none)
+    state.time_utc_ns = pipeline_.mapping().to_utc(now_ns);
+  const bool is_true = last.compass && last.compass->value.heading_is_true;
+  const bool has_declination = pipeline_.earth_field().declination_source != pipeline::EarthField::Source::none;
+  state.is_north_true = is_true || has_declination;
+  const auto age = [&](const auto& newest) -> std::optional<double> {
+    if (!newest) return std::nullopt;
+    return seconds_between(newest->stamp.validity_ns, now_ns);
+  };
+  state.compass_age_s = age(last.compass);
+  state.imu_age_s = age(last.imu);
+  state.gps_age_s = age(last.fix);
+  state.motor_age_s = age(last.motor);
+  if (last.imu) {
+    state.time_std_s = static_cast<double>(last.imu->stamp.std_ns) * 1e-9;
+    state.rate_rad_s = last.imu->value.rate_rad_s;
+    if (last.imu->value.yaw_rate_calibrated_rad_s)
+      (*state.rate_rad_s)[2] = *last.imu->value.yaw_rate_calibrated_rad_s;
+  } else if (last.compass) {
+    state.time_std_s = static_cast<double>(last.compass->stamp.std_ns) * 1e-9;
+  }
+  if (last.motor) {
+    state.shaft_rpm = last.motor->value.rpm;
+    for (std::size_t i = 0; i < state.fins_deg.size(); ++i) {
+      if (const auto& fin_rad = last.motor->value.fins_rad[i])
+        state.fins_deg[i] = *fin_rad * base::kDegreesPerRadian;
+    }
+  }
+  take_estimate(state, last, now_ns);
+  return state;
+}
+
+/// Without an estimator: as the instruments said it.
+void StateCollector::take_compass(VehicleState& state, const Last& last) const {
+  if (last.compass) {
+    const auto& compass = last.compass->value;
+    state.heading_rad = compass.heading_calibrated_rad ? compass.heading_calibrated_rad : compass.heading_rad;
+    if (state.heading_rad && !compass.heading_is_true)
+      state.heading_rad = turned(*state.heading_rad, pipeline_.earth_field().declination_rad);
+    state.pitch_rad = compass.pitch_rad;
+    state.roll_rad = compass.roll_rad;
+  }
+  if (last.imu) state.depth_m = last.imu->value.depth_m;
+  if (last.fix) {
+    state.latitude_rad = last.fix->value.latitude_rad;
+    state.longitude_rad = last.fix->value.longitude_rad;
+  }
+}
+
+void StateCollector::take_estimate(VehicleState& state, const Last& last, std::int64_t now_ns) {
+  const auto navigation = pipeline_.navigation();
+  if (!navigation) return take_compass(state, last);
+  const nav::Estimate& estimate = navigation->estimate;
+  const double ahead_s = std::clamp(seconds_between(estimate.time_ns, now_ns), 0.0, kMostCarried_s);
+  AngleRates rates;
+  if (state.rate_rad_s && state.imu_age_s < kMostCarried_s)
+    rates = angle_rates(*state.rate_rad_s, estimate.roll_rad.value_or(0), estimate.pitch_rad.value_or(0));
+  const auto carried = [&](const std::optional<double>& value, double rate) -> std::optional<double> {
+    if (!value) return std::nullopt;
+    return *value + rate * ahead_s;
+  };
+  if (estimate.heading_rad) {
+    state.heading_rad = turned(*estimate.heading_rad, rates.heading_rad_s * ahead_s);
+    state.heading_std_rad = estimate.heading_std_rad;
+  }
+  state.pitch_rad = carried(estimate.pitch_rad, rates.pitch_rad_s);
+  state.roll_rad = carried(estimate.roll_rad, rates.roll_rad_s);
+  state.speed_m_s = estimate.speed_m_s;
+  if (estimate.speed_m_s) state.speed_std_m_s = settings_.navigation.speed_error * std::abs(*estimate.speed_m_s);
+  const auto velocity_m_s = estimate.velocity_m_s;
+  if (velocity_m_s) state.climb_m_s = -velocity_m_s->z();
+  state.depth_m = carried(estimate.depth_m, velocity_m_s ? velocity_m_s->z() : 0);
+  if (navigation->latitude_rad && navigation->longitude_rad) {
+    // A step of at most a metre: the Earth is a ball.
+    const double north_m = velocity_m_s ? velocity_m_s->x() * ahead_s : 0;
+    const double east_m = velocity_m_s ? velocity_m_s->y() * ahead_s : 0;
+    state.latitude_rad = *navigation->latitude_rad + north_m / kEarthRadius_m;
+    state.longitude_rad = *navigation->longitude_rad +
+                          east_m / (kEarthRadius_m * std::max(0.01, std::cos(*navigation->latitude_rad)));
+    state.position_std_m = estimate.position_std_m.norm();
+  }
+  // What the newest readings say against what is thought of their time.
+  if (last.compass && last.compass->value.pitch_rad && estimate.pitch_rad &&
+      last.compass->stamp.validity_ns != pitch_ns_) {
+    pitch_ns_ = last.compass->stamp.validity_ns;
+    const double then_rad = *estimate.pitch_rad + rates.pitch_rad_s * seconds_between(estimate.time_ns, pitch_ns_);
+    pitch_.add(*last.compass->value.pitch_rad - then_rad);
+  }
+  if (last.imu && estimate.depth_m && last.imu->stamp.validity_ns != depth_ns_) {
+    depth_ns_ = last.imu->stamp.validity_ns;
+    depth_.add(last.imu->value.depth_m - *estimate.depth_m);
+  }
+  state.pitch_std_rad = pitch_.std();
+  state.depth_std_m = depth_.std();
+}
+
+}  // namespace navcal::daemon

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leases, limits, rate, slew and safe state with a simulated clock.
+#include "control/motor_command.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace navcal::control {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+const LeaseRequest kPilot{"pilot", 1, 0.5};
+const LeaseRequest kOperator{"operator", 2, 1};
+
+config::CommandSettings settings() {
+  config::CommandSettings made;
+  made.slew_rpm_s = 0;
+  made.slew_fin_deg_s = 0;
+  made.safe_fins_deg = {0, 1, -1};
+  return made;
+}
+
+class MotorCommandTest : public testing::Test {
+ protected:
+  explicit MotorCommandTest(const config::CommandSettings& made = settings()) : command_(made) {
+    command_.port_opened(0);
+  }
+  /// What goes out up to `until_ms`, at the times that the machine asks for: "500:780" for 780 rpm at 500 ms.
+  std::vector<std::string> lines(std::int64_t until_ms) {
+    std::vector<std::string> out;
+    for (;;) {
+      while (const auto line = command_.next(now_ns_)) {
+        out.push_back(std::to_string(now_ns_ / kMs) + ':' + std::to_string(line->command.rpm) +
+                      (line->source == Source::safe ? " safe" : ""));
+      }
+      if (command_.deadline_ns() > until_ms * kMs) break;
+      EXPECT_GE(command_.deadline_ns(), now_ns_);
+      now_ns_ = command_.deadline_ns();
+    }
+    now_ns_ = until_ms * kMs;
+    return out;
+  }
+  std::string order(double rpm, std::string_view token = "a") { return command_.order(now_ns_, token, {rpm, {}}); }
+  std::string lease(const LeaseRequest& request = kPilot, std::string token = "a", std::uint64_t client = 1) {
+    return command_.lease(now_ns_, request, std::move(token), client);
+  }
+  using Lines = std::vector<std::string>;
+
+  MotorCommand command_;
+  std::int64_t now_ns_ = 0;
+};
+
+TEST_F(MotorCommandTest, NothingIsSentBeforeTheFirstLease) {
+  EXPECT_EQ(lines(100'000), Lines{});
+  EXPECT_EQ(order(100), "no such lease");
+  EXPECT_EQ(command_.release(now_ns_, "a"), "no such lease");
+  EXPECT_EQ(lines(200'000), Lines{});
+}
+
+TEST_F(MotorCommandTest, AnOrderGoesOutAtOnceAndRenewsTheLease) {
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(lines(100), Lines{});
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_EQ(order(100 + i), "");
+    EXPECT_EQ(lines(200 + 100 * i), Lines{std::to_string(100 + 100 * i) + ':' + std::to_string(100 + i)});
+  }
+  EXPECT_EQ(command_.sequence(), 20U);
+}
+
+TEST_F(MotorCommandTest, AnOrderThatIsTheSameGoesOutToo) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(100), "");
+  EXPECT_EQ(lines(100), Lines{"0:100"});
+  ASSERT_EQ(order(100), "");
+  EXPECT_EQ(lines(200), Lines{"100:100"});
+}
+
+TEST_F(MotorCommandTest, SilenceEndsTheLeaseInTheSafeStateUntilTheCardShowsIt) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  EXPECT_EQ(lines(499), Lines{"0:780"});
+  EXPECT_TRUE(command_.is_card_commanded());
+  EXPECT_EQ(lines(1700), (Lines{"500:0 safe", "1000:0 safe", "1500:0 safe"}));
+  EXPECT_EQ(command_.last_line()->command.fins_deg, (std::array<double, 3>{0, 1, -1}));
+  EXPECT_FALSE(command_.holder());
+  command_.safe_echoed();
+  EXPECT_EQ(lines(10'000), Lines{});
+  EXPECT_FALSE(command_.is_card_commanded());
+  EXPECT_EQ(order(780), "the lease expired: no order came for 0.5 s");
+}
+
+// The machine must not depend on being asked in time.
+TEST_F(MotorCommandTest, AnOrderThatComesAfterTheTimeOutFindsTheLeaseExpired) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  EXPECT_EQ(lines(100), Lines{"0:780"});
+  now_ns_ = 500 * kMs;
+  EXPECT_EQ(order(900), "the lease expired: no order came for 0.5 s");
+  EXPECT_EQ(lines(501), Lines{"500:0 safe"});
+}
+
+TEST_F(MotorCommandTest, ReleaseClosedConnectionAndShutDownAllEndInTheSafeState) {
+  for (int way = 0; way < 3; ++way) {
+    ASSERT_EQ(lease(), "") << way;
+    ASSERT_EQ(order(500), "") << way;
+    EXPECT_EQ(lines(now_ns_ / kMs + 10).size(), 1U) << way;
+    if (way == 0) {
+      EXPECT_EQ(command_.release(now_ns_, "a"), "");
+    } else if (way == 1) {
+      command_.client_gone(now_ns_, 2);
+      EXPECT_EQ(lines(now_ns_ / kMs + 10), Lines{}) << "somebody else's connection";
+      command_.client_gone(now_ns_, 1);
+    } else {
+      command_.shut_down(now_ns_);
+    }
+    const auto at = std::to_string(now_ns_ / kMs);
+    EXPECT_EQ(lines(now_ns_ / kMs + 10), Lines{at + ":0 safe"}) << way;
+    command_.safe_echoed();
+    EXPECT_NE(order(500), "") << way;
+  }
+}
+
+TEST_F(MotorCommandTest, ALeaseWithoutOrdersEndsInTheSafeStateOnce) {
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(lines(600), Lines{"500:0 safe"});
+  command_.safe_echoed();
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_EQ(lease(), "");
+    ASSERT_EQ(command_.release(now_ns_, "a"), "");
+  }
+  EXPECT_EQ(lines(2000), Lines{}) << "leases that come and go fill no line";
+}
+
+TEST_F(MotorCommandTest, TheOperatorTakesOverAndTheProgramIsTold) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  EXPECT_EQ(lines(100), Lines{"0:780"});
+  ASSERT_EQ(lease(kOperator, "b", 2), "");
+  EXPECT_EQ(lines(200), Lines{}) << "what was ordered stays until the operator orders";
+  EXPECT_EQ(order(700, "a"), "preempted by operator (priority 2)");
+  EXPECT_EQ(lease(kPilot, "c", 1), "the lease is held by operator (priority 2)");
+  EXPECT_EQ(order(0, "b"), "");
+  EXPECT_EQ(lines(300), Lines{"200:0"});
+  command_.client_gone(now_ns_, 1);
+  EXPECT_EQ(command_.holder()->name, "operator") << "the pilot's connection is nobody's concern now";
+  EXPECT_EQ(lines(1201), Lines{"1200:0 safe"});
+}
+
+TEST_F(MotorCommandTest, AnOperatorWhoTakesOverAndSaysNothingEndsInTheSafeState) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  ASSERT_EQ(lease(kOperator, "b", 2), "");
+  EXPECT_EQ(lines(1001), (Lines{"0:780", "1000:0 safe"}));
+}
+
+TEST_F(MotorCommandTest, WhatIsBeyondLimitsOrNoNumberIsRefusedWithTheReason) {
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(order(1201), "shaft_rpm 1201 is beyond 1200");
+  EXPECT_EQ(order(-1201), "shaft_rpm -1201 is beyond 1200");
+  EXPECT_EQ(order(std::numeric_limits<double>::quiet_NaN()), "shaft_rpm is no number");
+  EXPECT_EQ(order(std::numeric_limits<double>::infinity()), "shaft_rpm is no number");
+  EXPECT_EQ(command_.order(now_ns_, "a", {0, {0, 25.1, 0}}), "fins_deg[1] 25.1 is beyond 25");
+  EXPECT_EQ(command_.order(now_ns_, "a", {0, {0, 0, -std::numeric_limits<double>::quiet_NaN()}}),
+            "fins_deg[2] is no number");
+  EXPECT_EQ(lines(499), Lines{});
+  EXPECT_EQ(command_.sequence(), 0U);
+  EXPECT_EQ(order(1200), "");
+  EXPECT_EQ(order(-1200), "");
+}
+
+TEST_F(MotorCommandTest, ARefusedOrderDoesNotRenewTheLease) {
+  ASSERT_EQ(lease(), "");
+  for (; now_ns_ < 499 * kMs; now_ns_ += 10 * kMs) ASSERT_NE(order(5000), "");
+  EXPECT_EQ(lines(600), Lines{"500:0 safe"});
+}
+
+TEST_F(MotorCommandTest, AFloodIsRefusedAndTheLeaseLives) {
+  ASSERT_EQ(lease(), "");
+  int taken = 0;
+  std::string last;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto refusal = order(100);
+    taken += refusal.empty() ? 1 : 0;
+    if (!refusal.empty()) last = refusal;
+    while (command_.next(now_ns_)) continue;
+    now_ns_ += kMs / 5;
+  }
+  EXPECT_EQ(last, "more than 40 orders a second");
+  EXPECT_NEAR(taken, 40 * 4 + 10, 5);
+  EXPECT_TRUE(command_.holder());
+  // Whoever takes over begins with what the flood has not used up.
+  ASSERT_EQ(lease(kOperator, "b", 2), "");
+  EXPECT_EQ(order(0, "b"), "");
+}
+
+TEST_F(MotorCommandTest, WhileThePortIsAwayOrdersAreRefusedAndTheSafeStateWaits) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  EXPECT_EQ(lines(100), Lines{"0:780"});
+  command_.port_lost("the device is gone");
+  EXPECT_EQ(order(700), "the motor card is away: the device is gone");
+  EXPECT_EQ(lines(1000), Lines{});
+  EXPECT_FALSE(command_.holder());
+  command_.port_opened(now_ns_);
+  EXPECT_EQ(lines(1001), Lines{"1000:0 safe"});
+}
+
+TEST_F(MotorCommandTest, APortThatComesBackInTimeGoesOn) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  EXPECT_EQ(lines(100), Lines{"0:780"});
+  command_.port_lost("the device is gone");
+  command_.port_opened(200 * kMs);
+  now_ns_ = 200 * kMs;
+  EXPECT_EQ(order(790), "");
+  EXPECT_EQ(lines(300), Lines{"200:790"});
+}
+
+TEST_F(MotorCommandTest, WhatAnEarlierRunLeftIsMadeSafe) {
+  command_.commanded_before(0);
+  EXPECT_EQ(lines(1), Lines{"0:0 safe"});
+  MotorCommand later(settings());
+  later.commanded_before(0);
+  EXPECT_FALSE(later.next(5)) << "not before the port is open";
+  later.port_opened(7);
+  EXPECT_EQ(later.next(7)->source, Source::safe);
+}
+
+TEST_F(MotorCommandTest, LeasesThatMakeNoSenseAreRefused) {
+  EXPECT_EQ(lease({"", 1, 0.5}), "holder is a name of 1 to 64 bytes");
+  EXPECT_EQ(lease({std::string(65, 'x'), 1, 0.5}), "holder is a name of 1 to 64 bytes");
+  EXPECT_EQ(lease({"p", -1, 0.5}), "priority is 0 to 1000");
+  EXPECT_EQ(lease({"p", 1001, 0.5}), "priority is 0 to 1000");
+  EXPECT_EQ(lease({"p", 1, 0.1}), "timeout_s is 0.2 to 5");
+  EXPECT_EQ(lease({"p", 1, 5.1}), "timeout_s is 0.2 to 5");
+  EXPECT_EQ(lease({"p", 1, std::numeric_limits<double>::quiet_NaN()}), "timeout_s is 0.2 to 5");
+  EXPECT_FALSE(command_.holder());
+}
+
+class ShapedMotorCommandTest : public MotorCommandTest {
+ protected:
+  static config::CommandSettings shaped() {
+    auto made = settings();
+    made.slew_rpm_s = 1000;
+    made.safe_fins_deg = {};
+    return made;
+  }
+  ShapedMotorCommandTest() : MotorCommandTest(shaped()) {}
+};
+
+TEST_F(ShapedMotorCommandTest, TheWayToAnOrderIsSentTwentyTimesASecondAndTheSafeStateAtOnce) {
+  ASSERT_EQ(lease(), "");
+  now_ns_ = 100 * kMs;
+  ASSERT_EQ(order(180), "");
+  EXPECT_EQ(lines(290), (Lines{"100:50", "150:100", "200:150", "250:180"}));
+  EXPECT_FALSE(command_.is_shaping());
+  EXPECT_EQ(lines(700), Lines{"600:0 safe"}) << "a stop is not shaped";
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(-100), "");
+  EXPECT_EQ(lines(800), (Lines{"700:-50", "750:-100"})) << "on from the safe state";
+}
+
+// Whatever controllers do: after the last time-out the card was last sent the safe state, and nothing was sent
+// that is beyond the limits.
+TEST_F(ShapedMotorCommandTest, AtTheEndTheShaftStands) {
+  std::mt19937 random(7);  // NOLINT: the same orders in every run
+  const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  std::vector<std::string> tokens{"none"};
+  bool open = true;
+  for (int i = 0; i < 20'000; ++i) {
+    now_ns_ += draw(60) * kMs;
+    const auto client = static_cast<std::uint64_t>(draw(4));
+    switch (draw(8)) {
+      case 0:
+        tokens.push_back(std::to_string(i));
+        static_cast<void>(command_.lease(now_ns_, {"x", draw(3), 0.2 + 0.1 * draw(5)}, tokens.back(), client));
+        break;
+      case 1:
+        static_cast<void>(command_.release(now_ns_, tokens[tokens.size() - 1]));
+        break;
+      case 2:
+        command_.client_gone(now_ns_, client);
+        break;
+      case 3:
+        open ? command_.port_lost("x") : command_.port_opened(now_ns_);
+        open = !open;
+        break;
+      default:
+        static_cast<void>(command_.order(now_ns_, tokens[tokens.size() - 1 - static_cast<std::size_t>(draw(1))],
+                                         {draw(3000) - 1500.0, {draw(60) - 30.0, 0, 0}}));
+    }
+    for (int n = 0;; ++n) {
+      ASSERT_LT(n, 3) << "next() must come to an end";
+      const auto line = command_.next(now_ns_);
+      if (!line) break;
+      ASSERT_TRUE(open);
+      ASSERT_LE(std::abs(line->command.rpm), 1200);
+      ASSERT_LE(std::abs(line->command.fins_deg[0]), 25);
+    }
+  }
+  if (!open) command_.port_opened(now_ns_);
+  const bool commanded = command_.last_line().has_value();
+  ASSERT_TRUE(commanded);
+  lines(now_ns_ / kMs + 2000);
+  EXPECT_FALSE(command_.holder());
+  EXPECT_EQ(command_.last_line()->source, Source::safe);
+  EXPECT_EQ(command_.last_line()->command.rpm, 0);
+}
+
+}  // namespace
+}  // namespace navcal::control
