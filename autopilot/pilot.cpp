@@ -25,7 +25,7 @@ std::string silence(std::string_view device, const std::optional<double>& age_s)
 }  // namespace
 
 Pilot::Pilot(const config::VehicleSettings& vehicle, const config::Mission& mission, const PilotLimits& limits)
-    : vehicle_(vehicle), limits_(limits), mission_(vehicle, mission) {}
+    : vehicle_(vehicle), limits_(limits), mission_(vehicle, mission), to_surface_(vehicle) {}
 
 std::vector<std::string> Pilot::missing(const Reading& reading) const {
   std::vector<std::string> reasons;
@@ -103,12 +103,13 @@ Orders Pilot::next(const Reading& reading, double now_s) {
     if (!mission_.finished()) return orders;
     stop(std::nullopt, now_s);
   }
-  return stopping_orders(now_s);
+  return stopping_orders(reading, now_s, period_s);
 }
 
 void Pilot::stop(std::optional<std::string> reason, double now_s) {
   if (stopping()) return;
   stopped_at_s_ = now_s;
+  stopped_heading_rad_ = state_.euler_rad[2];
   reason_ = std::move(reason);
 }
 
@@ -117,12 +118,16 @@ bool Pilot::stopped(double now_s) const {
   return now_s - *stopped_at_s_ > (state_.depth_m > kSurface_m ? kRise_s : kSurface_s);
 }
 
-Orders Pilot::stopping_orders(double now_s) const {
-  Orders orders;
-  if (state_.depth_m > kSurface_m && !stopped(now_s)) {
-    orders.elevator_rad = vehicle_.autopilot.elevator_limit_rad;
-    orders.fins_rad = mixed_fins(0, orders.elevator_rad);
-  }
+bool Pilot::can_steer(const Reading& reading) const {
+  return reading.heading_rad && reading.pitch_rad && reading.rate_rad_s && reading.depth_m &&
+         !is_silent(reading.compass_age_s, limits_.age_s) && !is_silent(reading.imu_age_s, limits_.age_s);
+}
+
+Orders Pilot::stopping_orders(const Reading& reading, double now_s, double period_s) {
+  if (stopped(now_s) || state_.depth_m < kSurface_m || !can_steer(reading)) return {};
+  const Demand up{.heading_rad = stopped_heading_rad_, .depth_m = kSurface_m / 2};
+  Orders orders = to_surface_.orders(up, state_, period_s);
+  orders.shaft_rps = 0;
   return orders;
 }
 

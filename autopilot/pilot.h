@@ -53,13 +53,16 @@ class Pilot {
   /// What is exceeded, or silent, or wrong with the vehicle; nullopt: nothing.
   [[nodiscard]] std::optional<std::string> alarm(const Reading& reading, double now_s) const;
   void take(const Reading& reading, double period_s);
-  [[nodiscard]] Orders stopping_orders(double now_s) const;
+  [[nodiscard]] Orders stopping_orders(const Reading& reading, double now_s, double period_s);
+  [[nodiscard]] bool can_steer(const Reading& reading) const;
 
   config::VehicleSettings vehicle_;
   PilotLimits limits_;
   MissionOrders mission_;
+  Autopilot to_surface_;
   VehicleState state_;
   std::optional<double> began_s_, last_s_, stopped_at_s_;
+  double stopped_heading_rad_ = 0;
   std::optional<std::string> reason_;
   /// Way by speed and heading since the beginning: north, east.
   std::array<double, 2> reckoned_m_{};

@@ -39,7 +39,8 @@ PilotClock::duration duration_of(double seconds) {
 
 [[noreturn]] void fail_pilot(const std::string& why) { throw analysis::Failure(analysis::Exit::failed, why); }
 
-/// Waits until nothing is missing. Throws Failure with what is.
+/// Waits until nothing is missing and true north is known; magnetic north must do when the wait is over. Throws
+/// Failure with what is missing.
 void wait_until_ready(PilotLink& link, const autopilot::Pilot& pilot, double wait_s) {
   const auto until = PilotClock::now() + duration_of(wait_s);
   std::vector<std::string> missing{"no STATE from navcald: it is too old, or its status socket is another's"};
@@ -47,10 +48,10 @@ void wait_until_ready(PilotLink& link, const autopilot::Pilot& pilot, double wai
     const auto state = link.state(until);
     if (!state) continue;
     missing = pilot.missing(state->reading);
-    if (!missing.empty()) continue;
-    if (state->magnetic) {
-      fmt::print(stderr, "navcal pilot: the place is not known: headings are from magnetic north\n");
-    }
+    if (missing.empty() && !state->magnetic) return;
+  }
+  if (missing.empty() && !base::Interruptible::interrupted()) {
+    fmt::print(stderr, "navcal pilot: the place is not known: headings are from magnetic north\n");
     return;
   }
   if (base::Interruptible::interrupted()) fail_pilot("interrupted before the mission began");
@@ -179,15 +180,17 @@ void add_pilot(CLI::App& app) {
                    "navcald stops the vehicle when orders stay out so long")
       ->check(CLI::Range(0.1, 60.0))
       ->option_text("SECONDS [0.5]");
-  command->add_option("--wait", options->wait_s, "for the instruments, at most, before the mission begins")
+  command
+      ->add_option("--wait", options->wait_s,
+                   "at most, for the instruments and for true north, before the mission begins")
       ->check(CLI::Range(0.1, 3600.0))
       ->option_text("SECONDS [15]");
   add_limits(command, *options);
   command->footer(
-      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply, when a lease is "
-      "lost, and\n"
-      "on Ctrl-C: shaft off, for 5 s the fins that raise the nose of a vehicle deeper than 0.3 m, then fins "
-      "neutral.\n"
+      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply, when a lease is lost, and
+      "
+      "on Ctrl-C: the shaft is off, the fins steer to the surface for 5 s and are neutral after that.
+      "
       "docs/pilot.md shows how to try it without water.\n\n"
       "Example: navcal pilot survey --control /run/navcal/control --max-depth 5");
   command->callback([options] {

@@ -143,14 +143,14 @@ TEST_F(PilotDecisions, StopsAfterTheLongestTime) {
   EXPECT_TRUE(pilot.stopping());
 }
 
-TEST_F(PilotDecisions, AStopRaisesTheNoseThenLetsTheFinsGoNeutral) {
+TEST_F(PilotDecisions, AStopSteersToTheSurfaceThenLetsTheFinsGoNeutral) {
   sail(2);
   pilot.stop("interrupted", now_s);
   const Orders orders = give(good());
   EXPECT_EQ(orders.shaft_rps, 0);
-  EXPECT_GT(orders.elevator_rad, 0.2);
-  EXPECT_GT(orders.fins_rad[1], 0.1) << "nose up: fin 2 positive, fin 3 negative";
-  EXPECT_LT(orders.fins_rad[2], -0.1);
+  EXPECT_GT(orders.elevator_rad, 0.05);
+  EXPECT_GT(orders.fins_rad[1], 0.05) << "nose up: fin 2 positive, fin 3 negative";
+  EXPECT_LT(orders.fins_rad[2], -0.05);
   for (const double fin_rad : orders.fins_rad) EXPECT_LE(std::abs(fin_rad), 25 * base::kRadiansPerDegree);
   EXPECT_FALSE(pilot.stopped(now_s));
   sail(Pilot::kRise_s + 0.2);
@@ -168,6 +168,13 @@ TEST_F(PilotDecisions, AtTheSurfaceAStopLeavesTheFinsNeutral) {
   EXPECT_EQ(give(reading).fins_rad, Eigen::Vector3d::Zero());
   for (int i = 0; i < 12; ++i) give(reading);
   EXPECT_TRUE(pilot.stopped(now_s));
+}
+
+TEST_F(PilotDecisions, AStopByASilentCompassLeavesTheFinsNeutral) {
+  sail(2);
+  Reading reading = good();
+  reading.compass_age_s = 3;
+  EXPECT_EQ(give(reading).fins_rad, Eigen::Vector3d::Zero()) << "there is nothing to steer by";
 }
 
 TEST_F(PilotDecisions, TheFirstReasonStaysAndAStopIsForGood) {
