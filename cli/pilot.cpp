@@ -187,10 +187,9 @@ void add_pilot(CLI::App& app) {
       ->option_text("SECONDS [15]");
   add_limits(command, *options);
   command->footer(
-      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply, when a lease is lost, and
-      "
-      "on Ctrl-C: the shaft is off, the fins steer to the surface for 5 s and are neutral after that.
-      "
+      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply, when a lease is "
+      "lost, "
+      "and on\nCtrl-C: the shaft is off, the fins steer to the surface for 5 s and are neutral after that.\n"
       "docs/pilot.md shows how to try it without water.\n\n"
       "Example: navcal pilot survey --control /run/navcal/control --max-depth 5");
   command->callback([options] {
