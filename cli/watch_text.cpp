@@ -6,8 +6,11 @@
 #include <cmath>
 
 namespace navcal::cli {
+namespace {
 
 using Json = nlohmann::json;
+
+}  // namespace
 
 std::string printable(std::string text) {
   for (char& c : text) {

@@ -50,6 +50,21 @@ TEST(Alarms, LeaksStandFirstAndCardsApart) {
   EXPECT_EQ(alarms.standing()[0].port, 1);
 }
 
+TEST(Alarms, WhatSomebodyElseJudgesStandsBesideTheCards) {
+  Alarms alarms;
+  EXPECT_FALSE(alarms.set(3, Alarm::command_not_echoed, false, 0));
+  EXPECT_TRUE(alarms.set(3, Alarm::command_not_echoed, true, 1));
+  EXPECT_FALSE(alarms.set(3, Alarm::command_not_echoed, true, 2));
+  instruments::ImuSample leaking;
+  leaking.leak_aft = true;
+  EXPECT_EQ(alarms.update(1, leaking, 3).size(), 1U);
+  ASSERT_EQ(alarms.standing().size(), 2U);
+  EXPECT_EQ(alarms.standing()[0].alarm, Alarm::leak_aft) << "leaks first";
+  EXPECT_TRUE(alarms.update(3, {}, 10 * Alarms::kClear_ns).empty()) << "a card's sample does not end it";
+  EXPECT_TRUE(alarms.set(3, Alarm::command_not_echoed, false, 4));
+  EXPECT_EQ(alarms.standing().size(), 1U);
+}
+
 TEST(LatencyHistogram, EveryLatencyIsInTheBucketOfItsPowerOfTwo) {
   for (std::size_t bucket = 1; bucket + 1 < LatencyHistogram::kBuckets; ++bucket) {
     LatencyHistogram histogram;

@@ -38,6 +38,17 @@ TEST(Check, SaysWhatTheCalibratorsLearnFrom) {
   EXPECT_TRUE(says("[roles]\nheading = \"b\"\n" + port("a", "tcm2") + port("b", "nmea"), "calibration: of a, b;"));
 }
 
+TEST(Check, SaysWhatOrdersMayAskForAndWhatFollows) {
+  const std::string motor = port("motor", "motor-card");
+  EXPECT_TRUE(
+      says(motor,
+           "orders: to motor up to 1200 rpm (2000 rpm/s) and 25 deg (200 deg/s), at most 40 a second; a lease "
+           "of 0.2 to 5 s; then 0 rpm, fins 0 0 0 deg\n"));
+  EXPECT_TRUE(says("[command]\nslew_rpm_s = 0\nsafe_fins_deg = [1, -2, 0.5]\n" + motor, "1200 rpm (at once)"));
+  EXPECT_TRUE(says("[command]\nenabled = false\n" + motor, "orders: off\n"));
+  EXPECT_TRUE(says(port("gps", "oncore"), "orders: no motor card to give them to\n"));
+}
+
 TEST(Check, SaysWhenceTheEarthsFieldIs) {
   const std::string gps = port("gps", "oncore");
   EXPECT_TRUE(says(gps, "field of the Earth: by the World Magnetic Model from the first fix on\n"));

@@ -42,6 +42,58 @@ TEST(ControlRequest, ForceIsSaidInSoManyWords) {
             "force is true or false");
 }
 
+TEST(ControlRequest, LeasesAndOrdersAreTakenWithTheirNumbers) {
+  const auto lease = std::get<ControlRequest>(
+      parse_control(R"({"command":"motor.lease","holder":"pilot","priority":2,"timeout_s":0.5})"));
+  EXPECT_EQ(lease.command, ControlCommand::motor_lease);
+  EXPECT_EQ(lease.lease_request.holder, "pilot");
+  EXPECT_EQ(lease.lease_request.priority, 2);
+  EXPECT_EQ(lease.lease_request.timeout_s, 0.5);
+  const auto usual = std::get<ControlRequest>(parse_control(R"({"command":"motor.lease","holder":"pilot"})"));
+  EXPECT_EQ(usual.lease_request.priority, 1);
+  EXPECT_EQ(usual.lease_request.timeout_s, 1);
+  const auto order = std::get<ControlRequest>(parse_control(
+      R"({"command":"motor.order","lease":"x","shaft_rpm":780,"fins_deg":[0,-5.5,5],"state_time":1700000000.125})"));
+  EXPECT_EQ(order.lease, "x");
+  EXPECT_EQ(order.order, (control::Order{780, {0, -5.5, 5}}));
+  EXPECT_EQ(order.state_time_utc_s, 1700000000.125);
+  const auto release = std::get<ControlRequest>(parse_control(R"({"command":"motor.release","lease":"x"})"));
+  EXPECT_EQ(release.lease, "x");
+}
+
+TEST(ControlRequest, OrdersThatAreNoNumbersSayWhichIsNone) {
+  EXPECT_EQ(refusal(R"({"command":"motor.lease"})"), "motor.lease needs a holder, a name");
+  EXPECT_EQ(refusal(R"({"command":"motor.lease","holder":7})"), "motor.lease needs a holder, a name");
+  EXPECT_EQ(refusal(R"({"command":"motor.lease","holder":"x","priority":1.5})"), "priority is a whole number");
+  EXPECT_EQ(refusal(R"({"command":"motor.lease","holder":"x","timeout_s":"1"})"),
+            "timeout_s is a number of seconds");
+  EXPECT_EQ(refusal(R"({"command":"motor.order","shaft_rpm":1,"fins_deg":[0,0,0]})"),
+            "lease is what motor.lease answered");
+  const auto order = [](const std::string& rest) {
+    return refusal(R"({"command":"motor.order","lease":"x",)" + rest);
+  };
+  EXPECT_EQ(order(R"("fins_deg":[0,0,0]})"), "shaft_rpm is a number");
+  EXPECT_EQ(order(R"("shaft_rpm":"fast","fins_deg":[0,0,0]})"), "shaft_rpm is a number");
+  EXPECT_EQ(order(R"("shaft_rpm":true,"fins_deg":[0,0,0]})"), "shaft_rpm is a number");
+  EXPECT_EQ(order(R"("shaft_rpm":null,"fins_deg":[0,0,0]})"), "shaft_rpm is a number");
+  EXPECT_EQ(order(R"("shaft_rpm":1})"), "fins_deg is three numbers");
+  EXPECT_EQ(order(R"("shaft_rpm":1,"fins_deg":[0,0]})"), "fins_deg is three numbers");
+  EXPECT_EQ(order(R"("shaft_rpm":1,"fins_deg":[0,0,null]})"), "fins_deg is three numbers");
+  EXPECT_EQ(order(R"("shaft_rpm":1,"fins_deg":[0,0,0],"state_time":"now"})"),
+            "state_time is the time of a STATE, a number");
+  EXPECT_NE(order(R"("shaft_rpm":NaN,"fins_deg":[0,0,0]})").find("not a JSON object"), std::string::npos);
+  EXPECT_NE(order(R"("shaft_rpm":1e999,"fins_deg":[0,0,0]})"), "accepted");
+}
+
+TEST(ControlRequest, APriorityBeyondEveryBoundStaysBeyondIt) {
+  const auto priority = [](const std::string& number) {
+    const auto parsed = parse_control(R"({"command":"motor.lease","holder":"x","priority":)" + number + "}");
+    return std::get<ControlRequest>(parsed).lease_request.priority;
+  };
+  EXPECT_GT(priority("4294967297"), control::kMaxPriority);
+  EXPECT_LT(priority("-4294967297"), 0);
+}
+
 TEST(ControlRequest, RefusalsSayWhatWouldBeRight) {
   EXPECT_NE(refusal("nonsense").find("not a JSON object"), std::string::npos);
   EXPECT_NE(refusal("[1,2]").find("not a JSON object"), std::string::npos);

@@ -129,6 +129,9 @@ class DaemonProcess {
     return status_of(pid);
   }
 
+  /// After stop(): the same daemon again.
+  void start_again() { pid_ = spawn(arguments_, folder_.path().string() + "/stderr"); }
+
   [[nodiscard]] pid_t pid() const { return pid_; }
   [[nodiscard]] std::uint16_t port() const { return port_; }
   [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }

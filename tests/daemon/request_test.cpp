@@ -60,6 +60,16 @@ TEST(Request, WatchChangesOnlyWhatItMentions) {
 TEST(Request, WrongTypesAndBrokenJsonAreNamed) {
   EXPECT_EQ(parse_requests(R"(?WATCH={"enable":1};)").at(0).message, "Invalid WATCH: enable is true or false");
   EXPECT_EQ(parse_requests(R"(?WATCH={"enable":tru};)").at(0).message, "Invalid WATCH: not a JSON object");
+  const auto message = [](const std::string& object) {
+    return parse_requests("?WATCH=" + object + ";").at(0).message;
+  };
+  EXPECT_EQ(message(R"({"classes":"STATE"})"), "Invalid WATCH: classes is a list of classes, or null");
+  EXPECT_NE(message(R"({"classes":[7]})").find("a class that is not known; known are TPV"), std::string::npos);
+  EXPECT_EQ(message(R"({"rate_Hz":10})"), "Invalid WATCH: rate_Hz is an object, or null");
+  EXPECT_NE(message(R"({"rate_Hz":{"SONAR":1}})").find("a class that is not known"), std::string::npos);
+  for (const char* rate : {"0", "-1", "101", "\"10\"", "null", "1e308"})
+    EXPECT_EQ(message(R"({"rate_Hz":{"STATE":)" + std::string(rate) + "}}"),
+              "Invalid WATCH: a rate is 0.01 to 100 Hz");
   EXPECT_EQ(parse_requests("?WATCH=[];").at(0).message, "Invalid WATCH: not a JSON object");
   EXPECT_EQ(parse_requests(R"(?DEVICE={"path":"gps","bps":4800};)").at(0).message,
             "DEVICE: bps is set by the configuration only");

@@ -31,6 +31,8 @@ class TwoDevices : public StatusSource {
     append_device_object(out, {device_name(port), "nmea", "", 9600, 0, port == 1, std::nullopt});
   }
   void append_poll(std::string& out) const override { out += "{\"class\":\"POLL\",\"tpv\":[],\"sky\":[]}\n"; }
+  void on_watch_changed() override { ++watch_changes; }
+  int watch_changes = 0;
 };
 
 /// The server on its own thread, as the daemon runs it.
@@ -61,8 +63,8 @@ class StatusServerTest : public ::testing::Test {
     thread_.join();
   }
 
-  void publish(std::uint16_t port, const std::string& report) {
-    on_loop([&] { server_.publish(port, report); });
+  void publish(std::uint16_t port, const std::string& report, ReportClass report_class = ReportClass::att) {
+    on_loop([&] { server_.publish(report_class, port, report); });
   }
 
   std::unique_ptr<Client> watcher(const std::string& more = "") {
@@ -108,14 +110,88 @@ TEST_F(StatusServerTest, ReportsGoToThoseWhoWatchThatDeviceOnly) {
   silent.line();
   silent.send("?VERSION;\n");
   EXPECT_NE(silent.line().value().find("VERSION"), std::string::npos) << "nothing but the answer";
-  EXPECT_TRUE(on_loop([this] { return server_.watched(0); }));
+  EXPECT_TRUE(on_loop([this] { return server_.watched(ReportClass::att, 0); }));
+}
+
+TEST_F(StatusServerTest, AClientThatChoosesClassesGetsNoOthers) {
+  const auto usual = watcher();
+  const auto chosen = watcher(R"(,"classes":["TPV","STATE"])");
+  publish(0, "{\"from\":\"att\"}\n");
+  publish(1, "{\"from\":\"tpv\"}\n", ReportClass::tpv);
+  on_loop([this] { server_.publish_health({"{\"class\":\"HEALTH\""}); });
+  on_loop([this] { server_.publish_state("{\"from\":\"state\"}\n", 0, true); });
+  EXPECT_EQ(chosen->line(), "{\"from\":\"tpv\"}");
+  EXPECT_EQ(chosen->line(), "{\"from\":\"state\"}");
+  EXPECT_EQ(usual->line(), "{\"from\":\"att\"}");
+  EXPECT_EQ(usual->line(), "{\"from\":\"tpv\"}");
+  EXPECT_NE(usual->line().value().find("HEALTH"), std::string::npos);
+  publish(0, "{\"from\":\"att\"}\n");
+  EXPECT_EQ(usual->line(), "{\"from\":\"att\"}") << "and no STATE, which is only for those who ask";
+  EXPECT_GT(source_.watch_changes, 0);
+}
+
+TEST_F(StatusServerTest, WhatNobodyWatchesNeedNotBeWritten) {
+  const auto chosen = watcher(R"(,"classes":["TPV"],"rate_Hz":{"TPV":0.01})");
+  const auto watched = [&](ReportClass report) { return on_loop([&] { return server_.watched(report, 0); }); };
+  EXPECT_FALSE(watched(ReportClass::att));
+  EXPECT_FALSE(on_loop([this] { return server_.watched(ReportClass::calib); }));
+  EXPECT_FALSE(on_loop([this] { return server_.wants_state_of_words(); }));
+  EXPECT_TRUE(watched(ReportClass::tpv));
+  publish(0, "{\"n\":1}\n", ReportClass::tpv);
+  EXPECT_FALSE(watched(ReportClass::tpv)) << "its next turn is in a hundred seconds";
+  publish(0, "{\"n\":2}\n", ReportClass::tpv);
+  publish(1, "{\"n\":3}\n", ReportClass::tpv);
+  EXPECT_EQ(chosen->line(), "{\"n\":1}");
+  EXPECT_EQ(chosen->line(), "{\"n\":3}") << "another device has its own turn";
+}
+
+TEST_F(StatusServerTest, StateAtARateIsDueOnOneGridForAllOfThatRate) {
+  EXPECT_EQ(on_loop([this] { return server_.next_state_ns(); }), INT64_MAX);
+  const auto first = watcher(R"(,"classes":["STATE"],"rate_Hz":{"STATE":10})");
+  const auto second = watcher(R"(,"classes":["STATE"],"rate_Hz":{"STATE":10})");
+  const auto of_words = watcher(R"(,"classes":["STATE"])");
+  constexpr std::int64_t kMs = 1'000'000;
+  const auto state = [&](std::int64_t now_ms, bool of_word) {
+    on_loop([&] { server_.publish_state("{\"at\":" + std::to_string(now_ms) + "}\n", now_ms * kMs, of_word); });
+  };
+  state(1030, false);
+  EXPECT_EQ(on_loop([this] { return server_.next_state_ns(); }), 1100 * kMs);
+  state(1060, false);
+  state(1070, true);
+  state(1101, false);
+  EXPECT_EQ(on_loop([this] { return server_.next_state_ns(); }), 1200 * kMs) << "late once, and the grid stays";
+  for (const auto& client : {first.get(), second.get()}) {
+    EXPECT_EQ(client->line(), "{\"at\":1030}");
+    EXPECT_EQ(client->line(), "{\"at\":1101}");
+  }
+  EXPECT_EQ(of_words->line(), "{\"at\":1070}");
+}
+
+TEST_F(StatusServerTest, TheWatchAnswerSaysWhatWasChosenAndNothingMoreToOthers) {
+  Client client(server_.port());
+  client.send("?WATCH={\"json\":true};\n");
+  const json usual = json::parse(client.line_with("\"WATCH\""));
+  EXPECT_FALSE(usual.contains("classes"));
+  EXPECT_FALSE(usual.contains("rate_Hz"));
+  client.send(R"(?WATCH={"classes":["STATE","TPV"],"rate_Hz":{"STATE":10,"TPV":0.3}};)");
+  const json chosen = json::parse(client.line_with("\"WATCH\""));
+  EXPECT_EQ(chosen["classes"], json::parse(R"(["TPV","STATE"])"));
+  EXPECT_EQ(chosen["rate_Hz"], json::parse(R"({"TPV":0.3,"STATE":10})"));
+  client.send(R"(?WATCH={"classes":[],"rate_Hz":null};)");
+  const json none = json::parse(client.line_with("\"WATCH\""));
+  EXPECT_EQ(none["classes"], json::array());
+  EXPECT_FALSE(none.contains("rate_Hz"));
+  client.send(R"(?WATCH={"classes":["SONAR"]};)");
+  EXPECT_NE(client.line_with("ERROR").find("known are TPV, SKY"), std::string::npos);
+  client.send(R"(?WATCH={"classes":null};)");
+  EXPECT_FALSE(json::parse(client.line_with("\"WATCH\"")).contains("classes"));
 }
 
 TEST_F(StatusServerTest, AnUnknownDeviceIsAnError) {
   Client client(server_.port());
   client.send("?WATCH={\"enable\":true,\"device\":\"sonar\"};\n");
   EXPECT_EQ(json::parse(client.line_with("ERROR"))["message"], "No such device as sonar");
-  EXPECT_FALSE(on_loop([this] { return server_.watched(); }));
+  EXPECT_FALSE(on_loop([this] { return server_.watched(ReportClass::health); }));
 }
 
 TEST_F(StatusServerTest, ARequestOfAMegabyteIsRefusedAndHeldByNobody) {

@@ -70,7 +70,7 @@ TEST(Ellipsoid, CellsAreAsGoodAsReadingsBySingle) {
   EXPECT_LT((fit.shape.centre_uT - estimator.fit()->shape.centre_uT).norm(), 0.02);
 }
 
-// 94 to 97 % is the goal (docs/calibration-figures.md has the many runs); so few tell at least what is far off.
+// 94 to 97 % is the goal (docs/validation/calibration.md has the many runs); so few tell at least what is far off.
 TEST(Ellipsoid, StatedErrorsOfTheCentreAreThoseMade) {
   int within = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

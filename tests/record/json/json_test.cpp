@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "record/json/command_json.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
 #include "record/json/mapping_json.h"
@@ -114,6 +115,40 @@ TEST(Json, AnEstimateHasTheMembersOfItsTopicWhetherItKnowsMuchOrLittle) {
   EXPECT_EQ(json["east_std_m"], 4);
   EXPECT_EQ(json["velocity_m_s"], nlohmann::json::parse("[1,0.5,-0.25]"));
   EXPECT_EQ(json["outage_error_m"], 2);
+}
+
+TEST(Json, AnOrderHasTheMembersOfItsTopicWhateverBecameOfIt) {
+  control::OrderRecord record;
+  pipeline::UtcMapping mapping;
+  mapping.offset_ns = 1'700'000'000'000'000'000;
+  const auto json_of = [&] {
+    std::string text;
+    append_json(text, mapping, 5'000'000'000, "motor", record);
+    const auto json = nlohmann::json::parse(text);
+    const Topic* const topic = json_topic("/command");
+    EXPECT_EQ(json.size(), topic->fields.size() + 1);
+    for (const Field& field : topic->fields) EXPECT_TRUE(json.contains(std::string(field.name))) << field.name;
+    return json;
+  };
+  record.asked_ns = 1'000'000'000;
+  record.reason = "shaft_rpm 5000 is beyond 1200";
+  record.wanted.shaft_rpm = 5000;
+  auto json = json_of();
+  EXPECT_EQ(json["class"], "COMMAND");
+  EXPECT_EQ(json["outcome"], "refused");
+  EXPECT_EQ(json["time"], 1'700'000'001);
+  for (const char* key : {"priority", "sent", "echoed", "late_s", "shaft_sent_rpm", "fins_sent_deg"})
+    EXPECT_TRUE(json[key].is_null()) << key;
+  record.outcome = control::Outcome::echoed;
+  record.priority = 2;
+  record.sent_ns = 2'000'000'000;
+  record.echoed_ns = 2'100'000'000;
+  record.sent = protocols::motor_card::Command{780, {0, -5, 5}};
+  json = json_of();
+  EXPECT_EQ(json["time"], 1'700'000'002);
+  EXPECT_EQ(json["priority"], 2);
+  EXPECT_EQ(json["shaft_sent_rpm"], 780);
+  EXPECT_EQ(json["fins_sent_deg"], nlohmann::json::parse("[0.0,-5.0,5.0]"));
 }
 
 TEST(Json, NumbersReadBackToTheLastBitAndTheRestIsNull) {
