@@ -150,7 +150,13 @@ void EmulateSession::finish() {
 }
 
 void EmulateSession::finish_after_error() {
-  if (truth_ != nullptr) truth_->finish();
+  if (truth_ == nullptr) return;
+  try {
+    truth_->advance(now_ns());
+  } catch (const sim::UnstableVehicle&) {
+    // Expected: these are the rows before it.
+  }
+  truth_->finish();
 }
 
 void EmulateSession::add(const EmulateArguments& arguments, std::string name,

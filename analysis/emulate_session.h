@@ -60,9 +60,9 @@ class EmulateSession {
   [[nodiscard]] EmulatedPort* find(std::string_view name) const;
   void set_imu_status(std::uint8_t status) { imu_->set_status(status); }
   void stop() { io_.stop(); }
-  /// Completes the truth file: up to now, or after an error with what was written before it. Throws
-  /// sim::UnstableVehicle or std::system_error.
+  /// Completes the truth file. Throws sim::UnstableVehicle or std::system_error.
   void finish();
+  /// The same after sim::UnstableVehicle, with the motion before it. Throws std::system_error.
   void finish_after_error();
   /// To standard error: what became of the bytes.
   void report() const;

@@ -19,4 +19,9 @@ void EmulateTruth::advance(std::int64_t now_ns) {
   rows_.clear();
 }
 
+void EmulateTruth::finish() {
+  file_.write(rows_);
+  file_.commit();
+}
+
 }  // namespace navcal::analysis

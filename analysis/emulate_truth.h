@@ -18,8 +18,9 @@ class EmulateTruth {
 
   /// Writes the rows up to `now_ns`, which never goes back. Throws sim::UnstableVehicle, std::system_error.
   void advance(std::int64_t now_ns);
-  /// Gives the file its name, with the rows that were written.
-  void finish() { file_.commit(); }
+  /// Gives the file its name, with the rows up to the last advance(), or to where that threw. Throws
+  /// std::system_error.
+  void finish();
 
  private:
   record::WholeFile file_;
