@@ -100,10 +100,12 @@ function(navcal_precompile target)
   endif()
 endfunction()
 
-# navcal_test(NAME SOURCES... USES...): one GoogleTest program, every case a ctest of its own.
+# navcal_test(NAME SOURCES... USES...): one GoogleTest program, every case a ctest of its own. Its sources are compiled in batches, so
+# names in anonymous namespaces must be unique within a program. A room has one program: a program of its own costs a batch and a link.
 function(navcal_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
+  navcal_batches(${name} 16)
   target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest_main)
   if(NAVCAL_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM navcal_test_headers)

@@ -21,12 +21,12 @@ class Completion : public testing::Test {
                           << "_navcal\necho \"${COMPREPLY[*]}\"\n";
     const std::string command = "cd " + folder_.path().string() + " && bash " + script.string() + " > out 2> err";
     const int status = std::system(command.c_str());
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << test::read_file(folder_ / "err");
-    const std::string text = test::read_file(folder_ / "out");
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << navcal::test::read_file(folder_ / "err");
+    const std::string text = navcal::test::read_file(folder_ / "out");
     return text.substr(0, text.find('\n'));
   }
 
-  test::TemporaryFolder folder_;
+  navcal::test::TemporaryFolder folder_;
 };
 
 TEST_F(Completion, CommandsAndTheirCommands) {
@@ -66,9 +66,9 @@ zpty -r z out '*decode --protocol*'
 print -r -- $out
 )";
   ASSERT_EQ(std::system(("cd '" + path + "' && timeout 60 zsh -f ask > out 2> err").c_str()), 0)
-      << test::read_file(folder_ / "err") << test::read_file(folder_ / "out");
-  EXPECT_NE(test::read_file(folder_ / "out").find("decode --protocol"), std::string::npos)
-      << test::read_file(folder_ / "out");
+      << navcal::test::read_file(folder_ / "err") << navcal::test::read_file(folder_ / "out");
+  EXPECT_NE(navcal::test::read_file(folder_ / "out").find("decode --protocol"), std::string::npos)
+      << navcal::test::read_file(folder_ / "out");
 }
 
 TEST_F(Completion, AShellThatIsNoneIsWrongUsage) {

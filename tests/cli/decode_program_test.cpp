@@ -31,11 +31,11 @@ class Decode : public testing::Test {
     const std::string command = "bash " + script.string() + " > " + (folder_ / "out").string() + " 2> " +
                                 (folder_ / "err").string() + " < /dev/null";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::read_file(folder_ / "out"),
-            test::read_file(folder_ / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, navcal::test::read_file(folder_ / "out"),
+            navcal::test::read_file(folder_ / "err")};
   }
 
-  test::TemporaryFolder folder_;
+  navcal::test::TemporaryFolder folder_;
 };
 
 std::vector<nlohmann::json> lines(const std::string& text) {
@@ -49,7 +49,7 @@ TEST_F(Decode, AnswersEveryStreamAsExpectedToTheByte) {
   for (const std::string protocol : {"oncore", "nmea", "tcm2", "imu-card", "motor-card"}) {
     const auto outcome = run("decode --protocol " + protocol + " --json " + kFixtures + protocol + ".bin");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
-    EXPECT_EQ(outcome.output, test::read_file(kFixtures + protocol + ".jsonl")) << protocol;
+    EXPECT_EQ(outcome.output, navcal::test::read_file(kFixtures + protocol + ".jsonl")) << protocol;
     EXPECT_EQ(outcome.errors, "");
   }
 }
@@ -58,7 +58,7 @@ TEST_F(Decode, StandardInputInSmallPiecesGivesTheSame) {
   const auto outcome =
       run("dd if=" + kFixtures + "oncore.bin bs=7 status=none | decode --protocol oncore --json -");
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(outcome.output, test::read_file(kFixtures + "oncore.jsonl"));
+  EXPECT_EQ(outcome.output, navcal::test::read_file(kFixtures + "oncore.jsonl"));
 }
 
 TEST_F(Decode, EveryByteIsInExactlyOnePlace) {
@@ -86,7 +86,7 @@ TEST_F(Decode, EveryByteIsInExactlyOnePlace) {
 }
 
 TEST_F(Decode, PositionsHaveTheKeysOfTheContract) {
-  for (const auto& line : lines(test::read_file(kFixtures + "oncore.jsonl"))) {
+  for (const auto& line : lines(navcal::test::read_file(kFixtures + "oncore.jsonl"))) {
     const std::string id = line.value("id", "");
     if (id != "Ha" && id != "Ea" && id != "Eq") continue;
     for (const char* key : {"time", "time_corrected", "lat", "lon", "height_m", "speed_m_s", "heading_deg", "dop",
@@ -167,10 +167,10 @@ std::string capture_of(const std::string& bytes) {
 
 TEST_F(Decode, OnePortOfARecordingIsDecodedAsItsBytesAre) {
   const auto capture = folder_ / "dive.cap";
-  std::ofstream(capture) << capture_of(test::read_file(kFixtures + "oncore.bin"));
+  std::ofstream(capture) << capture_of(navcal::test::read_file(kFixtures + "oncore.bin"));
   const auto decoded = run("decode --port gps --json " + capture.string());
   EXPECT_EQ(decoded.status, 0) << decoded.errors;
-  EXPECT_EQ(decoded.output, test::read_file(kFixtures + "oncore.jsonl"));
+  EXPECT_EQ(decoded.output, navcal::test::read_file(kFixtures + "oncore.jsonl"));
   const auto log = (folder_ / "dive.mcap").string();
   ASSERT_EQ(run("'" NAVCAL_PROGRAM "' log import -o " + log + " " + capture.string()).status, 0);
   EXPECT_EQ(run("decode --port gps --json " + log).output, decoded.output);

@@ -36,7 +36,7 @@ TEST(DoctorAccount, TheFirstOfOwnerGroupAndOthersThatAppliesDecides) {
 }
 
 TEST(DoctorAccount, OursMayUseOurFilesAndNobodyOneThatIsNotThere) {
-  const test::TemporaryFolder folder;
+  const navcal::test::TemporaryFolder folder;
   EXPECT_TRUE(may_read_and_write(own_account(), folder.path()));
   EXPECT_FALSE(may_read_and_write(own_account(), folder / "absent"));
   EXPECT_EQ(group_of(folder / "absent"), "");
@@ -59,12 +59,12 @@ TEST(DoctorPort, OneThatIsNotThereIsAFault) {
 }
 
 TEST(DoctorPort, OneThatNobodyHoldsIsGoodAndOneThatAProgramReadsIsNamedWithIt) {
-  const test::TemporaryFolder folder;
+  const navcal::test::TemporaryFolder folder;
   const auto terminal = ports::make_pseudo_terminal(9600);
   EXPECT_EQ(check_port(port_at(terminal.slave_name), own_account()).severity, Severity::good);
 
-  test::Process reader({"sh", "-c", "exec 3<" + terminal.slave_name + "; echo open; exec cat <&3"},
-                       folder / "reader");
+  navcal::test::Process reader({"sh", "-c", "exec 3<" + terminal.slave_name + "; echo open; exec cat <&3"},
+                               folder / "reader");
   while (!holds(reader.out(), "open") && !reader.wait(std::chrono::seconds(0))) {
   }
   const Finding finding = check_port(port_at(terminal.slave_name), own_account());
@@ -110,7 +110,7 @@ class DoctorStatusPort : public testing::Test {
   }
   static constexpr const char* kHead = "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when\n";
 
-  test::TemporaryFolder folder_;
+  navcal::test::TemporaryFolder folder_;
 };
 
 TEST_F(DoctorStatusPort, FreeUnlessSomebodyListens) {
@@ -175,7 +175,7 @@ class DoctorLogFolder : public testing::Test {
   }
   [[nodiscard]] Finding check() const { return check_log_folder(settings_, own_account()); }
 
-  test::TemporaryFolder folder_;
+  navcal::test::TemporaryFolder folder_;
   config::LogSettings settings_;
 };
 

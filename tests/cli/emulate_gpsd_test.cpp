@@ -17,7 +17,7 @@
 #include "sim/geodesy.h"
 #include "tests/ports/harness.h"
 
-namespace navcal::cli::testing {
+namespace navcal::cli::test {
 namespace {
 
 constexpr const char* kGpsd = "/usr/sbin/gpsd";
@@ -114,4 +114,4 @@ TEST(EmulateGpsd, ReadsThePositionOfAnOncore) { expect_gpsd_reads("ha"); }
 TEST(EmulateGpsd, ReadsThePositionOfTodaysReceiver) { expect_gpsd_reads("nmea"); }
 
 }  // namespace
-}  // namespace navcal::cli::testing
+}  // namespace navcal::cli::test

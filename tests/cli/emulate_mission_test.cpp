@@ -9,7 +9,7 @@
 #include "emulate_program.h"
 #include "tests/ports/harness.h"
 
-namespace navcal::cli::testing {
+namespace navcal::cli::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -73,4 +73,4 @@ TEST_F(EmulateMission, AVehicleThatGoesUnstableEndsItWithTimeAndState) {
 }
 
 }  // namespace
-}  // namespace navcal::cli::testing
+}  // namespace navcal::cli::test

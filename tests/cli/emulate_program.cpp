@@ -12,7 +12,7 @@
 
 #include "ports/raw_mode.h"
 
-namespace navcal::cli::testing {
+namespace navcal::cli::test {
 namespace {
 
 std::array<base::Descriptor, 2> make_pipe() {
@@ -114,4 +114,4 @@ const std::string& Client::read_all() {
   return read_;
 }
 
-}  // namespace navcal::cli::testing
+}  // namespace navcal::cli::test

@@ -11,7 +11,7 @@
 
 #include "base/descriptor.h"
 
-namespace navcal::cli::testing {
+namespace navcal::cli::test {
 
 /// A run of the navcal program with its standard input and outputs in our hands; ended by its id if it still runs.
 class Program {
@@ -54,4 +54,4 @@ class Client {
   bool hung_up_ = false;
 };
 
-}  // namespace navcal::cli::testing
+}  // namespace navcal::cli::test

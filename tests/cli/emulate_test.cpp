@@ -12,7 +12,7 @@
 #include "record/recording.h"
 #include "tests/ports/harness.h"
 
-namespace navcal::cli::testing {
+namespace navcal::cli::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ TEST_F(Emulate, WrongUsageAndBadPathsHaveTheirStatuses) {
 }
 
 }  // namespace
-}  // namespace navcal::cli::testing
+}  // namespace navcal::cli::test

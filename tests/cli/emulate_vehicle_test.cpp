@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string command(std::int32_t rpm, std::array<double, 3> fins_deg) {
+std::string order_line(std::int32_t rpm, std::array<double, 3> fins_deg) {
   const auto bytes = protocols::motor_card::encode_command({rpm, fins_deg});
   return {bytes.begin(), bytes.end()};
 }
@@ -56,7 +56,7 @@ TEST_F(EmulatedVehicle, ObeysOrdersAndLeavesAWholeTruthOnCtrlC) {
   ASSERT_EQ(program.line(), "ready");
   Client motor(dir / "motor");
   motor.set_speed(19200);
-  motor.write(command(780, {-10, 5, 5}));
+  motor.write(order_line(780, {-10, 5, 5}));
   EXPECT_NE(motor.read_until(",780,7").find(",780,7"), std::string::npos) << "the shaft follows";
   EXPECT_FALSE(fs::exists(truth)) << "not before it is whole";
   program.interrupt();
@@ -78,8 +78,8 @@ TEST_F(EmulatedVehicle, TheCardRefusesFinsBeyondTheirLimit) {
   ASSERT_EQ(program.line(), "ready");
   Client motor(dir / "motor");
   motor.set_speed(19200);
-  motor.write(command(780, {25.1, 0, 0}));
-  motor.write(command(300, {0, 0, 0}));
+  motor.write(order_line(780, {25.1, 0, 0}));
+  motor.write(order_line(300, {0, 0, 0}));
   EXPECT_NE(motor.read_until(",300,").find(",300,"), std::string::npos);
   EXPECT_EQ(motor.read_until(",300,").find(",780,"), std::string::npos);
 }
@@ -102,7 +102,7 @@ TEST_F(EmulatedVehicle, OneThatGoesUnstableLeavesTheTruthBeforeIt) {
   motor.set_speed(19200);
   try {
     for (int i = 0; i < 200 && !motor.hung_up(); ++i) {
-      motor.write(command(1800, {i % 2 == 0 ? 25.0 : -25.0, 20, -20}));
+      motor.write(order_line(1800, {i % 2 == 0 ? 25.0 : -25.0, 20, -20}));
       motor.read_until("never", std::chrono::milliseconds(100));
     }
   } catch (const std::runtime_error&) {

@@ -9,7 +9,7 @@
 #include "emulate_program.h"
 #include "tests/ports/harness.h"
 
-namespace navcal::cli::testing {
+namespace navcal::cli::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ TEST(Ports, ListsOrSaysThatThereAreNone) {
 }
 
 }  // namespace
-}  // namespace navcal::cli::testing
+}  // namespace navcal::cli::test

@@ -76,20 +76,20 @@ config::PortSettings port(std::string name, protocols::Protocol protocol, int ba
 /// Level at the surface; turn rate in degrees a second as a function of time.
 template <class Rate>
 std::vector<sim::PathRow> path_of(double duration_s, Rate rate_deg_s) {
-  constexpr double kStep_s = 0.1, kSpeed_m_s = 1;
+  constexpr double kRowStep_s = 0.1, kSpeed_m_s = 1;
   std::vector<sim::PathRow> rows;
   sim::PathRow row;
-  for (int i = 0; i * kStep_s <= duration_s; ++i) {
-    row.t_s = i * kStep_s;
+  for (int i = 0; i * kRowStep_s <= duration_s; ++i) {
+    row.t_s = i * kRowStep_s;
     const double rate_rad_s = rate_deg_s(row.t_s) * kRadians;
     row.velocity_body_m_s = {kSpeed_m_s, 0, 0};
     row.rate_rad_s = {0, 0, rate_rad_s};
     row.rpm = 700;
     rows.push_back(row);
     // The rate goes straight from row to row.
-    row.euler_rad[2] += (rate_rad_s + rate_deg_s(row.t_s + kStep_s) * kRadians) / 2 * kStep_s;
-    row.position_m[0] += kSpeed_m_s * std::cos(row.euler_rad[2]) * kStep_s;
-    row.position_m[1] += kSpeed_m_s * std::sin(row.euler_rad[2]) * kStep_s;
+    row.euler_rad[2] += (rate_rad_s + rate_deg_s(row.t_s + kRowStep_s) * kRadians) / 2 * kRowStep_s;
+    row.position_m[0] += kSpeed_m_s * std::cos(row.euler_rad[2]) * kRowStep_s;
+    row.position_m[1] += kSpeed_m_s * std::sin(row.euler_rad[2]) * kRowStep_s;
   }
   return rows;
 }

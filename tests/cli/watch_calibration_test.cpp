@@ -20,7 +20,7 @@ constexpr const char* kReport =
     R"("heading":{"blocks":12,"before_rms_deg":5.2,"in_force_rms_deg":0.45,"after_rms_deg":0.42},)"
     R"("rose":[50,50,50,5,5,5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,50]})";
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool report_has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(WatchCalibration, SaysWhatIsInForceWhatIsRefusedAndWhatToDo) {
   WatchView view;
@@ -29,9 +29,9 @@ TEST(WatchCalibration, SaysWhatIsInForceWhatIsRefusedAndWhatToDo) {
   for (const char* part : {"calibration in force: 7-1a2b3c4d", "5.20 deg raw, 0.45 in force", "3.21 > 0.42 deg",
                            "scale 1.111 +- 0.0012", "bias_deg_s -6.37 +- 0.02", "refused, held", "61 %",
                            "turn through 140 more degrees, headings 220 to 0"}) {
-    EXPECT_TRUE(has(page, part)) << part << "\n" << page;
+    EXPECT_TRUE(report_has(page, part)) << part << "\n" << page;
   }
-  EXPECT_TRUE(has(view.line(), "calibration 7-1a2b3c4d"));
+  EXPECT_TRUE(report_has(view.line(), "calibration 7-1a2b3c4d"));
 }
 
 TEST(WatchCalibration, PartsOfAReportAreShownTogether) {
@@ -39,7 +39,7 @@ TEST(WatchCalibration, PartsOfAReportAreShownTogether) {
   view.take(R"({"class":"CALIB","name":"1-x","part":1,"parts":2,"calibrators":[{"calibrator":"gyro"}]})");
   view.take(R"({"class":"CALIB","name":"1-x","part":2,"parts":2,"calibrators":[{"calibrator":"swing"}]})");
   const std::string page = view.page(WatchView::Colour::none);
-  EXPECT_TRUE(has(page, "gyro") && has(page, "swing")) << page;
+  EXPECT_TRUE(report_has(page, "gyro") && report_has(page, "swing")) << page;
 }
 
 TEST(WatchCalibration, TheCompassesOwnCalibrationStandsBesideOurs) {
@@ -47,9 +47,10 @@ TEST(WatchCalibration, TheCompassesOwnCalibrationStandsBesideOurs) {
   view.take(R"({"class":"CALIB","name":"1-x","calibrators":[{"calibrator":"compass"}],"tcm2":{"state":"done",)"
             R"("score":{"horizontal":9,"vertical":4,"magnitude":12.3}}})");
   const std::string page = view.page(WatchView::Colour::none);
-  EXPECT_TRUE(has(page, "tcm2's own") && has(page, "horizontal 9 vertical 4 of 9, magnitude 12.3")) << page;
+  EXPECT_TRUE(report_has(page, "tcm2's own") && report_has(page, "horizontal 9 vertical 4 of 9, magnitude 12.3"))
+      << page;
   view.take(R"({"class":"CALIB","name":"1-x","calibrators":[],"tcm2":{"state":"not begun","score":null}})");
-  EXPECT_TRUE(has(view.page(WatchView::Colour::none), "not begun"));
+  EXPECT_TRUE(report_has(view.page(WatchView::Colour::none), "not begun"));
 }
 
 TEST(CompassRose, EverySectorHasAPlaceOfItsOwn) {

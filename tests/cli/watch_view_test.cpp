@@ -17,7 +17,7 @@ std::string health(double uptime_s, int frames, const std::string& alarms = "[]"
          std::to_string(dropped) + "}";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool page_has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(WatchView, AlarmsComeFirstAndInRed) {
   WatchView view;
@@ -32,7 +32,7 @@ TEST(WatchView, RatesComeFromTheDifferenceOfReports) {
   WatchView view;
   view.take(health(10, 200));
   view.take(health(12, 240));
-  EXPECT_TRUE(has(view.page(Colour::none), "20.0")) << view.page(Colour::none);
+  EXPECT_TRUE(page_has(view.page(Colour::none), "20.0")) << view.page(Colour::none);
 }
 
 TEST(WatchView, AReportOnAChangeDoesNotDistortTheRate) {
@@ -41,24 +41,24 @@ TEST(WatchView, AReportOnAChangeDoesNotDistortTheRate) {
   view.take(health(11, 220));
   view.take(health(11.01, 221));
   view.take(health(12, 240));
-  EXPECT_TRUE(has(view.line(), "imu running 20.0/s")) << view.line();
+  EXPECT_TRUE(page_has(view.line(), "imu running 20.0/s")) << view.line();
 }
 
 TEST(WatchView, TellsAReckonedPositionFromOneByFixes) {
   WatchView view;
   const std::string begin = R"({"class":"NAV","device":"navigation","position":)";
   view.take(begin + R"("none","lat":null,"heading_rad":1.5707963,"speed_m_s":1.02,"depth_m":0.5})");
-  EXPECT_TRUE(has(view.page(Colour::none), "no position before the first fix, heading 90.0 deg true"));
-  EXPECT_FALSE(has(view.line(), "reckoned"));
+  EXPECT_TRUE(page_has(view.page(Colour::none), "no position before the first fix, heading 90.0 deg true"));
+  EXPECT_FALSE(page_has(view.line(), "reckoned"));
   view.take(begin + R"("reckoned","lat":37.5,"lon":-80,"north_std_m":3,"east_std_m":4,"since_fix_s":83.2,)" +
             R"("since_fix_m":91.4})");
   view.take(R"({"class":"TPV","device":"navigation","mode":2,"lat":37.5,"lon":-80})");
-  EXPECT_TRUE(has(view.page(Colour::none), "37.5000000 -80.0000000, off by 5.0 m"));
-  EXPECT_TRUE(has(view.page(Colour::none), "RECKONED: 83 s and 91 m since the last fix"));
-  EXPECT_TRUE(has(view.line(), "reckoned 37.5000000 -80.0000000 off by 5.0 m; "));
-  EXPECT_FALSE(has(view.page(Colour::none), "2D")) << "said once";
+  EXPECT_TRUE(page_has(view.page(Colour::none), "37.5000000 -80.0000000, off by 5.0 m"));
+  EXPECT_TRUE(page_has(view.page(Colour::none), "RECKONED: 83 s and 91 m since the last fix"));
+  EXPECT_TRUE(page_has(view.line(), "reckoned 37.5000000 -80.0000000 off by 5.0 m; "));
+  EXPECT_FALSE(page_has(view.page(Colour::none), "2D")) << "said once";
   view.take(begin + R"("fixes","lat":37.5,"lon":-80,"north_std_m":0.3,"east_std_m":0.4})");
-  EXPECT_FALSE(has(view.page(Colour::none), "RECKONED"));
+  EXPECT_FALSE(page_has(view.page(Colour::none), "RECKONED"));
   view.take(R"({"class":"NAV","position":7,"lat":"x","north_std_m":[]})");
   EXPECT_FALSE(view.page(Colour::none).empty());
 }
@@ -76,7 +76,7 @@ TEST(WatchView, EveryKindOfReportIsShown) {
   for (const char* part : {"heading 123.4", "depth 4.25 m", "3D 57.7128300 12.0225900",
                            "800 rpm, 1.50 A, fins 5.7 - -5.7", "log: writing navcal-1.mcap, 1.5 MB, 2 kB queued",
                            "UTC from gps, to within 0.012500 s", "missed 3 reports"}) {
-    EXPECT_TRUE(has(page, part)) << part << "\n" << page;
+    EXPECT_TRUE(page_has(page, part)) << part << "\n" << page;
   }
 }
 
@@ -84,8 +84,8 @@ TEST(WatchView, ShowsWhichPortServesWhat) {
   WatchView view;
   view.take(R"({"class":"HEALTH","ports":[],"sources":{"heading":"compass","field":"compass","position":"gps",)"
             R"("velocity":"gps","shaft":"motor"}})");
-  EXPECT_TRUE(
-      has(view.page(Colour::none), "heading and field by compass, position and velocity by gps, shaft by motor\n"))
+  EXPECT_TRUE(page_has(view.page(Colour::none),
+                       "heading and field by compass, position and velocity by gps, shaft by motor\n"))
       << view.page(Colour::none);
   view.take(R"({"class":"HEALTH","ports":[],"sources":{"heading":7}})");
   EXPECT_FALSE(view.page(Colour::none).empty());
@@ -94,16 +94,16 @@ TEST(WatchView, ShowsWhichPortServesWhat) {
 TEST(WatchView, SaysWhichNorthAHeadingIsFrom) {
   WatchView view;
   view.take(R"({"class":"ATT","device":"compass","heading":10,"north":"magnetic"})");
-  EXPECT_TRUE(has(view.page(Colour::none), "heading 10.0 deg magnetic,"));
+  EXPECT_TRUE(page_has(view.page(Colour::none), "heading 10.0 deg magnetic,"));
   view.take(R"({"class":"ATT","device":"compass","heading":10,"north":"true"})");
-  EXPECT_TRUE(has(view.page(Colour::none), "heading 10.0 deg true,"));
+  EXPECT_TRUE(page_has(view.page(Colour::none), "heading 10.0 deg true,"));
 }
 
 TEST(WatchView, ALostConnectionIsForgotten) {
   WatchView view;
   view.take(health(1, 20, R"([{"alarm":"leak_aft","device":"imu"}])"));
   view.clear();
-  EXPECT_FALSE(has(view.page(Colour::none), "ALARM"));
+  EXPECT_FALSE(page_has(view.page(Colour::none), "ALARM"));
 }
 
 TEST(WatchView, NothingFromTheNetworkMovesTheCursor) {

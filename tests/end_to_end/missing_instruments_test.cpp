@@ -22,7 +22,7 @@ using test::Process;
 using test::TemporaryFolder;
 using Json = nlohmann::json;
 
-constexpr std::chrono::seconds kPatience{90};
+constexpr std::chrono::seconds kMissingPatience{90};
 struct Instrument {
   const char* port;
   const char* protocol;
@@ -30,7 +30,7 @@ struct Instrument {
 constexpr std::array<Instrument, 4> kInstruments{
     {{"compass", "tcm2"}, {"imu", "imu-card"}, {"gps", "oncore"}, {"motor", "motor-card"}}};
 
-std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
+std::string built_program(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
 
 /// The emulated instruments of one vehicle, and its navcald, which knows of some of them only.
 class Vehicle {
@@ -45,12 +45,13 @@ class Vehicle {
       if (std::string_view(port) == "compass") config << "baud = 38400\n";
     }
     config.close();
-    emulator_ = std::make_unique<Process>(std::vector<std::string>{tool("cli/navcal"), "emulate", "--dir",
+    emulator_ = std::make_unique<Process>(std::vector<std::string>{built_program("cli/navcal"), "emulate", "--dir",
                                                                    (folder_ / "ports").string(), "--seed", "5"},
                                           folder_ / "emulate");
   }
   void start_daemon() {
-    std::vector<std::string> command{tool("daemon/navcald"), "--config", (folder_ / "navcald.toml").string()};
+    std::vector<std::string> command{built_program("daemon/navcald"), "--config",
+                                     (folder_ / "navcald.toml").string()};
     const auto set = [&](const std::string& setting) { command.insert(command.end(), {"--set", setting}); };
     set("log.directory=" + (folder_ / "logs").string());
     set("status.port=0");
@@ -96,16 +97,16 @@ class Vehicle {
   }
   void stop() {
     daemon_->signal(SIGTERM);
-    EXPECT_EQ(daemon_->wait(kPatience), 0) << name() << daemon_->err();
+    EXPECT_EQ(daemon_->wait(kMissingPatience), 0) << name() << daemon_->err();
     emulator_->signal(SIGTERM);
-    EXPECT_EQ(emulator_->wait(kPatience), 0) << name() << emulator_->err();
+    EXPECT_EQ(emulator_->wait(kMissingPatience), 0) << name() << emulator_->err();
   }
   [[nodiscard]] std::vector<std::string> replayed_navigation() const {
     std::vector<std::string> reports;
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / "logs")) {
       if (entry.path().extension() != ".mcap") continue;
-      Process replay({tool("cli/navcal"), "replay", entry.path().string()}, folder_ / "replay");
-      EXPECT_EQ(replay.wait(kPatience), 0) << name() << replay.err();
+      Process replay({built_program("cli/navcal"), "replay", entry.path().string()}, folder_ / "replay");
+      EXPECT_EQ(replay.wait(kMissingPatience), 0) << name() << replay.err();
       std::istringstream lines(replay.out());
       for (std::string line; std::getline(lines, line);) {
         if (line.find("\"class\":\"NAV\"") != std::string::npos) reports.push_back(line);
@@ -132,11 +133,11 @@ TEST(MissingInstruments, EachAndEachPairLive) {
     }
   }
   for (auto& vehicle : vehicles) {
-    ASSERT_TRUE(eventually([&] { return vehicle->emulator_is_ready(); }, kPatience)) << vehicle->name();
+    ASSERT_TRUE(eventually([&] { return vehicle->emulator_is_ready(); }, kMissingPatience)) << vehicle->name();
     vehicle->start_daemon();
   }
   for (auto& vehicle : vehicles) {
-    EXPECT_TRUE(eventually([&] { return vehicle->reports_what_it_can(); }, kPatience))
+    EXPECT_TRUE(eventually([&] { return vehicle->reports_what_it_can(); }, kMissingPatience))
         << vehicle->name() << '\n'
         << vehicle->said() << (vehicle->navigation().empty() ? "no report" : vehicle->navigation().back());
   }

@@ -22,7 +22,7 @@ using test::eventually;
 using test::Process;
 using test::TemporaryFolder;
 
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kMissionPatience{60};
 
 std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
 
@@ -62,11 +62,11 @@ class Mission : public testing::Test {
     ASSERT_TRUE(eventually([&] { return instruments.out().find("ready") != std::string::npos; }))
         << instruments.err();
     Process daemon(daemon_command(), folder_ / "navcald");
-    ASSERT_TRUE(eventually([&] { return every_instrument_is_logged(); }, kPatience)) << daemon.err();
+    ASSERT_TRUE(eventually([&] { return every_instrument_is_logged(); }, kMissionPatience)) << daemon.err();
     daemon.signal(SIGTERM);
-    EXPECT_EQ(daemon.wait(kPatience), 0) << daemon.err();
+    EXPECT_EQ(daemon.wait(kMissionPatience), 0) << daemon.err();
     instruments.signal(SIGTERM);
-    EXPECT_EQ(instruments.wait(kPatience), 0) << instruments.err();
+    EXPECT_EQ(instruments.wait(kMissionPatience), 0) << instruments.err();
     for (const auto& entry : std::filesystem::directory_iterator(logs_)) {
       if (entry.path().extension() == ".mcap") log_ = entry.path();
     }
@@ -134,7 +134,7 @@ TEST_F(Mission, WhatWasSentIsWhatWasLoggedAndReplayIsWhatWasLive) {
   EXPECT_EQ(reader.findings().bad_crc, 0U);
 
   Process replay({tool("cli/navcal"), "replay", log_.string()}, folder_ / "replay");
-  ASSERT_EQ(replay.wait(kPatience), 0) << replay.err();
+  ASSERT_EQ(replay.wait(kMissionPatience), 0) << replay.err();
   std::map<std::string, std::vector<std::string>> replayed;
   for (const auto& line : lines_of(replay.out())) {
     auto topic = "/" + nlohmann::json::parse(line).at("class").get<std::string>();
@@ -149,19 +149,19 @@ TEST_F(Mission, WhatWasSentIsWhatWasLoggedAndReplayIsWhatWasLive) {
 
 TEST_F(Mission, TheLogExportsToTheFormsThatOthersRead) {
   Process info({tool("cli/navcal"), "log", "info", "--json", log_.string()}, folder_ / "info");
-  ASSERT_EQ(info.wait(kPatience), 0) << info.err();
+  ASSERT_EQ(info.wait(kMissionPatience), 0) << info.err();
   EXPECT_TRUE(nlohmann::json::accept(info.out())) << info.out();
 
   const auto capture = folder_ / "again.cap";
   Process cap({tool("cli/navcal"), "log", "export", "--cap", capture.string(), log_.string()}, folder_ / "cap");
-  ASSERT_EQ(cap.wait(kPatience), 0) << cap.err();
+  ASSERT_EQ(cap.wait(kMissionPatience), 0) << cap.err();
   const Traffic exported = traffic_of(capture), logged = traffic_of(log_);
   EXPECT_EQ(exported.received, logged.received);
   EXPECT_EQ(exported.sent, logged.sent);
 
   Process csv({tool("cli/navcal"), "log", "export", "--csv", (folder_ / "csv").string(), log_.string()},
               folder_ / "csvout");
-  ASSERT_EQ(csv.wait(kPatience), 0) << csv.err();
+  ASSERT_EQ(csv.wait(kMissionPatience), 0) << csv.err();
   std::size_t tables = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "csv")) {
     if (entry.path().extension() != ".csv") continue;  // the configuration lies beside the tables

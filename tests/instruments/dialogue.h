@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/durations.h"
 #include "instruments/start_up.h"
 
 // A start-up dialogue run on a simulated clock against a device made of a few lines.
 namespace navcal::instruments::test {
-
-inline constexpr std::int64_t kMs = 1'000'000;
-inline constexpr std::int64_t kSecond = 1000 * kMs;
 
 struct Sent {
   std::int64_t at_ns;
@@ -30,14 +28,14 @@ class Dialogue {
   void begin() { start_up_->begin(now_ns_); }
 
   /// The device sends a frame after `delay_ns`.
-  void answer(std::string_view id, std::string bytes = "", std::int64_t delay_ns = 20 * kMs) {
+  void answer(std::string_view id, std::string bytes = "", std::int64_t delay_ns = 20 * base::kMillisecond_ns) {
     pending_.push_back({now_ns_ + delay_ns, std::string(id), std::move(bytes)});
   }
 
   /// Lets time pass; `each_ms` is called before every millisecond.
   void run_for(
       std::int64_t duration_ns, const std::function<void()>& each_ms = [] {}) {
-    for (const std::int64_t end = now_ns_ + duration_ns; now_ns_ < end; now_ns_ += kMs) {
+    for (const std::int64_t end = now_ns_ + duration_ns; now_ns_ < end; now_ns_ += base::kMillisecond_ns) {
       each_ms();
       deliver();
       if (start_up_->deadline_ns() > now_ns_) continue;  // nobody calls next() before its time
@@ -88,7 +86,7 @@ class Dialogue {
   std::unique_ptr<StartUp> start_up_;
   Device device_;
   std::vector<Pending> pending_;
-  std::int64_t now_ns_ = 5 * kSecond;
+  std::int64_t now_ns_ = 5 * base::kSecond_ns;
 };
 
 /// The same command is never repeated within `least_ns`.

@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/durations.h"
 #include "tests/instruments/clock_simulation.h"
 
 namespace navcal::instruments {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 FrameObservation at(double time_s, std::optional<int> sequence = std::nullopt) {
   FrameObservation frame;
@@ -21,7 +20,7 @@ TEST(FrameClock, WithoutARateArrivalIsAllThereIs) {
   FrameClock clock(0, 0.01);
   const auto outcome = clock.update(at(5.0));
   EXPECT_EQ(outcome.time.time_ns, 5'000'000'000);
-  EXPECT_GE(outcome.time.std_ns, 10 * kMs);
+  EXPECT_GE(outcome.time.std_ns, 10 * base::kMillisecond_ns);
   EXPECT_FALSE(clock.state().locked);
 }
 

@@ -22,14 +22,14 @@ std::string asked(const Dialogue& dialogue) {
 /// Sends `id` every second while it is not empty.
 std::function<void()> every_second(Dialogue& dialogue, const std::string& id) {
   return [&dialogue, &id] {
-    if (!id.empty() && dialogue.now_ns() % kSecond == 0) dialogue.frame(id);
+    if (!id.empty() && dialogue.now_ns() % base::kSecond_ns == 0) dialogue.frame(id);
   };
 }
 
 TEST(StartUpOncore, AsksForPositionSatellitesAndOffsetEverySecond) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
-  dialogue.run_for(kMs);
+  dialogue.run_for(base::kMillisecond_ns);
   EXPECT_EQ(asked(dialogue), "Ha Bb Bo ");
   EXPECT_EQ(dialogue.sent[0].text, std::string("@@Ha\x01\x28\r\n"));
   EXPECT_EQ(dialogue.sent[1].text, std::string("@@Bb\x01\x21\r\n"));
@@ -41,7 +41,7 @@ TEST(StartUpOncore, ATwelveChannelReceiverIsAskedOnce) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
   const std::string id = "Ha";
-  dialogue.run_for(60 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(60 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(asked(dialogue), "Ha Bb Bo ");
   EXPECT_EQ(dialogue.state(), "running on Ha");
 }
@@ -50,12 +50,12 @@ TEST(StartUpOncore, FallsBackToEightChannels) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
   const std::string id = "Ea";
-  dialogue.run_for(3400 * kMs, every_second(dialogue, id));
+  dialogue.run_for(3400 * base::kMillisecond_ns, every_second(dialogue, id));
   EXPECT_EQ(asked(dialogue), "Ha Bb Bo ");
-  dialogue.run_for(200 * kMs, every_second(dialogue, id));
+  dialogue.run_for(200 * base::kMillisecond_ns, every_second(dialogue, id));
   EXPECT_EQ(asked(dialogue), "Ha Bb Bo Ea Bb Bo ");
   EXPECT_EQ(dialogue.state(), "no answer to Ha: trying Ea");
-  dialogue.run_for(30 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(30 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(asked(dialogue), "Ha Bb Bo Ea Bb Bo ");
   EXPECT_EQ(dialogue.state(), "running on Ea");
 }
@@ -64,7 +64,7 @@ TEST(StartUpOncore, ContentsItselfWithNmea) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
   const std::string id = "GPGGA";
-  dialogue.run_for(60 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(60 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(asked(dialogue), "Ha Bb Bo Ea Bb Bo ");
   EXPECT_EQ(dialogue.state(), "running on NMEA: no answer to Ha or Ea");
 }
@@ -73,12 +73,12 @@ TEST(StartUpOncore, BinaryPositionsArePreferredToNmea) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
   std::string id = "GPGGA";
-  dialogue.run_for(20 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(20 * base::kSecond_ns, every_second(dialogue, id));
   id = "Ha";
-  dialogue.run_for(2 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(2 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(dialogue.state(), "running on Ha");
   id = "GPGGA";
-  dialogue.run_for(2 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(2 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(dialogue.state(), "running on Ha");
 }
 
@@ -86,25 +86,25 @@ TEST(StartUpOncore, ASilentReceiverIsAskedEveryTenSeconds) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
   const std::int64_t began = dialogue.now_ns();
-  dialogue.run_for(8 * kSecond);
+  dialogue.run_for(8 * base::kSecond_ns);
   EXPECT_EQ(dialogue.state(), "no answer to Ha or Ea, and no NMEA: trying again every 10 s, 1 so far");
-  dialogue.run_for(92 * kSecond);
+  dialogue.run_for(92 * base::kSecond_ns);
   std::vector<std::int64_t> asked_ha;
   for (const Sent& command : dialogue.sent) {
     if (command.text.starts_with("@@Ha")) asked_ha.push_back(command.at_ns);
   }
   ASSERT_EQ(asked_ha.size(), 10U);
   for (std::size_t i = 0; i < asked_ha.size(); ++i) {
-    EXPECT_EQ(asked_ha[i], began + static_cast<std::int64_t>(i) * 10 * kSecond);
+    EXPECT_EQ(asked_ha[i], began + static_cast<std::int64_t>(i) * 10 * base::kSecond_ns);
   }
-  EXPECT_TRUE(never_repeated_within(dialogue.sent, 3 * kSecond));
+  EXPECT_TRUE(never_repeated_within(dialogue.sent, 3 * base::kSecond_ns));
 }
 
 TEST(StartUpOncore, OtherMessagesAreNoPosition) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
   const std::string id = "Bo";
-  dialogue.run_for(8 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(8 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(dialogue.state(), "no answer to Ha or Ea, and no NMEA: trying again every 10 s, 1 so far");
 }
 
@@ -112,22 +112,22 @@ TEST(StartUpOncore, AfterAPowerCycleItBeginsAgain) {
   Dialogue dialogue(receiver_start_up());
   dialogue.begin();
   std::string id = "Ha";
-  dialogue.run_for(10 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(10 * base::kSecond_ns, every_second(dialogue, id));
   dialogue.sent.clear();
   id = "Bb";  // it came back in another state
-  dialogue.run_for(2 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(2 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_TRUE(dialogue.sent.empty());
-  dialogue.run_for(2 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(2 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(asked(dialogue), "Ha Bb Bo ");
   id = "Ha";
-  dialogue.run_for(2 * kSecond, every_second(dialogue, id));
+  dialogue.run_for(2 * base::kSecond_ns, every_second(dialogue, id));
   EXPECT_EQ(dialogue.state(), "running on Ha");
 }
 
 TEST(StartUpOncore, SaysNothingBeforeItBegins) {
   Dialogue dialogue(receiver_start_up());
   dialogue.frame("Ha");
-  dialogue.run_for(20 * kSecond);
+  dialogue.run_for(20 * base::kSecond_ns);
   EXPECT_TRUE(dialogue.sent.empty());
   EXPECT_EQ(dialogue.start_up().deadline_ns(), INT64_MAX);
 }

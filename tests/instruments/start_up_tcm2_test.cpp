@@ -29,7 +29,7 @@ struct Compass {
   }
   std::function<void()> words(Dialogue& dialogue) {
     return [this, &dialogue] {
-      if (on && going && dialogue.now_ns() % (100 * kMs) == 0) dialogue.frame("WORD");
+      if (on && going && dialogue.now_ns() % (100 * base::kMillisecond_ns) == 0) dialogue.frame("WORD");
     };
   }
 };
@@ -38,11 +38,11 @@ TEST(StartUpTcm2, HaltsTwiceSetsAndGoes) {
   Compass compass_device;
   Dialogue dialogue(make_start_up(compass()), compass_device.device());
   dialogue.begin();
-  dialogue.run_for(10 * kSecond, compass_device.words(dialogue));
+  dialogue.run_for(10 * base::kSecond_ns, compass_device.words(dialogue));
   EXPECT_EQ(dialogue.transcript(), std::string("h h ") + kSettings + "go ");
-  EXPECT_EQ(dialogue.sent[1].at_ns - dialogue.sent[0].at_ns, 100 * kMs);
+  EXPECT_EQ(dialogue.sent[1].at_ns - dialogue.sent[0].at_ns, 100 * base::kMillisecond_ns);
   EXPECT_EQ(dialogue.state(), "running");
-  EXPECT_LT(dialogue.sent.back().at_ns - dialogue.sent.front().at_ns, kSecond)
+  EXPECT_LT(dialogue.sent.back().at_ns - dialogue.sent.front().at_ns, base::kSecond_ns)
       << "a willing device starts at once";
 }
 
@@ -50,7 +50,7 @@ TEST(StartUpTcm2, SaysNothingBeforeItBegins) {
   Dialogue dialogue(make_start_up(compass()));
   dialogue.frame("BANNER");
   dialogue.frame("WORD");
-  dialogue.run_for(20 * kSecond);
+  dialogue.run_for(20 * base::kSecond_ns);
   EXPECT_TRUE(dialogue.sent.empty());
   EXPECT_EQ(dialogue.start_up().deadline_ns(), INT64_MAX);
 }
@@ -68,7 +68,7 @@ TEST(StartUpTcm2, UnitsAndRateComeFromTheConfiguration) {
     Compass compass_device;
     Dialogue dialogue(make_start_up(port), compass_device.device());
     dialogue.begin();
-    dialogue.run_for(3 * kSecond, compass_device.words(dialogue));
+    dialogue.run_for(3 * base::kSecond_ns, compass_device.words(dialogue));
     EXPECT_EQ(dialogue.transcript(),
               std::string("h h uc=m ui=m ut=f ec=e ep=e er=e em=e et=e sdo=t ") + expected + "go ");
   }
@@ -82,7 +82,7 @@ TEST(StartUpTcm2, ARefusalIsRecordedAndCostsNothing) {
     if (command == "go\r") d.answer("WORD");
   });
   dialogue.begin();
-  dialogue.run_for(2 * kSecond);
+  dialogue.run_for(2 * base::kSecond_ns);
   EXPECT_EQ(dialogue.transcript(), std::string("h h ") + kSettings + "clock=10 sp=1 go ");
   EXPECT_EQ(dialogue.state(), "running; refused: clock=10 (E040)");
 }
@@ -93,7 +93,7 @@ TEST(StartUpTcm2, AnUnansweredSettingIsRepeatedTwiceThenNamed) {
     if (command == "go\r") d.answer("WORD");
   });
   dialogue.begin();
-  dialogue.run_for(4 * kSecond);
+  dialogue.run_for(4 * base::kSecond_ns);
   EXPECT_EQ(dialogue.transcript(), "h h uc=d ui=d ut=c ec=e ep=e er=e em=e et=e et=e et=e sdo=t go ");
   EXPECT_EQ(dialogue.state(), "running; no reply to: et=e");
 }
@@ -103,24 +103,24 @@ TEST(StartUpTcm2, ADeviceThatNeverRepliesIsStillStarted) {
     if (command == "go\r") d.answer("WORD");
   });
   dialogue.begin();
-  dialogue.run_for(7 * kSecond);
+  dialogue.run_for(7 * base::kSecond_ns);
   EXPECT_EQ(dialogue.transcript(), "h h uc=d uc=d uc=d ui=d ut=c ec=e ep=e er=e em=e et=e sdo=t go ");
-  EXPECT_TRUE(never_repeated_within(dialogue.sent, 100 * kMs));
+  EXPECT_TRUE(never_repeated_within(dialogue.sent, 100 * base::kMillisecond_ns));
 }
 
 TEST(StartUpTcm2, RepliesToTheHaltsAnswerNoSetting) {
   Dialogue dialogue(make_start_up(compass()), [](Dialogue& d, const std::string& command) {
-    if (command == "h\r") d.answer("REPLY", ":\r\n", 150 * kMs);
+    if (command == "h\r") d.answer("REPLY", ":\r\n", 150 * base::kMillisecond_ns);
   });
   dialogue.begin();
-  dialogue.run_for(650 * kMs);
+  dialogue.run_for(650 * base::kMillisecond_ns);
   EXPECT_EQ(dialogue.transcript(), "h h uc=d ");
 }
 
 TEST(StartUpTcm2, AValueOfAnotherParameterAnswersNoSetting) {
   Dialogue dialogue(make_start_up(compass()));
   dialogue.begin();
-  dialogue.run_for(350 * kMs);
+  dialogue.run_for(350 * base::kMillisecond_ns);
   dialogue.frame("REPLY", ":ec=e\r\n");
   dialogue.frame("REPLY", "H9V9M1.0\r\n");
   EXPECT_EQ(dialogue.state(), "setting uc=d (1 of 9)");
@@ -132,11 +132,11 @@ TEST(StartUpTcm2, BeginsAgainAfterABanner) {
   Compass compass_device;
   Dialogue dialogue(make_start_up(compass()), compass_device.device());
   dialogue.begin();
-  dialogue.run_for(5 * kSecond, compass_device.words(dialogue));
+  dialogue.run_for(5 * base::kSecond_ns, compass_device.words(dialogue));
   dialogue.sent.clear();
   compass_device.going = false;
   dialogue.frame("BANNER", "TCM2.5\r\n");
-  dialogue.run_for(2 * kSecond, compass_device.words(dialogue));
+  dialogue.run_for(2 * base::kSecond_ns, compass_device.words(dialogue));
   EXPECT_EQ(dialogue.transcript(), std::string("h h ") + kSettings + "go ");
   EXPECT_EQ(dialogue.state(), "running");
 }
@@ -145,39 +145,39 @@ TEST(StartUpTcm2, APowerCycleWithoutBannerIsNoticedByTheSilence) {
   Compass compass_device;
   Dialogue dialogue(make_start_up(compass()), compass_device.device());
   dialogue.begin();
-  dialogue.run_for(5 * kSecond, compass_device.words(dialogue));
+  dialogue.run_for(5 * base::kSecond_ns, compass_device.words(dialogue));
   dialogue.sent.clear();
   compass_device.on = compass_device.going = false;
-  dialogue.run_for(2900 * kMs, compass_device.words(dialogue));
+  dialogue.run_for(2900 * base::kMillisecond_ns, compass_device.words(dialogue));
   EXPECT_TRUE(dialogue.sent.empty());
-  dialogue.run_for(30 * kSecond, compass_device.words(dialogue));
+  dialogue.run_for(30 * base::kSecond_ns, compass_device.words(dialogue));
   EXPECT_NE(dialogue.state().find("no words came so far"), std::string::npos) << dialogue.state();
   compass_device.on = true;
-  dialogue.run_for(20 * kSecond, compass_device.words(dialogue));
+  dialogue.run_for(20 * base::kSecond_ns, compass_device.words(dialogue));
   EXPECT_EQ(dialogue.state(), "running");
 }
 
 TEST(StartUpTcm2, NeverFloodsADeadDevice) {
   Dialogue dialogue(make_start_up(compass()));
   dialogue.begin();
-  dialogue.run_for(600 * kSecond);
-  EXPECT_TRUE(never_repeated_within(dialogue.sent, 100 * kMs));
+  dialogue.run_for(600 * base::kSecond_ns);
+  EXPECT_TRUE(never_repeated_within(dialogue.sent, 100 * base::kMillisecond_ns));
   std::vector<std::int64_t> started;
   for (const Sent& command : dialogue.sent) {
     if (command.text == "go\r") started.push_back(command.at_ns);
   }
   ASSERT_GT(started.size(), 30U) << "and never gives up";
-  for (std::size_t i = 4; i < started.size(); ++i) EXPECT_GE(started[i] - started[i - 1], 10 * kSecond);
+  for (std::size_t i = 4; i < started.size(); ++i) EXPECT_GE(started[i] - started[i - 1], 10 * base::kSecond_ns);
   EXPECT_LT(dialogue.sent.size(), 600U) << "less than one command a second";
 }
 
 TEST(StartUpTcm2, BannersWithoutEndCauseNoFlood) {
   Dialogue dialogue(make_start_up(compass()));
   dialogue.begin();
-  dialogue.run_for(10 * kSecond, [&] {
-    if (dialogue.now_ns() % (250 * kMs) == 0) dialogue.frame("BANNER");
+  dialogue.run_for(10 * base::kSecond_ns, [&] {
+    if (dialogue.now_ns() % (250 * base::kMillisecond_ns) == 0) dialogue.frame("BANNER");
   });
-  EXPECT_TRUE(never_repeated_within(dialogue.sent, 100 * kMs));
+  EXPECT_TRUE(never_repeated_within(dialogue.sent, 100 * base::kMillisecond_ns));
   EXPECT_LE(dialogue.sent.size(), 50U);
 }
 
@@ -187,11 +187,11 @@ TEST(StartUpTcm2, ASlowRateIsNoSilence) {
   Dialogue dialogue(make_start_up(port), [](Dialogue& d, const std::string&) { d.answer("REPLY", ":\r\n"); });
   dialogue.begin();
   const auto words = [&] {
-    if (dialogue.now_ns() % (5 * kSecond) == 0) dialogue.frame("WORD");
+    if (dialogue.now_ns() % (5 * base::kSecond_ns) == 0) dialogue.frame("WORD");
   };
-  dialogue.run_for(12 * kSecond, words);
+  dialogue.run_for(12 * base::kSecond_ns, words);
   const std::size_t sent = dialogue.sent.size();
-  dialogue.run_for(60 * kSecond, words);
+  dialogue.run_for(60 * base::kSecond_ns, words);
   EXPECT_EQ(dialogue.sent.size(), sent);
   EXPECT_EQ(dialogue.state(), "running");
 }

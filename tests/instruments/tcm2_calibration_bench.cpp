@@ -15,9 +15,9 @@ sim::Tcm2::Options in_service() {
   return options;
 }
 
-config::PortSettings compass() {
+config::PortSettings calibrated_compass() {
   config::PortSettings port;
-  port.name = "compass";
+  port.name = "calibrated_compass";
   port.protocol = protocols::Protocol::tcm2;
   port.rate_Hz = 10;
   return port;
@@ -26,7 +26,7 @@ config::PortSettings compass() {
 }  // namespace
 
 sim::State Turning::at(std::int64_t t_ns) const {
-  const double t_s = static_cast<double>(t_ns % (3600 * kSecond)) * 1e-9;
+  const double t_s = static_cast<double>(t_ns % (3600 * base::kSecond_ns)) * 1e-9;
   sim::State state;
   state.specific_force_m_s2 = {0, 0, -sim::kGravity_m_s2};
   state.euler_rad = {0.3 * std::sin(t_s / 3), 0.25 * std::sin(t_s / 4), rate_deg_s_ * t_s * kRadians};
@@ -34,14 +34,14 @@ sim::State Turning::at(std::int64_t t_ns) const {
 }
 
 Tcm2CalibrationBench::Tcm2CalibrationBench(double rate_deg_s, const Tcm2Calibration::Limits& limits)
-    : dialogue(compass(), limits), motion_(rate_deg_s), device_(in_service(), motion_) {
+    : dialogue(calibrated_compass(), limits), motion_(rate_deg_s), device_(in_service(), motion_) {
   device_.power_on(now_ns);
-  run_for(kSecond);  // its banner, and the first words
+  run_for(base::kSecond_ns);  // its banner, and the first words
 }
 
 void Tcm2CalibrationBench::run_for(std::int64_t duration_ns, const std::function<void()>& each) {
   const bool under_way = dialogue.busy();
-  for (const std::int64_t end_ns = now_ns + duration_ns; now_ns < end_ns; now_ns += kMs) {
+  for (const std::int64_t end_ns = now_ns + duration_ns; now_ns < end_ns; now_ns += base::kMillisecond_ns) {
     each();
     emissions_.clear();
     device_.advance(now_ns, emissions_);
@@ -77,8 +77,8 @@ std::string Tcm2CalibrationBench::transcript() const {
 }
 
 bool Tcm2CalibrationBench::words_flow() {
-  run_for(2 * kSecond);
-  return now_ns - last_word_ns_ < kSecond;
+  run_for(2 * base::kSecond_ns);
+  return now_ns - last_word_ns_ < base::kSecond_ns;
 }
 
 }  // namespace navcal::instruments::test

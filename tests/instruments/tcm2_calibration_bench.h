@@ -5,15 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/durations.h"
 #include "instruments/tcm2_calibration.h"
 #include "protocols/tcm2.h"
 #include "sim/instruments/tcm2.h"
 
 // The calibration dialogue against the emulated compass, on simulated time, over a line that may lose or delay.
 namespace navcal::instruments::test {
-
-inline constexpr std::int64_t kMs = 1'000'000;
-inline constexpr std::int64_t kSecond = 1000 * kMs;
 
 /// Turns at a steady rate, pitching and rolling a little.
 class Turning final : public sim::Motion {
@@ -38,7 +36,7 @@ class Tcm2CalibrationBench {
   [[nodiscard]] bool words_flow();
 
   Tcm2Calibration dialogue;
-  std::int64_t now_ns = 1'764'000'000 * kSecond;
+  std::int64_t now_ns = 1'764'000'000 * base::kSecond_ns;
   std::vector<std::string> sent;
   /// Whether a command gets through, and a line of the device's; by default all do.
   std::function<bool(const std::string&)> command_passes = [](const std::string&) { return true; };

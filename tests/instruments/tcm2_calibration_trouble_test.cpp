@@ -21,7 +21,7 @@ TEST(Tcm2CalibrationTrouble, AnyOneCommandMayBeLost) {
       return first = false;
     };
     bench.dialogue.begin(bench.now_ns);
-    bench.run_for(60 * kSecond);
+    bench.run_for(60 * base::kSecond_ns);
     EXPECT_FALSE(first) << lost;
     ASSERT_TRUE(bench.dialogue.score()) << lost << ": " << bench.dialogue.state();
     EXPECT_EQ(bench.dialogue.score()->horizontal, 9) << lost;
@@ -35,7 +35,7 @@ TEST(Tcm2CalibrationTrouble, AnyOneReplyMayBeLost) {
     int replies = 0;
     bench.line_passes = [&](const std::string& line) { return is_word(line) || replies++ != lost; };
     bench.dialogue.begin(bench.now_ns);
-    bench.run_for(60 * kSecond);
+    bench.run_for(60 * base::kSecond_ns);
     EXPECT_TRUE(bench.dialogue.score()) << lost << ": " << bench.dialogue.state();
     EXPECT_TRUE(bench.words_flow()) << lost;
   }
@@ -46,7 +46,7 @@ TEST(Tcm2CalibrationTrouble, ALostScoreIsAskedForAgain) {
   int scores = 0;
   bench.line_passes = [&](const std::string& line) { return line.front() != 'H' || scores++ != 1; };
   bench.dialogue.begin(bench.now_ns);
-  bench.run_for(60 * kSecond);
+  bench.run_for(60 * base::kSecond_ns);
   EXPECT_EQ(bench.transcript(), "h h cc mpcal=e go h h mpcal=d mpcal=d lc? go ");
   ASSERT_TRUE(bench.dialogue.score());
   EXPECT_EQ(bench.dialogue.score()->horizontal, 9);
@@ -56,7 +56,7 @@ TEST(Tcm2CalibrationTrouble, ADeviceThatNeverRepliesIsPutBackToService) {
   Tcm2CalibrationBench bench;
   bench.line_passes = is_word;
   bench.dialogue.begin(bench.now_ns);
-  bench.run_for(60 * kSecond);
+  bench.run_for(60 * base::kSecond_ns);
   EXPECT_EQ(bench.transcript(), "h h cc cc cc go ");
   EXPECT_EQ(bench.dialogue.state(), "failed: no answer to cc");
   EXPECT_TRUE(bench.words_flow());
@@ -66,7 +66,7 @@ TEST(Tcm2CalibrationTrouble, ADeadDeviceEndsItSoon) {
   Tcm2CalibrationBench bench;
   bench.line_passes = [](const std::string&) { return false; };
   bench.dialogue.begin(bench.now_ns);
-  bench.run_for(60 * kSecond);
+  bench.run_for(60 * base::kSecond_ns);
   EXPECT_FALSE(bench.dialogue.busy());
   EXPECT_EQ(bench.transcript(), "h h cc cc cc go go go ");
 }
@@ -90,7 +90,7 @@ TEST(Tcm2CalibrationTrouble, ARefusalEndsIt) {
     Tcm2CalibrationBench bench(36);
     refuse(bench, command);
     bench.dialogue.begin(bench.now_ns);
-    bench.run_for(60 * kSecond);
+    bench.run_for(60 * base::kSecond_ns);
     EXPECT_EQ(bench.transcript(), transcript);
     EXPECT_EQ(bench.dialogue.state(), "failed: " + command + " refused (E010)");
     EXPECT_FALSE(bench.dialogue.score());
@@ -100,9 +100,9 @@ TEST(Tcm2CalibrationTrouble, ARefusalEndsIt) {
 
 TEST(Tcm2CalibrationTrouble, LateAnswersAreNotTakenForOthers) {
   Tcm2CalibrationBench bench(36);
-  bench.delay_ns = 650 * kMs;  // after the command was repeated
+  bench.delay_ns = 650 * base::kMillisecond_ns;  // after the command was repeated
   bench.dialogue.begin(bench.now_ns);
-  bench.run_for(120 * kSecond);
+  bench.run_for(120 * base::kSecond_ns);
   ASSERT_TRUE(bench.dialogue.score()) << bench.dialogue.state() << ": " << bench.transcript();
   EXPECT_EQ(bench.dialogue.score()->horizontal, 9) << "not the score that cc answers";
   EXPECT_TRUE(bench.words_flow());
@@ -112,10 +112,10 @@ TEST(Tcm2CalibrationTrouble, ALossOfPowerAtAnyTime) {
   for (std::int64_t at_ms = 50; at_ms < 24'000; at_ms += at_ms < 2000 ? 50 : 480) {
     Tcm2CalibrationBench bench(36);
     bench.dialogue.begin(bench.now_ns);
-    bench.run_for(at_ms * kMs);
+    bench.run_for(at_ms * base::kMillisecond_ns);
     if (!bench.dialogue.busy()) continue;
     bench.power_cycle();
-    bench.run_for(60 * kSecond);
+    bench.run_for(60 * base::kSecond_ns);
     EXPECT_FALSE(bench.dialogue.busy()) << at_ms;
     EXPECT_TRUE(bench.words_flow()) << at_ms << " ms: " << bench.dialogue.state();
     if (at_ms < 20'000) {
@@ -127,9 +127,9 @@ TEST(Tcm2CalibrationTrouble, ALossOfPowerAtAnyTime) {
 TEST(Tcm2CalibrationTrouble, WordsThatStopWithoutABanner) {
   Tcm2CalibrationBench bench(36);
   bench.dialogue.begin(bench.now_ns);
-  bench.run_for(5 * kSecond);
+  bench.run_for(5 * base::kSecond_ns);
   bench.line_passes = [](const std::string&) { return false; };
-  bench.run_for(60 * kSecond);
+  bench.run_for(60 * base::kSecond_ns);
   EXPECT_EQ(bench.dialogue.state(), "failed: its words have stopped");
   EXPECT_EQ(bench.transcript(), "h h cc mpcal=e go h h mpcal=d mpcal=d mpcal=d go go go ");
 }
@@ -138,20 +138,20 @@ TEST(Tcm2CalibrationTrouble, ADeviceThatIsUnpluggedEndsItAtAnyTimeAndItCanBeginA
   for (const std::int64_t at_ms : {0, 50, 300, 450, 900, 5'000, 19'000, 20'500, 20'900}) {
     Tcm2CalibrationBench bench(36);
     bench.dialogue.begin(bench.now_ns);
-    bench.run_for(at_ms * kMs);
+    bench.run_for(at_ms * base::kMillisecond_ns);
     if (!bench.dialogue.busy()) continue;
     const bool had_score = bench.dialogue.score().has_value();
     const auto commands = bench.sent.size();
     bench.dialogue.abandon("the compass went away");
     EXPECT_FALSE(bench.dialogue.busy()) << at_ms;
     EXPECT_EQ(bench.dialogue.state() == "failed: the compass went away", !had_score) << at_ms;
-    bench.run_for(10 * kSecond);
+    bench.run_for(10 * base::kSecond_ns);
     EXPECT_EQ(bench.sent.size(), commands) << "nobody is there to be told, " << at_ms;
 
     bench.power_cycle();
-    bench.run_for(2 * kSecond);  // its banner
+    bench.run_for(2 * base::kSecond_ns);  // its banner
     bench.dialogue.begin(bench.now_ns);
-    bench.run_for(60 * kSecond);
+    bench.run_for(60 * base::kSecond_ns);
     ASSERT_TRUE(bench.dialogue.score()) << at_ms << ": " << bench.dialogue.state();
     EXPECT_TRUE(bench.words_flow()) << at_ms;
   }
@@ -162,7 +162,7 @@ TEST(Tcm2CalibrationTrouble, UnpluggedWhenNothingIsUnderWayItStaysAsItWas) {
   bench.dialogue.abandon("the compass went away");
   EXPECT_EQ(bench.dialogue.state(), "not begun");
   bench.dialogue.begin(bench.now_ns);
-  bench.run_for(60 * kSecond);
+  bench.run_for(60 * base::kSecond_ns);
   const std::string state = bench.dialogue.state();
   bench.dialogue.abandon("the compass went away");
   EXPECT_EQ(bench.dialogue.state(), state);

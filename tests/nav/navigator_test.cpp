@@ -13,7 +13,7 @@
 namespace navcal::nav::test {
 namespace {
 
-DriveOptions quiet() {
+DriveOptions without_noise() {
   DriveOptions options;
   options.noise = false;
   return options;
@@ -35,7 +35,7 @@ TEST(Navigator, SaysNothingBeforeItWasTold) {
 
 TEST(Navigator, AVehicleThatLiesStillStaysWhereItIs) {
   const auto way = level_way(600, 0, kStraight, 1.5, 2);
-  auto options = quiet();
+  auto options = without_noise();
   options.fixed = [](double t_s) { return t_s < 20; };
   const auto readings = readings_along(way, 600, options);
   Navigator navigator({});
@@ -60,7 +60,7 @@ TEST(Navigator, GoesRoundAndRoundWithoutAJumpAtNorthOrSouth) {
   const auto way = level_way(200, 1, [](double) { return -0.5; });
   Navigator navigator({});
   double before_rad = NAN;
-  for (const auto& arrived : readings_along(way, 200, quiet())) {
+  for (const auto& arrived : readings_along(way, 200, without_noise())) {
     give(navigator, arrived.reading);
     const auto estimate = navigator.estimate();
     if (!estimate.heading_rad) continue;
@@ -78,7 +78,7 @@ TEST(Navigator, GoesRoundAndRoundWithoutAJumpAtNorthOrSouth) {
 TEST(Navigator, LateReadingsAreComparedWithTheirOwnTime) {
   // At 40 deg/s a heading that is 66 ms old is off by 2.6 degrees, and a fix of half a second ago by half a metre.
   const auto way = level_way(120, 1, [](double) { return 40 * kDegree; });
-  auto options = quiet();
+  auto options = without_noise();
   Navigator late({});
   give(late, readings_along(way, 120, options));
   options.late = false;
@@ -92,7 +92,7 @@ TEST(Navigator, LateReadingsAreComparedWithTheirOwnTime) {
 
 TEST(Navigator, LearnsTheZerosOfItsGyros) {
   const auto way = level_way(900, 1, [](double t_s) { return 0.2 * std::sin(t_s / 10); });
-  auto options = quiet();
+  auto options = without_noise();
   options.zero_rad_s = Eigen::Vector3d(0.3, -0.3, 0.3) * kDegree;
   const auto readings = readings_along(way, 900, options);
   Navigator navigator({});

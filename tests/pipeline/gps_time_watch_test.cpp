@@ -6,11 +6,12 @@
 #include <cmath>
 #include <random>
 
+#include "base/durations.h"
+
 namespace navcal::pipeline {
 namespace {
 
-constexpr std::int64_t kS = 1'000'000'000;
-constexpr std::int64_t kUtc = 1'700'000'000 * kS;
+constexpr std::int64_t kUtc = 1'700'000'000 * base::kSecond_ns;
 
 TEST(GpsTimeWatch, FindsTheMappingThroughTheDelaysOfTheHost) {
   std::mt19937_64 random(4);
@@ -18,8 +19,8 @@ TEST(GpsTimeWatch, FindsTheMappingThroughTheDelaysOfTheHost) {
   GpsTimeWatch watch(0.020);
   UtcMapping mapping{UtcMapping::Source::system, kUtc + 12345678, UtcMapping::kUnknownBound, 0};
   for (int k = 10; k < 200; ++k) {
-    const auto observed_ns = k * kS + std::llround(delay_s(random) * 1e9);
-    if (const auto better = watch.update(kUtc + k * kS, observed_ns, mapping)) mapping = *better;
+    const auto observed_ns = k * base::kSecond_ns + std::llround(delay_s(random) * 1e9);
+    if (const auto better = watch.update(kUtc + k * base::kSecond_ns, observed_ns, mapping)) mapping = *better;
   }
   EXPECT_EQ(mapping.source, UtcMapping::Source::gps);
   EXPECT_LT(std::abs(mapping.offset_ns - kUtc), 3'000'000);
@@ -30,11 +31,13 @@ TEST(GpsTimeWatch, ALeapSecondLearntMovesTheMapping) {
   GpsTimeWatch watch(0.020);
   UtcMapping mapping;
   for (int k = 10; k < 40; ++k) {
-    if (const auto better = watch.update(kUtc + (k + 18) * kS, k * kS, mapping)) mapping = *better;
+    if (const auto better = watch.update(kUtc + (k + 18) * base::kSecond_ns, k * base::kSecond_ns, mapping))
+      mapping = *better;
   }
   EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 18, 0.01);
   for (int k = 40; k < 80; ++k) {
-    if (const auto better = watch.update(kUtc + k * kS, k * kS, mapping)) mapping = *better;
+    if (const auto better = watch.update(kUtc + k * base::kSecond_ns, k * base::kSecond_ns, mapping))
+      mapping = *better;
   }
   EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 0, 0.01);
 }
@@ -47,7 +50,8 @@ TEST(GpsTimeWatch, AHostThatStoodStillMovesNothing) {
       UtcMapping mapping;
       for (int k = 10; k < 120; ++k) {
         const double late_s = std::max(0.0, stall_at + stall_s - k) * (k >= stall_at ? 1 : 0) + 1e-3 * (k % 3);
-        const auto better = watch.update(kUtc + k * kS, k * kS + std::llround(late_s * 1e9), mapping);
+        const auto better =
+            watch.update(kUtc + k * base::kSecond_ns, k * base::kSecond_ns + std::llround(late_s * 1e9), mapping);
         if (!better) continue;
         mapping = *better;
         ASSERT_LT(std::abs(mapping.offset_ns - kUtc), mapping.bound_ns)
@@ -63,7 +67,7 @@ TEST(GpsTimeWatch, NarrowerMappingsStay) {
   const UtcMapping ntp{UtcMapping::Source::system_synchronised, kUtc, 1'000'000, 0};
   const UtcMapping file{UtcMapping::Source::file, 0, 0, 0};
   for (int k = 10; k < 60; ++k) {
-    EXPECT_FALSE(watch.update(kUtc + k * kS, k * kS, k % 2 == 0 ? ntp : file));
+    EXPECT_FALSE(watch.update(kUtc + k * base::kSecond_ns, k * base::kSecond_ns, k % 2 == 0 ? ntp : file));
   }
 }
 
@@ -74,10 +78,11 @@ TEST(GpsTimeWatch, RepeatedAndBackwardTimesDoNoHarm) {
   std::uniform_int_distribution<std::int64_t> anything(-5, 5000);
   for (int k = 10; k < 500; ++k) {
     const auto second = random() % 4 == 0 ? anything(random) : k;
-    (void)watch.update(kUtc + second * kS, k * kS, mapping);
+    (void)watch.update(kUtc + second * base::kSecond_ns, k * base::kSecond_ns, mapping);
   }
   for (int k = 500; k < 540; ++k) {
-    if (const auto better = watch.update(kUtc + k * kS, k * kS, mapping)) mapping = *better;
+    if (const auto better = watch.update(kUtc + k * base::kSecond_ns, k * base::kSecond_ns, mapping))
+      mapping = *better;
   }
   EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 0, 0.05);
 }

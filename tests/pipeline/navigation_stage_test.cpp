@@ -6,12 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
+#include "base/durations.h"
+
 namespace navcal::pipeline {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
-constexpr double kRadians = std::numbers::pi / 180;
-constexpr double kLatitude_rad = 37 * kRadians, kLongitude_rad = -80 * kRadians;
+constexpr double kLatitude_rad = 37 * base::kRadiansPerDegree, kLongitude_rad = -80 * base::kRadiansPerDegree;
 enum Port : std::uint16_t { compass, imu, gps, motor, second_gps };
 
 config::Settings vehicle() {
@@ -37,8 +38,8 @@ class NavigationStageTest : public testing::Test {
   void give(Port port, const decltype(instruments::Sample::value)& value, instruments::CalibrationName name = {}) {
     instruments::Sample sample;
     sample.port = port;
-    sample.stamp = {now_ns_ + 10 * kMs, now_ns_, kMs, now_ns_ + 10 * kMs + mapping_.offset_ns,
-                    now_ns_ + mapping_.offset_ns};
+    sample.stamp = {now_ns_ + 10 * base::kMillisecond_ns, now_ns_, base::kMillisecond_ns,
+                    now_ns_ + 10 * base::kMillisecond_ns + mapping_.offset_ns, now_ns_ + mapping_.offset_ns};
     sample.calibration = name;
     sample.value = value;
     stage_.take(sample, sample, tilt_, mapping_, told_);
@@ -53,7 +54,7 @@ class NavigationStageTest : public testing::Test {
   void run(double seconds, bool fixes, double heading_rad = 0) {
     const auto steps = static_cast<int>(seconds * 20);
     for (int i = 0; i < steps; ++i) {
-      now_ns_ += 50 * kMs;
+      now_ns_ += 50 * base::kMillisecond_ns;
       instruments::MotorSample shaft;
       shaft.rpm = 600;
       give(motor, shaft);
@@ -78,7 +79,7 @@ class NavigationStageTest : public testing::Test {
 
 TEST_F(NavigationStageTest, AccelerometersHoldTheTiltWhereNoInclinometerDoes) {
   for (int i = 0; i < 100; ++i) {
-    now_ns_ += 50 * kMs;
+    now_ns_ += 50 * base::kMillisecond_ns;
     tilt_ = nav::TiltReading{now_ns_, 0.1, -0.05};
     give(imu, instruments::ImuSample{});
   }
@@ -124,7 +125,7 @@ TEST_F(NavigationStageTest, ReckonsOnFromTheLastFix) {
   run(99, false);
   EXPECT_EQ(newest().source, PositionSource::reckoned);
   // 100 s at 0.872 m/s; one minute of latitude is a nautical mile, nearly.
-  const double run_m = (*newest().latitude_rad - kLatitude_rad) / kRadians * 60 * 1852;
+  const double run_m = (*newest().latitude_rad - kLatitude_rad) / base::kRadiansPerDegree * 60 * 1852;
   EXPECT_NEAR(run_m, 87.2, 1);
   EXPECT_NEAR(*newest().longitude_rad, kLongitude_rad, 1e-9);
 }
@@ -149,7 +150,7 @@ TEST_F(NavigationStageTest, AFixThatEndsAStretchWithoutTellsAtOnceHowFarOffItWas
 TEST_F(NavigationStageTest, ACalibratedHeadingIsPreferredByTheOneAndUnknownToTheOther) {
   give(gps, fix());
   for (int i = 0; i < 2000; ++i) {
-    now_ns_ += 50 * kMs;
+    now_ns_ += 50 * base::kMillisecond_ns;
     instruments::MotorSample shaft;
     shaft.rpm = 600;
     give(motor, shaft);
@@ -161,8 +162,8 @@ TEST_F(NavigationStageTest, ACalibratedHeadingIsPreferredByTheOneAndUnknownToThe
     give(compass, word, {1, 2});
   }
   EXPECT_NEAR(*newest().estimate.heading_rad, 0, 1e-6);
-  EXPECT_LT(newest().estimate.heading_std_rad, 2 * kRadians);
-  instruments::GpsSample there = fix(kLatitude_rad + 87.2 / 1852 / 60 * kRadians);
+  EXPECT_LT(newest().estimate.heading_std_rad, 2 * base::kRadiansPerDegree);
+  instruments::GpsSample there = fix(kLatitude_rad + 87.2 / 1852 / 60 * base::kRadiansPerDegree);
   give(gps, there, {1, 2});
   ASSERT_TRUE(newest().outage);
   EXPECT_LT(newest().outage->error_m, 2);
@@ -194,19 +195,19 @@ class WithDeclination : public NavigationStageTest {
  protected:
   static config::Settings declined() {
     auto settings = vehicle();
-    settings.environment.declination_rad = -10 * kRadians;
+    settings.environment.declination_rad = -10 * base::kRadiansPerDegree;
     return settings;
   }
   WithDeclination() : NavigationStageTest(declined()) {}
 };
 
 TEST_F(WithDeclination, MagneticHeadingsAreMadeTrueAndTrueOnesLeft) {
-  run(30, false, 5 * kRadians);
-  EXPECT_NEAR(*newest().estimate.heading_rad, 355 * kRadians, 1e-6);
+  run(30, false, 5 * base::kRadiansPerDegree);
+  EXPECT_NEAR(*newest().estimate.heading_rad, 355 * base::kRadiansPerDegree, 1e-6);
   heading_is_true_ = true;
   stage_.begin_run();
-  run(30, false, 5 * kRadians);
-  EXPECT_NEAR(*newest().estimate.heading_rad, 5 * kRadians, 1e-6);
+  run(30, false, 5 * base::kRadiansPerDegree);
+  EXPECT_NEAR(*newest().estimate.heading_rad, 5 * base::kRadiansPerDegree, 1e-6);
 }
 
 TEST(NavigationStageMake, IsNotMadeForNothing) {

@@ -9,14 +9,12 @@
 #include <limits>
 #include <random>
 
+#include "base/durations.h"
 #include "protocols/imu_card.h"
 #include "protocols/oncore_encode.h"
 
 namespace navcal::pipeline {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kS = 1'000'000'000;
 
 struct Read {
   std::uint16_t port;
@@ -73,7 +71,7 @@ std::vector<std::uint8_t> gps_frame(int second) {
   p.channel_count = 8;
   return protocols::oncore::encode_ea(p);
 }
-constexpr std::int64_t kGpsZeroUtc_ns = 1772366400 * kS;
+constexpr std::int64_t kGpsZeroUtc_ns = 1772366400 * base::kSecond_ns;
 
 /// Two instruments over `seconds`, read in pieces with delays; some GPS messages lose their tail.
 std::vector<Read> stream(unsigned seed, int seconds) {
@@ -93,11 +91,13 @@ std::vector<Read> stream(unsigned seed, int seconds) {
       begin += n;
     }
   };
-  for (int k = 0; k < 20 * seconds; ++k) cut_up(0, 10 * kS + k * 50 * kMs + 25 * kMs, 173'611, imu_frame(k));
+  for (int k = 0; k < 20 * seconds; ++k)
+    cut_up(0, 10 * base::kSecond_ns + k * 50 * base::kMillisecond_ns + 25 * base::kMillisecond_ns, 173'611,
+           imu_frame(k));
   for (int s = 0; s < seconds; ++s) {
     auto frame = s == 2 ? protocols::oncore::encode_bo({std::int8_t{18}}) : gps_frame(s);
     if (random() % 5 == 0) frame.resize(frame.size() / 2);
-    cut_up(1, 10 * kS + s * kS + 300 * kMs, 1'041'666, frame);
+    cut_up(1, 10 * base::kSecond_ns + s * base::kSecond_ns + 300 * base::kMillisecond_ns, 1'041'666, frame);
   }
   std::stable_sort(reads.begin(), reads.end(),
                    [](const Read& a, const Read& b) { return a.arrival_ns < b.arrival_ns; });
@@ -113,7 +113,8 @@ TEST(Pipeline, TheSameBytesAtTheSameStampsGiveTheSameSamplesWhetherTimersRanOrNo
     for (const auto& read : reads) {
       // Live, timers call now and then; sometimes late, sometimes not at all before the next read.
       while (a.next_deadline_ns() < read.arrival_ns && random() % 2 == 0) {
-        a.advance(std::min(read.arrival_ns, a.next_deadline_ns() + static_cast<std::int64_t>(random() % 3) * kMs),
+        a.advance(std::min(read.arrival_ns,
+                           a.next_deadline_ns() + static_cast<std::int64_t>(random() % 3) * base::kMillisecond_ns),
                   live);
       }
       a.bytes(read.port, read.arrival_ns, read.bytes, live);
@@ -137,7 +138,7 @@ TEST(Pipeline, EveryByteIsAccountedForAndIntactFramesSurviveTornOnes) {
     sent[read.port] += read.bytes.size();
     pipeline.bytes(read.port, read.arrival_ns, read.bytes, recorder);
   }
-  pipeline.advance(1000 * kS, recorder);
+  pipeline.advance(1000 * base::kSecond_ns, recorder);
   for (std::uint16_t port = 0; port < 2; ++port) {
     const auto statistics = pipeline.statistics(port);
     EXPECT_EQ(statistics.bytes.bytes, sent[port]);
@@ -155,11 +156,11 @@ TEST(Pipeline, ATornFrameDoesNotDelayTheNextOne) {
   Recorder recorder;
   auto torn = gps_frame(0);
   torn.resize(20);
-  pipeline.bytes(1, 1 * kS, torn, recorder);
-  EXPECT_LT(pipeline.next_deadline_ns(), 1 * kS + 500 * kMs);
-  pipeline.bytes(1, 2 * kS, gps_frame(1), recorder);
+  pipeline.bytes(1, 1 * base::kSecond_ns, torn, recorder);
+  EXPECT_LT(pipeline.next_deadline_ns(), 1 * base::kSecond_ns + 500 * base::kMillisecond_ns);
+  pipeline.bytes(1, 2 * base::kSecond_ns, gps_frame(1), recorder);
   EXPECT_EQ(recorder.samples.size(), 1U);
-  EXPECT_EQ(recorder.samples[0].stamp.arrival_ns, 2 * kS);
+  EXPECT_EQ(recorder.samples[0].stamp.arrival_ns, 2 * base::kSecond_ns);
 }
 
 TEST(Pipeline, AFrameOfWhichTheHostReadsTheRestLateIsStillWhole) {
@@ -167,9 +168,9 @@ TEST(Pipeline, AFrameOfWhichTheHostReadsTheRestLateIsStillWhole) {
   Recorder recorder;
   const auto frame = imu_frame(0);
   const protocols::Bytes bytes(frame);
-  pipeline.bytes(0, 1 * kS, bytes.first(16), recorder);
-  pipeline.advance(1 * kS + 200 * kMs, recorder);
-  pipeline.bytes(0, 1 * kS + 200 * kMs, bytes.subspan(16), recorder);
+  pipeline.bytes(0, 1 * base::kSecond_ns, bytes.first(16), recorder);
+  pipeline.advance(1 * base::kSecond_ns + 200 * base::kMillisecond_ns, recorder);
+  pipeline.bytes(0, 1 * base::kSecond_ns + 200 * base::kMillisecond_ns, bytes.subspan(16), recorder);
   EXPECT_EQ(recorder.samples.size(), 1U);
 }
 
@@ -182,7 +183,9 @@ TEST(Pipeline, StampsAreWithinAFractionOfAMillisecondOfTheTruth) {
   for (const auto& sample : recorder.samples) {
     if (sample.port != 0) continue;
     if (k > 40) {
-      EXPECT_NEAR(static_cast<double>(sample.stamp.validity_ns - 10 * kS - k * 50 * kMs), 0, 0.4e6);
+      EXPECT_NEAR(
+          static_cast<double>(sample.stamp.validity_ns - 10 * base::kSecond_ns - k * 50 * base::kMillisecond_ns),
+          0, 0.4e6);
     }
     EXPECT_LE(sample.stamp.validity_ns, sample.stamp.arrival_ns);
     ++k;
@@ -196,11 +199,13 @@ TEST(Pipeline, GpsTimeBecomesTheMappingAndStatesItsOwnSecond) {
   for (int s = 0; s < 40; ++s) {
     const auto frame = s == 2 ? protocols::oncore::encode_bo({std::int8_t{18}}) : gps_frame(s);
     const auto wire_ns = static_cast<std::int64_t>(frame.size()) * 1'041'666;
-    pipeline.bytes(1, 100 * kS + s * kS + 300 * kMs + wire_ns, frame, recorder);
+    pipeline.bytes(1, 100 * base::kSecond_ns + s * base::kSecond_ns + 300 * base::kMillisecond_ns + wire_ns, frame,
+                   recorder);
   }
   EXPECT_EQ(pipeline.mapping().source, UtcMapping::Source::gps);
-  EXPECT_NEAR(static_cast<double>(pipeline.mapping().offset_ns - (kGpsZeroUtc_ns - 100 * kS)), 0, 5e6);
-  EXPECT_EQ(recorder.samples.back().stamp.validity_utc_ns, kGpsZeroUtc_ns + 39 * kS);
+  EXPECT_NEAR(static_cast<double>(pipeline.mapping().offset_ns - (kGpsZeroUtc_ns - 100 * base::kSecond_ns)), 0,
+              5e6);
+  EXPECT_EQ(recorder.samples.back().stamp.validity_utc_ns, kGpsZeroUtc_ns + 39 * base::kSecond_ns);
   EXPECT_GE(recorder.mappings.size(), 2U);
 }
 
@@ -208,8 +213,10 @@ TEST(Pipeline, ARepeatedFrameIsCountedAndGivesNoSecondSample) {
   Pipeline pipeline(imu_and_gps());
   Recorder recorder;
   for (int k = 0; k < 100; ++k) {
-    pipeline.bytes(0, 10 * kS + k * 50 * kMs, imu_frame(k), recorder);
-    if (k == 60) pipeline.bytes(0, 10 * kS + k * 50 * kMs + 4 * kMs, imu_frame(k), recorder);
+    pipeline.bytes(0, 10 * base::kSecond_ns + k * 50 * base::kMillisecond_ns, imu_frame(k), recorder);
+    if (k == 60)
+      pipeline.bytes(0, 10 * base::kSecond_ns + k * 50 * base::kMillisecond_ns + 4 * base::kMillisecond_ns,
+                     imu_frame(k), recorder);
   }
   EXPECT_EQ(recorder.samples.size(), 100U);
   EXPECT_EQ(pipeline.statistics(0).repeated, 1U);

@@ -5,11 +5,12 @@
 
 #include <optional>
 
+#include "base/durations.h"
+
 namespace navcal::pipeline {
 namespace {
 
 using protocols::Protocol;
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 config::Settings with(std::initializer_list<Protocol> protocols) {
   config::Settings settings;
@@ -207,7 +208,7 @@ TEST(Sources, OtherSamplesAndPortsChangeNothing) {
   EXPECT_FALSE(sources.serving()[Role::heading]);
   sources.begin_run();
   EXPECT_EQ(sources.serving()[Role::shaft], 0);
-  static_assert(Sources::kSilent_ns == 3 * kSecond_ns);
+  static_assert(Sources::kSilent_ns == 3 * base::kSecond_ns);
 }
 
 }  // namespace

@@ -7,13 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "base/angles.h"
+#include "base/durations.h"
+
 namespace navcal::pipeline {
 namespace {
 
 using protocols::Protocol;
-constexpr std::int64_t kSecond_ns = 1'000'000'000, kJune2026_s = 1'780'272'000;
-constexpr double kRadians = std::numbers::pi / 180;
-enum Port : std::uint16_t { first_compass, second_compass, gps };
+constexpr std::int64_t kJune2026_s = 1'780'272'000;
+enum StagePort : std::uint16_t { first_compass, second_compass, receiver };
 
 config::Settings two_compasses_and_a_receiver() {
   config::Settings settings;
@@ -26,7 +28,7 @@ config::Settings two_compasses_and_a_receiver() {
   return settings;
 }
 
-struct Told : Sink {
+struct Events : Sink {
   void on_sample(const instruments::Sample&) override {}
   void on_stream_event(const StreamEvent& event) override {
     events.push_back(std::string(event.name) + ": " + event.message);
@@ -44,8 +46,8 @@ class StagesTest : public testing::Test {
             const decltype(instruments::Sample::value)& value) {
     instruments::Sample sample;
     sample.port = port;
-    sample.stamp.arrival_ns = sample.stamp.validity_ns = second * kSecond_ns;
-    sample.stamp.validity_utc_ns = (kJune2026_s + second) * kSecond_ns;
+    sample.stamp.arrival_ns = sample.stamp.validity_ns = second * base::kSecond_ns;
+    sample.stamp.validity_utc_ns = (kJune2026_s + second) * base::kSecond_ns;
     sample.value = value;
     stages.take(sample, mapping_, told_);
   }
@@ -57,13 +59,13 @@ class StagesTest : public testing::Test {
   void fix(Stages& stages, std::int64_t second) {
     instruments::GpsSample fix;
     fix.fix = instruments::Fix::fix_3d;
-    fix.latitude_rad = 48 * kRadians;
-    fix.longitude_rad = -123 * kRadians;
-    fix.time_utc_ns = (kJune2026_s + second) * kSecond_ns;
-    give(stages, gps, second, fix);
+    fix.latitude_rad = 48 * base::kRadiansPerDegree;
+    fix.longitude_rad = -123 * base::kRadiansPerDegree;
+    fix.time_utc_ns = (kJune2026_s + second) * base::kSecond_ns;
+    give(stages, receiver, second, fix);
   }
-  UtcMapping mapping_{UtcMapping::Source::gps, kJune2026_s* kSecond_ns, 0, 0};
-  Told told_;
+  UtcMapping mapping_{UtcMapping::Source::gps, kJune2026_s* base::kSecond_ns, 0, 0};
+  Events told_;
 };
 
 TEST_F(StagesTest, TheFirstFixMakesHeadingsTrue) {
@@ -73,7 +75,7 @@ TEST_F(StagesTest, TheFirstFixMakesHeadingsTrue) {
   fix(stages, 2);
   ASSERT_EQ(told_.fields.size(), 1U);
   const double declination_rad = told_.fields.front().declination_rad;
-  EXPECT_NEAR(declination_rad / kRadians, 15.5, 1.5) << "east, off Victoria";
+  EXPECT_NEAR(declination_rad / base::kRadiansPerDegree, 15.5, 1.5) << "east, off Victoria";
   ASSERT_FALSE(told_.events.empty());
   EXPECT_EQ(told_.events.back().find("earth_field: declination 1"), 0U) << told_.events.back();
   fix(stages, 3);
@@ -105,7 +107,7 @@ TEST_F(StagesTest, ARestoredStateKeepsInstrumentAndPlace) {
     fix(stages, second);
   }
   ASSERT_EQ(stages.sources().learnt().compass, second_compass);
-  const std::string state = stages.calibration()->beginning(10 * kSecond_ns).state;
+  const std::string state = stages.calibration()->beginning(10 * base::kSecond_ns).state;
 
   Stages other(two_compasses_and_a_receiver());
   ASSERT_TRUE(other.restore_calibration(state));
@@ -126,7 +128,7 @@ TEST_F(StagesTest, AConfiguredDeclinationIsNotReplacedByARestoredOne) {
   Stages stages(two_compasses_and_a_receiver());
   heading(stages, first_compass, 1);
   fix(stages, 2);
-  const std::string state = stages.calibration()->beginning(10 * kSecond_ns).state;
+  const std::string state = stages.calibration()->beginning(10 * base::kSecond_ns).state;
   auto settings = two_compasses_and_a_receiver();
   settings.environment.declination_rad = 0.2;
   settings.environment.field_uT = 50;

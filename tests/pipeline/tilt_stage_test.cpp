@@ -10,9 +10,9 @@ namespace {
 
 using protocols::Protocol;
 constexpr std::int64_t kStep_ns = 50'000'000;
-enum Port : std::uint16_t { compass, imu };
+enum TiltPort : std::uint16_t { nmea_port, imu_port };
 
-config::Settings vehicle() {
+config::Settings compass_and_card() {
   config::Settings settings;
   settings.ports.emplace_back().protocol = Protocol::nmea;
   settings.ports.emplace_back().protocol = Protocol::imu_card;
@@ -33,7 +33,7 @@ void hold_still(TiltStage& stage) {
   for (int i = 0; i < 200; ++i) {
     instruments::ImuSample card;
     card.specific_force_m_s2 = {9.81 * std::sin(0.1), 0, -9.81 * std::cos(0.1)};
-    stage.take(sample_of(imu, i * kStep_ns, card));
+    stage.take(sample_of(imu_port, i * kStep_ns, card));
   }
 }
 
@@ -44,9 +44,9 @@ instruments::CompassSample with_heading() {
 }
 
 TEST(TiltStage, ACompassWithoutAnInclinometerGetsATilt) {
-  TiltStage stage(vehicle());
+  TiltStage stage(compass_and_card());
   hold_still(stage);
-  auto sample = sample_of(compass, 199 * kStep_ns, with_heading());
+  auto sample = sample_of(nmea_port, 199 * kStep_ns, with_heading());
   sample = stage.with_tilt(sample).value_or(sample);
   const auto& filled = std::get<instruments::CompassSample>(sample.value);
   EXPECT_TRUE(filled.tilt_by_accelerometers);
@@ -55,27 +55,27 @@ TEST(TiltStage, ACompassWithoutAnInclinometerGetsATilt) {
 }
 
 TEST(TiltStage, ACompassWithATiltOfItsOwnKeepsIt) {
-  TiltStage stage(vehicle());
+  TiltStage stage(compass_and_card());
   hold_still(stage);
   auto word = with_heading();
   word.pitch_rad = word.roll_rad = 0.02;
-  auto sample = sample_of(compass, 198 * kStep_ns, word);
+  auto sample = sample_of(nmea_port, 198 * kStep_ns, word);
   sample = stage.with_tilt(sample).value_or(sample);
   EXPECT_EQ(std::get<instruments::CompassSample>(sample.value).pitch_rad, 0.02);
-  auto without = sample_of(compass, 199 * kStep_ns, with_heading());
+  auto without = sample_of(nmea_port, 199 * kStep_ns, with_heading());
   without = stage.with_tilt(without).value_or(without);
   EXPECT_FALSE(std::get<instruments::CompassSample>(without.value).pitch_rad) << "it left it out for a reason";
 }
 
 TEST(TiltStage, WithoutReadingsOrForOtherLinesThereIsNone) {
-  TiltStage stage(vehicle());
-  auto sample = sample_of(compass, 0, with_heading());
+  TiltStage stage(compass_and_card());
+  auto sample = sample_of(nmea_port, 0, with_heading());
   sample = stage.with_tilt(sample).value_or(sample);
   EXPECT_FALSE(std::get<instruments::CompassSample>(sample.value).pitch_rad);
   hold_still(stage);
   instruments::CompassSample rate_of_turn;
   rate_of_turn.turn_rate_rad_s = 0.1;
-  auto line = sample_of(compass, 199 * kStep_ns, rate_of_turn);
+  auto line = sample_of(nmea_port, 199 * kStep_ns, rate_of_turn);
   line = stage.with_tilt(line).value_or(line);
   EXPECT_FALSE(std::get<instruments::CompassSample>(line.value).pitch_rad);
   config::Settings no_card;

@@ -16,7 +16,7 @@ namespace navcal::protocols::test {
 namespace {
 
 template <Scanner S>
-Outcome parsed(const std::string& name) {
+Outcome parsed_fixture(const std::string& name) {
   std::ifstream file(NAVCAL_SOURCE_DIR "/fixtures/protocols/" + name, std::ios::binary);
   EXPECT_TRUE(file) << name;
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -35,7 +35,7 @@ Counts counts_of(const Outcome& seen) {
 }
 
 TEST(Fixtures, Tcm2) {
-  const Outcome seen = parsed<tcm2::Scanner>("tcm2.raw");
+  const Outcome seen = parsed_fixture<tcm2::Scanner>("tcm2.raw");
   EXPECT_EQ(counts_of(seen), (Counts{{"WORD", 7}, {"REPLY", 4}, {"HCHDM", 1}, {"BANNER", 1}}));
   EXPECT_EQ(seen.bad_checksum, 1U);
   EXPECT_EQ(seen.held, 9U);
@@ -52,7 +52,7 @@ TEST(Fixtures, Tcm2) {
 }
 
 TEST(Fixtures, ImuCard) {
-  const Outcome seen = parsed<imu_card::Scanner>("imu_card.raw");
+  const Outcome seen = parsed_fixture<imu_card::Scanner>("imu_card.raw");
   EXPECT_EQ(counts_of(seen), (Counts{{"IMU", 4}}));
   EXPECT_EQ(seen.held, 7U);
   EXPECT_EQ(imu_card::decode_record(seen.frames[0].bytes)->raw[7], 4000);
@@ -60,7 +60,7 @@ TEST(Fixtures, ImuCard) {
 }
 
 TEST(Fixtures, MotorCard) {
-  const Outcome seen = parsed<motor_card::Scanner>("motor_card.raw");
+  const Outcome seen = parsed_fixture<motor_card::Scanner>("motor_card.raw");
   EXPECT_EQ(counts_of(seen), (Counts{{"MCS", 4}, {"MCC", 1}}));
   EXPECT_EQ(seen.bad_checksum, 1U);
   EXPECT_EQ(motor_card::decode_status(seen.frames[0].bytes)->rpm, 1487);

@@ -14,13 +14,13 @@
 namespace navcal::protocols::test {
 namespace {
 
-Outcome parsed(const Buffer& stream) { return all_at_once<GpsStreamScanner>(stream); }
+Outcome parsed_gps(const Buffer& stream) { return all_at_once<GpsStreamScanner>(stream); }
 
 TEST(GpsStream, BothLanguagesInOneStream) {
   const Buffer stream =
       joined({oncore::encode_bo({std::int8_t{18}}), buffer_of(line("GPZDA,,,,,,")), oncore::encode_ea({}),
               buffer_of("!AIVDM,1,1,,A,0*0A\r\n"), oncore::encode_bo({})});
-  const Outcome seen = parsed(stream);
+  const Outcome seen = parsed_gps(stream);
   EXPECT_EQ(ids(seen), "Bo GPZDA Ea AIVDM Bo ");
   EXPECT_EQ(seen.skipped_bytes, 0U);
 }
@@ -34,12 +34,12 @@ TEST(GpsStream, AFrameTellsItsLanguage) {
 
 TEST(GpsStream, ASentenceInsideAFrameBelongsToTheFrame) {
   const std::string sentence = line("GPZDA,,,,,,");
-  EXPECT_EQ(ids(parsed(oncore::encode_cj(sentence + "@@Bo"))), "Cj ");
+  EXPECT_EQ(ids(parsed_gps(oncore::encode_cj(sentence + "@@Bo"))), "Cj ");
   Buffer cut = oncore::encode_cj(sentence);
   cut.resize(100);
   append(cut, oncore::encode_ea({}));
   append(cut, Buffer(300, 0));
-  EXPECT_EQ(ids(parsed(cut)), "GPZDA Ea ") << "the cut frame gives back what was inside";
+  EXPECT_EQ(ids(parsed_gps(cut)), "GPZDA Ea ") << "the cut frame gives back what was inside";
 }
 
 // Exact counts of ORIGIN.md beside the recordings, which are not part of this repository.
@@ -67,7 +67,7 @@ TEST(Captures, EveryFrameOfTheRecordedStreamsIsFound) {
     for (const Seen& frame : own.frames) ++counts[std::string(frame.id.view())];
     EXPECT_EQ(counts, contents.second) << file;
     EXPECT_EQ(own.bad_checksum, 0U) << file;
-    EXPECT_EQ(parsed(stream).frames, own.frames) << file << " through the scanner of both";
+    EXPECT_EQ(parsed_gps(stream).frames, own.frames) << file << " through the scanner of both";
     if (file == "oncore-binary.log") {
       EXPECT_EQ(own.frames.at(0).offset, 789U);
     }

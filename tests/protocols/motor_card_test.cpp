@@ -12,24 +12,21 @@
 namespace navcal::protocols::test {
 namespace {
 
-using motor_card::Command;
-using motor_card::Status;
-
-Outcome parsed(std::string_view text) { return all_at_once<motor_card::Scanner>(bytes_of(text)); }
+Outcome parsed_card(std::string_view text) { return all_at_once<motor_card::Scanner>(bytes_of(text)); }
 
 TEST(MotorCard, WhatIsEncodedIsDecoded) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
-    const Status status = random_status(random);
+    const motor_card::Status status = random_status(random);
     EXPECT_EQ(motor_card::decode_status(motor_card::encode_status(status)), status);
-    const Command command{static_cast<std::int32_t>(below(random, 4001)) - 2000,
-                          {printed(random, 25, 10), printed(random, 25, 10), printed(random, 25, 10)}};
+    const motor_card::Command command{static_cast<std::int32_t>(below(random, 4001)) - 2000,
+                                      {printed(random, 25, 10), printed(random, 25, 10), printed(random, 25, 10)}};
     EXPECT_EQ(motor_card::decode_command(motor_card::encode_command(command)), command);
   }
 }
 
 TEST(MotorCard, StatusByteForByte) {
-  const Status status{17, 1500, 1487, {-2.5, 0.0, 12.0}, 3.25};
+  const motor_card::Status status{17, 1500, 1487, {-2.5, 0.0, 12.0}, 3.25};
   const std::string text = line("MCS,17,1500,1487,-2.5,0.0,12.0,3.25");
   EXPECT_EQ(text_of(motor_card::encode_status(status)), text);
   EXPECT_EQ(motor_card::decode_status(bytes_of(text)), status);
@@ -38,10 +35,10 @@ TEST(MotorCard, StatusByteForByte) {
 }
 
 TEST(MotorCard, AnyFieldOfAStatusMayBeEmpty) {
-  EXPECT_EQ(motor_card::decode_status(bytes_of(line("MCS,,,,,,,"))), Status{});
+  EXPECT_EQ(motor_card::decode_status(bytes_of(line("MCS,,,,,,,"))), motor_card::Status{});
   const auto status = motor_card::decode_status(bytes_of(line("MCS,255,,-12,,1.5,,0.05")));
   ASSERT_TRUE(status);
-  EXPECT_EQ(*status, (Status{255, std::nullopt, -12, {std::nullopt, 1.5, std::nullopt}, 0.05}));
+  EXPECT_EQ(*status, (motor_card::Status{255, std::nullopt, -12, {std::nullopt, 1.5, std::nullopt}, 0.05}));
 }
 
 TEST(MotorCard, AStatusThatCannotBe) {
@@ -67,8 +64,8 @@ TEST(MotorCard, ACommandIsWhole) {
 }
 
 TEST(MotorCard, OnlyItsOwnLinesAreFrames) {
-  const Outcome seen = parsed(line("MCS,1,2,3,4.0,5.0,6.0,7.00") + line("GPGGA,1") + line("MCC,1,2.0,3.0,4.0") +
-                              line("MCX,1") + line("MCSX,1") + line("C1.0"));
+  const Outcome seen = parsed_card(line("MCS,1,2,3,4.0,5.0,6.0,7.00") + line("GPGGA,1") +
+                                   line("MCC,1,2.0,3.0,4.0") + line("MCX,1") + line("MCSX,1") + line("C1.0"));
   ASSERT_EQ(seen.frames.size(), 2U);
   EXPECT_EQ(seen.frames[0].id, motor_card::kMcs);
   EXPECT_EQ(seen.frames[1].id, motor_card::kMcc);
@@ -78,7 +75,7 @@ TEST(MotorCard, ADamagedLineIsCountedAndCostsOnlyItself) {
   const std::string good = line("MCS,1,2,3,4.0,5.0,6.0,7.00");
   std::string bad = good;
   bad[8] = '\x01';
-  const Outcome seen = parsed(bad + good);
+  const Outcome seen = parsed_card(bad + good);
   EXPECT_EQ(seen.frames.size(), 1U);
   EXPECT_EQ(seen.bad_checksum, 1U);
   EXPECT_EQ(seen.skipped_bytes, bad.size());

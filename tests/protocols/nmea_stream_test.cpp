@@ -8,33 +8,33 @@
 namespace navcal::protocols::test {
 namespace {
 
-Outcome parsed(const std::string& text) { return all_at_once<nmea::Scanner>(bytes_of(text)); }
+Outcome parsed_nmea(const std::string& text) { return all_at_once<nmea::Scanner>(bytes_of(text)); }
 
 TEST(NmeaStream, TalkerAndTypeAreTheIdentifier) {
-  EXPECT_EQ(
-      ids(parsed(line("GPGGA,,,,,,0,,,,M,,M,,") + line("PTNTHTM,1,N") + line("HCHDM,182.3,M") + line("PUBX,00"))),
-      "GPGGA PTNTHTM HCHDM PUBX ");
-  EXPECT_EQ(ids(parsed("!AIVDM,1,1,,A,0*0A\r\n")), "AIVDM ");
-  EXPECT_EQ(ids(parsed(line("PSTMTESTRF"))), "PSTMTEST ") << "eight characters at most";
+  EXPECT_EQ(ids(parsed_nmea(line("GPGGA,,,,,,0,,,,M,,M,,") + line("PTNTHTM,1,N") + line("HCHDM,182.3,M") +
+                            line("PUBX,00"))),
+            "GPGGA PTNTHTM HCHDM PUBX ");
+  EXPECT_EQ(ids(parsed_nmea("!AIVDM,1,1,,A,0*0A\r\n")), "AIVDM ");
+  EXPECT_EQ(ids(parsed_nmea(line("PSTMTESTRF"))), "PSTMTEST ") << "eight characters at most";
 }
 
 TEST(NmeaStream, TheChecksumIsRequired) {
-  EXPECT_EQ(ids(parsed("$HCHDM,182.3,M*21\r\n")), "HCHDM ");
-  EXPECT_EQ(ids(parsed("$HCHDM,182.3,M\r\n")), "");
-  EXPECT_EQ(parsed("$HCHDM,182.3,M\r\n").bad_checksum, 1U);
-  EXPECT_EQ(parsed("$HCHDM,182.3,M*22\r\n").bad_checksum, 1U);
-  EXPECT_EQ(parsed("$HCHDM,182.3,M*\r\n").bad_checksum, 1U);
+  EXPECT_EQ(ids(parsed_nmea("$HCHDM,182.3,M*21\r\n")), "HCHDM ");
+  EXPECT_EQ(ids(parsed_nmea("$HCHDM,182.3,M\r\n")), "");
+  EXPECT_EQ(parsed_nmea("$HCHDM,182.3,M\r\n").bad_checksum, 1U);
+  EXPECT_EQ(parsed_nmea("$HCHDM,182.3,M*22\r\n").bad_checksum, 1U);
+  EXPECT_EQ(parsed_nmea("$HCHDM,182.3,M*\r\n").bad_checksum, 1U);
 }
 
 TEST(NmeaStream, LineFeedAloneEndsASentenceToo) {
-  EXPECT_EQ(ids(parsed("$HCHDM,182.3,M*21\n$HCHDM,182.3,M*21\r\n")), "HCHDM HCHDM ");
-  EXPECT_EQ(ids(parsed("$HCHDM,182.3,M*21$HCHDM,182.3,M*21\r\n")), "HCHDM ");
+  EXPECT_EQ(ids(parsed_nmea("$HCHDM,182.3,M*21\n$HCHDM,182.3,M*21\r\n")), "HCHDM HCHDM ");
+  EXPECT_EQ(ids(parsed_nmea("$HCHDM,182.3,M*21$HCHDM,182.3,M*21\r\n")), "HCHDM ");
 }
 
 TEST(NmeaStream, ACutSentenceCostsOnlyItself) {
   const std::string sentence = line("GPGLL,5209.7838,N,02048.4819,E,171245.00,A");
   for (std::size_t kept = 0; kept < sentence.size(); ++kept) {
-    const Outcome seen = parsed(sentence.substr(0, kept) + sentence);
+    const Outcome seen = parsed_nmea(sentence.substr(0, kept) + sentence);
     EXPECT_EQ(ids(seen), "GPGLL ") << kept;
     EXPECT_EQ(seen.skipped_bytes, kept);
     EXPECT_EQ(seen.held, 0U);
@@ -43,14 +43,14 @@ TEST(NmeaStream, ACutSentenceCostsOnlyItself) {
 
 TEST(NmeaStream, LongSentencesAreTakenUpToABound) {
   const auto of_length = [](std::size_t n) { return line("IIXDR," + std::string(n - 12, 'x')); };
-  EXPECT_EQ(ids(parsed(of_length(nmea::kMaxLength))), "IIXDR ");
-  const Outcome longer = parsed(of_length(nmea::kMaxLength + 1) + line("HCHDM,1.0,M"));
+  EXPECT_EQ(ids(parsed_nmea(of_length(nmea::kMaxLength))), "IIXDR ");
+  const Outcome longer = parsed_nmea(of_length(nmea::kMaxLength + 1) + line("HCHDM,1.0,M"));
   EXPECT_EQ(ids(longer), "HCHDM ");
 }
 
 TEST(NmeaStream, DollarsInNoiseHoldNothing) {
-  EXPECT_EQ(ids(parsed("$$$!$ $,$*00\r\n$" + line("HCHDM,1.0,M"))), "HCHDM ");
-  EXPECT_EQ(parsed("cost: $ 5").held, 0U);
+  EXPECT_EQ(ids(parsed_nmea("$$$!$ $,$*00\r\n$" + line("HCHDM,1.0,M"))), "HCHDM ");
+  EXPECT_EQ(parsed_nmea("cost: $ 5").held, 0U);
 }
 
 TEST(NmeaStream, EverySingleBitErrorIsSeenOrKeepsTheSentence) {
@@ -58,7 +58,7 @@ TEST(NmeaStream, EverySingleBitErrorIsSeenOrKeepsTheSentence) {
   for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
     std::string damaged = good;
     damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << (bit % 8)));
-    const Outcome seen = parsed(damaged);
+    const Outcome seen = parsed_nmea(damaged);
     // Only the case of a hexadecimal digit may change without harm.
     if (!seen.frames.empty()) {
       EXPECT_EQ(damaged.substr(0, good.size() - 4), good.substr(0, good.size() - 4)) << bit;

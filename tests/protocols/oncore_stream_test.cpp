@@ -10,7 +10,7 @@
 namespace navcal::protocols::test {
 namespace {
 
-Outcome parsed(const Buffer& stream) { return all_at_once<oncore::Scanner>(stream); }
+Outcome parsed_oncore(const Buffer& stream) { return all_at_once<oncore::Scanner>(stream); }
 
 Buffer ea() {
   Random random(1);
@@ -28,7 +28,7 @@ TEST(OncoreStream, EveryKnownResponseIsFramedByItsLetters) {
   };
   for (const auto& [letters, length] : known) {
     const Buffer frame = oncore::encode_frame(FrameId(letters), Buffer(length - 7, 0x55));
-    const Outcome seen = parsed(joined({frame, bo()}));
+    const Outcome seen = parsed_oncore(joined({frame, bo()}));
     EXPECT_EQ(ids(seen), std::string(letters) + " Bo ");
     EXPECT_EQ(seen.frames.at(0).bytes.size(), length);
     EXPECT_EQ(seen.skipped_bytes, 0U);
@@ -37,7 +37,7 @@ TEST(OncoreStream, EveryKnownResponseIsFramedByItsLetters) {
 
 TEST(OncoreStream, AnUnknownIdentifierSwallowsNothing) {
   for (const std::string_view letters : {"Ci", "Zz", "aa", "E@", "E_", "HA", "Eb"}) {
-    const Outcome seen = parsed(joined({buffer_of("@@" + std::string(letters)), ea()}));
+    const Outcome seen = parsed_oncore(joined({buffer_of("@@" + std::string(letters)), ea()}));
     EXPECT_EQ(ids(seen), "Ea ") << letters;
     EXPECT_EQ(seen.skipped_bytes, 4U);
     EXPECT_EQ(seen.bad_checksum, 0U);
@@ -46,16 +46,16 @@ TEST(OncoreStream, AnUnknownIdentifierSwallowsNothing) {
 
 TEST(OncoreStream, LineEndsAndSyncInsideThePayload) {
   const Buffer data = buffer_of("\r\n@@Ea\r\n@@Bo\r\n");
-  const Outcome seen = parsed(joined({oncore::encode_frame(oncore::kGj, data), ea()}));
+  const Outcome seen = parsed_oncore(joined({oncore::encode_frame(oncore::kGj, data), ea()}));
   EXPECT_EQ(ids(seen), "Gj Ea ");
   EXPECT_EQ(seen.skipped_bytes, 0U);
 }
 
 TEST(OncoreStream, SyncInTextBeforeTheStream) {
-  EXPECT_EQ(
-      ids(parsed(joined({buffer_of("# mail to me@@Example, @@Ea was it\r\n@"), ea(), bo(), Buffer(100, 0)}))),
-      "Ea Bo ");
-  EXPECT_EQ(ids(parsed(joined({buffer_of("@@@@@"), bo()}))), "Bo ");
+  EXPECT_EQ(ids(parsed_oncore(
+                joined({buffer_of("# mail to me@@Example, @@Ea was it\r\n@"), ea(), bo(), Buffer(100, 0)}))),
+            "Ea Bo ");
+  EXPECT_EQ(ids(parsed_oncore(joined({buffer_of("@@@@@"), bo()}))), "Bo ");
 }
 
 TEST(OncoreStream, AFailedFrameIsLeftByOneByte) {
@@ -63,7 +63,7 @@ TEST(OncoreStream, AFailedFrameIsLeftByOneByte) {
   damaged[20] ^= 1;
   const Buffer inner = bo();
   std::copy(inner.begin(), inner.end(), damaged.begin() + 40);
-  const Outcome seen = parsed(joined({damaged, ea()}));
+  const Outcome seen = parsed_oncore(joined({damaged, ea()}));
   EXPECT_EQ(ids(seen), "Bo Ea ") << "the whole frame inside the failed one is found";
   EXPECT_EQ(seen.bad_checksum, 1U);
   EXPECT_EQ(seen.skipped_bytes, damaged.size() - inner.size());
@@ -74,7 +74,7 @@ TEST(OncoreStream, EverySingleBitErrorIsSeen) {
   for (std::size_t bit = 0; bit < 8 * frame.size(); ++bit) {
     Buffer damaged = frame;
     damaged[bit / 8] ^= static_cast<std::uint8_t>(1U << (bit % 8));
-    const Outcome seen = parsed(joined({damaged, Buffer(oncore::kMaxLength, 0)}));
+    const Outcome seen = parsed_oncore(joined({damaged, Buffer(oncore::kMaxLength, 0)}));
     EXPECT_TRUE(seen.frames.empty()) << "bit " << bit;
   }
 }
@@ -97,22 +97,22 @@ TEST(OncoreStream, ATruncatedFrameDoesNotHoldTheParserForEver) {
 TEST(OncoreStream, TheFrameBehindATruncatedOneIsFoundWithoutSilenceOnceEnoughBytesFollow) {
   const Buffer whole = ea();
   const Buffer cut(whole.begin(), whole.begin() + 30);
-  EXPECT_EQ(ids(parsed(joined({cut, whole, whole}))), "Ea Ea ");
+  EXPECT_EQ(ids(parsed_oncore(joined({cut, whole, whole}))), "Ea Ea ");
 }
 
 TEST(OncoreStream, WrongTerminatorsAreCountedAsBad) {
   for (const std::size_t from_end : {1U, 2U}) {
     Buffer frame = bo();
     frame[frame.size() - from_end] = 'x';
-    EXPECT_EQ(parsed(frame).bad_checksum, 1U);
-    EXPECT_TRUE(parsed(frame).frames.empty());
+    EXPECT_EQ(parsed_oncore(frame).bad_checksum, 1U);
+    EXPECT_TRUE(parsed_oncore(frame).frames.empty());
   }
 }
 
 TEST(OncoreStream, AsciiPositionHasAChecksumOfThreeDigits) {
   const Buffer frame = ascii_position(kAsciiPosition);
   ASSERT_EQ(frame.size(), 96U);
-  EXPECT_EQ(ids(parsed(frame)), "Eq ");
+  EXPECT_EQ(ids(parsed_oncore(frame)), "Eq ");
 
   // Some say that the last comma is not part of the sum.
   Buffer without_comma(frame.begin(), frame.end() - 5);
@@ -120,12 +120,12 @@ TEST(OncoreStream, AsciiPositionHasAChecksumOfThreeDigits) {
   for (const unsigned digit : {sum / 100, sum / 10 % 10, sum % 10})
     without_comma.push_back(static_cast<std::uint8_t>('0' + digit));
   append(without_comma, buffer_of("\r\n"));
-  EXPECT_EQ(ids(parsed(without_comma)), "Eq ");
+  EXPECT_EQ(ids(parsed_oncore(without_comma)), "Eq ");
 
   for (std::size_t i = 4; i < frame.size(); ++i) {
     Buffer damaged = frame;
     damaged[i] ^= 0x01;
-    EXPECT_EQ(ids(parsed(damaged)), "") << i;
+    EXPECT_EQ(ids(parsed_oncore(damaged)), "") << i;
   }
 }
 

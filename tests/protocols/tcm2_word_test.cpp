@@ -15,7 +15,7 @@ namespace {
 using tcm2::decode_word;
 using tcm2::Word;
 
-std::optional<Word> decoded(std::string_view body) { return decode_word(bytes_of(line(body))); }
+std::optional<Word> decoded_word(std::string_view body) { return decode_word(bytes_of(line(body))); }
 
 TEST(Tcm2Word, WhatIsEncodedIsDecoded) {
   Random random(1);
@@ -48,43 +48,43 @@ TEST(Tcm2Word, AnyFieldMayBeSwitchedOff) {
                         value(2, 3.5),   value(3, 4.25),
                         value(4, -5.25), value(5, 6.25),
                         value(6, 7.5),   (on >> 7 & 1U) != 0 ? std::optional<std::uint32_t>(2) : std::nullopt};
-    EXPECT_EQ(decoded(body), expected) << body;
+    EXPECT_EQ(decoded_word(body), expected) << body;
     EXPECT_EQ(expected.field().has_value(), (on & 0x38U) == 0x38U) << "the vector needs all three";
   }
 }
 
 TEST(Tcm2Word, ErrorCodeAfterANumberIsNoExponent) {
-  const auto word = decoded("R12.8E002");
+  const auto word = decoded_word("R12.8E002");
   ASSERT_TRUE(word);
   EXPECT_EQ(word->roll, 12.8);
   EXPECT_EQ(word->error, 0x002U);
 }
 
 TEST(Tcm2Word, ErrorCodeIsHexadecimal) {
-  EXPECT_EQ(decoded("C1.0E010")->error, 0x010U);
-  EXPECT_EQ(decoded("C1.0E800")->error, 0x800U);
-  EXPECT_EQ(decoded("C1.0E0C7")->error, 0x0C7U);
-  EXPECT_EQ(decoded("C1.0E0c7")->error, 0x0C7U) << "case is not said by any source";
-  EXPECT_FALSE(decoded("C1.0E")) << "no code";
-  EXPECT_FALSE(decoded("C1.0E00G"));
+  EXPECT_EQ(decoded_word("C1.0E010")->error, 0x010U);
+  EXPECT_EQ(decoded_word("C1.0E800")->error, 0x800U);
+  EXPECT_EQ(decoded_word("C1.0E0C7")->error, 0x0C7U);
+  EXPECT_EQ(decoded_word("C1.0E0c7")->error, 0x0C7U) << "case is not said by any source";
+  EXPECT_FALSE(decoded_word("C1.0E")) << "no code";
+  EXPECT_FALSE(decoded_word("C1.0E00G"));
 }
 
 TEST(Tcm2Word, StrayColonBeforeTheErrorIsPassedOver) {
-  const auto word = decoded("C12.0T20.1:E200");
+  const auto word = decoded_word("C12.0T20.1:E200");
   ASSERT_TRUE(word);
   EXPECT_EQ(word->error, 0x200U);
   EXPECT_EQ(word->temperature, 20.1);
-  EXPECT_FALSE(decoded("C12.0:T20.1")) << "a colon elsewhere has no meaning";
+  EXPECT_FALSE(decoded_word("C12.0:T20.1")) << "a colon elsewhere has no meaning";
 }
 
 TEST(Tcm2Word, OneOrTwoDecimalsOrNone) {
-  EXPECT_EQ(decoded("C328.3")->heading, 328.3);
-  EXPECT_EQ(decoded("C328.34")->heading, 328.34);
-  EXPECT_EQ(decoded("C328")->heading, 328);
+  EXPECT_EQ(decoded_word("C328.3")->heading, 328.3);
+  EXPECT_EQ(decoded_word("C328.34")->heading, 328.34);
+  EXPECT_EQ(decoded_word("C328")->heading, 328);
 }
 
 TEST(Tcm2Word, MilsPassAsTheyAre) {
-  const auto word = decoded("C6399P-1600R1600");
+  const auto word = decoded_word("C6399P-1600R1600");
   ASSERT_TRUE(word);
   EXPECT_EQ(word->heading, 6399);
   EXPECT_EQ(word->pitch, -1600);
@@ -92,7 +92,7 @@ TEST(Tcm2Word, MilsPassAsTheyAre) {
 }
 
 TEST(Tcm2Word, LargeFieldsAreNotOursToReject) {
-  const auto word = decoded("X9999.99Y-9999.99Z0.00E004");
+  const auto word = decoded_word("X9999.99Y-9999.99Z0.00E004");
   ASSERT_TRUE(word && word->field());
   EXPECT_EQ((*word->field())[1], -9999.99);
 }
@@ -101,7 +101,7 @@ TEST(Tcm2Word, WhatIsNoWord) {
   for (const std::string_view body :
        {"", "C", "C-", "C+1.0", "C1.0P", "C1.0P2.0C3.0", "P1.0C2.0", "C1.0e1", "Cnan", "Cinf", "C0x10", "C1,0",
         "C1.0 ", "C 1.0", "C--1", "C1.2.3", "Q1.0", "C1.0Q2.0", "E001C1.0"}) {
-    EXPECT_FALSE(decoded(body)) << body;
+    EXPECT_FALSE(decoded_word(body)) << body;
   }
   EXPECT_FALSE(decode_word({}));
 }

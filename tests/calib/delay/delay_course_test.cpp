@@ -15,8 +15,8 @@
 namespace navcal::calib {
 namespace {
 
-double heading(double t) { return 0.15 * t + 1.5 * std::sin(0.25 * t); }
-double rate(double t) { return 0.15 + 0.375 * std::cos(0.25 * t); }
+double course_heading(double t) { return 0.15 * t + 1.5 * std::sin(0.25 * t); }
+double course_rate(double t) { return 0.15 + 0.375 * std::cos(0.25 * t); }
 
 struct Way {
   double delay_s = 0.3, slip_s = -0.17, speed_m_s = 1.1, noise_m_s = 0, offset_rad = 0.05;
@@ -25,14 +25,14 @@ struct Way {
 
 WaterTrackReading track_at(double t, const Way& way) {
   return {.time_s = t,
-          .heading_rad = std::remainder(heading(t) + way.offset_rad, 2 * std::numbers::pi),
-          .turn_rate_rad_s = rate(t),
+          .heading_rad = std::remainder(course_heading(t) + way.offset_rad, 2 * std::numbers::pi),
+          .turn_rate_rad_s = course_rate(t),
           .speed_m_s = way.speed_m_s};
 }
 
 GroundReading ground_at(double t, const Way& way, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  const double course = heading(t - way.delay_s) + way.slip_s * rate(t - way.delay_s);
+  const double course = course_heading(t - way.delay_s) + way.slip_s * course_rate(t - way.delay_s);
   const Eigen::Vector2d velocity = way.speed_m_s * Eigen::Vector2d(std::cos(course), std::sin(course)) +
                                    way.current_m_s +
                                    way.noise_m_s * Eigen::Vector2d(normal(random), normal(random));

@@ -16,17 +16,19 @@
 namespace navcal::calib {
 namespace {
 
-constexpr double kPeriod_s = 0.1;
-constexpr double kScale = 1 / 0.9, kBias_rad_s = -0.1 / 0.9;  // true rate = scale * measured + bias
+constexpr double kTurnPeriod_s = 0.1;
+constexpr double kGyroScale = 1 / 0.9, kBias_rad_s = -0.1 / 0.9;  // true rate = scale * measured + bias
 
 /// Turns to both sides, speeding up and slowing down.
 double true_heading(double t) { return 0.8 * t * 0.3 + 1.5 * std::sin(0.5 * t) + 0.6 * std::sin(1.3 * t); }
 
-double deviation(double psi) { return 0.09 * std::sin(psi) - 0.09 * std::cos(psi) + 0.035 * std::sin(2 * psi); }
+double compass_deviation(double psi) {
+  return 0.09 * std::sin(psi) - 0.09 * std::cos(psi) + 0.035 * std::sin(2 * psi);
+}
 
 double measured_heading(double psi) {
   double measured = psi;
-  for (int i = 0; i < 50; ++i) measured = psi + deviation(measured);
+  for (int i = 0; i < 50; ++i) measured = psi + compass_deviation(measured);
   return measured;
 }
 
@@ -41,18 +43,18 @@ std::vector<TurnStep> steps(const Turns& turns, double duration_s) {
   std::mt19937_64 random(turns.seed);
   std::normal_distribution<double> normal;
   std::vector<TurnStep> result;
-  for (int k = 0; k * kPeriod_s < duration_s; ++k) {
-    const double t = 10 + k * kPeriod_s;
+  for (int k = 0; k * kTurnPeriod_s < duration_s; ++k) {
+    const double t = 10 + k * kTurnPeriod_s;
     const double measured = measured_heading(turns.heading(t - turns.delay_s)) + turns.noise_rad * normal(random);
     TurnStep step;
     step.time_s = t;
     step.heading_rad = std::remainder(measured, 2 * std::numbers::pi);
     step.begins_segment = k == 0;
     if (k > 0) {
-      const double turn = turns.heading(t) - turns.heading(t - kPeriod_s);
-      step.duration_s = step.bias_time_s = kPeriod_s;
-      step.measured_angle_rad = (turn - kBias_rad_s * kPeriod_s) / kScale +
-                                turns.rate_noise_rad_sqrt_s * std::sqrt(kPeriod_s) * normal(random);
+      const double turn = turns.heading(t) - turns.heading(t - kTurnPeriod_s);
+      step.duration_s = step.bias_time_s = kTurnPeriod_s;
+      step.measured_angle_rad = (turn - kBias_rad_s * kTurnPeriod_s) / kGyroScale +
+                                turns.rate_noise_rad_sqrt_s * std::sqrt(kTurnPeriod_s) * normal(random);
     }
     result.push_back(step);
   }
@@ -133,7 +135,7 @@ TEST(HeadingDelay, EqualsTheBatchSolution) {
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       noise(i, j) +=
-          std::pow(parameters.rate_noise_rad_sqrt_s, 2) * kPeriod_s * static_cast<double>(std::min(i, j));
+          std::pow(parameters.rate_noise_rad_sqrt_s, 2) * kTurnPeriod_s * static_cast<double>(std::min(i, j));
   Eigen::VectorXd prior(9), mean = Eigen::VectorXd::Unit(9, 1);
   mean[0] = all[0].heading_rad;
   prior << 10, parameters.scale_std, parameters.bias_std_rad_s,

@@ -10,14 +10,15 @@
 #include <string>
 #include <string_view>
 
+#include "base/angles.h"
+
 namespace navcal::calib {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kOffset_rad = 3 * kDegree;
+constexpr double kOffset_rad = 3 * base::kRadiansPerDegree;
 constexpr double kSpeed_m_s = 1.1;
 
-Misalignment::Parameters quiet() {
+Misalignment::Parameters quiet_parameters() {
   Misalignment::Parameters parameters;
   parameters.run_std_rad = 0;
   return parameters;
@@ -59,7 +60,7 @@ TEST(Misalignment, OfOneRunIsAsAccurateAsTheThesisSays) {
   int within = 0;
   const int runs = 300;
   for (unsigned i = 1; i <= runs; ++i) {
-    Misalignment misalignment(quiet());
+    Misalignment misalignment(quiet_parameters());
     Voyage voyage{misalignment};
     voyage.random.seed(i);
     voyage.go(0.4, 103);
@@ -77,7 +78,7 @@ TEST(Misalignment, OfOneRunIsAsAccurateAsTheThesisSays) {
 }
 
 TEST(Misalignment, WhatTheHelmsmanWandersCancels) {
-  Misalignment misalignment(quiet());
+  Misalignment misalignment(quiet_parameters());
   Voyage voyage{misalignment, 0, 0};
   voyage.wander_rad = 0.1;
   voyage.go(2, 137);
@@ -86,12 +87,13 @@ TEST(Misalignment, WhatTheHelmsmanWandersCancels) {
 }
 
 TEST(Misalignment, RunsBothWaysTellTheCurrentFromIt) {
-  Misalignment misalignment(quiet());
+  Misalignment misalignment(quiet_parameters());
   Voyage voyage{misalignment, 0.2, 0};
   voyage.current_m_s = {0.1, -0.08};
-  for (const double heading : {0.0, 90 * kDegree, 180 * kDegree, 270 * kDegree}) {
+  for (const double heading :
+       {0.0, 90 * base::kRadiansPerDegree, 180 * base::kRadiansPerDegree, 270 * base::kRadiansPerDegree}) {
     voyage.go(heading, 150);
-    voyage.turn(heading, 90 * kDegree);
+    voyage.turn(heading, 90 * base::kRadiansPerDegree);
   }
   const auto estimate = misalignment.estimate();
   ASSERT_TRUE(estimate);
@@ -138,7 +140,7 @@ TEST(Misalignment, TurnsStandstillAndShortRunsGiveNothing) {
 }
 
 TEST(Misalignment, JumpsAndNotANumberAreLeftOut) {
-  Misalignment clean(quiet()), spoiled(quiet());
+  Misalignment clean(quiet_parameters()), spoiled(quiet_parameters());
   Voyage one{clean}, other{spoiled};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   one.go(1, 103);
@@ -163,7 +165,7 @@ TEST(Misalignment, JumpsAndNotANumberAreLeftOut) {
 }
 
 TEST(Misalignment, ARunIsEndedByAGapAndTheSeamDoesNotMatter) {
-  Misalignment misalignment(quiet());
+  Misalignment misalignment(quiet_parameters());
   Voyage voyage{misalignment, 0.1, 0};
   voyage.go(std::numbers::pi, 60);
   voyage.tick += 200;
@@ -175,7 +177,7 @@ TEST(Misalignment, ARunIsEndedByAGapAndTheSeamDoesNotMatter) {
 }
 
 TEST(Misalignment, ALongRunIsTakenAsSeveralInBoundedMemory) {
-  Misalignment misalignment(quiet());
+  Misalignment misalignment(quiet_parameters());
   Voyage voyage{misalignment, 0.5};
   voyage.go(1, 3000);
   EXPECT_GE(misalignment.estimate()->runs, 9U);

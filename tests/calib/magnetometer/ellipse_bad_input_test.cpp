@@ -6,13 +6,12 @@
 #include <numbers>
 #include <string>
 
+#include "base/angles.h"
 #include "calib/magnetometer/ellipse_estimator.h"
 #include "tests/calib/magnetometer_paths.h"
 
 namespace navcal::calib::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// `count` readings over `arc_deg` from `first_deg`, forth and back.
 EllipseEstimator over_arc(const EllipseShape& truth, double first_deg, double arc_deg, int count = 600) {
@@ -22,7 +21,7 @@ EllipseEstimator over_arc(const EllipseShape& truth, double first_deg, double ar
   for (int i = 0; i < count; ++i) {
     const double there = 0.5 - 0.5 * std::cos(0.03 * i);
     Eigen::Vector3d field = Eigen::Vector3d::Zero();
-    field.head<2>() = truth.at((first_deg + arc_deg * there) * kDegree);
+    field.head<2>() = truth.at((first_deg + arc_deg * there) * base::kRadiansPerDegree);
     field.head<2>() += Eigen::Vector2d(noise(random), noise(random));
     estimator.update(field, 0, 0);
   }

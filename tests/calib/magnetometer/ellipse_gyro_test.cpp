@@ -8,12 +8,11 @@
 #include <numbers>
 #include <string>
 
+#include "base/angles.h"
 #include "tests/calib/magnetometer_paths.h"
 
 namespace navcal::calib::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 EllipseGyro::Parameters parameters(bool gyro_known) {
   EllipseGyro::Parameters parameters;
@@ -28,7 +27,7 @@ EllipseGyro::Parameters parameters(bool gyro_known) {
 /// Forth and back over an arc at up to 0.3 rad/s.
 std::vector<TruePoint> arc(double degrees) {
   std::vector<TruePoint> path;
-  const double half = degrees * kDegree / 2;
+  const double half = degrees * base::kRadiansPerDegree / 2;
   const double pace = 0.3 / half;
   for (int i = 0; i <= 500; ++i) {
     TruePoint point;
@@ -76,7 +75,7 @@ TEST(EllipseGyro, ShortArcsAsGoodAsTheThesisGoals) {
     estimator.settle();
     ASSERT_TRUE(estimator.estimate());
     EXPECT_LT(heading_error(estimator.estimate()->correction, figure_4_11()).largest_deg, 2 * goal_deg) << degrees;
-    EXPECT_LT(estimator.estimate()->heading_std_rad, goal_deg * kDegree) << degrees;
+    EXPECT_LT(estimator.estimate()->heading_std_rad, goal_deg * base::kRadiansPerDegree) << degrees;
   }
 }
 

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
+#include "base/angles.h"
+
 namespace navcal::calib {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A level turn with some roll in a field of 48 uT, read with hard iron and noise.
 class Turning {
@@ -18,7 +18,7 @@ class Turning {
   explicit Turning(const Eigen::Vector3d& offset_uT) : offset_uT_(offset_uT) {}
 
   CompassReading next() {
-    const double heading = 0.05 * count_, roll = 10 * kDegree * std::sin(0.013 * count_);
+    const double heading = 0.05 * count_, roll = 10 * base::kRadiansPerDegree * std::sin(0.013 * count_);
     ++count_;
     const Eigen::Vector3d level(19 * std::cos(heading), -19 * std::sin(heading), 44);
     CompassReading reading;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
+
 namespace navcal::calib {
 namespace {
 
@@ -19,8 +21,10 @@ TEST(FieldCoverage, ASingleHeadingCoversNothingWhereverItLies) {
 }
 
 TEST(FieldCoverage, IsTheCircleLessTheLargestGap) {
-  constexpr double kDegree = std::numbers::pi / 180;
-  EXPECT_NEAR(FieldCoverage({350 * kDegree, 10 * kDegree, 60 * kDegree}).arc_rad(), 70 * kDegree, 1e-12);
+  EXPECT_NEAR(
+      FieldCoverage({350 * base::kRadiansPerDegree, 10 * base::kRadiansPerDegree, 60 * base::kRadiansPerDegree})
+          .arc_rad(),
+      70 * base::kRadiansPerDegree, 1e-12);
   EXPECT_NEAR(FieldCoverage({0, 2, 4}).arc_rad(), 4, 1e-12);
   EXPECT_EQ(FieldCoverage({}).arc_rad(), 0);
   EXPECT_EQ(FieldCoverage({NAN}).arc_rad(), 0);

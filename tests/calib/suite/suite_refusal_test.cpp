@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kPeriod_s = 0.1;
+constexpr double kReadingPeriod_s = 0.1;
 
 struct Asked {
   const char* name;
@@ -31,7 +31,7 @@ class SuiteRefusal : public testing::TestWithParam<Asked> {
     Suite suite(options, GetParam().instruments);
     const auto field = field_on(motion, iron, random);
     for (std::size_t i = 0; i < field.size(); ++i) {
-      const double time_s = kPeriod_s * static_cast<double>(i);
+      const double time_s = kReadingPeriod_s * static_cast<double>(i);
       if (GetParam().instruments.rate) suite.put(rate_at(motion, i));
       CompassReading reading;
       reading.time_s = time_s;
@@ -47,11 +47,11 @@ class SuiteRefusal : public testing::TestWithParam<Asked> {
   static RateReading rate_at(const std::vector<Attitude>& motion, std::size_t i) {
     const Attitude &before = motion[i == 0 ? 0 : i - 1], &now = motion[i],
                    &after = motion[std::min(i + 1, motion.size() - 1)];
-    const double yaw = (after.heading_rad - before.heading_rad) / (2 * kPeriod_s),
-                 pitch = (after.pitch_rad - before.pitch_rad) / (2 * kPeriod_s),
-                 roll = (after.roll_rad - before.roll_rad) / (2 * kPeriod_s);
+    const double yaw = (after.heading_rad - before.heading_rad) / (2 * kReadingPeriod_s),
+                 pitch = (after.pitch_rad - before.pitch_rad) / (2 * kReadingPeriod_s),
+                 roll = (after.roll_rad - before.roll_rad) / (2 * kReadingPeriod_s);
     RateReading rate;
-    rate.time_s = kPeriod_s * static_cast<double>(i);
+    rate.time_s = kReadingPeriod_s * static_cast<double>(i);
     rate.rate_rad_s = {roll - yaw * std::sin(now.pitch_rad),
                        pitch * std::cos(now.roll_rad) + yaw * std::sin(now.roll_rad) * std::cos(now.pitch_rad),
                        yaw * std::cos(now.roll_rad) * std::cos(now.pitch_rad) - pitch * std::sin(now.roll_rad)};

@@ -5,14 +5,13 @@
 
 #include <numbers>
 
+#include "base/angles.h"
 #include "tests/calib/suite/suite_drive.h"
 
 namespace navcal::calib {
 namespace {
 
 using namespace test;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Report run(const std::string& path, const SuiteOptions& options, const Noise& noise = {}) {
   Suite suite(options, kCompassAndGyros);
@@ -24,11 +23,11 @@ Report run(const std::string& path, const SuiteOptions& options, const Noise& no
 double worst_heading_error_deg(const DeviationCorrection& correction) {
   double worst = 0;
   for (int i = 0; i < 360; ++i) {
-    const double measured = i * kDegree;
+    const double measured = i * base::kRadiansPerDegree;
     const double truth = measured - deviation_rad(thesis_deviation(), measured);
     worst = std::max(worst, std::abs(std::remainder(correction(measured) - truth, 2 * std::numbers::pi)));
   }
-  return worst / kDegree;
+  return worst / base::kRadiansPerDegree;
 }
 
 TEST(Suite, FindsGyrosAndDeviationTogetherWhereTheVehicleTurnsThroughTheCircle) {
@@ -85,7 +84,7 @@ TEST(Suite, EstimatesComeIntoForceWhenTheyAreBetterOnReadingsHeldOut) {
   EXPECT_EQ(report.find(Calibrator::compass)->verdict, Verdict::in_force);
   ASSERT_GT(report.heading.blocks, 10U);
   EXPECT_LT(report.heading.after_rad, 0.5 * report.heading.before_rad);
-  EXPECT_LT(report.heading.after_rad, 0.5 * kDegree);
+  EXPECT_LT(report.heading.after_rad, 0.5 * base::kRadiansPerDegree);
   EXPECT_GE(report.name.number, 3U);
 }
 
@@ -173,14 +172,14 @@ TEST(Suite, SavedAndRestoredItGoesOnBitForBit) {
       first.put(readings[i]);
     }
     if (i != 333) continue;
-    const std::string state = saved(first);
+    const std::string state = test::saved(first);
     second.emplace(thesis_options(), kCompassAndGyros);
     Archive restoring{std::string_view(state)};
     second->archive(restoring);
     ASSERT_TRUE(restoring.ok() && restoring.at_end());
-    ASSERT_EQ(saved(*second), state);
+    ASSERT_EQ(test::saved(*second), state);
   }
-  EXPECT_EQ(saved(*second), saved(whole));
+  EXPECT_EQ(test::saved(*second), test::saved(whole));
 }
 
 }  // namespace

@@ -10,13 +10,14 @@
 #include <string>
 #include <string_view>
 
+#include "base/angles.h"
+
 namespace navcal::calib {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 /// The first and last moments of a turn still are within the band of the rest.
 constexpr double kSmall_rad = 5e-5;
-const Swing::Coefficients kTrue = Swing::Coefficients(3, 5, -5, 2, 2) * kDegree;
+const Swing::Coefficients kTrue = Swing::Coefficients(3, 5, -5, 2, 2) * base::kRadiansPerDegree;
 
 double deviation(double psi, const Swing::Coefficients& c = kTrue) {
   return c[0] + c[1] * std::sin(psi) + c[2] * std::cos(psi) + c[3] * std::sin(2 * psi) + c[4] * std::cos(2 * psi);
@@ -45,9 +46,9 @@ struct Helmsman {
   }
   void whole_swing(double off_nominal_rad = 0) {
     for (int i = 0; i < 8; ++i) {
-      const double heading = 45 * kDegree * i + off_nominal_rad;
+      const double heading = 45 * base::kRadiansPerDegree * i + off_nominal_rad;
       rest(heading, 15);
-      turn(heading, heading + 45 * kDegree);
+      turn(heading, heading + 45 * base::kRadiansPerDegree);
     }
   }
 };
@@ -55,7 +56,7 @@ struct Helmsman {
 TEST(Swing, TableAndCoefficientsOfAWholeSwing) {
   for (const double off_deg : {0.0, 4.0, -6.0}) {
     Swing swing;
-    Helmsman{swing}.whole_swing(off_deg * kDegree);
+    Helmsman{swing}.whole_swing(off_deg * base::kRadiansPerDegree);
     ASSERT_EQ(swing.missing(), 0U);
     const auto estimate = swing.estimate();
     ASSERT_TRUE(estimate);
@@ -63,7 +64,7 @@ TEST(Swing, TableAndCoefficientsOfAWholeSwing) {
     EXPECT_LT(estimate->residual_rad, kSmall_rad);
     const auto table = swing.table_rad();
     for (std::size_t i = 0; i < 8; ++i)
-      EXPECT_NEAR((*table)[i], deviation(45 * kDegree * static_cast<double>(i)), kSmall_rad) << i;
+      EXPECT_NEAR((*table)[i], deviation(45 * base::kRadiansPerDegree * static_cast<double>(i)), kSmall_rad) << i;
     EXPECT_TRUE(swing.judgement().accepted);
   }
 }
@@ -74,8 +75,8 @@ TEST(Swing, TheTableIsPeriodicAndLinearBetween) {
   for (double heading = -10; heading < 10; heading += 0.1) {
     EXPECT_NEAR(*swing.deviation_rad(heading), *swing.deviation_rad(heading + 2 * std::numbers::pi), 1e-12);
   }
-  const double middle = (deviation(315 * kDegree) + deviation(0)) / 2;
-  EXPECT_NEAR(*swing.deviation_rad(337.5 * kDegree), middle, kSmall_rad);
+  const double middle = (deviation(315 * base::kRadiansPerDegree) + deviation(0)) / 2;
+  EXPECT_NEAR(*swing.deviation_rad(337.5 * base::kRadiansPerDegree), middle, kSmall_rad);
 }
 
 TEST(Swing, StandardErrorsAreHonest) {
@@ -87,8 +88,8 @@ TEST(Swing, StandardErrorsAreHonest) {
     helmsman.random.seed(run);
     std::normal_distribution<double> normal(0, 0.01);
     for (int i = 0; i < 8; ++i) {
-      helmsman.rest(45 * kDegree * i, 12, normal(helmsman.random));
-      helmsman.turn(45 * kDegree * i, 45 * kDegree * (i + 1));
+      helmsman.rest(45 * base::kRadiansPerDegree * i, 12, normal(helmsman.random));
+      helmsman.turn(45 * base::kRadiansPerDegree * i, 45 * base::kRadiansPerDegree * (i + 1));
     }
     const auto estimate = swing.estimate();
     ASSERT_TRUE(estimate);
@@ -103,8 +104,8 @@ TEST(Swing, SaysWhichHeadingsAreMissing) {
   Swing swing;
   Helmsman helmsman{swing};
   for (const int heading : {0, 45, 135, 180, 270}) {
-    helmsman.rest(heading * kDegree, 15);
-    helmsman.turn(heading * kDegree, (heading + 45) * kDegree);
+    helmsman.rest(heading * base::kRadiansPerDegree, 15);
+    helmsman.turn(heading * base::kRadiansPerDegree, (heading + 45) * base::kRadiansPerDegree);
   }
   EXPECT_EQ(swing.missing(), 3U);
   EXPECT_FALSE(swing.table_rad());
@@ -120,9 +121,9 @@ TEST(Swing, ShortRestsTurnsAndRestsBetweenHeadingsDoNotCount) {
   Swing swing;
   Helmsman helmsman{swing};
   helmsman.rest(0, 7);
-  helmsman.turn(0, 20 * kDegree);
-  helmsman.rest(22 * kDegree, 60);
-  for (int turns = 0; turns < 5; ++turns) helmsman.turn(0, 360 * kDegree, 60);
+  helmsman.turn(0, 20 * base::kRadiansPerDegree);
+  helmsman.rest(22 * base::kRadiansPerDegree, 60);
+  for (int turns = 0; turns < 5; ++turns) helmsman.turn(0, 360 * base::kRadiansPerDegree, 60);
   EXPECT_EQ(swing.missing(), 8U);
   EXPECT_FALSE(swing.estimate());
 }
@@ -130,38 +131,39 @@ TEST(Swing, ShortRestsTurnsAndRestsBetweenHeadingsDoNotCount) {
 TEST(Swing, ARestCountsWhileItLastsAndSaysHowLongStill) {
   Swing swing;
   Helmsman helmsman{swing};
-  helmsman.rest(90 * kDegree, 4.05);
+  helmsman.rest(90 * base::kRadiansPerDegree, 4.05);
   ASSERT_TRUE(swing.remaining_s());
   EXPECT_NEAR(*swing.remaining_s(), 6, 0.2);
   EXPECT_EQ(swing.headings()[2].rests, 0U);
-  helmsman.rest(90 * kDegree, 8);
+  helmsman.rest(90 * base::kRadiansPerDegree, 8);
   EXPECT_EQ(*swing.remaining_s(), 0);
   EXPECT_EQ(swing.headings()[2].rests, 1U);
-  EXPECT_NEAR(swing.headings()[2].deviation_rad, deviation(90 * kDegree), 1e-12);
+  EXPECT_NEAR(swing.headings()[2].deviation_rad, deviation(90 * base::kRadiansPerDegree), 1e-12);
 }
 
 TEST(Swing, SeveralRestsOnAHeadingAreAveraged) {
   Swing swing;
   Helmsman helmsman{swing};
   for (const double error : {0.02, -0.02}) {
-    helmsman.rest(180 * kDegree, 12, error);
-    helmsman.turn(180 * kDegree, 200 * kDegree);
-    helmsman.turn(200 * kDegree, 180 * kDegree);
+    helmsman.rest(180 * base::kRadiansPerDegree, 12, error);
+    helmsman.turn(180 * base::kRadiansPerDegree, 200 * base::kRadiansPerDegree);
+    helmsman.turn(200 * base::kRadiansPerDegree, 180 * base::kRadiansPerDegree);
   }
   const auto heading = swing.headings()[4];
   EXPECT_EQ(heading.rests, 2U);
-  EXPECT_NEAR(heading.deviation_rad, deviation(180 * kDegree), kSmall_rad);
+  EXPECT_NEAR(heading.deviation_rad, deviation(180 * base::kRadiansPerDegree), kSmall_rad);
   EXPECT_NEAR(heading.std_rad, 0.01 / std::sqrt(2.0), 1e-4);
 }
 
 TEST(Swing, ACompassMountedBackwardsIsNotTornByTheSeam) {
   Swing swing;
   Helmsman helmsman{swing};
-  helmsman.truth[0] = 179.5 * kDegree;
+  helmsman.truth[0] = 179.5 * base::kRadiansPerDegree;
   helmsman.whole_swing();
-  EXPECT_NEAR(std::remainder(swing.estimate()->deviation[0] - 179.5 * kDegree, 2 * std::numbers::pi), 0,
-              kSmall_rad);
-  EXPECT_NEAR(swing.estimate()->deviation[1], 5 * kDegree, kSmall_rad);
+  EXPECT_NEAR(
+      std::remainder(swing.estimate()->deviation[0] - 179.5 * base::kRadiansPerDegree, 2 * std::numbers::pi), 0,
+      kSmall_rad);
+  EXPECT_NEAR(swing.estimate()->deviation[1], 5 * base::kRadiansPerDegree, kSmall_rad);
 }
 
 TEST(Swing, GapsNotANumberAndReversedStampsDoNotSpoilIt) {
@@ -169,13 +171,13 @@ TEST(Swing, GapsNotANumberAndReversedStampsDoNotSpoilIt) {
   Helmsman helmsman{swing};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 8; ++i) {
-    helmsman.rest(45 * kDegree * i, 6);
+    helmsman.rest(45 * base::kRadiansPerDegree * i, 6);
     swing.update(nan, 1, 1);
     swing.update(helmsman.time_s, nan, 1);
     swing.update(helmsman.time_s, 1, -std::numeric_limits<double>::infinity());
-    swing.update(helmsman.time_s - 5, 45 * kDegree * i, 0);
-    helmsman.rest(45 * kDegree * i, 8);
-    helmsman.turn(45 * kDegree * i, 45 * kDegree * (i + 1));
+    swing.update(helmsman.time_s - 5, 45 * base::kRadiansPerDegree * i, 0);
+    helmsman.rest(45 * base::kRadiansPerDegree * i, 8);
+    helmsman.turn(45 * base::kRadiansPerDegree * i, 45 * base::kRadiansPerDegree * (i + 1));
   }
   EXPECT_LT((swing.estimate()->deviation - kTrue).cwiseAbs().maxCoeff(), kSmall_rad);
   Swing torn;

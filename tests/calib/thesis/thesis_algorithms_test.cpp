@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/angles.h"
 #include "calib/thesis/adaptive_identifier.h"
 #include "calib/thesis/circle_moments.h"
 #include "calib/thesis/compass_least_squares.h"
@@ -20,8 +21,6 @@ namespace {
 using namespace test;
 
 constexpr double kPeriod_s = 0.1;
-constexpr double kDegree = std::numbers::pi / 180;
-
 double factor(const TruePoint& p) { return std::cos(p.roll_rad) / std::cos(p.pitch_rad); }
 double measured_rate(const TruePoint& p) { return (p.rate_rad_s.z() - kTrueBias_rad_s) / kTrueScale; }
 std::string name(int path) { return "path" + std::to_string(path + 1); }
@@ -79,7 +78,7 @@ TEST(Thesis, CompassLeastSquaresOfTable11_2) {
     constexpr int kPoints = 629;
     for (int k = 0; k < kPoints; ++k) {
       const double psi = 0.01 * k, measured = psi - deviation_rad(truth, psi);
-      const double error = (psi - measured - deviation_rad(correction, measured)) / kDegree;
+      const double error = (psi - measured - deviation_rad(correction, measured)) / base::kRadiansPerDegree;
       largest = std::max(largest, std::abs(error));
       sum += error;
       square += error * error;
@@ -95,7 +94,7 @@ struct Distortion {
 };
 
 Eigen::Vector2d distorted(const Distortion& d, double heading_rad) {
-  const Eigen::Rotation2Dd rotation(d.axis_deg * kDegree);
+  const Eigen::Rotation2Dd rotation(d.axis_deg * base::kRadiansPerDegree);
   const Eigen::Vector2d level = 20 * Eigen::Vector2d(std::cos(heading_rad), -std::sin(heading_rad));
   const Eigen::Vector2d axes(1, std::sqrt(1 - d.eccentricity * d.eccentricity));
   return rotation * axes.asDiagonal() * (rotation.inverse() * level) + d.shift_uT;
@@ -104,11 +103,12 @@ Eigen::Vector2d distorted(const Distortion& d, double heading_rad) {
 double largest_residual_deg(const CircleMoments& moments, const Distortion& d) {
   double largest = 0;
   for (int k = 0; k < 3600; ++k) {
-    const double psi = k * kDegree / 10;
+    const double psi = k * base::kRadiansPerDegree / 10;
     const Eigen::Vector2d field = moments.corrected_uT(distorted(d, psi));
-    largest = std::max(largest, std::abs(std::remainder(std::atan2(-field.y(), field.x()) - psi, 360 * kDegree)));
+    largest = std::max(
+        largest, std::abs(std::remainder(std::atan2(-field.y(), field.x()) - psi, 360 * base::kRadiansPerDegree)));
   }
-  return largest / kDegree;
+  return largest / base::kRadiansPerDegree;
 }
 
 TEST(Thesis, MomentsOfAnEvenCircleAreExact) {

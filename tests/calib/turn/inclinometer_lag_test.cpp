@@ -13,18 +13,18 @@
 namespace navcal::calib {
 namespace {
 
-constexpr double kLag_s = 0.3, kNoise_rad = 0.0017;
+constexpr double kInclinometerLag_s = 0.3, kNoise_rad = 0.0017;
 
 /// A hull that rolls and pitches on a straight course.
-double roll(double t) { return 0.12 * std::sin(1.9 * t); }
-double pitch(double t) { return 0.08 * std::sin(1.1 * t + 0.4); }
+double swaying_roll(double t) { return 0.12 * std::sin(1.9 * t); }
+double swaying_pitch(double t) { return 0.08 * std::sin(1.1 * t + 0.4); }
 double roll_rate(double t) { return 0.12 * 1.9 * std::cos(1.9 * t); }
 double pitch_rate(double t) { return 0.08 * 1.1 * std::cos(1.1 * t + 0.4); }
 
 struct Drive {
-  double lag_s = kLag_s;   ///< what the inclinometer really has
-  double motion = 1;       ///< 0: still water
-  bool gyros_tell = true;  ///< false: a card with a yaw gyro alone
+  double lag_s = kInclinometerLag_s;  ///< what the inclinometer really has
+  double motion = 1;                  ///< 0: still water
+  bool gyros_tell = true;             ///< false: a card with a yaw gyro alone
   double bias_rad_s = 0.01;
 
   /// Calls `gyro(t, rates)` and `tilt(t, shown, true)` at 10 Hz.
@@ -32,10 +32,10 @@ struct Drive {
   void run(double seconds, Gyro gyro, Tilt tilt) const {
     std::mt19937_64 random(7);
     std::normal_distribution<double> normal;
-    Eigen::Vector2d shown = motion * Eigen::Vector2d(roll(0), pitch(0));
+    Eigen::Vector2d shown = motion * Eigen::Vector2d(swaying_roll(0), swaying_pitch(0));
     for (int ms = 0; ms < 1000 * seconds; ++ms) {
       const double t = ms / 1000.0;
-      const Eigen::Vector2d now = motion * Eigen::Vector2d(roll(t), pitch(t));
+      const Eigen::Vector2d now = motion * Eigen::Vector2d(swaying_roll(t), swaying_pitch(t));
       shown += lag_s > 0 ? Eigen::Vector2d(0.001 / lag_s * (now - shown)) : Eigen::Vector2d(now - shown);
       if (ms % 100 != 0) continue;
       const double p = motion * roll_rate(t), q = motion * pitch_rate(t) * std::cos(now.x()),
@@ -47,7 +47,7 @@ struct Drive {
     }
   }
   [[nodiscard]] bool decides_for_lag() const {
-    InclinometerLag lag(kLag_s);
+    InclinometerLag lag(kInclinometerLag_s);
     double waiting_s = -1;
     Eigen::Vector2d waiting = Eigen::Vector2d::Zero();
     run(
@@ -73,7 +73,7 @@ TEST(InclinometerLag, GyrosThatTellNothingAreNotUsed) {
 TEST(InclinometerLag, StillWaterDecidesNothing) { EXPECT_TRUE(Drive{.motion = 0}.decides_for_lag()); }
 
 TEST(TiltSmoother, RestoresTheTiltThatALaggingInclinometerShows) {
-  TiltSmoother smoother({.lag_s = kLag_s, .tilt_noise_rad = kNoise_rad});
+  TiltSmoother smoother({.lag_s = kInclinometerLag_s, .tilt_noise_rad = kNoise_rad});
   double newest_s = 0;
   double square = 0, shown_square = 0;
   int count = 0;

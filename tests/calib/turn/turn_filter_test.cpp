@@ -87,14 +87,13 @@ TEST(TurnFilter, AGapBeginsASegmentAndLosesNothingLearnt) {
 }
 
 TEST(TurnFilter, BadStepsAreLeftOutAndSpoilNothing) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   TurnFilter filter({}, TurnPrior::unknown_gyro());
   for (int i = 0; i < 500; ++i) {
     TurnStep step = step_at(i);
-    if (i == 100) step.heading_rad = kNan;
+    if (i == 100) step.heading_rad = std::numeric_limits<double>::quiet_NaN();
     if (i == 150) step.measured_angle_rad = std::numeric_limits<double>::infinity();
     if (i == 200) step.duration_s = 0;
-    if (i == 250) step.tilt_angle_rad = kNan;
+    if (i == 250) step.tilt_angle_rad = std::numeric_limits<double>::quiet_NaN();
     filter.update(step);
   }
   EXPECT_EQ(filter.left_out(), 4U);

@@ -9,9 +9,9 @@
 namespace navcal::calib {
 namespace {
 
-double roll(double t) { return 0.15 * std::sin(1.3 * t); }
-double pitch(double t) { return 0.1 * std::cos(0.9 * t); }
-double heading(double t) { return 0.8 * t + 0.5 * std::sin(0.7 * t); }
+double true_roll(double t) { return 0.15 * std::sin(1.3 * t); }
+double true_pitch(double t) { return 0.1 * std::cos(0.9 * t); }
+double turned_heading(double t) { return 0.8 * t + 0.5 * std::sin(0.7 * t); }
 
 /// Body rates of the motion above, by its derivatives.
 RateReading rate_at(double t) {
@@ -19,9 +19,9 @@ RateReading rate_at(double t) {
                r = 0.8 + 0.35 * std::cos(0.7 * t);
   RateReading reading;
   reading.time_s = t;
-  reading.rate_rad_s = {p - r * std::sin(pitch(t)),
-                        q * std::cos(roll(t)) + r * std::sin(roll(t)) * std::cos(pitch(t)),
-                        -q * std::sin(roll(t)) + r * std::cos(roll(t)) * std::cos(pitch(t))};
+  reading.rate_rad_s = {p - r * std::sin(true_pitch(t)),
+                        q * std::cos(true_roll(t)) + r * std::sin(true_roll(t)) * std::cos(true_pitch(t)),
+                        -q * std::sin(true_roll(t)) + r * std::cos(true_roll(t)) * std::cos(true_pitch(t))};
   reading.yaw_rate_b_rad_s = 2 * reading.rate_rad_s.z();
   return reading;
 }
@@ -29,9 +29,9 @@ RateReading rate_at(double t) {
 CompassReading compass_at(double t) {
   CompassReading reading;
   reading.time_s = t;
-  reading.heading_rad = std::remainder(heading(t), 2 * M_PI);
-  reading.roll_rad = roll(t);
-  reading.pitch_rad = pitch(t);
+  reading.heading_rad = std::remainder(turned_heading(t), 2 * M_PI);
+  reading.roll_rad = true_roll(t);
+  reading.pitch_rad = true_pitch(t);
   return reading;
 }
 
@@ -61,7 +61,7 @@ TEST(TurnIntegrator, OnACommonGridTheExactKinematics) {
   }
   EXPECT_EQ(total.steps, 300);
   EXPECT_EQ(total.segments, 1);
-  EXPECT_NEAR(total.turned, heading(total.last_s) - heading(total.first_s), 3e-5);
+  EXPECT_NEAR(total.turned, turned_heading(total.last_s) - turned_heading(total.first_s), 3e-5);
   EXPECT_DOUBLE_EQ(total.turned, total.turned_b);
 }
 
@@ -76,7 +76,7 @@ TEST(TurnIntegrator, AtTimesOfTheirOwnAndWithLatencyTheSame) {
   }
   EXPECT_GT(total.steps, 295);
   EXPECT_EQ(total.segments, 1);
-  EXPECT_NEAR(total.turned, heading(total.last_s) - heading(total.first_s), 3e-5);
+  EXPECT_NEAR(total.turned, turned_heading(total.last_s) - turned_heading(total.first_s), 3e-5);
 }
 
 TEST(TurnIntegrator, TheOrderOfArrivalDoesNotMatter) {
@@ -101,7 +101,7 @@ TEST(TurnIntegrator, ASlowInclinometerIsHelpedByTheGyros) {
     TurnIntegrator::Parameters p;
     if (helped) p.tilt_lag_s = kLag_s;
     TurnIntegrator integrator(p);
-    double lagged_roll = roll(0), lagged_pitch = pitch(0);
+    double lagged_roll = true_roll(0), lagged_pitch = true_pitch(0);
     double worst = 0, turned = 0, first = 0;
     for (int ms = 0; ms < 30000; ++ms) {
       const double t = ms / 1000.0;
@@ -117,12 +117,12 @@ TEST(TurnIntegrator, ASlowInclinometerIsHelpedByTheGyros) {
         compass.pitch_rad = lagged_pitch;
         integrator.update(compass);
       }
-      lagged_roll += 0.001 / kLag_s * (roll(t) - lagged_roll);
-      lagged_pitch += 0.001 / kLag_s * (pitch(t) - lagged_pitch);
+      lagged_roll += 0.001 / kLag_s * (true_roll(t) - lagged_roll);
+      lagged_pitch += 0.001 / kLag_s * (true_pitch(t) - lagged_pitch);
       while (const auto step = integrator.next()) {
         if (step->begins_segment) first = step->time_s;
         turned += step->measured_angle_rad + step->tilt_angle_rad;
-        worst = std::max(worst, std::abs(turned - (heading(step->time_s) - heading(first))));
+        worst = std::max(worst, std::abs(turned - (turned_heading(step->time_s) - turned_heading(first))));
       }
     }
     error[helped] = worst;
@@ -169,7 +169,7 @@ TEST(TurnIntegrator, BadReadingsAreLeftOut) {
   }
   EXPECT_EQ(integrator.left_out(), 7U * 301);
   EXPECT_EQ(total.steps, 300);
-  EXPECT_NEAR(total.turned, heading(total.last_s) - heading(total.first_s), 3e-5);
+  EXPECT_NEAR(total.turned, turned_heading(total.last_s) - turned_heading(total.first_s), 3e-5);
 }
 
 TEST(TurnIntegrator, RestoredGoesOnBitForBit) {

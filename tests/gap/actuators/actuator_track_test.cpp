@@ -6,10 +6,12 @@
 #include <cmath>
 #include <functional>
 
+#include "base/angles.h"
+
 namespace navcal::gap {
 namespace {
 
-constexpr double kLag_s = 0.15, kDegree = 0.017453292519943295;
+constexpr double kTrackLag_s = 0.15;
 
 /// Exact reports of all three fins, ten a second.
 std::vector<MotorReading> reports(const std::function<double(double)>& angle_rad, double duration_s) {
@@ -25,12 +27,13 @@ class StepAt : public testing::TestWithParam<double> {};
 TEST_P(StepAt, OfACommandIsSharpBetweenTwoReports) {
   const double at_s = GetParam();
   const auto angle = [&](double t) {
-    return t < at_s ? 2 * kDegree : (15 - 13 * std::exp(-(t - at_s) / kLag_s)) * kDegree;
+    return t < at_s ? 2 * base::kRadiansPerDegree
+                    : (15 - 13 * std::exp(-(t - at_s) / kTrackLag_s)) * base::kRadiansPerDegree;
   };
-  const ActuatorTrack track(reports(angle, 6), std::vector{1.0, at_s, 5.0}, kLag_s, 6);
+  const ActuatorTrack track(reports(angle, 6), std::vector{1.0, at_s, 5.0}, kTrackLag_s, 6);
   for (std::size_t k = 100; k < 500; ++k) {
     const double t = static_cast<double>(k) * ActuatorTrack::kStep_s;
-    EXPECT_NEAR(track.rows()[k].fins_rad[0], angle(t), 0.1 * kDegree) << t;
+    EXPECT_NEAR(track.rows()[k].fins_rad[0], angle(t), 0.1 * base::kRadiansPerDegree) << t;
   }
 }
 
@@ -45,14 +48,14 @@ TEST(ActuatorTrack, FollowsAHelmWithoutLeadOrLag) {
       double servo = 0, command = 0, at_s = 0;
       for (const double order_s : orders_s) {
         const double until_s = std::min(order_s, t);
-        servo = command + (servo - command) * std::exp(-(until_s - at_s) / kLag_s);
+        servo = command + (servo - command) * std::exp(-(until_s - at_s) / kTrackLag_s);
         at_s = until_s;
         if (order_s > t) return servo;
-        command = 8 * kDegree * std::sin(1.3 * order_s);
+        command = 8 * base::kRadiansPerDegree * std::sin(1.3 * order_s);
       }
-      return command + (servo - command) * std::exp(-(t - at_s) / kLag_s);
+      return command + (servo - command) * std::exp(-(t - at_s) / kTrackLag_s);
     };
-    const ActuatorTrack track(reports(angle, 20), orders_s, kLag_s, 20);
+    const ActuatorTrack track(reports(angle, 20), orders_s, kTrackLag_s, 20);
     double early = 0, size = 0;
     for (std::size_t k = 200; k < 1800; ++k) {
       const double t = static_cast<double>(k) * ActuatorTrack::kStep_s;
@@ -66,14 +69,15 @@ TEST(ActuatorTrack, FollowsAHelmWithoutLeadOrLag) {
 
 TEST(ActuatorTrack, ASteadyFinLosesTheNoiseOfItsReports) {
   int sign = 1;
-  const auto noisy = [&](double) { return (5 + 0.1 * (sign = -sign)) * kDegree; };
-  const ActuatorTrack track(reports(noisy, 20), regular_orders(0, 20), kLag_s, 20);
-  for (std::size_t k = 200; k < 1800; ++k) EXPECT_NEAR(track.rows()[k].fins_rad[2], 5 * kDegree, 0.03 * kDegree);
+  const auto noisy = [&](double) { return (5 + 0.1 * (sign = -sign)) * base::kRadiansPerDegree; };
+  const ActuatorTrack track(reports(noisy, 20), regular_orders(0, 20), kTrackLag_s, 20);
+  for (std::size_t k = 200; k < 1800; ++k)
+    EXPECT_NEAR(track.rows()[k].fins_rad[2], 5 * base::kRadiansPerDegree, 0.03 * base::kRadiansPerDegree);
 }
 
 TEST(ActuatorTrack, OneReportHoldsForAll) {
   const std::vector<MotorReading> one{{3, 600, {0.1, 0.2, 0.3}, 1}};
-  const ActuatorTrack track(one, regular_orders(0, 5), kLag_s, 5);
+  const ActuatorTrack track(one, regular_orders(0, 5), kTrackLag_s, 5);
   EXPECT_GE(track.rows().size(), 500U);
   for (const auto& row : track.rows()) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(row.fins_rad[i], 0.1 * static_cast<double>(i + 1), 1e-12);
@@ -83,7 +87,7 @@ TEST(ActuatorTrack, OneReportHoldsForAll) {
 
 TEST(ActuatorTrack, TheCurrentIsThatOfTheShaftAndWhatTheReportsAddToItForSeconds) {
   const auto readings = reports([](double) { return 0; }, 60);  // 1.4 A
-  const ActuatorTrack track(readings, regular_orders(0, 60), kLag_s, 60);
+  const ActuatorTrack track(readings, regular_orders(0, 60), kTrackLag_s, 60);
   const std::vector<double> nominal(track.rows().size(), 1.0);
   const auto current = track.current_A(readings, nominal);
   for (std::size_t k = 1000; k < 5000; ++k) EXPECT_NEAR(current[k], 1.4, 0.01);

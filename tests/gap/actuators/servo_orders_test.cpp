@@ -6,10 +6,12 @@
 #include <cmath>
 #include <functional>
 
+#include "base/angles.h"
+
 namespace navcal::gap {
 namespace {
 
-constexpr double kLag_s = 0.15, kDegree = 0.017453292519943295, kNoise_rad = 0.1 * kDegree;
+constexpr double kServoLag_s = 0.15, kNoise_rad = 0.1 * base::kRadiansPerDegree;
 
 /// A servo under orders that come ten a second, and noisy reports of it.
 struct Told {
@@ -23,7 +25,7 @@ Told told(double phase_s, double duration_s, const std::function<double(int)>& c
   Told told;
   double servo = 0, command = 0, at_s = 0;
   const auto go_on_until = [&](double time_s) {
-    servo = command + (servo - command) * std::exp(-(time_s - at_s) / kLag_s);
+    servo = command + (servo - command) * std::exp(-(time_s - at_s) / kServoLag_s);
     at_s = time_s;
   };
   for (int k = 0; k * 0.1 + 0.05 < duration_s; ++k) {
@@ -56,31 +58,35 @@ double rms_apart(const std::vector<double>& a, const std::vector<double>& b, std
 class AtPhase : public testing::TestWithParam<double> {};
 
 TEST_P(AtPhase, LongStepsAreSharpAndACommandThatStandsIsQuiet) {
-  const Told servo = told(GetParam(), 60, [](int k) { return (k / 100 % 2 == 0 ? 5 : -9) * kDegree; });
-  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kLag_s);
+  const Told servo =
+      told(GetParam(), 60, [](int k) { return (k / 100 % 2 == 0 ? 5 : -9) * base::kRadiansPerDegree; });
+  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kServoLag_s);
   const auto found = commands(smoother.smoothed(servo.reports_rad, kNoise_rad));
   ASSERT_EQ(found.size(), servo.commands_rad.size() - 1);  // nothing is reported after the last one
   for (std::size_t i = 5; i + 5 < found.size(); ++i) {
-    EXPECT_NEAR(found[i], servo.commands_rad[i], (i % 100 < 2 || i % 100 > 97 ? 1.0 : 0.25) * kDegree) << i;
+    EXPECT_NEAR(found[i], servo.commands_rad[i],
+                (i % 100 < 2 || i % 100 > 97 ? 1.0 : 0.25) * base::kRadiansPerDegree)
+        << i;
   }
-  EXPECT_LT(rms_apart(found, servo.commands_rad, 210, 290), 0.05 * kDegree);
+  EXPECT_LT(rms_apart(found, servo.commands_rad, 210, 290), 0.05 * base::kRadiansPerDegree);
 }
 
 TEST_P(AtPhase, ARestlessHelmIsFollowed) {
   sim::Noise helm(3);
-  const Told servo = told(GetParam(), 120, [&](int) { return helm.normal(2 * kDegree); });
-  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kLag_s);
+  const Told servo = told(GetParam(), 120, [&](int) { return helm.normal(2 * base::kRadiansPerDegree); });
+  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kServoLag_s);
   const auto found = commands(smoother.smoothed(servo.reports_rad, kNoise_rad));
-  EXPECT_LT(rms_apart(found, servo.commands_rad, 10, found.size() - 10), 0.6 * kDegree);
+  EXPECT_LT(rms_apart(found, servo.commands_rad, 10, found.size() - 10), 0.6 * base::kRadiansPerDegree);
 }
 
 // Nulls are to be as far from the smoothed way as the recorded vehicle is.
 TEST_P(AtPhase, DrawsScatterAsTheTruthDoes) {
   sim::Noise helm(4);
   double command = 0;
-  const Told servo =
-      told(GetParam(), 300, [&](int) { return command += helm.normal(0.5 * kDegree) - 0.02 * command; });
-  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kLag_s);
+  const Told servo = told(GetParam(), 300, [&](int) {
+    return command += helm.normal(0.5 * base::kRadiansPerDegree) - 0.02 * command;
+  });
+  ServoSmoother smoother(servo.report_times_s, servo.order_times_s, kServoLag_s);
   const auto found = commands(smoother.smoothed(servo.reports_rad, kNoise_rad));
   sim::Noise noise(5);
   const auto drawn = commands(smoother.drawn(servo.reports_rad, kNoise_rad, noise));
@@ -93,14 +99,14 @@ INSTANTIATE_TEST_SUITE_P(AfterAReport, AtPhase, testing::Values(0.005, 0.02, 0.0
 
 TEST(ServoOrders, AServoThatIsToldNothingStandsAtTheMeanOfItsReports) {
   const Told servo = told(0.05, 30, [](int) { return 0; });
-  ServoSmoother smoother(servo.report_times_s, {}, kLag_s);
+  ServoSmoother smoother(servo.report_times_s, {}, kServoLag_s);
   const ServoOrders found = smoother.smoothed(servo.reports_rad, kNoise_rad);
   EXPECT_TRUE(found.steps_rad.empty());
-  EXPECT_NEAR(found.command_rad, 0, 0.03 * kDegree);
+  EXPECT_NEAR(found.command_rad, 0, 0.03 * base::kRadiansPerDegree);
 }
 
 TEST(ServoOrders, OneReportIsBelieved) {
-  ServoSmoother smoother(std::vector{3.0}, std::vector{1.0, 2.0, 4.0}, kLag_s);
+  ServoSmoother smoother(std::vector{3.0}, std::vector{1.0, 2.0, 4.0}, kServoLag_s);
   EXPECT_TRUE(smoother.order_times_s().empty());
   const ServoOrders found = smoother.smoothed(std::vector{0.1}, kNoise_rad);
   EXPECT_NEAR(found.angle_rad, 0.1, 1e-12);
@@ -108,7 +114,7 @@ TEST(ServoOrders, OneReportIsBelieved) {
 }
 
 TEST(ServoOrders, OrdersAtOneInstantAndReportsFarApartAreNoTrouble) {
-  const Told servo = told(0.05, 60, [](int) { return 4 * kDegree; });
+  const Told servo = told(0.05, 60, [](int) { return 4 * base::kRadiansPerDegree; });
   std::vector<double> times_s, reports_rad, orders_s;
   for (std::size_t i = 0; i < servo.reports_rad.size(); ++i) {
     if (i > 100 && i < 400) continue;
@@ -116,10 +122,10 @@ TEST(ServoOrders, OrdersAtOneInstantAndReportsFarApartAreNoTrouble) {
     reports_rad.push_back(servo.reports_rad[i]);
   }
   for (const double time_s : servo.order_times_s) orders_s.insert(orders_s.end(), 3, time_s);
-  ServoSmoother smoother(times_s, orders_s, kLag_s);
+  ServoSmoother smoother(times_s, orders_s, kServoLag_s);
   for (const double command : commands(smoother.smoothed(reports_rad, kNoise_rad))) {
     EXPECT_TRUE(std::isfinite(command));
-    EXPECT_NEAR(command, 4 * kDegree, 4.1 * kDegree);
+    EXPECT_NEAR(command, 4 * base::kRadiansPerDegree, 4.1 * base::kRadiansPerDegree);
   }
 }
 

@@ -7,13 +7,12 @@
 #include <numbers>
 #include <vector>
 
+#include "base/angles.h"
 #include "gap/data/mission.h"
 #include "sim/rotation.h"
 
 namespace navcal::gap {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(StatedField, IsReadFromTheMarkOfARecordingAlone) {
   const auto uT = stated_field_uT("simulated field of the Earth: north 19.000, east 0.600, down -44.000 uT");
@@ -66,7 +65,7 @@ TEST(FittedField, NeedsReadings) {
 
 TEST(ModelField, IsToldWithPlaceAndDate) {
   EarthField field;
-  field.place = {59.33 * kDegree, -18.07 * kDegree, 0};
+  field.place = {59.33 * base::kRadiansPerDegree, -18.07 * base::kRadiansPerDegree, 0};
   field.utc_ns = 1'780'272'000'000'000'000;  // 2026-06-01
   field.set_by_model();
   EXPECT_NE(text_of(field).find("model WMM2025 at 59.33 N 18.07 W on 2026-06-01: north "), std::string::npos)
@@ -80,7 +79,7 @@ TEST(ModelField, IsToldWithPlaceAndDate) {
 
 TEST(ModelField, WhereOlderSimulatedRecordingsLieTheirFieldIsTold) {
   EarthField field;
-  field.place = {37.063 * kDegree, -80.628 * kDegree, 562};
+  field.place = {37.063 * base::kRadiansPerDegree, -80.628 * base::kRadiansPerDegree, 562};
   field.utc_ns = 1'780'272'000'000'000'000;
   field.set_by_model();
   EXPECT_NE(doubt_of(field).find("--field 19.0,0.6,44.0"), std::string::npos);

@@ -10,16 +10,16 @@
 namespace navcal::gap {
 namespace {
 
-constexpr Eigen::Index kRows = 3000;
+constexpr Eigen::Index kNoiseRows = 3000;
 
 /// Coloured and correlated between channels.
 Innovations coloured(std::uint64_t seed) {
   std::mt19937_64 dice(seed);
   std::normal_distribution<double> normal;
   Innovations made;
-  made.grid = Eigen::MatrixXd::Zero(kRows, kChannels);
+  made.grid = Eigen::MatrixXd::Zero(kNoiseRows, kChannels);
   made.fixes = Eigen::MatrixXd::NullaryExpr(50, kFixChannels, [&] { return 2 * normal(dice); });
-  for (Eigen::Index i = 0; i < kRows; ++i) {
+  for (Eigen::Index i = 0; i < kNoiseRows; ++i) {
     const double common = normal(dice);
     for (Eigen::Index j = 0; j < kChannels; ++j) {
       const double before = i > 0 ? made.grid(i - 1, j) : 0;
@@ -31,22 +31,22 @@ Innovations coloured(std::uint64_t seed) {
 
 Layout layout() {
   Layout made;
-  made.intervals = kRows;
+  made.intervals = kNoiseRows;
   for (int i = 0; i < 50; ++i) made.fix_numbers.push_back(i % 25);
   return made;
 }
 
-Whitening learnt() {
+Whitening learnt_whitening() {
   const std::vector<Innovations> noise{coloured(1), coloured(2), coloured(3)};
   const std::vector<Layout> layouts(3, layout());
   return Whitening(noise, layouts);
 }
 
 TEST(Whitening, WhatItWasLearntFromBecomesWhiteAndOfSizeOne) {
-  const Eigen::VectorXd white = learnt()(coloured(4), layout());
+  const Eigen::VectorXd white = learnt_whitening()(coloured(4), layout());
   EXPECT_NEAR(white.squaredNorm() / static_cast<double>(Whitening::count(white)), 1, 0.03);
   double next = 0, beside = 0;
-  for (Eigen::Index i = 300 * kEvidenceChannels; i + kEvidenceChannels < kRows * kEvidenceChannels; ++i) {
+  for (Eigen::Index i = 300 * kEvidenceChannels; i + kEvidenceChannels < kNoiseRows * kEvidenceChannels; ++i) {
     next += white[i] * white[i + kEvidenceChannels];
     beside += i % kEvidenceChannels != kEvidenceChannels - 1 ? white[i] * white[i + 1] : 0;
   }
@@ -55,7 +55,7 @@ TEST(Whitening, WhatItWasLearntFromBecomesWhiteAndOfSizeOne) {
 }
 
 TEST(Whitening, IsLinear) {
-  const Whitening whitening = learnt();
+  const Whitening whitening = learnt_whitening();
   const Innovations a = coloured(5), b = coloured(6);
   Innovations sum = a;
   sum.grid += 2 * b.grid;
@@ -68,9 +68,9 @@ TEST(Whitening, WhatWasNotMeasuredIsNothing) {
   Innovations made = coloured(7);
   made.grid.block(1000, 2, 50, 1).setConstant(std::numeric_limits<double>::quiet_NaN());
   made.grid.col(5).setConstant(std::numeric_limits<double>::quiet_NaN());
-  const Eigen::VectorXd white = learnt()(made, layout());
+  const Eigen::VectorXd white = learnt_whitening()(made, layout());
   EXPECT_TRUE(white.allFinite());
-  for (Eigen::Index i = 0; i < kRows; ++i) {
+  for (Eigen::Index i = 0; i < kNoiseRows; ++i) {
     EXPECT_EQ(white[i * kEvidenceChannels + 5], 0);
     if (i >= 1000 && i < 1050) {
       EXPECT_EQ(white[i * kEvidenceChannels + 2], 0);

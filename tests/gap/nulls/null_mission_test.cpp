@@ -15,7 +15,7 @@ namespace {
 // made vehicles that are their model speak for wrong fins, thrust or lags, by ten standard errors in seven
 // minutes.
 TEST(NullMission, OfAVehicleThatIsItsModelSpeaksForNothing) {
-  constexpr int kMissions = 6;
+  constexpr int kNullMissions = 6;
   const config::VehicleSettings vehicle;
   const Library library({});
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
@@ -33,14 +33,14 @@ TEST(NullMission, OfAVehicleThatIsItsModelSpeaksForNothing) {
   }
   ASSERT_EQ(asked.size(), 5U);
   Eigen::ArrayXd scores = Eigen::ArrayXd::Zero(5), squares = scores;
-  for (std::uint64_t seed = 1; seed <= kMissions; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kNullMissions; ++seed) {
     const Mission mission = null_mission(replay, course, vehicle, sim::EffectSet(), seed);
     const Replay own(mission, vehicle);
     const auto white = Whitening::nominal();
     const Eigen::VectorXd residual = residual_at(own, library, white, nothing);
     const Eigen::MatrixXd design = design_at(own, library, white, nothing, residual, asked, 2);
-    scores += (design.transpose() * residual).array() / kMissions;
-    squares += design.colwise().squaredNorm().transpose().array() / kMissions;
+    scores += (design.transpose() * residual).array() / kNullMissions;
+    squares += design.colwise().squaredNorm().transpose().array() / kNullMissions;
   }
   for (Eigen::Index i = 0; i < scores.size(); ++i) {
     const Unknown& unknown = library.unknowns()[static_cast<std::size_t>(asked[static_cast<std::size_t>(i)])];

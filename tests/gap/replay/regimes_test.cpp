@@ -12,11 +12,11 @@
 namespace navcal::gap {
 namespace {
 
-constexpr std::size_t kRows = 4000;
+constexpr std::size_t kCircleRows = 4000;
 
-Trajectory10Hz circling() {
+Trajectory10Hz circling_motion() {
   Trajectory10Hz course;
-  for (std::size_t i = 0; i < kRows; ++i) {
+  for (std::size_t i = 0; i < kCircleRows; ++i) {
     const double t = 0.1 * static_cast<double>(i);
     course.time_s.push_back(t);
     course.heading_rad.push_back(0.11 * t);
@@ -35,7 +35,7 @@ Innovations noise(std::uint64_t seed) {
   std::mt19937_64 dice(seed);
   std::normal_distribution<double> normal;
   Innovations made;
-  made.grid = Eigen::MatrixXd::NullaryExpr(kRows, kChannels, [&] { return 0.1 * normal(dice); });
+  made.grid = Eigen::MatrixXd::NullaryExpr(kCircleRows, kChannels, [&] { return 0.1 * normal(dice); });
   return made;
 }
 
@@ -48,7 +48,7 @@ RegimeStatistics nulls(const Trajectory10Hz& course) {
 TEST(Regimes, TheWholeOfAChannelIsTheLastOfThem) {
   EXPECT_EQ(regimes().at(static_cast<std::size_t>(overall_regime())), "overall");
   EXPECT_EQ(static_cast<Eigen::Index>(regimes().size()), overall_regime() + 1);
-  const Eigen::MatrixXd shown = explained_rms(noise(1), circling(), {});
+  const Eigen::MatrixXd shown = explained_rms(noise(1), circling_motion(), {});
   ASSERT_EQ(shown.cols(), overall_regime() + 1);
   EXPECT_NEAR(shown(0, overall_regime()), 0.1 * 180 / 3.14159265, 0.2);  // the heading, in degrees
 }
@@ -56,9 +56,9 @@ TEST(Regimes, TheWholeOfAChannelIsTheLastOfThem) {
 // On a straight course the rudder follows the compass's noise, by which it is steered, and not the noise the
 // rudder.
 TEST(Where, ARudderThatOnlyHoldsTheCourseIsFollowedByNothing) {
-  Trajectory10Hz steered = circling(), not_steered = circling();
+  Trajectory10Hz steered = circling_motion(), not_steered = circling_motion();
   const Innovations seen = noise(7);
-  for (std::size_t i = 0; i < kRows; ++i) {
+  for (std::size_t i = 0; i < kCircleRows; ++i) {
     const double wander = 0.002 * std::sin(0.7 * static_cast<double>(i));
     not_steered.rudder_rad[i] = wander;
     steered.rudder_rad[i] = 0.02 * seen.grid(static_cast<Eigen::Index>(i), heading);
@@ -75,7 +75,7 @@ TEST(Where, ARudderThatOnlyHoldsTheCourseIsFollowedByNothing) {
 }
 
 TEST(Where, NoiseIsNowhere) {
-  const Trajectory10Hz course = circling();
+  const Trajectory10Hz course = circling_motion();
   const auto statistics = nulls(course);
   int found = 0;
   for (std::uint64_t seed = 100; seed < 120; ++seed) {
@@ -86,9 +86,9 @@ TEST(Where, NoiseIsNowhere) {
 }
 
 TEST(Where, WhatFollowsTheCurrentIsFoundThere) {
-  const Trajectory10Hz course = circling();
+  const Trajectory10Hz course = circling_motion();
   Innovations made = noise(200);
-  for (std::size_t i = 0; i < kRows; ++i) {
+  for (std::size_t i = 0; i < kCircleRows; ++i) {
     made.grid(static_cast<Eigen::Index>(i), field_y) += 0.2 * course.current_A[i];
   }
   const auto map = residual_map(explained_rms(made, course, {}), nulls(course));
@@ -105,9 +105,9 @@ TEST(Where, WhatFollowsTheCurrentIsFoundThere) {
 // Iron and misalignment turn with the heading once and twice; what is left three times is no map of straight
 // lines.
 TEST(Where, AFieldThatSaturatesFollowsTheHeadingThrice) {
-  const Trajectory10Hz course = circling();
+  const Trajectory10Hz course = circling_motion();
   Innovations made = noise(210);
-  for (std::size_t i = 0; i < kRows; ++i) {
+  for (std::size_t i = 0; i < kCircleRows; ++i) {
     const double along_uT = 20 * std::cos(course.heading_rad[i]);
     made.grid(static_cast<Eigen::Index>(i), field_x) -=
         2e-5 * std::pow(along_uT, 3) - 0.75 * 2e-5 * 400 * along_uT;
@@ -122,11 +122,11 @@ TEST(Where, AFieldThatSaturatesFollowsTheHeadingThrice) {
 // On a course that goes there and back the first harmonic looks like the third, and irons of vehicles without a
 // gap would hide it.
 TEST(Where, TheThirdHarmonicIsSeenBesideIrons) {
-  Trajectory10Hz course = circling();
+  Trajectory10Hz course = circling_motion();
   for (double& heading : course.heading_rad) heading += 1.2 * std::sin(2 * heading) + 0.6 * std::sin(heading);
   const auto with_field = [&](std::uint64_t seed, const std::function<double(double)>& field_uT) {
     Innovations made = noise(seed);
-    for (std::size_t i = 0; i < kRows; ++i) {
+    for (std::size_t i = 0; i < kCircleRows; ++i) {
       made.grid(static_cast<Eigen::Index>(i), field_x) += field_uT(course.heading_rad[i]);
     }
     return explained_rms(made, course, {});
@@ -144,9 +144,10 @@ TEST(Where, TheThirdHarmonicIsSeenBesideIrons) {
 }
 
 TEST(Where, AStepInMidMissionIsAChange) {
-  const Trajectory10Hz course = circling();
+  const Trajectory10Hz course = circling_motion();
   Innovations made = noise(300);
-  for (std::size_t i = kRows / 2; i < kRows; ++i) made.grid(static_cast<Eigen::Index>(i), depth) += 0.5;
+  for (std::size_t i = kCircleRows / 2; i < kCircleRows; ++i)
+    made.grid(static_cast<Eigen::Index>(i), depth) += 0.5;
   const auto changes = change_points(made, course, {}, nulls(course));
   ASSERT_FALSE(changes.empty());
   EXPECT_EQ(changes.front().channel, "imu.depth");

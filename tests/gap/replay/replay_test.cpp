@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/angles.h"
 #include "gap/inference/biases.h"
 #include "gap/inference/library.h"
 #include "tests/gap/simulated_mission.h"
@@ -38,10 +39,9 @@ Innovations replayed(const Mission& mission, const char* effect = nullptr, doubl
 
 TEST(Replay, ANominalMissionLeavesTheInstrumentsNoise) {
   const Innovations left = replayed(simulated_mission("identification", "", 150, 3));
-  constexpr double kDegree = 0.017453292519943295;
   EXPECT_NEAR(rms(left, field_x), 0.15, 0.05);
-  EXPECT_NEAR(rms(left, tilt_pitch), 0.1 * kDegree, 0.05 * kDegree);
-  EXPECT_LT(rms(left, gyro_yaw_a), 0.3 * kDegree);
+  EXPECT_NEAR(rms(left, tilt_pitch), 0.1 * base::kRadiansPerDegree, 0.05 * base::kRadiansPerDegree);
+  EXPECT_LT(rms(left, gyro_yaw_a), 0.3 * base::kRadiansPerDegree);
   EXPECT_LT(rms(left, force_y), 0.03);
   EXPECT_LT(rms(left, depth), 0.03);
 }

@@ -29,7 +29,7 @@ std::uint64_t write_until_power_fails(Disk& disk, const testing::SampleLog& log)
   return log.bytes.size();
 }
 
-std::uint64_t whole_before(const testing::SampleLog& log, std::uint64_t bytes) {
+std::uint64_t synced_before(const testing::SampleLog& log, std::uint64_t bytes) {
   std::uint64_t whole = 0;
   for (const auto end : log.ends) whole += end <= bytes ? 1U : 0U;
   return whole;
@@ -55,7 +55,7 @@ TEST(LogCrash, PowerLostBetweenAnyTwoOperationsCostsNothingThatWasSynced) {
       std::uint64_t messages = 0;
       while (reader.next()) ++messages;
       ASSERT_TRUE(reader.findings().finished) << operations << " " << reader.remarks().front();
-      ASSERT_GE(messages, whole_before(log, synced)) << operations;
+      ASSERT_GE(messages, synced_before(log, synced)) << operations;
       ASSERT_EQ(reader.findings().bad_crc, 0U);
     }
   }

@@ -16,7 +16,7 @@
 namespace navcal::record {
 namespace {
 
-constexpr std::int64_t kNow_ns = 1'795'000'000'000'000'000;
+constexpr std::int64_t kFolderTime_ns = 1'795'000'000'000'000'000;
 
 class LogFolderOnDisk : public ::testing::Test {
  protected:
@@ -45,19 +45,19 @@ TEST_F(LogFolderOnDisk, AClockThatStepsBackRepeatsNoNameAndNoOrder) {
   std::string last;
   for (int i = 0; i < 5; ++i) {
     LogFolder folder(real_disk(), path_);
-    const auto name = write_log(folder, kNow_ns - i * 86'400'000'000'000LL, "x", true);
+    const auto name = write_log(folder, kFolderTime_ns - i * 86'400'000'000'000LL, "x", true);
     const std::string counter = name.substr(name.size() - 11, 6);
     EXPECT_EQ(counter, "00000" + std::to_string(i + 1));
   }
   LogFolder folder(real_disk(), path_);
-  std::ofstream(path_ / log_name(kNow_ns, 41)) << "copied here";
-  EXPECT_EQ(write_log(folder, kNow_ns, "x", true), log_name(kNow_ns, 42));
+  std::ofstream(path_ / log_name(kFolderTime_ns, 41)) << "copied here";
+  EXPECT_EQ(write_log(folder, kFolderTime_ns, "x", true), log_name(kFolderTime_ns, 42));
 }
 
 TEST_F(LogFolderOnDisk, AFinishedFileHasItsLengthAndIsReadOnly) {
   LogFolder folder(real_disk(), path_);
   const auto log = testing::sample_log(1, true);
-  const auto name = write_log(folder, kNow_ns, log.bytes, true);
+  const auto name = write_log(folder, kFolderTime_ns, log.bytes, true);
   struct stat status {};
   ASSERT_EQ(::stat((path_ / name).c_str(), &status), 0);
   EXPECT_EQ(static_cast<std::size_t>(status.st_size), log.bytes.size());
@@ -72,10 +72,10 @@ TEST_F(LogFolderOnDisk, WhatALossOfPowerLeftOpenIsFinished) {
   std::string name;
   {
     LogFolder folder(real_disk(), path_);
-    name = write_log(folder, kNow_ns, log.bytes + "torn", false);
+    name = write_log(folder, kFolderTime_ns, log.bytes + "torn", false);
     // While it is being written nobody else may finish it.
     std::error_code error;
-    const auto file = folder.create(kNow_ns, error);
+    const auto file = folder.create(kFolderTime_ns, error);
     EXPECT_EQ(finish_log(real_disk(), file->path()).error, std::errc::resource_unavailable_try_again);
   }
   LogFolder folder(real_disk(), path_);
@@ -145,11 +145,11 @@ TEST(LogFolder, RoomIsMadeByTheOldestFinishedLogs) {
   LogFolder folder(disk, "/logs");
   const std::string bytes(20'000, 'x');
   std::error_code error;
-  const auto unfinished = folder.create(kNow_ns, error);
+  const auto unfinished = folder.create(kFolderTime_ns, error);
   ASSERT_FALSE(unfinished->append(bytes));
-  const auto first = write_log(folder, kNow_ns - 5, bytes, true);
-  const auto second = write_log(folder, kNow_ns - 9, bytes, true);
-  const auto current = folder.create(kNow_ns, error);
+  const auto first = write_log(folder, kFolderTime_ns - 5, bytes, true);
+  const auto second = write_log(folder, kFolderTime_ns - 9, bytes, true);
+  const auto current = folder.create(kFolderTime_ns, error);
   ASSERT_FALSE(current->append(bytes));
 
   EXPECT_TRUE(folder.keep_free(10'000).removed.empty());

@@ -11,9 +11,9 @@ namespace {
 
 using testing::sample_log;
 
-LogReader reader_of(std::string_view bytes) { return {std::make_unique<MemorySource>(bytes), "test.mcap"}; }
+LogReader log_reader_of(std::string_view bytes) { return {std::make_unique<MemorySource>(bytes), "test.mcap"}; }
 
-std::uint64_t read_all(LogReader& reader) {
+std::uint64_t messages_of(LogReader& reader) {
   std::uint64_t messages = 0;
   while (reader.next()) ++messages;
   return messages;
@@ -28,8 +28,8 @@ std::uint64_t whole_before(const testing::SampleLog& log, std::size_t cut) {
 
 TEST(LogReader, ReadsWhatTheEncoderWrote) {
   const auto log = sample_log(3, true);
-  LogReader reader = reader_of(log.bytes);
-  EXPECT_EQ(read_all(reader), log.messages);
+  LogReader reader = log_reader_of(log.bytes);
+  EXPECT_EQ(messages_of(reader), log.messages);
   EXPECT_TRUE(reader.findings().finished);
   EXPECT_EQ(reader.findings().data_end, log.data_end);
   EXPECT_EQ(reader.findings().bad_crc, 0U);
@@ -41,8 +41,8 @@ TEST(LogReader, EveryWholeMessageSurvivesACutAtEveryByte) {
   const auto log = sample_log(1, true);
   const std::size_t first = log.ends.front();
   for (std::size_t cut = first; cut < log.bytes.size(); ++cut) {
-    LogReader reader = reader_of(std::string_view(log.bytes).substr(0, cut));
-    ASSERT_EQ(read_all(reader), whole_before(log, cut)) << cut;
+    LogReader reader = log_reader_of(std::string_view(log.bytes).substr(0, cut));
+    ASSERT_EQ(messages_of(reader), whole_before(log, cut)) << cut;
     ASSERT_FALSE(reader.findings().finished) << cut;
     ASSERT_EQ(reader.findings().bad_crc, 0U) << cut;
     ASSERT_FALSE(reader.remarks().empty()) << cut;
@@ -52,8 +52,8 @@ TEST(LogReader, EveryWholeMessageSurvivesACutAtEveryByte) {
 TEST(LogReader, AZeroTailIsSpaceTakenInAdvance) {
   const auto log = sample_log(1, false);
   const std::string bytes = log.bytes + std::string(100'000, '\0');
-  LogReader zeros = reader_of(bytes);
-  EXPECT_EQ(read_all(zeros), log.messages);
+  LogReader zeros = log_reader_of(bytes);
+  EXPECT_EQ(messages_of(zeros), log.messages);
   EXPECT_EQ(zeros.findings().tail_bytes, 100'000U);
   EXPECT_TRUE(zeros.findings().tail_is_zero);
   EXPECT_EQ(zeros.findings().data_end, log.data_end);
@@ -65,8 +65,8 @@ TEST(LogReader, AChangedByteCostsAtMostTheMessageItIsIn) {
     for (const int flip : {0x01, 0x80, 0xFF}) {
       std::string bytes = log.bytes;
       bytes[at] = static_cast<char>(bytes[at] ^ flip);
-      LogReader reader = reader_of(bytes);
-      const auto messages = read_all(reader);
+      LogReader reader = log_reader_of(bytes);
+      const auto messages = messages_of(reader);
       // Times and sequence numbers of the record's head are not summed: then nothing is lost.
       ASSERT_GE(messages + 1, log.messages) << at << " " << flip;
       if (messages < log.messages) {
@@ -84,8 +84,8 @@ TEST(LogReader, GarbageInTheMiddleIsPassedOver) {
   std::string garbage;
   for (unsigned i = 0; i < 70'000; ++i) garbage += static_cast<char>(i * i % 251);
   bytes.insert(at, garbage);
-  LogReader reader = reader_of(bytes);
-  EXPECT_EQ(read_all(reader), log.messages);
+  LogReader reader = log_reader_of(bytes);
+  EXPECT_EQ(messages_of(reader), log.messages);
   EXPECT_EQ(reader.findings().damaged_bytes, garbage.size());
   ASSERT_EQ(reader.findings().stretches.size(), 1U);
   EXPECT_EQ(reader.findings().stretches[0].offset, at);
@@ -95,14 +95,14 @@ TEST(LogReader, AnAbsurdLengthTakesNoMemoryAndLosesNothingElse) {
   const auto log = sample_log(1, true);
   std::string bytes = log.bytes;
   for (std::size_t i = 0; i < 8; ++i) bytes[log.ends[4] + 1 + i] = '\x7F';
-  LogReader reader = reader_of(bytes);
-  EXPECT_EQ(read_all(reader), log.messages - 1);
+  LogReader reader = log_reader_of(bytes);
+  EXPECT_EQ(messages_of(reader), log.messages - 1);
 }
 
 TEST(LogReader, RefusesWhatIsNotALog) {
-  EXPECT_THROW(reader_of(""), BadRecording);
-  EXPECT_THROW(reader_of("#capture 1\n"), BadRecording);
-  EXPECT_THROW(reader_of(kMcapMagic), BadRecording);
+  EXPECT_THROW(log_reader_of(""), BadRecording);
+  EXPECT_THROW(log_reader_of("#capture 1\n"), BadRecording);
+  EXPECT_THROW(log_reader_of(kMcapMagic), BadRecording);
   std::string other(kMcapMagic);
   {
     const RecordScope header(other, Opcode::header);
@@ -110,7 +110,7 @@ TEST(LogReader, RefusesWhatIsNotALog) {
     append_mcap_string(other, "");
   }
   try {
-    reader_of(other);
+    log_reader_of(other);
     FAIL();
   } catch (const BadRecording& error) {
     EXPECT_STREQ(error.what(),
@@ -122,8 +122,8 @@ TEST(LogReader, ASummaryThatDoesNotMatchItsSumIsNoEnd) {
   const auto log = sample_log(1, true);
   std::string bytes = log.bytes;
   bytes[log.data_end + 60] = static_cast<char>(bytes[log.data_end + 60] ^ 1);
-  LogReader reader = reader_of(bytes);
-  EXPECT_EQ(read_all(reader), log.messages);
+  LogReader reader = log_reader_of(bytes);
+  EXPECT_EQ(messages_of(reader), log.messages);
   EXPECT_FALSE(reader.findings().finished);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "protocols/imu_card.h"
 #include "sim/effects/effect_set.h"
 #include "sim/instruments/imu_card.h"
@@ -14,7 +15,6 @@
 namespace navcal::sim::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr GyroRates kTrue{0.02, 0.4, -0.03, 0.4};  // of some_state(): A-x, A-z, B-y, B-z
 
 GyroRates added(std::string_view name, std::initializer_list<double> values, double time_s = 0,
@@ -34,17 +34,20 @@ TEST(CardEffects, Gyros) {
   expect_near(added("gyro_scale", {0.1, 0.2, 0.3, 0.4}),
               {0.1 * kTrue[0], 0.2 * kTrue[1], 0.3 * kTrue[2], 0.4 * kTrue[3]});
   expect_near(added("gyro_temperature", {1, 2, 3, 4}, 0, 18),
-              {3 * kDegree, 6 * kDegree, 9 * kDegree, 12 * kDegree});
+              {3 * base::kRadiansPerDegree, 6 * base::kRadiansPerDegree, 9 * base::kRadiansPerDegree,
+               12 * base::kRadiansPerDegree});
   expect_near(added("gyro_drift", {0.1, 0.2, 0.3, 0.4}, 50),
-              {5 * kDegree, 10 * kDegree, 15 * kDegree, 20 * kDegree});
+              {5 * base::kRadiansPerDegree, 10 * base::kRadiansPerDegree, 15 * base::kRadiansPerDegree,
+               20 * base::kRadiansPerDegree});
   expect_near(added("gyro_nonlinearity", {0.001, 0.001, 0.001, 0}),
-              {0.001 / kDegree * 0.02 * 0.02, 0.001 / kDegree * 0.4 * 0.4, -0.001 / kDegree * 0.03 * 0.03, 0});
+              {0.001 / base::kRadiansPerDegree * 0.02 * 0.02, 0.001 / base::kRadiansPerDegree * 0.4 * 0.4,
+               -0.001 / base::kRadiansPerDegree * 0.03 * 0.03, 0});
 }
 
 TEST(CardEffects, GravityAndCrossAxesInTheOrderOfTheirNames) {
   // ax_x ax_y ax_z az_x az_y az_z by_x ...
   const auto g = added("gyro_g_sensitivity", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 2});
-  const double scale = kDegree / kGravity_m_s2;
+  const double scale = base::kRadiansPerDegree / kGravity_m_s2;
   expect_near(g, {2.1 * scale, 0.6 * scale, -9.5 * scale, -19 * scale});
   // ax_from_y ax_from_z az_from_x az_from_y by_from_x by_from_z bz_from_x bz_from_y
   const auto cross = added("gyro_cross_axis", {0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01});

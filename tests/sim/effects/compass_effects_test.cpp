@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "sim/effects/effect_set.h"
 #include "sim/instruments/tcm2_sensor.h"
 #include "tests/sim/drive.h"
@@ -13,7 +14,6 @@
 namespace navcal::sim::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr Vector3 kField{12, -7, 43};
 
 Vector3 field_with(std::string_view name, std::initializer_list<double> values, double electronics_C = 15) {
@@ -43,7 +43,7 @@ TEST(CompassEffects, SoftIronIsSymmetric) {
 
 TEST(CompassEffects, MisalignmentTurnsAndKeepsTheSize) {
   const double a = 0.01;
-  const Vector3 field = field_with("compass_misalignment", {0, 0, a / kDegree});
+  const Vector3 field = field_with("compass_misalignment", {0, 0, a / base::kRadiansPerDegree});
   // (1 - [a]x) m to first order: m - a x m.
   expect_near(field, {12 + a * -7, -7 - a * 12, 43}, 43 * a * a);
   const Vector3 large = field_with("compass_misalignment", {20, -30, 10});
@@ -119,8 +119,8 @@ TEST(CompassEffects, SloshSeesTheAccelerationAndOffsetsTheTilt) {
   EXPECT_NEAR(rest.pitch_rad, 0, 1e-12);
   Tilt said{0.1, 0.2};
   effect_with("tilt_offset", {1, -2})->tilt_said(now, said);
-  EXPECT_NEAR(said.roll_rad, 0.1 + kDegree, 1e-12);
-  EXPECT_NEAR(said.pitch_rad, 0.2 - 2 * kDegree, 1e-12);
+  EXPECT_NEAR(said.roll_rad, 0.1 + base::kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(said.pitch_rad, 0.2 - 2 * base::kRadiansPerDegree, 1e-12);
 }
 
 TEST(CompassEffects, TheSensorSaysTheHeadingOfItsOwnFieldAndTilt) {
@@ -135,9 +135,9 @@ TEST(CompassEffects, TheSensorSaysTheHeadingOfItsOwnFieldAndTilt) {
   Tcm2Sensor sensor(options, motion, 1);
   sensor.power_on(kStart_ns);
   EXPECT_NEAR(sensor.measure(kStart_ns + 5 * kSecond_ns).heading_rad, 0, 1e-9);
-  EXPECT_NEAR(sensor.measure(kStart_ns + 15 * kSecond_ns).heading_rad, 45 * kDegree, 1e-9);
+  EXPECT_NEAR(sensor.measure(kStart_ns + 15 * kSecond_ns).heading_rad, 45 * base::kRadiansPerDegree, 1e-9);
   EXPECT_NEAR(sensor.measure(kStart_ns + 25 * kSecond_ns).heading_rad, 0, 1e-9);
-  EXPECT_NEAR(sensor.measure(kStart_ns + 35 * kSecond_ns).heading_rad, 330 * kDegree, 1e-9);
+  EXPECT_NEAR(sensor.measure(kStart_ns + 35 * kSecond_ns).heading_rad, 330 * base::kRadiansPerDegree, 1e-9);
 }
 
 }  // namespace

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "sim/effects/effect_set.h"
 #include "tests/sim/effects/at_rest.h"
 
 namespace navcal::sim::testing {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Vector3 fins(EffectSet& set, const Vector3& servos, double time_s = 0) {
   Vector3 result = servos;
@@ -45,21 +44,21 @@ TEST(VehicleEffects, ForcesAndCurrent) {
 TEST(VehicleEffects, OffsetsAreThoseOfRudderAndElevator) {
   EffectSet rudder = one("fin_offset", {2});
   const Vector3 r = fins(rudder, {});
-  EXPECT_NEAR(2.0 / 3 * ((r[1] + r[2]) / 2 - r[0]), 2 * kDegree, 1e-12);
+  EXPECT_NEAR(2.0 / 3 * ((r[1] + r[2]) / 2 - r[0]), 2 * base::kRadiansPerDegree, 1e-12);
   EXPECT_NEAR(r[1] - r[2], 0, 1e-12);
   EffectSet elevator = one("elevator_offset", {2});
   const Vector3 e = fins(elevator, {});
-  EXPECT_NEAR((e[1] - e[2]) / std::numbers::sqrt3, 2 * kDegree, 1e-12);
+  EXPECT_NEAR((e[1] - e[2]) / std::numbers::sqrt3, 2 * base::kRadiansPerDegree, 1e-12);
   EXPECT_NEAR(e[0], 0, 1e-12);
 }
 
 TEST(VehicleEffects, BacklashActsAtReversalsOnly) {
   EffectSet set = one("fin_backlash", {2});
   EXPECT_EQ(fins(set, {0, 0, 0})[0], 0);
-  EXPECT_NEAR(fins(set, {0.5 * kDegree, 0, 0})[0], 0, 1e-12) << "within the play";
-  EXPECT_NEAR(fins(set, {5 * kDegree, 0, 0})[0], 4 * kDegree, 1e-12);
-  EXPECT_NEAR(fins(set, {3.5 * kDegree, 0, 0})[0], 4 * kDegree, 1e-12);
-  EXPECT_NEAR(fins(set, {-5 * kDegree, 0, 0})[0], -4 * kDegree, 1e-12);
+  EXPECT_NEAR(fins(set, {0.5 * base::kRadiansPerDegree, 0, 0})[0], 0, 1e-12) << "within the play";
+  EXPECT_NEAR(fins(set, {5 * base::kRadiansPerDegree, 0, 0})[0], 4 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(fins(set, {3.5 * base::kRadiansPerDegree, 0, 0})[0], 4 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(fins(set, {-5 * base::kRadiansPerDegree, 0, 0})[0], -4 * base::kRadiansPerDegree, 1e-12);
 }
 
 TEST(VehicleEffects, LagBeginsSettledAndFollowsWithItsTimeConstant) {
@@ -76,7 +75,7 @@ TEST(VehicleEffects, OrderIsGainThenPlayThenOffset) {
   set.add(effect_with("fin_backlash", {2}));
   set.add(effect_with("fin_gain", {1}));
   fins(set, {});
-  EXPECT_NEAR(fins(set, {2 * kDegree, 0, 0})[0], (2 * 2 - 1 + 3) * kDegree, 1e-12);
+  EXPECT_NEAR(fins(set, {2 * base::kRadiansPerDegree, 0, 0})[0], (2 * 2 - 1 + 3) * base::kRadiansPerDegree, 1e-12);
 }
 
 TEST(LineEffects, FramesAreLostAndRepeatedAsOftenAsSaid) {
@@ -141,7 +140,7 @@ TEST(LineEffects, WalkGrowsWithTheRootOfTime) {
       rates = {};
       set.gyros({t_s, state, 15}, rates);
     }
-    square += rates[0] * rates[0] / (kDegree * kDegree);
+    square += rates[0] * rates[0] / (base::kRadiansPerDegree * base::kRadiansPerDegree);
     EXPECT_EQ(rates[1], 0);
   }
   // Chi-square of so many degrees of freedom, five standard deviations.

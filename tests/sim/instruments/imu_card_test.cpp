@@ -11,8 +11,6 @@
 namespace navcal::sim::testing {
 namespace {
 
-namespace wire = protocols::imu_card;
-
 ImuCard::Options exact() {
   ImuCard::Options options;
   options.rate_noise_deg_s = options.turn_on_bias_deg_s = options.force_noise_m_s2 = options.depth_noise_m = 0;
@@ -25,7 +23,7 @@ TEST(EmulatedImuCard, StillAndLevelReadsZerosAndMinusOneG) {
   card.power_on(kStart_ns);
   const auto frames = run_to(card, kStart_ns + kSecond_ns);
   ASSERT_EQ(frames.size(), 20U);
-  const auto record = wire::decode_record(frames[0].bytes);
+  const auto record = protocols::imu_card::decode_record(frames[0].bytes);
   ASSERT_TRUE(record);
   const std::array<std::uint16_t, 8> expected{32768, 32768, 32768, 32768, 32768, 32768, 16768, 4000};
   EXPECT_EQ(record->raw, expected);
@@ -39,7 +37,7 @@ TEST(EmulatedImuCard, EveryChannelHasItsScale) {
   motion.state.position_m[2] = 4;
   ImuCard card(exact(), motion);
   card.power_on(kStart_ns);
-  const auto record = wire::decode_record(run_to(card, kStart_ns + kSecond_ns)[0].bytes);
+  const auto record = protocols::imu_card::decode_record(run_to(card, kStart_ns + kSecond_ns)[0].bytes);
   const auto count = [](double zero_mV, double mV) {
     return static_cast<std::uint16_t>(std::lround(16 * (zero_mV + mV)));
   };
@@ -70,10 +68,10 @@ TEST(EmulatedImuCard, SequenceWrapsAndBeginsAnewWithThePower) {
   card.power_on(kStart_ns);
   const auto frames = run_to(card, kStart_ns + 15 * kSecond_ns);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    ASSERT_EQ(wire::decode_record(frames[i].bytes)->sequence, static_cast<std::uint8_t>(i));
+    ASSERT_EQ(protocols::imu_card::decode_record(frames[i].bytes)->sequence, static_cast<std::uint8_t>(i));
   }
   card.power_on(kStart_ns + 16 * kSecond_ns);
-  EXPECT_EQ(wire::decode_record(run_to(card, kStart_ns + 17 * kSecond_ns)[0].bytes)->sequence, 0);
+  EXPECT_EQ(protocols::imu_card::decode_record(run_to(card, kStart_ns + 17 * kSecond_ns)[0].bytes)->sequence, 0);
 }
 
 TEST(EmulatedImuCard, OverRangeAndLeaksAreFlagged) {
@@ -81,9 +79,9 @@ TEST(EmulatedImuCard, OverRangeAndLeaksAreFlagged) {
   motion.state.rate_rad_s[2] = 10;  // 573 deg/s are far beyond the converter
   ImuCard card(exact(), motion);
   card.power_on(kStart_ns);
-  card.set_status(wire::leak_aft);
-  const auto record = wire::decode_record(run_to(card, kStart_ns + kSecond_ns)[0].bytes);
-  EXPECT_EQ(record->status, wire::leak_aft | wire::over_range);
+  card.set_status(protocols::imu_card::leak_aft);
+  const auto record = protocols::imu_card::decode_record(run_to(card, kStart_ns + kSecond_ns)[0].bytes);
+  EXPECT_EQ(record->status, protocols::imu_card::leak_aft | protocols::imu_card::over_range);
   EXPECT_EQ(record->raw[1], 65520);
 }
 
@@ -100,7 +98,7 @@ TEST(EmulatedImuCard, NoiseAndTurnOnBiasAreOfTheStatedSize) {
     double mean = 0;
     std::vector<double> rates;
     for (const auto& frame : frames)
-      rates.push_back((wire::decode_record(frame.bytes)->raw[1] / 16.0 - 2048) / 10);
+      rates.push_back((protocols::imu_card::decode_record(frame.bytes)->raw[1] / 16.0 - 2048) / 10);
     for (const double rate : rates) mean += rate / static_cast<double>(rates.size());
     for (const double rate : rates)
       sum2 += (rate - mean) * (rate - mean) / (static_cast<double>(rates.size()) - 1);

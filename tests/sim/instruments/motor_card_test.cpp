@@ -11,8 +11,6 @@
 namespace navcal::sim::testing {
 namespace {
 
-namespace wire = protocols::motor_card;
-
 struct EmulatedMotorCard : ::testing::Test {
   Still motion;
   MotorCard card{quiet(), motion};
@@ -29,22 +27,22 @@ struct EmulatedMotorCard : ::testing::Test {
     motion.state.motor_current_A = 1.1;
     card.power_on(t_ns);
   }
-  wire::Status status_after(double seconds) {
+  protocols::motor_card::Status status_after(double seconds) {
     t_ns += static_cast<std::int64_t>(seconds * 1e9);
     const auto lines = run_to(card, t_ns);
-    const auto status = wire::decode_status(lines.back().bytes);
+    const auto status = protocols::motor_card::decode_status(lines.back().bytes);
     EXPECT_TRUE(status);
-    return status.value_or(wire::Status{});
+    return status.value_or(protocols::motor_card::Status{});
   }
   void command(std::int32_t rpm, std::array<double, 3> fins_deg) {
-    card.on_bytes(t_ns, wire::encode_command({rpm, fins_deg}));
+    card.on_bytes(t_ns, protocols::motor_card::encode_command({rpm, fins_deg}));
   }
 };
 
 TEST_F(EmulatedMotorCard, TellsWhatTheVehicleDoesTenTimesASecond) {
   EXPECT_EQ(run_to(card, kStart_ns + kSecond_ns).size(), 10U);
   t_ns = kStart_ns + kSecond_ns;
-  const wire::Status status = status_after(0.1);
+  const protocols::motor_card::Status status = status_after(0.1);
   EXPECT_EQ(status.sequence, 10);
   EXPECT_EQ(status.rpm, 720);
   EXPECT_EQ(status.rpm_commanded, 720);
@@ -58,7 +56,7 @@ TEST_F(EmulatedMotorCard, FollowsACommandAndSaysSoInTheNextStatus) {
   run_to(card, t_ns);
   command(900, {10, -5, -5});
   EXPECT_EQ(status_after(0.1).rpm_commanded, 900);
-  const wire::Status settled = status_after(5);
+  const protocols::motor_card::Status settled = status_after(5);
   EXPECT_EQ(settled.rpm, 900);
   EXPECT_NEAR(*settled.current_A, 0.15 + 5.5e-4 * std::pow(15, 3), 0.005);
   EXPECT_NEAR(*settled.fins_deg[0], 10, 0.05);

@@ -12,7 +12,6 @@
 namespace navcal::sim::testing {
 namespace {
 
-namespace wire = protocols::oncore;
 using Kind = Oncore::Kind;
 
 struct EmulatedOncore : ::testing::Test {
@@ -26,7 +25,9 @@ struct EmulatedOncore : ::testing::Test {
     receiver = std::make_unique<Oncore>(options, motion);
     receiver->power_on(t_ns);
   }
-  void ask(protocols::FrameId id, std::uint8_t rate) { receiver->on_bytes(t_ns, wire::encode_poll(id, rate)); }
+  void ask(protocols::FrameId id, std::uint8_t rate) {
+    receiver->on_bytes(t_ns, protocols::oncore::encode_poll(id, rate));
+  }
   std::vector<Emission> run(double seconds) {
     t_ns += static_cast<std::int64_t>(seconds * 1e9);
     return run_to(*receiver, t_ns);
@@ -42,12 +43,12 @@ struct EmulatedOncore : ::testing::Test {
 TEST_F(EmulatedOncore, IsSilentUntilAskedAndSendsThreeTenthsAfterTheSecond) {
   power();
   EXPECT_TRUE(run(5).empty());
-  ask(wire::kHa, 1);
+  ask(protocols::oncore::kHa, 1);
   const auto messages = run(3);
   ASSERT_EQ(messages.size(), 3U);
   for (const Emission& message : messages) {
     EXPECT_EQ(message.start_ns % kSecond_ns, 300'000'000);
-    const auto position = wire::decode_position(message.bytes);
+    const auto position = protocols::oncore::decode_position(message.bytes);
     ASSERT_TRUE(position && position->in_range);
     EXPECT_EQ(protocols::unix_ns(position->date, position->time), message.start_ns - 300'000'000);
   }
@@ -55,39 +56,39 @@ TEST_F(EmulatedOncore, IsSilentUntilAskedAndSendsThreeTenthsAfterTheSecond) {
 
 TEST_F(EmulatedOncore, RatesAndPolls) {
   power();
-  ask(wire::kEa, 2);
-  ask(wire::kBb, 1);
-  ask(wire::kBo, 0);
+  ask(protocols::oncore::kEa, 2);
+  ask(protocols::oncore::kBb, 1);
+  ask(protocols::oncore::kBo, 0);
   EXPECT_EQ(ids(run(4)), "Ea Bb Bo Bb Ea Bb ");
-  ask(wire::kEa, 0);  // once, and no more
+  ask(protocols::oncore::kEa, 0);  // once, and no more
   EXPECT_EQ(ids(run(3)), "Ea Bb Bb Bb ");
-  ask(wire::kBb, 0);
-  ask(wire::kCj, 0);
+  ask(protocols::oncore::kBb, 0);
+  ask(protocols::oncore::kCj, 0);
   EXPECT_EQ(ids(run(3)), "Bb Cj ");
 }
 
 TEST_F(EmulatedOncore, MalformedCommandsAreDroppedSilently) {
   power();
-  auto command = wire::encode_poll(wire::kHa, 1);
+  auto command = protocols::oncore::encode_poll(protocols::oncore::kHa, 1);
   command[5] ^= 1;  // the checksum
   receiver->on_bytes(t_ns, command);
   receiver->on_bytes(t_ns, bytes_of("garbage@@"));
   EXPECT_TRUE(run(3).empty());
-  ask(wire::kHa, 1);
+  ask(protocols::oncore::kHa, 1);
   EXPECT_EQ(run(1).size(), 1U) << "and a good one after them is understood";
 }
 
 TEST_F(EmulatedOncore, AnOlderReceiverDoesNotKnowHa) {
   power(Kind::eight_channels);
-  ask(wire::kHa, 1);
+  ask(protocols::oncore::kHa, 1);
   EXPECT_TRUE(run(3).empty());
-  ask(wire::kEa, 1);
+  ask(protocols::oncore::kEa, 1);
   EXPECT_EQ(ids(run(2)), "Ea Ea ");
 }
 
 TEST_F(EmulatedOncore, ForgetsWhatItWasAskedWithThePower) {
   power();
-  ask(wire::kHa, 1);
+  ask(protocols::oncore::kHa, 1);
   EXPECT_FALSE(run(2).empty());
   receiver->power_on(t_ns);
   EXPECT_TRUE(run(3).empty());
@@ -98,15 +99,15 @@ TEST_F(EmulatedOncore, FindsItselfTwoToTenSecondsAfterSurfacingAndNotBelow) {
   motion.state.velocity_body_m_s = {1, 0, 0};
   motion.state.euler_rad[2] = 1;
   power();
-  ask(wire::kHa, 1);
+  ask(protocols::oncore::kHa, 1);
   for (int round = 0; round < 3; ++round) {
     int seconds = 0;
-    wire::Position position;
+    protocols::oncore::Position position;
     while (seconds < 30 && position.fix != protocols::Fix::fix_3d) {
       const auto messages = run(1);
       if (messages.empty()) continue;
       ++seconds;
-      position = *wire::decode_position(messages.at(0).bytes);
+      position = *protocols::oncore::decode_position(messages.at(0).bytes);
     }
     EXPECT_GE(seconds, 2);
     EXPECT_LE(seconds, 15) << "three flat fixes come first";
@@ -115,7 +116,7 @@ TEST_F(EmulatedOncore, FindsItselfTwoToTenSecondsAfterSurfacingAndNotBelow) {
     EXPECT_NEAR(position.speed_m_s, 1, 0.5);
     EXPECT_NEAR(position.heading_deg, 57.3, 30);
     motion.state.position_m[2] = 0.4;
-    const auto submerged = wire::decode_position(run(2).back().bytes);
+    const auto submerged = protocols::oncore::decode_position(run(2).back().bytes);
     EXPECT_EQ(submerged->fix, protocols::Fix::acquiring);
     motion.state.position_m[2] = 0.2;
   }
@@ -125,15 +126,15 @@ TEST_F(EmulatedOncore, RolloverAndUnknownLeapSeconds) {
   options.weeks_early = 1024;
   options.leap_seconds_known = false;
   power();
-  ask(wire::kEa, 1);
-  ask(wire::kBo, 1);
+  ask(protocols::oncore::kEa, 1);
+  ask(protocols::oncore::kBo, 1);
   const auto messages = run(1.6);
   ASSERT_EQ(messages.size(), 2U);
-  const auto position = wire::decode_position(messages[0].bytes);
+  const auto position = protocols::oncore::decode_position(messages[0].bytes);
   const std::int64_t second_ns = messages[0].start_ns - 300'000'000;
   EXPECT_EQ(protocols::unix_ns(position->date, position->time),
             second_ns + 18 * kSecond_ns - 1024 * 604800 * kSecond_ns);
-  EXPECT_FALSE(wire::decode_bo(messages[1].bytes)->offset_s);
+  EXPECT_FALSE(protocols::oncore::decode_bo(messages[1].bytes)->offset_s);
 }
 
 TEST_F(EmulatedOncore, TodaysReceiverSpeaksNmeaUnasked) {

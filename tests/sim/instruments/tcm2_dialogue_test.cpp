@@ -10,8 +10,6 @@
 namespace navcal::sim::testing {
 namespace {
 
-namespace wire = protocols::tcm2;
-
 struct Tcm2Dialogue : ::testing::Test {
   Still motion;
   Tcm2 compass{{}, motion};
@@ -41,11 +39,11 @@ TEST_F(Tcm2Dialogue, TheStartUpOfTheInterfaceDocument) {
     EXPECT_EQ(command(setting), ":\r\n") << setting;
   }
   const std::string words = command("go\r", 0.25);
-  wire::Parser parser;
+  protocols::tcm2::Parser parser;
   int full = 0;
   parser.feed(bytes_of(words), [&](const protocols::Frame& frame) {
-    if (frame.id != wire::kWord) return;
-    const auto word = wire::decode_word(frame.bytes);
+    if (frame.id != protocols::tcm2::kWord) return;
+    const auto word = protocols::tcm2::decode_word(frame.bytes);
     full += word && word->heading && word->pitch && word->roll && word->field() && word->temperature ? 1 : 0;
   });
   EXPECT_EQ(full, 2);
@@ -70,7 +68,7 @@ TEST_F(Tcm2Dialogue, OneQuantityAtATime) {
     const std::string text = command(line, 0.2);
     std::string letters;
     for (const char c : text) {
-      if (wire::kFieldLetters.find(c) != std::string_view::npos) letters += c;
+      if (protocols::tcm2::kFieldLetters.find(c) != std::string_view::npos) letters += c;
       if (c == '*') break;
     }
     return letters;
@@ -109,7 +107,7 @@ TEST_F(Tcm2Dialogue, ASlowLineLeavesWordsOutAndNeverMixesThem) {
   command("b=0\r");
   command("ax\r", 2);  // 300 baud: a word takes a second
   const std::string text = command("go\r", 10);
-  wire::Parser parser;
+  protocols::tcm2::Parser parser;
   parser.feed(bytes_of(text), [](const protocols::Frame&) {});
   EXPECT_EQ(parser.counters().skipped_bytes, 0U) << text;
   EXPECT_GT(lines(text), 5);

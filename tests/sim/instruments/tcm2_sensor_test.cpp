@@ -6,14 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "protocols/tcm2_word.h"
 #include "sim/instruments/tcm2.h"
 #include "tests/sim/drive.h"
 
 namespace navcal::sim::testing {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Tcm2Sensor::Options quiet() {
   Tcm2Sensor::Options options;
@@ -62,7 +61,7 @@ TEST(Tcm2Sensor, WarmsUpAboveTheWater) {
 TEST(Tcm2Sensor, UnitsAndTheTurnsEnd) {
   Still motion;
   motion.state.field_world_uT = {19, 0, 44};
-  motion.state.euler_rad = {0, 10 * kDegree, -0.02 * kDegree};  // 359.98 degrees
+  motion.state.euler_rad = {0, 10 * base::kRadiansPerDegree, -0.02 * base::kRadiansPerDegree};  // 359.98 degrees
   Tcm2::Options options;
   options.sensor = quiet();
   Tcm2 compass(options, motion);
@@ -80,7 +79,7 @@ TEST(Tcm2Sensor, UnitsAndTheTurnsEnd) {
   EXPECT_EQ(word().heading, 0.0);
   EXPECT_EQ(word().pitch, 178.0);
   EXPECT_NEAR(*word().temperature, 59, 0.3);
-  motion.state.euler_rad[0] = 60 * kDegree;
+  motion.state.euler_rad[0] = 60 * base::kRadiansPerDegree;
   t_ns += 5 * kSecond_ns;
   EXPECT_EQ(word().error, protocols::tcm2::error::kInclinometerOutOfRange);
 }

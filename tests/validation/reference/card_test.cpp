@@ -10,7 +10,7 @@
 namespace navcal::reference::testing {
 namespace {
 
-constexpr double kDuration_s = 40;
+constexpr double kCardDuration_s = 40;
 constexpr double kRateStep_rad_s = kDegree / 160, kForceStep_m_s2 = kGravity_m_s2 / 16000,
                  kDepthStep_m = 1.0 / 3000;
 
@@ -18,8 +18,8 @@ double resolution(std::size_t channel) {
   return channel < 4 ? kRateStep_rad_s : channel < 7 ? kForceStep_m_s2 : kDepthStep_m;
 }
 
-const World& world() {
-  static const World swung_about = swung(kDuration_s);
+const World& card_world() {
+  static const World swung_about = swung(kCardDuration_s);
   return swung_about;
 }
 
@@ -34,11 +34,11 @@ using Equation = std::function<double(const Snapshot&, double nominal)>;
 
 /// One channel reads what the equation makes of the nominal one; the others listed stay as they are.
 void expect_reads(const ParameterDeviations& deviations, std::size_t channel, const Equation& equation) {
-  const auto samples = card_along(world(), deviations.card);
+  const auto samples = card_along(card_world(), deviations.card);
   ASSERT_GT(samples.size(), 700U);
   double largest = 0;
   for (const CardSample& sample : samples) {
-    const Snapshot s = world().at(sample.time_s);
+    const Snapshot s = card_world().at(sample.time_s);
     for (std::size_t i = 0; i < 8; ++i) {
       const double expected = i == channel ? equation(s, nominal(s, i)) : nominal(s, i);
       ASSERT_NEAR(sample.values[i], expected, 0.51 * resolution(i)) << "channel " << i << " at " << sample.time_s;
@@ -49,8 +49,8 @@ void expect_reads(const ParameterDeviations& deviations, std::size_t channel, co
 }
 
 TEST(Card, NominallyReadsWhatIsSo) {
-  for (const CardSample& sample : card_along(world(), {})) {
-    const Snapshot s = world().at(sample.time_s);
+  for (const CardSample& sample : card_along(card_world(), {})) {
+    const Snapshot s = card_world().at(sample.time_s);
     for (std::size_t i = 0; i < 8; ++i) ASSERT_NEAR(sample.values[i], nominal(s, i), 0.51 * resolution(i)) << i;
   }
 }
@@ -106,8 +106,8 @@ TEST(Card, DepthScaleAndTemperature) {
 
 TEST(Card, DroopTakesEveryChannelInMillivolts) {
   const ParameterDeviations deviations = with("adc_droop", {{"per_A", 0.0015}});
-  for (const CardSample& sample : card_along(world(), deviations.card)) {
-    const Snapshot s = world().at(sample.time_s);
+  for (const CardSample& sample : card_along(card_world(), deviations.card)) {
+    const Snapshot s = card_world().at(sample.time_s);
     const double factor = 1 + 0.0015 * s.motor_current_A;
     ASSERT_NEAR(sample.values[1], nominal(s, 1) * factor + 204.8 * kDegree * (factor - 1), 0.51 * kRateStep_rad_s);
     ASSERT_NEAR(sample.values[4], nominal(s, 4) * factor + 2.048 * kGravity_m_s2 * (factor - 1),
@@ -117,16 +117,16 @@ TEST(Card, DroopTakesEveryChannelInMillivolts) {
 }
 
 TEST(Card, LatencyIsAPureDelayOfEveryChannel) {
-  for (const CardSample& sample : card_along(world(), with("imu_latency", {{"tau_s", 0.05}}).card)) {
-    const Snapshot s = world().at(sample.time_s - 0.05);
+  for (const CardSample& sample : card_along(card_world(), with("imu_latency", {{"tau_s", 0.05}}).card)) {
+    const Snapshot s = card_world().at(sample.time_s - 0.05);
     for (std::size_t i = 0; i < 8; ++i) ASSERT_NEAR(sample.values[i], nominal(s, i), 0.51 * resolution(i)) << i;
   }
 }
 
 TEST(Card, ThermalTwistTurnsTheTriadWithTheSquareOfTheTemperature) {
   const ParameterDeviations deviations = with("gyro_thermal_twist", {{"y_deg_per_C2", 1.0}});
-  for (const CardSample& sample : card_along(world(), deviations.card)) {
-    const Snapshot s = world().at(sample.time_s);
+  for (const CardSample& sample : card_along(card_world(), deviations.card)) {
+    const Snapshot s = card_world().at(sample.time_s);
     const double angle = kDegree * (s.electronics_C - 15) * (s.electronics_C - 15);
     // y x w = (w_z, 0, -w_x)
     ASSERT_NEAR(sample.values[0], s.rate_rad_s.x() - angle * s.rate_rad_s.z(), 0.51 * kRateStep_rad_s);
@@ -137,9 +137,9 @@ TEST(Card, ThermalTwistTurnsTheTriadWithTheSquareOfTheTemperature) {
 TEST(Card, DepthHysteresisStaysWithinItsPlayAndLagsBehindEveryReversal) {
   const double half_m = 0.15;
   double least = 1, greatest = -1;
-  const auto samples = card_along(world(), with("depth_hysteresis", {{"width_m", 2 * half_m}}).card);
+  const auto samples = card_along(card_world(), with("depth_hysteresis", {{"width_m", 2 * half_m}}).card);
   for (const CardSample& sample : samples) {
-    const double off_m = sample.values[7] - nominal(world().at(sample.time_s), 7);
+    const double off_m = sample.values[7] - nominal(card_world().at(sample.time_s), 7);
     ASSERT_LT(std::abs(off_m), half_m + kDepthStep_m);
     least = std::min(least, off_m);
     greatest = std::max(greatest, off_m);
@@ -151,8 +151,8 @@ TEST(Card, DepthHysteresisStaysWithinItsPlayAndLagsBehindEveryReversal) {
 TEST(Card, PopcornStandsAtOneOfTwoLevels) {
   int jumps = 0;
   double last = 0;
-  for (const CardSample& sample : card_along(world(), with("gyro_popcorn", {{"deg_per_s", 0.4}}).card)) {
-    const double level = (sample.values[1] - nominal(world().at(sample.time_s), 1)) / (0.4 * kDegree);
+  for (const CardSample& sample : card_along(card_world(), with("gyro_popcorn", {{"deg_per_s", 0.4}}).card)) {
+    const double level = (sample.values[1] - nominal(card_world().at(sample.time_s), 1)) / (0.4 * kDegree);
     ASSERT_NEAR(level, level > 0.5 ? 1 : 0, 0.51 * kRateStep_rad_s / (0.4 * kDegree));
     if (std::round(level) != last) ++jumps;
     last = std::round(level);
@@ -164,9 +164,9 @@ TEST(Card, NoiseIsOfTheStatedSize) {
   Fitting fitting = exact();
   fitting.noisy = true;
   std::array<double, 8> sum{}, squares{};
-  const auto samples = card_along(world(), {}, fitting);
+  const auto samples = card_along(card_world(), {}, fitting);
   for (const CardSample& sample : samples) {
-    const Snapshot s = world().at(sample.time_s);
+    const Snapshot s = card_world().at(sample.time_s);
     for (std::size_t i = 0; i < 8; ++i) {
       sum[i] += sample.values[i] - nominal(s, i);
       squares[i] += std::pow(sample.values[i] - nominal(s, i), 2);

@@ -11,11 +11,11 @@
 namespace navcal::reference::testing {
 namespace {
 
-constexpr double kDuration_s = 40;
+constexpr double kCompassDuration_s = 40;
 constexpr double kHalfStep_uT = 0.0051;
 
-const World& world() {
-  static const World swung_about = swung(kDuration_s);
+const World& compass_world() {
+  static const World swung_about = swung(kCompassDuration_s);
   return swung_about;
 }
 
@@ -23,10 +23,10 @@ Vector3 in_body(const Snapshot& s) { return s.world_from_body.conjugate() * Vect
 
 /// The field that is read is what the equation makes of the state at that moment.
 void expect_field(const ParameterDeviations& deviations, const std::function<Vector3(const Snapshot&)>& equation) {
-  const auto samples = compass_along(world(), deviations.compass);
+  const auto samples = compass_along(compass_world(), deviations.compass);
   ASSERT_GT(samples.size(), 350U);
   for (const CompassSample& sample : samples) {
-    const Vector3 expected = equation(world().at(sample.time_s));
+    const Vector3 expected = equation(compass_world().at(sample.time_s));
     ASSERT_LT((sample.field_uT - expected).cwiseAbs().maxCoeff(), kHalfStep_uT) << sample.time_s << " s";
   }
 }
@@ -36,9 +36,9 @@ template <class Value>
 std::function<Value(double)> lagged(std::function<Value(const Snapshot&)> input,
                                     std::function<double(const Snapshot&)> tau_s) {
   constexpr double kStep_s = 0.002;
-  std::vector<Value> course{input(world().at(0))};
-  for (int i = 0; i * kStep_s < kDuration_s; ++i) {
-    const Snapshot s = world().at((i + 0.5) * kStep_s);
+  std::vector<Value> course{input(compass_world().at(0))};
+  for (int i = 0; i * kStep_s < kCompassDuration_s; ++i) {
+    const Snapshot s = compass_world().at((i + 0.5) * kStep_s);
     const double decay = std::exp(-kStep_s / tau_s(s));
     course.push_back(Value(input(s) + decay * (course.back() - input(s))));
   }
@@ -95,27 +95,28 @@ TEST(Compass, SaturationTakesTheCube) {
 TEST(Compass, HysteresisAddsTheFieldThroughALongLowPass) {
   const auto memory = lagged<Vector3>(in_body, [](const Snapshot&) { return 60.0; });
   for (const CompassSample& sample :
-       compass_along(world(), with("magnetic_hysteresis", {{"gain", 0.06}}).compass)) {
-    const Vector3 expected = in_body(world().at(sample.time_s)) + 0.06 * memory(sample.time_s);
+       compass_along(compass_world(), with("magnetic_hysteresis", {{"gain", 0.06}}).compass)) {
+    const Vector3 expected = in_body(compass_world().at(sample.time_s)) + 0.06 * memory(sample.time_s);
     ASSERT_LT((sample.field_uT - expected).cwiseAbs().maxCoeff(), kHalfStep_uT + 0.001);
   }
 }
 
 TEST(Compass, LagsOfTheField) {
   const auto constant = lagged<Vector3>(in_body, [](const Snapshot&) { return 0.2; });
-  for (const CompassSample& sample : compass_along(world(), with("compass_lag", {{"tau_s", 0.2}}).compass))
+  for (const CompassSample& sample : compass_along(compass_world(), with("compass_lag", {{"tau_s", 0.2}}).compass))
     ASSERT_LT((sample.field_uT - constant(sample.time_s)).cwiseAbs().maxCoeff(), kHalfStep_uT + 0.01);
   // 0.5 s when it heads east, none when it heads west.
   const auto turning =
       lagged<Vector3>(in_body, [](const Snapshot& s) { return 0.25 + 0.25 * std::sin(s.heading_rad()) + 1e-9; });
-  for (const CompassSample& sample : compass_along(world(), with("heading_lag", {{"east_s", 0.25}}).compass))
+  for (const CompassSample& sample :
+       compass_along(compass_world(), with("heading_lag", {{"east_s", 0.25}}).compass))
     ASSERT_LT((sample.field_uT - turning(sample.time_s)).cwiseAbs().maxCoeff(), kHalfStep_uT + 0.02);
 }
 
 void expect_tilt(const ParameterDeviations& deviations,
                  const std::function<Eigen::Vector2d(const Snapshot&)>& input, const Eigen::Vector2d& offset_deg) {
   const auto tilt = lagged<Eigen::Vector2d>(input, [](const Snapshot&) { return 0.3; });
-  for (const CompassSample& sample : compass_along(world(), deviations.compass)) {
+  for (const CompassSample& sample : compass_along(compass_world(), deviations.compass)) {
     const Eigen::Vector2d expected = tilt(sample.time_s) / kDegree + offset_deg;
     ASSERT_NEAR(sample.roll_rad / kDegree, expected(0), 0.055) << sample.time_s;
     ASSERT_NEAR(sample.pitch_rad / kDegree, expected(1), 0.055) << sample.time_s;
@@ -143,7 +144,7 @@ TEST(Compass, HeadingIsThatOfTheLevelledField) {
   straight.advance(4);
   for (const CompassSample& sample : compass_along(straight, {}))
     EXPECT_NEAR(std::remainder(sample.heading_rad, 2 * std::numbers::pi), -1.81 * kDegree, 0.06 * kDegree);
-  for (const CompassSample& sample : compass_along(world(), {})) {
+  for (const CompassSample& sample : compass_along(compass_world(), {})) {
     const Vector3 level = Eigen::AngleAxisd(sample.pitch_rad, Vector3::UnitY()) *
                           (Eigen::AngleAxisd(sample.roll_rad, Vector3::UnitX()) * sample.field_uT);
     EXPECT_NEAR(std::remainder(sample.heading_rad - std::atan2(-level.y(), level.x()), 2 * std::numbers::pi), 0,
@@ -152,14 +153,14 @@ TEST(Compass, HeadingIsThatOfTheLevelledField) {
 }
 
 TEST(Compass, TemperatureIsThatOfTheElectronics) {
-  for (const CompassSample& sample : compass_along(world(), {}))
-    EXPECT_NEAR(sample.temperature_C, world().at(sample.time_s).electronics_C, 0.051);
+  for (const CompassSample& sample : compass_along(compass_world(), {}))
+    EXPECT_NEAR(sample.temperature_C, compass_world().at(sample.time_s).electronics_C, 0.051);
 }
 
 TEST(Compass, NoiseIsOfTheStatedSize) {
   Fitting fitting = exact();
   fitting.noisy = true;
-  const auto noisy = compass_along(world(), {}, fitting), clean = compass_along(world(), {});
+  const auto noisy = compass_along(compass_world(), {}, fitting), clean = compass_along(compass_world(), {});
   double field = 0, tilt = 0;
   for (std::size_t i = 0; i < noisy.size(); ++i) {
     field += (noisy[i].field_uT - clean[i].field_uT).squaredNorm() / 3;

@@ -10,19 +10,20 @@
 namespace navcal::reference::testing {
 namespace {
 
-constexpr double kDuration_s = 40;
+constexpr double kReceiverDuration_s = 40;
 constexpr double kPlaceStep_m = 0.03;  ///< a milliarcsecond
 constexpr double kSpeedStep_m_s = 0.01;
 
-const World& world() {
-  static const World at_surface = near_surface(kDuration_s);
+const World& receiver_world() {
+  static const World at_surface = near_surface(kReceiverDuration_s);
   return at_surface;
 }
 
 /// The radii of the ellipsoid differ from the sphere of the bench by parts in a thousand: only differences count.
 void expect_against_nominal(const ParameterDeviations& deviations,
                             const std::function<FixSample(double)>& further) {
-  const auto nominal = receiver_along(world(), {}), changed = receiver_along(world(), deviations.gps);
+  const auto nominal = receiver_along(receiver_world(), {}),
+             changed = receiver_along(receiver_world(), deviations.gps);
   ASSERT_EQ(nominal.size(), changed.size());
   int fixes = 0;
   for (std::size_t i = 0; i < nominal.size(); ++i) {
@@ -38,9 +39,9 @@ void expect_against_nominal(const ParameterDeviations& deviations,
 }
 
 TEST(Receiver, NominallyTellsWhereTheOriginIs) {
-  for (const FixSample& fix : receiver_along(world(), {})) {
+  for (const FixSample& fix : receiver_along(receiver_world(), {})) {
     if (!fix.fixed) continue;
-    const Snapshot s = world().at(fix.time_s);
+    const Snapshot s = receiver_world().at(fix.time_s);
     EXPECT_LT((fix.place_m - s.position_m.head<2>()).norm(), kPlaceStep_m + 0.01 * s.position_m.norm());
     EXPECT_LT((fix.velocity_m_s - s.ground_velocity_m_s().head<2>()).norm(), 2 * kSpeedStep_m_s);
     EXPECT_NEAR(fix.time_s, std::round(fix.time_s), 1e-6);
@@ -49,7 +50,7 @@ TEST(Receiver, NominallyTellsWhereTheOriginIs) {
 
 TEST(Receiver, LeverArmMovesAndSwingsWithTheBody) {
   expect_against_nominal(with("gps_lever_arm", {{"x_m", 0.4}, {"y_m", -0.2}}), [](double time_s) {
-    const Snapshot s = world().at(time_s);
+    const Snapshot s = receiver_world().at(time_s);
     const Vector3 arm(0.4, -0.2, 0);
     FixSample further;
     further.place_m = (s.world_from_body * arm).head<2>();
@@ -60,7 +61,7 @@ TEST(Receiver, LeverArmMovesAndSwingsWithTheBody) {
 
 TEST(Receiver, LatencyTellsOfThePast) {
   expect_against_nominal(with("gps_latency", {{"tau_s", 1.3}}), [](double time_s) {
-    const Snapshot s = world().at(time_s), past = world().at(time_s - 1.3);
+    const Snapshot s = receiver_world().at(time_s), past = receiver_world().at(time_s - 1.3);
     FixSample further;
     further.place_m = (past.position_m - s.position_m).head<2>();
     further.velocity_m_s = (past.ground_velocity_m_s() - s.ground_velocity_m_s()).head<2>();
@@ -70,7 +71,7 @@ TEST(Receiver, LatencyTellsOfThePast) {
 
 TEST(Receiver, MultipathTurnsTwiceAsFastAsTheHull) {
   expect_against_nominal(with("gps_multipath", {{"north_m", 2}}), [](double time_s) {
-    const double twice = 2 * world().at(time_s).heading_rad();
+    const double twice = 2 * receiver_world().at(time_s).heading_rad();
     FixSample further;
     further.place_m = 2 * Eigen::Vector2d(std::cos(twice), std::sin(twice));
     return further;
@@ -82,7 +83,7 @@ TEST(Receiver, FindsItsFirstFixTwoToTenSecondsAfterPower) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Fitting fitting = exact();
     fitting.seed = seed;
-    const auto fixes = receiver_along(world(), {}, fitting);
+    const auto fixes = receiver_along(receiver_world(), {}, fitting);
     const auto first = std::find_if(fixes.begin(), fixes.end(), [](const FixSample& fix) { return fix.fixed; });
     ASSERT_NE(first, fixes.end());
     earliest = std::min(earliest, first->time_s);

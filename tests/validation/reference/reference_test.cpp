@@ -11,7 +11,7 @@
 namespace navcal::reference::testing {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
+constexpr double kDegreesPerRadian = 57.29577951308232;
 
 class ReferencePath : public ::testing::TestWithParam<int> {
  protected:
@@ -67,7 +67,7 @@ TEST(CheckValues, SpeedsStraightAhead) {
 
 TEST(CheckValues, SteadyTurnWithTheFinsHardOver) {
   Vehicle vehicle(Hull{}, {}, {});
-  vehicle.hold(13, Vector3(-25, 13.75, 13.75) / kDegrees);
+  vehicle.hold(13, Vector3(-25, 13.75, 13.75) / kDegreesPerRadian);
   vehicle.advance(60);
   const Snapshot s = vehicle.snapshot();
   vehicle.advance(61);
@@ -76,8 +76,8 @@ TEST(CheckValues, SteadyTurnWithTheFinsHardOver) {
   EXPECT_NEAR(turned_rad, 0.8270, 0.005 * 0.8270);
   EXPECT_NEAR(s.velocity_m_s.x(), 0.948, 0.005 * 0.948);
   EXPECT_NEAR(s.velocity_m_s.norm() / s.rate_rad_s.z(), 1.187, 0.005 * 1.187);
-  EXPECT_NEAR(s.roll_rad() * kDegrees, 3.0, 0.05);
-  EXPECT_NEAR(s.pitch_rad() * kDegrees, -12.3, 0.05);
+  EXPECT_NEAR(s.roll_rad() * kDegreesPerRadian, 3.0, 0.05);
+  EXPECT_NEAR(s.pitch_rad() * kDegreesPerRadian, -12.3, 0.05);
 }
 
 }  // namespace
