@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/rounding.h"
+
 namespace navcal::gap {
 namespace {
 
@@ -83,7 +85,7 @@ void FinOrders::round_off(std::array<ServoOrders, kWays>& orders) {
       exact[i] += orders[i].steps_rad[order];
       for (std::size_t fin = 0; fin < fins.size(); ++fin) fins[fin] += exact[i] * kWaysOfFins[i][fin];
     }
-    for (double& angle : fins) angle = sim::rounded(angle, kOrdered_rad);
+    for (double& angle : fins) angle = base::rounded(angle, kOrdered_rad);
     for (std::size_t i = 0; i < kWays; ++i) {
       orders[i].steps_rad[order] = along(kWaysOfFins[i], fins) - rounded[i];
       rounded[i] += orders[i].steps_rad[order];
