@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/emulate_motion.h"
 
+#include <utility>
+
 #include "config/mission_file.h"
 #include "config/vehicle_file.h"
 #include "sim/default_path.h"
@@ -16,16 +18,23 @@ constexpr double kHistory_s = 600;
 
 }  // namespace
 
-std::unique_ptr<sim::Motion> emulate_motion(const EmulateArguments& arguments, std::int64_t start_ns) {
+EmulatedMotion emulate_motion(const EmulateArguments& arguments, std::int64_t start_ns,
+                              sim::VehicleInfluencer& influencer, std::function<std::int64_t()> now_ns) {
+  const auto vehicle =
+      arguments.vehicle.empty() ? config::VehicleSettings{} : config::load_vehicle(arguments.vehicle);
+  if (arguments.ordered) {
+    const OrderedMotion::Options options{start_ns, kHistory_s, &influencer, std::move(now_ns)};
+    auto motion = std::make_unique<OrderedMotion>(vehicle, options);
+    OrderedMotion* const ordered = motion.get();
+    return {std::move(motion), ordered};
+  }
   if (!arguments.mission.empty()) {
-    const auto vehicle =
-        arguments.vehicle.empty() ? config::VehicleSettings{} : config::load_vehicle(arguments.vehicle);
     auto helm = std::make_unique<sim::MissionHelm>(vehicle, config::load_mission(arguments.mission));
-    return std::make_unique<sim::SimulatedMotion>(
-        vehicle, std::move(helm), sim::MotionOptions{.start_ns = start_ns, .history_s = kHistory_s});
+    const sim::MotionOptions options{.start_ns = start_ns, .influencer = &influencer, .history_s = kHistory_s};
+    return {std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), options)};
   }
   auto rows = arguments.path.empty() ? sim::default_path() : sim::load_path(arguments.path);
-  return std::make_unique<sim::PathMotion>(std::move(rows), start_ns);
+  return {std::make_unique<sim::PathMotion>(std::move(rows), start_ns)};
 }
 
 }  // namespace navcal::analysis

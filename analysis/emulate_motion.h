@@ -2,16 +2,25 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "analysis/emulate_session.h"
+#include "analysis/ordered_motion.h"
 #include "sim/state.h"
 
 namespace navcal::analysis {
 
-/// How the emulated vehicle moves from start_ns (UTC) on: by a mission, along a path, or along the path that comes
-/// with the program. Throws sim::BadPath or config::Error.
-[[nodiscard]] std::unique_ptr<sim::Motion> emulate_motion(const EmulateArguments& arguments,
-                                                          std::int64_t start_ns);
+struct EmulatedMotion {
+  std::unique_ptr<sim::Motion> motion;
+  OrderedMotion* ordered = nullptr;  ///< the motion, if it obeys the motor card
+};
+
+/// How the emulated vehicle moves from start_ns (UTC) on: by the motor card's orders, by a mission, along a path,
+/// or along the path that comes with the program. `influencer` must outlive the motion; paths pass it over.
+/// `now_ns` gives UTC. Throws sim::BadPath or config::Error.
+[[nodiscard]] EmulatedMotion emulate_motion(const EmulateArguments& arguments, std::int64_t start_ns,
+                                            sim::VehicleInfluencer& influencer,
+                                            std::function<std::int64_t()> now_ns);
 
 }  // namespace navcal::analysis

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "ports/port.h"
@@ -49,10 +50,24 @@ void EmulatedPort::advance() {
   emissions_.clear();
   device_->advance(utc_ns(ports::monotonic_ns()), emissions_);
   for (sim::Emission& emission : emissions_) {
-    const auto bytes = misbehaviour_.corrupt(std::move(emission.bytes));
-    writer_.send(emission.start_ns - place_.utc_minus_monotonic_ns, device_->baud(), bytes);
+    emission.bytes = misbehaviour_.corrupt(std::move(emission.bytes));
+    send(emission);
   }
   wait();
+}
+
+void EmulatedPort::send(const sim::Emission& emission) {
+  sim::Transmission way;
+  std::int64_t start_ns = emission.start_ns;
+  if (place_.effects != nullptr) {
+    const double time_s = place_.effects->time_s(start_ns);
+    way = place_.effects->line(static_cast<sim::Instrument>(place_.index), time_s);
+    start_ns += std::llround(std::max(way.late_s, way.held_until_s - time_s) * 1e9);
+    start_ns = std::max(start_ns, emission.start_ns);
+  }
+  for (int copy = 0; copy < way.copies; ++copy) {
+    writer_.send(start_ns - place_.utc_minus_monotonic_ns, device_->baud(), emission.bytes);
+  }
 }
 
 void EmulatedPort::on_host_bytes(std::int64_t now_ns, protocols::Bytes bytes) {

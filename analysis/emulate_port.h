@@ -13,6 +13,7 @@
 #include "analysis/emulate_sent_log.h"
 #include "ports/paced_writer.h"
 #include "ports/pty_host.h"
+#include "sim/effects/effect_set.h"
 #include "sim/instruments/device.h"
 
 namespace navcal::analysis {
@@ -27,6 +28,7 @@ class EmulatedPort {
     std::int64_t utc_minus_monotonic_ns =
         0;  ///< fixed at the start: steps of the system clock do not reach the devices
     std::uint64_t seed = 1;
+    sim::EffectSet* effects = nullptr;  ///< on the line; the index is that of the sim::Instrument
   };
   /// `log` may be nullptr.
   EmulatedPort(const boost::asio::any_io_executor& executor, const Place& place,
@@ -49,6 +51,7 @@ class EmulatedPort {
   }
   void on_host_bytes(std::int64_t now_ns, protocols::Bytes bytes);
   void advance();
+  void send(const sim::Emission& emission);
   void wait();
   void put(std::int64_t now_ns, protocols::Bytes piece);
   void deliver(std::int64_t now_ns, protocols::Bytes bytes);

@@ -11,7 +11,9 @@
 
 #include "analysis/emulate_motion.h"
 #include "analysis/failure.h"
+#include "analysis/simulate_effects.h"
 #include "analysis/simulated_place.h"
+#include "devices/instrument_model.h"
 #include "ports/port.h"
 #include "protocols/device_types.h"
 #include "sim/instruments/emulators.h"
@@ -65,6 +67,25 @@ std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments) 
   return lines;
 }
 
+/// The effects asked for. Throws Failure where an effect moves a vehicle whose path is given.
+sim::EffectSet effects_of(const EmulateArguments& arguments, std::int64_t start_ns) {
+  SimulateArguments wanted;
+  wanted.effects = arguments.effects;
+  wanted.effects_file = arguments.effects_file;
+  wanted.seed = arguments.seed;
+  wanted.begin_ns = start_ns;
+  sim::EffectSet set = simulate_effects(wanted);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const auto& about = set[i].description();
+    const bool on_path = !arguments.ordered && arguments.mission.empty();
+    if (!on_path || about.place != sim::EffectPlace::vehicle) continue;
+    throw Failure(Exit::usage, fmt::format("{} changes how the vehicle moves, and a path says how it moves: take "
+                                           "--vehicle or --mission",
+                                           about.name));
+  }
+  return set;
+}
+
 }  // namespace
 
 std::optional<EmulatedDevice> parse_emulated_device(std::string_view text) {
@@ -78,11 +99,17 @@ std::optional<EmulatedDevice> parse_emulated_device(std::string_view text) {
 }
 
 EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments)
-    : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()) {
-  const std::int64_t start_ns = ports::monotonic_ns() + utc_minus_monotonic_ns_;
+    : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()), truth_timer_(io) {
+  const std::int64_t start_ns = now_ns();
   const SimulatedPlace place = emulated_place(arguments.where, start_ns);
-  motion_ = emulate_motion(arguments, start_ns);
-  motion_ = std::make_unique<sim::MotionInField>(std::move(motion_), place.field_world_uT);
+  effects_ = effects_of(arguments, start_ns);
+  EmulatedMotion made = emulate_motion(arguments, start_ns, effects_, [this] { return now_ns(); });
+  ordered_ = made.ordered;
+  motion_ = std::make_unique<sim::MotionInField>(std::move(made.motion), place.field_world_uT);
+  if (!arguments.truth.empty()) {
+    truth_ = std::make_unique<EmulateTruth>(arguments.truth, *motion_, start_ns);
+    write_truth();
+  }
   if (!arguments.sent_log.empty()) {
     log_ = std::make_unique<SentLog>(arguments.sent_log, port_lines(arguments));
     log_->comment(place.field_event());
@@ -108,34 +135,74 @@ void EmulateSession::add_vehicle_devices(const EmulateArguments& arguments, cons
   const auto add_own = [&](std::string name, std::unique_ptr<sim::Device> device) {
     if (device_at(arguments, name) == nullptr) add(arguments, std::move(name), std::move(device));
   };
+  const devices::InstrumentModel model =
+      arguments.no_noise ? devices::without_noise({}) : devices::InstrumentModel{};
   sim::Tcm2::Options compass;
+  compass.sensor.compass = model.compass;
   compass.baud = arguments.compass_baud;
   compass.seed = next_seed(seeds);
+  compass.sensor.effects = &effects_;
   compass.clock_ppm = sim::clock_ppm(arguments.clocks, "compass", compass.clock_ppm);
   add_own("compass", std::make_unique<sim::Tcm2>(compass, *motion_));
   sim::ImuCard::Options imu;
+  imu.imu = model.imu;
   imu.seed = next_seed(seeds);
+  imu.effects = &effects_;
   imu.clock_ppm = arguments.imu_ppm.value_or(seeds.uniform(-kGreatest_ppm, kGreatest_ppm));
   imu.clock_ppm = sim::clock_ppm(arguments.clocks, "imu", imu.clock_ppm);
   auto card = std::make_unique<sim::ImuCard>(imu, *motion_);
   if (device_at(arguments, "imu") == nullptr) imu_ = card.get();
   add_own("imu", std::move(card));
   sim::Oncore::Options gps;
+  gps.receiver.gps = model.gps;
   gps.kind = arguments.gps;
   gps.receiver.origin = origin;
+  gps.receiver.effects = &effects_;
   gps.seed = next_seed(seeds);
   add_own("gps", std::make_unique<sim::Oncore>(gps, *motion_));
   sim::MotorCard::Options motor;
+  motor.motor = model.motor;
   motor.seed = next_seed(seeds);
+  motor.effects = &effects_;
   motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
+  if (ordered_ != nullptr) {
+    motor.obey = [this](std::int64_t t_ns, const auto& command) { ordered_->order(t_ns, command); };
+  }
   add_own("motor", std::make_unique<sim::MotorCard>(motor, *motion_));
+}
+
+std::int64_t EmulateSession::now_ns() const { return ports::monotonic_ns() + utc_minus_monotonic_ns_; }
+
+void EmulateSession::write_truth() {
+  constexpr auto kEvery = std::chrono::milliseconds(500);
+  truth_->advance(now_ns());
+  truth_timer_.expires_after(kEvery);
+  truth_timer_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) write_truth();
+  });
+}
+
+void EmulateSession::finish() {
+  if (truth_ == nullptr) return;
+  truth_->advance(now_ns());
+  truth_->finish();
+}
+
+void EmulateSession::finish_after_error() {
+  if (truth_ == nullptr) return;
+  try {
+    truth_->advance(now_ns());
+  } catch (const sim::UnstableVehicle&) {
+    // Expected: these are the rows before it.
+  }
+  truth_->finish();
 }
 
 void EmulateSession::add(const EmulateArguments& arguments, std::string name,
                          std::unique_ptr<sim::Device> device) {
   const auto index = static_cast<std::uint16_t>(ports_.size());
-  const EmulatedPort::Place place{arguments.dir, std::move(name), index, utc_minus_monotonic_ns_,
-                                  arguments.seed + index};
+  const EmulatedPort::Place place{arguments.dir,           std::move(name),        index,
+                                  utc_minus_monotonic_ns_, arguments.seed + index, &effects_};
   ports_.push_back(std::make_unique<EmulatedPort>(io_.get_executor(), place, std::move(device), log_.get()));
   ports_.back()->misbehaviour().set_noise(arguments.noise);
   ports_.back()->misbehaviour().set_drop(arguments.drop);

@@ -12,7 +12,11 @@
 #include <vector>
 
 #include "analysis/emulate_port.h"
+#include "analysis/emulate_truth.h"
+#include "analysis/ordered_motion.h"
 #include "analysis/place_arguments.h"
+#include "analysis/simulated_place.h"
+#include "sim/effects/effect_set.h"
 #include "sim/instruments/clock_factor.h"
 #include "sim/instruments/imu_card.h"
 #include "sim/instruments/oncore.h"
@@ -32,9 +36,14 @@ struct EmulatedDevice {
 
 struct EmulateArguments {
   std::filesystem::path dir;
-  std::filesystem::path path;     ///< empty, and no mission: the path that comes with it
-  std::string mission;            ///< name of a shipped one, or a file
-  std::filesystem::path vehicle;  ///< of the mission; empty: the reference vehicle
+  std::filesystem::path path;        ///< empty, and no mission: the path that comes with it
+  std::string mission;               ///< name of a shipped one, or a file
+  bool ordered = false;              ///< the vehicle obeys the motor card; no path, no mission
+  std::filesystem::path vehicle;     ///< of the orders or the mission; empty: the reference vehicle
+  std::filesystem::path truth;       ///< of the motion; empty: none
+  std::vector<std::string> effects;  ///< NAME=STRENGTH
+  std::filesystem::path effects_file;
+  bool no_noise = false;
   std::filesystem::path sent_log;
   double seconds = 0;  ///< 0: until it is stopped
   std::uint64_t seed = 1;
@@ -53,7 +62,8 @@ struct EmulateArguments {
 /// The instruments of the vehicle, live, and the devices that were asked for.
 class EmulateSession {
  public:
-  /// Makes the ports. Throws sim::BadPath, config::Error, Failure, or what ports::PtyHost throws.
+  /// Makes the ports. Throws sim::BadPath, config::Error, Failure, std::system_error, or what ports::PtyHost
+  /// throws.
   EmulateSession(boost::asio::io_context& io, const EmulateArguments& arguments);
 
   [[nodiscard]] const std::vector<std::unique_ptr<EmulatedPort>>& ports() const { return ports_; }
@@ -65,18 +75,28 @@ class EmulateSession {
     return imu_ != nullptr;
   }
   void stop() { io_.stop(); }
+  /// Completes the truth file. Throws sim::UnstableVehicle or std::system_error.
+  void finish();
+  /// The same after sim::UnstableVehicle, with the motion before it. Throws std::system_error.
+  void finish_after_error();
   /// To standard error: what became of the bytes.
   void report() const;
 
  private:
   void add_vehicle_devices(const EmulateArguments& arguments, const sim::Origin& origin, sim::Noise& seeds);
   void add(const EmulateArguments& arguments, std::string name, std::unique_ptr<sim::Device> device);
+  void write_truth();
+  [[nodiscard]] std::int64_t now_ns() const;
   void after(double seconds, std::function<void()> what);
   void stall_regularly(const StallPlan& plan);
 
   boost::asio::io_context& io_;
   std::int64_t utc_minus_monotonic_ns_;
+  sim::EffectSet effects_;
   std::unique_ptr<sim::Motion> motion_;
+  OrderedMotion* ordered_ = nullptr;  ///< within motion_
+  std::unique_ptr<EmulateTruth> truth_;
+  boost::asio::steady_timer truth_timer_;
   std::unique_ptr<SentLog> log_;
   sim::ImuCard* imu_ = nullptr;
   std::vector<std::unique_ptr<EmulatedPort>> ports_;

@@ -16,6 +16,7 @@
 #include "cli/emulate_console.h"
 #include "cli/emulate_input.h"
 #include "cli/place_options.h"
+#include "cli/result_file.h"
 #include "config/mission_file.h"
 #include "protocols/device_types.h"
 #include "sim/path.h"
@@ -42,7 +43,13 @@ void run(const analysis::EmulateArguments& arguments) {
                  asio::detached);
   fmt::print("ready\n");
   std::fflush(stdout);
-  io.run();
+  try {
+    io.run();
+    session.finish();
+  } catch (const sim::UnstableVehicle&) {
+    session.finish_after_error();
+    throw;
+  }
   session.report();
 }
 
@@ -59,6 +66,49 @@ void add_plans(CLI::App* command, const std::string& name, std::vector<Plan>& pl
         }
       },
       help);
+}
+
+void add_vehicle(CLI::App* command, analysis::EmulateArguments& arguments) {
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--vehicle",
+          [&arguments](const std::vector<std::string>& file) {
+            if (!file.empty()) arguments.vehicle = file.front();
+          },
+          "without --mission: the motor card's orders drive a simulated vehicle, which lies still at the\n"
+          "surface at first (navcal pilot); with it, the vehicle that does the mission. Without a file:\n"
+          "the reference vehicle")
+      ->expected(0, 1)
+      ->option_text("[FILE.toml]");
+  command->add_option("--truth", arguments.truth, "the true motion, 100 rows a second; complete when it ends")
+      ->option_text("FILE.csv");
+}
+
+void add_effects(CLI::App* command, analysis::EmulateArguments& arguments) {
+  command
+      ->add_option("--effect", arguments.effects,
+                   "departure from the nominal model, in typical strengths, as in simulate; repeatable")
+      ->option_text("NAME=STRENGTH");
+  command->add_option("--effects", arguments.effects_file, "departures with exact parameters, as in simulate")
+      ->option_text("FILE.toml");
+  command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
+}
+
+void add_misbehaviour(CLI::App* command, analysis::EmulateArguments& arguments) {
+  const auto* const misbehaviour = "Misbehaviour";
+  command->add_option("--noise", arguments.noise, "probability of a flipped bit in a frame or garbage before it")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(misbehaviour);
+  command->add_option("--drop", arguments.drop, "probability that a frame is lost")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(misbehaviour);
+  add_plans(command, "--stall", arguments.stalls, &analysis::parse_stall,
+            "SECONDS@EVERY: all bytes are held back for SECONDS and then delivered at once, repeated every EVERY "
+            "seconds");
+  add_plans(command, "--unplug", arguments.unplugs, &analysis::parse_unplug,
+            "PORT@T+DURATION: the port is unplugged at T seconds for DURATION seconds; repeatable");
+  command->get_option("--stall")->group(misbehaviour);
+  command->get_option("--unplug")->group(misbehaviour);
 }
 
 std::string mission_names() {
@@ -87,11 +137,12 @@ void add_emulate(CLI::App& app) {
       "CSV (t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3) along which the vehicle moves. A path\n"
       "that ends at its beginning is repeated; after any other the last turn and speed continue. Default:\n"
       "two and a half minutes of legs, circles and a dive, repeated");
-  auto* const mission =
-      command->add_option("--mission", arguments->mission,
-                          "an autopiloted mission, repeated at its end: " + mission_names() + ", or a TOML file");
-  mission->excludes(command->get_option("--path"));
-  command->add_option("--vehicle", arguments->vehicle, "TOML file of the vehicle")->needs(mission);
+  command
+      ->add_option("--mission", arguments->mission,
+                   "an autopiloted mission, repeated at its end: " + mission_names() + ", or a TOML file")
+      ->excludes(command->get_option("--path"));
+  add_vehicle(command, *arguments);
+  add_effects(command, *arguments);
   command->add_option("--seconds", arguments->seconds, "stop after this time; 0: never")
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--seed", arguments->seed, "seed of all noise and biases")->capture_default_str();
@@ -115,27 +166,23 @@ void add_emulate(CLI::App& app) {
   command->add_option("--date", arguments->where.date, "date for the field model; default: today")
       ->option_text("YYYY-MM-DD");
   command->add_option("--sent-log", arguments->sent_log, "capture of all bytes on the lines, in both directions");
-  const auto* const misbehaviour = "Misbehaviour";
-  command->add_option("--noise", arguments->noise, "probability of a flipped bit in a frame or garbage before it")
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(misbehaviour);
-  command->add_option("--drop", arguments->drop, "probability that a frame is lost")
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(misbehaviour);
-  add_plans(command, "--stall", arguments->stalls, &analysis::parse_stall,
-            "SECONDS@EVERY: all bytes are held back for SECONDS and then delivered at once, repeated every EVERY "
-            "seconds");
-  add_plans(command, "--unplug", arguments->unplugs, &analysis::parse_unplug,
-            "PORT@T+DURATION: the port is unplugged at T seconds for DURATION seconds; repeatable");
-  command->get_option("--stall")->group(misbehaviour);
-  command->get_option("--unplug")->group(misbehaviour);
+  add_misbehaviour(command, *arguments);
   command->footer(
       fmt::format("The instruments answer commands and send at the rate of their lines; unread bytes are lost. "
                   "`ready` is printed\n"
                   "when the ports can be opened. Commands on standard input:\n  {}\n\n"
                   "Example: navcal emulate --dir /tmp/ports --noise 0.01 --unplug compass@20+3",
                   kConsoleHelp));
-  command->callback([arguments] {
+  command->callback([arguments, vehicle = command->get_option("--vehicle")] {
+    if (!arguments->path.empty() && vehicle->count() > 0) {
+      throw analysis::Failure(analysis::Exit::usage, "--path says how the vehicle moves, without --vehicle");
+    }
+    arguments->ordered = vehicle->count() > 0 && arguments->mission.empty();
+    if (vehicle->count() > 0 && !arguments->ordered && arguments->vehicle.empty()) {
+      throw analysis::Failure(analysis::Exit::usage, "--vehicle: of a mission it needs a file");
+    }
+    expect_no_overwriting({arguments->path, arguments->mission, arguments->vehicle, arguments->effects_file},
+                          {arguments->truth, arguments->sent_log});
     try {
       run(*arguments);
     } catch (const sim::BadPath& error) {

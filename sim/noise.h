@@ -22,11 +22,6 @@ class Noise {
   std::normal_distribution<double> normal_;
 };
 
-/// To the resolution of an instrument.
-[[nodiscard]] inline double rounded(double value, double resolution) {
-  return std::round(value / resolution) * resolution;
-}
-
 /// Ticks of a device's own clock, which runs `ppm` slow: tick n is at start + n * period * (1 + ppm * 1e-6). What
 /// is less than a nanosecond is kept, so that it does not add up.
 class Ticks {

@@ -11,10 +11,6 @@
 #include "config/load.h"
 #include "protocols/motor_card.h"
 #include "protocols/oncore_command.h"
-#include "sim/instruments/imu_card.h"
-#include "sim/instruments/motor_card.h"
-#include "sim/instruments/oncore.h"
-#include "sim/instruments/tcm2.h"
 
 namespace navcal::sim {
 namespace {

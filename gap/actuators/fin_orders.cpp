@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/angles.h"
+#include "base/rounding.h"
 #include "protocols/motor_card.h"
 
 namespace navcal::gap {
@@ -83,7 +84,7 @@ void FinOrders::round_off(std::array<ServoOrders, kWays>& orders) {
       exact[i] += orders[i].steps_rad[order];
       for (std::size_t fin = 0; fin < fins.size(); ++fin) fins[fin] += exact[i] * kWaysOfFins[i][fin];
     }
-    for (double& angle : fins) angle = sim::rounded(angle, kOrdered_rad);
+    for (double& angle : fins) angle = base::rounded(angle, kOrdered_rad);
     for (std::size_t i = 0; i < kWays; ++i) {
       orders[i].steps_rad[order] = along(kWaysOfFins[i], fins) - rounded[i];
       rounded[i] += orders[i].steps_rad[order];

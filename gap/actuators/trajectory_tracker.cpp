@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "autopilot/autopilot.h"
 #include "base/angles.h"
-#include "sim/vehicle/autopilot.h"
 
 namespace navcal::gap {
 namespace {
@@ -69,7 +69,7 @@ sim::Actuators TrajectoryTracker::next(double time_s, double step_s, const sim::
   finished_ = row >= rows_.size();
   const double shaft_rps = rows_[std::min(row, rows_.size() - 1)].shaft_rps;
   const Vector3& servos_rad = servos_rad_[std::min(row, rows_.size() - 1)];
-  Eigen::Vector3d fins_rad = sim::mixed_fins(rudder_rad_, elevator_rad_);
+  Eigen::Vector3d fins_rad = autopilot::mixed_fins(rudder_rad_, elevator_rad_);
   for (Eigen::Index i = 0; i < 3; ++i) {
     fins_rad[i] = bounded(fins_rad[i] + servos_rad[static_cast<std::size_t>(i)], fins_.limit_rad);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "base/rounding.h"
 #include "sim/vehicle/propeller.h"
 
 namespace navcal::sim {
@@ -24,6 +25,7 @@ void MotorCard::power_on(std::int64_t t_ns) {
   ticks_ = Ticks(t_ns, 1 / options_.motor.timing.rate_Hz, options_.clock_ppm);
   parser_ = {};
   command_.reset();
+  if (options_.obey) options_.obey(t_ns, {});
   sequence_ = 0;
 }
 
@@ -40,6 +42,7 @@ void MotorCard::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
     at_command_ = actuators_at(t_ns);
     commanded_ns_ = t_ns;
     command_ = wanted;
+    if (options_.obey) options_.obey(t_ns, *wanted);
   });
 }
 
@@ -53,7 +56,7 @@ void MotorCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
 }
 
 MotorCard::Actuators MotorCard::actuators_at(std::int64_t t_ns) const {
-  if (!command_) {
+  if (!command_ || options_.obey) {
     const State state = motion_.at(t_ns);
     Actuators now{state.rpm, {}, state.motor_current_A};
     for (std::size_t i = 0; i < 3; ++i) now.fins_deg[i] = state.fins_rad[i] * base::kDegreesPerRadian;
@@ -78,15 +81,16 @@ motor::Status MotorCard::measure(std::int64_t t_ns) {
   const double fin_noise_deg = options_.motor.fin_noise_rad * base::kDegreesPerRadian;
   motor::Status status;
   status.sequence = sequence_++;
-  status.rpm_commanded =
-      command_ ? command_->rpm : static_cast<std::int32_t>(std::lround(motion_.at(t_ns).rpm_commanded));
+  status.rpm_commanded = command_ && !options_.obey
+                             ? command_->rpm
+                             : static_cast<std::int32_t>(std::lround(motion_.at(t_ns).rpm_commanded));
   status.rpm = static_cast<std::int32_t>(std::lround(now.rpm));
   for (std::size_t i = 0; i < 3; ++i) {
     const double noise_deg = noise_.normal(fin_noise_deg * louder);
-    status.fins_deg[i] = rounded(now.fins_deg[i] + noise_deg, options_.motor.fin_resolution_deg);
+    status.fins_deg[i] = base::rounded(now.fins_deg[i] + noise_deg, options_.motor.fin_resolution_deg);
   }
   const double current_A = now.current_A + noise_.normal(options_.motor.current_noise_A * louder);
-  status.current_A = rounded(std::max(0.0, current_A), options_.motor.current_resolution_A);
+  status.current_A = base::rounded(std::max(0.0, current_A), options_.motor.current_resolution_A);
   return status;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "config/vehicle.h"
@@ -14,7 +15,8 @@
 namespace navcal::sim {
 
 /// Motor controller card. Until the host commands it, it tells what the vehicle does; from then on its shaft and
-/// fins follow the command with the nominal vehicle's lags (docs/simulator.md).
+/// fins follow the command with the nominal vehicle's lags (docs/simulator.md). When there is a vehicle that
+/// obeys, the card always tells what that vehicle does.
 class MotorCard final : public Device {
  public:
   struct Options {
@@ -25,6 +27,9 @@ class MotorCard final : public Device {
     std::uint64_t seed = 1;
     int baud = 19200;
     EffectSet* effects = nullptr;  ///< nullptr: nominal
+    /// A vehicle that obeys: called with each command that is not refused, and with shaft off and fins neutral
+    /// when power comes.
+    std::function<void(std::int64_t t_ns, const protocols::motor_card::Command&)> obey{};
   };
   MotorCard(const Options& options, const Motion& motion);
 

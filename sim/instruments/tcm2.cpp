@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/angles.h"
+#include "base/rounding.h"
 #include "protocols/tcm2_word.h"
 
 namespace navcal::sim {
@@ -22,7 +23,7 @@ constexpr std::string_view kBanner = "TCM2 emulated, navcal\r\n";
 
 /// An angle in 0 to one turn that stays below the turn when it is rounded.
 double wrapped(double angle, double turn, double resolution) {
-  return std::fmod(rounded(angle, resolution), turn);
+  return std::fmod(base::rounded(angle, resolution), turn);
 }
 
 }  // namespace
@@ -225,8 +226,8 @@ std::vector<std::uint8_t> Tcm2::word(std::int64_t t_ns, const Settings& fields) 
   }
   const double tilt_scale = fields.tilt_in_mils ? kMils : base::kDegreesPerRadian;
   const double tilt_resolution = fields.tilt_in_mils ? 1 : compass.tilt_resolution_deg;
-  if (fields.pitch) out.pitch = rounded(reading.pitch_rad * tilt_scale, tilt_resolution);
-  if (fields.roll) out.roll = rounded(reading.roll_rad * tilt_scale, tilt_resolution);
+  if (fields.pitch) out.pitch = base::rounded(reading.pitch_rad * tilt_scale, tilt_resolution);
+  if (fields.roll) out.roll = base::rounded(reading.roll_rad * tilt_scale, tilt_resolution);
   if (fields.field) {
     out.x = reading.field_uT[0];
     out.y = reading.field_uT[1];

@@ -18,15 +18,6 @@ Propeller::Force Propeller::at(double surge_m_s, double shaft_rps) const {
   return {scale_N * KT, settings_.torque_felt * scale_N * D * settings_.torque};
 }
 
-double Propeller::shaft_for(double surge_m_s, double drag_kg_m) const {
-  // rho D^4 KT0 n^2 + rho D^3 KT1 u n - drag u^2 = 0, the greater root.
-  const double D = settings_.diameter_m;
-  const double a = density_kg_m3_ * D * D * D * D * settings_.thrust_at_rest;
-  const double b = density_kg_m3_ * D * D * D * settings_.thrust_slope * surge_m_s;
-  const double c = -drag_kg_m * surge_m_s * surge_m_s;
-  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
-}
-
 double current_A(const config::PropellerSettings& propeller, double shaft_rps) {
   const double n = std::max(shaft_rps, 0.0);
   return propeller.idle_current_A + propeller.current_A_s3 * n * n * n;

@@ -17,8 +17,6 @@ class Propeller {
     double thrust_N, torque_Nm;
   };
   [[nodiscard]] Force at(double surge_m_s, double shaft_rps) const;
-  /// The shaft speed at which thrust equals a drag of `drag_kg_m` u^2, u > 0.
-  [[nodiscard]] double shaft_for(double surge_m_s, double drag_kg_m) const;
 
  private:
   config::PropellerSettings settings_;

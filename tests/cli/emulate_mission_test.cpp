@@ -63,8 +63,6 @@ TEST_F(EmulateMission, MistakesAreToldWithFileAndLine) {
   EXPECT_NE(errors.find("known: calibration_swing, identification, survey"), std::string::npos) << errors;
   std::tie(status, errors) = outcome({"--mission", "survey", "--path", "x.csv"}, dir);
   EXPECT_EQ(status, 2);
-  std::tie(status, errors) = outcome({"--vehicle", "x.toml"}, dir);
-  EXPECT_EQ(status, 2);
 }
 
 TEST_F(EmulateMission, AVehicleThatGoesUnstableEndsItWithTimeAndState) {

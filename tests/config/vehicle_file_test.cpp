@@ -32,6 +32,10 @@ TEST(VehicleFile, TheShippedOneIsTheReferenceVehicleAndWrittenFromTheOptionTable
   EXPECT_EQ(load_vehicle(file), VehicleSettings{});
 }
 
+TEST(VehicleFile, TheShippedGainsOfThePilotAreTheDefaults) {
+  EXPECT_EQ(load_vehicle(std::string(NAVCAL_SOURCE_DIR) + "/config/pilot.toml"), VehicleSettings{});
+}
+
 TEST(VehicleFile, NothingSaidIsTheReferenceVehicle) { EXPECT_EQ(parse_vehicle("", "v.toml"), VehicleSettings{}); }
 
 TEST(VehicleFile, DefaultsAreWithinTheirOwnRangesAndEveryKeyHasAMeaning) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/sim/drive.h"
 
@@ -68,6 +69,25 @@ TEST_F(EmulatedMotorCard, RefusesFinsBeyondTheirLimitAndBrokenLines) {
   EXPECT_EQ(status_after(1).rpm_commanded, 720);
   command(100, {25, -25, 0});
   EXPECT_EQ(status_after(1).rpm_commanded, 100) << "the limit itself is allowed";
+}
+
+TEST_F(EmulatedMotorCard, HandsOrdersToAVehicleThatObeysAndTellsWhatThatDoes) {
+  std::vector<protocols::motor_card::Command> orders;
+  MotorCard::Options options = quiet();
+  options.obey = [&](std::int64_t, const protocols::motor_card::Command& order) { orders.push_back(order); };
+  MotorCard driving(options, motion);
+  driving.power_on(t_ns);
+  ASSERT_EQ(orders.size(), 1U);
+  EXPECT_EQ(orders.back(), protocols::motor_card::Command{}) << "power comes: shaft off, fins neutral";
+  driving.on_bytes(t_ns, protocols::motor_card::encode_command({900, {10, -5, -5}}));
+  driving.on_bytes(t_ns, protocols::motor_card::encode_command({900, {25.1, 0, 0}}));
+  ASSERT_EQ(orders.size(), 2U) << "the second is refused";
+  EXPECT_EQ(orders.back().rpm, 900);
+  EXPECT_NEAR(orders.back().fins_deg[0], 10, 1e-9);
+  const auto lines = run_to(driving, t_ns + kSecond_ns);
+  const auto status = protocols::motor_card::decode_status(lines.back().bytes);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->rpm, 720) << "the vehicle's, whatever was ordered";
 }
 
 TEST_F(EmulatedMotorCard, ForgetsItsCommandWithThePower) {

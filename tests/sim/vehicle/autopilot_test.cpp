@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/vehicle/autopilot.h"
+#include "autopilot/autopilot.h"
 
 #include <gtest/gtest.h>
 
@@ -7,22 +7,6 @@
 
 namespace navcal::sim::testing {
 namespace {
-
-TEST(Autopilot, MixingIsThatOfTheCardsDocument) {
-  const Eigen::Vector3d fins = mixed_fins(0.2, 0.1);
-  EXPECT_DOUBLE_EQ(2.0 / 3 * ((fins[1] + fins[2]) / 2 - fins[0]), 0.2) << "the rudder comes back";
-  EXPECT_DOUBLE_EQ((fins[1] - fins[2]) / std::numbers::sqrt3, 0.1) << "the elevator comes back";
-}
-
-TEST(Autopilot, OrdersAreWithinWhatFinsAndShaftCanDo) {
-  Autopilot autopilot{config::VehicleSettings{}};
-  Body body;
-  body.position_m.z() = 100;
-  const Demand far{.heading_rad = 100, .depth_m = 0, .shaft_rps = 1e3};
-  const Orders orders = autopilot.orders(far, body);
-  for (const double fin : orders.fins_rad) EXPECT_LE(std::abs(fin) * kDegrees, 25 + 1e-9);
-  EXPECT_DOUBLE_EQ(orders.shaft_rps, 30);
-}
 
 TEST(Autopilot, ALongDiveLeavesNothingBehindInItsIntegrals) {
   const auto motion = on_mission("start.depth_m = 1\nstep = [{do = \"leg\", depth_m = 30, seconds = 200}]\n");

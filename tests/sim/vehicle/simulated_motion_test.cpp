@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "autopilot/autopilot.h"
 #include "sim/rotation.h"
-#include "sim/vehicle/autopilot.h"
 #include "tests/sim/vehicle/runs.h"
 
 namespace navcal::sim::testing {
@@ -81,7 +81,7 @@ TEST(SimulatedMotion, WhatItSaysOfMotionFitsTogether) {
 
 /// A rudder that moves evenly.
 struct RampHelm final : Helm {
-  static Eigen::Vector3d fins_rad(double time_s) { return mixed_fins(0.2 * time_s, 0); }
+  static Eigen::Vector3d fins_rad(double time_s) { return autopilot::mixed_fins(0.2 * time_s, 0); }
   [[nodiscard]] Body start() const override { return under_way(1.1); }
   [[nodiscard]] Actuators actuators_at_start() const override { return {fins_rad(0), 13, 13}; }
   [[nodiscard]] Actuators next(double time_s, double step_s, const Body&) override {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "autopilot/autopilot.h"
 #include "tests/sim/vehicle/runs.h"
 
 namespace navcal::sim::testing {
@@ -51,9 +52,11 @@ TEST(Vehicle, PortAndStarboardAreMirrorImagesButForThePropellersTorque) {
 }
 
 TEST(Vehicle, FinsTurnItAsTheMixingSays) {
-  EXPECT_GT(held(kVehicle, under_way(1.1), {mixed_fins(0.1, 0), 13}, 3).euler_rad.z(), 0.1) << "starboard";
-  EXPECT_GT(held(kVehicle, under_way(1.1), {mixed_fins(0, 0.1), 13}, 3).euler_rad.y(), 0.1) << "nose up";
-  EXPECT_LT(held(kVehicle, under_way(1.1), {mixed_fins(0, 0.1), 13}, 5).position_m.z(), -0.1);
+  EXPECT_GT(held(kVehicle, under_way(1.1), {autopilot::mixed_fins(0.1, 0), 13}, 3).euler_rad.z(), 0.1)
+      << "starboard";
+  EXPECT_GT(held(kVehicle, under_way(1.1), {autopilot::mixed_fins(0, 0.1), 13}, 3).euler_rad.y(), 0.1)
+      << "nose up";
+  EXPECT_LT(held(kVehicle, under_way(1.1), {autopilot::mixed_fins(0, 0.1), 13}, 5).position_m.z(), -0.1);
 }
 
 struct Straight {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/vehicle/manoeuvre.h"
+#include "autopilot/manoeuvre.h"
 
-namespace navcal::sim {
+namespace navcal::autopilot {
 namespace {
 
 using config::MissionStep;
@@ -16,14 +16,14 @@ class Zigzag final : public Manoeuvre {
   explicit Zigzag(const MissionStep& step) : step_(step) {}
 
   void begin(const Situation& now, Demand& demand) override {
-    middle_rad_ = now.body.euler_rad[2];
+    middle_rad_ = now.state.euler_rad[2];
     demand.depth_m = step_.depth_m.value_or(demand.depth_m);
     demand.rudder_rad = *step_.rudder_rad;
   }
 
   bool go_on(const Situation& now, Demand& demand) override {
     constexpr double kLongestReach_s = 60;
-    const double gone_rad = std::copysign(1.0, *demand.rudder_rad) * (now.body.euler_rad[2] - middle_rad_);
+    const double gone_rad = std::copysign(1.0, *demand.rudder_rad) * (now.state.euler_rad[2] - middle_rad_);
     if (gone_rad < *step_.reach_rad && now.since_s - over_at_s_ < kLongestReach_s) return true;
     if (++reached_ >= *step_.times) return false;
     demand.rudder_rad = -*demand.rudder_rad;
@@ -44,14 +44,14 @@ class Pirouette final : public Manoeuvre {
   explicit Pirouette(const MissionStep& step) : step_(step) {}
 
   void begin(const Situation& now, Demand& demand) override {
-    first_rad_ = now.body.euler_rad[2];
+    first_rad_ = now.state.euler_rad[2];
     demand.depth_m = step_.depth_m.value_or(demand.depth_m);
     demand.rudder_rad = std::copysign(*step_.rudder_rad, *step_.turns);
   }
 
   bool go_on(const Situation& now, Demand& /*demand*/) override {
     constexpr double kLongestTurn_s = 60;
-    const double turned = std::abs(now.body.euler_rad[2] - first_rad_) / (2 * std::numbers::pi);
+    const double turned = std::abs(now.state.euler_rad[2] - first_rad_) / (2 * std::numbers::pi);
     return turned < std::abs(*step_.turns) && now.since_s < kLongestTurn_s * std::abs(*step_.turns);
   }
 
@@ -131,4 +131,4 @@ std::unique_ptr<Manoeuvre> make_rudder_manoeuvre(const MissionStep& step) {
   }
 }
 
-}  // namespace navcal::sim
+}  // namespace navcal::autopilot

@@ -3,18 +3,18 @@
 
 #include <memory>
 
+#include "autopilot/autopilot.h"
+#include "autopilot/vehicle_state.h"
 #include "config/mission.h"
-#include "sim/vehicle/autopilot.h"
-#include "sim/vehicle/body.h"
 
-namespace navcal::sim {
+namespace navcal::autopilot {
 
 /// What a manoeuvre can go by.
 struct Situation {
   double since_s = 0;   ///< it began
   double period_s = 0;  ///< since it was asked last
   double way_m = 0;     ///< through the water, since it began
-  Body body;
+  VehicleState state;
   Orders last;  ///< the orders given last
 };
 
@@ -37,4 +37,4 @@ class Manoeuvre {
 [[nodiscard]] std::unique_ptr<Manoeuvre> make_turning_manoeuvre(const config::MissionStep& step);
 [[nodiscard]] std::unique_ptr<Manoeuvre> make_rudder_manoeuvre(const config::MissionStep& step);
 
-}  // namespace navcal::sim
+}  // namespace navcal::autopilot

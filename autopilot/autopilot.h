@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 
+#include "autopilot/vehicle_state.h"
 #include "config/vehicle.h"
-#include "sim/vehicle/body.h"
-#include "sim/vehicle/propeller.h"
 
-namespace navcal::sim {
+namespace navcal::autopilot {
 
 /// What the actuators are told.
 struct Orders {
@@ -33,30 +33,32 @@ struct Demand {
 /// Rudder and elevator onto three fins 120 degrees apart (the card's interface document, section 4).
 [[nodiscard]] Eigen::Vector3d mixed_fins(double rudder_rad, double elevator_rad);
 
-/// Heading to rudder, depth to pitch to elevator, speed to shaft speed, every `period_s`:
+/// Heading to rudder, depth to pitch to elevator, speed to shaft speed:
 ///   rudder = a e_psi + b (turn wanted - turn),            e = wanted - true
 ///   pitch wanted = c e_z + d integral(e_z), nose up when too deep
 ///   elevator = f e_theta + g integral(e_theta) - h q
 ///   shaft = that whose thrust equals the axial drag at the speed wanted + k e_u + l integral(e_u).
-/// Each integral grows only where the error before it is small. It steers by the true state.
+/// Each integral grows only where the error before it is small.
 class Autopilot {
  public:
   explicit Autopilot(const config::VehicleSettings& settings);
 
-  [[nodiscard]] Orders orders(const Demand& demand, const Body& body);
+  /// `period_s`: since the last orders, by which the integrals grow.
+  [[nodiscard]] Orders orders(const Demand& demand, const VehicleState& state, double period_s);
 
  private:
-  [[nodiscard]] double rudder(const Demand& demand, const Body& body) const;
-  [[nodiscard]] double elevator(const Demand& demand, const Body& body);
-  [[nodiscard]] double shaft(const Demand& demand, const Body& body);
+  [[nodiscard]] double rudder(const Demand& demand, const VehicleState& state) const;
+  [[nodiscard]] double elevator(const Demand& demand, const VehicleState& state, double period_s);
+  [[nodiscard]] double shaft(const Demand& demand, const VehicleState& state, double period_s);
 
   config::AutopilotSettings settings_;
+  config::PropellerSettings propeller_;
   double fin_limit_rad_;
-  double drag_kg_m_;  ///< axial, over the square of the speed
-  Propeller propeller_;
+  double density_kg_m3_;  ///< of the water
+  double drag_kg_m_;      ///< axial, over the square of the speed
   double depth_integral_m_s_ = 0;
   double pitch_integral_rad_s_ = 0;
   double speed_integral_m_ = 0;
 };
 
-}  // namespace navcal::sim
+}  // namespace navcal::autopilot

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/vehicle/manoeuvre.h"
+#include "autopilot/manoeuvre.h"
 
-namespace navcal::sim {
+namespace navcal::autopilot {
 namespace {
 
 using config::MissionStep;
@@ -47,7 +47,7 @@ class Dive final : public Manoeuvre {
 
   bool go_on(const Situation& now, Demand& demand) override {
     constexpr double kNear_m = 0.1;
-    return std::abs(now.body.position_m.z() - demand.depth_m) > kNear_m &&
+    return std::abs(now.state.depth_m - demand.depth_m) > kNear_m &&
            now.since_s < step_.seconds.value_or(kLongestChangeOfDepth_s);
   }
 
@@ -67,7 +67,7 @@ class Surfacing final : public Manoeuvre {
 
   bool go_on(const Situation& now, Demand& /*demand*/) override {
     constexpr double kHeard_m = 0.3;
-    const bool up = now.body.position_m.z() < kHeard_m || now.since_s > kLongestChangeOfDepth_s;
+    const bool up = now.state.depth_m < kHeard_m || now.since_s > kLongestChangeOfDepth_s;
     if (up && !up_since_s_) up_since_s_ = now.since_s;
     return !up_since_s_ || now.since_s - *up_since_s_ < *step_.seconds;
   }
@@ -94,4 +94,4 @@ std::unique_ptr<Manoeuvre> make_steady_manoeuvre(const MissionStep& step) {
   }
 }
 
-}  // namespace navcal::sim
+}  // namespace navcal::autopilot

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/vehicle/manoeuvre.h"
+#include "autopilot/manoeuvre.h"
 
-namespace navcal::sim {
+namespace navcal::autopilot {
 namespace {
 
 using config::MissionStep;
@@ -27,7 +27,7 @@ class Ramp {
       return false;
     }
     demand.turn_rad_s = std::copysign(rate_rad_s_, left_rad);
-    if (std::abs(demand.heading_rad - now.body.euler_rad[2]) > kFarthestAhead_rad) return true;
+    if (std::abs(demand.heading_rad - now.state.euler_rad[2]) > kFarthestAhead_rad) return true;
     const double step_rad = std::clamp(left_rad, -rate_rad_s_ * now.period_s, rate_rad_s_ * now.period_s);
     done_rad_ += step_rad;
     demand.heading_rad += step_rad;
@@ -105,4 +105,4 @@ std::unique_ptr<Manoeuvre> make_turning_manoeuvre(const MissionStep& step) {
   return std::make_unique<Turn>(step);
 }
 
-}  // namespace navcal::sim
+}  // namespace navcal::autopilot

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autopilot/mission_orders.h"
+#include "autopilot/reading.h"
+#include "base/local_plane.h"
+
+namespace navcal::autopilot {
+
+/// What ends a mission early.
+struct PilotLimits {
+  double depth_m = 10;
+  double duration_s = 3600;
+  double range_m = 1000;  ///< from where the mission began
+  double age_s = 1;       ///< of the newest readings of compass, inertial card and motor card
+};
+
+/// Takes a vehicle through a mission, once, by what the daemon reports; no sockets, no clock. A reading comes,
+/// orders go out. Anything that ends the mission also stops the vehicle: shaft off, and for kRise_s the fins that
+/// raise the nose while the vehicle is deeper than kSurface_m, so that it uses its way to come up; then fins
+/// neutral.
+class Pilot {
+ public:
+  static constexpr double kRise_s = 5;
+  static constexpr double kSurface_m = 0.3;
+  static constexpr double kSurface_s = 1;
+
+  Pilot(const config::VehicleSettings& vehicle, const config::Mission& mission, const PilotLimits& limits);
+
+  /// Why a mission cannot begin with this reading, one reason each; empty: it can.
+  [[nodiscard]] std::vector<std::string> missing(const Reading& reading) const;
+  /// Orders for a reading that came at `now_s`, of a clock that never goes back. The first call begins the
+  /// mission.
+  [[nodiscard]] Orders next(const Reading& reading, double now_s);
+  /// From now on the vehicle is stopped; the first reason stays. nullopt: the mission is done.
+  void stop(std::optional<std::string> reason, double now_s);
+
+  [[nodiscard]] bool stopping() const { return stopped_at_s_.has_value(); }
+  /// The vehicle has been ordered to stop for long enough: kRise_s, or kSurface_s at the surface. It can be let
+  /// go.
+  [[nodiscard]] bool stopped(double now_s) const;
+  /// Why it is stopping; nullopt: the mission is done.
+  [[nodiscard]] const std::optional<std::string>& reason() const { return reason_; }
+  [[nodiscard]] const MissionOrders& mission() const { return mission_; }
+  [[nodiscard]] double elapsed_s(double now_s) const { return began_s_ ? now_s - *began_s_ : 0; }
+
+ private:
+  /// What is exceeded, or silent, or wrong with the vehicle; nullopt: nothing.
+  [[nodiscard]] std::optional<std::string> alarm(const Reading& reading, double now_s) const;
+  void take(const Reading& reading, double period_s);
+  [[nodiscard]] Orders stopping_orders(const Reading& reading, double now_s, double period_s);
+  [[nodiscard]] bool can_steer(const Reading& reading) const;
+
+  config::VehicleSettings vehicle_;
+  PilotLimits limits_;
+  MissionOrders mission_;
+  Autopilot to_surface_;
+  VehicleState state_;
+  std::optional<double> began_s_, last_s_, stopped_at_s_;
+  double stopped_heading_rad_ = 0;
+  std::optional<std::string> reason_;
+  /// Way by speed and heading since the beginning: north, east.
+  std::array<double, 2> reckoned_m_{};
+  std::optional<base::LocalPlane> plane_;     ///< about the first position that is known
+  std::array<double, 2> first_reckoned_m_{};  ///< reckoned there
+  std::array<double, 2> offset_m_{};          ///< where the vehicle is, from the beginning
+};
+
+}  // namespace navcal::autopilot

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/line_socket.h"
+
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace navcal::cli {
+namespace {
+
+/// Nobody who speaks these protocols sends a longer line.
+constexpr std::size_t kLongestSocketLine = 1 << 20;
+
+[[noreturn]] void refuse_connection(const std::string& address, std::string_view problem) {
+  throw std::runtime_error(address + ": " + std::string(problem));
+}
+
+}  // namespace
+
+LineSocket LineSocket::tcp(const std::string& host, const std::string& port) {
+  const std::string address = host + ":" + port;
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (const int error = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found); error != 0)
+    refuse_connection(address, ::gai_strerror(error));
+  std::string problem = "no address";
+  base::Descriptor descriptor;
+  for (const addrinfo* one = found; one != nullptr && descriptor.get() < 0; one = one->ai_next) {
+    base::Descriptor candidate(::socket(one->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    if (candidate.get() >= 0 && ::connect(candidate.get(), one->ai_addr, one->ai_addrlen) == 0) {
+      descriptor = std::move(candidate);
+    } else {
+      problem = std::strerror(errno);
+    }
+  }
+  ::freeaddrinfo(found);
+  if (descriptor.get() < 0) refuse_connection(address, problem);
+  return {std::move(descriptor), address};
+}
+
+LineSocket LineSocket::unix_domain(const std::filesystem::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.native().size() >= sizeof address.sun_path) refuse_connection(path.native(), "the name is too long");
+  std::copy(path.native().begin(), path.native().end(), address.sun_path);
+  base::Descriptor descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (descriptor.get() < 0 ||
+      ::connect(descriptor.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    refuse_connection(path.native(), std::strerror(errno));
+  }
+  return {std::move(descriptor), path.native()};
+}
+
+void LineSocket::fail(std::string_view problem) const { refuse_connection(address_, problem); }
+
+void LineSocket::send(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t sent = ::send(descriptor_.get(), text.data(), text.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) fail(std::strerror(errno));
+    text.remove_prefix(static_cast<std::size_t>(sent));
+  }
+}
+
+std::optional<std::string> LineSocket::next(Clock::time_point until) {
+  for (;;) {
+    if (const auto end = bytes_.find('\n'); end != std::string::npos) {
+      std::string line = bytes_.substr(0, end);
+      bytes_.erase(0, end + 1);
+      return line;
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    pollfd readable{descriptor_.get(), POLLIN, 0};
+    if (::poll(&readable, 1, static_cast<int>(std::max<std::int64_t>(0, left))) <= 0) return std::nullopt;
+    std::array<char, 16384> chunk{};
+    const ssize_t taken = ::recv(descriptor_.get(), chunk.data(), chunk.size(), 0);
+    if (taken < 0 && errno == EINTR) return std::nullopt;
+    if (taken < 0) fail(std::strerror(errno));
+    if (taken == 0) fail("navcald closed the connection");
+    bytes_.append(chunk.data(), static_cast<std::size_t>(taken));
+    if (bytes_.size() > kLongestSocketLine) fail("that is no navcald: it sends no lines");
+  }
+}
+
+}  // namespace navcal::cli

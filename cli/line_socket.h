@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/descriptor.h"
+
+namespace navcal::cli {
+
+/// A connected socket on which both sides speak in lines. Every function throws std::runtime_error when the socket
+/// fails or the other side closes it; the message names the address.
+class LineSocket {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] static LineSocket tcp(const std::string& host, const std::string& port);
+  [[nodiscard]] static LineSocket unix_domain(const std::filesystem::path& path);
+
+  void send(std::string_view text);
+  /// The next line without its end, or nullopt when none was whole by then, or a signal came.
+  [[nodiscard]] std::optional<std::string> next(Clock::time_point until);
+
+ private:
+  LineSocket(base::Descriptor descriptor, std::string address)
+      : descriptor_(std::move(descriptor)), address_(std::move(address)) {}
+  [[noreturn]] void fail(std::string_view problem) const;
+
+  base::Descriptor descriptor_;
+  std::string address_;
+  std::string bytes_;
+};
+
+}  // namespace navcal::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/pilot_link.h"
+
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "base/angles.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr std::string_view kStateRequest =
+    "?WATCH={\"enable\":true,\"json\":true,\"classes\":[\"STATE\"],\"rate_Hz\":{\"STATE\":10}};\n";
+/// An answer later than this is none: the lease ends by itself before long.
+constexpr auto kAnswerLimit = std::chrono::milliseconds(400);
+
+}  // namespace
+
+PilotLink::PilotLink(const Address& address)
+    : status_(LineSocket::tcp(address.host, std::to_string(address.port))),
+      control_(LineSocket::unix_domain(address.control)) {
+  status_.send(kStateRequest);
+}
+
+std::optional<StateLine> PilotLink::state(Clock::time_point until) {
+  std::optional<StateLine> newest;
+  for (;;) {
+    // What waits already is passed over in favour of the newest.
+    const auto line = status_.next(newest ? Clock::now() : until);
+    if (!line) return newest;
+    if (auto state = parse_state(*line)) newest = std::move(state);
+  }
+}
+
+PilotLink::Answer PilotLink::ask(const std::string& request) {
+  control_.send(request + "\n");
+  const auto until = Clock::now() + kAnswerLimit;
+  std::optional<std::string> line;
+  // A signal ends a wait early; the answer still belongs to this request.
+  do line = control_.next(until);
+  while (!line && Clock::now() < until);
+  if (!line) throw std::runtime_error("navcald does not answer on its control socket");
+  const nlohmann::json answer = nlohmann::json::parse(*line, nullptr, false);
+  if (!answer.is_object()) throw std::runtime_error("no answer of a navcald: " + *line);
+  if (answer.value("ok", false)) return {std::nullopt, answer.value("lease", "")};
+  return {answer.value("error", "refused without a reason"), {}};
+}
+
+void PilotLink::lease(const Lease& wanted) {
+  const nlohmann::json request{{"command", "motor.lease"},
+                               {"holder", "pilot"},
+                               {"priority", wanted.priority},
+                               {"timeout_s", wanted.timeout_s}};
+  const Answer answer = ask(request.dump());
+  if (answer.refusal) throw std::runtime_error("no lease of the motor card: " + *answer.refusal);
+  lease_ = answer.lease;
+}
+
+std::optional<std::string> PilotLink::order(const autopilot::Orders& orders, double state_time_s) {
+  nlohmann::json fins = nlohmann::json::array();
+  for (const double fin_rad : orders.fins_rad) {
+    // Tenths of a degree, the resolution of the card; never -0.
+    fins.push_back(std::round(10 * fin_rad * base::kDegreesPerRadian) / 10 + 0.0);
+  }
+  const nlohmann::json request{{"command", "motor.order"},
+                               {"lease", lease_},
+                               {"shaft_rpm", std::lround(60 * orders.shaft_rps)},
+                               {"fins_deg", fins},
+                               {"state_time", state_time_s}};
+  return ask(request.dump()).refusal;
+}
+
+void PilotLink::release() noexcept {
+  if (lease_.empty()) return;
+  try {
+    (void)ask(nlohmann::json{{"command", "motor.release"}, {"lease", lease_}}.dump());
+  } catch (const std::exception&) {
+    // The lease ends by itself, and the daemon then stops the vehicle.
+  }
+  lease_.clear();
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "autopilot/autopilot.h"
+#include "cli/line_socket.h"
+#include "cli/pilot_state.h"
+
+namespace navcal::cli {
+
+/// What a pilot has of a running navcald: its state as it comes, and a lease of the motor card. Only public
+/// sockets.
+class PilotLink {
+ public:
+  using Clock = LineSocket::Clock;
+  struct Address {
+    std::string host = "127.0.0.1";
+    int port = 2947;
+    std::filesystem::path control = "/run/navcal/control";
+  };
+  /// Connects and asks for the state ten times a second. Throws std::runtime_error.
+  explicit PilotLink(const Address& address);
+
+  /// The newest STATE that has come, or the next; nullopt when none came by then. Throws std::runtime_error.
+  [[nodiscard]] std::optional<StateLine> state(Clock::time_point until);
+
+  struct Lease {
+    int priority = 1;
+    double timeout_s = 0.5;
+  };
+  /// Takes the lease. Throws std::runtime_error with the daemon's words when it is refused.
+  void lease(const Lease& wanted);
+  /// Why an order was not sent; nullopt: it was sent.
+  [[nodiscard]] std::optional<std::string> order(const autopilot::Orders& orders, double state_time_s);
+  /// Gives the lease back, if there is one and the daemon still hears.
+  void release() noexcept;
+
+ private:
+  /// The daemon's answer, or why there is none.
+  struct Answer {
+    std::optional<std::string> refusal;
+    std::string lease;
+  };
+  [[nodiscard]] Answer ask(const std::string& request);
+
+  LineSocket status_;
+  LineSocket control_;
+  std::string lease_;
+};
+
+}  // namespace navcal::cli

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// The closed loop without water: navcal emulate --vehicle, navcald and navcal pilot on pseudo-terminals, in real
+// time. What the vehicle did is read from the emulator's truth file.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <sstream>
+
+#include "base/descriptor.h"
+#include "tests/support/process.h"
+
+namespace navcal {
+namespace {
+
+using test::eventually;
+using test::Process;
+
+constexpr std::chrono::seconds kPatience{120};
+constexpr double kSpeedOfMission_rpm = 780;
+
+std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
+
+std::uint16_t free_port() {
+  const base::Descriptor probe(::socket(AF_INET, SOCK_STREAM, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t length = sizeof address;
+  ::bind(probe.get(), reinterpret_cast<sockaddr*>(&address), length);
+  ::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&address), &length);
+  return ntohs(address.sin_port);
+}
+
+struct TruthRow {
+  double t_s, depth_m, heading_deg, rpm;
+};
+
+class ClosedLoop : public testing::Test {
+ protected:
+  void SetUp() override {
+    write("mission.toml",
+          "start.heading_deg = 0\n"
+          "step = [{do = \"leg\", heading_deg = 60, seconds = 8}, {do = \"dive\", depth_m = 1}, "
+          "{do = \"leg\", seconds = 6}]\n");
+    write("long.toml", "step = [{do = \"leg\", heading_deg = 0, depth_m = 0.6, seconds = 300}]\n");
+    // Kept open here, so that the emulator sees no end of its input.
+    ASSERT_EQ(::mkfifo((folder_ / "console").c_str(), 0600), 0);
+    console_ = base::Descriptor(::open((folder_ / "console").c_str(), O_RDWR | O_CLOEXEC));
+  }
+  void write(const std::string& name, std::string_view text) const { std::ofstream(folder_ / name) << text; }
+
+  /// Emulator and daemon; `options` are the emulator's.
+  void start(const std::string& options = "") {
+    const std::string command = "exec " + tool("cli/navcal") + " emulate --vehicle --dir " +
+                                (folder_ / "ports").string() + " --truth " + (folder_ / "truth.csv").string() +
+                                " " + options + " < " + (folder_ / "console").string();
+    emulator_ = std::make_unique<Process>(std::vector<std::string>{"sh", "-c", command}, folder_ / "emulate");
+    ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kPatience))
+        << emulator_->err();
+    status_port_ = free_port();
+    std::vector<std::string> daemon{tool("daemon/navcald"), "--config", NAVCAL_SOURCE_DIR "/config/navcald.toml"};
+    const auto set = [&](const std::string& key, const std::string& value) {
+      daemon.insert(daemon.end(), {"--set", key + "=" + value});
+    };
+    for (const std::string port : {"compass", "imu", "gps", "motor"})
+      set("port." + port + ".path", (folder_ / "ports" / port).string());
+    set("log.directory", (folder_ / "logs").string());
+    set("log.free_floor_MB", "0");
+    set("control.socket", (folder_ / "control").string());
+    set("status.port", std::to_string(status_port_));
+    daemon_ = std::make_unique<Process>(daemon, folder_ / "navcald");
+    ASSERT_TRUE(
+        eventually([&] { return daemon_->err().find("motor port.opened") != std::string::npos; }, kPatience))
+        << daemon_->err();
+  }
+  /// Limits of time that a busy machine keeps, unless a test is about one.
+  [[nodiscard]] std::unique_ptr<Process> pilot(const std::string& mission, const std::string& name,
+                                               const std::string& lease_timeout_s = "3",
+                                               const std::string& wait_s = "60") const {
+    const std::vector<std::string> command{tool("cli/navcal"),
+                                           "pilot",
+                                           (folder_ / mission).string(),
+                                           "--control=" + (folder_ / "control").string(),
+                                           "--port=" + std::to_string(status_port_),
+                                           "--max-age=5",
+                                           "--lease-timeout=" + lease_timeout_s,
+                                           "--wait=" + wait_s};
+    return std::make_unique<Process>(command, folder_ / name);
+  }
+  /// Stops daemon and emulator as a user does; the true motion.
+  std::vector<TruthRow> finish() {
+    daemon_->signal(SIGTERM);
+    EXPECT_EQ(daemon_->wait(kPatience), 0) << daemon_->err();
+    emulator_->signal(SIGINT);
+    EXPECT_EQ(emulator_->wait(kPatience), 0) << emulator_->err();
+    std::vector<TruthRow> rows;
+    std::ifstream file(folder_ / "truth.csv");
+    std::string line;
+    EXPECT_TRUE(std::getline(file, line)) << "the truth file is there";
+    while (std::getline(file, line)) {
+      std::istringstream fields(line);
+      std::vector<double> values;
+      for (std::string field; std::getline(fields, field, ',');) values.push_back(std::stod(field));
+      EXPECT_EQ(values.size(), 17U) << line;
+      if (values.size() != 17) break;
+      EXPECT_NEAR(values[0], 0.01 * static_cast<double>(rows.size()), 1e-6) << "no row is missing";
+      rows.push_back({values[0], values[3], values[6] * 180 / std::numbers::pi, values[13]});
+    }
+    EXPECT_GT(rows.size(), 100U);
+    return rows;
+  }
+  [[nodiscard]] bool daemon_said(std::string_view text) const {
+    return daemon_->err().find(text) != std::string::npos;
+  }
+  static void expect_stopped(const std::vector<TruthRow>& rows) {
+    const bool sailed = std::any_of(rows.begin(), rows.end(),
+                                    [](const TruthRow& row) { return row.rpm > 0.9 * kSpeedOfMission_rpm; });
+    EXPECT_TRUE(sailed);
+    EXPECT_LT(std::abs(rows.back().rpm), 10) << "the shaft stands";
+  }
+  /// Ten times the lag of the shaft.
+  static void let_the_shaft_run_down() { std::this_thread::sleep_for(std::chrono::seconds(5)); }
+
+  test::TemporaryFolder folder_;
+  base::Descriptor console_;
+  std::uint16_t status_port_ = 0;
+  std::unique_ptr<Process> emulator_, daemon_;
+};
+
+TEST_F(ClosedLoop, AMissionIsSailed) {
+  start("--seed 3");
+  const auto run = pilot("mission.toml", "pilot");
+  ASSERT_EQ(run->wait(kPatience), 0) << run->err();
+  EXPECT_NE(run->err().find("3/3 leg"), std::string::npos) << run->err();
+  let_the_shaft_run_down();
+  const auto rows = finish();
+  ASSERT_FALSE(rows.empty());
+  EXPECT_NEAR(rows.front().depth_m, 0.15, 1e-6) << "at the surface";
+  EXPECT_EQ(rows.front().rpm, 0) << "at rest";
+  expect_stopped(rows);
+  const auto last = std::find_if(rows.rbegin(), rows.rend(),
+                                 [](const TruthRow& row) { return row.rpm > 0.95 * kSpeedOfMission_rpm; });
+  EXPECT_NEAR(last->depth_m, 1, 0.3);
+  EXPECT_NEAR(last->heading_deg, 60, 10) << "of true north";
+}
+
+TEST_F(ClosedLoop, AKilledPilotLeavesTheShaftStanding) {
+  start();
+  const auto run = pilot("long.toml", "pilot");
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  const auto second = pilot("long.toml", "second");
+  EXPECT_EQ(second->wait(kPatience), 1);
+  EXPECT_NE(second->err().find("no lease of the motor card: the lease is held by pilot"), std::string::npos)
+      << second->err();
+  let_the_shaft_run_down();  // up, here
+  run->signal(SIGKILL);
+  EXPECT_TRUE(eventually([&] { return daemon_said("motor.safe"); }, kPatience));
+  let_the_shaft_run_down();
+  expect_stopped(finish());
+}
+
+TEST_F(ClosedLoop, APilotThatHangsLosesItsLeaseAndTheShaftStops) {
+  start();
+  const auto run = pilot("long.toml", "pilot", "1");
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  let_the_shaft_run_down();  // up, here
+  run->signal(SIGSTOP);
+  EXPECT_TRUE(eventually([&] { return daemon_said("motor.safe"); }, kPatience));
+  let_the_shaft_run_down();
+  run->signal(SIGCONT);
+  EXPECT_EQ(run->wait(kPatience), 1) << "it is no longer in charge";
+  EXPECT_NE(run->err().find("the lease expired"), std::string::npos) << run->err();
+  expect_stopped(finish());
+}
+
+TEST_F(ClosedLoop, ALeakStopsTheVehicle) {
+  start();
+  const auto run = pilot("long.toml", "pilot");
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  let_the_shaft_run_down();  // up, here
+  constexpr std::string_view kLeak = "imu-status 1\n";
+  ASSERT_EQ(::write(console_.get(), kLeak.data(), kLeak.size()), static_cast<ssize_t>(kLeak.size()));
+  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_NE(run->err().find("the vehicle was stopped: leak forward"), std::string::npos) << run->err();
+  let_the_shaft_run_down();
+  expect_stopped(finish());
+}
+
+TEST_F(ClosedLoop, AnInterruptStopsTheVehicle) {
+  start();
+  const auto run = pilot("long.toml", "pilot");
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  let_the_shaft_run_down();  // up, here
+  run->signal(SIGINT);
+  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_NE(run->err().find("the vehicle was stopped: interrupted"), std::string::npos) << run->err();
+  EXPECT_TRUE(eventually([&] { return daemon_said("the lease was released"); }, kPatience));
+  let_the_shaft_run_down();
+  expect_stopped(finish());
+}
+
+TEST_F(ClosedLoop, WithoutACompassTheMissionDoesNotBegin) {
+  start("--unplug compass@0+1000");
+  const auto run = pilot("mission.toml", "pilot", "3", "2");
+  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_NE(run->err().find("the mission cannot begin: no compass"), std::string::npos) << run->err();
+  for (const TruthRow& row : finish()) ASSERT_EQ(row.rpm, 0);
+}
+
+}  // namespace
+}  // namespace navcal
