@@ -11,7 +11,7 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 12> kDescriptions{{
+constexpr std::array<Description, 13> kTableDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control",
@@ -39,7 +39,7 @@ constexpr std::array<Description, 12> kDescriptions{{
 }  // namespace
 
 std::string_view table_description(std::string_view table) {
-  for (const Description& description : kDescriptions) {
+  for (const Description& description : kTableDescriptions) {
     if (description.table == table) return description.words;
   }
   return {};
