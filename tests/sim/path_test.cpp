@@ -16,15 +16,15 @@
 namespace navcal::sim::testing {
 namespace {
 
-std::int64_t at_s(double t_s) { return kStart_ns + static_cast<std::int64_t>(std::llround(t_s * 1e9)); }
+std::int64_t path_time_ns(double t_s) { return kStart_ns + static_cast<std::int64_t>(std::llround(t_s * 1e9)); }
 
 /// Position is the integral of velocity and attitude that of the rates, everywhere and across the end.
 void expect_consistent(const Motion& motion, double from_s, double to_s, double step_s, double velocity_tolerance,
                        double rate_tolerance) {
   for (double t = from_s; t < to_s; t += step_s) {
     constexpr double kHalf_s = 0.01;
-    const State before = motion.at(at_s(t - kHalf_s)), now = motion.at(at_s(t)),
-                after = motion.at(at_s(t + kHalf_s));
+    const State before = motion.at(path_time_ns(t - kHalf_s)), now = motion.at(path_time_ns(t)),
+                after = motion.at(path_time_ns(t + kHalf_s));
     const Vector3 velocity = R_world_from_body(now.euler_rad) * now.velocity_body_m_s;
     Vector3 euler_rate{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -77,7 +77,7 @@ TEST(Path, AnyOtherGoesOnWithItsLastTurn) {
   const PathMotion motion(open_path(), kStart_ns);
   EXPECT_FALSE(motion.closed());
   expect_consistent(motion, 0.1, 60, 0.21, 1e-4, 1e-6);
-  const State late = motion.at(at_s(50));
+  const State late = motion.at(path_time_ns(50));
   EXPECT_NEAR(late.position_m[0], std::sin(25.0) / 0.5, 1e-6);
   EXPECT_NEAR(late.position_m[1], (1 - std::cos(25.0)) / 0.5, 1e-6);
   EXPECT_NEAR(late.specific_force_m_s2[1], 0.5, 1e-9) << "the turn is felt";

@@ -18,7 +18,7 @@
 namespace navcal::reference::testing {
 namespace {
 
-constexpr std::int64_t kStart_ns = 1'764'000'000'300'000'000;
+constexpr std::int64_t kRunStart_ns = 1'764'000'000'300'000'000;
 
 Order steer(double from_s, double heading_deg, double depth_m, double speed_m_s) {
   Order order;
@@ -31,7 +31,7 @@ Order steer(double from_s, double heading_deg, double depth_m, double speed_m_s)
 
 Mission short_mission() {
   Mission mission;
-  mission.start_ns = kStart_ns;
+  mission.start_ns = kRunStart_ns;
   mission.duration_s = 60;
   mission.start.position_m = {0, 0, 0.2};
   mission.orders = {steer(5, 0, 0.2, 1.1), steer(20, 90, 1.5, 1.2)};
@@ -123,7 +123,7 @@ TEST(Run, EveryByteIsPartOfAFrameAndEveryInstrumentKeepsItsPace) {
 TEST(Run, HandsOverInOrderOfTimeAsFastAsTheLinesCarry) {
   const Kept sink = kept(short_mission(), 2);
   std::map<Port, std::int64_t> last_ns;
-  std::int64_t newest_ns = kStart_ns;
+  std::int64_t newest_ns = kRunStart_ns;
   for (const Transfer& transfer : sink.transfers) {
     ASSERT_GE(transfer.time_ns, newest_ns);
     newest_ns = transfer.time_ns;
@@ -228,7 +228,7 @@ TEST(Run, OrdersThatCannotBeAreRefused) {
 
 TEST(Run, WithoutOrdersNothingTurns) {
   Mission mission;
-  mission.start_ns = kStart_ns;
+  mission.start_ns = kRunStart_ns;
   mission.duration_s = 3;
   const Kept sink = kept(mission, 8);
   EXPECT_LT(sink.truths.back().position_m.norm(), 1e-12);
