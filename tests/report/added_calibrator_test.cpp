@@ -41,7 +41,9 @@ TEST_F(AddedCalibrator, IsInTextPageAndJson) {
   EXPECT_NE(calibrate_text(report, 20).find("Mean pitch"), std::string::npos);
   EXPECT_NE(calibrate_text(report, 20).find("mean 5.73"), std::string::npos) << calibrate_text(report, 20);
   const analysis::CalibrateHistory history{config::Settings{}};
-  EXPECT_NE(calibrate_page(report, history, {}).find("Mean pitch"), std::string::npos);
+  PageSource source;
+  source.files = {"dive.cap"};
+  EXPECT_NE(calibrate_page(report, history, source).find("Mean pitch"), std::string::npos);
 
   std::string text;
   record::append_calibrate_json(text, report);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -83,7 +84,7 @@ TEST(CalibratorTable, EachValueIsCopiedAloneAndSaysItsNumbers) {
     EXPECT_FALSE(values.empty()) << name_of(calibrator);
     for (const NamedNumbers& numbers : values) {
       EXPECT_FALSE(numbers.values.empty());
-      if (numbers.rows > 0) EXPECT_EQ(numbers.values.size() % numbers.rows, 0U);
+      EXPECT_EQ(numbers.values.size() % std::max<std::size_t>(numbers.rows, 1), 0U);
     }
     copy_value(one, Correction{}, calibrator);
     EXPECT_FALSE(has(one, calibrator));

@@ -25,8 +25,10 @@ class MeanPitch final : public CalibratorUnit {
     put_added(into, readings_ > 0 ? std::span<const double>(value) : std::span<const double>());
   }
   [[nodiscard]] Judgement judgement() const override {
-    if (readings_ > kEnough) return {.accepted = true, .samples = static_cast<std::uint64_t>(readings_)};
-    return {.reason = "too few readings of the pitch", .manoeuvre = "go on"};
+    Judgement judgement;
+    judgement.accepted = readings_ > kEnough;
+    if (!judgement.accepted) judgement.reason = "too few readings of the pitch";
+    return judgement;
   }
   [[nodiscard]] std::vector<Quantity> quantities() const override {
     if (readings_ == 0) return {};
