@@ -12,7 +12,7 @@
 namespace navcal::cli {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 class Doctor : public testing::Test {
  protected:
@@ -55,7 +55,7 @@ TEST_F(Doctor, AConfigurationThatCannotBeReadIsAFaultWithFileAndLine) {
   const std::string kTypo = "[log]\nsync_intervall_s = 2\n[port.imu]\nprotocol = \"imu-card\"\npath = \"x\"\n";
   const auto outcome = run(kTypo, {"--json"});
   EXPECT_EQ(outcome.status, 1);
-  const json answer = json::parse(outcome.output);
+  const Json answer = Json::parse(outcome.output);
   EXPECT_EQ(answer["class"], "DOCTOR");
   const auto& first = answer["findings"][0];
   EXPECT_EQ(first["severity"], "fault");
@@ -73,7 +73,7 @@ TEST_F(Doctor, OneThatIsNotThereAndWrongUsage) {
 }
 
 TEST_F(Doctor, JsonHasAllThatWasLookedAt) {
-  const json answer = json::parse(run(healthy(), {"--json"}).output);
+  const Json answer = Json::parse(run(healthy(), {"--json"}).output);
   std::vector<std::string> topics;
   for (const auto& finding : answer["findings"]) {
     topics.push_back(finding["topic"]);
