@@ -53,7 +53,7 @@ TEST(Commands, EachSourceOfOneIsListed) {
   std::size_t definitions = 0;
   for (const auto& file : std::filesystem::directory_iterator(NAVCAL_SOURCE_DIR "/cli")) {
     if (file.path().extension() != ".cpp") continue;
-    const std::string text = test::read_file(file.path());
+    const std::string text = navcal::test::read_file(file.path());
     for (auto it = std::sregex_iterator(text.begin(), text.end(), definition); it != std::sregex_iterator();
          ++it) {
       ++definitions;
