@@ -14,13 +14,13 @@ const nlohmann::json& member(const nlohmann::json& object, const char* key) {
   return object.is_object() && found != object.end() ? *found : kAbsent;
 }
 
-std::optional<double> number(const nlohmann::json& object, const char* key) {
+std::optional<double> number_at(const nlohmann::json& object, const char* key) {
   const nlohmann::json& value = member(object, key);
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
 std::optional<double> angle(const nlohmann::json& object, const char* key) {
-  const auto degrees = number(object, key);
+  const auto degrees = number_at(object, key);
   return degrees ? std::optional(*degrees * base::kRadiansPerDegree) : std::nullopt;
 }
 
@@ -40,24 +40,24 @@ std::optional<Eigen::Vector3d> vector(const nlohmann::json& object, const char* 
 std::optional<StateLine> parse_state(std::string_view line) {
   const nlohmann::json report = nlohmann::json::parse(line, nullptr, false);
   if (!report.is_object() || member(report, "class") != "STATE") return std::nullopt;
-  const auto time_s = number(report, "time");
+  const auto time_s = number_at(report, "time");
   if (!time_s) return std::nullopt;
   StateLine state;
   state.time_s = *time_s;
   state.magnetic = member(report, "north") == "magnetic";
   autopilot::Reading& reading = state.reading;
-  reading.heading_rad = number(report, "heading_rad");
-  reading.pitch_rad = number(report, "pitch_rad");
-  reading.roll_rad = number(report, "roll_rad");
+  reading.heading_rad = number_at(report, "heading_rad");
+  reading.pitch_rad = number_at(report, "pitch_rad");
+  reading.roll_rad = number_at(report, "roll_rad");
   reading.rate_rad_s = vector(report, "rate_rad_s");
-  reading.depth_m = number(report, "depth_m");
+  reading.depth_m = number_at(report, "depth_m");
   reading.latitude_rad = angle(report, "lat");
   reading.longitude_rad = angle(report, "lon");
-  reading.speed_m_s = number(report, "speed_m_s");
+  reading.speed_m_s = number_at(report, "speed_m_s");
   const nlohmann::json& age = member(report, "age_s");
-  reading.compass_age_s = number(age, "compass");
-  reading.imu_age_s = number(age, "imu");
-  reading.motor_age_s = number(age, "motor");
+  reading.compass_age_s = number_at(age, "compass");
+  reading.imu_age_s = number_at(age, "imu");
+  reading.motor_age_s = number_at(age, "motor");
   for (const nlohmann::json& alarm : member(report, "alarms")) {
     if (alarm.is_string()) reading.alarms.push_back(alarm.get<std::string>());
   }
