@@ -12,7 +12,7 @@
 #include "protocols/motor_card.h"
 #include "tests/ports/harness.h"
 
-namespace navcal::cli::testing {
+namespace navcal::cli::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,4 +131,4 @@ TEST_F(EmulatedVehicle, WrongUsageIsTold) {
 }
 
 }  // namespace
-}  // namespace navcal::cli::testing
+}  // namespace navcal::cli::test

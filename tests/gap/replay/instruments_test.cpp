@@ -53,10 +53,11 @@ TEST(GapInstruments, NullMissionsAreAsNoisyAndAsLateAsTheRecordingsInstruments) 
   const auto null_of = [&](const devices::InstrumentModel& believed) {
     Mission recorded = mission;
     recorded.instruments = believed;
-    const Replay replay(recorded, {});
+    const config::VehicleSettings vehicle;
+    const Replay replay(recorded, vehicle);
     Trajectory10Hz course;
     (void)replay.run({}, &course);
-    return null_mission(replay, course, {}, sim::EffectSet(), 5);
+    return null_mission({replay, course, vehicle}, sim::EffectSet(), 5);
   };
   devices::InstrumentModel other;
   other.compass.field_noise_uT *= 6;
