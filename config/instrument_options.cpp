@@ -4,12 +4,10 @@
 namespace navcal::config {
 namespace {
 
-using S = Settings;
-
 template <class Member>
-Option<S> instrument(std::string_view key, std::string_view description, const Unit& unit, double low, double high,
-                     Member member) {
-  return real<S>(
+Option<Settings> instrument(std::string_view key, std::string_view description, const Unit& unit, double low,
+                            double high, Member member) {
+  return real<Settings>(
       {.table = "instruments", .key = key, .description = description, .unit = unit, .low = low, .high = high},
       member);
 }
