@@ -36,9 +36,9 @@ TEST(ConfigCommand, ContradictionsNameTheKeyThatWasGiven) {
 TEST(ConfigCommand, EachValueHasItsRange) {
   EXPECT_EQ(command_problems("max_fin_deg = 26\n"),
             Problems{"t.toml:2: command.max_fin_deg: 26 is out of range: 0 to 25 deg"});
-  EXPECT_EQ(
-      command_problems("safe_fins_deg = [0, 0]\n"),
-      Problems{"t.toml:2: command.safe_fins_deg: three numbers, each -25 to 25 deg are expected, not an array of 2 numbers"});
+  EXPECT_EQ(command_problems("safe_fins_deg = [0, 0]\n"),
+            Problems{"t.toml:2: command.safe_fins_deg: three numbers, each -25 to 25 deg are expected, not an "
+                     "array of 2 numbers"});
   EXPECT_EQ(command_problems("max_orders_hz = 5\n"),
             Problems{"t.toml:2: command.max_orders_hz: unknown key; did you mean max_orders_Hz?"});
   EXPECT_EQ(command_problems("max_rpm = nan\n").size(), 1U);

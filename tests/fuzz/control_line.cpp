@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever comes in over the control socket is a request or is refused with one line of valid JSON. An order that is
-// within the limits makes a whole line for the card.
+// Whatever comes in over the control socket is a request or is refused with one line of valid JSON. An order that
+// is within the limits makes a whole line for the card.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
