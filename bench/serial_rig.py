@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Black-box rig of the serial benchmarks: pseudo-terminals, a daemon, a TCP client. Python's standard library only.
 
 A record is written into the master of a pty; its latency ends when the line with its key comes out of the socket.

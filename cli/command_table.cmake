@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The table of subcommands from the declarations in cli/commands.h: a line there is a subcommand, and nothing else has to
 # know of it but its file.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/commands.h)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Debian 12 packages; tools/dependencies.txt names them for installation.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)

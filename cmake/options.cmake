@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Language, warnings and the flags that were found necessary (each with its reason).
 option(NAVCAL_TESTS "build the tests" ON)
 option(NAVCAL_BENCH "build the benchmarks" OFF)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Which room (folder) may include which: the only table. Links and include folders follow it (navcal_room), the test
 # tests/rooms compares it with every #include, and the table of ARCHITECTURE.md is compared with it. In the order in which
 # the rooms may use each other; each line names all rooms that are included directly. A folder within a room can be a room of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What all parts have in common: options, and how one says that it cannot be done here."""
 import sys
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What hostile and careless clients do to a TCP port, in a process of its own that yields to everybody."""
 import multiprocessing
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Randomised faults at the lines of a running navcald, one after another; what was done and seen, for `verdict`."""
 import os
 import random

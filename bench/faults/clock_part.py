@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Steps of the system clock by hours, as navcald sees it (libfaketime in front of it alone; nobody sets this machine's)."""
 import glob
 import shutil

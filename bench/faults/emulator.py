@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`navcal emulate` with its console, and the settings of a navcald at its other end."""
 import os
 import subprocess

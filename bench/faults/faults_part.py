@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Randomised faults at the lines of the vehicle's four instruments."""
 import shutil
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Intact frames in a stream of bytes, found by the interface document (docs/icd.md) alone: no code shared with navcal."""
 import re
 

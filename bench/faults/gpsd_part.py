@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The same faults at one compass line, given to navcald and to Debian's gpsd, in turn in one run."""
 import os
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """SIGKILL at random times while logging: what each log holds of what had been written, and the next start."""
 import json
 import os

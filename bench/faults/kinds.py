@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The faults, one generator each: it spoils the line, yields the seconds that are to pass meanwhile, and mends it.
 
 `case` has `line`, `rng` and `emulator` (whose console turns devices off and on).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A serial line with somebody in the middle: emulated device - pseudo-terminal - us - pseudo-terminal - navcald.
 
 Every byte that is given to navcald is kept, with the time of the write, one `Life` for each pseudo-terminal.

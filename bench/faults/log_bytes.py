@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a log holds, read by the format's own page (docs/log-format.md): no code shared with navcal."""
 import bisect
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A Debian machine in qemu: its root made by debootstrap, its image, its console, its two UARTs."""
 import glob
 import os

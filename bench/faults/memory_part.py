@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Memory: navcald under valgrind, allocations a frame on the steady path, and a day of mission at accelerated pace."""
 import os
 import shutil

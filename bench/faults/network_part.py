@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The sockets under attack: what it costs the samples of a port, beside the undisturbed, in turn in one run."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The parts of `bench/reliability`: each measures, keeps its result as JSON, and says what must never be."""
 import argparse
 import datetime

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One port after the run: what of its line reached navcald, which intact frames were decoded, which became samples."""
 import bisect
 import json

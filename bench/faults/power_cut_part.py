@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Power cuts of a virtual machine while navcald logs in it (bench/power_cut)."""
 import os
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A disk that is full, that turns read-only, that hangs, that fails: what navcald says and does, and what the log holds."""
 import os
 import random

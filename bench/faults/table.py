@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The tables of docs/reliability.md, from the results of the parts."""
 import os
 

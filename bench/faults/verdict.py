@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Holds what was written to the lines against what the log, the decoder and the socket made of it."""
 import bisect
 

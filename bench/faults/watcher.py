@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A client of the status socket that notes when each device was heard, and when a port was said to be away."""
 import json
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The table of effects from the files of sim/effects/library: a file there is an effect, and nothing else has to know of it.
 file(GLOB effect_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/library/*.cpp)
 list(SORT effect_sources)

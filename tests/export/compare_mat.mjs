@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // mat-for-js (nobody of navcal wrote it) reads the export; every value must be the one in the CSV files.
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """netCDF4 (nobody of navcal wrote it) reads the export; every value must be the one in the CSV files."""
 import calendar
 import csv

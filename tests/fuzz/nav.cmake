@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 navcal_fuzz(fuzz_navigator SOURCES navigator.cpp USES navcal::nav)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 navcal_fuzz(fuzz_gps_stream SOURCES gps_stream.cpp USES navcal::protocols)
 navcal_fuzz(fuzz_imu_card SOURCES imu_card.cpp USES navcal::protocols)
 navcal_fuzz(fuzz_motor_card SOURCES motor_card.cpp USES navcal::protocols)

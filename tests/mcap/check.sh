@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Writes real logs and has @mcap/core read them: finished, unfinished, repaired, and cut at every byte.
 set -eu
 writer=$1

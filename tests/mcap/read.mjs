@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Holds navcal's logs to the format: reads them with @mcap/core.
 //   node read.mjs FILE            counts per topic and checks every message's own checksum; JSON on stdout
 //   node read.mjs --cuts FILE     cuts the file at every byte of its last 64 KiB and expects every whole message

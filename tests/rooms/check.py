@@ -1,4 +1,6 @@
-"""Compares every #include between rooms with cmake/rooms.cmake, and the table of ARCHITECTURE.md with it.
+# SPDX-License-Identifier: Apache-2.0
+"""Compares every #include between rooms with cmake/rooms.cmake, and the table of ARCHITECTURE.md with it. Every source
+names its licence.
 
 usage: check.py SOURCE_FOLDER
 Prints each difference as file:line: what is wrong. Exit status 1 if there is one.
@@ -10,6 +12,7 @@ import sys
 
 # Folders that may include every room, and folders without C++ of ours.
 FREE = {"tests", "bench", "build", "docs"}
+SPDX = "SPDX-License-Identifier: Apache-2.0"
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 
 
@@ -116,6 +119,18 @@ def problems_of_page(text, rooms, allowed):
             yield f"ARCHITECTURE.md: the row of {room} should name {', '.join(sorted(allowed[room])) or 'no room'}"
 
 
+def problems_of_licence(root):
+    """Sources without an SPDX line among their first three."""
+    for pattern in ("*.h", "*.cpp", "*.py", "*.mjs", "*.cmake", "CMakeLists.txt"):
+        for path in sorted([*root.glob(pattern), *root.glob(f"*/**/{pattern}")]):
+            name = path.relative_to(root)
+            if name.parts[0] == "build" or name.parts[0].startswith(".") or "node_modules" in name.parts:
+                continue
+            with path.open() as file:
+                if not any(SPDX in line for _, line in zip(range(3), file)):
+                    yield f"{name}:1: no line {SPDX}"
+
+
 def check(root):
     table = (root / "cmake/rooms.cmake").read_text()
     rooms, allowed = table_of(table)
@@ -128,7 +143,8 @@ def check(root):
 
 
 if __name__ == "__main__":
-    found = check(pathlib.Path(sys.argv[1]))
+    folder = pathlib.Path(sys.argv[1])
+    found = [*check(folder), *problems_of_licence(folder)]
     for problem in found:
         print(problem)
     sys.exit(1 if found else 0)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """check.py finds each kind of wrong include in a tree made for it."""
 
 import pathlib
@@ -31,6 +32,14 @@ def problems(**changes):
 class Check(unittest.TestCase):
     def test_a_tree_that_follows_the_table(self):
         self.assertEqual(problems(), [])
+
+    def test_a_source_without_a_licence(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "base").mkdir()
+            (root / "base/a.h").write_text("#pragma once\n")
+            (root / "base/b.h").write_text(f"// {check.SPDX}\n#pragma once\n")
+            self.assertEqual(list(check.problems_of_licence(root)), [f"base/a.h:1: no line {check.SPDX}"])
 
     def test_an_arrow_against_the_table(self):
         found = problems(files={"base/b.cpp": '#include "base/a.h"\n#include "sim/s.h"\n'})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Holds a udev rules file to the grammar of udev(7), commented-out examples included."""
 import re
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """systemd-socket-activate listens; the daemon runs in a network namespace of its own and must serve a client."""
 import os
 import socket
