@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/pilot_link.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -13,8 +14,9 @@ namespace {
 
 constexpr std::string_view kStateRequest =
     "?WATCH={\"enable\":true,\"json\":true,\"classes\":[\"STATE\"],\"rate_Hz\":{\"STATE\":10}};\n";
-/// An answer later than this is none: the lease ends by itself before long.
-constexpr auto kAnswerLimit = std::chrono::milliseconds(400);
+/// Share of a lease's time-out for which an answer is awaited: an answer that comes later is no use, because the
+/// lease ends by itself before long.
+constexpr double kAwaited = 0.8;
 
 }  // namespace
 
@@ -36,7 +38,7 @@ std::optional<StateLine> PilotLink::state(Clock::time_point until) {
 
 PilotLink::Answer PilotLink::ask(const std::string& request) {
   control_.send(request + "\n");
-  const auto until = Clock::now() + kAnswerLimit;
+  const auto until = Clock::now() + answer_limit_;
   std::optional<std::string> line;
   // A signal ends a wait early; the answer still belongs to this request.
   do line = control_.next(until);
@@ -56,6 +58,8 @@ void PilotLink::lease(const Lease& wanted) {
   const Answer answer = ask(request.dump());
   if (answer.refusal) throw std::runtime_error("no lease of the motor card: " + *answer.refusal);
   lease_ = answer.lease;
+  const auto awaited = std::chrono::milliseconds(std::lround(1000 * kAwaited * wanted.timeout_s));
+  answer_limit_ = std::max(answer_limit_, awaited);
 }
 
 std::optional<std::string> PilotLink::order(const autopilot::Orders& orders, double state_time_s) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -49,6 +50,7 @@ class PilotLink {
   LineSocket status_;
   LineSocket control_;
   std::string lease_;
+  std::chrono::milliseconds answer_limit_{400};  ///< time for which an answer is awaited; by the lease, if longer
 };
 
 }  // namespace navcal::cli
