@@ -9,10 +9,10 @@
 
 namespace navcal::gap {
 
-/// What the motor card's reports, ten a second with noise and resolution, say of the servos' shafts, the
-/// propeller's and the current in between. A coarser picture of the fins shows as noise in everything that the
-/// vehicle does: a servo that was told something right after a report is ahead of a straight line to the next one
-/// by 5 ms, and one that turns about within a tenth of a second is degrees off it.
+/// Angles of the servos' shafts, propeller speed and motor current on a 10 ms grid, estimated from the motor
+/// card's reports. The reports come ten times a second with noise and resolution. Any coarser reconstruction of
+/// the fins adds noise to the predicted motion. Linear interpolation is 5 ms late for a servo that was ordered
+/// to move right after a report. It is off by degrees for one that reverses within a tenth of a second.
 class ActuatorTrack {
  public:
   static constexpr double kStep_s = 0.01;
@@ -22,15 +22,15 @@ class ActuatorTrack {
     double shaft_rps = 0;
   };
 
-  /// `servo_lag_s`: of the nominal servo. Readings in order of time, at least one.
+  /// `servo_lag_s`: lag of the nominal servo. Readings in order of time, at least one.
   ActuatorTrack(std::span<const MotorReading> readings, std::span<const double> order_times_s, double servo_lag_s,
                 const devices::MotorModel& card, double duration_s);
 
   [[nodiscard]] const FinOrders& orders() const { return orders_; }
-  /// At k kStep_s, k = 0 ... covering the duration.
+  /// Row k is at time k kStep_s; the rows cover the duration.
   [[nodiscard]] std::span<const Row> rows() const { return rows_; }
-  /// Of the motor, amperes: `nominal_A` of the shaft speed, which has no noise, and the mean difference of the
-  /// reports from that over some seconds. At the times of rows().
+  /// Motor current, A, at the times of rows(): `nominal_A` of the shaft speed, which has no noise, plus the
+  /// mean difference of the reports from it over some seconds.
   [[nodiscard]] std::vector<double> current_A(std::span<const MotorReading> readings,
                                               std::span<const double> nominal_A) const;
 

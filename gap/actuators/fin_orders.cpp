@@ -12,8 +12,8 @@ namespace navcal::gap {
 namespace {
 
 constexpr double kOrderPeriod_s = 0.1;
-/// The card takes tenths of a degree, fin by fin; what that rounds off rolls the vehicle a little all the time, by
-/// less than reports show.
+/// The card takes tenths of a degree, fin by fin. The rounding rolls the vehicle a little all the time, by less
+/// than reports show.
 constexpr double kOrdered_rad = protocols::motor_card::kFinStep_deg * base::kRadiansPerDegree;
 
 /// Rolling, rudder and elevator of fins 1 to 3, all of length one (the mixing of the card's interface document,

@@ -10,17 +10,18 @@
 
 namespace navcal::gap {
 
-/// Fins and shaft as the vehicle feels them: what the motor card reported, behind the linkage that effects put
-/// between the servos and the fins.
+/// Fin angles and shaft speed that act on the vehicle: the servo angles of the motor card's reports, behind the
+/// linkage that effects put between the servos and the fins.
 class LinkedActuators {
  public:
-  /// `rows`, of which there are two at least, must outlive it.
+  /// `rows` must outlive it. At least two rows.
   LinkedActuators(std::span<const ActuatorTrack::Row> rows, sim::EffectSet& effects);
 
-  /// Of the rows, that at this time or just before; the first and the last go on for ever.
+  /// Index of the row at this time or just before. The first row holds before the beginning, the last one after
+  /// the end.
   [[nodiscard]] std::size_t row_at(double time_s) const;
   [[nodiscard]] sim::Controls of_row(std::size_t row) const;
-  /// Means over a time.
+  /// Mean controls from `from_s` until `until_s`.
   [[nodiscard]] sim::Controls mean(double from_s, double until_s) const;
 
  private:

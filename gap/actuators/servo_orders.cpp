@@ -12,17 +12,17 @@
 namespace navcal::gap {
 namespace {
 
-/// Steps on either side whose size says what one of them may be.
+/// Number of steps on either side that determine the variance of a step.
 constexpr std::ptrdiff_t kAround = 15;
-/// Of servo and command at the first report.
+/// Standard deviation of the prior of servo and command at the first report.
 constexpr double kAnywhere_rad = 1;
 
-/// Symmetric, of servo and command.
+/// Symmetric 2 x 2 matrix over servo and command.
 struct Two {
   double servo = 0, both = 0, command = 0;
 };
 
-/// Of each and its neighbours.
+/// Mean of each value and its neighbours.
 std::vector<double> means_around(const std::vector<double>& values) {
   std::vector<double> sum(values.size() + 1);
   for (std::size_t i = 0; i < values.size(); ++i) sum[i + 1] = sum[i] + values[i];
@@ -37,22 +37,22 @@ std::vector<double> means_around(const std::vector<double>& values) {
   return means;
 }
 
-/// What steps are like.
+/// Prior of the steps.
 struct Habit {
-  double first_rad = 0;  ///< before anything is known of them
-  /// Student's t of one degree of freedom about the level of the steps around, rather than normal with their mean
-  /// square: a few long ones among many that are nearly nothing.
+  double first_rad = 0;  ///< standard deviation that the iteration begins with
+  /// true: Student's t of one degree of freedom about the level of the steps around, for a few large steps
+  /// among many that are nearly zero. false: normal with the mean square of the steps around.
   bool jumpy = false;
 
-  /// From the squares expected, the variance of each step.
+  /// Variance of each step from its expected square.
   [[nodiscard]] std::vector<double> variances(std::vector<double> squares) const {
     if (!jumpy) return means_around(squares);
     const std::vector<double> usual = levels(squares);
     for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = (usual[i] + squares[i]) / 2;
     return squares;
   }
-  /// What a variance of its own for each step costs, beside the reports' likelihood (variational Bayes; the level
-  /// of those around is taken as it is found).
+  /// Log evidence that a variance of its own for each step costs, beside the reports' likelihood. Variational
+  /// Bayes; the level of the steps around is taken as it is found.
   [[nodiscard]] double cost_nats(const std::vector<double>& squares) const {
     if (!jumpy) return 0;
     const std::vector<double> usual = levels(squares);
@@ -65,7 +65,7 @@ struct Habit {
   }
 
  private:
-  /// Geometric means.
+  /// Geometric mean of each square and its neighbours.
   static std::vector<double> levels(const std::vector<double>& squares) {
     std::vector<double> levels;
     levels.reserve(squares.size());
@@ -76,8 +76,8 @@ struct Habit {
   }
 };
 
-/// From those of a restless helm to hardly any. Where the noise of the reports hides steps, rounds change little,
-/// and the evidence tells which beginning was right.
+/// First standard deviations: from steps of a restless helm to nearly none. Where the noise of the reports
+/// hides the steps, iterations change little, and the evidence selects the right beginning.
 constexpr std::array<double, 4> kFirst_rad{0.2 * base::kRadiansPerDegree, 0.05 * base::kRadiansPerDegree,
                                            0.01 * base::kRadiansPerDegree, 0.002 * base::kRadiansPerDegree};
 constexpr int kRounds = 8;
@@ -103,7 +103,7 @@ ServoSmoother::ServoSmoother(std::span<const double> report_times_s, std::span<c
 }
 
 ServoSmoother::Steps ServoSmoother::steps(std::span<const double> angles_rad, double noise_rad) const {
-  /// What a report taught: how far off it was foretold, its variance, and what of it went to servo and command.
+  /// Update by one report: innovation, its variance, and the Kalman gains of servo and command.
   struct Taught {
     double off_rad = 0, variance_rad2 = 0, servo = 0, command = 0;
   };
@@ -131,7 +131,7 @@ ServoSmoother::Steps ServoSmoother::steps(std::span<const double> angles_rad, do
     p = {p.servo - t.servo * p.servo, p.both - t.servo * p.both, p.command - t.command * p.both};
   }
 
-  // Backwards: what the reports from here on say of a step, and how surely.
+  // Backward pass: estimate of each step from the reports after it, with its variance.
   Steps result{0, 0, log_likelihood, std::vector<double>(order), std::vector<double>(order)};
   double by_servo = 0, by_command = 0;
   Two n;
@@ -181,8 +181,8 @@ ServoOrders ServoSmoother::smoothed(std::span<const double> angles_rad, double n
 }
 
 ServoOrders ServoSmoother::drawn(std::span<const double> angles_rad, double noise_rad, sim::Noise& noise) const {
-  // A servo under steps that are drawn, and what reports of it would teach: what is missed there is missed here
-  // (Durbin and Koopman 2002).
+  // Simulation smoother (Durbin and Koopman 2002): a servo is simulated under drawn steps, and the smoothed
+  // difference between its reports and the recorded ones is added.
   ServoOrders drawn{angles_rad.front(), angles_rad.front(), {}};
   std::vector<double> reports;
   reports.reserve(angles_rad.size());
@@ -196,7 +196,7 @@ ServoOrders ServoSmoother::drawn(std::span<const double> angles_rad, double nois
       reports.push_back(angles_rad[reports.size()] - (servo + noise.normal(noise_rad)));
     }
   }
-  // All of it is linear: the smoothed difference is the difference of what is smoothed.
+  // The smoother is linear: smoothing the difference gives the difference of the smoothed values.
   const Steps missed = steps(reports, noise_rad);
   drawn.angle_rad += missed.angle_rad;
   drawn.command_rad += missed.command_rad;

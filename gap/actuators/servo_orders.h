@@ -8,17 +8,19 @@
 
 namespace navcal::gap {
 
-/// How a servo's command went, by its reports: angles in rad.
+/// Commands of one servo, estimated from its reports. Angles in rad.
 struct ServoOrders {
   double angle_rad = 0, command_rad = 0;  ///< at the first report
   std::vector<double> steps_rad;          ///< of the command, at each order
 };
 
-/// Finds a servo's orders from noisy reports of its angle, ten a second. The servo is a first-order lag behind a
-/// command that steps at known instants and stands in between. How far it steps is unknown, and so is how far it
-/// usually does at that time: of a restless helm like its neighbours, of a steady one rarely, but then by much;
-/// the evidence tells which. Steps are smoothed by all reports (Kalman filter, and the disturbance smoother of de
-/// Jong 1988).
+/// Estimates a servo's orders from noisy reports of its angle, ten a second.
+///
+/// Model: the servo is a first-order lag behind a command that steps at known instants and is constant in
+/// between. The sizes of the steps are unknown, and so are their variances. A restless helm has steps like
+/// those around them; a steady one has few steps, which may be large. The marginal likelihood selects between
+/// the two. The steps are smoothed with all reports (Kalman filter, and the disturbance smoother of de Jong
+/// 1988).
 class ServoSmoother {
  public:
   /// Ascending times; orders outside of the reports are left out. At least one report.
@@ -27,14 +29,14 @@ class ServoSmoother {
   /// The instants of the orders that are between reports.
   [[nodiscard]] std::span<const double> order_times_s() const { return order_times_s_; }
 
-  /// `angles_rad`: of the reports, each with this standard deviation of noise. Learns the steps' variances.
+  /// `angles_rad`: reported angles; `noise_rad`: standard deviation of each. Estimates the variances of the
+  /// steps.
   [[nodiscard]] ServoOrders smoothed(std::span<const double> angles_rad, double noise_rad);
-  /// One of the ways that the servo may have gone: a draw from what these reports allow, by the variances of the
-  /// last smoothed().
+  /// A draw from the orders that these reports allow, by the variances of the last smoothed().
   [[nodiscard]] ServoOrders drawn(std::span<const double> angles_rad, double noise_rad, sim::Noise& noise) const;
 
  private:
-  /// What happens after `kept` of the distance to the command is left: an order, or a report.
+  /// An order or a report. `kept`: share of the distance to the command that is left since the event before.
   struct Event {
     bool is_order = false;
     double kept = 1;

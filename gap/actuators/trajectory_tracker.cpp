@@ -12,7 +12,7 @@
 namespace navcal::gap {
 namespace {
 
-// Weak, so that what the vehicle does follows from what was reported.
+// Weak gains, so that the motion follows from the reported angles.
 constexpr double kRudderPerHeading = 0.3, kRudderPerRate_s = 0.15;
 constexpr double kPitchPerDepth_m = 0.15, kElevatorPerPitch = 0.4, kElevatorPerRate_s = 0.2;
 constexpr double kMostPitch_rad = 8 * base::kRadiansPerDegree, kMost_rad = 6 * base::kRadiansPerDegree;
@@ -25,8 +25,9 @@ TrajectoryTracker::TrajectoryTracker(std::span<const ActuatorTrack::Row> rows, s
                                      const Trajectory10Hz& course, const config::FinSettings& fins)
     : rows_(rows), servos_rad_(std::move(servos_rad)), course_(course), fins_(fins) {}
 
-// A staircase of ten steps a second would make the fins ripple in step with the card's reports, which then see
-// always the same side of it: in a steady turn a rudder that is thirds of a per cent less than it is.
+// The record is interpolated: a staircase of ten steps a second would make the fins ripple in step with the
+// card's reports. The reports would always sample the same side of the ripple. In a steady turn they would show
+// a rudder that is thirds of a per cent too small.
 TrajectoryTracker::Wanted TrajectoryTracker::wanted_at(double time_s) const {
   const double place = std::clamp((time_s - course_.time_s.front()) / kInterval_s, 0.0,
                                   static_cast<double>(course_.time_s.size() - 1));

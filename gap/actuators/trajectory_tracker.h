@@ -11,9 +11,9 @@
 
 namespace navcal::gap {
 
-/// Steers a simulated vehicle as the recorded one was steered: servos and shaft as given, and as little rudder
-/// and elevator more as keeps its heading and depth near those of the record. Without that, an elevator off by a
-/// tenth of a degree is metres of depth after ten minutes.
+/// Steers a simulated vehicle as the recorded one was steered. Servos and shaft follow the given angles and
+/// speeds. A small correction of rudder and elevator keeps heading and depth near those of the record. Without
+/// it, an elevator error of a tenth of a degree grows to metres of depth within ten minutes.
 class TrajectoryTracker final : public sim::Helm {
  public:
   /// `servos_rad` at the times of the rows.
@@ -26,7 +26,7 @@ class TrajectoryTracker final : public sim::Helm {
   [[nodiscard]] bool finished() const override { return finished_; }
 
  private:
-  /// What the record says at a time, in a straight line between its rows.
+  /// Recorded motion at one time, by linear interpolation between the 10 Hz rows.
   struct Wanted {
     double heading_rad = 0, yaw_rate_rad_s = 0, pitch_rad = 0, pitch_rate_rad_s = 0, depth_m = 0;
   };
@@ -36,7 +36,7 @@ class TrajectoryTracker final : public sim::Helm {
   std::vector<Vector3> servos_rad_;
   const Trajectory10Hz& course_;
   config::FinSettings fins_;
-  double rudder_rad_ = 0, elevator_rad_ = 0;  ///< more than was reported, after the servos' lag
+  double rudder_rad_ = 0, elevator_rad_ = 0;  ///< correction to the reported angles, after the servos' lag
   bool finished_ = false;
 };
 

@@ -148,7 +148,7 @@ std::string doubt_of(const EarthField& field) {
            "N,E,D states the field)";
   }
   if (field.source != EarthField::Source::model) return {};
-  // Where navcal simulate and its forerunners put recordings by default.
+  // Default position of recordings by navcal simulate and by the simulators before it.
   constexpr double kLatitude_deg = 37.0629, kLongitude_deg = -80.6275, kNear_deg = 0.2;
   const bool is_near = std::abs(field.place->latitude_rad * base::kDegreesPerRadian - kLatitude_deg) < kNear_deg &&
                        std::abs(field.place->longitude_rad * base::kDegreesPerRadian - kLongitude_deg) < kNear_deg;

@@ -16,7 +16,7 @@ using sim::Vector3;
 
 struct CompassReading;
 
-/// The Earth's field along one mission, as the nominal model has it, and how it is known.
+/// The Earth's magnetic field along one mission, as the nominal model has it, and its source.
 struct EarthField {
   enum class Source : std::uint8_t {
     reference,  ///< that of sim::State, of no real place
@@ -30,14 +30,14 @@ struct EarthField {
   std::optional<base::GeodeticPosition> place{};  ///< of the first fix
   std::optional<std::int64_t> utc_ns{};           ///< of the first fix
 
-  /// The model's field at `place` and `utc_ns`, which both must be there.
+  /// Sets the World Magnetic Model's field at `place` and `utc_ns`, which both must be there.
   void set_by_model();
-  /// Whatever the recording says of it.
+  /// Sets a field that replaces the recording's own statement.
   void set_given(const Vector3& uT) {
     source = Source::given;
     north_east_down_uT = uT;
   }
-  /// Whether the field is the model's, but of a date outside of its years.
+  /// Whether the field is the World Magnetic Model's for a date outside of its years.
   [[nodiscard]] bool is_extrapolated() const;
   /// "2026-06-01"; empty: no date.
   [[nodiscard]] std::string date() const;
@@ -49,15 +49,15 @@ struct EarthField {
 /// "model WMM2025 at 59.33 N 18.07 E on 2026-06-01: north 15.12, east 1.86, down 49.20 uT".
 [[nodiscard]] std::string text_of(const EarthField& field);
 
-/// What to bear in mind when a diagnosis is read; empty: nothing.
+/// Warning about the field for the reader of a diagnosis; empty: no warning.
 [[nodiscard]] std::string doubt_of(const EarthField& field);
 
-/// What an `#event` line of a simulated recording states: "simulated field of the Earth: north 19.000, east 0.600,
-/// down 44.000 uT". Nothing for any other text.
+/// Parses the field that an `#event` line of a simulated recording states, uT: "simulated field of the Earth:
+/// north 19.000, east 0.600, down 44.000 uT". Empty for any other text.
 [[nodiscard]] std::optional<Vector3> stated_field_uT(std::string_view event);
 
-/// Size and dip that make the readings, with their own tilt, those of one field and of iron along x and y.
-/// Iron along z is left to the field. North is magnetic north. Without readings: the reference field.
+/// Fits size and dip of the Earth's field, and iron along x and y, to the readings and their own tilt. Iron
+/// along z remains in the field. North is magnetic north. Without readings: the reference field.
 [[nodiscard]] EarthField fitted_field(std::span<const CompassReading> readings);
 
 }  // namespace navcal::gap

@@ -10,7 +10,8 @@
 
 namespace navcal::gap {
 
-/// What a replay finds ten times a second: measured minus predicted, each the mean over a tenth of a second.
+/// Innovation channels of a replay, ten rows a second: measured minus predicted, each the mean over a tenth of
+/// a second.
 enum Channel : Eigen::Index {
   field_x,  // uT
   field_y,
@@ -24,20 +25,21 @@ enum Channel : Eigen::Index {
   force_y,
   force_z,
   depth,  // m
-  // What follows from the others or harms the evidence: for the answer to "where" only.
+  // Channels for the residual map only: they follow from the others or harm the evidence.
   heading,    // rad
   gyro_roll,  // rad/s
 };
 inline constexpr Eigen::Index kEvidenceChannels = 12;
 inline constexpr Eigen::Index kChannels = 14;
 
-/// At a fix: position over the square root of its predicted variance, velocity in m/s of a settled receiver.
+/// Innovations at a fix: position divided by the standard deviation of its prediction, and velocity in m/s of a
+/// settled receiver.
 enum FixChannel : Eigen::Index { fix_north, fix_east, velocity_north, velocity_east };
 inline constexpr Eigen::Index kFixChannels = 4;
 
 inline constexpr double kInterval_s = 0.1;
 
-/// How far off the first good fix after a time without fixes found the estimator.
+/// Error of the estimator at the first good fix after a time without fixes.
 struct Resurfacing {
   double time_s = 0;
   double distance_m = 0;  ///< through the water since the last fix
@@ -48,11 +50,11 @@ struct Resurfacing {
 struct Innovations {
   Eigen::MatrixXd grid;         ///< intervals x kChannels
   Eigen::MatrixXd fixes;        ///< fixes x kFixChannels
-  Eigen::VectorXd fix_scale_m;  ///< by which each fix's position is divided there
+  Eigen::VectorXd fix_scale_m;  ///< divisor of each fix's position innovations
   std::vector<Resurfacing> resurfacings;
 };
 
-/// What the estimator thought at the middle of each interval: what residuals may follow.
+/// Estimated state at the middle of each interval: covariates of the residuals.
 struct Trajectory10Hz {
   devices::InstrumentModel instruments;  ///< of the mission
   std::vector<double> time_s, heading_rad, roll_rad, pitch_rad, yaw_rate_rad_s, pitch_rate_rad_s, depth_m,

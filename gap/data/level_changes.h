@@ -6,12 +6,13 @@
 
 namespace navcal::gap {
 
-/// Model: a series of independent means about a level that changes at a few unknown places, and may change back.
+/// Model: a series of independent means about a level that changes at a few unknown places, and may change
+/// back.
 ///
-/// Circular binary segmentation (Olshen, Venkatraman, Lucito and Wigler, Biostatistics 5, 2004): of each segment
-/// the best stretch is found whose mean differs most from the rest of the segment, by the t statistic with the
-/// scatter that remains; where it is significant the segment is cut there and its parts are looked at again. A
-/// stretch that reaches an end of the segment is a change for good, any other one that goes away.
+/// Method: circular binary segmentation (Olshen, Venkatraman, Lucito and Wigler, Biostatistics 5, 2004). In
+/// each segment it finds the stretch whose mean differs most from the rest of the segment, by the t statistic
+/// with the remaining scatter. Where that is significant, the segment is cut there and its parts are searched
+/// again. A stretch that reaches an end of the segment is a permanent change, any other one a temporary change.
 struct LevelChanges {
   std::size_t least_pieces = 6;   ///< of each part, where the level changes for good
   std::size_t least_stretch = 3;  ///< of one that goes away

@@ -107,7 +107,7 @@ void MissionGatherer::add(const instruments::MotorSample& sample, std::int64_t t
   const bool has_fins = std::all_of(sample.fins_rad.begin(), sample.fins_rad.end(),
                                     [](const auto& fin_rad) { return fin_rad.has_value(); });
   if (!sample.rpm || !sample.current_A || !has_fins) {
-    // Shown only where no status is whole, so the first one is as good as any.
+    // Shown only where no status is complete, so the first one is as good as any.
     std::string& lacks = mission_.motor_lacks;
     if (!lacks.empty()) return;
     const auto add_lack = [&](bool has, std::string_view what) {
@@ -177,7 +177,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
         if (const auto port = ports[raw->port]) pipeline.bytes(*port, raw->time_ns, raw->bytes, gatherer);
       } else if (const auto order = protocols::motor_card::decode_command(raw->bytes);
                  order && order != last_order) {
-        // What only repeats the order before moves nothing.
+        // A repeated order moves nothing.
         orders_ns.push_back(raw->time_ns);
         last_order = order;
       }

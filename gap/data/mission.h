@@ -39,7 +39,7 @@ struct FixReading {
   double time_s = 0;
   std::array<double, 2> position_m{};                   ///< north, east of the mission's first fix
   std::optional<std::array<double, 2>> velocity_m_s{};  ///< north, east over ground; none below the course gate
-  int number = 0;                                       ///< since the sky came in sight; the first ones are poor
+  int number = 0;  ///< count since the sky came in sight; the first ones are poor
 };
 
 struct MotorReading {
@@ -49,25 +49,26 @@ struct MotorReading {
   double current_A = 0;
 };
 
-/// What the instruments of one mission said, each in order of time.
+/// Readings of the instruments of one mission, each in order of time.
 struct Mission {
   std::vector<CompassReading> compass;
   std::vector<CardReading> card;
   std::vector<FixReading> fixes;
   std::vector<MotorReading> motor;
-  /// What the motor card's statuses lack, where every one lacks it: "shaft speed". Empty: nothing, or no card.
+  /// Fields missing from the motor card's statuses, such as "shaft speed (rpm)". It counts only where no status
+  /// is complete. Empty: none is missing, or there is no card.
   std::string motor_lacks;
-  /// When the motor card was told something new. Empty: not recorded.
+  /// Times of new commands to the motor card. Empty: not recorded.
   std::vector<double> order_times_s;
   double duration_s = 0;
   std::uint64_t distorted = 0;  ///< words of the compass with its remark of magnetic distortion (E001)
   std::vector<std::string> remarks;
   EarthField field;
-  /// As the configuration of the recording states them.
+  /// Instrument model from the configuration of the recording.
   devices::InstrumentModel instruments;
 
   [[nodiscard]] std::vector<double> fix_times_s() const;
-  /// Why nothing can be said from it ("no inertial card: ..."); empty: something can.
+  /// Reason why the mission cannot be diagnosed ("no inertial card: ..."); empty: it can.
   [[nodiscard]] std::string shortcoming() const;
 };
 
@@ -75,12 +76,12 @@ struct Mission {
 class MissionGatherer final : public pipeline::Sink {
  public:
   void on_sample(const instruments::Sample& sample) override;
-  /// What the recording says beside its readings.
+  /// Statements of the recording beside its readings.
   struct Said {
     std::optional<Vector3> field_uT{};     ///< the Earth's
     std::int64_t utc_minus_stamps_ns = 0;  ///< by its mapping
   };
-  /// Sorted, with times from `begin_ns` (the scale of the stamps) on.
+  /// The mission, its readings sorted and timed from `begin_ns` on (the scale of the stamps).
   [[nodiscard]] Mission take(std::int64_t begin_ns, const Said& said);
 
  private:
@@ -95,7 +96,7 @@ class MissionGatherer final : public pipeline::Sink {
   std::vector<std::int64_t> times_ns_[4];
 };
 
-/// The settings with nothing of the pipeline but stamped samples.
+/// Settings under which the pipeline makes stamped samples and nothing else.
 [[nodiscard]] config::Settings samples_only(config::Settings settings);
 
 /// Reads a log or a capture through the pipeline. `stated`: the configuration to use instead of the recording's

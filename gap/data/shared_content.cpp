@@ -9,7 +9,7 @@
 namespace navcal::gap {
 namespace {
 
-/// So many of a run's readings must differ from the one before.
+/// Least number of a run's readings that must differ from the one before.
 constexpr std::size_t kLeastChanges = SharedContent::kRun * 3 / 4;
 
 /// The finalising step of SplitMix64 (Steele, Lea, Flood 2014): every bit of the input reaches every bit of the

@@ -8,10 +8,7 @@
 
 namespace navcal::gap {
 
-/// Recognises a stretch of one recording in another by what the instruments said, whatever the times and the file.
-///
-/// Model: the noise of the instruments makes each run of kRun consecutive readings unique. A run whose readings
-/// hardly change (a vehicle at rest without noise) is passed over, since it occurs by chance.
+/// Finds a stretch of one recording in another by the instruments' readings, whatever the times and the file.
 class SharedContent {
  public:
   static constexpr std::size_t kRun = 20;
@@ -22,7 +19,7 @@ class SharedContent {
   [[nodiscard]] double shared_s(const SharedContent& other) const;
 
  private:
-  /// Of one instrument.
+  /// Runs of one instrument.
   struct Runs {
     std::unordered_set<std::uint64_t> hashes;
     double seconds_each = 0;  ///< of the recording, for each run

@@ -8,14 +8,14 @@
 
 namespace navcal::gap {
 
-/// Places over time: north and east in metres of the mission's first fix.
+/// Positions over time: north and east in metres of the mission's first fix.
 struct Track {
   std::vector<double> time_s, north_m, east_m;
 };
 
-/// What was measured, and where the model would have gone from the first fix on without ever being corrected by
-/// another: its speed through the water by the recorded shaft, its heading by its own view of compass and gyros. A
-/// current moves the fixes and not these.
+/// Measured fixes, and the positions that the model reckons from the first fix on without any later correction.
+/// Speed through the water follows from the recorded shaft speed, heading from the model's own estimate by
+/// compass and gyros. A water current moves the fixes and not the reckoned tracks.
 struct Tracks {
   Track fixes, nominal, improved;  ///< improved: with the effects found; empty without any
 };
