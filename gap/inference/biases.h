@@ -7,15 +7,15 @@
 
 namespace navcal::gap {
 
-/// Solves for the gyros' biases by least squares, `gram` being that of all unknowns; where a mission shows nothing
-/// of one, that one is zero.
+/// Factor of the normal equations of the gyros' biases, from the `gram` of all unknowns. A bias that the
+/// mission does not show is solved as zero.
 [[nodiscard]] Eigen::LLT<Eigen::Matrix4d> bias_factor(const Eigen::MatrixXd& gram);
 
-/// These values of all unknowns with the gyros' biases that fit them, by one step of least squares: the replay is
-/// nearly linear in them.
+/// These values of all unknowns with the gyros' biases fitted by one step of least squares. One step is enough
+/// because the replay is nearly linear in them.
 [[nodiscard]] Eigen::VectorXd with_biases_fitted(const ResidualModel& model, Eigen::VectorXd values);
 
-/// The values of all unknowns at which a diagnosis begins: the gyros' biases by least squares, no effects.
+/// Start values of a diagnosis for all unknowns: the gyros' biases by least squares, no effects.
 [[nodiscard]] Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, unsigned threads);
 
 }  // namespace navcal::gap

@@ -8,9 +8,9 @@
 
 namespace navcal::gap {
 
-/// Where no mission was held out: this one is cut into pieces of a minute; the even ones are predicted by what the
-/// odd ones teach, and the other way round. By how much the log likelihood of each half grows with the effects,
-/// nats.
+/// Cross-validation within one mission, where no other one was held out. The mission is cut into pieces of a
+/// minute. The even pieces are predicted with parameters fitted to the odd ones, and the other way round.
+/// Returns the gain in log likelihood of each half by the effects, nats.
 [[nodiscard]] std::vector<double> gains_of_blocks(const EffectSubset& effects, const LinearGaussianModel& model,
                                                   const Layout& layout);
 

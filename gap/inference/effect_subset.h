@@ -8,13 +8,14 @@
 
 namespace navcal::gap {
 
-/// Effects that may be at work together: indices into the library, in order.
+/// Effects that act together: indices into the library, in order.
 using EffectSubset = std::vector<std::size_t>;
 
-/// All parameters of these effects, among the unknowns.
+/// Indices of all parameters of these effects among the unknowns.
 [[nodiscard]] std::vector<Eigen::Index> parameter_indices(const Library& library, const EffectSubset& effects);
 
-/// Of an effect with these values, in typical strengths: the norm of a vector's components, the largest of others.
+/// Strength of an effect with these values, in typical values: the norm of the components of a vector, the
+/// largest component of any other effect.
 [[nodiscard]] double strength_of(const Library& library, std::size_t effect, const Eigen::VectorXd& values);
 
 }  // namespace navcal::gap

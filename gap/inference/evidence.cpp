@@ -7,7 +7,7 @@
 namespace navcal::gap {
 namespace {
 
-/// In units of the prior, so that nothing is badly scaled: A = D^1/2 G D^1/2 + 1.
+/// Factor of A = D^1/2 G D^1/2 + 1, scaled by the prior so that it is well conditioned.
 Eigen::LLT<Eigen::MatrixXd> scaled_factor(const Eigen::MatrixXd& gram, const Eigen::VectorXd& prior) {
   Eigen::MatrixXd scaled = prior.asDiagonal() * gram * prior.asDiagonal();
   scaled.diagonal().array() += 1;

@@ -8,17 +8,19 @@
 
 namespace navcal::gap {
 
-/// Gaussian marginal likelihood of whitened innovations r = X theta + e, e ~ N(0, 1), theta ~ N(0, D): of a base,
-/// in which every effect has the narrow prior of what a vehicle within tolerance shows (spike, never zero), and of
-/// sets of effects whose parameters have the wide one (slab) instead. See docs/gap.md.
+/// Gaussian marginal likelihood of whitened innovations r = X theta + e, e ~ N(0, 1), theta ~ N(0, D).
+///
+/// In the base model every effect has the narrow prior of a vehicle within tolerance (spike, never zero). A
+/// subset of effects gives its parameters the wide prior (slab) instead. See docs/gap.md.
 class Evidence {
  public:
-  /// gram = X^T X, score = X^T r of data referred to theta = 0; standard deviations of the priors.
+  /// gram = X^T X and score = X^T r, with r referred to theta = 0; spike and slab are standard deviations of
+  /// the priors.
   Evidence(Eigen::MatrixXd gram, Eigen::VectorXd score, Eigen::VectorXd spike, Eigen::VectorXd slab);
 
-  /// Log of marginal likelihood, apart from what depends on r alone, of the base.
+  /// Log marginal likelihood of the base model, without the terms that depend on r alone.
   [[nodiscard]] double base() const { return base_; }
-  /// By how much it grows when these unknowns get slabs of these standard deviations.
+  /// Gain in log marginal likelihood when these unknowns get slabs of these standard deviations.
   [[nodiscard]] double gain(std::span<const Eigen::Index> members, const Eigen::VectorXd& slabs) const;
   /// Posterior of all unknowns.
   struct Posterior {
@@ -27,8 +29,8 @@ class Evidence {
   };
   [[nodiscard]] Posterior posterior(std::span<const Eigen::Index> members) const;
   [[nodiscard]] const Posterior& base_posterior() const { return posterior_; }
-  /// Expected gain, nats, of these members over the base if they had their typical strength, when others may
-  /// take their part: 1/2 of the squared strength that the others, at their slabs, cannot explain.
+  /// Expected gain, nats, of these members over the base at these values, when `others` may explain part of
+  /// them. It is half the squared signal that the others, at their slabs, cannot explain.
   [[nodiscard]] double separation(std::span<const Eigen::Index> members, const Eigen::VectorXd& values,
                                   std::span<const Eigen::Index> others) const;
 
@@ -41,7 +43,8 @@ class Evidence {
   Posterior posterior_;
 };
 
-/// Mean of the posterior alone, by a prior of these standard deviations: what a whole one costs is its covariance.
+/// Posterior mean alone under a prior of these standard deviations. It saves the covariance, which makes the
+/// cost of a whole posterior.
 [[nodiscard]] Eigen::VectorXd posterior_mean(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score,
                                              const Eigen::VectorXd& prior);
 

@@ -13,21 +13,22 @@
 namespace navcal::gap {
 namespace {
 
-/// Of a difference with respect to a parameter, in typical values.
+/// Steps of the finite difference with respect to a parameter, in typical values.
 struct Steps {
-  double first = 0.2;   ///< about nothing
+  double first = 0.2;   ///< about zero
   double onward = 0.2;  ///< where the effect is there already
 };
 
 constexpr Steps steps_of(sim::EffectKind kind) {
   switch (kind) {
     case sim::EffectKind::lag:
-      // The tangent: a long secant is another shape, and what a vehicle within tolerance lags would pass for
-      // something else. How a lag of typical size looks is found by linearising again (gap/inference/search.h).
+      // The tangent: a long secant has another shape, and the small lags of a vehicle within tolerance would be
+      // taken for another effect. The shape of a lag of typical size comes from linearising again
+      // (gap/inference/search.h).
       return {0.1, 0.1};
     case sim::EffectKind::backlash:
-      // It is felt only where it is wider than the fins' moves, so about nothing its step is long; once it is
-      // there, a long step on leads past the least of what is left.
+      // A backlash shows only where it is wider than the fins' moves, so the step about zero is long. Once a
+      // backlash is there, a long step goes past the minimum of the residuals.
       return {0.6, 0.1};
     case sim::EffectKind::amount:
       break;

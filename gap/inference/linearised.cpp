@@ -9,7 +9,7 @@
 namespace navcal::gap {
 namespace {
 
-/// By a difference towards the side that its bounds allow.
+/// One column of the design, by a finite difference towards the side that the bounds allow.
 Eigen::VectorXd column(const ResidualModel& model, const Eigen::VectorXd& at, const Eigen::VectorXd& residual,
                        Eigen::Index j) {
   const Unknown& unknown = model.library.unknowns()[static_cast<std::size_t>(j)];
@@ -21,8 +21,8 @@ Eigen::VectorXd column(const ResidualModel& model, const Eigen::VectorXd& at, co
   return (residual - residual_at(model, values)) / step;
 }
 
-/// Rows and columns of design^T design for those columns that are new, a few at a time: the design is as large as
-/// no cache.
+/// Recomputes the rows and columns of design^T design for the new columns, a few at a time: the design is
+/// larger than any cache.
 void renew_gram(Linearised& linear, std::span<const Eigen::Index> columns, unsigned threads) {
   constexpr std::size_t kTogether = 12;
   const std::size_t parts = (columns.size() + kTogether - 1) / kTogether;

@@ -13,10 +13,10 @@ namespace navcal::gap {
 
 /// A mission's whitened innovations as a linear function of the library's unknowns about a point:
 ///   r(values) = residual - design (values - at).
-/// The design is made of finite differences of the whole replay, so that what the estimator absorbs is accounted
-/// for.
+/// The design consists of finite differences of the whole replay, so that it contains what the estimator
+/// absorbs.
 struct Linearised {
-  Eigen::VectorXd at;        ///< of all unknowns
+  Eigen::VectorXd at;        ///< values of all unknowns
   Eigen::VectorXd residual;  ///< whitened, at that point
   Eigen::MatrixXd design;    ///< a column for each unknown
   Eigen::MatrixXd gram;      ///< design^T design
@@ -34,18 +34,18 @@ struct ResidualModel {
 
 [[nodiscard]] Layout layout_of(const Replay& replay);
 
-/// The whitened innovations by these values of all unknowns.
+/// Whitened innovations of a replay with these values of all unknowns.
 [[nodiscard]] Eigen::VectorXd residual_at(const ResidualModel& model, const Eigen::VectorXd& values);
-/// -d residual / d unknown for some unknowns, a column each, where `residual` is that at `at`.
+/// -d residual / d unknown, one column for each of `columns`; `residual` is the residual at `at`.
 [[nodiscard]] Eigen::MatrixXd design_at(const ResidualModel& model, const Eigen::VectorXd& at,
                                         const Eigen::VectorXd& residual, std::span<const Eigen::Index> columns);
 
-/// All columns anew.
+/// Linearises about a point; computes all columns.
 [[nodiscard]] Linearised linearise(const ResidualModel& model, const Eigen::VectorXd& at);
-/// About another point; only `columns` are taken anew, the others are those of `from`.
+/// Linearises about another point; computes `columns`, and keeps the others of `from`.
 [[nodiscard]] Linearised relinearise(const ResidualModel& model, Linearised from, const Eigen::VectorXd& at,
                                      std::span<const Eigen::Index> columns);
-/// The residual that the straight line has at zero.
+/// Residual of the linear model at zero.
 [[nodiscard]] Eigen::VectorXd residual_at_zero(const Linearised& linear);
 
 }  // namespace navcal::gap

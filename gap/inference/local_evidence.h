@@ -6,8 +6,8 @@
 
 namespace navcal::gap {
 
-/// Log evidence of subsets by one linearisation, less what bounds of parameters forbid, plus what simulation found
-/// beyond the straight lines. The values of several linearisations may be compared.
+/// Log evidence of subsets by one linearisation, minus the penalty of the parameters' bounds, plus the
+/// simulated fit's gain over the linear model. The values of several linearisations may be compared.
 class LocalEvidence {
  public:
   /// Keeps references to what `model` refers to. `beyond_linear`: ModelFit::beyond_linear of the subset about

@@ -12,7 +12,7 @@
 namespace navcal::gap {
 namespace {
 
-/// Where the set's own estimate says the vehicle is, in the bounds of its parameters; non-members are at zero.
+/// Estimate of the subset, within the bounds of its parameters; non-members are at zero.
 Eigen::VectorXd place_of(const Evidence::Posterior& posterior, const Library& library,
                          const std::vector<Eigen::Index>& moved) {
   Eigen::VectorXd at = Eigen::VectorXd::Zero(posterior.mean.size());
@@ -33,7 +33,7 @@ Eigen::VectorXd mean_by(const Eigen::VectorXd& prior, const Linearised& linear) 
   return posterior_mean(linear.gram, linear.score + linear.gram * linear.at, prior);
 }
 
-/// Priors by which what cannot be negative, and would be, is nothing.
+/// Priors that hold at zero each parameter which cannot be negative and whose estimate would be.
 Priors possible_priors(const LinearGaussianModel& model, const std::vector<Eigen::Index>& members) {
   constexpr int kRounds = 4;
   Priors allowed = model.priors;
@@ -56,16 +56,17 @@ double cost_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& at, const
   return 0.5 * (residual.squaredNorm() + at.cwiseQuotient(prior).squaredNorm());
 }
 
-/// The estimate of a set while it is simulated until straight lines hold.
+/// Estimate of a subset while it is simulated until the linear model holds.
 struct Settling {
-  Linearised linear;         ///< its residual is that of the last estimate that was taken
-  Eigen::VectorXd mean;      ///< by the straight lines
-  Eigen::VectorXd left;      ///< residual that the straight lines have at the mean
-  double beyond_linear = 0;  ///< by how much less is left in simulation, nats
-  bool refused = false;      ///< simulation is worse than where the step began
+  Linearised linear;         ///< its residual is that of the last estimate accepted
+  Eigen::VectorXd mean;      ///< by the linear model
+  Eigen::VectorXd left;      ///< residual of the linear model at the mean
+  double beyond_linear = 0;  ///< gain of the simulation over the linear model, nats
+  bool refused = false;      ///< simulation is worse than at the start of the step
 };
 
-/// One step: simulates at the mean, and half way if that is worse. Returns whether another step is wanted.
+/// One step: simulates at the mean, and half way to it if that is worse. Returns whether another step is
+/// wanted.
 bool settle_once(Settling& now, const InferenceProblem& problem, const std::vector<Eigen::Index>& members) {
   const Eigen::VectorXd prior = by_membership(problem.priors, members);
   Linearised& linear = now.linear;
@@ -81,7 +82,8 @@ bool settle_once(Settling& now, const InferenceProblem& problem, const std::vect
     simulated = residual_at(problem.model, next);
   }
   if (!is_better()) {
-    // Straight lines promise what is not there: where the last step began is the best that was simulated.
+    // The linear model predicts a gain that simulation does not confirm: the start of the last step is the best
+    // point that was simulated.
     now.beyond_linear = cost_of(now.left, now.mean, prior) - here;
     now.refused = true;
     return false;
@@ -138,7 +140,7 @@ ModelFit refine(const EffectSubset& set, Linearised linear, const InferenceProbl
   result.mean = now.refused ? result.linear.at : posterior.mean;
   result.log_odds = SubsetEvidence(model)(set) - bound_penalty_nats(set, model) + result.beyond_linear;
   const double noise = std::max(1.0, now.left.squaredNorm() / static_cast<double>(Whitening::count(now.left)));
-  // What an effect does is as much off as the vehicle that it acts on.
+  // An effect's estimate has the relative error of the vehicle model that it acts on: the tolerance.
   const Eigen::VectorXd tolerance = kTolerance * result.mean;
   result.std =
       (noise * posterior.covariance.diagonal() + problem.priors.model_error.cwiseAbs2() + tolerance.cwiseAbs2())

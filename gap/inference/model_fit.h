@@ -10,42 +10,42 @@
 
 namespace navcal::gap {
 
-/// A set of effects whose replay was taken anew where it says the vehicle is.
+/// A subset of effects, linearised again about its own estimate.
 struct ModelFit {
   EffectSubset effects;
   double log_odds = 0;
-  /// By how much less is left at the estimate, in nats, than the straight lines of its signatures say; log_odds
-  /// holds it.
+  /// Fit of the simulated estimate minus the fit that the linear model predicts, nats. log_odds includes it.
   double beyond_linear = 0;
-  Eigen::VectorXd about;  ///< members and biases where the signatures were taken; all others at zero
-  Linearised linear;      ///< with these signatures, its residual that of the whole estimate
-  /// Posterior of all unknowns; the standard deviations hold what the model is known to be wrong by, and grow with
-  /// noise that is more than nominal.
+  Eigen::VectorXd about;  ///< point of linearisation: members and biases; all others at zero
+  Linearised linear;      ///< with these regressors; its residual is that of the whole estimate
+  /// Posterior of all unknowns. The standard deviations include the known errors of the model, and grow with
+  /// noise above nominal.
   Eigen::VectorXd mean, std;
 };
 
-/// The set, simulated and linearised about its own estimate, from where `start` was taken.
+/// Fits a subset: simulates and linearises about its own estimate, beginning with the linearisation `start`.
 [[nodiscard]] ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem, Linearised start);
-/// The same from the nominal vehicle.
+/// The same, beginning with the linearisation about the nominal vehicle.
 [[nodiscard]] ModelFit fit_model(const EffectSubset& set, const InferenceProblem& problem);
 
-/// By how much the evidence of a set is too good, nats: it goes to where straight lines are lowest, be that
-/// possible or not.
+/// Amount by which the linear model's evidence of a subset is too large, nats. That evidence refers to the
+/// unbounded optimum, which the bounds of the parameters may forbid.
 [[nodiscard]] double bound_penalty_nats(const EffectSubset& set, const LinearGaussianModel& model);
 
-/// What a linearisation about a set's own estimate says of it, with the estimate itself, tolerances included,
-/// simulated until it stays.
+/// Fits a subset with the regressors of `linear`. The whole estimate, tolerances included, is simulated until
+/// it no longer changes.
 [[nodiscard]] ModelFit refine(const EffectSubset& set, Linearised linear, const InferenceProblem& problem);
 
-/// Of all unknowns; those that cannot be negative, lags above all, and would be stay at zero, and the others are
-/// as they are then: what is answered must be a vehicle that can be simulated.
+/// Posterior of all unknowns within their bounds. A parameter that cannot be negative (a lag above all) and
+/// would be is held at zero; the others are estimated under that condition. The answer must be a vehicle that
+/// can be simulated.
 [[nodiscard]] Evidence::Posterior bounded_posterior(const LinearGaussianModel& model,
                                                     const std::vector<Eigen::Index>& members);
 
-/// Priors by which these effects may be there unnamed, as strong as they like.
+/// Priors that make the parameters of these effects nuisance parameters, of any strength.
 [[nodiscard]] Priors as_nuisance_parameters(Priors priors, const Library& library, const EffectSubset& effects);
 
-/// Priors by which none of these effects is there at all.
+/// Priors that hold the parameters of these effects at zero.
 [[nodiscard]] Priors without_members(Priors priors, const Library& library, const EffectSubset& effects);
 
 }  // namespace navcal::gap

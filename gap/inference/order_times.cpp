@@ -19,9 +19,11 @@ namespace {
 constexpr std::size_t kPhases = 10;
 constexpr double kPhase_s = kInterval_s / static_cast<double>(kPhases);
 
-/// So much of a mission is looked at, where the fins move most: it tells as well as the whole.
+/// Length of the part of a mission that is evaluated, where the fins move most. It determines the phase as well
+/// as the whole does.
 constexpr double kLooked_at_s = 200;
-/// Of its usual strength, how far an effect is left free; gyros' biases are new at each power-on.
+/// Standard deviation of the priors, typical values: of effects, and of the gyros' biases, which are new at
+/// each power-on.
 constexpr double kFree = 0.1, kBiasesFree = 10;
 
 template <class Reading>
@@ -32,7 +34,7 @@ std::vector<Reading> within(const std::vector<Reading>& readings, double from_s,
   return kept;
 }
 
-/// Where the fins move most within so many seconds.
+/// Begin of the stretch of so many seconds in which the fins move most.
 double busiest_from_s(const std::vector<MotorReading>& readings, double seconds) {
   double moved = 0, most = 0, from_s = 0;
   std::size_t first = 1;
@@ -78,13 +80,13 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
                                          const Library& library, unsigned threads) {
   const Whitening whitening = Whitening::nominal(mission.instruments);
   const Mission part = busiest_part(mission);
-  // In that part an instrument may be silent.
+  // An instrument may be silent in that part.
   const Mission& looked_at = part.shortcoming().empty() ? part : mission;
   const Mission first = ordered_at(looked_at, 0);
   const Replay replay(first, vehicle);
   const Eigen::VectorXd at = with_biases_found(replay, library, threads);
-  // A gap is not to be made up for by the instants, so whatever the library knows is left free; but not far, or
-  // lags would make up for the instants.
+  // The phase must not compensate a gap, so all effects of the library are free. They are free only a little:
+  // otherwise lags would compensate a wrong phase.
   const Linearised linear = linearise({replay, library, whitening, threads}, at);
   Eigen::VectorXd widths(at.size());
   for (Eigen::Index j = 0; j < widths.size(); ++j) {
@@ -101,7 +103,7 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
     const Eigen::VectorXd score = widths.cwiseProduct(linear.design.transpose() * residual);
     cost[i] = residual.squaredNorm() - score.dot(free.solve(score));
   });
-  // Between those looked at, by the parabola through the best and its neighbours.
+  // The phase between those evaluated, by the parabola through the best and its neighbours.
   const auto best = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
   const double before = cost[(best + kPhases - 1) % kPhases], after = cost[(best + 1) % kPhases];
   const double bend = before - 2 * cost[best] + after;

@@ -9,9 +9,11 @@
 
 namespace navcal::gap {
 
-/// When the motor card was told something, of a recording that does not say so: every tenth of a second, at that
-/// time after the whole ones by which the nominal vehicle foretells its instruments best. The reports themselves
-/// can hardly tell: ten a second show orders of ten a second at one place only.
+/// Estimates the times of the commands to the motor card, s, for a recording that does not contain them.
+///
+/// Model: one command every tenth of a second. The phase is the one by which the nominal vehicle predicts its
+/// instruments best. The card's reports alone hardly determine it: at ten a second, they sample the response to
+/// ten commands a second at one point only.
 [[nodiscard]] std::vector<double> likely_order_times_s(const Mission& mission,
                                                        const config::VehicleSettings& vehicle,
                                                        const Library& library, unsigned threads);

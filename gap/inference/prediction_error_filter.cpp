@@ -10,20 +10,21 @@
 namespace navcal::gap {
 namespace {
 
-/// How far back each window begins and ends, intervals.
+/// Distance at which each window begins and ends, intervals.
 struct Window {
   Eigen::Index first, last;
 };
 constexpr std::array<Window, PredictionErrorFilter::kWindows> kPast{
     {{1, 1}, {2, 2}, {3, 4}, {5, 8}, {9, 16}, {17, 32}, {33, 64}}};
-/// Of the squares of what predicts: a channel that was never measured gets no weight.
+/// Ridge, as a share of the regressors' squares: a channel that was never measured gets no weight.
 constexpr double kRidge = 1e-6;
 constexpr Eigen::Index kRowsForAWeight = 10;
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Goes through rows in order; `visit` gets the number of each, the means over the windows before it and what
-/// `weights` make of them. What was not measured is taken to be as predicted, and before the first row is nothing.
+/// Goes through rows in order. `visit` gets the number of each row, the means over the windows before it, and
+/// their prediction by `weights`. Missing values are replaced by their prediction; before the first row all
+/// values are zero.
 template <typename Visit>
 void walk(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& weights, const Visit& visit) {
   const Eigen::Index channels = rows.cols();
@@ -45,7 +46,7 @@ void walk(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& weights, const Vis
   }
 }
 
-/// Sums for least squares, of each channel apart: not all are measured in the same rows.
+/// Normal equations of least squares, one for each channel: not all channels are measured in the same rows.
 class LeastSquares {
  public:
   explicit LeastSquares(Eigen::Index channels)
@@ -62,7 +63,7 @@ class LeastSquares {
       measured = mission.col(j).array().isFinite().cast<double>();
       measured.head(std::min(from, measured.size())).setZero();
       const Eigen::VectorXd values = (measured > 0).select(mission.col(j).array(), 0.0).matrix();
-      // All of one instrument are measured together.
+      // The channels of one instrument are measured together.
       if (j == 0 || (measured != before).any()) {
         product.noalias() = (means.array().colwise() * measured).matrix().transpose() * means;
         before = measured;
@@ -102,7 +103,7 @@ PredictionErrorFilter PredictionErrorFilter::learnt(std::span<const Eigen::Matri
   if (noise.empty()) return {};
   const bool whole = std::all_of(noise.begin(), noise.end(), [](const auto& rows) { return rows.allFinite(); });
   PredictionErrorFilter filter;
-  // Where something is missing, what stands in for it is known better the second time.
+  // The second pass replaces missing values by better predictions.
   for (int pass = 0; pass < (whole ? 1 : 2); ++pass) {
     LeastSquares sums(noise.front().cols());
     for (const Eigen::MatrixXd& rows : noise) sums.gather(rows, filter.weights_, from);

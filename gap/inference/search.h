@@ -8,30 +8,31 @@
 
 namespace navcal::gap {
 
-/// A set of effects and how probable it is beside the others that were looked at.
+/// A subset of effects, and its probability among the subsets that were scored.
 struct Candidate {
   EffectSubset effects;  ///< empty: no effect
-  double log_odds = 0;   ///< against no effect, nats; of sets equally far, by their evidence
+  double log_odds = 0;   ///< score minus that of no effect, nats (ScoreTable)
   double probability = 0;
 };
 
 struct SearchResult {
   std::vector<Candidate> candidates;  ///< most probable first
   ModelFit best;                      ///< of the first of them
-  /// Posterior of all unknowns where the best set's are zero and the others within tolerance. Were its own within
-  /// tolerance, too, strong data would make them what they are in spite of it.
+  /// Posterior mean of all unknowns with the best subset's parameters at zero and the others within tolerance.
+  /// If the prior of the best subset's parameters were a tolerance, strong data would overrule it.
   Eigen::VectorXd mean_without_effects;
   std::vector<double> expected_information_nats;  ///< of the best set
 };
 
-/// Those of the best set that this mission hardly shows, were they as strong as usual.
+/// Effects of the best subset with too little expected information in this mission at their typical strength
+/// (kObservable_nats).
 [[nodiscard]] EffectSubset unobservable_effects(const SearchResult& result);
 
-/// Of each effect of a fit: what the mission would tell of it, nats, if it had the direction that was found and
-/// its typical strength.
+/// Expected information about each effect of a fit, nats, at its typical strength in the direction that was
+/// found.
 [[nodiscard]] std::vector<double> expected_information_nats(const ModelFit& fit, const InferenceProblem& problem);
 
-/// The result of a search of no subsets but the empty one.
+/// Result of a search that looks at the empty subset only.
 [[nodiscard]] SearchResult nothing_found(const InferenceProblem& problem);
 
 }  // namespace navcal::gap

@@ -11,11 +11,11 @@
 namespace navcal::gap {
 namespace {
 
-/// Where expectation and maximisation begins, in typical values.
+/// Start value of expectation-maximisation, typical values.
 constexpr double kFirstGuess = 0.03;
 constexpr int kIterations = 60;
 
-/// Whether what the inertial card says comes later by it.
+/// Whether the effect delays the inertial card.
 bool delays_card(const Library& library, std::size_t effect) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
   const Eigen::Index j = library.first(effect);
@@ -23,14 +23,14 @@ bool delays_card(const Library& library, std::size_t effect) {
   return library.model(values).effects.delays(0).card_s > 0;
 }
 
-/// Whether it looks as if the fins had been ordered at another time: they move later, or whatever follows them is
-/// read later.
+/// Whether the effect resembles fin orders at another time: it delays the fins, or the instrument that shows
+/// their effect.
 bool is_of_orders(const Library& library, std::size_t effect) {
   const bool moves_fins = library[effect].place == sim::EffectPlace::vehicle;
   return library.is_lag(effect) && (moves_fins || delays_card(library, effect));
 }
 
-/// Standard deviations under which these missions are most probable.
+/// Standard deviations that maximise the likelihood of these missions.
 Eigen::VectorXd scatter_among(const Library& library, const Eigen::MatrixXd& gram, const Eigen::MatrixXd& scores,
                               const Eigen::VectorXd& slab) {
   Eigen::VectorXd scatter = slab;

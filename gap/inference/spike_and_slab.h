@@ -7,17 +7,17 @@
 
 namespace navcal::gap {
 
-/// Standard deviations of the priors of all unknowns. Slab: what an effect of typical strength may be. Spike: what
-/// a vehicle within tolerance shows of it. Biases have one and the same wide prior.
+/// Standard deviations of the priors of all unknowns. Slab: an effect of typical strength. Spike: a vehicle
+/// within tolerance. Biases have the same wide prior in both.
 struct Priors {
   Eigen::VectorXd spike, slab;
-  /// Of each unknown: by how much more the bank's missions scatter than their tolerances. What the replay does not
-  /// describe (the fins between two reports, say) is in there, and no longer mission makes it less.
+  /// Scatter of the bank's missions beyond their tolerances, for each unknown. It comes from what the replay
+  /// does not describe, such as the fins between two reports, and a longer mission does not reduce it.
   Eigen::VectorXd model_error;
 };
 
-/// Spikes are those under which the bank's missions (`scores`, a column each) are most probable (empirical Bayes,
-/// by expectation and maximisation), but not below the tolerance that the bank was made with.
+/// Spike widths that maximise the likelihood of the bank's missions (`scores`, a column each), by empirical
+/// Bayes with expectation-maximisation. No spike is narrower than the tolerance that the bank was made with.
 [[nodiscard]] Priors fit_spike_widths(const Library& library, const Eigen::MatrixXd& gram,
                                       const Eigen::MatrixXd& scores);
 

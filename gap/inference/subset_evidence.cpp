@@ -26,7 +26,7 @@ double SubsetEvidence::operator()(const EffectSubset& set) const {
   return data_ + evidence_.base() + gain(set) - against;
 }
 
-/// Over all combinations of the members' strengths.
+/// Gain in log marginal likelihood, averaged over all combinations of the members' strengths.
 double SubsetEvidence::gain(const EffectSubset& set) const {
   const auto members = parameter_indices(library_, set);
   Eigen::VectorXd slabs(static_cast<Eigen::Index>(members.size()));

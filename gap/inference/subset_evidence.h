@@ -16,17 +16,17 @@ struct LinearGaussianModel {
   const Priors& priors;
 };
 
-/// Referred to no effects at all, whatever point it was linearised about.
+/// Evidence referred to no effects, whatever the point of linearisation.
 [[nodiscard]] Evidence evidence_of(const Linearised& linear, const Priors& priors);
 
-/// What speaks for sets of effects, referred to the nominal vehicle whatever point it was linearised about, so
-/// that words from several linearisations may be compared.
+/// Log evidence of subsets. It is referred to the nominal vehicle whatever the point of linearisation, so that
+/// values of several linearisations may be compared.
 class SubsetEvidence {
  public:
   /// The model's library must outlive it.
   explicit SubsetEvidence(const LinearGaussianModel& model);
 
-  /// Log of the joint probability of set and data, nats, apart from a constant.
+  /// Log joint probability of subset and data, nats, apart from a constant.
   [[nodiscard]] double operator()(const EffectSubset& set) const;
 
  private:

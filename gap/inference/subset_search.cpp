@@ -82,7 +82,7 @@ void SubsetSearch::expand(std::size_t size) {
     const bool there = std::find(subsets.begin(), subsets.end(), EffectSubset{effect}) != subsets.end();
     if (size == 1 && library_.is_curved(effect) && !there) subsets.push_back({effect});
   }
-  // As many at a time as there are threads: each holds a design of its own.
+  // One fit per thread at a time: each holds a design matrix of its own.
   const unsigned threads = problem_.model.threads;
   InferenceProblem on_one_thread = problem_;
   on_one_thread.model.threads = 1;
@@ -113,9 +113,9 @@ void SubsetSearch::score_exchanged(const EffectSubset& subset, const LocalEviden
   for (const std::size_t effect : held_) {
     if (has(subset, effect)) continue;
     for (const std::size_t member : subset) {
-      // The other members' effects are known better here than in the nominal model. The little backlash of a
-      // vehicle within tolerance resembles no long step: that backlash was linearised anew is no merit of the
-      // subset.
+      // The other members' effects are known better here than in the nominal model. The long step about zero
+      // does not describe the small backlash of a vehicle within tolerance. A gain by linearising backlash
+      // again is therefore no merit of the subset.
       const EffectSubset exchanged = with(without(subset, member), effect);
       library_.is_backlash(member) ? scores_.raise_floor(exchanged, here(exchanged))
                                    : scores_.set_initial(exchanged, here(exchanged));

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kFilterSettling_s = 20;
 
-/// Prediction errors of rows by `filter`; a row that begins a run has nothing before it. What was not measured is
-/// as predicted.
+/// Prediction errors of rows by `filter`. A row that begins a run has no past. A missing value is replaced by
+/// its prediction.
 Eigen::MatrixXd filtered(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& filter,
                          const std::vector<bool>& begins) {
   const Eigen::Index order = filter.rows();
@@ -52,7 +52,7 @@ std::vector<bool> fix_begins(const Layout& layout) {
 
 Eigen::Index settled_row() { return static_cast<Eigen::Index>(kFilterSettling_s / kInterval_s); }
 
-/// Sums of x_i x_(i-k) over all that is measured, for one channel.
+/// Sums of x_i x_(i-k) over all measured pairs, for each channel.
 void gather(const Eigen::MatrixXd& rows, const std::vector<bool>& begins, Eigen::Index from, Eigen::MatrixXd& sums,
             Eigen::MatrixXd& counts) {
   for (Eigen::Index j = 0; j < rows.cols(); ++j) {
@@ -81,7 +81,7 @@ Eigen::MatrixXd filters(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& coun
   return result;
 }
 
-/// Lower Cholesky factor of the covariance of errors, whose zeros were not measured.
+/// Lower Cholesky factor of the covariance of errors; zeros are missing values.
 Eigen::MatrixXd factor(const Eigen::MatrixXd& sums, const Eigen::MatrixXd& counts) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(sums.rows(), sums.cols());
   for (Eigen::Index i = 0; i < sums.rows(); ++i) {

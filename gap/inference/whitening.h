@@ -11,35 +11,37 @@
 
 namespace navcal::gap {
 
-/// What a mission's innovations look like apart from their numbers.
+/// Shape of a mission's innovations, without their values.
 struct Layout {
   Eigen::Index intervals = 0;
   std::vector<int> fix_numbers;  ///< since surfacing, of each fix
 };
 
-/// Makes innovations white: those of the grid less what all channels' past says of them, those of fixes each
-/// through the prediction error filter of an autoregression of order 3, then all of an instant through the inverse
-/// of the Cholesky factor of their covariance. It is linear and the same for residuals and regressors. Learnt from
-/// simulated missions of the nominal vehicle: learnt from the mission to be diagnosed, it would take part of the
-/// gap for noise.
+/// Whitens innovations. The prediction from the past of all channels is subtracted from those of the grid.
+/// Those of fixes pass an autoregressive prediction error filter of order 3 each. Then all innovations of an
+/// instant are multiplied by the inverse Cholesky factor of their covariance.
+///
+/// The filter is linear and the same for residuals and regressors. It is fitted to simulated missions of the
+/// nominal vehicle: fitted to the mission at hand, it would treat part of the gap as noise.
 class Whitening {
  public:
   static constexpr Eigen::Index kFixOrder = 3;
 
   Whitening() = default;
-  /// From residuals that hold nothing but noise.
+  /// Fits the filter to residuals that contain noise only.
   explicit Whitening(std::span<const Innovations> noise, std::span<const Layout> layouts);
 
-  /// By the noise of the instruments only, each channel and instant for itself: enough to find biases.
+  /// Whitening by the noise of the instruments only, separately for each channel and instant: enough to find
+  /// biases.
   [[nodiscard]] static Whitening nominal(const devices::InstrumentModel& instruments);
 
-  /// All channels of all intervals, then those of all fixes. What was not measured, and the time in which the
-  /// estimator settles, are zero.
+  /// All channels of all intervals, then those of all fixes. Missing values, and those during the settling of
+  /// the estimator, are zero.
   [[nodiscard]] Eigen::VectorXd operator()(const Innovations& innovations, const Layout& layout) const;
-  /// How many numbers of an answer are measurements.
+  /// Number of measured values in a whitened vector.
   [[nodiscard]] static Eigen::Index count(const Eigen::VectorXd& white);
 
-  // For keeping it in a file.
+  // Public so that the null bank's file can store it.
   PredictionErrorFilter grid_filter;
   Eigen::MatrixXd fix_filter;               ///< order x channels
   Eigen::MatrixXd grid_factor, fix_factor;  ///< lower triangles

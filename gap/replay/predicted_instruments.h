@@ -11,7 +11,7 @@
 
 namespace navcal::gap {
 
-/// What the instruments would say, with a model's effects and without noise, where the vehicle is predicted to be.
+/// Noise-free readings of the instruments at the predicted state, with a model's effects.
 class PredictedInstruments {
  public:
   struct Card {
@@ -29,15 +29,16 @@ class PredictedInstruments {
                        const devices::InstrumentModel& instruments)
       : effects_(effects), bias_rad_s_(bias_rad_s), instruments_(instruments) {}
 
-  /// The fluid of the tilt sensor forgets where it was: the next attitude is its first.
+  /// Restarts the lag of the tilt sensor's fluid: the next attitude is its first.
   void restart() { fluid_ = {}; }
   void set_electronics(double temperature_C) { electronics_C_ = temperature_C; }
   [[nodiscard]] double electronics_C() const { return electronics_C_; }
 
   [[nodiscard]] Card card(double time_s, const sim::State& state);
-  /// Shows the compass where it is, in the order of time: what has a memory follows.
+  /// Updates the compass with the state at this time. To be called in the order of time, because the tilt
+  /// sensor and some effects have a memory.
   void feel(double time_s, const sim::State& state);
-  /// A word about this instant, which it feels thereby.
+  /// The compass reading at this instant; calls feel().
   [[nodiscard]] Word word(double time_s, const sim::State& state);
   [[nodiscard]] sim::AntennaMotion antenna(double time_s, const sim::State& state,
                                            const std::array<double, 2>& offset_m);

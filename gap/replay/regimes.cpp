@@ -11,7 +11,8 @@
 namespace navcal::gap {
 namespace {
 
-/// Bands of frequency: what means over so many rows show, and what they do not.
+/// Bands of frequency, by means over so many rows: slow is what the long means show, fast is what the short
+/// means leave.
 constexpr Eigen::Index kSlow = 200, kFast = 20;
 
 enum Regime : std::size_t {
@@ -40,7 +41,8 @@ Eigen::Map<const Eigen::VectorXd> mapped(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-/// Mean square of the fit of each column on the drivers (their means taken off, but for a constant).
+/// Mean square of the least-squares fit of each column on the drivers (without their means, except for a
+/// constant).
 double fitted_mean_square(const Eigen::MatrixXd& values, const Eigen::MatrixXd& drivers) {
   Eigen::MatrixXd gram = drivers.transpose() * drivers;
   const double size = gram.trace();
@@ -55,8 +57,9 @@ Eigen::MatrixXd without_mean(Eigen::MatrixXd columns) {
   return columns;
 }
 
-/// What the third harmonic of the heading has beyond the first two, which an iron makes: on courses that do not
-/// turn evenly each of them follows the others. Nothing where the course turns too little to tell them apart.
+/// The part of the heading's third harmonic that is orthogonal to the first two, which iron causes. On courses
+/// that do not turn evenly, the harmonics are correlated. Zero where the course turns too little to separate
+/// them.
 Eigen::MatrixXd third_harmonic(const Eigen::ArrayXd& heading_rad) {
   constexpr double kLeast = 0.1;  // of its size
   Eigen::MatrixXd lower(heading_rad.size(), 5), third(heading_rad.size(), 2);
@@ -69,8 +72,8 @@ Eigen::MatrixXd third_harmonic(const Eigen::ArrayXd& heading_rad) {
   return third;
 }
 
-/// A fin that only holds the course moves by the noise of what it is steered by, and so follows the innovations
-/// instead of being followed by them: it stands still.
+/// Deflection of a fin, or zero where it only holds the course. Such a fin moves by the noise of the
+/// instruments that steer it, so it follows the innovations and does not drive them.
 Eigen::MatrixXd deflected(const std::vector<double>& fin_rad) {
   constexpr double kLeast_rad = 0.5 * std::numbers::pi / 180;  // root mean square
   Eigen::MatrixXd moves = without_mean(mapped(fin_rad));
@@ -78,7 +81,7 @@ Eigen::MatrixXd deflected(const std::vector<double>& fin_rad) {
   return moves;
 }
 
-/// Mean square of a band of frequencies, or of all.
+/// Mean square within a band of frequencies, or of all frequencies.
 double values_square(const Eigen::MatrixXd& values, std::size_t band) {
   const auto n = static_cast<double>(values.rows());
   if (band == overall) return values.squaredNorm() / n;
@@ -191,7 +194,8 @@ double RegimeStatistics::p_value(Eigen::Index channel, Eigen::Index regime, doub
   constexpr double kHeavier = 1.5;
   const double spread = kHeavier * variance(channel, regime);
   if (!(mean > 0) || !(spread > 0) || !(value > 0)) return 1;
-  // Nulls that hardly differ leave a distribution so narrow that its tail cannot be reckoned; nor does it matter.
+  // Nulls that hardly differ give a distribution too narrow for its tail to be computed. The bound on its shape
+  // changes no decision.
   constexpr double kNarrowest = 1e6;
   const double shape = std::min(mean * mean / spread, kNarrowest);
   const boost::math::gamma_distribution<double> gamma(shape, mean / shape);

@@ -9,29 +9,31 @@
 
 namespace navcal::gap {
 
-/// What residuals may follow.
+/// Names of the regimes: covariates that residuals may depend on, and bands of frequency.
 [[nodiscard]] const std::vector<std::string_view>& regimes();
 
-/// Where the root mean square of the whole channel stands among them.
+/// Index of the regime that is the root mean square of the whole channel.
 [[nodiscard]] Eigen::Index overall_regime();
 
-/// The course's driver of a regime; columns that act together (sine and cosine). Empty for a band of frequency.
+/// Covariates of a regime along the trajectory, one column each; sine and cosine act together. Empty for a band
+/// of frequency.
 [[nodiscard]] Eigen::MatrixXd drivers_of(std::size_t regime, const Trajectory10Hz& course);
 
-/// channels x regimes: root mean square of that part of a channel which follows the regime, in the channel's unit.
+/// channels x regimes: root mean square of the part of a channel that the regime explains, in the channel's
+/// unit.
 [[nodiscard]] Eigen::MatrixXd explained_rms(const Innovations& innovations, const Trajectory10Hz& course,
                                             const std::vector<double>& fix_times_s);
 
-/// How much the null missions follow: from it the significance of what another does.
+/// Statistics of explained_rms() over the null missions, for the significance of another mission's values.
 class RegimeStatistics {
  public:
   RegimeStatistics() = default;
   explicit RegimeStatistics(const std::vector<Eigen::MatrixXd>& of_nulls);
 
-  /// Usual size among nulls.
+  /// Root mean square among nulls.
   [[nodiscard]] double floor(Eigen::Index channel, Eigen::Index regime) const;
-  /// Probability that a null shows as much in this cell; by a gamma distribution of the mean square, whose tail is
-  /// taken as heavier than the bank can show.
+  /// Probability that a null has at least this value in the cell. Model: the mean square has a gamma
+  /// distribution, with a heavier tail than the bank can resolve.
   [[nodiscard]] double p_value(Eigen::Index channel, Eigen::Index regime, double value) const;
 
   Eigen::MatrixXd mean_square, variance;  ///< of the mean square, among nulls

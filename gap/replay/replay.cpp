@@ -15,8 +15,8 @@ namespace {
 constexpr double kReference_C = base::reference::kTemperature_C;
 constexpr double kTemperatureGain = 0.005;  ///< a reading; the electronics settle within 200 s
 
-/// Readings of the electronics' temperature, whose noise is as large as a minute's change, smoothed forth and
-/// back.
+/// Temperatures of the electronics, smoothed forward and backward: their noise is as large as a minute's
+/// change.
 std::vector<double> smoothed_electronics(std::span<const CompassReading> readings) {
   std::vector<double> smooth(readings.size(), kReference_C);
   const auto pass = [&](auto begin, auto end, auto out, double share) {
@@ -50,7 +50,8 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
   for (const auto& row : track_.rows()) nominal_A.push_back(sim::current_A(settings_.propeller, row.shaft_rps));
   current_A_ = track_.current_A(mission.motor, nominal_A);
 
-  // Frames lie in the middle of their share of an interval, so that the drift of a clock moves none to the next.
+  // Frames lie in the middle of their share of an interval, so that clock drift does not move one into the next
+  // interval.
   const double first_s =
       std::max({mission.card.front().time_s, mission.compass.front().time_s, mission.motor.front().time_s});
   const auto first = std::find_if(mission.card.begin(), mission.card.end(),

@@ -14,26 +14,29 @@
 
 namespace navcal::gap {
 
-/// Constant gyro biases, rad/s: A-x, A-z, B-y, B-z. A nuisance of every power-on.
+/// Constant gyro biases, rad/s: A-x, A-z, B-y, B-z. They are nuisance parameters, new at each power-on.
 using GyroBias = std::array<double, 4>;
 
-/// A model that a mission is replayed through: the nominal vehicle and instruments with these effects.
+/// Model of a replay: the nominal vehicle and instruments with these effects.
 struct Model {
   sim::EffectSet effects = sim::EffectSet();
   GyroBias bias_rad_s{};
 };
 
-/// A mission taken through the nominal vehicle and an estimator of fixed gains. The vehicle is driven by what the
-/// motor card reported; attitude is carried by the gyros (strapdown) and led by the compass word by word; body
-/// rates and depth are led by the card frame by frame; velocity through the water runs free; position is set by
-/// fixes with a scheduled gain. No truth is needed. Instrument errors are evaluated at predicted rates, forces and
-/// depths: a regressor that held the noise of what it explains would find it.
+/// Replays a mission through the nominal vehicle and an estimator of fixed gains.
+///
+/// The motor card's reports drive the vehicle. The gyros propagate the attitude (strapdown), and each compass
+/// reading corrects it. Each frame of the card corrects body rates and depth. Velocity through the water is not
+/// corrected; fixes correct the position with a scheduled gain. No truth is needed.
+///
+/// Instrument errors are evaluated at predicted rates, forces and depths. A regressor that contained the noise
+/// of the residuals would be correlated with them.
 class Replay {
  public:
   /// `mission` must outlive it; its shortcoming() is empty.
   Replay(const Mission& mission, const config::VehicleSettings& vehicle);
 
-  /// `course`, where given, is filled in.
+  /// Fills in `course`, where given.
   [[nodiscard]] Innovations run(const Model& model, Trajectory10Hz* course = nullptr) const;
 
   [[nodiscard]] Eigen::Index intervals() const { return intervals_; }
@@ -47,8 +50,8 @@ class Replay {
   ActuatorTrack track_;
   std::vector<double> current_A_;
   std::vector<double> electronics_C_;  ///< at each compass reading, smoothed
-  double begin_s_ = 0;                 ///< of the first interval
-  double compass_shift_s_ = 0;         ///< from a reading's time to that by which its interval is chosen
+  double begin_s_ = 0;                 ///< begin of the first interval
+  double compass_shift_s_ = 0;         ///< added to a reading's time to choose its interval
   Eigen::Index intervals_ = 0;
 };
 

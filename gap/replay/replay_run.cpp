@@ -17,14 +17,14 @@
 namespace navcal::gap {
 namespace {
 
-// The estimator's gains, found by a study of this vehicle: a reading or a frame each.
+// Gains of the estimator, for each reading or frame. Set by a study of this vehicle.
 constexpr double kHeadingGain = 0.02, kTiltGain = 0.05, kRateGain = 0.15;
 constexpr double kDriftVariance_m2_s = 0.02;
-/// A card silent for longer has been off: the estimator begins anew.
+/// After a longer silence the card has been off, and the estimator begins anew.
 constexpr double kRestart_s = 5;
 constexpr double kLongestStep_s = 0.06;
-/// Of the vehicle's own motion. A frame of the card taken at once makes a vehicle that is its model pass for one
-/// with quicker fins and a late card, by ten standard errors on a zigzag.
+/// Longest integration step of the vehicle model. With one step for each frame of the card, a vehicle identical
+/// to its model would appear to have quicker fins and a late card, by ten standard errors on a zigzag.
 constexpr double kLongestPart_s = 0.026;
 constexpr double kSubmerged_s = 10;
 
@@ -36,10 +36,10 @@ Eigen::Vector3d euler_rates(const Eigen::Vector3d& euler_rad, const Eigen::Vecto
   return {rate_rad_s[0] + std::sin(euler_rad[1]) * yaw, cf * rate_rad_s[1] - sf * rate_rad_s[2], yaw};
 }
 
-/// About x, y and z of what the four gyros say; both about z count alike.
+/// Body rates about x, y and z from the four gyros; the two about z are averaged.
 Vector3 about_axes(const std::array<double, 4>& gyros) { return {gyros[0], gyros[2], (gyros[1] + gyros[3]) / 2}; }
 
-/// Magnetic, of the compass's own field and tilt.
+/// Magnetic heading from the compass's own field and tilt.
 double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
   return calib::levelled_heading(base::vector_of(field), roll_rad, pitch_rad);
 }
@@ -127,7 +127,8 @@ void ReplayRun::carry(const CardReading& to) {
   gyro_said_rad_s_ = said;
   const int steps = std::max(1, static_cast<int>(std::ceil(span_s / kLongestStep_s)));
   for (int i = 0; i < steps; ++i) {
-    // Over a gap the gyros' two ends say little of what was between: the vehicle's own model does.
+    // Across a gap the gyro readings at its two ends do not describe the motion in between, so the rates are
+    // those of the vehicle model.
     if (steps > 3) rate = array_of(body_.velocity.tail<3>());
     step(from_s + span_s * i / steps, from_s + span_s * (i + 1) / steps, rate);
   }
@@ -286,7 +287,7 @@ Innovations ReplayRun::innovations(Trajectory10Hz* course) {
     states_.correct(array_of(body_.euler_rad), array_of(body_.position_m), array_of(body_.velocity.tail<3>()));
     if (course != nullptr) write_course(reading, *course);
   }
-  // Nothing measured: 0 / 0.
+  // 0 / 0 gives NaN where nothing was measured.
   out_.grid = (sums_.array() / counts_.cast<double>().array()).matrix();
   return std::move(out_);
 }

@@ -12,7 +12,7 @@
 
 namespace navcal::gap {
 
-/// What a run needs of the replay that it belongs to.
+/// Input of a run, from the replay that it belongs to.
 struct ReplayInput {
   const Mission& mission;
   const config::VehicleSettings& settings;
@@ -24,7 +24,7 @@ struct ReplayInput {
   Eigen::Index intervals = 0;
 };
 
-/// One replay by one model. Used once.
+/// One replay with one model. Used once.
 class ReplayRun {
  public:
   ReplayRun(const ReplayInput& input, const Model& model);
@@ -44,7 +44,7 @@ class ReplayRun {
   void take_fixes(double until_s);
   void take_fix(std::size_t index);
   void write_course(const CardReading& reading, Trajectory10Hz& course) const;
-  /// Of the grid; none before the first and after the last.
+  /// Row of the grid; none before the first and after the last.
   [[nodiscard]] std::optional<Eigen::Index> interval_of(double time_s) const;
   void add(std::optional<Eigen::Index> interval, Channel channel, double innovation);
 
@@ -55,16 +55,16 @@ class ReplayRun {
   Vector3 gyro_error_at_rest_rad_s_;
   sim::Influences influences_;
   sim::Body body_;              ///< the estimate
-  Vector3 gyro_error_rad_s_{};  ///< predicted, of the rates about x, y, z
+  Vector3 gyro_error_rad_s_{};  ///< predicted error of the rates about x, y, z
   Vector3 gyro_said_rad_s_{};   ///< at the last frame
   StateHistory states_;
   std::size_t next_word_ = 0, next_fix_ = 0;
-  std::array<double, 2> offset_m_{};  ///< by which fixes moved the estimate
+  std::array<double, 2> offset_m_{};  ///< shift of the estimated position by the fixes
   double variance_m2_ = 0;
   std::optional<double> last_fix_s_;
   double distance_m_ = 0, distance_at_fix_m_ = 0;
   Innovations out_;
-  // A reading goes to all channels of its interval.
+  // Each interval and channel is the mean of its readings: sums and counts.
   Eigen::Matrix<double, Eigen::Dynamic, kChannels, Eigen::RowMajor> sums_;
   Eigen::Matrix<int, Eigen::Dynamic, kChannels, Eigen::RowMajor> counts_;
 };

@@ -9,7 +9,7 @@
 
 namespace navcal::gap {
 
-/// The channels of an answer: each one or several innovations in one physical unit.
+/// One channel of the answer: one or several innovations in one physical unit.
 struct ReportedChannel {
   std::string_view name, unit;
   double per_si = 1;  ///< from SI to the unit
@@ -24,7 +24,7 @@ struct ChannelSeries {
 [[nodiscard]] ChannelSeries series_of(std::size_t channel, const Innovations& innovations,
                                       const Trajectory10Hz& course, const std::vector<double>& fix_times_s);
 
-/// Means of blocks of so many rows, at each row.
+/// Means of blocks of `length` rows, repeated at each row.
 [[nodiscard]] Eigen::MatrixXd block_means(const Eigen::MatrixXd& values, Eigen::Index length);
 
 }  // namespace navcal::gap

@@ -7,7 +7,7 @@
 namespace navcal::gap {
 namespace {
 
-/// A GPS may be late by ten seconds (sim/effects/library/gps_latency.cpp).
+/// Memory: a GPS may be late by ten seconds (sim/effects/library/gps_latency.cpp).
 constexpr double kRemembered_s = 12;
 
 void add_difference(sim::Vector3& sum, const sim::Vector3& after, const sim::Vector3& before) {
@@ -35,8 +35,8 @@ sim::State StateHistory::filtered_at(double time_s) const {
   if (later == moments_.begin()) return moments_.front().predicted;
   if (later == moments_.end()) return moments_.back().corrected;
   const Moment& earlier = *std::prev(later);
-  // What a reading corrected must not jump at its time: a delay that comes to be as long as the time between two
-  // readings would look unlike one that is a little shorter.
+  // Interpolation between corrected states keeps corrections continuous in time. Otherwise a delay as long as
+  // the time between two readings would look unlike one that is a little shorter.
   return sim::between(earlier.corrected, later->corrected,
                       (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
 }
@@ -52,8 +52,9 @@ sim::State StateHistory::corrected_at(double time_s) const {
   }
   if (later == moments_.begin()) return moments_.front().predicted;
   const Moment& earlier = *std::prev(later);
-  // Back along the vehicle's own motion: were single corrections part of the way, a delay of a little more than
-  // the time between two readings would look unlike one of a little less, for their noise.
+  // Interpolation along the vehicle's own motion, without the corrections in between. With them, the noise of
+  // single corrections would make a delay a little longer than the time between two readings look unlike one a
+  // little shorter.
   sim::State state = sim::between(earlier.corrected, later->predicted,
                                   (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
   add_difference(state.euler_rad, euler_rad, {});

@@ -7,22 +7,22 @@
 
 namespace navcal::gap {
 
-/// The estimator's last twelve seconds, a state at each reading of the card: what readings that are late were
-/// measured at.
+/// States of the estimator over the last twelve seconds, one for each frame of the card. Late readings are
+/// compared with the state at their time of measurement.
 class StateHistory {
  public:
   [[nodiscard]] bool empty() const { return moments_.empty(); }
   [[nodiscard]] double newest_s() const { return moments_.back().time_s; }
-  /// Of the newest moment, before its readings were used.
+  /// State of the newest moment, before its readings were used.
   [[nodiscard]] const sim::State& predicted() const { return moments_.back().predicted; }
 
   void predict(double time_s, const sim::State& state);
-  /// The newest moment, after its readings were used.
+  /// Sets the state of the newest moment after its readings were used.
   void correct(const sim::Vector3& euler_rad, const sim::Vector3& position_m, const sim::Vector3& rate_rad_s);
 
-  /// As it was known then; the oldest or newest for times beyond.
+  /// State at a time, as estimated then. Times beyond the history get its oldest or newest state.
   [[nodiscard]] sim::State filtered_at(double time_s) const;
-  /// Of a time little before the newest moment, corrected by all that was read since.
+  /// State at a time shortly before the newest moment, with all corrections since then.
   [[nodiscard]] sim::State corrected_at(double time_s) const;
 
  private:
