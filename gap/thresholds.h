@@ -56,20 +56,20 @@ inline constexpr std::size_t kReconsideredSubsets = 6;
 /// Times that the leader and its neighbours are judged with regressors taken about the leader's estimate. With the
 /// nominal regressors, effects outside the subset look wrong, and one of them is added spuriously.
 inline constexpr int kRefinements = 4;
-/// Distance from where regressors were taken up to which they serve, typical values: within tolerances nothing
-/// curves.
+/// Distance from the point of linearisation within which regressors serve, typical values. Within tolerances
+/// the residuals are linear.
 inline constexpr double kLinearRange = 0.25;
 /// Linearisations about a subset's own estimate: of subsets that are nearly linear, and at most of others (lags,
 /// backlash).
 inline constexpr int kLinearisations = 2, kCurvedLinearisations = 5;
-/// Standard errors: an estimate that moves by less has arrived.
+/// Change of an estimate, in standard errors, below which it has converged.
 inline constexpr double kArrived_sigma = 0.2;
 /// Loss of log evidence by which a step of a curved subset is taken back, nats.
 inline constexpr double kStepBack_nats = 1;
 /// Times that an estimate, tolerances included, is simulated with the same regressors.
 inline constexpr int kSettlings = 4;
-/// Difference between simulation and straight lines below which these hold, and gain below which a step is
-/// refused, nats: one nat decides nothing.
+/// Difference between simulation and linear model below which the linear model holds, and gain below which a
+/// step is refused, nats. One nat decides nothing.
 inline constexpr double kSettled_nats = 1;
 /// Times that a step which simulation refuses is halved.
 inline constexpr int kHalvings = 2;
@@ -85,10 +85,10 @@ inline constexpr std::size_t kWhiteningMissions = 30;
 /// Null missions with the backlash that was found, or for null Bayes factors: enough for a mean and a scatter, few
 /// enough to wait for.
 inline constexpr int kBacklashMissions = 16;
-/// Null missions without which a recording is not judged.
+/// Least number of null missions for a recording to be judged.
 inline constexpr int kLeastNulls = 10;
-/// What a usual tolerance of a non-member must resemble a member by, in the member's standard errors, so that its
-/// regressor is taken of each null mission, too; and the most of these non-members.
+/// Least resemblance of a non-member's usual tolerance to a member, in the member's standard errors, for its
+/// regressor to be computed for each null mission, too; and the largest number of such non-members.
 inline constexpr double kLikeness_sigma = 2;
 inline constexpr std::size_t kMostLikenesses = 6;
 /// Root mean square differences, over windows of ten seconds, that make one unit of distance between two missions:
@@ -100,9 +100,10 @@ inline constexpr double kSameField_uT = 0.5;
 
 // ---- recording
 
-/// Fixes without which declination, current, GPS and speed are not judged.
+/// Least number of fixes for declination, current, GPS and speed to be judged.
 inline constexpr std::size_t kLeastFixes = 3;
-/// Intervals of 0.1 s, with compass, inertial card and motor card, without which a recording is not judged: 20 s.
+/// Least number of 0.1 s intervals with compass, inertial card and motor card for a recording to be judged: 20
+/// s.
 inline constexpr int kLeastIntervals = 200;
 /// Largest misfit of recorded fin commands, in units of the report noise: a report with twice its noise has 4.
 inline constexpr double kMostCommandMisfit = 4;
@@ -111,17 +112,18 @@ inline constexpr double kMostCommandMisfit = 4;
 
 /// Probability from which a subset of effects is named. Set.
 inline constexpr double kNamedFrom = 0.7;
-/// Largest total posterior probability of rival subsets with which one is named. A wrong name costs a needless
-/// repair, where one more manoeuvre would tell. Set.
+/// Largest total posterior probability of rival subsets with which a subset is named. A wrong name costs a
+/// needless repair; one more manoeuvre would decide. Set.
 inline constexpr double kMostRivals = 0.15;
-/// Probability of no effect below which a gap is stated where no cell of the residual map is significant. Set.
+/// Probability of no effect below which a gap is stated although no cell of the residual map is significant.
+/// Set.
 inline constexpr double kNoGapBelow = 0.01;
 /// Share of the gap that a named subset must close. Set.
 inline constexpr double kClosedFrom = 0.9;
 /// Closure below which the gap is said to grow. The interval of its error reaches a little below zero where
 /// nothing closes.
 inline constexpr double kGrowsBelow = -0.05;
-/// Strength above which an effect more probably stands for another one, typical values. Set.
+/// Strength above which an effect is more probably a substitute for another one, typical values. Set.
 inline constexpr double kLargestStrength = 5;
 /// Strength above which an estimate is not reported as a number, typical values.
 inline constexpr double kLargestReported = 100;
@@ -144,8 +146,7 @@ inline constexpr double kLouderThanNulls = 1.3;
 inline constexpr double kSignificantAgainstExactBelow = 1e-8;
 /// Standard deviations of the nulls above which the error of a hold-out is a gap.
 inline constexpr double kHoldoutGap_sigma = 3;
-/// Gain of all members together over the hold-outs that is wanted, and loss on one of them that is tolerated,
-/// nats. Set.
+/// Least total gain of the members over all hold-outs, and largest loss on one of them, nats. Set.
 inline constexpr double kHoldoutGain_nats = 2, kHoldoutLoss_nats = -2;
 /// Log evidence that no null mission has reached by its noise, nats: above it no null Bayes factors are computed.
 /// Set.

@@ -43,8 +43,8 @@ class Evidence {
   Posterior posterior_;
 };
 
-/// Posterior mean alone under a prior of these standard deviations. It saves the covariance, which makes the
-/// cost of a whole posterior.
+/// Posterior mean under a prior of these standard deviations. It skips the covariance, which is the costly part
+/// of a posterior.
 [[nodiscard]] Eigen::VectorXd posterior_mean(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score,
                                              const Eigen::VectorXd& prior);
 

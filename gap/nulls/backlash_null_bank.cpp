@@ -11,7 +11,7 @@
 namespace navcal::gap {
 namespace {
 
-/// Of a search for a width, in typical values.
+/// Step of the search for a width, typical values.
 constexpr double kWidthStep = 0.05;
 constexpr int kMostSteps = 8;
 
@@ -20,8 +20,8 @@ struct BacklashNull {
   Eigen::VectorXd score, excess;
 };
 
-/// The value of unknown j that leaves the smallest residuals, all others as they are. It is found by trial: the
-/// derivative by a backlash says little of where that is.
+/// The value of unknown j that leaves the smallest residuals, with all others as they are. It is found by
+/// search: the derivative by a backlash does not show where the minimum is.
 double least_left(const ResidualModel& model, Eigen::VectorXd values, Eigen::Index j) {
   const Unknown& unknown = model.library.unknowns()[static_cast<std::size_t>(j)];
   const double step = kWidthStep * unknown.typical;
@@ -49,8 +49,8 @@ double least_left(const ResidualModel& model, Eigen::VectorXd values, Eigen::Ind
                     unknown.greatest);
 }
 
-/// A vehicle within tolerance whose unknowns `widths` are those found, and whose replay has the widths that fit it
-/// best.
+/// Simulates a vehicle within tolerance whose unknowns `widths` have the values found, and replays it with the
+/// widths that fit it best.
 BacklashNull simulate_backlash_null(const ModelFit& found, const RepeatedMission& repeated,
                                     const ResidualModel& recorded, const std::vector<Eigen::Index>& widths,
                                     std::uint64_t seed) {

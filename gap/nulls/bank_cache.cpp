@@ -42,7 +42,8 @@ std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder)
   return files;
 }
 
-/// What of a mission's commands decides about its nulls, in units of what may differ: a row for each ten seconds.
+/// Features of a mission that its nulls depend on, in units of their tolerated differences: one row for each
+/// ten seconds.
 std::vector<double> fingerprint(const Replay& replay, const Trajectory10Hz& course) {
   const auto window = static_cast<std::size_t>(kWindow_s / kInterval_s);
   std::vector<double> all;
@@ -63,14 +64,15 @@ std::vector<double> fingerprint(const Replay& replay, const Trajectory10Hz& cour
   return all;
 }
 
-/// Whether the Earth's field is as good as the same: what compass and heading show differs by a hundredth or two.
+/// Whether the Earth's field is nearly the same: compass field and heading then differ by a hundredth or two.
 bool in_same_field(const KeptBank& kept, const EarthField& field) {
   const auto &a = kept.field_uT, &b = field.north_east_down_uT;
   return kept.field_is_fitted == (field.source == EarthField::Source::fitted) &&
          std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kSameField_uT;
 }
 
-/// Root mean square difference, in tolerances; infinite between missions of different lengths.
+/// Root mean square difference of two fingerprints, in tolerances; infinite between missions of different
+/// lengths.
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
   const std::size_t longer = std::max(a.size(), b.size()), shorter = std::min(a.size(), b.size());
   if (shorter == 0 || static_cast<double>(longer - shorter) > 4 + 0.02 * static_cast<double>(longer)) {
@@ -81,7 +83,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(square / static_cast<double>(shorter));
 }
 
-/// Of numbers only: a type with gaps between its members would differ from itself.
+/// Checksum of a type that consists of numbers only: padding between members would make equal values differ.
 template <class Numbers>
 std::uint32_t checksum_of(const Numbers& numbers) {
   static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) % sizeof(double) == 0);

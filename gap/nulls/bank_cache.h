@@ -12,25 +12,25 @@
 
 namespace navcal::gap {
 
-/// Null banks of missions that were diagnosed before. A bank serves every mission that was steered alike: the same
-/// shaft speeds, turns, depths, fixes and field of the Earth within a tolerance, by the same nominal vehicle,
-/// instruments, library and program. The folder holds at most kMostBanks of them; the one that was not used for
-/// longest goes.
+/// Null banks of missions that were diagnosed before. A bank serves every mission that was steered alike: the
+/// same shaft speeds, turns, depths, fixes and field of the Earth within a tolerance. Nominal vehicle,
+/// instruments, library and program must be equal. The folder holds at most kMostBanks banks; the least
+/// recently used one is removed first.
 class BankCache {
  public:
   static constexpr std::size_t kMostBanks = 64;  ///< of about 0.3 MB each
-  /// Empty folder: nothing is kept.
+  /// Empty folder: no bank is kept.
   BankCache(std::filesystem::path folder, const config::VehicleSettings& vehicle, const Library& library);
 
-  /// The bank of at least so many missions whose own mission is nearest, if it is near enough. A file that cannot
-  /// be read as one is passed over.
+  /// The nearest bank of about so many missions (nine tenths at least), if it is near enough. A file that is no
+  /// valid bank is skipped.
   [[nodiscard]] std::optional<NullBank> find(const Replay& replay, const Trajectory10Hz& course,
                                              const BankOptions& options) const;
   /// Returns why the bank could not be kept; empty: it is kept, or there is no folder for it.
   [[nodiscard]] std::string keep(const Replay& replay, const Trajectory10Hz& course, const NullBank& bank) const;
 
  private:
-  /// What else must be the same.
+  /// Text that must be equal for a bank to serve: program, vehicle, library and instruments.
   [[nodiscard]] std::string model_of(const Replay& replay) const;
 
   std::filesystem::path folder_;

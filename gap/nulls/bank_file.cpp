@@ -21,7 +21,7 @@ Json numbers(const Eigen::MatrixXd& matrix) {
 Eigen::MatrixXd matrix(const Json& from) {
   const auto rows = from.at("rows").get<Eigen::Index>(), cols = from.at("cols").get<Eigen::Index>();
   const auto values = from.at("values").get<std::vector<double>>();
-  // By division: the product of what a damaged file says may be no number.
+  // Division avoids the overflow that the product of a damaged file's numbers may have.
   const auto size = static_cast<Eigen::Index>(values.size());
   if (rows < 0 || cols < 0 || (cols == 0 ? size != 0 : size % cols != 0 || size / cols != rows)) {
     throw std::invalid_argument("a matrix of another size than it says");
@@ -76,7 +76,7 @@ bool is_shaped(const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index co
   return matrix.rows() == rows && matrix.cols() == cols && matrix.allFinite();
 }
 
-/// Nothing, too: where no simulated vehicle could follow.
+/// An empty filter is valid, too: no simulated vehicle could follow the mission.
 bool is_past_filter(const Eigen::MatrixXd& weights) {
   return weights.size() == 0 ||
          is_shaped(weights, PredictionErrorFilter::kWindows * kEvidenceChannels, kEvidenceChannels);
@@ -87,7 +87,7 @@ bool is_factor(const Eigen::MatrixXd& matrix, Eigen::Index size) {
   return is_shaped(matrix, size, size) && (matrix.diagonal().array() > 0).all();
 }
 
-/// Mean squares and their variances: more than this no instrument can say, and its square is still a number.
+/// Mean squares and their variances: the bound is beyond all instruments, and its square is still finite.
 bool is_square(const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index cols) {
   constexpr double kGreatest = 1e100;
   return is_shaped(matrix, rows, cols) && (matrix.array() >= 0).all() && (matrix.array() < kGreatest).all();

@@ -10,7 +10,7 @@
 
 namespace navcal::gap {
 
-/// A bank as a file holds it, with what tells which missions it serves.
+/// Content of a bank's file: the bank, and the features of the missions that it serves.
 struct KeptBank {
   std::vector<double> fingerprint;  ///< of the mission that it was steered by
   NullBank bank;
@@ -18,11 +18,11 @@ struct KeptBank {
   bool field_is_fitted = false;  ///< and not known
 };
 
-/// JSON. `model`: what a reader must have in common with the writer.
+/// Bank as JSON. `model`: what reader and writer must have in common.
 [[nodiscard]] std::string bank_text(const KeptBank& kept, std::string_view model);
 
-/// Nothing for a text that is no bank, or one of another model, or of another shape than a library of so many
-/// unknowns gives, or with numbers that are none.
+/// Parses a bank. Empty for a text that is no bank, is one of another model or of another number of unknowns,
+/// or contains numbers that are not finite.
 [[nodiscard]] std::optional<KeptBank> read_bank(std::string_view text, std::string_view model,
                                                 Eigen::Index unknowns);
 

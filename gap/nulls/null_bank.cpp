@@ -22,8 +22,8 @@ struct Null {
   std::optional<Innovations> noise;  ///< by its own true parameters
 };
 
-/// A vehicle within tolerance that repeats the recorded mission. `with_noise`: its residuals by its own true
-/// parameters are wanted, too.
+/// Simulates a vehicle within tolerance that repeats the recorded mission. `with_noise`: also replays it with
+/// its own true parameters.
 Null simulate_null(const RepeatedMission& repeated, const Library& library, std::uint64_t seed, bool with_noise) {
   const Model truth = library.model(benign_mismatch(library, seed));
   const Mission mission = null_mission(repeated, truth.effects, seed);
@@ -36,7 +36,8 @@ Null simulate_null(const RepeatedMission& repeated, const Library& library, std:
   return null;
 }
 
-/// The whitening filter and the residuals that are left by exact models. Takes the noise out of `nulls`.
+/// Fits the whitening filter, and the statistics of the residuals that exact models leave. Moves the noise out
+/// of `nulls`.
 void learn_noise(std::vector<Null>& nulls, NullBank& bank) {
   std::vector<Innovations> noise;
   std::vector<Layout> layouts;
@@ -51,7 +52,8 @@ void learn_noise(std::vector<Null>& nulls, NullBank& bank) {
   bank.left = RegimeStatistics(left_by_nulls);
 }
 
-/// Scores and powers of the nulls by the recorded mission's design, which serves all: they were steered alike.
+/// Scores and powers of the nulls with the recorded mission's design. It serves all of them because they were
+/// steered alike.
 void score_nulls(const std::vector<Null>& nulls, const Linearised& linear, const Layout& layout, NullBank& bank) {
   bank.gram = linear.gram;
   bank.scores.resize(linear.gram.rows(), static_cast<Eigen::Index>(nulls.size()));

@@ -14,9 +14,9 @@
 namespace navcal::gap {
 namespace {
 
-/// Members, and those others of which a usual tolerance looks most like one of them: their own signatures serve,
-/// too, lest a null's lag of the fins, which moved otherwise between two reports than the recorded ones, pass for
-/// a member.
+/// Adds to the members those other unknowns whose usual tolerance resembles a member most, so that their
+/// regressors are computed for each null, too. A null's fins move otherwise between two reports than the
+/// recorded ones. With the recorded regressors only, its fin lag would pass for a member.
 std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, const Linearised& linear,
                                           const Priors& priors) {
   std::vector<std::pair<double, Eigen::Index>> others;
@@ -33,7 +33,7 @@ std::vector<Eigen::Index> with_likenesses(std::vector<Eigen::Index> members, con
   return members;
 }
 
-/// Of unknowns of the library, whitened in the shape of the recorded mission: a column each.
+/// Whitened regressors of some unknowns of the library, in the shape of the recorded mission: one column each.
 Eigen::MatrixXd signatures(const ResidualModel& model, const Layout& layout, const Eigen::VectorXd& white,
                            const std::vector<Eigen::Index>& unknowns) {
   const Library& library = model.library;
@@ -50,7 +50,7 @@ Eigen::MatrixXd signatures(const ResidualModel& model, const Layout& layout, con
   return columns;
 }
 
-/// What the recorded mission's signatures, and these unknowns' own, say of a null.
+/// Linear model of a null: the recorded mission's regressors, but the null's own ones for these unknowns.
 Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eigen::MatrixXd& own,
                    const std::vector<Eigen::Index>& unknowns) {
   Linearised null;

@@ -9,19 +9,21 @@
 
 namespace navcal::gap {
 
-/// By how much a set is better than none, nats, by these straight lines.
+/// Log evidence of a subset minus that of no effect, nats, in one linear model.
 [[nodiscard]] double gain_over_none(const EffectSubset& set, const LinearGaussianModel& model);
 
-/// By how much a set of effects is better than none, nats, on simulated missions that have no gap and were steered
-/// as the recorded one: one each. The signatures of the members, and of what looks most like them, are taken of
-/// each of these missions. A replay is led by its instruments, so that their noise is in the signatures as it is
-/// in the innovations; where hardly anything else moves, on a straight course, that makes evidence of which the
-/// bank, all of it compared with the recorded mission's signatures, knows nothing. `problem` is that of the
-/// recorded mission.
+/// Null Bayes factors: log evidence of a subset minus that of no effect, nats, on simulated missions that have
+/// no gap and were steered as the recorded one. One value for each mission. `problem` is that of the recorded
+/// mission.
+///
+/// The regressors of the members, and of the unknowns most like them, are computed for each of these missions.
+/// The instruments correct the replay, so their noise is in the regressors as well as in the innovations. Where
+/// little else moves, on a straight course, that correlation raises the evidence. The null bank does not
+/// contain this rise, because it compares all its missions with the recorded mission's regressors.
 [[nodiscard]] std::vector<double> null_bayes_factors(const EffectSubset& set, const RepeatedMission& repeated,
                                                      const InferenceProblem& problem, const BankOptions& options);
 
-/// Whether a gain is more than these scatter about.
+/// Whether a gain is significantly larger than the null Bayes factors.
 [[nodiscard]] bool stands_out(double gain_nats, std::span<const double> among_nulls);
 
 }  // namespace navcal::gap

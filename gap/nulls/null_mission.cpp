@@ -16,7 +16,7 @@
 namespace navcal::gap {
 namespace {
 
-/// 2026-01-01: any full second would do.
+/// 2026-01-01; any full second would serve.
 constexpr std::int64_t kSomeSecond_ns = 1'767'225'600 * base::kSecond_ns;
 /// A receiver's noise is settled after so many fixes.
 constexpr int kPoorFixes = 8;
@@ -36,7 +36,7 @@ void add_surfacings(const Mission& recorded, sim::EffectSet& effects) {
   }
 }
 
-/// Only the fixes that the recorded mission had, with their numbers.
+/// Keeps only the fixes that the recorded mission had, with their numbers.
 void keep_fixes(const Mission& recorded, Mission& simulated) {
   std::vector<FixReading> kept;
   auto next = simulated.fixes.begin();
@@ -55,7 +55,8 @@ void keep_fixes(const Mission& recorded, Mission& simulated) {
 
 Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mismatch, std::uint64_t seed) {
   const auto& [recorded, course, vehicle] = repeated;
-  // Full seconds of the simulated sky are where the recorded mission had its fixes.
+  // The simulated receiver fixes at full seconds: the begin is shifted so that they coincide with the recorded
+  // fixes.
   const auto& fixes = recorded.mission().fixes;
   const double phase_s = fixes.empty() ? 0 : fixes.front().time_s - std::floor(fixes.front().time_s);
   const std::int64_t begin_ns = kSomeSecond_ns - std::llround(phase_s * 1e9);
@@ -64,7 +65,7 @@ Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mism
   for (std::size_t i = 0; i < mismatch.size(); ++i) effects.add(mismatch[i].clone());
   add_surfacings(recorded.mission(), effects);
   effects.reseed(seed);
-  // The card's reports fall anywhere between the orders.
+  // The phase between the card's reports and the orders is random.
   sim::Noise dice(seed);
   const double later_s = dice.uniform(0, kInterval_s);
   const auto& track = recorded.actuators();
@@ -93,7 +94,7 @@ Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mism
   }
   Mission mission = gatherer.take(begin_ns, {});
   mission.instruments = options.instruments;
-  // A field that is fitted takes some of each vehicle's tolerances with it.
+  // A fitted field absorbs some of each vehicle's tolerances, so it is fitted to each null, too.
   mission.field = field.source == EarthField::Source::fitted ? fitted_field(mission.compass) : field;
   keep_fixes(recorded.mission(), mission);
   for (const double time_s : track.orders().order_times_s()) mission.order_times_s.push_back(time_s + later_s);

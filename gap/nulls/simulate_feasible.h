@@ -15,12 +15,12 @@
 
 namespace navcal::gap {
 
-/// Where the seeds of each kind of simulated mission begin, so that no two share one.
+/// First seed of each kind of simulated mission, so that no two kinds share one.
 enum class Seeds : std::uint64_t { bank = 0, backlash_null_bank = 500'000, null_gains = 700'000 };
 
-/// job(number, seed) of as many simulated vehicles as `options` says, in order of their numbers. One that cannot
-/// swim the recorded way (sim::UnstableVehicle) is left out: how many answers there are says so. `progress` gets
-/// the share that is done.
+/// Results of job(number, seed) for as many simulated vehicles as `options` says, in order of their numbers. A
+/// vehicle that cannot swim the recorded way (sim::UnstableVehicle) is left out, so there may be fewer results.
+/// `progress` gets the share that is done.
 template <class Job>
 auto simulate_feasible(
     const BankOptions& options, Seeds seeds, Job job,

@@ -7,7 +7,7 @@
 
 namespace navcal::gap {
 
-/// The manoeuvres that tell two effects apart, for people.
+/// Manoeuvres that separate two effects, as text.
 [[nodiscard]] std::string tie_breaker(const sim::EffectDescription& one, const sim::EffectDescription& other);
 
 }  // namespace navcal::gap

@@ -50,7 +50,7 @@ double rms(const Eigen::MatrixXd& values) {
   return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.rows())) : 0;
 }
 
-/// Before, after and floor of one channel; nothing where it was not measured.
+/// Closure of one channel; empty where the channel was not measured.
 std::optional<ChannelClosure> closure_of(std::size_t channel, const std::vector<Comparison>& compared) {
   double before = 0, after = 0, floor = 0;
   for (const Comparison& each : compared) {
@@ -104,7 +104,7 @@ std::optional<std::array<double, 2>> dead_reckoning_m_per_100m(const std::vector
   return std::array{100 * error_m[0] / distance_m[0], 100 * error_m[1] / distance_m[1]};
 }
 
-/// The sentence of a gap that is explained, and what tells the effects from others.
+/// Writes the sentence of an explained gap, and the manoeuvres that separate its effects from others.
 void write_explained(Diagnosis& answer) {
   std::vector<std::string_view> names;
   for (const EffectFinding& effect : answer.effects) names.push_back(effect.name);
@@ -129,7 +129,7 @@ void write_explained(Diagnosis& answer) {
   answer.next.emplace_back("take the effects into the simulator and calibrate or mend what causes them");
 }
 
-/// The sentence of a gap that is not explained, its candidates and what tells whether it is one of them.
+/// Writes the sentence of an unexplained gap, its candidates, and the manoeuvres that test them.
 void write_unknown(Diagnosis& answer) {
   answer.sentence = "There is a gap, and no effect of the library explains it well enough to be named.";
   if (answer.candidates.empty() || answer.candidates.front().probability < kLikelyFrom) {

@@ -10,14 +10,15 @@
 
 namespace navcal::gap {
 
-/// The effects of the verdict, or the candidates where there is none; with what they may be confused with.
+/// Writes the effects of the verdict, or the candidates where there is none, and the effects that each may be
+/// confused with.
 void write_findings(const FoundEffects& result, const Library& library, Diagnosis& answer);
 
-/// How far the gap shrinks, pooled and by channel, and what that means for whoever navigates.
+/// Writes how far the gap shrinks, pooled and by channel, and the resulting navigation errors.
 void write_gap(const std::vector<Comparison>& compared, const PooledClosure& closure, bool held_out,
                Diagnosis& answer);
 
-/// Sentence and what to do next, once everything else stands.
+/// Writes the sentence and the next steps, once everything else is known.
 void write_words(Diagnosis& answer);
 
 }  // namespace navcal::gap

@@ -33,8 +33,9 @@ struct Comparisons {
 /// Residuals with all that was found in the model, the small parameters included.
 Innovations rest_of(const Replay& replay, const Library& library, const ModelFit& best) {
   Innovations rest = replay.run(library.model(best.mean));
-  // Rolling comes from the small sum of three fins' angles, and its gyro feels each turning point of a servo
-  // between two reports. The missions of the backlash null bank, steered by what was reported, have none there.
+  // Rolling comes from the small sum of three fins' angles, and its gyro shows each reversal of a servo between
+  // two reports. The missions of the backlash null bank are steered by the reports and contain no such
+  // reversals.
   if (has_backlash(library, best.effects)) rest.grid.col(gyro_roll).setZero();
   return rest;
 }
@@ -48,10 +49,11 @@ std::vector<WhereEntry> leftover_of(const DiagnosisProblem& problem, const Found
   const auto map_of = [&] { return explained_rms(rest, here.course, here.fix_times_s); };
   if (result.backlash_bank) return significant_cells(residual_map(map_of(), result.backlash_bank->explained_rms));
   auto leftover = significant_cells(residual_map(map_of(), bank.explained_rms));
-  // Nothing found and nothing seen is no gap: how well its tolerances were found makes none.
+  // Without an effect and without a significant cell there is no gap. The tolerances are estimated only nearly,
+  // and their errors are no gap either.
   if (result.found.best.effects.empty() && !seen) return leftover;
-  // Rolling is no evidence, so that no search fits its gyro; where the vehicle was when the replay began is as
-  // good as its first fixes, decimetres. Vehicles that are known have another rest in both.
+  // The roll gyro is no evidence, so no search fits it. The start position is only as accurate as the first
+  // fixes, decimetres. The exact models leave other residuals in both, so both are left out.
   rest.grid.col(gyro_roll).setZero();
   rest.fixes.leftCols<2>().setZero();
   for (WhereEntry& entry : significant_against_exact_model(map_of(), bank.left, bank.explained_rms)) {
@@ -128,7 +130,7 @@ void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Com
   write_gap(compared.holdouts, closure, !blocks, answer);
 }
 
-/// What the pictures of the page show.
+/// Fills in the data of the page's figures.
 void write_pictures(const Prepared& a, const Comparison& here, bool with_effects, Diagnosis& answer) {
   answer.changes = change_points(here.nominal, a.course, here.fix_times_s, a.bank.explained_rms);
   answer.tracks = Tracks{track_of_fixes(a.mission), reckoned_track(a.course, a.mission),
@@ -139,7 +141,7 @@ void write_pictures(const Prepared& a, const Comparison& here, bool with_effects
   }
 }
 
-/// The ladder of gap/README.md from the search on.
+/// Runs the steps of gap/README.md from the search on.
 void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts, Diagnosis& answer) {
   const Prepared& a = problem.prepared;
   FoundEffects result = find_effects(problem);
@@ -167,7 +169,8 @@ void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts
   write_words(answer);
 }
 
-/// No model can be held against the recording; its instruments may still be held against each other.
+/// Reports a recording that cannot be compared with a model: its instruments are compared with each other
+/// instead.
 void say_without_causes(const Request& request, const Progress& progress, const std::string& why,
                         Diagnosis& answer) {
   answer.sentence = fmt::format("The causes of a gap cannot be found: {}.", why);

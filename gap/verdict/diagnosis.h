@@ -12,25 +12,26 @@
 #include "gap/data/earth_field.h"
 #include "gap/data/track.h"
 
-// What a diagnosis says: the numbers behind `navcal gap --json`, the text and the page (docs/gap.md).
+// Results of a diagnosis: the numbers behind `navcal gap --json`, the text and the page (docs/gap.md).
 namespace navcal::gap {
 
 enum class Verdict : std::uint8_t {
-  no_gap,     ///< nothing beyond what a tolerance of 2 % on everything would show
+  no_gap,     ///< nothing beyond a tolerance of 2 % on everything
   explained,  ///< a set of effects wins, leaves nothing but noise, and improves what was held out
   unknown,    ///< there is a gap, and nothing in the library explains it
 };
 /// "no-gap", "explained", "unknown".
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-/// Where residuals are larger than the nominal vehicle's: a channel, and what its excess follows.
+/// Cell of the residual map: a channel whose residuals exceed the nominal vehicle's, and the regime that
+/// explains the excess.
 struct WhereEntry {
   std::string channel;  ///< "compass.field"
   std::string regime;   ///< "motor_current"
   double gap = 0;       ///< root mean square of the part that follows the regime
-  double floor = 0;     ///< what the null missions show of it
+  double floor = 0;     ///< the same of the null missions
   std::string unit;     ///< of both: "uT"
-  double p_value = 1;   ///< of so much among nulls, over all channels and regimes together
+  double p_value = 1;   ///< probability of such a value among nulls, over all channels and regimes together
 };
 
 struct EffectParameterEstimate {
@@ -40,7 +41,7 @@ struct EffectParameterEstimate {
 
 struct Confusion {
   std::string name;
-  std::string tie_breaker;     ///< the manoeuvre that tells them apart
+  std::string tie_breaker;     ///< the manoeuvre that separates them
   double separation_nats = 0;  ///< expected log evidence between both in this mission
 };
 
@@ -49,11 +50,11 @@ struct EffectFinding {
   double probability = 0;
   std::vector<EffectParameterEstimate> parameters;
   std::vector<Confusion> confused_with;
-  std::string manoeuvre = {};  ///< that tells it
+  std::string manoeuvre = {};  ///< the manoeuvre that shows the effect
 };
 
-/// How much of the gap goes away. `closed` = 1 - (after - floor) / (before - floor), on what was held out; absent
-/// where the gap before does not stand clear of the floor.
+/// Share of the gap that goes away: `closed` = 1 - (after - floor) / (before - floor), on held-out data. Empty
+/// where the gap before is not significantly above the floor.
 struct Closure {
   double before = 0, after = 0, floor = 0;
   std::optional<double> closed;
@@ -67,19 +68,19 @@ struct Gap {
   Closure pooled;  ///< power of whitened innovations; 1 is the noise of the nominal vehicle
   std::vector<ChannelClosure> channels;
   bool held_out = false;  ///< on other missions; else on blocks of this one, which is weaker
-  /// What it means for whoever navigates by the model: heading error RMS, and position error per 100 m between
-  /// fixes; before and after.
+  /// Navigation errors by the model, before and after: heading error RMS, and position error per 100 m between
+  /// fixes.
   std::optional<std::array<double, 2>> heading_error_rad;
   std::optional<std::array<double, 2>> dead_reckoning_m_per_100m;
 };
 
-/// For the picture: innovations of one channel against what drives it, before and after.
+/// Data of a figure: innovations of one channel against a covariate, before and after.
 struct Scatter {
   std::string channel, unit;  ///< of the innovations
   std::string driver, driver_unit;
   std::vector<double> driver_value, before, after;
 };
-/// And against time, means of equal intervals.
+/// Data of a figure: innovations of one channel against time, means of equal intervals.
 struct Course {
   std::string channel, unit;
   std::vector<double> time_s, before, after;
@@ -97,19 +98,19 @@ struct BankFacts {
   int missions = 0;
   std::uint64_t seed = 0;
   bool from_cache = false;
-  double seconds = 0;  ///< that making it took
+  double seconds = 0;  ///< computing time of the bank
 };
 
 struct Diagnosis {
   Verdict verdict = Verdict::unknown;
   std::string sentence;                   ///< the verdict for people
-  std::vector<WhereEntry> where;          ///< what stands clear, strongest first
-  std::vector<WhereEntry> map;            ///< every channel and regime, for the picture
+  std::vector<WhereEntry> where;          ///< significant cells, strongest first
+  std::vector<WhereEntry> map;            ///< every channel and regime, for the figure
   std::vector<EffectFinding> effects;     ///< the set on which the verdict rests
   std::vector<EffectFinding> candidates;  ///< all that were considered likely, most probable first
   Gap gap;
-  std::vector<std::string> unexplained;  ///< what structure is left
-  std::vector<std::string> next;         ///< what to do now: a manoeuvre, an effect to add
+  std::vector<std::string> unexplained;  ///< structure that is left in the residuals
+  std::vector<std::string> next;         ///< next steps: a manoeuvre, an effect to add
   std::vector<std::string> remarks;      ///< about the recording: gaps, missing instruments, what cannot be said
   std::array<double, 4> gyro_bias_rad_s{};  ///< A-x, A-z, B-y, B-z; a nuisance, never a cause
   std::vector<ChangePoint> changes;
@@ -117,11 +118,11 @@ struct Diagnosis {
   std::vector<Course> courses;      ///< of each channel
   std::optional<EarthField> field;  ///< of the nominal model in this mission
   std::optional<Tracks> tracks;
-  /// Where an instrument is missing that the search for causes needs: what the others show of each other.
+  /// Comparison of the instruments with each other, where one is missing that the search for causes needs.
   std::optional<calib::Report> instruments_alone;
   BankFacts bank;
   double duration_s = 0;  ///< of the mission
-  double seconds = 0;     ///< that the diagnosis took, without the bank
+  double seconds = 0;     ///< computing time of the diagnosis, without the bank
 };
 
 }  // namespace navcal::gap

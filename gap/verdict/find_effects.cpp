@@ -16,7 +16,7 @@ SearchResult search_by(const Priors& priors, const DiagnosisProblem& problem, co
   return SubsetSearch(problem.inference(nominal, priors)).run();
 }
 
-/// A search, and a second one with wider priors when the first found backlash.
+/// Searches, and searches again with wider priors when backlash was found.
 FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Linearised& nominal) {
   const Library& library = problem.library;
   const Priors priors = fit_spike_widths(library, problem.prepared.bank.gram, problem.prepared.bank.scores);
@@ -27,7 +27,7 @@ FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Lineari
       backlash_null_bank(result.found.best, problem.repeated(), problem.prepared.model(library, problem.threads),
                          {kBacklashMissions, problem.request.bank_seed, problem.threads});
   if (bank.missions <= kBacklashMissions / 2) return result;
-  // Once more: beside a backlash, other effects are recruited for what it leaves.
+  // Searches again: beside a backlash, other effects are recruited for its residuals.
   const Priors wider = widened(priors, library, result.found.best, bank);
   if (SearchResult again = search_by(wider, problem, nominal); has_backlash(library, again.best.effects)) {
     result.found = std::move(again);

@@ -10,8 +10,8 @@
 
 namespace navcal::gap {
 
-/// What the steps of a diagnosis share once the recording is prepared. References, valid as long as the diagnosis
-/// runs.
+/// Data that the steps of a diagnosis share once the recording is prepared. References, valid as long as the
+/// diagnosis runs.
 struct DiagnosisProblem {
   const Prepared& prepared;
   const Library& library;
@@ -19,9 +19,9 @@ struct DiagnosisProblem {
   const Progress& progress;
   unsigned threads = 1;
 
-  /// The question to the search, by one linearisation about the nominal vehicle and by priors.
+  /// Problem of the search, with one linearisation about the nominal vehicle and with priors.
   [[nodiscard]] InferenceProblem inference(const Linearised& nominal, const Priors& priors) const;
-  /// What null missions repeat.
+  /// Input of the null missions.
   [[nodiscard]] RepeatedMission repeated() const { return {*prepared.replay, prepared.course, request.vehicle}; }
 };
 
@@ -34,8 +34,8 @@ struct FoundEffects {
   EffectSubset by_chance;     ///< effects that were found, and that null missions show as well
 };
 
-/// The second step of a diagnosis: the most probable subset of effects. Backlash is judged by a null bank of
-/// vehicles that have it; a subset of little evidence by null Bayes factors; and effects that the mission cannot
+/// The second step of a diagnosis: finds the most probable subset of effects. Backlash is judged by a null bank
+/// of vehicles that have it, a subset of little evidence by null Bayes factors. Effects that the mission cannot
 /// show become nuisance parameters of a second search.
 [[nodiscard]] FoundEffects find_effects(const DiagnosisProblem& problem);
 

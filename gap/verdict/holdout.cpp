@@ -12,7 +12,7 @@
 namespace navcal::gap {
 namespace {
 
-/// The innovations by these effects with the biases that fit them, and their whitened form.
+/// Innovations with these effects and the biases fitted to them, and their whitened form.
 struct Fitted {
   Innovations innovations;
   Eigen::VectorXd white;
@@ -33,7 +33,7 @@ std::vector<double> blocks(const Eigen::VectorXd& white, const Layout& layout) {
   for (Eigen::Index from = 0; from < grid; from += length) {
     sums.push_back(white.segment(from, std::min(length, grid - from)).squaredNorm());
   }
-  // A handful of fixes belong together: one outlying surfacing is one event.
+  // Ten fixes make one block: one outlying surfacing is one event.
   constexpr Eigen::Index kFixes = 10 * kFixChannels;
   for (Eigen::Index from = grid; from < white.size(); from += kFixes) {
     sums.push_back(white.segment(from, std::min(kFixes, white.size() - from)).squaredNorm());
@@ -50,7 +50,7 @@ struct PooledFloor {
   double mean = 0, std = 0, measurements = 0;
 };
 
-/// Closures of a bootstrap: blocks are drawn anew, and the floor scatters. Resamples without a gap are left out.
+/// Closures of a bootstrap that resamples the blocks and draws the floor. Resamples without a gap are left out.
 std::vector<double> resampled_closures(const std::vector<Comparison>& comparisons, const std::vector<Power>& after,
                                        const PooledFloor& floor) {
   std::mt19937_64 dice(1);
@@ -67,7 +67,7 @@ std::vector<double> resampled_closures(const std::vector<Comparison>& comparison
         is += after[i].blocks[block];
       }
     }
-    // The floor's spread holds that of the noise, which before and after share.
+    // The floor's standard deviation includes that of the noise, which before and after share.
     const double level = floor.mean + floor.std * normal(dice);
     const double gap = was / floor.measurements - level;
     if (gap > 0) closures.push_back(1 - (is / floor.measurements - level) / gap);

@@ -27,25 +27,27 @@ struct Prepared {
   NullBank bank;
   bool from_cache = false;
 
-  /// Its whitened residuals. The references are valid as long as this and `library`.
+  /// Whitened residuals of the recording as a function of the unknowns. The references are valid as long as
+  /// this and `library`.
   [[nodiscard]] ResidualModel model(const Library& library, unsigned threads) const {
     return {*replay, library, bank.whitening, threads};
   }
 };
 
-/// The first step of a diagnosis: recordings to residuals, each with its null bank.
+/// The first step of a diagnosis: turns recordings into residuals, each with its null bank.
 class Preparation {
  public:
   /// Keeps references to `request`, `library` and `progress`.
   Preparation(const Request& request, const Library& library, const Progress& progress, unsigned threads);
 
-  /// nullptr: the recording tells nothing, and a remark in `answer` says why. Throws record::BadRecording, and
-  /// std::invalid_argument when the recording shares readings with one that was prepared before it.
+  /// Prepares one recording. nullptr: it cannot be diagnosed, and a remark in `answer` says why. Throws
+  /// record::BadRecording, and std::invalid_argument when the recording shares readings with one that was
+  /// prepared before it.
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
 
  private:
   void expect_other_content(const std::string& name, const Mission& mission);
-  /// The times at which the fins were ordered to move, found where they were not recorded; and the replay by them.
+  /// Estimates the times of the fin orders where they were not recorded, and replays with them.
   void replay_orders(Prepared& prepared, const std::string& name, Diagnosis& answer) const;
   void find_bank(Prepared& prepared, const std::string& name, Diagnosis& answer);
 

@@ -17,7 +17,7 @@
 
 namespace navcal::gap {
 
-/// What is asked of a diagnosis.
+/// Request for a diagnosis.
 struct Request {
   std::filesystem::path mission;
   std::vector<std::filesystem::path> holdouts;  ///< other missions of the same vehicle; may be none
@@ -31,12 +31,13 @@ struct Request {
   unsigned threads = 0;  ///< 0: as many as there are cores
 };
 
-/// What is being done, and how much of it is done (0 to 1). Called from one thread at a time.
+/// Gets the current step and the share of it that is done (0 to 1). Called from one thread at a time.
 using Progress = std::function<void(std::string_view what, double done)>;
 
-/// Throws record::BadRecording for a file that is none, std::invalid_argument for an excluded name that is not in
-/// the library, and for a hold-out that shares readings with the mission or another hold-out. A recording of which
-/// nothing can be said gets the verdict `unknown` and remarks that say why.
+/// Diagnoses a recording. Throws record::BadRecording for a file that is no recording. Throws
+/// std::invalid_argument for an excluded name that is not in the library, and for a hold-out that shares
+/// readings with the mission or another hold-out. A recording that cannot be diagnosed gets the verdict
+/// `unknown` and remarks that say why.
 [[nodiscard]] Diagnosis diagnose(const Request& request, const Progress& progress);
 
 }  // namespace navcal::gap

@@ -20,9 +20,10 @@ std::string names(const Library& library, const std::vector<std::size_t>& effect
   return fmt::format("{}", fmt::join(all, " + "));
 }
 
-/// Whether nothing is left that speaks for something outside the library. What is left beside the effects may be
-/// this vehicle's tolerances, if those found on the first mission explain it on the others; but then the effects
-/// must be more than tolerances themselves, and the others must be tolerances.
+/// Whether the effects leave no sign of a cause outside the library.
+///
+/// The remaining gap may be this vehicle's tolerances, if those estimated on the first mission explain it on
+/// the others. Then the named effects must be larger than tolerances, and all other effects must be tolerances.
 bool closes(const Grounds& grounds) {
   if (!grounds.closure.clear || grounds.closure.upper >= kClosedFrom) return true;
   const auto& best = grounds.found.best;
@@ -34,7 +35,7 @@ bool closes(const Grounds& grounds) {
   return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosedFrom;
 }
 
-/// Probability that the cause is one without some of `set`.
+/// Total probability of the subsets that lack a member of `set`.
 double rivals_of(const EffectSubset& set, const std::vector<Candidate>& candidates) {
   double together = 0;
   for (const Candidate& other : candidates) {
@@ -55,7 +56,7 @@ void add_leftover(const Grounds& grounds, std::vector<std::string>& reasons) {
   }
 }
 
-/// Missions or blocks on which the effects did not raise the likelihood as causes would.
+/// Adds the missions or blocks on which the effects do not raise the likelihood enough.
 void add_held_out(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
   const auto& gains_nats = grounds.held_out_nats;
   const double altogether = std::accumulate(gains_nats.begin(), gains_nats.end(), 0.0);
@@ -69,7 +70,8 @@ void add_held_out(const Grounds& grounds, const std::string& set, std::vector<st
                                       worse, gains_nats.size(), parts));
 }
 
-/// Why a closure is not enough. Far below zero its digits mean nothing, so that only the direction is told.
+/// Reason why a closure is not enough. Far below zero its value is meaningless, so only the direction is
+/// stated.
 std::string closure_words(const PooledClosure& closure, const std::string& set) {
   if (closure.closed < kGrowsBelow) return fmt::format("with {} the gap grows instead of going away", set);
   const double percent = std::max(0.0, 100 * closure.closed);
@@ -81,7 +83,7 @@ std::string closure_words(const PooledClosure& closure, const std::string& set) 
                      100 * std::max(0.0, closure.lower), 100 * closure.upper);
 }
 
-/// Whether the set is not clearly the most probable one.
+/// Adds a reason when the subset is not clearly the most probable one.
 void add_rivals(const Grounds& grounds, const std::string& set, std::vector<std::string>& reasons) {
   const auto& best = grounds.found.best;
   const auto& candidates = grounds.found.candidates;
@@ -102,7 +104,7 @@ void add_rivals(const Grounds& grounds, const std::string& set, std::vector<std:
   }
 }
 
-/// Effects that the mission hardly shows, and strengths that no cause has.
+/// Adds effects that the mission hardly shows, and strengths that no cause has.
 void add_strengths(const Grounds& grounds, std::vector<std::string>& reasons) {
   const auto& best = grounds.found.best;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {

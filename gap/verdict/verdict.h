@@ -11,12 +11,12 @@
 
 namespace navcal::gap {
 
-/// What a verdict rests on.
+/// Grounds of a verdict.
 struct Grounds {
   const SearchResult& found;
   const Library& library;
-  const std::vector<WhereEntry>& where;     ///< clear of nulls, before
-  const std::vector<WhereEntry>& leftover;  ///< clear of nulls, after all that was found is in the model
+  const std::vector<WhereEntry>& where;     ///< significant cells of the residual map, before
+  const std::vector<WhereEntry>& leftover;  ///< significant cells with all that was found in the model
   std::vector<double> held_out_nats;        ///< gains of missions that were held out, or of blocks
   PooledClosure closure;                    ///< by the effects alone
   PooledClosure closure_by_all;             ///< with the tolerances that go with them; of blocks, not clear
@@ -25,11 +25,12 @@ struct Grounds {
 
 struct Judgement {
   Verdict verdict = Verdict::unknown;
-  std::vector<std::string> reasons;  ///< why not explained
+  std::vector<std::string> reasons;  ///< why the gap is not explained
 };
 
-/// A set of effects explains a gap when it is clearly the most probable, leaves nothing that nulls would not show,
-/// improves what was held out, closes the gap there, and is of a size that can be.
+/// Judges a diagnosis. A subset of effects explains a gap when it is clearly the most probable and leaves no
+/// significant residuals. It must also improve the prediction of held-out data, close the gap there, and have
+/// plausible strengths.
 [[nodiscard]] Judgement judge(const Grounds& grounds);
 
 }  // namespace navcal::gap

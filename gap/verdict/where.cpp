@@ -26,20 +26,20 @@ std::size_t channel_index(std::string_view name) {
   return index;
 }
 
-/// Its place in a map.
+/// Row and column of an entry in a map.
 std::pair<Eigen::Index, Eigen::Index> cell_of(const WhereEntry& entry) {
   return {static_cast<Eigen::Index>(channel_index(entry.channel)),
           static_cast<Eigen::Index>(index_of(entry.regime, regimes()))};
 }
 
-/// The component of a channel in which there is most to see.
+/// Component of a channel with the largest power.
 Eigen::Index loudest(const Eigen::MatrixXd& values) {
   Eigen::Index column = 0;
   if (values.rows() > 0) values.colwise().squaredNorm().maxCoeff(&column);
   return column;
 }
 
-/// Means of equal pieces of time: begin, mean.
+/// Mean of a channel over one of equal pieces of time.
 struct Piece {
   double time_s = 0, mean = 0;
 };
@@ -105,8 +105,8 @@ std::vector<WhereEntry> residual_map(const Eigen::MatrixXd& explained_rms, const
       WhereEntry entry{
           std::string(channel.name), std::string(regimes()[static_cast<std::size_t>(k)]), value, nulls.floor(c, k),
           std::string(channel.unit), std::min(1.0, cells * nulls.p_value(c, k, value))};
-      // As the gap, in powers of the channel's noise. How plainly it is seen is the p value's to say: by that the
-      // depth, whose slow part hardly scatters, would come before the tilt that turned it.
+      // The rank is the excess power, in units of the channel's noise. A rank by p-value would put the depth,
+      // whose slow part hardly scatters, before the tilt that turned it.
       const double excess = (value * value - nulls.mean_square(c, k)) / nulls.mean_square(c, overall_regime());
       ranked.push_back({std::move(entry), excess});
     }

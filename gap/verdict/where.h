@@ -9,28 +9,31 @@
 
 namespace navcal::gap {
 
-/// Every channel by every regime; p values hold over all of them together (Bonferroni). Strongest excess first, by
-/// its power in that of the channel's noise.
+/// Residual map: every channel by every regime. p-values hold over all cells together (Bonferroni). Largest
+/// excess power first, in units of the power of the channel's noise.
 [[nodiscard]] std::vector<WhereEntry> residual_map(const Eigen::MatrixXd& explained_rms,
                                                    const RegimeStatistics& nulls);
-/// Those that nulls would hardly show, by their size either.
+/// Cells of a map that are significant against the nulls, by p-value and by size (kSignificantBelow,
+/// kLouderThanNulls).
 [[nodiscard]] std::vector<WhereEntry> significant_cells(const std::vector<WhereEntry>& map);
-/// Of what is left with all that was found in the model: what no vehicle leaves whose every number is known
-/// (`known`), and is more than tolerances alone make of vehicles without a gap, too.
+/// Significant cells of the residuals `left` when all that was found is in the model. A cell must be
+/// significant against vehicles whose parameters are known exactly (`known`). It must also exceed the rms of
+/// vehicles whose tolerances are unknown (`nulls`).
 [[nodiscard]] std::vector<WhereEntry> significant_against_exact_model(const Eigen::MatrixXd& left,
                                                                       const RegimeStatistics& known,
                                                                       const RegimeStatistics& nulls);
-/// Of a map that is not empty, where `after` follows the regime less than `before` by most, in powers
-/// of the channel's noise: what to look at when nothing stands clear of nulls by itself.
+/// The cell of a non-empty map in which `after` lies below `before` by most, in units of the power of the
+/// channel's noise. It is shown when no cell is significant by itself.
 [[nodiscard]] WhereEntry most_changed(const std::vector<WhereEntry>& map, const Eigen::MatrixXd& before,
                                       const Eigen::MatrixXd& after, const RegimeStatistics& nulls);
 
-/// Levels of channels that changed in mid-mission, for good or for a time (LevelChanges): one entry a change.
+/// Permanent and temporary changes of a channel's level in mid-mission (LevelChanges): one entry for each
+/// change.
 [[nodiscard]] std::vector<ChangePoint> change_points(const Innovations& innovations, const Trajectory10Hz& course,
                                                      const std::vector<double>& fix_times_s,
                                                      const RegimeStatistics& nulls);
 
-/// For the pictures.
+/// Data of the page's figures.
 [[nodiscard]] std::vector<Course> courses(const Innovations& before, const Innovations& after,
                                           const Trajectory10Hz& course, const std::vector<double>& fix_times_s);
 [[nodiscard]] Scatter scatter(const WhereEntry& where, const Innovations& before, const Innovations& after,
