@@ -113,14 +113,15 @@ TimeEstimate ClockModel::update(std::int64_t index, std::int64_t observed_ns, bo
     if (early) take_early(residual_s);
     earliest_s_ = in_block_ == 0 ? residual_s : std::min(earliest_s_, residual_s);
     residuals_[static_cast<std::size_t>(in_block_++)] = residual_s;
-    // A frame that comes earlier than the model allows is news at once; late ones wait for the block to end.
+    // A frame earlier than the model allows closes the block at once; late ones wait for the block to end.
     if (in_block_ == block_size_ || early) close_block();
   }
   const double now_s = std::min(phase_s_ + delays_.soft_edge_s(), observed_s);
   return {origin_ns_ + std::llround(now_s * kNs), std::llround(sigma_s() * kNs)};
 }
 
-/// Nothing arrives early: far too early a frame means that the model is wrong by so much.
+/// No frame arrives early: a frame that is far too early shows an error of the model, at least as large as the
+/// frame is early.
 void ClockModel::take_early(double residual_s) {
   const double allowed_s = std::hypot(kTooEarly * std::sqrt(var_phase_ * std::max(1.0, misfit_)),
                                       std::max(kTooEarlyDelay * delays_.mean_s(), delays_.soft_edge_s()));
@@ -153,12 +154,13 @@ void ClockModel::close_block() {
   block_size_ = std::min(2 * block_size_, kMaxBlock);
 }
 
-/// All of the block was held up somewhere, or the device paused, or the period is wrong.
+/// The whole block was delayed, or the device paused, or the period is wrong.
 void ClockModel::reject_block(double residual_s, double variance_s2) {
   held_late_s_ = residual_s;
   contradictions_ += 2;
   if (++rejected_blocks_ < kRejectedBlocksToReset) {
-    // Each such block makes the period less believed, so that a bad start cannot shut the truth out.
+    // Each such block widens the variance of the period, so that a wrong start value cannot exclude the true
+    // one.
     var_period_ = std::max(var_period_, std::min(4 * var_period_, square(period_prior_s_)));
     return;
   }
@@ -173,7 +175,8 @@ void ClockModel::reject_block(double residual_s, double variance_s2) {
 
 void ClockModel::correct(double residual_s, double variance_s2) {
   const double total = var_phase_ + variance_s2;
-  // Predictions that miss by more than they claim mean that the clock wanders more than was assumed.
+  // Prediction errors larger than their standard deviation show that the frequency wanders more than was
+  // assumed.
   const double misfit = std::min(square(residual_s) / total, kMisfitLimit);
   walk_ = std::clamp(walk_ * std::exp(kWalkGain * (misfit - kMisfitExpected)), kFrequencyWalkLeast,
                      kFrequencyWalkMost);
@@ -187,10 +190,11 @@ void ClockModel::correct(double residual_s, double variance_s2) {
   var_phase_ *= 1 - gain_phase;
 }
 
-// As long as few blocks have told what the mean delay is, it may well be several times what is believed.
+// Relative standard deviation of the expected delay. While few blocks have been seen, the true mean delay may
+// be several times the estimate.
 double ClockModel::doubt() const { return 1 + 4 / (1 + delays_.weight()) - 0.13; }
 
-/// By how much the newest frames are all later than delays explain.
+/// Delay of the newest frames beyond what the model of the delays explains.
 double ClockModel::least_late_s() const {
   const double late_s = in_block_ < kLateFrames ? 0 : earliest_s_ - kLateExpected * delays_.mean_s() / in_block_;
   return std::max({0.0, late_s, in_block_ < kLateFrames ? held_late_s_ : 0.0});

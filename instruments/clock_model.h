@@ -12,10 +12,13 @@ namespace navcal::instruments {
 struct PeriodFit;
 
 /// Model: frame k was measured at phase + k * period; it is observed at that time plus a delay d >= 0.
-/// The delay is noise of the host, never negative, so the truth is the lower envelope of the observations. A
-/// Kalman filter with the states phase and period is fed with the earliest observation of each block of frames,
-/// less what the earliest of n exponential delays is expected to be late (mean delay / n). docs/timing.md derives
-/// it. Value machine: no clock inside, bounded memory, O(1) per frame.
+///
+/// The delay is noise of the host and never negative, so the true times are the lower envelope of the
+/// observations. A Kalman filter with the states phase and period processes the earliest observation of each
+/// block of frames. The expected delay of the earliest of n exponential delays (mean delay / n) is subtracted
+/// first. docs/timing.md derives it.
+///
+/// No clock inside, bounded memory, O(1) per frame.
 class ClockModel {
  public:
   static constexpr double kCrystal = 300e-6;  ///< a card's rate can be off by 200 ppm (ICD section 3)
@@ -23,7 +26,7 @@ class ClockModel {
   /// `nominal_period_s` > 0, known to `period_std` (relative) until begin() says better.
   explicit ClockModel(double nominal_period_s, double period_std = kCrystal);
 
-  /// Phase and period found from a run of frames; `index` is the newest of them.
+  /// Sets phase and period to those fitted to a run of frames; `index` is the newest of them.
   void begin(std::int64_t index, const PeriodFit& fit);
   /// Observation of frame `index` (not less than the one before). Returns the estimate of when it was measured,
   /// never later than observed: a frame cannot arrive before it was sent. `held_up`: known to be late.
@@ -35,18 +38,19 @@ class ClockModel {
   [[nodiscard]] double period_s() const { return period_s_; }
   [[nodiscard]] double period_std_s() const;
   [[nodiscard]] double mean_delay_s() const { return delays_.mean_s(); }
-  /// From the earliest to the latest delay of a block, in the mean.
+  /// Mean range of the delays within a block, from the earliest to the latest.
   [[nodiscard]] double delay_range_s() const { return delays_.range_s(); }
   [[nodiscard]] bool empty() const { return observations_ == 0; }
-  /// Observations contradict the model again and again: phase and period are to be found anew.
+  /// Observations contradict the model repeatedly: phase and period must be found anew.
   [[nodiscard]] bool contradicted() const;
-  /// An observation contradicts the period beyond doubt.
+  /// Reports an observation that contradicts the period beyond doubt.
   void contradict();
-  /// Blocks miss their prediction by as much as frames differ within a block: no clock paces these frames.
+  /// Prediction errors of blocks are as large as the differences of frames within a block: no clock paces these
+  /// frames.
   [[nodiscard]] bool useless() const;
   [[nodiscard]] ClockState state() const;
 
-  /// The device paused or began anew: forget the phase, keep the period.
+  /// Forgets the phase and keeps the period, after the device paused or began anew.
   void reset_phase();
 
  private:
@@ -71,7 +75,7 @@ class ClockModel {
   double var_phase_ = 0, cov_ = 0, var_period_ = 0;  ///< covariance of (phase, period)
   double walk_;                                      ///< of the frequency, relative, per sqrt(s)
   double misfit_ = 1;                                ///< normalised innovation squared, mean over recent blocks
-  double held_late_s_ = 0;  ///< by how much the last block was late as a whole, if it was left out for that
+  double held_late_s_ = 0;  ///< delay of the whole last block, if it was left out for that
   DelaySpread delays_;
   std::array<double, kMaxBlock> residuals_{};  ///< of the open block
   double earliest_s_ = 0;                      ///< of them

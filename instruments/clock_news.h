@@ -9,7 +9,7 @@
 
 namespace navcal::instruments {
 
-/// What a frame clock finds that differs from the configuration, or no longer does.
+/// Differences of a stream from its configuration that a frame clock finds, and their end.
 enum class ClockNews : std::uint8_t {
   rate,        ///< the rate is another than configured, or than told before
   rate_right,  ///< it is as configured again
@@ -18,12 +18,12 @@ enum class ClockNews : std::uint8_t {
   regular,     ///< one by one at even intervals again
 };
 
-/// Rates that differ from the configured one by less are no news.
+/// Relative difference from the configured rate below which a rate is not reported.
 inline constexpr double kRateTolerance = 0.005;
 
 /// Name of the event in the log.
 [[nodiscard]] std::string_view name_of(ClockNews news);
-/// For people. `nominal_rate_Hz`: as configured.
+/// Text of the event for people. `nominal_rate_Hz`: as configured.
 [[nodiscard]] std::string words_for(ClockNews news, double nominal_rate_Hz, const ClockState& state);
 
 }  // namespace navcal::instruments

@@ -17,7 +17,7 @@ enum class Timing : std::uint8_t {
 
 [[nodiscard]] std::string_view name_of(Timing timing);
 
-/// What the model of a device's own clock says of itself; shown in HEALTH.
+/// State of the model of a device's own clock; shown in HEALTH.
 struct ClockState {
   bool locked = false;  ///< enough was seen to stamp by the model rather than by arrival
   Timing timing = Timing::arrival;

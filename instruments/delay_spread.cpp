@@ -11,7 +11,8 @@ constexpr double kPriorWeight = 0.5;  // blocks
 constexpr double kMemory = 30;        // blocks
 constexpr double kShapeMemory = 60;   // blocks
 constexpr double kShapePrior = 3;     // blocks of exponential delays, before anything is known
-// Of exponential delays, blocks of 16: (second highest - median) / (median - second lowest). Symmetric ones: 1.
+// (second highest - median) / (median - second lowest) in blocks of 16 exponential delays. For symmetric delays
+// it is 1.
 constexpr double kExponentialRatio = 2.78;
 constexpr double kSharpRatio = 1.8;  // above, the lower edge is taken for sharp
 constexpr double kSoftRatio = 1.3;   // below, the residuals are taken for symmetric
@@ -45,7 +46,8 @@ void DelaySpread::learn(std::span<double> residuals_s) {
   const double middle_s = residuals_s[middle - 1] - earliest_s;
   by_median_s_ += (middle_s / above_lowest(middle, n) - by_median_s_) / weight_;
   by_lowest_s_ += ((residuals_s[kLowest - 1] - earliest_s) / above_lowest(kLowest, n) - by_lowest_s_) / weight_;
-  // Frames that come in bursts: those that end one lie at the edge, and the others tell nothing of it.
+  // Frames in bursts: the last frames of the bursts lie at the lower edge, and the others contain no
+  // information about it.
   const bool crowded = by_lowest_s_ < kCrowded * by_median_s_;
   mean_s_ = crowded ? by_lowest_s_ : by_median_s_;
 

@@ -5,24 +5,24 @@
 
 namespace navcal::instruments {
 
-/// What the delays behind the envelope look like, learnt block by block: their mean, whether they have the sharp
-/// lower edge on which the envelope rests, and how far they reach.
+/// Distribution of the delays above the envelope, learnt block by block: mean, sharpness of the lower edge on
+/// which the envelope rests, and range.
 class DelaySpread {
  public:
-  /// Delays of mean `mean_s`, reaching over `range_s`, believed as much as `blocks` of them.
+  /// Begins with delays of mean `mean_s` and range `range_s`, with the weight of `blocks` blocks.
   void begin(double mean_s, double range_s, double blocks);
   /// Residuals of one block against the model, at least 4. Sorts them.
   void learn(std::span<double> residuals_s);
 
   /// Mean of exponential delays with the same lower edge.
   [[nodiscard]] double mean_s() const { return mean_s_; }
-  /// Blocks that told the mean, up to the memory's length.
+  /// Number of blocks in the mean, up to the memory's length.
   [[nodiscard]] double weight() const { return weight_; }
-  /// Distance of the residuals' middle from their lower edge, if that edge is soft; 0 if it is sharp, as of
-  /// exponential delays. Residuals that lie on both sides alike come from a host that rounds its stamps, or from a
-  /// device whose ticks are uneven: there the truth may lie anywhere among them.
+  /// Distance of the residuals' median from their lower edge if that edge is soft; 0 if it is sharp, as with
+  /// exponential delays. Symmetric residuals come from a host that rounds its stamps, or from a device with
+  /// uneven ticks. The true time may then lie anywhere among them.
   [[nodiscard]] double soft_edge_s() const { return soft_edge_s_; }
-  /// From the earliest to the latest of a block, in the mean.
+  /// Mean range within a block, from the earliest to the latest.
   [[nodiscard]] double range_s() const { return range_s_; }
 
  private:

@@ -7,10 +7,10 @@ namespace navcal::instruments {
 
 /// A straight line below all observations: time = end_s + slope_s * (index - index of the last one).
 ///
-/// Model: observation i is index[i] * period + phase + delay, with independent exponential delays. The line of
-/// greatest likelihood is the edge of the lower convex hull that lies above the mean index. With N observations
-/// over K indices and a mean delay d, its errors scale with d / N at the end and with d / (N K) in the slope;
-/// the factors were found by simulation, for 4 to 32 observations with and without lost ones.
+/// Model: observation i is index[i] * period + phase + delay, with independent exponential delays. The
+/// maximum-likelihood line is the edge of the lower convex hull at the mean index. With N observations over K
+/// indices and a mean delay d, its errors scale with d / N at the end and with d / (N K) in the slope. The
+/// factors come from simulation, for 4 to 32 observations with and without lost ones.
 struct EnvelopeLine {
   double end_s = 0;    ///< of the last observation's index, already less the line's mean excess
   double slope_s = 0;  ///< per index
@@ -24,7 +24,7 @@ inline constexpr double kEndSlopeCorrelation = 0.92;
 
 inline constexpr int kEnvelopeMost = 32;  ///< observations
 
-/// `index` strictly increasing, `time_s` never decreasing, 3 to kEnvelopeMost of them.
+/// Fits the line. `index` strictly increasing, `time_s` never decreasing, 3 to kEnvelopeMost of them.
 [[nodiscard]] EnvelopeLine fit_envelope(std::span<const double> index, std::span<const double> time_s);
 
 }  // namespace navcal::instruments

@@ -80,7 +80,7 @@ FrameClock::Outcome FrameClock::update(const FrameObservation& frame) {
   return {finish(time, tracking ? kLeastStep * model_.period_s() : 0), false, std::exchange(news_, std::nullopt)};
 }
 
-/// The latency's uncertainty, and no step backwards.
+/// Adds the latency's uncertainty, and makes the times increase.
 TimeEstimate FrameClock::finish(TimeEstimate time, double least_step_s) {
   double std_ns = std::hypot(static_cast<double>(time.std_ns), latency_std_s_ * 1e9);
   const std::int64_t least_ns = stamped_ns_ + std::max(kLeastStep_ns, ns(least_step_s));
@@ -94,7 +94,7 @@ TimeEstimate FrameClock::finish(TimeEstimate time, double least_step_s) {
   return time;
 }
 
-/// The counter has not moved, though it may have turned whole times.
+/// Whether the counter has not moved. A gap long enough for whole turns of the counter is no repetition.
 bool FrameClock::is_repeated(const FrameObservation& frame) const {
   if (!frame.sequence || !sequence_ || *frame.sequence != *sequence_) return false;
   const double period_s = model_known_ ? model_.period_s() : nominal_s_;
@@ -110,7 +110,7 @@ int FrameClock::counted_step(const FrameObservation& frame) const {
 TimeEstimate FrameClock::search(const FrameObservation& frame) {
   const int step = counted_step(frame);
   const double elapsed_s = static_cast<double>(frame.observed_ns - observed_ns_) * 1e-9;
-  // A counter that runs far ahead of time was set back by a restart.
+  // A counter far ahead of the elapsed time was reset by a restart of the device.
   const bool ahead = step > 4 + 4 * elapsed_s / nominal_s_;
   if (any_ && ahead) {
     finder_.clear();
@@ -131,7 +131,7 @@ TimeEstimate FrameClock::search(const FrameObservation& frame) {
   return time;
 }
 
-/// Enough was seen to tell what kind of stream it is.
+/// Decides the kind of stream, once enough frames were seen.
 void FrameClock::settle(const PeriodFit& fit) {
   finder_.clear();
   if (!fit.periodic(nominal_s_)) return turn_irregular(fit.too_fast(nominal_s_) ? 1 : regular_fits_);
@@ -149,7 +149,7 @@ void FrameClock::settle(const PeriodFit& fit) {
   frames_tracked_ = 0;
 }
 
-/// A change of the rhythm, once.
+/// Reports a change of the rhythm, once.
 void FrameClock::tell_rhythm(Timing timing) {
   if (timing == told_timing_) return;
   told_timing_ = timing;
@@ -158,7 +158,7 @@ void FrameClock::tell_rhythm(Timing timing) {
                                       : ClockNews::regular;
 }
 
-/// A rate that is another than the configured one, or than the one told last, beyond doubt.
+/// Reports a rate that differs significantly from the configured one, or from the one reported last.
 void FrameClock::watch_rate() {
   if (++frames_tracked_ % kRateFrames != 0 || news_ || model_.contradicted()) return;
   const double period_s = model_.period_s();
@@ -170,7 +170,8 @@ void FrameClock::watch_rate() {
   news_ = right ? ClockNews::rate_right : ClockNews::rate;
 }
 
-/// `fits`: runs of frames in a row that must be those of a clock before one is believed in again.
+/// `fits`: number of consecutive runs of frames that must fit a clock before the stream counts as periodic
+/// again.
 void FrameClock::turn_irregular(int fits) {
   timing_ = Timing::irregular;
   fits_to_regular_ = fits;
@@ -183,7 +184,7 @@ void FrameClock::search_again() {
   finder_.clear();
 }
 
-/// No clock explains the frames, so far.
+/// Stamps a frame by its arrival, while no clock explains the frames.
 TimeEstimate FrameClock::by_arrival(const FrameObservation& frame) {
   const int step = counted_step(frame);
   if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
@@ -205,13 +206,13 @@ TimeEstimate FrameClock::track(const FrameObservation& frame) {
   watch_rate();
   TimeEstimate time = model_.update(index_, frame.observed_ns, frame.backlog);
   if (timing_ == Timing::bursts) {
-    // Whether the device measured evenly or as it sent, nothing tells: twice this holds both.
+    // The device may have measured evenly or at the time of sending. Twice this standard deviation covers both.
     time.std_ns = ns(std::hypot(static_cast<double>(time.std_ns) * 1e-9, 0.5 * model_.delay_range_s()));
   }
   if (model_.contradicted() || lost_share_ > lost_share_most_) {
     search_again();
   } else if (model_.useless()) {
-    // It looked like a clock and was none: more is asked for the next time.
+    // The frames fitted a clock at first and do not now: the next fit must hold for longer.
     regular_fits_ = std::min(2 * regular_fits_, kRegularFitsMost);
     turn_irregular(regular_fits_);
   }
@@ -245,10 +246,11 @@ std::int64_t FrameClock::by_sequence(const FrameObservation& frame, double late_
   return static_cast<std::int64_t>(counted);
 }
 
-/// By how much of a period a frame may come before the tick that it is taken for, when the one before was lost.
+/// Margin in periods within which a frame may come before its assumed tick, when the frame before was lost.
 double FrameClock::lost_margin() const {
   const double sigma = model_.sigma_s() / model_.period_s();
-  // Where delays reach a period, a frame that is late by a little less was late, and nothing was lost.
+  // If delays reach a whole period, a frame that is late by nearly a period was only late, and nothing was
+  // lost.
   const bool delays_reach = model_.mean_delay_s() > kReachingDelay * model_.period_s();
   if (delays_reach) return std::min(2 * sigma, kLostMarginMost);
   return std::min(kLostMargin + kLostMargin_sigma * sigma, kLostMarginMost);
@@ -256,13 +258,14 @@ double FrameClock::lost_margin() const {
 
 std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_periods) {
   if (late_periods * model_.period_s() > kPauseLimit_s && late_periods > 2 && !frame.backlog) {
-    // Longer than any stall of ours: silence of the device. How many it would have sent nobody knows.
+    // Longer than any stall of the host: the device was silent. The number of frames that it would have sent is
+    // unknown.
     model_.reset_phase();
     guessed_lost_ = 0;
     return 1;
   }
   if (late_periods < -kAheadTolerance) {
-    // Too early by the model: the frames thought lost were only late. Take them back.
+    // Too early for the model: the frames counted as lost were only late, so they are taken back.
     const std::int64_t back = std::min(guessed_lost_, static_cast<std::int64_t>(std::llround(-late_periods)));
     lost_ -= static_cast<std::uint64_t>(back);
     guessed_lost_ = 0;

@@ -11,10 +11,11 @@
 
 namespace navcal::instruments {
 
-/// Which of the device's ticks a frame belongs to, and when that tick was: counts lost and repeated frames by the
-/// sequence number, or, without one, by the device's clock. The period is learnt from the frames, whatever the
-/// configuration says. Streams without a nominal rate, and those that no clock explains, are stamped by arrival.
-/// Times of validity strictly increase.
+/// Assigns each frame to a tick of the device's clock, and estimates the time of that tick.
+///
+/// Lost and repeated frames are counted by the sequence number or, without one, by the device's clock. The
+/// period is learnt from the frames, whatever the configuration says. Streams without a nominal rate, and those
+/// that no clock explains, are stamped by arrival. Times of validity strictly increase.
 class FrameClock {
  public:
   /// `rate_Hz` nominal, 0 for none; `latency_std_s` the uncertainty of the nominal latency.

@@ -6,9 +6,9 @@
 
 namespace navcal::instruments {
 
-/// One frame of a periodic stream, as its time was observed.
+/// One frame of a periodic stream and its time of observation.
 struct FrameObservation {
-  /// Monotonic time before which it must have been measured: arrival less wire time less nominal latency.
+  /// Latest monotonic time at which it can have been measured: arrival minus wire time minus nominal latency.
   std::int64_t observed_ns = 0;
   std::optional<std::uint8_t> sequence{};  ///< the device's counter, where it has one (wraps at 256)
   bool backlog = false;  ///< more of the stream lay behind it in the same read: the host was late

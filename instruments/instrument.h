@@ -14,7 +14,7 @@ namespace navcal::instruments {
 
 using Value = decltype(Sample::value);
 
-/// What one frame (or the epoch that it closes) says, before it is stamped.
+/// Content of one frame, or of the epoch that it closes, before it is stamped.
 struct Measurement {
   Value value;
   std::optional<std::uint8_t> sequence;       ///< the device's own counter
@@ -30,7 +30,8 @@ class Receiver {
   virtual void on_measurement(const Measurement& measurement) = 0;
 };
 
-/// One device: frames to SI units by configuration. Keeps only what spans frames (epochs, leap seconds). No clock.
+/// One device: converts frames to SI units by configuration. Its state is only what spans frames (epochs, leap
+/// seconds). No clock.
 class Instrument {
  public:
   enum class Verdict : std::uint8_t { used, ignored, out_of_range };

@@ -7,7 +7,7 @@
 
 namespace navcal::instruments {
 
-/// Whatever speaks NMEA 0183: position receivers (one sample an epoch), compasses (one sample a sentence), echo
+/// Any NMEA 0183 device: position receivers (one sample an epoch), compasses (one sample a sentence), echo
 /// sounders.
 class NmeaDevice : public Instrument {
  public:

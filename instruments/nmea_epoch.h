@@ -10,8 +10,8 @@
 
 namespace navcal::instruments {
 
-/// Receivers spread one position over several sentences (RMC, GGA, GLL, VTG, GSA) of the same second. This makes
-/// one sample of them, as soon as the sentence comes that closed the epoch before; so nothing waits for the next
+/// Joins the sentences (RMC, GGA, GLL, VTG, GSA) over which receivers spread one position of one second. The
+/// sample is complete with the type of sentence that closed the epoch before, so it does not wait for the next
 /// second.
 class NmeaEpoch {
  public:

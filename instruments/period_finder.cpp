@@ -69,7 +69,7 @@ double PeriodFinder::median_interval() const {
   return *middle;
 }
 
-/// A device that was silent for long has begun anew: its ticks before say nothing about those after.
+/// After a long silence a device has begun anew: the ticks before it do not predict those after it.
 void PeriodFinder::drop_before_pause() {
   if (frames_ < 4) return;
   const double limit_s = std::max(kPauseLeast_s, kPauseIntervals * median_interval());
@@ -91,7 +91,7 @@ void PeriodFinder::count_ticks(Ticks& ticks) const {
   judge(ticks);
 }
 
-/// Frame by frame, each against the earliest that the ones before allow.
+/// Assigns ticks frame by frame, each against the earliest time that the frames before allow.
 void PeriodFinder::guess_ticks(double period_s, Ticks& ticks) const {
   double tick_s = time_s_[0];
   ticks.index[0] = 0;
@@ -104,7 +104,8 @@ void PeriodFinder::guess_ticks(double period_s, Ticks& ticks) const {
   judge(ticks);
 }
 
-/// All frames against the line that was found: those after a late one tell that it was late and nothing was lost.
+/// Assigns ticks again, by the line through all frames: frames after a late one show that it was late and
+/// nothing was lost.
 void PeriodFinder::settle_ticks(Ticks& ticks) const {
   const std::size_t last = times().size() - 1;
   const EnvelopeLine line = ticks.line;
@@ -117,7 +118,8 @@ void PeriodFinder::settle_ticks(Ticks& ticks) const {
   judge(ticks);
 }
 
-/// Frames by which a line is judged: those behind which more lay in the same read are known to be late.
+/// Frames that the line is fitted to. A frame with more of the stream behind it in the same read is known to be
+/// late and left out.
 PeriodFinder::Kept PeriodFinder::kept_frames() const {
   Kept kept;
   for (std::size_t i = 0; i < times().size(); ++i) {
@@ -146,7 +148,7 @@ void PeriodFinder::judge(Ticks& ticks) const {
     ticks.score = kImpossible;
     return;
   }
-  // The mean, not the median: few frames behind an uncounted loss must show.
+  // The score uses the mean, not the median: a few frames after an uncounted loss must show.
   double late_s = 0;
   for (std::size_t i = 0; i < kept.count; ++i)
     late_s += time_s[i] - ticks.line.end_s - ticks.line.slope_s * (index[i] - ticks.index[last]);
@@ -160,7 +162,7 @@ PeriodFinder::Ticks PeriodFinder::best_ticks() const {
     count_ticks(best);
     return best;
   }
-  // Each frame the tick after the last: right where none was lost, and for frames that come in bursts.
+  // First hypothesis: each frame is the next tick. It is right where none was lost, and for frames in bursts.
   for (std::size_t i = 0; i < times().size(); ++i) best.index[i] = static_cast<double>(i);
   judge(best);
   const double span_s = time_s_[static_cast<std::size_t>(frames_ - 1)];
@@ -205,7 +207,7 @@ void PeriodFinder::describe(const Ticks& ticks, PeriodFit& fit) const {
   auto sorted = residuals;
   auto* const middle = sorted.data() + n / 2;
   std::nth_element(sorted.data(), middle, sorted.data() + n);
-  // A few stalls must not count for more than the rest.
+  // Bounded residuals, so that a few stalls do not dominate.
   const double most_s = *middle + kStallDelays * std::max(fit.line.delay_s, kDelayFloor_s);
   double difference_s = 0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -14,7 +14,7 @@ namespace navcal::instruments {
 /// Two frames closer together than this share of the period came in a burst.
 inline constexpr double kBurstInterval = 0.3;
 
-/// What a run of frames tells about the device's ticks, with no more than a rough idea of their period.
+/// Period and phase of the device's ticks, fitted to a run of frames with only a rough prior of the period.
 struct PeriodFit {
   bool found = false;  ///< enough frames for a line
   EnvelopeLine line;   ///< end_s relative to origin_ns
@@ -28,17 +28,19 @@ struct PeriodFit {
   double burst_share = 0;  ///< of the intervals that are much shorter than the period
 
   [[nodiscard]] bool bursts() const;
-  /// Whether a host, or an instrument, may be so late in the mean.
+  /// Whether the mean delay is plausible for a host or an instrument.
   [[nodiscard]] bool plausible_delays() const;
   [[nodiscard]] bool too_fast(double nominal_s) const;
   /// Whether the frames are ticks of one clock. `nominal_s` is the configured period.
   [[nodiscard]] bool periodic(double nominal_s) const;
 };
 
-/// Finds period and phase from the newest frames alone: at the beginning, and when a device no longer does what
-/// the clock model says. Without sequence numbers, the ticks to which the frames belong are found as well: of
-/// several periods, each with so many ticks in the time observed, the one that leaves the least delays wins, and
-/// each lost frame counts against it. Bounded: 32 frames, and the work of a fit is some microseconds.
+/// Finds period and phase from the newest frames alone: at the beginning, and when the clock model no longer
+/// describes a device.
+///
+/// Without sequence numbers, the ticks to which the frames belong are found as well. Several periods are tried,
+/// each with a whole number of ticks in the time observed. The one with the smallest delays wins; each lost
+/// frame adds a penalty. Bounded: 32 frames, and a fit takes some microseconds.
 class PeriodFinder {
  public:
   static constexpr int kFrames = kEnvelopeMost;

@@ -12,7 +12,7 @@ namespace navcal::instruments {
 
 using Vector3 = std::array<double, 3>;
 
-/// When a measurement was valid. Monotonic times order everything; UTC is a mapping of them (docs/timing.md).
+/// Times of a measurement. Monotonic times order everything; UTC is a mapping of them (docs/timing.md).
 struct Stamp {
   std::int64_t arrival_ns = 0;       ///< monotonic: when the read returned that completed the frame
   std::int64_t validity_ns = 0;      ///< monotonic: estimated time at which the quantity was measured

@@ -12,20 +12,20 @@
 
 namespace navcal::instruments {
 
-/// The dialogue that brings a device to the state the configuration asks for (ICD sections 1 and 2), and again
-/// after the device has lost its power. A value machine: told what was seen and the time, it says what to send
-/// when.
+/// The dialogue that brings a device to the configured state (ICD sections 1 and 2), and again after the device
+/// has lost its power. A state machine without I/O or clock: it gets frames and the time, and returns the bytes
+/// to send and the next deadline.
 class StartUp {
  public:
   virtual ~StartUp() = default;
-  /// The port was opened, or opened anew.
+  /// To be called when the port was opened, or opened anew.
   virtual void begin(std::int64_t now_ns) = 0;
   virtual void on_frame(const protocols::Frame& frame, std::int64_t now_ns) = 0;
   /// Bytes to send now, if any; call again until nullopt.
   virtual std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) = 0;
   /// When next() should be called again, monotonic; INT64_MAX when only a frame can change something.
   [[nodiscard]] virtual std::int64_t deadline_ns() const = 0;
-  /// For people: "running", "settings sent", "no answer to Ha: trying Ea", ...
+  /// State as text for people: "running", "settings sent", "no answer to Ha: trying Ea", ...
   [[nodiscard]] virtual std::string state() const = 0;
 };
 

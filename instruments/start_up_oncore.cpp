@@ -10,13 +10,14 @@ namespace {
 
 namespace oncore = protocols::oncore;
 
-/// The receiver reads its input once a second and answers in the next but one; half a second for the wire.
+/// The receiver reads its input once a second and answers within the second after the next; half a second is
+/// for the wire.
 constexpr std::int64_t kAnswer_ns = 3 * base::kSecond_ns + base::kSecond_ns / 2;
 constexpr std::int64_t kOncoreStopped_ns = 3 * base::kSecond_ns;
 constexpr std::int64_t kCycle_ns = 10 * base::kSecond_ns;
 constexpr std::uint8_t kEverySecond = 1;
 
-/// Sentences have talker and type, at least five letters; the receiver's own messages have two.
+/// NMEA sentences have talker and type, at least five letters; the receiver's own messages have two.
 bool is_nmea(protocols::FrameId id) { return id.view().size() >= 5; }
 
 }  // namespace
@@ -43,7 +44,7 @@ void StartUpOncore::on_frame(const protocols::Frame& frame, std::int64_t now_ns)
   if (frame.id == oncore::kHa) {
     run_on(Source::ha, now_ns);
   } else if (frame.id == oncore::kEa) {
-    // While Ha may still come, an Ea is left over from before.
+    // While Ha may still come, an Ea is a leftover of an earlier request.
     if (phase_ != Phase::asked_ha) run_on(Source::ea, now_ns);
   } else if (is_nmea(frame.id)) {
     nmea_seen_ = true;

@@ -9,8 +9,8 @@
 
 namespace navcal::instruments {
 
-/// Motorola Oncore (ICD section 2): asks for position (Ha, then Ea), satellites (Bb) and the UTC offset (Bo) at 1
-/// Hz; contents itself with NMEA when that is all that comes. Begins again when the positions stop.
+/// Motorola Oncore (ICD section 2): asks for position (Ha, then Ea), satellites (Bb) and the UTC offset (Bo) at
+/// 1 Hz. Accepts NMEA when the receiver sends nothing else. Begins again when the positions stop.
 class StartUpOncore final : public StartUp {
  public:
   void begin(std::int64_t now_ns) override;
@@ -27,7 +27,7 @@ class StartUpOncore final : public StartUp {
     resting,   ///< nothing came; all is repeated at due_ns_
     running,   ///< positions of the kind `source_` come
   };
-  /// What positions come from; a later one is preferred to an earlier.
+  /// Source of the positions; a later one in this list is preferred to an earlier one.
   enum class Source : std::uint8_t { none, nmea, ea, ha };
 
   void ask_for(Phase phase, std::int64_t now_ns);

@@ -19,8 +19,9 @@ using tcm2::Verb;
 
 constexpr std::int64_t kMostPatience_ns = 10 * base::kSecond_ns;
 
-/// `clock=` and `sp=` that come nearest to a rate. Of equals the pair with sp = rate wins, for it means the same
-/// to a TCM2 (clock divided by sp) and to a TCM2.5 (sp in Hz); then the smallest divider.
+/// `clock=` and `sp=` that come nearest to a rate. Among equally near pairs, one with sp = rate wins, because
+/// it means the same to a TCM2 (clock divided by sp) and to a TCM2.5 (sp in Hz). Then the smallest divider
+/// wins.
 std::pair<int, int> clock_and_period(double rate_Hz) {
   constexpr int kSlowest = 5, kFastest = 40, kMostPeriod = 40;
   std::pair<int, int> best{kSlowest, 1};
@@ -142,8 +143,8 @@ void StartUpTcm2::go_on_to_next(std::int64_t now_ns) {
   due_ns_ = now_ns;
 }
 
-/// Once a setting has been repeated in vain the following ones are not repeated: a device whose replies do not
-/// come through is in service soon all the same.
+/// After one setting was repeated in vain, the following ones are not repeated. A device whose replies do not
+/// come through is then in service soon all the same.
 int StartUpTcm2::attempts_allowed() const { return unanswered_.empty() ? kAttempts : 1; }
 
 std::optional<std::vector<std::uint8_t>> StartUpTcm2::next(std::int64_t now_ns) {

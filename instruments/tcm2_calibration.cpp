@@ -21,7 +21,7 @@ using tcm2::Parameter;
 using tcm2::Verb;
 
 constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
-/// A longer silence of the gyro is not turned over.
+/// Longest gap between two gyro rates that is integrated over.
 constexpr std::int64_t kLongestRateGap_ns = 500 * base::kMillisecond_ns;
 
 tcm2::Command multipoint(char letter) { return tcm2::set(Parameter::multipoint_calibration, letter); }
@@ -106,7 +106,8 @@ void Tcm2Calibration::fail(std::string reason, std::int64_t now_ns) {
 void Tcm2Calibration::on_frame(const protocols::Frame& frame, std::int64_t now_ns) {
   if (phase_ == Phase::idle) return;
   if (frame.id == tcm2::kBanner) {
-    // It calibrates no longer, and what was asked is forgotten. Once the score is known nothing is lost.
+    // A restarted device no longer calibrates and has forgotten the commands. Once the score is known, nothing
+    // is lost.
     calibrating_ = false;
     if (!score_) fail("the compass has restarted", now_ns);
     if (phase_ != Phase::resuming) enter(Phase::resuming, now_ns);
@@ -181,7 +182,7 @@ void Tcm2Calibration::on_yaw_rate(double rate_rad_s, std::int64_t now_ns) {
   by_gyro_.add(gyro_angle_rad_);
 }
 
-/// The compass is about to be calibrated because its headings are wrong: the gyro goes before it.
+/// The gyro is preferred: the compass is calibrated because its headings are wrong.
 double Tcm2Calibration::turned_rad() const { return gyro_ns_ ? by_gyro_.turned_rad() : by_compass_.turned_rad(); }
 
 std::optional<std::vector<std::uint8_t>> Tcm2Calibration::next(std::int64_t now_ns) {
@@ -235,7 +236,7 @@ void Tcm2Calibration::on_unanswered(std::int64_t now_ns) {
     case Phase::starting:
       return fail("no words came after go", now_ns);
     case Phase::closing:
-      // It may have been obeyed all the same: the score will tell.
+      // The command may have been obeyed all the same: the score will show it.
       return enter(failure_.empty() ? Phase::asking : Phase::resuming, now_ns);
     case Phase::asking:
       return fail("no answer to lc?", now_ns);

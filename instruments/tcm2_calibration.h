@@ -14,10 +14,12 @@
 
 namespace navcal::instruments {
 
-/// The TCM2's calibration of itself (ICD section 1): `h` twice, `cc`, `mpcal=e`, `go`; the vehicle makes two slow
-/// turns with as much tilt as can be had; `h` twice, `mpcal=d`, which answers the score (else `lc?` does), `go`.
-/// A value machine like StartUp, which must be silent meanwhile. However it ends, the device is told to go on, and
-/// one that may still be calibrating is told to stop it.
+/// The TCM2's own calibration (ICD section 1): `h` twice, `cc`, `mpcal=e`, `go`. The vehicle then makes two
+/// slow turns with as much tilt as possible. At the end: `h` twice, `mpcal=d`, which answers the score
+/// (otherwise `lc?` does), `go`.
+///
+/// A state machine like StartUp, which must be silent meanwhile. In every case it ends with `go`, and a device
+/// that may still be calibrating is told to stop calibrating.
 class Tcm2Calibration {
  public:
   struct Limits {
@@ -27,14 +29,14 @@ class Tcm2Calibration {
   explicit Tcm2Calibration(const config::PortSettings& settings) : Tcm2Calibration(settings, Limits{}) {}
   Tcm2Calibration(const config::PortSettings& settings, const Limits& limits);
 
-  /// The device is in service; anything that was left of a calibration before is forgotten.
+  /// Begins a calibration; the device must be in service. The results of an earlier one are forgotten.
   void begin(std::int64_t now_ns);
-  /// It has turned enough, the operator says. Before it turned at all: it is called off.
+  /// Ends the turning on the operator's request. Before the turning has begun, it calls the calibration off.
   void stop(std::int64_t now_ns);
-  /// The device cannot be reached any more: ends at once.
+  /// Ends at once, because the device cannot be reached any more.
   void abandon(std::string reason);
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns);
-  /// Calibrated yaw rate, where a gyro tells it; without, turns are counted by the compass that is calibrated.
+  /// Calibrated yaw rate of a gyro. Without a gyro, the compass that is being calibrated counts the turns.
   void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
   /// Bytes to send now, if any; call again until nullopt.
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns);
@@ -42,13 +44,13 @@ class Tcm2Calibration {
   [[nodiscard]] std::int64_t deadline_ns() const { return due_ns_; }
 
   [[nodiscard]] bool busy() const { return phase_ != Phase::idle; }
-  /// Of the last one that came to its end.
+  /// Score of the current or last calibration, once the compass has answered it.
   [[nodiscard]] const std::optional<protocols::tcm2::CalibrationScore>& score() const { return score_; }
-  /// `cc` was sent: the compass corrects itself otherwise than before, whatever came of the rest.
+  /// Whether `cc` was sent: the compass then corrects itself differently than before, whatever the result.
   [[nodiscard]] bool touched() const { return touched_; }
-  /// Why there is no score; empty while it is under way and after a good end.
+  /// Reason why there is no score; empty during a calibration and after success.
   [[nodiscard]] const std::string& failure() const { return failure_; }
-  /// For people: "turned 310 of 720 degrees", "score H9V3M1.2", "failed: cc refused (E010)".
+  /// State as text for people: "turned 310 of 720 degrees", "score H9V3M1.2", "failed: cc refused (E010)".
   [[nodiscard]] std::string state() const;
 
  private:

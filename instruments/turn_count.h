@@ -7,8 +7,8 @@
 
 namespace navcal::instruments {
 
-/// How far a vehicle has turned, to either side, by headings that come one after the other: steps below kStep_rad
-/// are noise until they add up.
+/// Angle that a vehicle has turned, to either side, from consecutive headings. Steps below kStep_rad are noise
+/// until they add up.
 class TurnCount {
  public:
   void add(double heading_rad) {

@@ -8,14 +8,14 @@
 
 namespace navcal::ports {
 
-/// Measures taken for a port's latency, in words, and those to be undone.
+/// Measures that were taken for a port's latency, as text, and the state to restore.
 struct LowLatency {
   std::string report;
   std::optional<int> former_flags;  ///< of the driver, to be given back by restore_latency()
 };
 
 /// Asks the driver (ASYNC_LOW_LATENCY) and, for FTDI adapters, the 16 ms timer in sysfs to hand over bytes at
-/// once; believes only what it reads back.
+/// once. Reports only what it reads back.
 [[nodiscard]] LowLatency ask_low_latency(int fd, const SysfsTty& sysfs);
 void restore_latency(int fd, const LowLatency& asked);
 

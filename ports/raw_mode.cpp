@@ -36,7 +36,7 @@ void make_raw(termios& settings) {
   settings.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY);
   settings.c_cflag &= ~static_cast<tcflag_t>(CSIZE | PARENB | CSTOPB | CRTSCTS | HUPCL);
   settings.c_cflag |= CS8 | CLOCAL | CREAD;
-  // With VMIN = 0 an empty queue reads as 0 bytes, the same as the end of the device.
+  // VMIN must not be 0: an empty queue would read as 0 bytes, the same as the end of the device.
   settings.c_cc[VMIN] = 1;
   settings.c_cc[VTIME] = 0;
 }

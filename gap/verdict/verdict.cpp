@@ -35,7 +35,7 @@ bool closes(const Grounds& grounds) {
   return grounds.closure_by_all.clear && grounds.closure_by_all.upper >= kClosedFrom;
 }
 
-/// Total probability of the subsets that lack a member of `set`.
+/// Total probability of the non-empty subsets that lack a member of `set`.
 double rivals_of(const EffectSubset& set, const std::vector<Candidate>& candidates) {
   double together = 0;
   for (const Candidate& other : candidates) {
