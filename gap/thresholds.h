@@ -28,8 +28,8 @@ inline constexpr double kExcludedPrior = 1e-9;
 /// Factor on the prior of a non-member that is to be zero: a parameter that its bounds keep at zero, or an effect
 /// that is left out on purpose.
 inline constexpr double kAbsentPrior = 1e-6;
-/// Smallest prior of an effect that looks like fin orders at another time, s: the times of the orders, where they
-/// were not recorded, are found no finer (inference/order_times.h).
+/// Smallest prior of an effect that resembles fin orders at another time, s. Order times that were not recorded
+/// are estimated no finer (inference/order_times.h).
 inline constexpr double kOrdersOff_s = 0.005;
 /// Standard deviations of the prior of a member's strength, typical values, each as likely as the others. With one
 /// wide prior for all, the many parameters of a weak effect would cost more evidence than they explain.
@@ -75,7 +75,7 @@ inline constexpr double kSettled_nats = 1;
 inline constexpr int kHalvings = 2;
 /// Probability from which a subset is kept among the candidates.
 inline constexpr double kLeastCandidate = 1e-4;
-/// Log evidence above which two effects, or an effect and none, can be told apart, nats. Set.
+/// Log evidence above which two effects, or an effect and none, are distinguishable, nats. Set.
 inline constexpr double kObservable_nats = 10;
 
 // ---- null missions
@@ -120,8 +120,8 @@ inline constexpr double kMostRivals = 0.15;
 inline constexpr double kNoGapBelow = 0.01;
 /// Share of the gap that a named subset must close. Set.
 inline constexpr double kClosedFrom = 0.9;
-/// Closure below which the gap is said to grow. The interval of its error reaches a little below zero where
-/// nothing closes.
+/// Closure below which the gap is reported as growing. The interval of its error reaches a little below zero
+/// where nothing closes.
 inline constexpr double kGrowsBelow = -0.05;
 /// Strength above which an effect is more probably a substitute for another one, typical values. Set.
 inline constexpr double kLargestStrength = 5;
@@ -174,7 +174,7 @@ inline constexpr double kToldFrom = 0.1;
 inline constexpr double kConfusedBelow = 0.5;
 /// Factor over the power of the nulls from which the closure of one channel is stated.
 inline constexpr double kChannelGapFactor = 1.5;
-/// Lower end of the closure's interval from which the floor is said to be too high.
+/// Lower end of the closure's interval from which the floor is reported as too high.
 inline constexpr double kOverClosedFrom = 1.02;
 /// Distance between two surfacings from which position errors count, m: below it they are those of the fixes.
 inline constexpr double kLeastDistance_m = 20;

@@ -23,7 +23,8 @@ class ClockModel {
  public:
   static constexpr double kCrystal = 300e-6;  ///< a card's rate can be off by 200 ppm (ICD section 3)
 
-  /// `nominal_period_s` > 0, known to `period_std` (relative) until begin() says better.
+  /// `nominal_period_s` > 0, with the relative standard deviation `period_std` until begin() sets a better
+  /// estimate.
   explicit ClockModel(double nominal_period_s, double period_std = kCrystal);
 
   /// Sets phase and period to those fitted to a run of frames; `index` is the newest of them.

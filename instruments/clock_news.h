@@ -11,7 +11,7 @@ namespace navcal::instruments {
 
 /// Differences of a stream from its configuration that a frame clock finds, and their end.
 enum class ClockNews : std::uint8_t {
-  rate,        ///< the rate is another than configured, or than told before
+  rate,        ///< the rate differs from the configured one, or from the one reported before
   rate_right,  ///< it is as configured again
   irregular,   ///< no clock explains the frames
   bursts,      ///< they come several at a time

@@ -6,7 +6,7 @@
 
 namespace navcal::instruments {
 
-/// How the frames of a stream get their times of validity.
+/// Source of the times of validity of a stream's frames.
 enum class Timing : std::uint8_t {
   arrival,    ///< no rate is configured: by their own arrival
   searching,  ///< too few frames so far: by a line below those that there are

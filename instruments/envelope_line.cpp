@@ -8,7 +8,7 @@
 namespace navcal::instruments {
 namespace {
 
-// In units of (mean delay / N), and for the slope (mean delay / (N K)).
+// Factors in units of (mean delay / N), for the slope (mean delay / (N K)); see EnvelopeLine.
 constexpr double kEndExcess = 1.8;
 constexpr double kEndStd = 3.6;
 constexpr double kSlopeStd = 7.0;

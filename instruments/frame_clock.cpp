@@ -8,14 +8,14 @@
 namespace navcal::instruments {
 namespace {
 
-constexpr double kLateDelays = 6;   // mean delays by which the frame before may be late besides
-constexpr double kLineDelay = 0.2;  // of the period: a line through few frames with longer delays is not believed
+constexpr double kLateDelays = 6;        // mean delays by which the frame before may be late besides
+constexpr double kLineDelay = 0.2;       // of the period: a line through few frames with longer delays is not used
 constexpr double kArrivalStd_s = 1e-3;   // of a stamp by arrival where no rate is configured
 constexpr double kUnknownStd_s = 12e-3;  // of a stamp by arrival when nothing is known of the delays: twice that
                                          // holds 95 % of exponential ones of 8 ms mean, those of a loaded machine
 constexpr double kUnknownFrames = 3;     // after so many more frames, half of that is left
 constexpr double kScarce = 4;            // frames by which the delays of a short run may look too small
-constexpr double kAheadTolerance = 0.5;  // periods before its time that a frame may come and the phase be believed
+constexpr double kAheadTolerance = 0.5;  // periods: an earlier frame contradicts the phase
 constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a frame means a pause
 constexpr double kCountedPause =
     1.5;  // periods, and a little more, likewise of a counted frame: a host that was late
@@ -35,8 +35,8 @@ constexpr double kBurstMargin = 0.5;      // periods beyond a burst's length, be
 constexpr double kBurstsBegin = 0.3, kBurstsEnd = 0.15;  // share of such intervals
 constexpr double kLeastStep = 0.1;                       // of the period, between two times of validity
 constexpr std::int64_t kLeastStep_ns = 1000;
-constexpr std::uint64_t kRateFrames = 32;  // between two looks at the rate
-constexpr double kRateSigmas = 5;          // beyond the tolerance, before a rate is told
+constexpr std::uint64_t kRateFrames = 32;  // between two checks of the rate
+constexpr double kRateSigmas = 5;          // beyond the tolerance, before a rate is reported
 constexpr double kWholeTurn = 256;         // of the sequence number
 
 std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
@@ -239,7 +239,7 @@ std::int64_t FrameClock::by_sequence(const FrameObservation& frame, double late_
   const bool paused = behind_s > kCountedPause * model_.period_s() + kCountedPause_s && !frame.backlog &&
                       timing_ != Timing::bursts;
   if (ahead || paused) {
-    model_.reset_phase();  // it began anew, or stood still: its counter says nothing about the time between
+    model_.reset_phase();  // the device restarted or stood still: its counter does not show the time in between
     return 1;
   }
   lost_ += static_cast<std::uint64_t>(counted) - 1;
@@ -273,7 +273,7 @@ std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_peri
     if (late_periods + static_cast<double>(back) < -kAheadTolerance) model_.reset_phase();
     return 1 - back;
   }
-  // In a burst, all but the last frame are late by some periods.
+  // All frames of a burst but the last are late by some periods.
   const double allowed = timing_ == Timing::bursts ? kBurstMargin + model_.delay_range_s() / model_.period_s() : 0;
   const auto missing =
       frame.backlog ? 0

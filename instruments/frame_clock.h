@@ -24,7 +24,7 @@ class FrameClock {
   struct Outcome {
     TimeEstimate time;
     bool repeated = false;            ///< the frame before, once more
-    std::optional<ClockNews> news{};  ///< what this frame showed of the stream; told once
+    std::optional<ClockNews> news{};  ///< change of the stream at this frame; reported once
   };
   Outcome update(const FrameObservation& frame);
 
@@ -61,7 +61,7 @@ class FrameClock {
   std::int64_t observed_ns_ = 0;  ///< of the frame before
   std::int64_t stamped_ns_ = 0;   ///< its time of validity
   bool any_ = false;
-  std::optional<ClockNews> news_;  ///< not told yet
+  std::optional<ClockNews> news_;  ///< not reported yet
   Timing told_timing_ = Timing::periodic;
   double told_period_s_ = 0;  ///< 0: none but the configured one
   bool model_known_ = false;  ///< the model has been tracking before

@@ -18,7 +18,7 @@ using Value = decltype(Sample::value);
 struct Measurement {
   Value value;
   std::optional<std::uint8_t> sequence;       ///< the device's own counter
-  std::optional<std::int64_t> stated_utc_ns;  ///< the message itself says when (GPS)
+  std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
   bool paces = true;                          ///< one tick of the device's clock (not so for satellites in view)
 };

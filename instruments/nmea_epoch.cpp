@@ -91,7 +91,7 @@ void NmeaEpoch::begin(const protocols::TimeOfDay& time, Outcome& outcome) {
 void NmeaEpoch::finish(Type type, Outcome& outcome) {
   if (type == Type::gsa || type == Type::zda || !time_) return;
   newest_ = type;
-  // Until an epoch has been seen whole, the first sentence that has a place must do.
+  // Before the first whole epoch, the first sentence with a position makes the sample.
   const bool closes = closer_ ? type == *closer_ : open_.latitude_rad.has_value() || type == Type::rmc;
   if (!closes || emitted_) return;
   emitted_ = true;

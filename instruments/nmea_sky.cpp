@@ -14,7 +14,7 @@ bool NmeaSky::is_used(std::uint16_t number) const {
 
 std::optional<SkySample> NmeaSky::add(std::string_view talker, const protocols::nmea::Gsv& gsv) {
   const auto who = static_cast<std::uint16_t>(talker.size() < 2 ? 0 : talker[0] << 8 | talker[1]);
-  if (gsv.sentence == 1) {  // this talker begins anew: forget what it said before
+  if (gsv.sentence == 1) {  // a new group of this talker: its former satellites are dropped
     std::size_t kept = 0;
     for (std::size_t i = 0; i < sky_.count; ++i) {
       if (talkers_[i] == who) continue;

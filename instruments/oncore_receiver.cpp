@@ -58,7 +58,7 @@ Instrument::Verdict OncoreReceiver::read_position(const oncore::Position& positi
     sample.latitude_rad = position.filtered.latitude_deg * base::kRadiansPerDegree;
     sample.longitude_rad = position.filtered.longitude_deg * base::kRadiansPerDegree;
     sample.height_m = position.filtered.height_m;
-    // Many receivers know no geoid and send exactly 0 (ICD section 2): that is no height.
+    // Many receivers have no geoid and send exactly 0 (ICD section 2): that is no height.
     if (position.filtered.height_msl_m != 0) sample.height_msl_m = position.filtered.height_msl_m;
   }
   if (position.fix == Fix::fix_2d || position.fix == Fix::fix_3d || position.fix == Fix::propagated) {

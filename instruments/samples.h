@@ -24,20 +24,20 @@ struct Stamp {
 /// The calibration in force when a sample was made; number 0: none.
 struct CalibrationName {
   std::uint32_t number = 0;
-  std::uint32_t sum = 0;  ///< over what it says
+  std::uint32_t sum = 0;  ///< checksum of its content
 };
 
-/// Magnetic compass. Body axes x forward, y starboard, z down; angles as the device said them, magnetic.
+/// Magnetic compass. Body axes x forward, y starboard, z down; angles as the device sends them, magnetic.
 struct CompassSample {
   std::optional<double> heading_rad;             ///< 0..2 pi clockwise from magnetic north
-  bool heading_is_true = false;                  ///< the device itself says true north (HDT, THS)
+  bool heading_is_true = false;                  ///< the device states true north (HDT, THS)
   std::optional<double> heading_calibrated_rad;  ///< magnetic, by the calibration in force; 0..2 pi
   std::optional<double> pitch_rad;               ///< positive nose-up
   std::optional<double> roll_rad;                ///< positive starboard-down
   bool tilt_by_accelerometers = false;           ///< pitch and roll are not the compass's own
   std::optional<Vector3> field_body_uT;
-  std::optional<double> dip_rad;          ///< as the device says it, where it does
-  std::optional<double> turn_rate_rad_s;  ///< as the device says it (ROT), positive to starboard
+  std::optional<double> dip_rad;          ///< as the device sends it, where it does
+  std::optional<double> turn_rate_rad_s;  ///< as the device sends it (ROT), positive to starboard
   std::optional<double> temperature_C;
   std::optional<std::uint32_t> error;  ///< TCM2's raw error code (CompassError); absent when none stands
 };
@@ -63,7 +63,7 @@ using Fix = protocols::Fix;
 struct GpsSample {
   std::optional<std::int64_t> time_utc_ns;  ///< the second that the message states
   bool time_corrected = false;              ///< a week rollover was undone
-  bool leap_known = true;                   ///< false: the receiver does not know the leap seconds yet
+  bool leap_known = true;                   ///< false: the receiver does not have the leap seconds yet
   Fix fix = Fix::none;
   std::optional<double> latitude_rad, longitude_rad;
   std::optional<double> height_m;      ///< above the ellipsoid

@@ -23,7 +23,7 @@ class StartUp {
   virtual void on_frame(const protocols::Frame& frame, std::int64_t now_ns) = 0;
   /// Bytes to send now, if any; call again until nullopt.
   virtual std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) = 0;
-  /// When next() should be called again, monotonic; INT64_MAX when only a frame can change something.
+  /// Time at which next() should be called again, monotonic; INT64_MAX when only a frame can change something.
   [[nodiscard]] virtual std::int64_t deadline_ns() const = 0;
   /// State as text for people: "running", "settings sent", "no answer to Ha: trying Ea", ...
   [[nodiscard]] virtual std::string state() const = 0;

@@ -40,7 +40,7 @@ class Tcm2Calibration {
   void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
   /// Bytes to send now, if any; call again until nullopt.
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns);
-  /// When next() should be called again, monotonic; INT64_MAX when only a frame can change something.
+  /// Time at which next() should be called again, monotonic; INT64_MAX when only a frame can change something.
   [[nodiscard]] std::int64_t deadline_ns() const { return due_ns_; }
 
   [[nodiscard]] bool busy() const { return phase_ != Phase::idle; }

@@ -8,15 +8,17 @@
 /// Timing of a dialogue with a TCM2, at start-up and during its calibration (ICD section 1).
 namespace navcal::instruments {
 
-/// Between the two `h` that stop the stream.
+/// Time between the two `h` that stop the stream.
 inline constexpr std::int64_t kBetweenHalts_ns = 100 * base::kMillisecond_ns;
-/// After the second `h`: a word under way and the replies to both are over (75 bytes take 78 ms at 9600 baud).
+/// Wait after the second `h`: a word under way and the replies to both then have ended (75 bytes take 78 ms at
+/// 9600 baud).
 inline constexpr std::int64_t kSettle_ns = 200 * base::kMillisecond_ns;
-/// A reply waits for the end of a word under way; at 5 Hz the device looks at its input five times a second.
+/// Longest wait for a reply. It comes after the end of a word under way, and at 5 Hz the device reads its input
+/// five times a second.
 inline constexpr std::int64_t kReplyTimeout_ns = 400 * base::kMillisecond_ns;
 /// A stream that is silent for this long has stopped.
 inline constexpr std::int64_t kTcm2Stopped_ns = 3 * base::kSecond_ns;
-/// The command and two repetitions.
+/// Attempts: the command and two repetitions.
 inline constexpr int kAttempts = 3;
 
 }  // namespace navcal::instruments

@@ -55,7 +55,7 @@ struct Port::State : std::enable_shared_from_this<Port::State> {
   std::string open(milliseconds& again_after);
   void close();
   void tell(const std::string& reason);
-  /// One wake-up's worth of reads. Empty, or why the port is lost.
+  /// Reads all that is there after one wake-up. Empty, or why the port is lost.
   std::string drain(std::int64_t arrival_ns);
   void write_some();
 
@@ -147,7 +147,8 @@ std::string Port::State::drain(std::int64_t arrival_ns) {
     }
     if (n == 0) {
       if (!tty->alive()) return tty->info().path + ": the device is gone";
-      // It is there and yet at its end: somebody changed its settings. Opening it anew puts that right.
+      // The device is there and yet reads end: its settings were changed by another program. Opening it anew
+      // restores them.
       if (++empty_reads < kEmptyReads) return {};
       return tty->info().path + ": reads end at once although the device is there";
     }

@@ -22,7 +22,7 @@ struct OpenPort {
   std::string description;  ///< USB ids, driver, where known
 };
 
-/// Told of everything that happens at one port, in order, on the I/O thread.
+/// Gets every event of one port, in order, on the I/O thread.
 class PortListener {
  public:
   virtual ~PortListener() = default;
@@ -31,12 +31,14 @@ class PortListener {
   virtual void on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) = 0;
   /// The bytes were handed to the driver.
   virtual void on_sent(std::int64_t now_ns, protocols::Bytes bytes) = 0;
-  /// Gone, or could not be opened; `reason` for people. Told once for each reason, not at every attempt.
+  /// The port is gone, or could not be opened; `reason` for people. Called once for each reason, not at every
+  /// attempt.
   virtual void on_lost(std::int64_t now_ns, std::string_view reason) = 0;
 };
 
-/// One configured port for as long as the daemon runs: found by path, udev name or USB serial number, opened,
-/// read, lost, found again within a second under whatever name. Reading waits for nothing but bytes.
+/// One configured port for as long as the daemon runs. It is found by path, udev name or USB serial number,
+/// opened and read. A lost port is found again within a second, whatever its name. Reading waits for nothing
+/// but bytes.
 class Port {
  public:
   Port(boost::asio::any_io_executor executor, config::PortSettings settings, PortListener& listener);
@@ -45,14 +47,16 @@ class Port {
   Port& operator=(const Port&) = delete;
 
   void start();
-  /// Queues bytes for sending; silently dropped while the port is away (bounded at 4 KiB).
+  /// Queues bytes for sending, at most 4 KiB. Bytes for which there is no room are dropped silently as a whole,
+  /// as are all bytes while the port is away.
   void send(protocols::Bytes bytes);
-  /// Writes a whole line at once: nothing waits before it, and the driver has taken all of it when this returns.
-  /// The time at which it had; nullopt when the port is away, other bytes still wait, or there is no room for the
-  /// whole of it (the beginning may then have been taken). on_sent() is called within.
+  /// Writes a whole line at once: nothing waits before it, and the driver has taken all of it when this
+  /// returns. Returns the time at which the driver had it. nullopt when the port is away, other bytes still
+  /// wait, or there is no room for the whole line (its beginning may then have been taken). on_sent() is called
+  /// within.
   [[nodiscard]] std::optional<std::int64_t> send_now(protocols::Bytes bytes);
-  /// Waits, at most so long, until what the driver has taken is on the wire: closing a serial port sets its former
-  /// speed back at once, whatever is still on its way.
+  /// Waits at most `limit` until the bytes that the driver has taken are on the wire. Closing a serial port
+  /// restores its former speed at once, even with bytes still on their way.
   void flush(std::chrono::milliseconds limit);
   /// Closes, restoring the tty's former settings; no callbacks afterwards.
   void stop();

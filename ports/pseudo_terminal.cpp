@@ -27,7 +27,8 @@ PseudoTerminal make_pseudo_terminal(int baud) {
     failed("naming a pseudo-terminal");
   }
   made.slave_name = name.data();
-  // Opened and closed once: its settings stay, and from now on the master knows that nobody is there.
+  // Opened and closed once: the slave's settings stay, and from now on the master shows that no client is
+  // there.
   const base::Descriptor slave(::open(name.data(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!slave || !set_raw(slave.get(), baud)) failed("setting up a pseudo-terminal");
   return made;

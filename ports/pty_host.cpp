@@ -26,7 +26,7 @@ namespace navcal::ports {
 namespace {
 
 namespace asio = boost::asio;
-/// While nobody has the line open its master is "ready" without end, so it is looked at now and then instead.
+/// Interval of looking for a client. Without a client the master is always "ready", so it cannot be waited for.
 constexpr std::chrono::milliseconds kLookForClient{20};
 
 }  // namespace
@@ -53,7 +53,7 @@ struct PtyHost::State : std::enable_shared_from_this<PtyHost::State> {
   asio::posix::stream_descriptor descriptor;  // borrows the master
   asio::steady_timer timer;
   PseudoTerminal terminal;
-  unsigned pluggings = 0;  // tells the reading coroutine of an earlier terminal from that of this one
+  unsigned pluggings = 0;  // separates the reading coroutine of an earlier terminal from this one's
   Tally tally;
 };
 
@@ -79,7 +79,7 @@ bool PtyHost::State::has_client() const {
   return terminal.master && ::poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
 }
 
-/// A closed port forgets what was received for it; the next client shall not find the last one's leavings.
+/// Discards the unread bytes, as a closed port does, so that the next client does not get them.
 void PtyHost::State::forget_unread() const {
   const base::Descriptor slave(::open(terminal.slave_name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (slave) ::tcflush(slave.get(), TCIFLUSH);

@@ -12,8 +12,8 @@
 
 namespace navcal::ports {
 
-/// The device's side of a serial line: a pseudo-terminal under a name of our choosing, for play and emulate.
-/// Like a UART it never waits for its reader: what finds nobody listening, or no room, is lost and counted.
+/// The device's side of a serial line: a pseudo-terminal under a chosen name, for play and emulate. Like a UART
+/// it never waits for its reader: bytes without a listener or without room are lost and counted.
 class PtyHost {
  public:
   /// Receives bytes that a client wrote, at `now_ns` (monotonic).
@@ -21,9 +21,9 @@ class PtyHost {
 
   /// Fate of the bytes written.
   struct Tally {
-    std::uint64_t taken = 0;    ///< handed to whoever has the line open
-    std::uint64_t unheard = 0;  ///< lost: nobody had it open
-    std::uint64_t overrun = 0;  ///< lost: whoever has it open did not read
+    std::uint64_t taken = 0;    ///< handed to the client that has the line open
+    std::uint64_t unheard = 0;  ///< lost: no client had the line open
+    std::uint64_t overrun = 0;  ///< lost: the client did not read
   };
 
   /// Makes the pseudo-terminal and the link to it (its folder too), replacing a link left behind. Throws
@@ -33,19 +33,19 @@ class PtyHost {
   PtyHost(const PtyHost&) = delete;
   PtyHost& operator=(const PtyHost&) = delete;
 
-  /// At once, as far as there is a reader and room; answers how many bytes were taken.
+  /// Writes at once, as far as there is a reader and room; returns how many bytes were taken.
   std::size_t write(protocols::Bytes bytes);
-  /// Pulls the plug: clients see a hang-up, the link goes. replug() brings a new pseudo-terminal under the old
-  /// name.
+  /// Unplugs: clients see a hang-up, and the link is removed. replug() makes a new pseudo-terminal under the
+  /// old name.
   void unplug();
   void replug();
   [[nodiscard]] bool plugged() const;
   /// Whether a client has the line open now.
   [[nodiscard]] bool has_client() const;
-  /// Bytes that a client has not read yet; a hang-up would lose them.
+  /// Number of bytes that a client has not read yet; a hang-up would lose them.
   [[nodiscard]] std::size_t unread() const;
-  /// The speed to which the client has set its end, until then that of the host; 0 when unplugged or not a usual
-  /// one.
+  /// Speed to which the client has set its end, until then that of the host; 0 when unplugged or not a usual
+  /// speed.
   [[nodiscard]] int client_baud() const;
   [[nodiscard]] const Tally& tally() const;
   [[nodiscard]] const std::filesystem::path& link() const;

@@ -93,7 +93,7 @@ std::string Tty::open_serial(int baud, bool low_latency) {
   sp_get_port_handle(port, &fd_);
   if (std::string why = set_up(port, baud); !why.empty()) return why;
   if (!read_when_there_is_something(fd_)) return refusal(info_.path, errno);
-  // Keeps out programs that know nothing of our lock.
+  // TIOCEXCL keeps out programs that do not use our lock.
   if (::ioctl(fd_, TIOCEXCL) != 0) return refusal(info_.path, errno);
   latency_.report = "not asked for";
   if (low_latency) latency_ = ask_low_latency(fd_, SysfsTty(info_.path));
@@ -110,7 +110,7 @@ Tty::~Tty() {
   if (!device_ || fd_ < 0) return;
   restore_latency(fd_, latency_);
   if (serial_) ::ioctl(fd_, TIOCNXCL);
-  // On a device that is gone this fails, and nothing is lost by it.
+  // This fails on a device that is gone, and nothing is lost by it.
   tcsetattr(fd_, TCSANOW, &former_);
 }
 

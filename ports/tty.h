@@ -16,12 +16,12 @@ struct sp_port;
 
 namespace navcal::ports {
 
-/// A tty opened for us alone: raw 8N1 at a speed, non-blocking; its former settings are given back at the end.
-/// libserialport opens and sets up real ttys (any speed, not only those of termios); it does not open
-/// pseudo-terminals, for which termios serves.
+/// A tty opened exclusively: raw 8N1 at a speed, non-blocking; its former settings are restored at the end.
+/// libserialport opens and sets up real ttys (any speed, not only those of termios). It does not open
+/// pseudo-terminals, so termios sets those up.
 class Tty {
  public:
-  /// The tty, or why not, for people.
+  /// Opens it. Returns the tty, or the reason why not, for people.
   static std::variant<Tty, std::string> open(const Found& found, int baud, bool low_latency);
   Tty(Tty&&) noexcept = default;
   Tty& operator=(Tty&&) = delete;

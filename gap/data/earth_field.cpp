@@ -35,11 +35,12 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Least squares for the field's vertical part D, its size F and iron b along x and y that turns with the vehicle,
-/// which would move F: of each reading B, with g the unit vector downwards in body axes,
+/// Least-squares fit of the field's vertical part D and its size F, uT. Iron b along x and y, which turns with the
+/// vehicle and would change F, is fitted as well. Model for each reading B, with g the unit vector downwards in
+/// body axes:
 ///     g . B = D + g . b        |B|^2 = (F^2 - |b|^2) + 2 B . b
-/// Iron along z is left to the field: the noise of the tilt hides what would tell them apart. Where the vehicle
-/// hardly turned, b is taken to be small.
+/// Iron along z remains in the field: the noise of the tilt hides the difference. Where the vehicle hardly turned,
+/// the prior keeps b small.
 std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassReading> readings) {
   constexpr double kReading_uT = 10;  ///< lag of the tilt and noise, alike for many readings in a row
   constexpr double kIron_uT = 3;

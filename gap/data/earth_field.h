@@ -20,7 +20,7 @@ struct CompassReading;
 struct EarthField {
   enum class Source : std::uint8_t {
     reference,  ///< that of sim::State, of no real place
-    given,      ///< by whoever asks
+    given,      ///< by the user (--field)
     stated,     ///< by a simulated recording
     model,      ///< the World Magnetic Model's, at the place and date of the first fix
     fitted,     ///< to the readings of the compass; its declination is unknown and set to 0

@@ -32,7 +32,7 @@ struct Stretch {
   double t = 0, difference = 0;
 };
 
-/// How much the mean of a stretch differs from that of the rest of a segment.
+/// Difference between the mean of a stretch and that of the rest of a segment, with its t statistic.
 Stretch compared(const Sums& sums, std::size_t begin, std::size_t end, std::size_t from, std::size_t until) {
   const double inside = static_cast<double>(until - from), outside = static_cast<double>(end - begin) - inside;
   const double sum_in = sums.sum(from, until), sum_out = sums.sum(begin, end) - sum_in;

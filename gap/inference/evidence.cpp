@@ -39,9 +39,9 @@ Evidence::Posterior Evidence::solve(const Eigen::VectorXd& prior, double* log_ev
 }
 
 double Evidence::gain(std::span<const Eigen::Index> members, const Eigen::VectorXd& slabs) const {
-  // p(r | slab) / p(r | spike) = E[ N(theta; 0, slab) / N(theta; 0, spike) ] over the base's posterior of them:
-  // with more = slab^-2 - spike^-2 (negative), mean m and covariance V of that posterior,
-  //   = (prod spike / slab) |1 + V more|^-1/2 exp(-1/2 m^T more (1 + V more)^-1 m).
+  // p(r | slab) / p(r | spike) = E[ N(theta; 0, slab) / N(theta; 0, spike) ] over the members' posterior in the
+  // base model. With mean m and covariance V of that posterior, and more = slab^-2 - spike^-2 (negative), it is
+  //   (prod spike / slab) |1 + V more|^-1/2 exp(-1/2 m^T more (1 + V more)^-1 m).
   const auto n = static_cast<Eigen::Index>(members.size());
   Eigen::VectorXd mean(n), more(n);
   Eigen::MatrixXd covariance(n, n);

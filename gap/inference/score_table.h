@@ -10,8 +10,8 @@
 
 namespace navcal::gap {
 
-/// Subsets that a search knows, each with its best score (log evidence, nats): that of the subset's own
-/// linearisation, or else the first one that was set.
+/// Subsets that a search has scored, each with its best score (log evidence, nats): that of the subset's own
+/// linearisation, or otherwise the first one that was set.
 class ScoreTable {
  public:
   /// Does nothing for a subset that has a score.

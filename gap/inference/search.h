@@ -32,7 +32,7 @@ struct SearchResult {
 /// found.
 [[nodiscard]] std::vector<double> expected_information_nats(const ModelFit& fit, const InferenceProblem& problem);
 
-/// Result of a search that looks at the empty subset only.
+/// Result of a search over the empty subset only.
 [[nodiscard]] SearchResult nothing_found(const InferenceProblem& problem);
 
 }  // namespace navcal::gap

@@ -22,7 +22,7 @@ class SubsetSearch {
   /// Keeps a reference to `problem`.
   explicit SubsetSearch(const InferenceProblem& problem);
 
-  /// Once only.
+  /// Runs the search; to be called once.
   [[nodiscard]] SearchResult run();
 
  private:

@@ -128,7 +128,7 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Trajectory10
     best_distance = apart;
     best_file = file;
   }
-  std::error_code unchanged;  // of somebody else's: then it only looks older than it is
+  std::error_code unchanged;  // file of another user: it then only looks older than it is
   if (best) std::filesystem::last_write_time(best_file, std::filesystem::file_time_type::clock::now(), unchanged);
   return best;
 }

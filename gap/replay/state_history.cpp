@@ -35,8 +35,8 @@ sim::State StateHistory::filtered_at(double time_s) const {
   if (later == moments_.begin()) return moments_.front().predicted;
   if (later == moments_.end()) return moments_.back().corrected;
   const Moment& earlier = *std::prev(later);
-  // Interpolation between corrected states keeps corrections continuous in time. Otherwise a delay as long as
-  // the time between two readings would look unlike one that is a little shorter.
+  // Interpolation between corrected states keeps corrections continuous in time. Otherwise the innovations, as
+  // a function of a delay, would jump where it reaches the time between two readings.
   return sim::between(earlier.corrected, later->corrected,
                       (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
 }
@@ -53,8 +53,7 @@ sim::State StateHistory::corrected_at(double time_s) const {
   if (later == moments_.begin()) return moments_.front().predicted;
   const Moment& earlier = *std::prev(later);
   // Interpolation along the vehicle's own motion, without the corrections in between. With them, the noise of
-  // single corrections would make a delay a little longer than the time between two readings look unlike one a
-  // little shorter.
+  // single corrections would make the innovations jump where a delay reaches the time between two readings.
   sim::State state = sim::between(earlier.corrected, later->predicted,
                                   (time_s - earlier.time_s) / (later->time_s - earlier.time_s));
   add_difference(state.euler_rad, euler_rad, {});

@@ -111,7 +111,7 @@ struct Diagnosis {
   Gap gap;
   std::vector<std::string> unexplained;  ///< structure that is left in the residuals
   std::vector<std::string> next;         ///< next steps: a manoeuvre, an effect to add
-  std::vector<std::string> remarks;      ///< about the recording: gaps, missing instruments, what cannot be said
+  std::vector<std::string> remarks;  ///< about the recording: gaps, missing instruments, limits of the diagnosis
   std::array<double, 4> gyro_bias_rad_s{};  ///< A-x, A-z, B-y, B-z; a nuisance, never a cause
   std::vector<ChangePoint> changes;
   std::optional<Scatter> scatter;   ///< of the strongest channel

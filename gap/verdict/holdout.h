@@ -42,7 +42,7 @@ struct HeldOutPrediction {
 /// bootstrap of the blocks and of the floors' uncertainty.
 struct PooledClosure {
   double before = 0, after = 0, floor = 0;
-  bool clear = false;  ///< the gap before stands clear of the floor
+  bool clear = false;  ///< the gap before is significantly above the floor
   double closed = 0, lower = 0, upper = 0;
 };
 /// Closure with the effects alone in the model.

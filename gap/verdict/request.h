@@ -23,7 +23,7 @@ struct Request {
   std::vector<std::filesystem::path> holdouts;  ///< other missions of the same vehicle; may be none
   config::VehicleSettings vehicle;              ///< the nominal one
   std::optional<config::Settings> settings;     ///< of all recordings, instead of their own
-  std::optional<Vector3> field_uT;              ///< the Earth's, for all missions, whatever they say of it
+  std::optional<Vector3> field_uT;              ///< the Earth's, for all missions, instead of what they state
   std::vector<std::string> excluded;            ///< effects that the library is to be without
   std::filesystem::path cache;                  ///< folder of null banks; empty: none are kept
   int bank_missions = 100;
