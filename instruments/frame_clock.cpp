@@ -8,26 +8,29 @@
 namespace navcal::instruments {
 namespace {
 
-constexpr double kLateDelays = 6;        // mean delays by which the frame before may be late besides
-constexpr double kLineDelay = 0.2;       // of the period: a line through few frames with longer delays is not used
-constexpr double kArrivalStd_s = 1e-3;   // of a stamp by arrival where no rate is configured
-constexpr double kUnknownStd_s = 12e-3;  // of a stamp by arrival when nothing is known of the delays: twice that
-                                         // holds 95 % of exponential ones of 8 ms mean, those of a loaded machine
+constexpr double kLateDelays = 6;       // mean delays by which the frame before may be late besides
+constexpr double kLineDelay = 0.2;      // of the period: a line through few frames with longer delays is not used
+constexpr double kArrivalStd_s = 1e-3;  // of a stamp by arrival where no rate is configured
+// Standard deviation of a stamp by arrival when the delays are unknown. Twice that holds 95 % of exponential
+// delays of 8 ms mean, those of a loaded machine.
+constexpr double kUnknownStd_s = 12e-3;
 constexpr double kUnknownFrames = 3;     // after so many more frames, half of that is left
 constexpr double kScarce = 4;            // frames by which the delays of a short run may look too small
 constexpr double kAheadTolerance = 0.5;  // periods: an earlier frame contradicts the phase
 constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a frame means a pause
-constexpr double kCountedPause =
-    1.5;  // periods, and a little more, likewise of a counted frame: a host that was late
-constexpr double kCountedPause_s =
-    0.05;  // reads all that has come, and the last of that is less late than a period
+// A counted frame that is later than this many periods and seconds together means a pause, too. A host that was
+// late reads all that has come, and the last frame of that is less late than a period.
+constexpr double kCountedPause = 1.5;
+constexpr double kCountedPause_s = 0.05;
 constexpr double kLostMargin_sigma = 6;
 constexpr double kLostMargin = 0.002, kLostMarginMost = 0.25;  // of a period, by which a tick may be missed early
 constexpr double kReachingDelay = 0.13;  // of a period: mean of delays that reach a whole one now and then
-constexpr double kLostShare = 0.15;      // of the ticks: more guessed losses than that put the period in question,
-constexpr double kLostShareFactor = 1.5;  // unless so many were there when it was found
-constexpr double kLateBeforeLoss =
-    0.4;  // periods: a guessed loss after a frame so late is a period that is too short
+// A larger share of ticks that are counted as lost by time alone puts the period in question. The limit rises by
+// the second factor times the share that was lost when the period was found.
+constexpr double kLostShare = 0.15;
+constexpr double kLostShareFactor = 1.5;
+// Periods: a loss by time alone after a frame so late shows that the period is too short.
+constexpr double kLateBeforeLoss = 0.4;
 constexpr int kRegularFitsMost = 96;      // runs of 32 frames
 constexpr double kShareGain = 1.0 / 24;   // per frame
 constexpr double kBurstGain = 1.0 / 256;  // per frame: a stall of some seconds is no change of rhythm

@@ -13,8 +13,8 @@ namespace navcal::gap {
 
 /// A mission's whitened innovations as a linear function of the library's unknowns about a point:
 ///   r(values) = residual - design (values - at).
-/// The design consists of finite differences of the whole replay, so that it contains what the estimator
-/// absorbs.
+/// The design consists of finite differences of the whole replay, so that it accounts for the
+/// part of an effect that the estimator absorbs.
 struct Linearised {
   Eigen::VectorXd at;        ///< values of all unknowns
   Eigen::VectorXd residual;  ///< whitened, at that point
