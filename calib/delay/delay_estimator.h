@@ -39,7 +39,8 @@ class DelayEstimator {
   void update(const WaterTrackReading& track) { course_.update(track); }
   void update(const GroundReading& ground) { course_.update(ground); }
 
-  /// Of the compass against the gyro: by the field, or by the heading where that knows it far better.
+  /// Delay of the compass against the gyro: by the field where there are field readings, else by the heading.
+  /// Its standard deviation contains that of both instruments' stamps.
   [[nodiscard]] Delay compass() const;
   [[nodiscard]] const HeadingDelay& heading() const { return heading_; }
   [[nodiscard]] const FieldDelay& field() const { return field_; }

@@ -72,7 +72,7 @@ class GpsSummary {
     Complex state_m;
     double variance_m2 = 0;
     Terms response = Terms::Zero();
-    // For the test of jumps.
+    // The last fix, with which the next one is compared in the test for jumps.
     double time_s = 0;
     Complex fix_m, velocity_m_s;
     void archive(Archive& archive);

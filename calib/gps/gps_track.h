@@ -11,7 +11,7 @@
 
 namespace navcal::calib {
 
-/// What the vehicle itself knows of its way through the water at one instant.
+/// Dead-reckoning data of one instant: heading, turn rate and speed through the water.
 struct WaterTrackReading {
   double time_s = 0;
   double heading_rad = 0;      ///< as the compass says it

@@ -45,7 +45,8 @@ class Misalignment {
   void update_heading(double time_s, double heading_rad);
   void update(const GroundReading& ground);
 
-  /// Of the runs so far, with the one under way once it is long enough; nullopt before any.
+  /// Estimate from all runs so far; the run under way is included once it is long enough. Nullopt before any
+  /// run.
   [[nodiscard]] std::optional<Estimate> estimate() const;
   [[nodiscard]] Judgement judgement() const;
   [[nodiscard]] const StraightRun& run() const { return run_; }

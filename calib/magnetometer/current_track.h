@@ -21,7 +21,7 @@ class CurrentTrack {
   [[nodiscard]] std::optional<double> at_or_newest(double time_s) const;
   /// The newest reading, if it is not older than kLongest_s.
   [[nodiscard]] std::optional<double> newest(double time_s) const;
-  /// What was read before lies on another time scale.
+  /// Drops all readings; called when their times belong to another time scale.
   void forget() { count_ = 0; }
   void archive(Archive& archive);
 

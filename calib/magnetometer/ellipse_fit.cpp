@@ -55,7 +55,7 @@ double total_cost(const EllipseShape& shape, const EllipseCells& cells, double s
   return cost;
 }
 
-/// What one pass over the cells gathers.
+/// Sums over all cells for one iteration: normal equations, cost and residuals.
 struct Sums {
   EllipseShape::Matrix information = EllipseShape::Matrix::Zero();
   EllipseShape::Vector gradient = EllipseShape::Vector::Zero();

@@ -139,7 +139,8 @@ EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& c
   }
   noise.field_inflation = blocks.size_inflation(shape);
   if (!(dip_by_field > 0)) return noise;
-  // What the dip's neighbours have in common is the tilt's, less what the field's noise explains of it.
+  // Residuals of the dip that neighbours share are those of the tilt, less the part that the field's noise
+  // explains.
   const double by_field = noise.field_uT * noise.field_uT * dip_by_field,
                by_tilt = noise.tilt_rad * noise.tilt_rad * across2;
   const double together = blocks.dip_inflation(shape) * (by_field + by_tilt) - noise.field_inflation * by_field;

@@ -105,7 +105,7 @@ struct State {
   }
 };
 
-/// What is minimised.
+/// Cost function of the fit and its parts.
 struct Problem {
   Segments segments;
   const SegmentNoise& noise;

@@ -28,7 +28,7 @@ struct SegmentBelief {
   double soft_iron_std = 0.12;
   double sine_of_dip = 0, sine_of_dip_std = 0.7;
 
-  /// Of what is known of the field; its soft iron is believed within the same.
+  /// Prior from what is known of the field. The scatter of soft iron does not depend on it.
   [[nodiscard]] static SegmentBelief about(const std::optional<KnownField>& known);
 };
 
@@ -37,7 +37,7 @@ struct SegmentBelief {
 struct SegmentsFit {
   EllipsoidShape shape;  ///< with the centre of the first segment
   std::vector<Eigen::Vector3d> centres_uT;
-  /// Of the ten parameters of `shape`, then three of the centre of each further segment.
+  /// Covariance of the ten parameters of `shape`, followed by three for the centre of each further segment.
   Eigen::MatrixXd covariance;
   double cost = 0;         ///< squared residuals in units of their variance, with those of the belief
   bool converged = false;  ///< the last iteration gained nothing

@@ -56,13 +56,14 @@ Magnetometer::Comparison Magnetometer::compare() const {
   const SegmentNoise& noise = found.noise;
   const SegmentBelief& belief = now_.predictor.belief();
   const EllipsoidCells before = now_.ellipsoid.cells();
-  // Of a hull that rolls the tilt lags and its accelerations show: then the size of the field alone is asked.
+  // While the hull rolls, the tilt lags and accelerations disturb it. Then only the size of the field is
+  // compared.
   constexpr double kAgitated_rad = 0.03;
   double lag2 = 0;
   for (const Waiting& waiting : waiting_)
     lag2 += waiting.predicted.tilt_error_rad * waiting.predicted.tilt_error_rad;
   const bool agitated = lag2 > kAgitated_rad * kAgitated_rad * static_cast<double>(waiting_.size());
-  // Readings at one attitude share their errors: a cell of them is worth hardly more than one.
+  // Readings at one attitude share their errors, so a cell of them counts as little more than one reading.
   FieldCells<3, 6> cells(kCellSize_uT);
   for (const Waiting& waiting : waiting_) {
     auto reading = waiting.predicted.cell.mean;
@@ -130,7 +131,7 @@ void Magnetometer::decide() {
     next_decision_ = waiting_.size() + std::max<std::size_t>(4, waiting_.size() / 2);
     return;
   }
-  // What one field explains when all readings are known is news of that field.
+  // One field explains all readings, so its fit replaces that of the predictor.
   now_.predictor.set_fit(*found.one);
   watch_.reset();
   release();

@@ -73,7 +73,7 @@ class MotorCurrent {
 
   void take_pending(const Rate& before, const Rate& now);
   void add(const MotorFieldReading& reading);
-  /// Of the current at the newest reading against some time before, in amperes.
+  /// Change of the current between the newest readings and those some time before, in amperes.
   [[nodiscard]] double change_A() const;
   [[nodiscard]] double noticeable_A() const;
   void end_window();

@@ -21,7 +21,7 @@ constexpr int kIterations = 3;
 constexpr double kPriorValues = 10;
 /// Values that the fit of a window on a steady course uses up.
 constexpr double kSpent = 12;
-/// Of the prior of k, A2/uT2: too little to matter, enough to have an inverse.
+/// Information of the prior of k, A2/uT2: small enough not to matter, and large enough for an inverse.
 constexpr double kSlopeInformation = 1e-3;
 
 // Standard deviations of the priors, wide enough for any instrument that is not broken.
@@ -136,7 +136,8 @@ class Turning {
     rows.middleCols<3>(kSlope) = Eigen::Matrix3d::Identity() * before_.current_A;
     return rows;
   }
-  /// What the rows times the unknowns are to give: the reading, but for what the point has taken into the turn.
+  /// Right-hand side of the linear equations: the reading, plus the part that the point of linearisation has
+  /// already put into the turn.
   [[nodiscard]] Eigen::Vector3d observed(const Rows& rows) const {
     return before_.field_body_uT + rows.middleCols<3>(kBias) * point_.bias_rad_s + rows.col(kScale) * point_.scale;
   }

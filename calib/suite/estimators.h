@@ -36,9 +36,9 @@ class Estimators {
   void finish();
   void settle();
 
-  /// From here on.
+  /// Takes effect from the next reading.
   void set_local_field(const LocalField& field);
-  /// What is in force changed for one calibrator: those that build on it begin anew.
+  /// Restarts the calibrators that build on `calibrator`, whose active correction changed.
   void on_in_force(Calibrator calibrator, const Correction& in_force);
 
   /// The newest estimate of each calibrator that has one.
@@ -55,9 +55,9 @@ class Estimators {
   /// Gyro A in force, or estimated well enough to serve the other calibrators.
   [[nodiscard]] std::optional<RateCorrection> known_gyro(const Correction& in_force) const;
   TurnedReading take_pending(std::optional<TurnStep> turn);
-  /// A fix or a reading of the shaft waits for the readings of the compass before it, which wait for their turns.
+  /// A fix or a shaft reading waits for the compass readings before it, which themselves wait for their turns.
   void wait(const Reading& reading, const Correction& in_force);
-  /// Those up to `time_s` are learnt from.
+  /// Passes the waiting readings up to `time_s` to the calibrators.
   void release(double time_s, const Correction& in_force);
   void learn(const TurnedReading& turned, const Correction& in_force);
 

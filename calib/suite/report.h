@@ -23,7 +23,7 @@ enum class Verdict : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-/// What the estimate is worth, for people.
+/// Result of the estimate for people: whether it is supported and better than before.
 enum class Outcome : std::uint8_t {
   refused,    ///< the data do not support it
   no_better,  ///< supported, but readings that had no part in it are no better with it than before
@@ -32,7 +32,7 @@ enum class Outcome : std::uint8_t {
 /// "refused", "no better", "accepted".
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 
-/// What one calibrator says now.
+/// Current state of one calibrator.
 struct CalibratorReport {
   Calibrator calibrator = Calibrator::gyro;
   Verdict verdict = Verdict::refused;

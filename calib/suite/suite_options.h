@@ -15,7 +15,7 @@ struct LocalField {
   std::optional<KnownField> known;  ///< size and dip
 };
 
-/// What the suite must be told of vehicle, instruments and place.
+/// Description of vehicle, instruments and place for the suite.
 struct SuiteOptions {
   GateOptions gate;
   bool automatic = true;  ///< estimates come into force by themselves

@@ -84,7 +84,7 @@ class Swing {
     }
   };
   void add(const Rest& rest, std::array<Sums, kHeadings>& sums) const;
-  /// With the rest under way when it is long enough.
+  /// Sums for each heading, including the present rest when it is long enough.
   [[nodiscard]] std::array<Sums, kHeadings> sums() const;
 
   Parameters parameters_;

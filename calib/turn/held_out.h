@@ -66,19 +66,19 @@ class HeldOut {
   bool update(const CompassReading& reading, const TurnStep& step, const Correction& in_force,
               const Correction& estimates);
 
-  /// Of the gyros and of the calibrators that correct the heading; empty for others.
+  /// Comparison of a gyro, or of a calibrator that corrects the heading; empty for others.
   [[nodiscard]] const Comparison& of(Calibrator calibrator) const;
-  /// Of the heading with all estimates together.
+  /// Comparison of the heading with all estimates together.
   [[nodiscard]] const Comparison& heading() const { return heading_; }
-  /// Something else is in force from now on.
+  /// The active correction has changed.
   void on_change();
-  /// A calibrator begins anew.
+  /// Drops the comparison of a calibrator that starts anew.
   void forget(Calibrator calibrator);
-  /// All but the calibrators from the eleventh on.
+  /// Archives all but the calibrators from the eleventh on.
   void archive(Archive& archive);
-  /// As forget(), but the block goes on.
+  /// Like forget(), but the present block continues.
   void forget_added(Calibrator calibrator);
-  /// What archive() leaves out, of one of them.
+  /// Archives one of the calibrators that archive() leaves out.
   void archive_added(Archive& archive, Calibrator calibrator);
 
  private:

@@ -49,7 +49,7 @@ class SampledCurve {
   struct Point {
     Value value, slope;
   };
-  /// For times from the first to the last sample, of three or more.
+  /// Value and slope at `time_s`, from the first to the last of at least three samples.
   [[nodiscard]] Point at(double time_s) const {
     const std::uint32_t end = std::min(std::max(find(time_s), 1U), count_ - 1);
     const std::uint32_t begin = end - 1;

@@ -21,9 +21,9 @@ class TurnFilterBank {
 
   /// Mean over the filters.
   [[nodiscard]] TurnCoefficients estimate() const;
-  /// About that mean: each filter's own, and how far they are apart.
+  /// Covariance about that mean: each filter's own, and the scatter between the filters.
   [[nodiscard]] TurnCovariance covariance() const;
-  // Of the most probable filter, as in TurnFilter.
+  // Values of the most probable filter, as in TurnFilter.
   [[nodiscard]] double condition() const { return best().condition(); }
   [[nodiscard]] double reduced_chi_squared() const { return best().reduced_chi_squared(); }
   [[nodiscard]] std::uint64_t readings() const { return filters_.front().readings(); }

@@ -5,7 +5,7 @@
 
 namespace navcal::calib {
 
-/// What gyro and tilt say of the turn from one compass reading to the next, in the regressors of THESIS 11.7:
+/// Turn from one compass reading to the next by gyro and tilt, in the regressors of THESIS 11.7:
 ///   psi(end) - psi(begin) = scale * measured_angle + bias * bias_time + tilt_angle
 /// where true rate = scale * measured + bias (2.12) and psi is the true heading, clockwise, radians.
 struct TurnStep {
