@@ -11,7 +11,7 @@
 
 namespace navcal::sim {
 
-/// What every emulated device can be told.
+/// Options that every emulated device takes.
 struct EmulatorOptions {
   int baud = 0;            ///< 0: that of its row in protocols/device_types.h
   std::uint64_t seed = 1;  ///< of its noise and biases

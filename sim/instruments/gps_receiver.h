@@ -12,7 +12,7 @@
 
 namespace navcal::sim {
 
-/// What a receiver knows at a full second.
+/// Solution of the receiver at a full second.
 struct GpsReading {
   std::int64_t utc_ns = 0;
   bool fixed = false;
@@ -22,10 +22,10 @@ struct GpsReading {
   double course_deg = 0;
 };
 
-/// Satellites to position and velocity over ground: none below the antenna's depth, the first fix some seconds
-/// after surfacing or power-on, the first ones of few satellites. Fix n (from 0) has
-/// devices::GpsModel::noise_factor(n) times the final noise and a dilution of precision likewise, and is
-/// two-dimensional as long as that is above 1.4.
+/// Satellites to position and velocity over ground. There is no fix below the antenna's depth, and the first
+/// fix comes some seconds after surfacing or power-on, from few satellites. Fix n (from 0) has
+/// devices::GpsModel::noise_factor(n) times the final noise, and its dilution of precision grows likewise. It
+/// is two-dimensional as long as that factor is above 1.4.
 class GpsReceiver {
  public:
   struct Options {

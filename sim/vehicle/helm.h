@@ -13,7 +13,7 @@ struct Actuators {
   Eigen::Vector3d fins_rad = Eigen::Vector3d::Zero();  ///< of the servos' shafts
   double shaft_rps = 0;
   double shaft_commanded_rps = 0;
-  /// Of the servos, where the step began with a new order to the motor card.
+  /// Ordered angles of the servos, when the step began with a new order to the motor card.
   std::optional<Eigen::Vector3d> fins_ordered_rad{};
 };
 

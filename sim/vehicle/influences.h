@@ -7,7 +7,7 @@
 
 namespace navcal::sim {
 
-/// What effects do to the vehicle itself; all neutral by default.
+/// Changes of the vehicle itself by effects; all neutral by default.
 struct Influences {
   double thrust_factor = 1;             ///< of the propeller's force
   double yaw_damping_per_s = 0;         ///< N = -k M66 r more
