@@ -30,10 +30,10 @@ class CalibrationStore {
   /// The state that load() gave is not understood: it is of another version.
   void reject(std::string_view reason);
   void save(std::string state);
-  /// Writes what waits, and ends the thread.
+  /// Writes pending states and ends the thread.
   void stop();
 
-  /// What happened since the last call, for people.
+  /// Notices since the last call, for people.
   [[nodiscard]] std::vector<std::string> take_notices();
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 

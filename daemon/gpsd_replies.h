@@ -10,10 +10,10 @@
 
 namespace navcal::daemon {
 
-// What the status socket says of itself, in gpsd's words. Each appends one line, newline included, unless it says
-// otherwise.
+// Replies of the status socket about itself, in gpsd's terms. Each function appends one line with its newline,
+// unless it says otherwise.
 
-/// The protocol whose words these are: gpsd 3.22's.
+/// Version of gpsd's protocol that these replies follow: that of gpsd 3.22.
 inline constexpr int kProtocolMajor = 3;
 inline constexpr int kProtocolMinor = 14;
 

@@ -53,7 +53,7 @@ class MotorControl {
   void status(const instruments::Stamp& stamp, const instruments::MotorSample& motor);
   /// Orders the safe state if the card has another one, and waits until that is on the wire.
   void stop();
-  /// For people.
+  /// Notices since the last call, for people.
   [[nodiscard]] std::vector<std::string> take_notices() { return marker_.take_notices(); }
 
   [[nodiscard]] const control::MotorCommand& command() const { return command_; }

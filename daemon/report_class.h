@@ -10,7 +10,7 @@
 
 namespace navcal::daemon {
 
-/// What a client of the status socket can choose from. Answers to requests belong to none of them.
+/// Classes of reports that a client of the status socket can select. Answers to requests belong to no class.
 enum class ReportClass : std::uint8_t {
   tpv,
   sky,

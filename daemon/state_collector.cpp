@@ -180,7 +180,7 @@ void StateCollector::take_estimate(VehicleState& state, const Last& last, std::i
                           east_m / (kEarthRadius_m * std::max(0.01, std::cos(*navigation->latitude_rad)));
     state.position_std_m = estimate.position_std_m.norm();
   }
-  // What the newest readings say against what is thought of their time.
+  // The spread of the newest readings about the estimate gives their standard deviation.
   if (last.compass && last.compass->value.pitch_rad && estimate.pitch_rad &&
       last.compass->stamp.validity_ns != pitch_ns_) {
     pitch_ns_ = last.compass->stamp.validity_ns;

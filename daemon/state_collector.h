@@ -49,7 +49,7 @@ class StateCollector {
     std::optional<Newest<instruments::MotorSample>> motor;
     std::optional<Newest<instruments::GpsSample>> fix;
   };
-  /// Those that serve.
+  /// Newest readings of the devices in use.
   [[nodiscard]] Last serving() const;
   void take_estimate(VehicleState& state, const Last& last, std::int64_t now_ns);
   void take_compass(VehicleState& state, const Last& last) const;

@@ -10,7 +10,7 @@
 
 namespace navcal::daemon {
 
-/// What STATE says (docs/status-protocol.md): everything of one instant. Absent is null.
+/// Content of STATE (docs/status-protocol.md), all at one instant. Absent values are null.
 struct VehicleState {
   std::optional<std::int64_t> time_utc_ns;
   std::optional<double> time_std_s;

@@ -31,7 +31,7 @@ class ClientOwner {
 /// One client of the status socket. What it cannot take at once waits in its own bounded queue; nobody else waits.
 class StatusClient : public std::enable_shared_from_this<StatusClient> {
  public:
-  /// What it asked to see.
+  /// Reports that the client has selected.
   struct Policy {
     bool enable = false;
     bool json = false;

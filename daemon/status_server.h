@@ -16,7 +16,7 @@
 
 namespace navcal::daemon {
 
-/// What the server asks of the daemon to answer requests.
+/// Interface through which the server gets answers from the daemon.
 class StatusSource {
  public:
   virtual ~StatusSource() = default;
@@ -27,7 +27,7 @@ class StatusSource {
   virtual void append_device(std::string& out, std::uint16_t port) const = 0;
   /// The answer to ?POLL;, one line.
   virtual void append_poll(std::string& out) const = 0;
-  /// Somebody watches other reports from here on, at other rates.
+  /// A client has changed its reports or their rates.
   virtual void on_watch_changed() = 0;
 };
 
