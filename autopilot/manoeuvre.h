@@ -9,7 +9,7 @@
 
 namespace navcal::autopilot {
 
-/// What a manoeuvre can go by.
+/// Input of a manoeuvre: its times, the way made and the state of the vehicle.
 struct Situation {
   double since_s = 0;   ///< it began
   double period_s = 0;  ///< since it was asked last
@@ -18,7 +18,7 @@ struct Situation {
   Orders last;  ///< the orders given last
 };
 
-/// One step of a mission under way: changes what is wanted of the vehicle.
+/// One step of a mission under way; it changes the demand.
 class Manoeuvre {
  public:
   virtual ~Manoeuvre() = default;

@@ -12,7 +12,7 @@
 
 namespace navcal::autopilot {
 
-/// What ends a mission early.
+/// Limits whose violation ends a mission early.
 struct PilotLimits {
   double depth_m = 10;
   double duration_s = 3600;
@@ -50,7 +50,8 @@ class Pilot {
   [[nodiscard]] double elapsed_s(double now_s) const { return began_s_ ? now_s - *began_s_ : 0; }
 
  private:
-  /// What is exceeded, or silent, or wrong with the vehicle; nullopt: nothing.
+  /// The limit that is exceeded, the device that is silent, or the fault of the vehicle; nullopt when there is
+  /// none.
   [[nodiscard]] std::optional<std::string> alarm(const Reading& reading, double now_s) const;
   void take(const Reading& reading, double period_s);
   [[nodiscard]] Orders stopping_orders(const Reading& reading, double now_s, double period_s);

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the socket that listens at a port, from a table like /proc/net/tcp. Nobody is asked by connecting: with
-/// socket activation that would start what it asks about.
+/// Inode of the socket that listens on a port, from a table like /proc/net/tcp. It does not connect, because
+/// socket activation would then start the service it asks about.
 std::optional<std::string> listening_inode(const fs::path& table, std::uint16_t port) {
   constexpr const char* kListening = "0A";
   std::ifstream file(table);

@@ -10,7 +10,7 @@
 
 namespace navcal::config {
 
-/// What navigation and calibration want to know, each of one device.
+/// Quantities that navigation and calibration need. One device delivers each of them.
 enum class Role : std::uint8_t { heading, field, rates, acceleration, depth, position, velocity, shaft };
 inline constexpr std::array kRoles{Role::heading, Role::field,    Role::rates,    Role::acceleration,
                                    Role::depth,   Role::position, Role::velocity, Role::shaft};

@@ -103,7 +103,8 @@ struct EnvironmentSettings {
   bool operator==(const EnvironmentSettings&) const = default;
 };
 
-/// What the calibrators must know beside the instruments (InstrumentSettings), and when their word is taken.
+/// Settings of the calibrators besides those of the instruments (InstrumentSettings), and when estimates are
+/// accepted.
 struct CalibrationSettings {
   bool enabled = true;
   bool automatic = true;         ///< estimates come into force by themselves
@@ -132,7 +133,7 @@ struct NavigationSettings {
   bool operator==(const NavigationSettings&) const = default;
 };
 
-/// What orders to the motor card may ask for, and what is ordered when nobody is in charge (docs/control.md).
+/// Limits of orders to the motor card, and the orders that apply when nobody holds a lease (docs/control.md).
 /// Speeds and angles are in the card's own units.
 struct CommandSettings {
   bool enabled = true;
