@@ -66,7 +66,7 @@ class Archive {
   void operator()(std::array<T, N>& values) {
     for (T& value : values) (*this)(value);
   }
-  /// At most `kMaxElements` elements: what is damaged must not ask for all memory.
+  /// Restoring more than `kMaxElements` elements fails, so that a damaged input cannot ask for all memory.
   template <class T>
   void operator()(std::vector<T>& values) {
     std::uint64_t size = values.size();

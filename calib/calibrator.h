@@ -33,7 +33,8 @@ enum class Calibrator : std::uint8_t {
   course_delay,   ///< of the GPS course against the heading
   motor_current,  ///< field of the motor's current
 };
-/// How many calibrators have a name in Calibrator, a member in Correction, and a numbered place in stored states.
+/// Number of calibrators that have a name in Calibrator, a member in Correction, and a numbered place in stored
+/// states.
 inline constexpr std::size_t kNamedCalibrators = 10;
 
 /// Quantity that a correction changes. Calibrators that use another calibrator's result start again when that
@@ -46,7 +47,7 @@ enum class Corrects : std::uint8_t {
   field,    ///< the measured magnetic field, and the heading with it
 };
 
-/// Which instruments there are, or which a calibrator takes.
+/// Instruments that exist, or that a calibrator takes.
 struct Instruments {
   bool compass = false, rate = false, ground = false, motor = false;
 };
@@ -58,7 +59,7 @@ struct NamedNumbers {
   std::size_t rows = 0;        ///< 0: a single number; 1: a vector; more: a matrix
 };
 
-/// How the value of one calibrator in a Correction is found and copied.
+/// Functions that find and copy one calibrator's value in a Correction.
 struct CorrectionPlace {
   bool (*has)(const Correction& correction, Calibrator calibrator);
   /// Gives `to` the value that `from` has, or takes it away.

@@ -55,7 +55,7 @@ class GpsCompass {
   explicit GpsCompass(const Parameters& parameters);
 
   void update(const WaterTrackReading& track);
-  /// In the order of times with the track.
+  /// Takes a fix, in order of time with the track.
   void update(const GroundReading& ground);
 
   /// Takes effect at the next refit.

@@ -16,7 +16,8 @@
 
 namespace navcal::calib {
 
-/// In both components, unlike the ellipse's: the gyro says where on the ellipse one should be.
+/// Both components are used, unlike in the ellipse's covariance, because the gyro gives the position on the
+/// ellipse.
 EllipseShape::Matrix EllipseGyro::stated_covariance(double model_error_uT) const {
   using Columns = Eigen::Matrix<double, EllipseShape::kParameters, 2>;
   std::array<Columns, kSharedSectors> sums;

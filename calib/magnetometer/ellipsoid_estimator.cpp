@@ -31,7 +31,7 @@ EllipsoidCells EllipsoidEstimator::cells() const {
 
 void EllipsoidEstimator::judge(const Eigen::Vector3d& field_uT) {
   const Departure d = departure(field_uT);
-  // A fit that knows nothing of this direction yet says nothing by being off.
+  // The fit is judged only in directions where it is accurate; elsewhere its residuals are meaningless.
   if (d.fit_variance > 0.25 * d.noise_variance) return;
   held_out_.update(field_uT.norm(), fit_->shape.radius_uT() * d.size);
 }

@@ -86,7 +86,7 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
     gradient -= weighted * r.value;
     cost += cell.count * outlier_cost(square);
   }
-  // In units of the least certain, so that centre (uT) and matrix (1/uT) meet on equal terms.
+  // Each parameter is scaled by its own information, so that centre (uT) and matrix (1/uT) are comparable.
   const Vector scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix scaled = scale.asDiagonal() * information * scale.asDiagonal() + 1e-13 * Matrix::Identity().eval();
   const auto solved = [&](double damping, const auto& right) {

@@ -30,8 +30,8 @@ std::string tilt_manoeuvre(double tilt_rad) {
          whole_degrees(std::min(1.2, tilt_rad + kMore_rad)) + " degrees";
 }
 
-/// Whether the field came from all sides of the hull, whatever was known of its tilt: the smallest eigenvalue of
-/// the mean square of its direction is a third on a whole sphere, and zero on a plane or a line.
+/// True when the field came from all sides of the hull, whether or not its tilt was known. The smallest eigenvalue
+/// of the mean square of its direction is a third on a whole sphere, and zero on a plane or a line.
 bool is_all_round(const EllipsoidCells& cells, const EllipsoidShape& shape) {
   constexpr double kLeastSquare = 0.12, kMostMean = 0.5;
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();

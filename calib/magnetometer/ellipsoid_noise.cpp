@@ -41,7 +41,8 @@ double ResidualBlocks::Sums<Size>::inflation(const Vector& coefficients) const {
   for (std::size_t i = 1; i < scales.size() && single > 0; ++i) {
     const auto blocks = static_cast<double>(scales[i].blocks);
     if (blocks < kLeastBlocks) break;
-    // Less one standard deviation of the estimate, so that the largest of several is not too large by chance.
+    // One standard deviation of the estimate is subtracted, so that the largest of several is not too large by
+    // chance.
     const double chance = 1 - std::sqrt(2 / blocks);
     worst = std::max(worst, chance * blocks / (blocks - kAbsorbed) * variance(i) / single);
   }

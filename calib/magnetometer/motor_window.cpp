@@ -35,10 +35,10 @@ using Unknowns = Eigen::Matrix<double, kAll, 1>;
 /// Far above what the noise of the gyros turns and tilts a window by.
 constexpr double kTurn_rad = 0.05, kTilt_rad = 0.05;
 
-/// How far a window turns about the vertical of its beginning, and tilts away from it.
+/// Rotation of a window about the vertical of its beginning, and its tilt away from that.
 struct Motion {
   double turn_rad = 0, tilt_rad = 0;
-  /// Whether it tells hard iron of an axis from the field of the Earth.
+  /// True when the rotation separates hard iron of an axis from the field of the Earth.
   [[nodiscard]] bool tells(Eigen::Index axis) const {
     return axis < 2 ? turn_rad > kTurn_rad : tilt_rad > kTilt_rad;
   }
@@ -73,7 +73,7 @@ Unknowns prior_variance(const Motion& motion, double fixed_uT) {
   return variance;
 }
 
-/// Without what the window says of hard iron of `axis` by itself.
+/// Removes the information that the window alone gives on hard iron of `axis`.
 void forget_hard_iron(MotorFieldEvidence& evidence, Eigen::Index axis) {
   const Eigen::Index dropped = 3 + axis;
   using Others = Eigen::Matrix<double, 5, 1>;
@@ -93,7 +93,7 @@ void forget_hard_iron(MotorFieldEvidence& evidence, Eigen::Index axis) {
   evidence.vector[dropped] = vector.dot(solved);
 }
 
-/// About which the model is linearised.
+/// Point about which the model is linearised.
 struct Point {
   Eigen::Vector3d field_uT, bias_rad_s = Eigen::Vector3d::Zero();
   double scale = 0;  ///< of the yaw gyro, less 1

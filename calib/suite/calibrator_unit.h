@@ -30,7 +30,7 @@ struct LearntReading {
   const CompassReading& reading;
   const std::optional<TurnStep>& turn;
   const WaterTrackReading& track;
-  /// Gyro A in force, or estimated well enough to serve the other calibrators.
+  /// Active calibration of gyro A, or an estimate good enough for the other calibrators.
   const std::optional<RateCorrection>& gyro;
   const Correction& in_force;
 };
@@ -57,7 +57,7 @@ class CalibratorUnit {
   // Inputs as the instruments deliver them, each in the order of its times.
   /// The reading as measured, with the motor's field.
   virtual void update_measured(const CompassReading& /*reading*/, const Correction& /*in_force*/) {}
-  /// The reading without the motor's field where that correction is in force.
+  /// Takes the reading without the motor's field, where that correction is active.
   virtual void update_compass(const CompassReading& /*reading*/) {}
   virtual void update_rate(const RateReading& /*reading*/) {}
   virtual void update_motor(const MotorReading& /*reading*/) {}
@@ -74,7 +74,7 @@ class CalibratorUnit {
 
   /// Forgets what was learnt.
   virtual void start() = 0;
-  /// The value in force changed for one calibrator, possibly this one.
+  /// Called when the active value of a calibrator, possibly this one, has changed.
   virtual void on_in_force(Calibrator /*changed*/, const Correction& /*in_force*/) {}
   /// The Earth's field here became known: the options' local field.
   virtual void on_local_field(const SuiteOptions& /*options*/) {}

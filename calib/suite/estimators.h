@@ -24,7 +24,8 @@ class Estimators {
  public:
   explicit Estimators(const SuiteOptions& options);
 
-  /// The reading as measured. The others are fed with the field without the motor's, where that is in force.
+  /// Takes the reading as measured. Calibrators other than that of the motor current get the field without the
+  /// motor's, where that correction is active.
   void update(const CompassReading& reading, const Correction& in_force);
   void update(const RateReading& reading);
   void update(const GroundReading& reading, const Correction& in_force);
@@ -32,7 +33,7 @@ class Estimators {
   /// The next reading of the compass whose turn is known, or that will have none; it has been through all
   /// estimators. To be called until there is none.
   std::optional<TurnedReading> next(const Correction& in_force);
-  /// No more readings come.
+  /// Called when no more readings come.
   void finish();
   void settle();
 
@@ -46,13 +47,13 @@ class Estimators {
   [[nodiscard]] CalibratorUnit& unit(Calibrator calibrator) { return *units_[index_of(calibrator)]; }
   [[nodiscard]] const CalibratorUnit& unit(Calibrator calibrator) const { return *units_[index_of(calibrator)]; }
   [[nodiscard]] const Magnetometer& magnetometer() const { return shared_->magnetometer; }
-  /// All but the units from the eleventh on: Suite archives those by name.
+  /// Archives all but the units from the eleventh on: Suite archives those by name.
   void archive(Archive& archive);
 
  private:
   static constexpr std::size_t kPending = 64, kBeside = 512;
 
-  /// Gyro A in force, or estimated well enough to serve the other calibrators.
+  /// Active calibration of gyro A, or an estimate good enough for the other calibrators.
   [[nodiscard]] std::optional<RateCorrection> known_gyro(const Correction& in_force) const;
   TurnedReading take_pending(std::optional<TurnStep> turn);
   /// A fix or a shaft reading waits for the compass readings before it, which themselves wait for their turns.

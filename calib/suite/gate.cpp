@@ -249,7 +249,7 @@ bool Gate::release(QueuedReading& entry) {
 bool Gate::release(QueuedReading& entry, CompassReading& reading) {
   if (entry.field_frozen || entry.heading_frozen) {
     count(Stream::compass, Rejection::frozen);
-    // A heading is computed from the field: it is worth no more.
+    // The compass computes its heading from the field, so it is as unusable as the field.
     reading.heading_rad.reset();
     if (entry.field_frozen) reading.field_body_uT.reset();
   }

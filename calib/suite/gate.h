@@ -61,7 +61,7 @@ class Gate {
   /// The next reading that may be used, its time on the gate's own scale; nullopt while the gate still looks
   /// ahead.
   std::optional<Reading> take();
-  /// No more is coming: take() then gives out all that waits.
+  /// Called when no more readings come: take() then gives out all that wait.
   void flush() { flushing_ = true; }
   /// Announces a pause of unknown length and another clock, as after a restart of the program.
   void restart();

@@ -108,7 +108,7 @@ void Suite::on_change(Calibrator calibrator) {
   field_.on_change();
   estimators_.on_in_force(calibrator, in_force_.correction());
   for (const Calibrator other : calibrators()) {
-    // It may have begun anew.
+    // The other calibrator may have started anew.
     if (row_of(other).corrects == Corrects::offset) refresh_accepted(other);
   }
 }

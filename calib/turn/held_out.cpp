@@ -57,7 +57,7 @@ bool Comparison::contradicts() const {
 }
 
 void HeldOut::Scatter::add(double residual_rad) {
-  // About the mean so far, so that a residual near plus or minus pi is no leap.
+  // The departure is taken from the mean so far, so that a residual near plus or minus pi does not jump.
   const double departure = base::wrapped(residual_rad - mean);
   ++count;
   mean += departure / count;

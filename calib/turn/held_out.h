@@ -12,18 +12,18 @@
 
 namespace navcal::calib {
 
-/// Root-mean-squares over blocks, the newest counting most, of one quantity: as the instrument says it, by what is
-/// in force, and by the estimate.
+/// Root-mean-squares of one quantity over blocks, the newest with the largest weight: as measured, with the
+/// active correction, and with the estimate.
 class Comparison {
  public:
   void add(double before_square, double in_force_square, double estimate_square);
-  /// Something else is in force from now on.
+  /// The active correction has changed.
   void on_change() { since_change_ = {}; }
-  /// The estimate beats what is in force by this relative margin, and from block to block by more than chance
-  /// would have it: three standard errors of the mean gain.
+  /// True when the estimate is better than the active correction by this relative margin, and its gain is
+  /// significant over the blocks: three standard errors of the mean gain.
   [[nodiscard]] bool better_by(double margin) const;
 
-  /// The estimate was judged by enough blocks and did no better than what is in force.
+  /// True when enough blocks have judged the estimate and it was no better than the active correction.
   [[nodiscard]] bool contradicts() const;
 
   [[nodiscard]] double before_rms() const { return all_.rms(all_.before); }

@@ -43,7 +43,7 @@ class SampledCurve {
     while (i < count_ && this->time_s(i) < time_s) ++i;
     return i;
   }
-  /// Whether no later sample can change the curve up to `time_s`.
+  /// True when no later sample can change the curve up to `time_s`.
   [[nodiscard]] bool settled(double time_s) const { return count_ >= 3 && find(time_s) + 1 < count_; }
 
   struct Point {

@@ -162,7 +162,8 @@ void TurnFilter::solve() {
   log_likelihood_ = -(log_variances_ + factors.vectorD().array().log().sum() + products_(0, 0) -
                       moment.dot(solution_.departure)) /
                     2;
-  // How much of the noise stated is there is seen at the estimate, which depends on it: twice is enough.
+  // The ratio of the actual to the stated noise is taken at the estimate, which depends on that ratio. Two
+  // passes are enough.
   for (int pass = 0; pass < 2; ++pass) {
     Row at_estimate;
     at_estimate << 1, -solution_.departure;

@@ -7,11 +7,11 @@
 
 namespace navcal::calib {
 
-/// Turn filters for several walks of the gyro's bias, weighed by how probable each makes the readings
-/// (multiple-model estimation; Magill, IEEE Trans. Automatic Control 10, 1965). The walks are none, a tenth of the
-/// one in the parameters, and that one. A gyro whose bias stays is so calibrated several times as well as one that
-/// drifts, and nobody has to say which it is. No weight falls so far that it could not come back when the bias
-/// begins to drift.
+/// Turn filters for several walks of the gyro's bias, weighted by the probability that each gives the readings
+/// (multiple-model estimation; Magill, IEEE Trans. Automatic Control 10, 1965). The walks are none, a tenth of
+/// the one in the parameters, and that one. So a gyro with a constant bias is calibrated several times as well
+/// as one that drifts, without a setting. The weights have a lower bound, so that a filter can recover when the
+/// bias begins to drift.
 class TurnFilterBank {
  public:
   explicit TurnFilterBank(const TurnFilter::Parameters& parameters,

@@ -63,13 +63,13 @@ class TurnIntegrator {
   enum CompassAxis { kRoll, kPitch, kHeading };
   enum RateAxis { kX, kY, kZ, kZOfB };
 
-  /// Whether a reading at `time_s` may follow the others of `curve`; begins anew where there is a gap between.
+  /// True when a reading at `time_s` may follow the others of `curve`. A gap starts the curve anew.
   template <class Curve>
   bool in_order(Curve& curve, double time_s);
-  /// Nothing is known of the turn after the newest step; steps that still wait go into `waiting_`.
+  /// Ends the segment: the turn after the newest step is unknown. Pending steps go into `waiting_`.
   void end_segment();
   [[nodiscard]] std::optional<TurnStep> step(bool at_once);
-  /// Whether the tilt is restored from an inclinometer that lags.
+  /// True when the tilt is restored from an inclinometer that lags.
   [[nodiscard]] bool lags() const { return parameters_.tilt_lag_s > 0 && lags_; }
   /// Tells inclinometer_ of the readings that have settled.
   void test_lag();
