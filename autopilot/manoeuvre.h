@@ -22,9 +22,9 @@ struct Situation {
 class Manoeuvre {
  public:
   virtual ~Manoeuvre() = default;
-  /// Once, before the first go_on().
+  /// Called once, before the first go_on().
   virtual void begin(const Situation& now, Demand& demand) = 0;
-  /// At each period; false: it is done, and what is in `demand` stays.
+  /// Called at each period; false: the manoeuvre is done, and `demand` keeps its values.
   [[nodiscard]] virtual bool go_on(const Situation& now, Demand& demand) = 0;
 };
 

@@ -37,7 +37,7 @@ class Pilot {
   /// Orders for a reading that came at `now_s`, of a clock that never goes back. The first call begins the
   /// mission.
   [[nodiscard]] Orders next(const Reading& reading, double now_s);
-  /// From now on the vehicle is stopped; the first reason stays. nullopt: the mission is done.
+  /// Stops the vehicle from now on. The first reason is kept. nullopt: the mission is done.
   void stop(std::optional<std::string> reason, double now_s);
 
   [[nodiscard]] bool stopping() const { return stopped_at_s_.has_value(); }

@@ -9,7 +9,7 @@
 
 namespace navcal::cli {
 
-/// Under whose name navcald will run.
+/// Account under which navcald will run.
 struct Account {
   std::string name;
   uid_t uid = 0;

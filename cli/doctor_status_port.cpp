@@ -33,7 +33,7 @@ std::optional<std::string> listening_inode(const fs::path& table, std::uint16_t 
   return std::nullopt;
 }
 
-/// Its name, where we may see it.
+/// Name of the program with this socket, as far as its process is visible.
 std::string program_with(const fs::path& proc, const std::string& inode) {
   const std::string link = "socket:[" + inode + "]";
   std::error_code error;

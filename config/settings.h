@@ -17,7 +17,7 @@ namespace navcal::config {
 enum class AngleUnit : std::uint8_t { deg, mils, counts16 };  ///< mils: 6400 to the turn; counts16: 65536
 enum class TemperatureUnit : std::uint8_t { C, F };
 
-/// How a compass was told (or is wired) to speak; the unit is not in the word (ICD section 1).
+/// Units that a compass was set or wired to send; its words do not contain them (ICD section 1).
 struct CompassSettings {
   AngleUnit heading_unit = AngleUnit::deg;
   AngleUnit tilt_unit = AngleUnit::deg;

@@ -10,7 +10,7 @@
 #include "config/settings.h"
 #include "protocols/motor_card.h"
 
-/// Who may command the motor card, and what is sent to it. Values without a clock, a port or a file: every call
+/// Right to command the motor card, and the orders sent to it. The types use no clock, port or file: every call
 /// brings its time, nanoseconds of the monotonic clock.
 namespace navcal::control {
 

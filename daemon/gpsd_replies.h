@@ -31,8 +31,8 @@ struct DeviceState {
 void append_version(std::string& out);
 /// The object alone, without newline.
 void append_device_object(std::string& out, const DeviceState& device);
-/// The policy in force; classes and rates only where a client chose them. NMEA and raw pass-through are not
-/// offered, which "nmea":false and "raw":0 say.
+/// Active policy; classes and rates only where a client chose them. "nmea":false and "raw":0 state that NMEA
+/// and raw pass-through are not offered.
 struct WatchPolicy {
   bool enable = false;
   bool json = false;

@@ -18,8 +18,8 @@
 
 namespace navcal::daemon {
 
-/// The log as the I/O thread sees it: encodes records into the disk thread's buffer, decides when a new file
-/// begins, and tells of records that were lost. Does nothing when the log is switched off.
+/// Front end of the log for the I/O thread: encodes records into the disk thread's buffer, decides when a new
+/// file begins, and reports lost records. It does nothing when the log is switched off.
 class LogWriter {
  public:
   /// Takes the log folder and begins the first file. Throws StartError saying what is wrong with the folder.

@@ -72,7 +72,7 @@ class PortSession : private ports::PortListener {
   [[nodiscard]] const instruments::Tcm2Calibration* compass_calibration() const {
     return compass_calibration_ ? &*compass_calibration_ : nullptr;
   }
-  /// To be called about once a second: judges the state.
+  /// Called about once a second: judges the state.
   void tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics);
 
   [[nodiscard]] const config::PortSettings& settings() const { return settings_; }

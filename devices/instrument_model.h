@@ -23,7 +23,7 @@ struct Timing {
   std::int64_t baud = 0;     ///< line speed, bit/s; 64 bits, so that no gap lies between the members
 };
 
-/// The usual timing of the device that speaks `protocol` (config::default_port), at this line speed.
+/// Usual timing of the device with `protocol` (config::default_port) at this line speed.
 [[nodiscard]] Timing usual_timing(protocols::Protocol protocol, int baud);
 
 /// TCM2. Resolutions are those of its words.

@@ -8,7 +8,7 @@
 
 namespace navcal::sim {
 
-/// When an effect acts, in seconds of the mission.
+/// Interval in which an effect acts, in seconds of the mission.
 struct Interval {
   double from_s = -std::numeric_limits<double>::infinity();
   double until_s = std::numeric_limits<double>::infinity();

@@ -37,7 +37,7 @@ struct Delays {
 enum class Instrument : std::uint8_t { compass, imu, gps, motor };
 inline constexpr std::size_t kInstruments = 4;
 
-/// How a frame comes through its line.
+/// Transmission of a frame over its line.
 struct Transmission {
   int copies = 1;           ///< 0: it is lost
   double late_s = 0;        ///< the host takes it so much later
