@@ -21,7 +21,7 @@ struct Orders {
 /// Demanded motion of a vehicle; it holds until the next demand.
 struct Demand {
   double heading_rad = 0;  ///< not wrapped
-  double turn_rad_s = 0;   ///< at which the heading wanted moves
+  double turn_rad_s = 0;   ///< rate of the demanded heading
   double depth_m = 0;
   double shaft_rps = 0;
   std::optional<double> speed_m_s{};                ///< instead of the shaft speed

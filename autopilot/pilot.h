@@ -69,7 +69,7 @@ class Pilot {
   std::array<double, 2> reckoned_m_{};
   std::optional<base::LocalPlane> plane_;     ///< about the first position that is known
   std::array<double, 2> first_reckoned_m_{};  ///< reckoned there
-  std::array<double, 2> offset_m_{};          ///< where the vehicle is, from the beginning
+  std::array<double, 2> offset_m_{};          ///< position of the vehicle relative to the beginning
 };
 
 }  // namespace navcal::autopilot

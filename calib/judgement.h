@@ -39,10 +39,9 @@ struct Quantity {
 struct Judgement {
   bool accepted = false;  ///< the data support the estimate; it may come into force
   std::string reason;     ///< empty when accepted; else what stands against it, for people
-  std::string
-      manoeuvre;         ///< what to do about it, for people: "turn through 140 more degrees, headings 200 to 340"
-  double coverage = 0;   ///< 0..1, share of what the calibrator needs to see
-  double condition = 0;  ///< condition number of the (scaled) information matrix; infinity: singular
+  std::string manoeuvre;  ///< remedy, for people: "turn through 140 more degrees, headings 200 to 340"
+  double coverage = 0;    ///< 0..1, share of what the calibrator needs to see
+  double condition = 0;   ///< condition number of the (scaled) information matrix; infinity: singular
   std::uint64_t samples = 0;
   HeldOutQuantity held_out_quantity = HeldOutQuantity::none;
   // Root-mean-square on held-out readings, without and with the estimate; 0 when there were none.

@@ -70,7 +70,7 @@ struct LogSettings {
   std::uint64_t rotate_bytes = 512'000'000;
   double rotate_age_s = 86400;
   std::uint64_t free_floor_bytes = 256'000'000;
-  std::uint64_t queue_bytes = 32'000'000;  ///< what a stalled disk may leave waiting before records are lost
+  std::uint64_t queue_bytes = 32'000'000;  ///< bytes that may wait for a stalled disk before records are lost
 
   bool operator==(const LogSettings&) const = default;
 };
@@ -108,7 +108,7 @@ struct EnvironmentSettings {
 struct CalibrationSettings {
   bool enabled = true;
   bool automatic = true;         ///< estimates come into force by themselves
-  double margin = 0.1;           ///< by so much must they be better on readings held out, relative
+  double margin = 0.1;           ///< relative improvement on held-out readings that is required
   double motor_settle_s = 2;     ///< magnetic readings are left out so long after the motor was switched
   double heading_noise_rad = 0;  ///< of one reading; 0: as the compass's field and tilt give it
   double field_noise_uT = 0;     ///< likewise

@@ -43,7 +43,7 @@ class CalibrationStore {
   void note(std::string notice);
 
   const std::filesystem::path file_;
-  const std::string instruments_;  ///< what a state is good for, in words
+  const std::string instruments_;  ///< description of the instruments for which a state is valid
 
   std::mutex mutex_;
   std::condition_variable wake_;

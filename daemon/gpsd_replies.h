@@ -21,7 +21,7 @@ inline constexpr int kProtocolMinor = 14;
 struct DeviceState {
   std::string_view name;    ///< "path" of the DEVICE object and "device" of every report
   std::string_view driver;  ///< its protocol
-  std::string_view tty;     ///< what is open; empty while it is away
+  std::string_view tty;     ///< open device; empty while it is absent
   int baud = 0;
   double cycle_s = 0;  ///< nominal time between frames; 0: not periodic
   bool gps = false;

@@ -25,7 +25,7 @@ struct VehicleState {
   std::optional<double> heading_std_rad, pitch_std_rad, depth_std_m, speed_std_m_s;
   std::optional<double> compass_age_s, imu_age_s, gps_age_s, motor_age_s;
   std::vector<std::string_view> alarms;  ///< names with underscores
-  std::string holder;                    ///< of the motor; empty: nobody
+  std::string holder;                    ///< of the motor's lease; empty: none
   int priority = 0;
   double expires_in_s = 0;
   std::uint64_t order_sequence = 0;  ///< 0: no order yet

@@ -26,7 +26,7 @@ class DelayEstimator {
     CourseDelay::Parameters course;
     double tilt_lag_s = base::reference::kTiltLag_s;  ///< of the compass's inclinometer
     double tilt_noise_rad = base::reference::kReckonedTiltNoise_rad;
-    double level_std_s = 0.003;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
+    double level_std_s = 0.003;  ///< error of the heading by tilt and vertical hard iron (measured: bench delay)
     double accepted_std_s = 0.002;  ///< compass
     double accepted_course_std_s = 0.15;
   };

@@ -13,7 +13,7 @@ namespace navcal::calib {
 namespace {
 
 constexpr double kOutlier = 6;         // cells further off, in standard deviations of one reading, count less
-constexpr double kPriorReadings = 20;  // what the noise believed beforehand is worth
+constexpr double kPriorReadings = 20;  // weight of the prior noise
 
 struct Distance {
   double distance_uT = 0;

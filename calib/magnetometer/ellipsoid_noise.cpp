@@ -12,7 +12,7 @@ namespace {
 constexpr double kUnit_uT = 50;                 // of the monomials, so that they are of the order of one
 constexpr double kLeastBlocks = 30;             // fewer do not tell a variance
 constexpr double kAbsorbed = 7;                 // block sums that the parameters of a line make small
-constexpr double kEllipsoidPriorReadings = 50;  // what the noise believed beforehand is worth
+constexpr double kEllipsoidPriorReadings = 50;  // weight of the prior noise
 
 }  // namespace
 
@@ -122,7 +122,7 @@ double pooled(double square, double count, double believed) {
 
 EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& cells, const ResidualBlocks& blocks,
                             const EllipsoidNoise& believed, const EllipsoidNoise& so_far) {
-  constexpr int kRounds = 2;  // what is an outlier depends on the noise that is sought
+  constexpr int kRounds = 2;  // outliers depend on the noise that is sought
   const double across2 = std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
   EllipsoidNoise noise;
   noise.field_uT = so_far.field_uT;

@@ -53,7 +53,7 @@ class FieldCells {
   void double_size();
 
   double size_;
-  std::uint64_t newest_ = 0;  ///< where the last reading went; the next one often follows it
+  std::uint64_t newest_ = 0;  ///< cell of the last reading; the next one often follows it
   std::vector<Cell> cells_;
 };
 

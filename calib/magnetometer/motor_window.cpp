@@ -87,7 +87,7 @@ void forget_hard_iron(MotorFieldEvidence& evidence, Eigen::Index axis) {
     with[row] = evidence.information(i, dropped);
     vector[row++] = evidence.vector[i];
   }
-  others.diagonal().array() += kSlopeInformation * 1e-3;  // what was dropped before has none
+  others.diagonal().array() += kSlopeInformation * 1e-3;  // components that were dropped before have none
   const Others solved = others.ldlt().solve(with);
   evidence.information(dropped, dropped) = with.dot(solved);
   evidence.vector[dropped] = vector.dot(solved);

@@ -37,7 +37,7 @@ struct MotorFieldEvidence {
   Vector vector = Vector::Zero();                 ///< A/uT, 1/uT
   double square = 0;                              ///< of the misfit for x = 0, in units of the variance
   double values = 0;                              ///< number of field values
-  double freedom = 0;                             ///< components of x that it tells of
+  double freedom = 0;                             ///< number of components of x that it determines
   double variance_uT2 = 0;                        ///< of a field value, as the window itself shows it
 
   /// Mean square of the misfit of a field value, for a field per ampere of `k` and whatever hard iron fits best.

@@ -70,7 +70,7 @@ class Estimators {
   std::size_t first_pending_ = 0, pending_count_ = 0;
   std::deque<QueuedReading> beside_;  ///< fixes and readings of the shaft, in the order of their times
   std::optional<TurnStep> turn_;      ///< of a pending reading, or of a later one
-  bool heading_seen_ = false;         ///< the compass says headings of its own
+  bool heading_seen_ = false;         ///< the compass sends headings of its own
   bool finishing_ = false;
 };
 

@@ -101,7 +101,7 @@ class HeldOut {
            tilt_rad = 0;  ///< TurnStep, summed from its beginning
     double least_turn_rad = 0, most_turn_rad = 0;
     Scatter before, with_in_force, with_all;
-    std::vector<Scatter> with;  ///< what is in force but for one, of headings_
+    std::vector<Scatter> with;  ///< residuals with each correction of with_
     std::array<GyroScatter, kGyros.size()> gyros;
     void archive(Archive& archive);
   };
@@ -117,8 +117,8 @@ class HeldOut {
 
   std::vector<Calibrator> headings_;  ///< those that correct the heading
   Block block_;
-  std::vector<Correction> with_;  ///< what is in force but for one, of headings_
-  Correction with_all_;           ///< what is in force, with all estimates
+  std::vector<Correction> with_;  ///< active correction with the estimate of one of headings_
+  Correction with_all_;           ///< active correction with all estimates
   bool in_block_ = false;
   std::vector<Comparison> comparisons_;
   Comparison heading_;

@@ -69,7 +69,7 @@ class TurnFilter {
     Constants departure = Constants::Zero();
     ConstantsMatrix covariance = ConstantsMatrix::Zero();
     double square = 0;           ///< sum of the squares of normalised innovations
-    double expected_square = 1;  ///< what it should be by the noise stated
+    double expected_square = 1;  ///< its expectation by the stated noise
     void archive(Archive& archive) { archive(departure, covariance, square, expected_square); }
   };
   /// A compass reading: unwrapped and less the prior's deviation; 0; harmonics of the constants not held.

@@ -90,7 +90,7 @@ class TurnIntegrator {
   std::optional<double> given_out_s_;  ///< time of the newest reading given out in this segment
   InclinometerLag inclinometer_;
   std::optional<double> lag_tested_s_;  ///< time of the newest reading of the compass that it was told of
-  bool lags_ = true;                    ///< what it said last
+  bool lags_ = true;                    ///< its last answer
   TiltSmoother smoother_;               ///< its oldest reading is the newest given out, but at the beginning
   double ahead_s_ = 0;                  ///< how far the smoother has come
   TiltSmoother::State tilt_ = TiltSmoother::State::Zero();  ///< on the way from one reading to the next

@@ -12,14 +12,14 @@ namespace navcal::sim {
 /// One number of an effect. Zero is neutral.
 struct EffectParameter {
   std::string_view name;  ///< with its unit, as files and answers say it: "x_uT_per_A"
-  double typical = 1;     ///< what counts as strength 1
+  double typical = 1;     ///< value of strength 1
   double least = -std::numeric_limits<double>::infinity();
   double greatest = std::numeric_limits<double>::infinity();
 };
 
 /// Place where an effect acts.
 enum class EffectPlace : std::uint8_t {
-  instruments,  ///< what they measure
+  instruments,  ///< their measurements
   vehicle,      ///< how the vehicle moves
   lines,        ///< noise, clocks and the way of frames to the host: no cause of a gap, but a trial of the host
 };

@@ -16,7 +16,7 @@ namespace navcal::sim {
 struct GpsReading {
   std::int64_t utc_ns = 0;
   bool fixed = false;
-  double degraded = 1;  ///< by which its noise is greater than that of a settled fix
+  double degraded = 1;                                       ///< ratio of its noise to that of a settled fix
   double latitude_deg = 0, longitude_deg = 0, height_m = 0;  ///< without a fix the last known
   double speed_m_s = 0;
   double course_deg = 0;

@@ -63,7 +63,7 @@ class MotorCard final : public Device {
   Ticks ticks_;
   protocols::motor_card::Parser parser_;
   std::optional<protocols::motor_card::Command> command_;
-  Actuators at_command_;  ///< where they stood when the command came
+  Actuators at_command_;  ///< their positions when the command came
   std::int64_t commanded_ns_ = 0;
   std::uint64_t refused_ = 0;
   std::uint8_t sequence_ = 0;
