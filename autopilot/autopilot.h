@@ -10,7 +10,7 @@
 
 namespace navcal::autopilot {
 
-/// What the actuators are told.
+/// Orders to the actuators.
 struct Orders {
   double rudder_rad = 0;
   double elevator_rad = 0;
@@ -18,10 +18,10 @@ struct Orders {
   double shaft_rps = 0;
 };
 
-/// What a vehicle is wanted to do; it holds until something else is.
+/// Demanded motion of a vehicle; it holds until the next demand.
 struct Demand {
   double heading_rad = 0;  ///< not wrapped
-  double turn_rad_s = 0;   ///< at which the heading wanted moves
+  double turn_rad_s = 0;   ///< rate of the demanded heading
   double depth_m = 0;
   double shaft_rps = 0;
   std::optional<double> speed_m_s{};                ///< instead of the shaft speed

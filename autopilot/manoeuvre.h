@@ -9,7 +9,7 @@
 
 namespace navcal::autopilot {
 
-/// What a manoeuvre can go by.
+/// Input of a manoeuvre: its times, the way made and the state of the vehicle.
 struct Situation {
   double since_s = 0;   ///< it began
   double period_s = 0;  ///< since it was asked last
@@ -18,13 +18,13 @@ struct Situation {
   Orders last;  ///< the orders given last
 };
 
-/// One step of a mission under way: changes what is wanted of the vehicle.
+/// One step of a mission under way; it changes the demand.
 class Manoeuvre {
  public:
   virtual ~Manoeuvre() = default;
-  /// Once, before the first go_on().
+  /// Called once, before the first go_on().
   virtual void begin(const Situation& now, Demand& demand) = 0;
-  /// At each period; false: it is done, and what is in `demand` stays.
+  /// Called at each period; false: the manoeuvre is done, and `demand` keeps its values.
   [[nodiscard]] virtual bool go_on(const Situation& now, Demand& demand) = 0;
 };
 

@@ -70,7 +70,7 @@ void MissionOrders::begin_step() {
 
 void MissionOrders::end_step() {
   manoeuvre_.reset();
-  // From free rudder the autopilot takes over the heading that it finds.
+  // After a step with free rudder the autopilot keeps the present heading.
   if (demand_.rudder_rad || demand_.fins_rad[0]) demand_.heading_rad = situation_.state.euler_rad[2];
   demand_.turn_rad_s = 0;
   demand_.rudder_rad.reset();

@@ -12,7 +12,7 @@
 
 namespace navcal::autopilot {
 
-/// What ends a mission early.
+/// Limits whose violation ends a mission early.
 struct PilotLimits {
   double depth_m = 10;
   double duration_s = 3600;
@@ -37,7 +37,7 @@ class Pilot {
   /// Orders for a reading that came at `now_s`, of a clock that never goes back. The first call begins the
   /// mission.
   [[nodiscard]] Orders next(const Reading& reading, double now_s);
-  /// From now on the vehicle is stopped; the first reason stays. nullopt: the mission is done.
+  /// Stops the vehicle from now on. The first reason is kept. nullopt: the mission is done.
   void stop(std::optional<std::string> reason, double now_s);
 
   [[nodiscard]] bool stopping() const { return stopped_at_s_.has_value(); }
@@ -50,7 +50,8 @@ class Pilot {
   [[nodiscard]] double elapsed_s(double now_s) const { return began_s_ ? now_s - *began_s_ : 0; }
 
  private:
-  /// What is exceeded, or silent, or wrong with the vehicle; nullopt: nothing.
+  /// The limit that is exceeded, the device that is silent, or the fault of the vehicle; nullopt when there is
+  /// none.
   [[nodiscard]] std::optional<std::string> alarm(const Reading& reading, double now_s) const;
   void take(const Reading& reading, double period_s);
   [[nodiscard]] Orders stopping_orders(const Reading& reading, double now_s, double period_s);
@@ -68,7 +69,7 @@ class Pilot {
   std::array<double, 2> reckoned_m_{};
   std::optional<base::LocalPlane> plane_;     ///< about the first position that is known
   std::array<double, 2> first_reckoned_m_{};  ///< reckoned there
-  std::array<double, 2> offset_m_{};          ///< where the vehicle is, from the beginning
+  std::array<double, 2> offset_m_{};          ///< position of the vehicle relative to the beginning
 };
 
 }  // namespace navcal::autopilot

@@ -23,7 +23,7 @@ double axial_drag_kg_m(const config::VehicleSettings& vehicle) {
 
 double surge_for(const config::VehicleSettings& vehicle, double shaft_rps) {
   if (!(shaft_rps > 0)) return 0;
-  // The same equation for u at n: the speed is in proportion to the shaft speed.
+  // Inverts shaft_for(): the speed is proportional to the shaft speed.
   const double per_rps = shaft_for(vehicle.propeller, vehicle.water.density_kg_m3, 1, axial_drag_kg_m(vehicle));
   return shaft_rps / per_rps;
 }

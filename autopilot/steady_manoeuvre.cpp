@@ -55,7 +55,7 @@ class Dive final : public Manoeuvre {
   MissionStep step_;
 };
 
-/// Up to where GPS is heard, and so long there.
+/// Rises to the depth at which GPS is received and stays there for the time of the step.
 class Surfacing final : public Manoeuvre {
  public:
   explicit Surfacing(const MissionStep& step) : step_(step) {}

@@ -5,7 +5,7 @@
 
 namespace navcal::autopilot {
 
-/// What an autopilot steers by: the true state in the simulator, estimates on a vehicle.
+/// State that the autopilot uses: the true one in the simulator, estimates on a vehicle.
 struct VehicleState {
   double depth_m = 0;
   Eigen::Vector3d euler_rad = Eigen::Vector3d::Zero();   ///< roll, pitch, yaw; yaw is not wrapped

@@ -24,22 +24,22 @@ class Archive {
   /// False after a restore from bytes that are too short, or of another layout.
   [[nodiscard]] bool ok() const { return ok_; }
   [[nodiscard]] const std::string& bytes() const { return saved_; }
-  /// Whether a restore has used up everything.
+  /// True when a restore has read all of its input.
   [[nodiscard]] bool at_end() const { return source_.empty(); }
 
-  /// For what restores a value that cannot be.
+  /// Marks the archive as failed; called when a restored value is impossible.
   void fail() { ok_ = false; }
 
-  /// Name and version of a layout, e.g. "turn_filter 1"; restoring another one fails.
+  /// Saves or checks the name and version of a layout, e.g. "turn_filter 1". Restoring a different one fails.
   void tag(std::string_view name);
 
-  /// For a layout that has grown: saves `newer` if `use_newer`, else `older`. Says whether the newer one is saved
-  /// or was found; restoring a third fails.
+  /// Saves or checks the tag of a layout that has two versions: saves `newer` if `use_newer`, else `older`.
+  /// Returns true when `newer` was saved or found. Restoring any other tag fails.
   bool tag_either(std::string_view older, std::string_view newer, bool use_newer);
 
   template <class T>
   requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void operator()(T& value) { raw(&value, sizeof value); }
-  /// A byte that is neither of the two values fails: to have it in a bool would be undefined.
+  /// Restoring fails for a byte other than 0 and 1: such a value in a bool is undefined behaviour.
   void operator()(bool& value);
   template <class Scalar, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
   requires(Rows != Eigen::Dynamic && Columns != Eigen::Dynamic) void operator()(
@@ -66,7 +66,7 @@ class Archive {
   void operator()(std::array<T, N>& values) {
     for (T& value : values) (*this)(value);
   }
-  /// At most `kMaxElements` elements: what is damaged must not ask for all memory.
+  /// Restoring more than `kMaxElements` elements fails, so that a damaged input cannot ask for all memory.
   template <class T>
   void operator()(std::vector<T>& values) {
     std::uint64_t size = values.size();

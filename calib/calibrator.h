@@ -33,10 +33,12 @@ enum class Calibrator : std::uint8_t {
   course_delay,   ///< of the GPS course against the heading
   motor_current,  ///< field of the motor's current
 };
-/// How many calibrators have a name in Calibrator, a member in Correction, and a numbered place in stored states.
+/// Number of calibrators that have a name in Calibrator, a member in Correction, and a numbered place in stored
+/// states.
 inline constexpr std::size_t kNamedCalibrators = 10;
 
-/// What a correction changes. Calibrators that build on another one's result begin anew accordingly.
+/// Quantity that a correction changes. Calibrators that use another calibrator's result start again when that
+/// result changes.
 enum class Corrects : std::uint8_t {
   rate,     ///< the rate of turn of a gyro
   heading,  ///< the heading, but for a constant
@@ -45,7 +47,7 @@ enum class Corrects : std::uint8_t {
   field,    ///< the measured magnetic field, and the heading with it
 };
 
-/// Which instruments there are, or which a calibrator takes.
+/// Instruments that exist, or that a calibrator takes.
 struct Instruments {
   bool compass = false, rate = false, ground = false, motor = false;
 };
@@ -57,7 +59,7 @@ struct NamedNumbers {
   std::size_t rows = 0;        ///< 0: a single number; 1: a vector; more: a matrix
 };
 
-/// How the value of one calibrator in a Correction is found and copied.
+/// Functions that find and copy one calibrator's value in a Correction.
 struct CorrectionPlace {
   bool (*has)(const Correction& correction, Calibrator calibrator);
   /// Gives `to` the value that `from` has, or takes it away.
@@ -82,7 +84,7 @@ struct CalibratorRow {
   bool field_alone = false;  ///< learns from the field alone; judged by the field where no gyro serves
   bool clears_rose = false;  ///< its start clears the histogram of headings
 
-  /// Where its value is in a Correction; by default in Correction::added.
+  /// Place of the calibrator's value in a Correction; by default in Correction::added.
   CorrectionPlace place{has_added, copy_added};
   /// Names of the numbers of a value in Correction::added, with their units: "offset_rad".
   std::span<const std::string_view> value_names = {};
@@ -98,7 +100,7 @@ struct CalibratorRow {
 [[nodiscard]] std::span<const Calibrator> calibrators();
 [[nodiscard]] const CalibratorRow& row_of(Calibrator calibrator);
 
-/// What a correction says for one calibrator, for JSON; empty when nothing.
+/// Values of one calibrator in a correction, for JSON; empty when there are none.
 [[nodiscard]] std::vector<NamedNumbers> values_of(const Correction& correction, Calibrator calibrator);
 
 [[nodiscard]] constexpr std::size_t index_of(Calibrator calibrator) {

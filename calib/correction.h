@@ -65,7 +65,7 @@ class AddedValues {
 
   /// Empty when the calibrator has none.
   [[nodiscard]] std::span<const double> of(Calibrator calibrator) const;
-  /// No numbers: takes the value away.
+  /// Sets the value of a calibrator; empty numbers remove it.
   void set(Calibrator calibrator, std::span<const double> numbers);
   [[nodiscard]] std::span<const Value> all() const;
   void archive(Archive& archive);
@@ -74,7 +74,7 @@ class AddedValues {
   std::shared_ptr<const std::vector<Value>> values_;  ///< null: none
 };
 
-/// One value for each calibrator that has one: what is in force, or what the estimators now say.
+/// One value for each calibrator that has one: the active values, or the newest estimates.
 struct Correction {
   std::optional<RateCorrection> gyro, gyro_b;
   std::optional<DeviationCorrection> compass;
@@ -88,7 +88,7 @@ struct Correction {
 
   /// A, which no turn tells: the misalignment, or what GpsCompass found with it.
   [[nodiscard]] std::optional<double> offset_rad() const;
-  /// Without added values the layout is that of version 2; with some, version 3 appends them.
+  /// The layout without added values is version 2; version 3 appends them.
   void archive(Archive& archive);
 };
 

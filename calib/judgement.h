@@ -12,7 +12,7 @@ namespace navcal::calib {
 /// Headings visited, in sectors of ten degrees clockwise from north: what a compass rose shows.
 using HeadingHistogram = std::array<std::uint32_t, 36>;
 
-/// What the readings held out are judged by.
+/// Quantity that is compared on held-out readings.
 enum class HeldOutQuantity : std::uint8_t {
   none,         ///< nothing was judged
   heading,      ///< rad, against the integrated gyro or, for A, against the course by GPS
@@ -35,17 +35,16 @@ struct Quantity {
   double std = 0;         ///< infinite when it is not known
 };
 
-/// What a calibrator thinks of its own estimate.
+/// A calibrator's assessment of its own estimate.
 struct Judgement {
   bool accepted = false;  ///< the data support the estimate; it may come into force
   std::string reason;     ///< empty when accepted; else what stands against it, for people
-  std::string
-      manoeuvre;         ///< what to do about it, for people: "turn through 140 more degrees, headings 200 to 340"
-  double coverage = 0;   ///< 0..1, share of what the calibrator needs to see
-  double condition = 0;  ///< condition number of the (scaled) information matrix; infinity: singular
+  std::string manoeuvre;  ///< remedy, for people: "turn through 140 more degrees, headings 200 to 340"
+  double coverage = 0;    ///< 0..1, share of what the calibrator needs to see
+  double condition = 0;   ///< condition number of the (scaled) information matrix; infinity: singular
   std::uint64_t samples = 0;
   HeldOutQuantity held_out_quantity = HeldOutQuantity::none;
-  // Root-mean-square on readings that had no part in the estimate, without and with it; 0 when there were none.
+  // Root-mean-square on held-out readings, without and with the estimate; 0 when there were none.
   double held_out_before = 0;
   double held_out_after = 0;
 };

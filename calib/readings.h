@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-/// What the calibrators are fed: readings of the instruments in SI units and body axes (x forward, y starboard, z
-/// down), each with the time at which it was measured, in seconds from an origin of the caller's choice. No
+/// Input of the calibrators: readings of the instruments in SI units and body axes (x forward, y starboard, z
+/// down). Each has the time at which it was measured, in seconds from an origin that the caller chooses. No
 /// calibrator reads a clock.
 namespace navcal::calib {
 

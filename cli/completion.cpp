@@ -85,7 +85,8 @@ void add_completion(CLI::App& app) {
     // zsh runs what is written for bash. The first line makes it a file for zsh's own folders of completions.
     if (zsh) fmt::print("#compdef navcal\nautoload -U +X bashcompinit && bashcompinit\n");
     fmt::print("{}", script_of(app));
-    // From there it is read when it is first needed, as a function: that first time wants its answer, too.
+    // zsh loads the file as a function at the first completion, which therefore has to answer in that call,
+    // too.
     if (zsh) fmt::print("[[ ${{funcstack[1]-}} == _navcal ]] && _bash_complete -o filenames -F _navcal\n");
   });
 }

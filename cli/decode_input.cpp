@@ -48,7 +48,7 @@ protocols::Bytes Input::next() {
   }
 }
 
-/// The whole text of a recording would count as bytes skipped, which tells nobody what is wrong.
+/// Refuses a recording: otherwise its whole text would count as skipped bytes, without naming the mistake.
 void Input::refuse_recording(protocols::Bytes first) const {
   const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
   const bool capture = text.starts_with("#capture ");

@@ -9,17 +9,17 @@
 
 namespace navcal::cli {
 
-/// What one port of a recording received, as one stream.
+/// Bytes that one port of a recording received, as one stream.
 class PortBytes final : public DecodeSource {
  public:
   /// Throws Failure when the file is no recording (bad input) or has no such port (usage; names those it has).
   PortBytes(const std::string& file, const std::string& port);
 
-  /// By the recording's port line or configuration.
+  /// Protocol of the port, from the recording's port line or configuration.
   [[nodiscard]] protocols::Protocol protocol() const;
   protocols::Bytes next() override;
   void show(analysis::Progress& progress) const override { progress.show(recording_->progress()); }
-  /// To be told to the user once the end is reached: "last line cut short".
+  /// Remarks for the user once the end is reached: "last line cut short".
   [[nodiscard]] const std::vector<std::string>& remarks() const { return recording_->remarks(); }
 
  private:

@@ -16,7 +16,7 @@ struct Arguments {
   bool json = false;
 };
 
-/// Nothing but what is wrong with it, when it cannot be read.
+/// Settings of the file; nullopt with findings on its problems when it cannot be read.
 std::optional<config::Settings> read_configuration(const std::string& file, Findings& findings) {
   try {
     auto settings = config::load(file);

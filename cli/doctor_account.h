@@ -9,21 +9,21 @@
 
 namespace navcal::cli {
 
-/// Under whose name navcald will run.
+/// Account under which navcald will run.
 struct Account {
   std::string name;
   uid_t uid = 0;
   std::vector<gid_t> groups;
 };
 
-/// Of this process.
+/// Account of this process.
 [[nodiscard]] Account own_account();
-/// Of the service's user, `navcal`, for root where there is such a user; else our own.
+/// Account of the service's user, `navcal`, when root calls and that user exists; else that of this process.
 [[nodiscard]] Account service_account();
 
-/// Whether files of this owner and mode can be read and written by the account (root can always).
+/// True when the account can read and write files of this owner and mode (root always can).
 [[nodiscard]] bool may_read_and_write(const Account& account, uid_t owner, gid_t group, mode_t mode);
-/// The same of a file; false when it is not there.
+/// The same for a file; false when it does not exist.
 [[nodiscard]] bool may_read_and_write(const Account& account, const std::filesystem::path& file);
 /// The name of the group that owns a file, or its number; empty when the file is not there.
 [[nodiscard]] std::string group_of(const std::filesystem::path& file);

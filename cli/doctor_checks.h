@@ -12,27 +12,28 @@
 // log folder that is made to time it and removed again.
 namespace navcal::cli {
 
-/// Where it is, who may open it, who holds it, and how long its adapter keeps bytes back.
+/// Checks where a port is, who may open it, who holds it, and how long its adapter delays bytes.
 [[nodiscard]] Finding check_port(const config::PortSettings& settings, const Account& account);
 
-/// Who listens where the status socket is to be. `proc` and `etc` stand for these folders of the system.
+/// Checks who listens on the address of the status socket. `proc` and `etc` stand for these folders of the
+/// system.
 [[nodiscard]] Finding check_status_port(const config::StatusSettings& settings,
                                         const std::filesystem::path& proc = "/proc",
                                         const std::filesystem::path& etc = "/etc");
 
-/// Whether the log can be written, for how long, and how long it takes until a record is safe.
+/// Checks whether the log can be written, for how long, and how long it takes until a record is safe.
 [[nodiscard]] Finding check_log_folder(const config::LogSettings& settings, const Account& account);
 
-/// Whether UTC is known.
+/// Checks whether UTC is known.
 [[nodiscard]] Finding check_clock();
-/// What the kernel thinks of its clock.
+/// State of the kernel's clock.
 struct ClockState {
   bool synchronised = false;
   double max_error_s = 0;
 };
 [[nodiscard]] Finding judge_clock(const ClockState& state);
 
-/// Descriptors for all ports and clients, and priorities.
+/// Checks that the limit of open files suffices for all ports and clients. Real-time priority is only reported.
 [[nodiscard]] Finding check_limits(const config::Settings& settings);
 [[nodiscard]] Finding judge_limits(std::uint64_t descriptors, std::uint64_t real_time_priority,
                                    const config::Settings& settings);

@@ -7,7 +7,7 @@
 
 namespace navcal::cli {
 
-/// What was found of one thing that stands between a user and good data.
+/// Result of one check of what can spoil the data.
 struct Finding {
   enum class Severity : std::uint8_t { good, warning, fault };
 

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the socket that listens at a port, from a table like /proc/net/tcp. Nobody is asked by connecting: with
-/// socket activation that would start what it asks about.
+/// Inode of the socket that listens on a port, from a table like /proc/net/tcp. It does not connect, because
+/// socket activation would then start the service it asks about.
 std::optional<std::string> listening_inode(const fs::path& table, std::uint16_t port) {
   constexpr const char* kListening = "0A";
   std::ifstream file(table);
@@ -33,7 +33,7 @@ std::optional<std::string> listening_inode(const fs::path& table, std::uint16_t 
   return std::nullopt;
 }
 
-/// Its name, where we may see it.
+/// Name of the program with this socket, as far as its process is visible.
 std::string program_with(const fs::path& proc, const std::string& inode) {
   const std::string link = "socket:[" + inode + "]";
   std::error_code error;

@@ -37,7 +37,7 @@ class Outputs {
     if (!options.report.empty()) page_.emplace(options.report);
     if (!options.asking.keep.empty()) std::filesystem::create_directories(options.asking.keep);
   }
-  /// What is for people; JSON may have standard output for itself.
+  /// Stream for text; JSON may have standard output for itself.
   [[nodiscard]] std::FILE* talk() const { return options_.json == "-" ? stderr : stdout; }
 
   void write(const report::TrialReport& report) {

@@ -15,7 +15,7 @@
 namespace navcal::cli {
 namespace {
 
-/// Nobody who speaks these protocols sends a longer line.
+/// Upper limit of a line; no program that uses these protocols sends a longer one.
 constexpr std::size_t kLongestSocketLine = 1 << 20;
 
 [[noreturn]] void refuse_connection(const std::string& address, std::string_view problem) {

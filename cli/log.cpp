@@ -110,7 +110,7 @@ void add_log(CLI::App& app) {
 
   auto* const out = log->add_subcommand("export", "export topics as tables, or the raw bytes as a capture");
   out->add_option("FILE", options->file, "log (.mcap); with --cap also a capture")->required();
-  /// What it can be exported to.
+  /// One format of the export.
   struct Form {
     const char* name;
     const char* value;

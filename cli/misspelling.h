@@ -7,8 +7,8 @@
 
 namespace navcal::cli {
 
-/// What to tell somebody whose command line could not be parsed because of a command or an option that does not
-/// exist: its name, and the nearest one that does. Empty when neither is the reason.
+/// Message for a command line with a command or an option that does not exist: its name and the nearest one
+/// that does. Empty when neither is the cause of the error.
 [[nodiscard]] std::string misspelling(const CLI::App& app, const std::vector<std::string>& arguments);
 
 }  // namespace navcal::cli

@@ -64,7 +64,7 @@ class PilotRun {
   PilotRun(PilotLink& link, autopilot::Pilot& pilot, const PilotCommandOptions& options, double planned_s)
       : link_(link), pilot_(pilot), options_(options), planned_s_(planned_s) {}
 
-  /// Returns when the vehicle has been stopped; throws std::runtime_error when nobody listens any more.
+  /// Returns when the vehicle has been stopped. Throws std::runtime_error when the daemon no longer listens.
   void sail() {
     PilotProgress progress;
     std::optional<StateLine> state;

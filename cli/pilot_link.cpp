@@ -29,7 +29,7 @@ PilotLink::PilotLink(const Address& address)
 std::optional<StateLine> PilotLink::state(Clock::time_point until) {
   std::optional<StateLine> newest;
   for (;;) {
-    // What waits already is passed over in favour of the newest.
+    // Lines that wait are skipped in favour of the newest.
     const auto line = status_.next(newest ? Clock::now() : until);
     if (!line) return newest;
     if (auto state = parse_state(*line)) newest = std::move(state);

@@ -12,8 +12,8 @@
 
 namespace navcal::cli {
 
-/// What a pilot has of a running navcald: its state as it comes, and a lease of the motor card. Only public
-/// sockets.
+/// Connection of a pilot to a running navcald over its public sockets: the stream of its state, and a lease of
+/// the motor card.
 class PilotLink {
  public:
   using Clock = LineSocket::Clock;

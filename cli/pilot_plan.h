@@ -7,7 +7,7 @@
 
 namespace navcal::cli {
 
-/// What a mission takes in still water, by simulation of the vehicle with its autopilot.
+/// Duration, depth and range of a mission in still water, by simulation of the vehicle with its autopilot.
 struct PilotPlan {
   double duration_s = 0;
   double deepest_m = 0;

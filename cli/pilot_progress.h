@@ -13,8 +13,8 @@ namespace navcal::cli {
 [[nodiscard]] std::string progress_text(const autopilot::Pilot& pilot, const autopilot::Reading& reading,
                                         double left_s);
 
-/// Where a mission stands, to standard error: on a terminal one line that is drawn over, else a line for each
-/// step.
+/// Prints the progress of a mission to standard error: on a terminal as one line that is redrawn, else as one
+/// line per step.
 class PilotProgress {
  public:
   PilotProgress();

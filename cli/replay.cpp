@@ -54,7 +54,7 @@ class Printer : public pipeline::Sink {
     line_ += '\n';
     output_.append(line_);
   }
-  /// As it was logged: what became of an order does not follow from the bytes.
+  /// A command is printed as it was logged, because the result of an order does not follow from the bytes.
   void command(const record::LoggedCommand& command) { output_.append(command.json + '\n'); }
 
  private:

@@ -7,8 +7,8 @@
 
 namespace navcal::cli {
 
-/// Before the work is done rather than after it. Throws Failure when the folder of a file to be written is not
-/// there or may not be written to.
+/// Checks before the work, not after it, that results can be written. Throws Failure when the folder of a file
+/// to be written is missing or not writable.
 void expect_folder_of(const std::filesystem::path& file);
 
 /// Throws Failure (usage) when a file to be written is one of the files to be read, or another file to be written:

@@ -62,7 +62,7 @@ void append_calibrator(std::vector<std::string>& lines, const std::string& name,
   if (const auto words = words_of(calibrator); !words.empty()) lines.push_back("  " + words);
 }
 
-/// Of the compass's calibration of itself: "tcm2          running  1.5 of 2 turns".
+/// Line of the TCM2's own calibration: its state, and its score when there is one.
 void append_tcm2(std::vector<std::string>& lines, const Json& tcm2) {
   if (!tcm2.is_object()) return;
   std::string line = fmt::format("{:<14}{}", "tcm2's own", text(tcm2, "state"));

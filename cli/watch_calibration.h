@@ -16,7 +16,7 @@ class WatchCalibration {
   void take(const nlohmann::json& calib);
   /// Table of calibrators beside the compass rose; empty when nothing was reported.
   void append(std::string& out) const;
-  /// Name of the calibration in force; empty when nothing was reported.
+  /// Name of the active calibration; empty when nothing was reported.
   [[nodiscard]] std::string name() const { return name_; }
 
  private:

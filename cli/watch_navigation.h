@@ -6,9 +6,10 @@
 
 namespace navcal::cli {
 
-// What a NAV report says, for people.
+// Text of a NAV report, for people.
 
-/// One line: where it is thought to be, how sure that is, and since when no fix bears it out.
+/// Appends one line: position and its error, heading, speed, depth; while reckoned, time and way since the last
+/// fix.
 void append_navigation(std::string& out, const nlohmann::json& nav);
 /// The reckoned position in a few words; empty while there are fixes, or none yet.
 [[nodiscard]] std::string reckoned_words(const nlohmann::json& nav);

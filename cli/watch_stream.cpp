@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::string_view kRequest = "?WATCH={\"enable\":true,\"json\":true};\n";
 constexpr auto kRetry = std::chrono::milliseconds(500);
-/// Nobody who speaks this protocol sends a longer line.
+/// Upper limit of a line; no program that uses this protocol sends a longer one.
 constexpr std::size_t kMaxLine = 1 << 20;
 
 int milliseconds_until(Clock::time_point until) {

@@ -20,7 +20,7 @@ class WatchStream {
   /// and the daemon's return.
   std::optional<std::string> next(std::chrono::steady_clock::time_point until);
   [[nodiscard]] bool connected() const { return socket_ >= 0; }
-  /// Whether there was a connection at any time.
+  /// True when there was a connection at any time.
   [[nodiscard]] bool was_connected() const { return was_connected_; }
   /// Why it is not connected.
   [[nodiscard]] const std::string& problem() const { return problem_; }

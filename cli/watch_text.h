@@ -6,10 +6,10 @@
 
 namespace navcal::cli {
 
-// What a daemon said, made fit for a terminal. Nothing is taken on trust: any member may be missing or of any
+// Text of a daemon's report, made safe for a terminal. Nothing is trusted: any member may be missing or of any
 // type.
 
-/// Nothing from the network may move the cursor.
+/// Replaces all but printable ASCII by '?', because text from the network must not move the cursor.
 [[nodiscard]] std::string printable(std::string text);
 
 /// The text at `key`, printable; empty when there is none.

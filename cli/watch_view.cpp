@@ -47,7 +47,7 @@ void WatchView::take(std::string_view line) {
   } else if (kind == "NAV") {
     navigation_ = report;
   } else if (kind == "TPV" && text(report, "device") == "navigation") {
-    return;  // NAV says more
+    return;  // NAV shows more
   } else if (!kind.empty()) {
     last_[kind][text(report, "device")] = report;
   }

@@ -10,12 +10,12 @@
 
 namespace navcal::cli {
 
-/// What a running daemon says, put together for people: lines of the status socket in, text out. No I/O.
+/// View of a running daemon: lines of the status socket in, text out. No I/O.
 class WatchView {
  public:
   enum class Colour { none, ansi };
 
-  /// One line of the stream. What is not understood is passed over.
+  /// Takes one line of the stream. Lines that are not understood are skipped.
   void take(std::string_view line);
   /// Forgets everything: the connection was lost.
   void clear();

@@ -13,7 +13,7 @@
 namespace navcal::config {
 namespace {
 
-// Nothing that is known lies deeper than port.NAME.TABLE.KEY.
+// Depth of the deepest known key: port.NAME.TABLE.KEY.
 constexpr std::size_t kMaxDepth = 4;
 
 Value value_of(const toml::array& array) {

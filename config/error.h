@@ -7,7 +7,7 @@
 
 namespace navcal::config {
 
-/// What is wrong with a file of settings, everything at once. what() has one line for each problem:
+/// All problems of a file of settings at once. what() has one line for each problem:
 /// "navcald.toml:14: log.sync_intervall_s: unknown key; did you mean sync_interval_s?"
 class Error : public std::runtime_error {
  public:

@@ -5,7 +5,7 @@
 
 namespace navcal::config {
 
-/// What a file states of the compass. Noise is white, one standard deviation of a reading.
+/// Accuracy of the compass as the file states it. Noise is white, one standard deviation of a reading.
 struct CompassAccuracy {
   double field_noise_uT = base::reference::kFieldNoise_uT;  ///< each axis
   double tilt_noise_rad = base::reference::kTiltNoise_rad;  ///< roll and pitch

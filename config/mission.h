@@ -59,7 +59,7 @@ struct MissionStart {
 
 enum class MissionEnd : std::uint8_t { repeat, hold };
 
-/// What an autopiloted vehicle does (docs/simulator.md).
+/// Mission of an autopiloted vehicle (docs/simulator.md).
 struct Mission {
   std::string description;
   MissionEnd at_end = MissionEnd::repeat;

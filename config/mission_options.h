@@ -9,17 +9,17 @@
 
 namespace navcal::config {
 
-/// Of the tables [mission] and [start].
+/// Options of the tables [mission] and [start].
 [[nodiscard]] const std::vector<Option<Mission>>& mission_options();
 
-/// Of a [[step]], all kinds together; the first is `do`.
+/// Options of a [[step]], all kinds together; the first is `do`.
 [[nodiscard]] const std::vector<Option<MissionStep>>& step_options();
 
-/// Which keys a kind of step takes.
+/// Keys that a kind of step takes.
 struct StepRule {
-  /// Of each group exactly one.
+  /// Exactly one key of each group must be given.
   std::vector<std::vector<std::string_view>> required;
-  /// Of each group one at most.
+  /// At most one key of each group may be given.
   std::vector<std::vector<std::string_view>> optional;
 };
 [[nodiscard]] const StepRule& rule_of(StepKind kind);

@@ -19,8 +19,7 @@ namespace navcal::config {
 
 enum class Kind : std::uint8_t { boolean, integer, real, text, choice, channels };
 
-/// What people must know of one setting: from it come the checks, the shipped
-/// file, and the page in docs/.
+/// Description of one setting. The checks, the shipped file and the page in docs/ are made from it.
 struct OptionInfo {
   std::string_view table{};  ///< "log"; of a port: "", "units", "channels", "fix"
   std::string_view key{};
@@ -45,10 +44,10 @@ struct OptionInfo {
   [[nodiscard]] std::string allowed() const;
   [[nodiscard]] bool is_textual() const { return kind == Kind::text || kind == Kind::choice; }
   [[nodiscard]] bool applies_to(protocols::Protocol protocol) const;
-  /// Whole numbers pass for reals. Why a value cannot be taken, or nullopt
-  /// after making it of the option's own kind.
+  /// Converts a value to the option's own kind; whole numbers pass for reals. Returns why the value cannot be
+  /// taken, or nullopt after the conversion.
   [[nodiscard]] std::optional<std::string> adopt(Value& value) const;
-  /// As the file writes it.
+  /// The value as text in the form of the file.
   [[nodiscard]] std::string write(const Value& value) const;
 };
 

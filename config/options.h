@@ -14,7 +14,7 @@ namespace navcal::config {
 /// The options of a [port.NAME] table, those of its own first, then sub-table by sub-table.
 [[nodiscard]] const std::vector<Option<PortSettings>>& port_options();
 
-/// What a table is for, in one line: "log", "status", ..., and of a port "", "units", "channels", "fix".
+/// One-line purpose of a table: "log", "status", ...; of a port "", "units", "channels", "fix".
 [[nodiscard]] std::string_view table_description(std::string_view table);
 
 }  // namespace navcal::config

@@ -14,15 +14,15 @@ namespace navcal::config {
 /// Turns entries into settings by the option table, and notes what is wrong with them.
 class Reader {
  public:
-  /// Of the file first, in its order; then those of the command line.
+  /// Takes entries: first those of the file in its order, then those of the command line.
   void take(const std::vector<Entry>& entries);
-  /// What concerns several settings at once: no ports, places missing, ambiguous or shared.
+  /// Checks that involve several settings: no ports, and places that are missing, ambiguous or shared.
   void check_ports();
-  /// Roles given to ports that are missing or cannot deliver them.
+  /// Reports roles given to ports that are missing or cannot deliver them.
   void check_roles();
-  /// A key that has moved beside the one that replaces it, and a longest time that is shorter than the shortest.
+  /// Reports a moved key beside the one that replaces it, and a longest time shorter than the shortest.
   void check_instruments(const std::vector<Entry>& entries);
-  /// Limits of orders that contradict each other.
+  /// Reports limits of orders that contradict each other.
   void check_command();
 
   [[nodiscard]] const Settings& settings() const { return settings_; }

@@ -8,8 +8,8 @@
 
 namespace navcal::config {
 
-// What is written from the option table, so that it cannot say anything else than the program does. A test holds
-// the files to it; `cmake --build DIR --target config-reference` writes them anew.
+// Texts that are generated from the option table, so that they always agree with the program. A test compares
+// the files with them; `cmake --build DIR --target config-reference` writes them anew.
 
 /// The ports of the reference vehicle, under the names that the shipped udev rules give them.
 [[nodiscard]] Settings shipped_settings();

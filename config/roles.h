@@ -10,7 +10,7 @@
 
 namespace navcal::config {
 
-/// What navigation and calibration want to know, each of one device.
+/// Quantities that navigation and calibration need. One device delivers each of them.
 enum class Role : std::uint8_t { heading, field, rates, acceleration, depth, position, velocity, shaft };
 inline constexpr std::array kRoles{Role::heading, Role::field,    Role::rates,    Role::acceleration,
                                    Role::depth,   Role::position, Role::velocity, Role::shaft};
@@ -18,7 +18,7 @@ inline constexpr std::array kRoles{Role::heading, Role::field,    Role::rates,  
 /// "heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft".
 [[nodiscard]] std::string_view name_of(Role role);
 
-/// Whether a device of that protocol can deliver it.
+/// True when a device with that protocol can deliver the role.
 [[nodiscard]] bool can_deliver(protocols::Protocol protocol, Role role);
 
 /// The role whose device, where the operator has chosen one, serves this role as well if it can: the field follows

@@ -17,7 +17,7 @@ namespace navcal::config {
 enum class AngleUnit : std::uint8_t { deg, mils, counts16 };  ///< mils: 6400 to the turn; counts16: 65536
 enum class TemperatureUnit : std::uint8_t { C, F };
 
-/// How a compass was told (or is wired) to speak; the unit is not in the word (ICD section 1).
+/// Units that a compass was set or wired to send; its words do not contain them (ICD section 1).
 struct CompassSettings {
   AngleUnit heading_unit = AngleUnit::deg;
   AngleUnit tilt_unit = AngleUnit::deg;
@@ -70,7 +70,7 @@ struct LogSettings {
   std::uint64_t rotate_bytes = 512'000'000;
   double rotate_age_s = 86400;
   std::uint64_t free_floor_bytes = 256'000'000;
-  std::uint64_t queue_bytes = 32'000'000;  ///< what a stalled disk may leave waiting before records are lost
+  std::uint64_t queue_bytes = 32'000'000;  ///< bytes that may wait for a stalled disk before records are lost
 
   bool operator==(const LogSettings&) const = default;
 };
@@ -103,11 +103,12 @@ struct EnvironmentSettings {
   bool operator==(const EnvironmentSettings&) const = default;
 };
 
-/// What the calibrators must know beside the instruments (InstrumentSettings), and when their word is taken.
+/// Settings of the calibrators besides those of the instruments (InstrumentSettings), and when estimates are
+/// accepted.
 struct CalibrationSettings {
   bool enabled = true;
   bool automatic = true;         ///< estimates come into force by themselves
-  double margin = 0.1;           ///< by so much must they be better on readings held out, relative
+  double margin = 0.1;           ///< relative improvement on held-out readings that is required
   double motor_settle_s = 2;     ///< magnetic readings are left out so long after the motor was switched
   double heading_noise_rad = 0;  ///< of one reading; 0: as the compass's field and tilt give it
   double field_noise_uT = 0;     ///< likewise
@@ -132,7 +133,7 @@ struct NavigationSettings {
   bool operator==(const NavigationSettings&) const = default;
 };
 
-/// What orders to the motor card may ask for, and what is ordered when nobody is in charge (docs/control.md).
+/// Limits of orders to the motor card, and the orders that apply when nobody holds a lease (docs/control.md).
 /// Speeds and angles are in the card's own units.
 struct CommandSettings {
   bool enabled = true;

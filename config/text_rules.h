@@ -5,11 +5,11 @@
 
 namespace navcal::config {
 
-// What the texts of a configuration must be; the words for messages stand in the option table.
+// Rules for the texts of a configuration. The wording of the messages stands in the option table.
 
-/// Something, and no control characters.
+/// Text is not empty and has no control characters.
 [[nodiscard]] bool is_printable(std::string_view text);
-/// A path, and no address of another machine (tcp://...).
+/// Text is a path and not an address of another machine (tcp://...).
 [[nodiscard]] bool is_local_path(std::string_view text);
 [[nodiscard]] bool is_absolute_path(std::string_view text);
 /// An absolute path that fits sockaddr_un.

@@ -9,7 +9,7 @@
 
 namespace navcal::config {
 
-/// Of a number in the file; inside the program it is number * numerator / denominator.
+/// Unit of a number in the file. Inside the program the number is multiplied by numerator / denominator.
 struct Unit {
   std::string_view name;
   double numerator = 1;
@@ -40,7 +40,7 @@ inline constexpr Unit kKilogramsPerCubicMetre{"kg/m3"};
 inline constexpr Unit kAmperes{"A"};
 inline constexpr Unit kAmperesSecondsCubed{"A s3"};
 inline constexpr Unit kRpm{"rpm", 1, 60};
-/// As the motor card takes them, unlike the two above: its orders are compared with limits in its own units.
+/// Units of the motor card, unlike the two above: orders are compared with limits in the card's own units.
 inline constexpr Unit kCardRpm{"rpm"};
 inline constexpr Unit kCardRpmPerSecond{"rpm/s"};
 inline constexpr Unit kCardDegrees{"deg"};

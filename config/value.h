@@ -21,7 +21,7 @@ struct Unsupported {
   bool operator==(const Unsupported&) const = default;
 };
 
-/// What stands in a file, as it stands there: in the unit of the file.
+/// A value as it stands in a file, in the unit of the file.
 using Value = std::variant<Table, Unsupported, bool, std::int64_t, double, std::string, std::vector<double>>;
 
 /// A value as a message quotes it: `the text "10 ms"`, `the number 3.5`, `a table`.

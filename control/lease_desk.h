@@ -22,7 +22,7 @@ struct LeaseRequest {
   double timeout_s = 0;
 };
 
-/// Who is in charge.
+/// Holder of the lease.
 struct Holder {
   std::string name;
   int priority = 0;

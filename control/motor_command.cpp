@@ -48,7 +48,7 @@ std::string MotorCommand::lease(std::int64_t now_ns, const LeaseRequest& request
 }
 
 std::string MotorCommand::order(std::int64_t now_ns, std::string_view token, const Order& order) {
-  // An order that comes late must find its lease expired, whoever looked last.
+  // A late order must find its lease expired, even when no other call has looked at the time since.
   if (holder() && now_ns >= holder()->expires_ns)
     end_lease(now_ns, fmt::format("the lease expired: no order came for {} s", holder()->timeout_s));
   if (auto problem = desk_.problem_with(token); !problem.empty()) return problem;

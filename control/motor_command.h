@@ -22,7 +22,7 @@ namespace navcal::control {
 /// is safe only after the safe state was sent, and the safe state is sent again until a status has shown it.
 class MotorCommand {
  public:
-  /// What people are told.
+  /// An event for people.
   struct Event {
     std::string_view severity;  ///< "info" or "warning"
     std::string_view name;      ///< "motor.lease", "motor.safe"
@@ -31,7 +31,7 @@ class MotorCommand {
 
   explicit MotorCommand(const config::CommandSettings& settings);
 
-  /// Each of the three: why it is refused; empty: done. `client` is the connection that asks.
+  /// lease(), order() and release() return why they refuse; empty: done. `client` is the connection that asks.
   [[nodiscard]] std::string lease(std::int64_t now_ns, const LeaseRequest& request, std::string token,
                                   std::uint64_t client);
   [[nodiscard]] std::string order(std::int64_t now_ns, std::string_view token, const Order& order);
@@ -47,19 +47,19 @@ class MotorCommand {
   /// A status has shown the safe state.
   void safe_echoed();
 
-  /// Ends a lease whose time is over. The line that is to be sent now, if any; it counts as sent.
+  /// Ends a lease whose time is over. Returns the line to be sent now, if any; it counts as sent.
   [[nodiscard]] std::optional<Line> next(std::int64_t now_ns);
   [[nodiscard]] std::int64_t deadline_ns() const;
 
   [[nodiscard]] const std::optional<Holder>& holder() const { return desk_.holder(); }
   [[nodiscard]] const Order& wanted() const { return shaper_.wanted(); }
-  /// What the card was sent last; nullopt: nothing by this run.
+  /// Line that the card was sent last; nullopt when this run has sent none.
   [[nodiscard]] const std::optional<Line>& last_line() const { return last_line_; }
-  /// The last order was not reached at once.
+  /// True while the shaper has not reached the last order.
   [[nodiscard]] bool is_shaping() const { return !shaper_.arrived(); }
   /// Number of the last order taken; 0: none.
   [[nodiscard]] std::uint64_t sequence() const { return sequence_; }
-  /// The card may obey an order that is not the safe state.
+  /// True when the card may obey an order other than the safe state.
   [[nodiscard]] bool is_card_commanded() const { return commanded_; }
   [[nodiscard]] std::vector<Event> take_events() { return std::exchange(events_, {}); }
 

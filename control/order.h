@@ -10,13 +10,13 @@
 #include "config/settings.h"
 #include "protocols/motor_card.h"
 
-/// Who may command the motor card, and what is sent to it. Values without a clock, a port or a file: every call
+/// Right to command the motor card, and the orders sent to it. The types use no clock, port or file: every call
 /// brings its time, nanoseconds of the monotonic clock.
 namespace navcal::control {
 
 inline constexpr std::int64_t kNever_ns = INT64_MAX;
 
-/// What a controller wants, in the card's units (ICD section 4).
+/// One order of a controller, in the card's units (ICD section 4).
 struct Order {
   double shaft_rpm = 0;
   std::array<double, 3> fins_deg{};
@@ -24,13 +24,13 @@ struct Order {
   bool operator==(const Order&) const = default;
 };
 
-/// Why the order is beyond the limits of the configuration, or no number; empty: it is within them.
+/// Why the order exceeds the limits of the configuration or is not a number; empty when it is within them.
 [[nodiscard]] std::string beyond_limits(const Order& order, const config::CommandSettings& settings);
 
-/// Whole revolutions and tenths of degrees, as the line carries them.
+/// The order in whole revolutions and tenths of degrees, as the line carries them.
 [[nodiscard]] protocols::motor_card::Command rounded_for_card(const Order& order);
 
-/// What caused a line on the wire.
+/// Cause of a line on the wire.
 enum class Source : std::uint8_t {
   order,  ///< an order that has just come
   ramp,   ///< the way to it, as fast as the slew rates allow
@@ -45,7 +45,7 @@ struct Line {
   Source source = Source::order;
 };
 
-/// What became of a line, or of an order that made none.
+/// Result of a line, or of an order that made none.
 enum class Outcome : std::uint8_t {
   echoed,      ///< a status has shown it
   superseded,  ///< another line was sent before a status showed it
@@ -55,7 +55,7 @@ enum class Outcome : std::uint8_t {
 /// "echoed", "superseded", "not_echoed", "refused".
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 
-/// All that is recorded of one line, or of one refusal (docs/log-format.md, /command).
+/// Record of one line, or of one refusal (docs/log-format.md, /command).
 struct OrderRecord {
   Outcome outcome = Outcome::refused;
   Source source = Source::order;

@@ -5,14 +5,15 @@
 
 namespace navcal::control {
 
-/// At most so many a second, in bursts of up to a quarter of a second's: a token bucket.
+/// Token bucket that limits orders per second, with bursts of up to a quarter of a second's orders.
 class OrderRate {
  public:
   explicit OrderRate(double rate_Hz);
 
-  /// False: one too many. What is refused costs no token, so a flood passes at the rate.
+  /// Returns false when the order exceeds the rate. A refused order costs no token, so a flood passes at the
+  /// rate.
   [[nodiscard]] bool take(std::int64_t now_ns);
-  /// As if nothing had come yet: somebody else begins.
+  /// Fills the bucket, as at the start; called when the holder changes.
   void refill() { tokens_ = burst_; }
 
  private:

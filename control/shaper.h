@@ -16,14 +16,14 @@ class Shaper {
   explicit Shaper(const config::CommandSettings& settings);
 
   void aim(const Order& wanted) { wanted_ = wanted; }
-  /// Whether what was sent last is what is wanted.
+  /// True when the order sent last is the order wanted.
   [[nodiscard]] bool arrived() const { return position_ == wanted_; }
-  /// What is to be sent now.
+  /// Order to be sent now.
   [[nodiscard]] const Order& step(std::int64_t now_ns);
-  /// This was sent, without a ramp.
+  /// Records an order that was sent without a ramp.
   void jump(std::int64_t now_ns, const Order& order);
   [[nodiscard]] const Order& wanted() const { return wanted_; }
-  /// When the next step is due; kNever_ns when it has arrived.
+  /// Time of the next step; kNever_ns when it has arrived.
   [[nodiscard]] std::int64_t next_ns() const { return arrived() ? kNever_ns : last_ns_ + kStep_ns; }
 
  private:

@@ -18,9 +18,9 @@ enum class Alarm : std::uint8_t { leak_forward, leak_aft, over_range, low_supply
 inline constexpr std::array kCardAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range,
                                         Alarm::low_supply};
 
-/// Which alarms stand. Those of the inertial cards: A leak stays until the card says for `kClear_ns` without a
-/// break that there is none: water that sloshes over a sensor is one leak, not twenty a second. The others
-/// likewise.
+/// Alarms that are raised. A leak of an inertial card stays raised until the card has reported none for
+/// `kClear_ns` without a break: water that sloshes over a sensor is one leak, not twenty a second. The other
+/// alarms of the card are treated alike.
 class Alarms {
  public:
   static constexpr std::int64_t kClear_ns = 2'000'000'000;
@@ -37,12 +37,12 @@ class Alarms {
     bool raised = false;
   };
 
-  /// What changed by one sample; usually nothing.
+  /// Changes caused by one sample; usually none.
   [[nodiscard]] const std::vector<Change>& update(std::uint16_t port, const instruments::ImuSample& imu,
                                                   std::int64_t now_ns);
-  /// An alarm that somebody else judges. Whether that is a change.
+  /// Sets an alarm that the caller has judged. Returns true when that is a change.
   [[nodiscard]] bool set(std::uint16_t port, Alarm alarm, bool stands, std::int64_t now_ns);
-  /// Leaks first.
+  /// Raised alarms, leaks first.
   [[nodiscard]] const std::vector<Standing>& standing() const { return standing_; }
 
  private:

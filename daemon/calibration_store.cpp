@@ -12,7 +12,7 @@
 namespace navcal::daemon {
 namespace {
 
-/// Between the words on the instruments and the state itself.
+/// Separates the description of the instruments from the state.
 constexpr std::string_view kSeparator = "\n--\n";
 
 /// The first line that differs.

@@ -14,10 +14,10 @@
 
 namespace navcal::daemon {
 
-/// Keeps the state of the calibrators, with the calibration in force, across restarts: one checked file in the log
-/// folder (record/log/checked_file.h). Written by a thread of its own, since a disk may take seconds; of several
-/// states that wait only the newest is written. A file that is damaged, or of instruments that were changed since,
-/// is kept aside and told of; the calibrators then begin anew.
+/// Keeps the state of the calibrators, with the active calibration, across restarts: one checked file in the
+/// log folder (record/log/checked_file.h). A thread of its own writes it, because a disk may take seconds. Of
+/// several waiting states only the newest is written. A file that is damaged, or that belongs to instruments
+/// that have changed, is kept aside and reported; the calibrators then start anew.
 class CalibrationStore {
  public:
   explicit CalibrationStore(const config::Settings& settings);
@@ -25,15 +25,15 @@ class CalibrationStore {
   CalibrationStore(const CalibrationStore&) = delete;
   CalibrationStore& operator=(const CalibrationStore&) = delete;
 
-  /// At start-up: the state to go on from, if there is one.
+  /// Called at start-up. Returns the state to continue from, if there is one.
   [[nodiscard]] std::optional<std::string> load();
   /// The state that load() gave is not understood: it is of another version.
   void reject(std::string_view reason);
   void save(std::string state);
-  /// Writes what waits, and ends the thread.
+  /// Writes pending states and ends the thread.
   void stop();
 
-  /// What happened since the last call, for people.
+  /// Notices since the last call, for people.
   [[nodiscard]] std::vector<std::string> take_notices();
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
@@ -43,7 +43,7 @@ class CalibrationStore {
   void note(std::string notice);
 
   const std::filesystem::path file_;
-  const std::string instruments_;  ///< what a state is good for, in words
+  const std::string instruments_;  ///< description of the instruments for which a state is valid
 
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -7,9 +7,10 @@
 namespace navcal::daemon {
 namespace {
 
-/// What a loss of power may cost of what was learnt; what is in force is saved at once.
+/// Interval at which learnt state is saved; a loss of power costs at most this. Active corrections are saved at
+/// once.
 constexpr std::int64_t kSaveInterval_ns = 300'000'000'000;
-/// Of CALIB in the log: it changes slowly, and flash wears.
+/// Interval of CALIB in the log. It is long because CALIB changes slowly and flash wears.
 constexpr std::int64_t kLogInterval_ns = 30'000'000'000;
 
 }  // namespace

@@ -14,29 +14,29 @@
 
 namespace navcal::daemon {
 
-/// What the daemon does with the calibrators of its pipeline: CALIB on the status socket and in the log, the
-/// operator's orders, and their state kept across restarts. Does nothing when there is nothing to calibrate.
+/// The daemon's side of the calibrators in its pipeline: CALIB on the status socket and in the log, the
+/// operator's orders, and the state kept across restarts. It does nothing when there is nothing to calibrate.
 class Calibrations {
  public:
   Calibrations(const config::Settings& settings, pipeline::Pipeline& pipeline, LogWriter& log,
                StatusServer& server);
 
-  /// Before the first bytes: goes on from where the run before ended, and begins the log with it.
+  /// Called before the first bytes. Restores the state of the last run and writes it to the log.
   void begin(std::int64_t now_ns);
-  /// From the pipeline.
+  /// Called by the pipeline.
   void on_change(const pipeline::CalibrationChange& change);
-  /// CALIB to those who watch; into the log now and then.
+  /// Publishes CALIB to watching clients, and now and then to the log.
   void report(std::int64_t now_ns);
   /// Saves the state when it is time.
   void tick(std::int64_t now_ns);
   /// Saves the state; the log gets a last CALIB.
   void stop(std::int64_t now_ns);
 
-  /// What is known of the TCM2's calibration of itself, to stand beside ours in CALIB: an object of JSON.
+  /// Sets the state of the TCM2's own calibration, a JSON object, which CALIB shows beside ours.
   void set_tcm2(std::string json) { tcm2_ = std::move(json); }
   /// A calibration.* command; its answer, newline included.
   [[nodiscard]] std::string answer(const ControlRequest& request, std::int64_t now_ns, pipeline::Sink& sink);
-  /// What is to be told to people.
+  /// Notices since the last call, for people.
   [[nodiscard]] std::vector<std::string> take_notices() { return store_.take_notices(); }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace navcal::daemon {
 
-/// What the service would do with these settings, for `navcald --check`.
+/// Describes how the service would act with these settings, for `navcald --check`.
 [[nodiscard]] std::string describe(const config::Settings& settings);
 
 }  // namespace navcal::daemon

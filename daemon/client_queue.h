@@ -28,7 +28,7 @@ class ClientQueue {
   /// The end of a report whose beginning is on the wire already: taken whatever its size, so that none is torn.
   void push_rest(std::string_view rest) { append(rest); }
 
-  /// What is to be written next.
+  /// Bytes to be written next.
   [[nodiscard]] std::string_view front() const { return std::string_view(bytes_).substr(begin_); }
 
   void pop(std::size_t n) {

@@ -69,7 +69,7 @@ std::string take_lease(const Json& object, ControlRequest& request) {
   if (const auto priority = object.find("priority"); priority != object.end()) {
     if (!priority->is_number_integer()) return "priority is a whole number";
     const auto wide = priority->get<std::int64_t>();
-    // What is beyond the bounds stays beyond them.
+    // Clamping keeps a value that is out of bounds out of bounds, so that it is refused later.
     lease.priority = static_cast<int>(std::clamp<std::int64_t>(wide, -1, control::kMaxPriority + 1));
   }
   lease.timeout_s = 1;

@@ -92,7 +92,8 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::
         co_await asio::async_write(*socket, asio::buffer(answers), ports::kNoThrow);
     if (write_error || !accepted) co_return;
     if (!too_fast) continue;
-    // What it sends meanwhile waits in its own socket, and then it waits itself.
+    // Requests that arrive during the pause stay in the client's socket; when that is full, the client has to
+    // wait.
     pause.expires_after(kSlowDown);
     co_await pause.async_wait(ports::kNoThrow);
     if (!acceptor_.is_open()) co_return;

@@ -13,8 +13,8 @@
 
 namespace navcal::daemon {
 
-/// What changes the daemon, one JSON object a line in and one out, over a Unix socket whose permissions decide who
-/// may (docs/status-protocol.md).
+/// Socket for requests that change the daemon: one JSON object per line in, one out. It is a Unix socket whose
+/// permissions decide who may connect (docs/status-protocol.md).
 class ControlServer {
  public:
   /// Answers a request with one line.

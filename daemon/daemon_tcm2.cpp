@@ -46,7 +46,8 @@ void Daemon::on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
   on_port_event(port, now_ns, calibration.failure().empty() ? "info" : "warning", "tcm2.calibration",
                 calibration.state());
   if (!calibration.touched()) return;
-  // What was learnt of the compass before is of another compass: it corrects its field and heading otherwise now.
+  // The compass now corrects its field and heading otherwise, so earlier estimates describe a different
+  // compass.
   for (const auto calibrator : calib::calibrators()) {
     if (!calib::row_of(calibrator).of_compass) continue;
     pipeline_.order_calibration(pipeline::CalibrationOrder::start, calibrator, now_ns, *this);

@@ -61,7 +61,7 @@ Diagnostics::Diagnostics() {
   spdlog::set_default_logger(
       std::make_shared<spdlog::async_logger>("navcald", std::make_shared<StandardError>(), spdlog::thread_pool(),
                                              spdlog::async_overflow_policy::overrun_oldest));
-  // journald knows the time and reads the priority from the first characters.
+  // journald adds the time itself and reads the priority from the first characters.
   spdlog::set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%v" : "%H:%M:%S.%e %l %v");
 }
 

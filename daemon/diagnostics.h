@@ -3,10 +3,10 @@
 
 namespace navcal::daemon {
 
-/// Messages go to standard error by a thread of their own: neither a journal that stands still, nor a pager that
-/// somebody has piped them to, nor a busy disk holds up the loop. What cannot be written for a second is dropped
-/// and counted; the count is said as soon as somebody reads again. (What overruns the queue of 128 within that
-/// second is lost, oldest first, and not in the count.)
+/// Writes messages to standard error in a thread of its own, so that a blocked journal, a stopped pager or a
+/// busy disk does not block the loop. A message that cannot be written for a second is dropped and counted; the
+/// count is reported as soon as the reader reads again. (Messages that overrun the queue of 128 within that
+/// second are lost, oldest first, and not counted.)
 class Diagnostics {
  public:
   Diagnostics();

@@ -8,7 +8,7 @@
 namespace navcal::daemon {
 namespace {
 
-/// So much may wait before the thread is woken ahead of its sync interval.
+/// Waiting bytes at which the thread is woken ahead of its sync interval.
 constexpr std::size_t kWakeAt_bytes = 256 << 10;
 /// Written in one call: bounds how long the end of a stall takes to be seen in the state.
 constexpr std::size_t kWriteStep_bytes = 1 << 20;
@@ -67,7 +67,7 @@ std::vector<std::string> DiskThread::take_notices() {
 }
 
 void DiskThread::wake_if_much() {
-  // Once, when the mark is passed; the thread takes all there is.
+  // The thread is woken once, when the mark is passed, and takes all waiting bytes.
   if (waiting_.bytes.size() >= kWakeAt_bytes && being_written_ == 0) wake_.notify_one();
 }
 

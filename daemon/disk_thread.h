@@ -47,7 +47,7 @@ class DiskThread {
   };
 
   DiskThread(record::LogFolder folder, const Options& options);
-  /// As stop().
+  /// Calls stop().
   ~DiskThread();
   DiskThread(const DiskThread&) = delete;
   DiskThread& operator=(const DiskThread&) = delete;
@@ -66,14 +66,16 @@ class DiskThread {
     return true;
   }
 
-  /// The end of the present file; taken whether or not there is room, as a log without its end has to be repaired.
+  /// Appends the end of the present file. It is accepted even without room, because a log without its end has
+  /// to be repaired.
   template <class Encode>
   void end_file(Encode&& encode_end) {
     const std::lock_guard lock(mutex_);
     encode_end(waiting_.bytes);
   }
 
-  /// What follows goes to a new file, named after `utc_ns`, which begins with what `encode_begin` appends.
+  /// Begins a new file, named after `utc_ns`, with the bytes that `encode_begin` appends. Later records go to
+  /// this file.
   template <class Encode>
   void next_file(std::int64_t utc_ns, Encode&& encode_begin) {
     const std::lock_guard lock(mutex_);
@@ -86,7 +88,7 @@ class DiskThread {
   void stop();
 
   [[nodiscard]] DiskState state() const;
-  /// What happened since the last call, for people: files repaired, removed, errors.
+  /// Notices since the last call, for people: files repaired or removed, and errors.
   [[nodiscard]] std::vector<std::string> take_notices();
 
  private:

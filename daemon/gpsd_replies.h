@@ -10,10 +10,10 @@
 
 namespace navcal::daemon {
 
-// What the status socket says of itself, in gpsd's words. Each appends one line, newline included, unless it says
-// otherwise.
+// Replies of the status socket about itself, in gpsd's terms. Each function appends one line with its newline,
+// unless it says otherwise.
 
-/// The protocol whose words these are: gpsd 3.22's.
+/// Version of gpsd's protocol that these replies follow: that of gpsd 3.22.
 inline constexpr int kProtocolMajor = 3;
 inline constexpr int kProtocolMinor = 14;
 
@@ -21,7 +21,7 @@ inline constexpr int kProtocolMinor = 14;
 struct DeviceState {
   std::string_view name;    ///< "path" of the DEVICE object and "device" of every report
   std::string_view driver;  ///< its protocol
-  std::string_view tty;     ///< what is open; empty while it is away
+  std::string_view tty;     ///< open device; empty while it is absent
   int baud = 0;
   double cycle_s = 0;  ///< nominal time between frames; 0: not periodic
   bool gps = false;
@@ -31,8 +31,8 @@ struct DeviceState {
 void append_version(std::string& out);
 /// The object alone, without newline.
 void append_device_object(std::string& out, const DeviceState& device);
-/// The policy in force; classes and rates only where a client chose them. NMEA and raw pass-through are not
-/// offered, which "nmea":false and "raw":0 say.
+/// Active policy; classes and rates only where a client chose them. "nmea":false and "raw":0 state that NMEA
+/// and raw pass-through are not offered.
 struct WatchPolicy {
   bool enable = false;
   bool json = false;

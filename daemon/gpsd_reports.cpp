@@ -134,7 +134,7 @@ void append_tpv(std::string& out, const pipeline::NavigationSample& sample, bool
   fixed(out, "eph", std_m.norm(), 3);
   if (const auto& velocity = estimate.velocity_m_s) {
     const double speed_m_s = std::hypot(velocity->x(), velocity->y());
-    // Where nothing moves there is no direction.
+    // The track is undefined while the vehicle stands still.
     if (speed_m_s > kStandstill_m_s) {
       const double track_rad = std::atan2(velocity->y(), velocity->x());
       fixed(out, "track", track_rad < 0 ? track_rad + 2 * std::numbers::pi : track_rad, 4,
@@ -202,7 +202,7 @@ void append_att(std::string& out, const instruments::CompassSample& compass, con
   if (compass.field_body_uT) {
     const auto& measured = *compass.field_body_uT;
     shortest(out, "mag_len", length(measured), 4);
-    // What a device said with two decimals comes back digit by digit.
+    // The shortest text within six decimals keeps the digits of a device that reports two.
     shortest(out, "mag_x", measured[0], 6);
     shortest(out, "mag_y", measured[1], 6);
     shortest(out, "mag_z", measured[2], 6);

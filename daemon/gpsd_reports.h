@@ -14,7 +14,7 @@ namespace navcal::daemon {
 // Measurements in gpsd's words (gpsd_json(5) of release 3.22; docs/status-protocol.md): degrees, metres, seconds,
 // and beyond gpsd microtesla and m/s2. Each appends one line, newline included.
 
-/// What every report carries; `utc_known` false leaves times out rather than stating wrong ones.
+/// Attributes common to all reports. `utc_known` false omits times, because they would be wrong.
 struct ReportSource {
   std::string_view device;
   bool utc_known = true;

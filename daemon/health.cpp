@@ -45,7 +45,7 @@ void append_clock(std::string& out, const instruments::ClockState& clock) {
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"resets\":{}}}"), clock.resets);
 }
 
-/// Without the empty buckets at the end.
+/// Appends the histogram without the empty buckets at the end.
 void append_latency(std::string& out, const LatencyHistogram& latency) {
   const auto& buckets = latency.buckets();
   std::size_t used = buckets.size();

@@ -30,7 +30,7 @@ struct Health {
   std::uint64_t client_dropped = 0;    ///< reports missed by all clients together
 };
 
-/// So many ports go into one line: libgps reads lines of up to 10 kB, so more ports make more lines.
+/// Number of ports in one line: libgps reads lines of up to 10 kB, so more ports make more lines.
 inline constexpr std::size_t kPortsPerHealth = 8;
 
 /// HEALTH lines without their end, to which the status server adds each client's own count: `,"dropped":0}`.

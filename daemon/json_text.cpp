@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::int64_t, 10> kPowersOfTen{1,       10,        100,        1'000,       10'000,
                                                     100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
-/// Beyond it a rounded value times 10^9 does not fit 64 bits.
+/// Limit above which a rounded value times 10^9 does not fit 64 bits.
 constexpr double kLargestScaled = 9e18;
 
 /// Room for two 64-bit integers and what stands between them.

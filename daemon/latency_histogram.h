@@ -7,7 +7,7 @@
 
 namespace navcal::daemon {
 
-/// How long samples took from the arrival of their bytes to the status socket, in powers of two of microseconds:
+/// Histogram of the time from the arrival of bytes to the status socket, in powers of two of microseconds:
 /// bucket 0 counts below 1 us, bucket k from 2^(k-1) to 2^k us, the last everything longer.
 class LatencyHistogram {
  public:

@@ -41,7 +41,7 @@ class LineReader {
     return !refused_;
   }
 
-  /// What has come of a line that is not complete yet; forget() when it was taken as it is.
+  /// Beginning of a line that is not complete yet. Call forget() after using it as it is.
   [[nodiscard]] std::string_view held() const { return held_; }
   void forget() { held_.clear(); }
 

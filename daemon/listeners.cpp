@@ -38,7 +38,7 @@ std::string taken(const config::StatusSettings& settings) {
   return message;
 }
 
-/// True when somebody answers at the socket.
+/// True when a server answers at the socket.
 bool is_alive(const asio::any_io_executor& executor, const std::string& path) {
   Unix::socket socket(executor);
   boost::system::error_code error;

@@ -107,7 +107,7 @@ void LogWriter::tick(std::int64_t now_ns) {
                    fmt::format("{} records lost: the disk did not keep up and the queue of {} MB was full",
                                dropped - told_dropped_, settings_.queue_bytes / 1'000'000));
   });
-  // When there is still no room, this record is lost as well and the next one tells of all.
+  // Without room this event is lost as well, and the next one reports the total.
   if (told) told_dropped_ = dropped;
 }
 

@@ -18,8 +18,8 @@
 
 namespace navcal::daemon {
 
-/// The log as the I/O thread sees it: encodes records into the disk thread's buffer, decides when a new file
-/// begins, and tells of records that were lost. Does nothing when the log is switched off.
+/// Front end of the log for the I/O thread: encodes records into the disk thread's buffer, decides when a new
+/// file begins, and reports lost records. It does nothing when the log is switched off.
 class LogWriter {
  public:
   /// Takes the log folder and begins the first file. Throws StartError saying what is wrong with the folder.
@@ -36,21 +36,22 @@ class LogWriter {
 
   void command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record);
 
-  /// What every file from now on begins with, besides configuration and time: one object for /calib.
+  /// Sets the source of the calibration object for /calib. Every later file begins with it, besides
+  /// configuration and time.
   void begin_files_with(std::function<std::string(std::int64_t)> calibration) {
     calibration_ = std::move(calibration);
   }
 
   /// Ends this file and begins another.
   void rotate(std::int64_t now_ns);
-  /// To be called about once a second: rotation by size and age, the event that tells of lost records.
+  /// Called about once a second: rotates by size and age, and writes the event that reports lost records.
   void tick(std::int64_t now_ns);
   /// Ends the file and waits until it is on the disk.
   void finish(std::int64_t now_ns);
 
   [[nodiscard]] bool enabled() const { return disk_ != nullptr; }
   [[nodiscard]] DiskState state() const;
-  /// What the disk thread has to tell, for people.
+  /// Notices of the disk thread, for people.
   [[nodiscard]] std::vector<std::string> take_notices();
 
  private:

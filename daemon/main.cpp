@@ -59,7 +59,7 @@ void wait_for_signal(asio::signal_set& signals, Daemon& daemon) {
 
 void run(const navcal::config::Settings& settings) {
   asio::io_context context(1);
-  // Before anybody can reach the daemon: a signal that comes early must not kill it.
+  // Signals are caught before the daemon can be reached, so that an early one does not kill it.
   asio::signal_set signals(context, SIGTERM, SIGINT, SIGHUP);
   Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()));
   wait_for_signal(signals, daemon);

@@ -20,12 +20,12 @@ class MarkerFile {
   MarkerFile(const MarkerFile&) = delete;
   MarkerFile& operator=(const MarkerFile&) = delete;
 
-  /// As the run before left it.
+  /// True when the file exists. Before the first set(), that is as the run before left it.
   [[nodiscard]] bool is_there() const;
   void set(bool there);
   /// Waits until the file is as set.
   void stop();
-  /// What went wrong, for people.
+  /// Errors since the last call, for people.
   [[nodiscard]] std::vector<std::string> take_notices();
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 /// The longest line for the card, `$MCC,-99999,-25.0,-25.0,-25.0*hh<CR><LF>`.
 constexpr std::int64_t kMccLine_bytes = 35;
-/// So long may the end of the program wait for a line to leave.
+/// Longest time that the end of the program waits for a line to leave.
 constexpr std::chrono::milliseconds kLastLine{200};
 /// Refusals and events that are recorded each second.
 constexpr double kRecords_Hz = 10;
@@ -174,7 +174,7 @@ std::optional<std::int64_t> MotorControl::drive(std::int64_t now_ns) {
 }
 
 std::optional<std::int64_t> MotorControl::send(const control::Line& line, std::int64_t now_ns) {
-  // Before the line: whatever happens to the program afterwards, the next run knows of it.
+  // The marker is set before the line is sent, so that the next run finds it whatever happens to this one.
   marker_.set(command_.is_card_commanded());
   const auto sent_ns = session_.send_now(protocols::motor_card::encode_command(line.command));
   if (!sent_ns) {

@@ -53,11 +53,11 @@ class MotorControl {
   void status(const instruments::Stamp& stamp, const instruments::MotorSample& motor);
   /// Orders the safe state if the card has another one, and waits until that is on the wire.
   void stop();
-  /// For people.
+  /// Notices since the last call, for people.
   [[nodiscard]] std::vector<std::string> take_notices() { return marker_.take_notices(); }
 
   [[nodiscard]] const control::MotorCommand& command() const { return command_; }
-  /// How late the last order came after the STATE that it answers.
+  /// Delay of the last order after the STATE that it answers, seconds.
   [[nodiscard]] std::optional<double> late_s() const { return late_s_; }
   /// "motor" of HEALTH, an object of JSON.
   [[nodiscard]] std::string health(std::int64_t now_ns) const;

@@ -74,7 +74,8 @@ void PortSession::on_lost(std::int64_t now_ns, std::string_view reason) {
   open_.reset();
   talk_timer_.stop();
   if (calibrating_compass_) {
-    // Whether it still calibrates nobody knows: the start-up that follows its return makes it say words again.
+    // It is unknown whether the compass still calibrates. The start-up after its return makes it send words
+    // again.
     compass_calibration_->abandon("the compass went away");
     calibrating_compass_ = false;
     owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
@@ -170,7 +171,7 @@ void PortSession::set_state(std::int64_t now_ns, State state, std::string reason
   state_ = state;
   reason_ = std::move(reason);
   if (!changed) return;
-  // Loss and return have told of themselves already.
+  // Loss and return of the port have been reported already.
   if (state != State::away && reason_ != "opened") {
     const bool good = state == State::running;
     owner_.on_port_event(index_, now_ns, good ? "info" : "warning", "port.state",

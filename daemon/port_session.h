@@ -54,33 +54,35 @@ class PortSession : private ports::PortListener {
   void start() { port_.start(); }
   void stop();
 
-  /// As ports::Port: a whole line at once, or nothing; and waits until it is on the wire, at most so long.
+  /// Send as in ports::Port: send_now() sends a whole line at once or nothing. flush() waits until it is on the
+  /// wire, no longer than `limit`.
   [[nodiscard]] std::optional<std::int64_t> send_now(protocols::Bytes bytes) { return port_.send_now(bytes); }
   void flush(std::chrono::milliseconds limit) { port_.flush(limit); }
-  /// From the pipeline, within on_port_bytes().
+  /// Called by the pipeline within on_port_bytes().
   void on_frame(const protocols::Frame& frame, std::int64_t arrival_ns);
   void published(std::int64_t latency_ns) { latency_.add(latency_ns); }
   /// Lets a TCM2 calibrate itself. Returns why it cannot; empty: it has begun.
   [[nodiscard]] std::string calibrate_compass(std::int64_t now_ns);
-  /// The vehicle has turned enough. Returns why that is nothing to the point; empty: the score will be read.
+  /// Ends the calibration once the vehicle has turned enough. Returns why that is impossible; empty: the score
+  /// will be read.
   [[nodiscard]] std::string stop_calibrating_compass(std::int64_t now_ns);
-  /// Calibrated, of the vehicle; from the pipeline.
+  /// Calibrated yaw rate of the vehicle; called by the pipeline.
   void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
   /// Null when this is no TCM2.
   [[nodiscard]] const instruments::Tcm2Calibration* compass_calibration() const {
     return compass_calibration_ ? &*compass_calibration_ : nullptr;
   }
-  /// To be called about once a second: judges the state.
+  /// Called about once a second: judges the state.
   void tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics);
 
   [[nodiscard]] const config::PortSettings& settings() const { return settings_; }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// What is open; nullopt while the device is away.
+  /// The open port; nullopt while the device is absent.
   [[nodiscard]] const std::optional<ports::OpenPort>& open_port() const { return open_; }
   [[nodiscard]] std::int64_t opened_ns() const { return opened_ns_; }
   [[nodiscard]] std::uint64_t times_opened() const { return times_opened_; }
-  /// Of the start-up dialogue, for people; empty for a device without one.
+  /// State of the start-up dialogue, for people; empty for a device without one.
   [[nodiscard]] std::string start_up_state() const { return start_up_ ? start_up_->state() : std::string(); }
   [[nodiscard]] const LatencyHistogram& latency() const { return latency_; }
 
@@ -91,7 +93,7 @@ class PortSession : private ports::PortListener {
   void on_lost(std::int64_t now_ns, std::string_view reason) override;
 
   void talk(std::int64_t now_ns);
-  /// True while it has the device to itself.
+  /// True while the calibration dialogue has the device to itself.
   bool talk_of_calibration(std::int64_t now_ns);
   void set_state(std::int64_t now_ns, State state, std::string reason);
   State judge(const pipeline::PortStatistics& statistics, std::int64_t now_ns, std::string& reason);

@@ -14,28 +14,30 @@
 
 namespace navcal::daemon {
 
-/// What is estimated is a device to those who watch, behind those of the ports.
+/// Index of the estimate's virtual device, which follows those of the ports.
 [[nodiscard]] inline std::uint16_t navigation_device(const config::Settings& settings) {
   return static_cast<std::uint16_t>(settings.ports.size());
 }
 
-/// Makes the reports of the status socket out of samples: once for all who watch, and not at all when nobody does.
+/// Makes the reports of the status socket from samples: once for all watching clients, and not at all without
+/// one.
 class Publisher {
  public:
   Publisher(const config::Settings& settings, StatusServer& server);
 
   void sample(const instruments::Sample& sample);
-  /// NAV to everybody; TPV too while no fix is current, for then the receivers' own say nothing.
+  /// Publishes NAV to all clients. While no fix is current it also publishes TPV, because the receivers' own
+  /// TPV then has no position.
   void navigation(const pipeline::NavigationSample& sample);
-  /// Whether times in UTC mean anything yet.
   void set_earth_field(const pipeline::EarthField& field) { earth_field_ = field; }
+  /// False while UTC is unknown, so that reports omit their times.
   void set_utc_known(bool known) { utc_known_ = known; }
   /// The answer to ?POLL;: the last position and satellites of every receiver, and the reckoned position while no
   /// fix is current.
   void append_poll(std::string& out, std::optional<std::int64_t> utc_ns) const;
 
  private:
-  /// What POLL repeats.
+  /// Samples that POLL repeats.
   struct Last {
     std::optional<instruments::GpsSample> gps;
     instruments::Stamp gps_stamp;

@@ -10,7 +10,7 @@
 
 namespace navcal::daemon {
 
-/// What a client of the status socket can choose from. Answers to requests belong to none of them.
+/// Classes of reports that a client of the status socket can select. Answers to requests belong to no class.
 enum class ReportClass : std::uint8_t {
   tpv,
   sky,
@@ -36,7 +36,7 @@ inline constexpr std::size_t kReportClasses = 12;
 /// A set of them.
 class ReportClasses {
  public:
-  /// All but STATE: what a client gets that does not choose.
+  /// All classes but STATE: the default of a client that does not choose.
   [[nodiscard]] static ReportClasses usual();
 
   void add(ReportClass report) { bits_ |= 1U << static_cast<unsigned>(report); }

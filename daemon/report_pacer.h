@@ -13,9 +13,9 @@ namespace navcal::daemon {
 /// is not halved by its jitter.
 class ReportPacer {
  public:
-  /// Whether this one may pass, and then counts it.
+  /// True when this report may pass; it is then counted.
   [[nodiscard]] bool take(ReportClass report, std::uint16_t slot, std::int64_t interval_ns, std::int64_t now_ns);
-  /// Whether it might.
+  /// True when a report might pass; none is counted.
   [[nodiscard]] bool is_due(ReportClass report, std::uint16_t slot, std::int64_t interval_ns,
                             std::int64_t now_ns) const;
   void forget() { next_.clear(); }

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view kSpace = " \t\r\n";
-/// As much of a bad request as is repeated to its sender.
+/// Number of characters of a bad request that the answer repeats.
 constexpr std::size_t kQuoted = 80;
 
 std::string_view trim(std::string_view text) {

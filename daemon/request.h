@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxRequestLength = 4096;
 inline constexpr double kMinReportRate_Hz = 0.01;
 inline constexpr double kMaxReportRate_Hz = 100;
 
-/// What ?WATCH={...} asked for; what it did not mention stays as it is.
+/// Changes requested by ?WATCH={...}. A field that is absent stays as it is.
 struct WatchChange {
   bool enable = true;
   std::optional<bool> json;

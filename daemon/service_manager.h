@@ -20,14 +20,15 @@ enum class IfBusy : bool { drop, wait };
 /// it must not hold up the loop.
 void notify_manager(std::string_view state, IfBusy if_busy = IfBusy::drop);
 
-/// After how long without WATCHDOG=1 this process is taken for hung ($WATCHDOG_USEC, $WATCHDOG_PID); zero: never.
+/// Time without WATCHDOG=1 after which systemd takes this process for hung ($WATCHDOG_USEC, $WATCHDOG_PID);
+/// zero: never.
 [[nodiscard]] std::chrono::microseconds watchdog_limit();
 
-/// How many descriptors were handed over to this process ($LISTEN_FDS, $LISTEN_PID), from kFirstHandedOver on.
-/// They are closed on exec from here on, and the variables are gone: no child takes them for its own.
+/// Number of descriptors handed over to this process ($LISTEN_FDS, $LISTEN_PID), from kFirstHandedOver on. The
+/// call marks them to be closed on exec and removes the variables, so that no child takes them for its own.
 [[nodiscard]] int take_handed_over();
 
-/// Whether it is a stream socket of this family (AF_INET ...) that listens.
+/// True for a listening stream socket of this family (AF_INET ...).
 [[nodiscard]] bool is_listening(int descriptor, int family);
 
 }  // namespace navcal::daemon

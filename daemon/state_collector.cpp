@@ -16,7 +16,7 @@ using config::Role;
 
 constexpr double kMostCarried_s = 0.5;
 constexpr std::uint64_t kFewestReadings = 10;
-/// About so many readings are remembered.
+/// Number of readings over which the spread is averaged, approximately.
 constexpr double kRememberedReadings = 50;
 constexpr double kEarthRadius_m = 6371000;
 
@@ -29,8 +29,8 @@ double turned(double heading_rad, double by_rad) {
   return sum < 0 ? sum + 2 * std::numbers::pi : sum;
 }
 
-/// How fast roll, pitch and heading change while the body turns at these rates (Fossen, Handbook of Marine Craft
-/// Hydrodynamics and Motion Control, eq. 2.28).
+/// Rates of roll, pitch and heading at given body rates (Fossen, Handbook of Marine Craft Hydrodynamics and
+/// Motion Control, eq. 2.28).
 struct AngleRates {
   double roll_rad_s = 0, pitch_rad_s = 0, heading_rad_s = 0;
 };
@@ -80,7 +80,7 @@ bool StateCollector::is_serving_compass(const instruments::Sample& sample) const
 
 StateCollector::Last StateCollector::serving() const {
   const auto sources = pipeline_.sources();
-  // A pipeline without estimator and calibrators appoints nobody: then the first that delivered serves.
+  // A pipeline without estimator and calibrators selects no sources; then the first device with data is used.
   const auto pick = [&](Role role, auto Last::*kind) {
     using Kind = std::remove_cvref_t<decltype(std::declval<Last>().*kind)>;
     if (const auto port = sources[role]) return Kind(last_[*port].*kind);
@@ -131,7 +131,7 @@ VehicleState StateCollector::at(std::int64_t now_ns) {
   return state;
 }
 
-/// Without an estimator: as the instruments said it.
+/// Takes attitude and depth as the instruments measured them; used without an estimator.
 void StateCollector::take_compass(VehicleState& state, const Last& last) const {
   if (last.compass) {
     const auto& compass = last.compass->value;
@@ -180,7 +180,7 @@ void StateCollector::take_estimate(VehicleState& state, const Last& last, std::i
                           east_m / (kEarthRadius_m * std::max(0.01, std::cos(*navigation->latitude_rad)));
     state.position_std_m = estimate.position_std_m.norm();
   }
-  // What the newest readings say against what is thought of their time.
+  // The spread of the newest readings about the estimate gives their standard deviation.
   if (last.compass && last.compass->value.pitch_rad && estimate.pitch_rad &&
       last.compass->stamp.validity_ns != pitch_ns_) {
     pitch_ns_ = last.compass->stamp.validity_ns;

@@ -34,7 +34,7 @@ class StateCollector {
   void take(const instruments::Sample& sample);
   /// Carried to `now_ns`, monotonic. Depth and attitude are carried by at most half a second.
   [[nodiscard]] VehicleState at(std::int64_t now_ns);
-  /// Whether a sample is a word of the compass that serves.
+  /// True when a sample comes from the compass in use.
   [[nodiscard]] bool is_serving_compass(const instruments::Sample& sample) const;
 
  private:
@@ -49,7 +49,7 @@ class StateCollector {
     std::optional<Newest<instruments::MotorSample>> motor;
     std::optional<Newest<instruments::GpsSample>> fix;
   };
-  /// Those that serve.
+  /// Newest readings of the devices in use.
   [[nodiscard]] Last serving() const;
   void take_estimate(VehicleState& state, const Last& last, std::int64_t now_ns);
   void take_compass(VehicleState& state, const Last& last) const;

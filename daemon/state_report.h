@@ -10,7 +10,7 @@
 
 namespace navcal::daemon {
 
-/// What STATE says (docs/status-protocol.md): everything of one instant. Absent is null.
+/// Content of STATE (docs/status-protocol.md), all at one instant. Absent values are null.
 struct VehicleState {
   std::optional<std::int64_t> time_utc_ns;
   std::optional<double> time_std_s;
@@ -25,7 +25,7 @@ struct VehicleState {
   std::optional<double> heading_std_rad, pitch_std_rad, depth_std_m, speed_std_m_s;
   std::optional<double> compass_age_s, imu_age_s, gps_age_s, motor_age_s;
   std::vector<std::string_view> alarms;  ///< names with underscores
-  std::string holder;                    ///< of the motor; empty: nobody
+  std::string holder;                    ///< of the motor's lease; empty: none
   int priority = 0;
   double expires_in_s = 0;
   std::uint64_t order_sequence = 0;  ///< 0: no order yet

@@ -18,7 +18,7 @@ namespace navcal::daemon {
 
 class StatusClient;
 
-/// Who answers the requests of clients.
+/// Owner of the clients, which answers their requests.
 class ClientOwner {
  public:
   virtual ~ClientOwner() = default;
@@ -28,10 +28,11 @@ class ClientOwner {
   virtual void on_gone(const StatusClient& client) = 0;
 };
 
-/// One client of the status socket. What it cannot take at once waits in its own bounded queue; nobody else waits.
+/// One client of the status socket. Reports that it cannot take at once wait in its own bounded queue, so that
+/// no other client waits.
 class StatusClient : public std::enable_shared_from_this<StatusClient> {
  public:
-  /// What it asked to see.
+  /// Reports that the client has selected.
   struct Policy {
     bool enable = false;
     bool json = false;
@@ -54,16 +55,16 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   [[nodiscard]] bool watches(ReportClass report, std::uint16_t port) const {
     return watches(report) && policy_.port.value_or(port) == port;
   }
-  /// Whether the rate that it chose allows one more now, of this class and slot (a device, a part).
+  /// True when the client's chosen rate allows another report of this class and slot (a device, a part) now.
   [[nodiscard]] bool is_due(ReportClass report, std::uint16_t slot) const;
-  /// The same, and counts it.
+  /// Same as is_due(), and counts the report.
   [[nodiscard]] bool take_turn(ReportClass report, std::uint16_t slot);
   /// Shortest time between two reports; 0: no limit.
   [[nodiscard]] std::int64_t interval_ns(ReportClass report) const {
     return policy_.intervals_ns.at(static_cast<std::size_t>(report));
   }
   [[nodiscard]] Policy& policy() { return policy_; }
-  /// Other rates are in force: what came before does not count.
+  /// Restarts the pacing after a change of rates: earlier reports do not count.
   void begin_pacing() { pacer_.forget(); }
   [[nodiscard]] std::uint64_t dropped() const { return queue_.dropped(); }
   [[nodiscard]] std::size_t queued_bytes() const { return queue_.size(); }

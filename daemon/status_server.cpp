@@ -54,7 +54,7 @@ void StatusServer::welcome(asio::ip::tcp::socket socket) {
   if (clients_.size() >= settings_.max_clients) {
     answer_.clear();
     append_error(answer_, fmt::format("Too many clients: {} are connected", clients_.size()));
-    // As much as goes without waiting: an empty send buffer takes it whole.
+    // The answer is sent without waiting. An empty send buffer takes it whole.
     if (::send(socket.native_handle(), answer_.data(), answer_.size(), MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
       spdlog::debug("status socket: a refused client was gone already");
     }

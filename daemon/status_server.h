@@ -16,7 +16,7 @@
 
 namespace navcal::daemon {
 
-/// What the server asks of the daemon to answer requests.
+/// Interface through which the server gets answers from the daemon.
 class StatusSource {
  public:
   virtual ~StatusSource() = default;
@@ -27,7 +27,7 @@ class StatusSource {
   virtual void append_device(std::string& out, std::uint16_t port) const = 0;
   /// The answer to ?POLL;, one line.
   virtual void append_poll(std::string& out) const = 0;
-  /// Somebody watches other reports from here on, at other rates.
+  /// A client has changed its reports or their rates.
   virtual void on_watch_changed() = 0;
 };
 
@@ -40,9 +40,9 @@ class StatusServer : private ClientOwner {
   void start();
   void stop();
 
-  /// Whether anybody would see a report of this port now: if not, it need not be written.
+  /// True when any client watches a report of this port now; otherwise it need not be written.
   [[nodiscard]] bool watched(ReportClass report, std::uint16_t port) const;
-  /// Likewise a report of no port.
+  /// The same for a report that belongs to no port.
   [[nodiscard]] bool watched(ReportClass report) const;
   /// One whole line about one port, to everybody who watches it.
   void publish(ReportClass report, std::uint16_t port, std::string_view line);
@@ -51,7 +51,7 @@ class StatusServer : private ClientOwner {
   /// STATE at a rate: when the next one is due to any client, monotonic; INT64_MAX: to none. The grid is the same
   /// for all clients of one rate.
   [[nodiscard]] std::int64_t next_state_ns() const;
-  /// Whether any client wants a STATE with each compass word.
+  /// True when any client wants a STATE with each compass word.
   [[nodiscard]] bool wants_state_of_words() const;
   /// To those whose time has come, or, with `of_word`, to those who want one with each word.
   void publish_state(std::string_view line, std::int64_t now_ns, bool of_word);

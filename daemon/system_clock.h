@@ -5,7 +5,7 @@
 
 namespace navcal::daemon {
 
-/// Reads the system's clock beside the monotonic one, and what the kernel thinks of it (adjtimex(2)).
+/// Reads the system's clock beside the monotonic one, and the kernel's state of that clock (adjtimex(2)).
 [[nodiscard]] pipeline::SystemClockReading read_system_clock();
 
 }  // namespace navcal::daemon

@@ -8,9 +8,9 @@
 #include "protocols/frame.h"
 #include "protocols/motor_card.h"
 
-/// What is known of the instruments of one vehicle: the simulator makes their errors by it, the diagnosis compares
-/// a recording with it, navigation and calibrators weigh readings by it. The defaults are the reference
-/// instruments of docs/simulator.md.
+/// Instrument models of one vehicle. The simulator makes its errors from them, the diagnosis compares a
+/// recording with them, and navigation and calibrators weight readings with them. The defaults are the
+/// reference instruments of docs/simulator.md.
 ///
 /// Noise is white, one standard deviation of a reading. Units are in the names; axes are those of the body (x
 /// forward, y starboard, z down).
@@ -23,7 +23,7 @@ struct Timing {
   std::int64_t baud = 0;     ///< line speed, bit/s; 64 bits, so that no gap lies between the members
 };
 
-/// The usual timing of the device that speaks `protocol` (config::default_port), at this line speed.
+/// Usual timing of the device with `protocol` (config::default_port) at this line speed.
 [[nodiscard]] Timing usual_timing(protocols::Protocol protocol, int baud);
 
 /// TCM2. Resolutions are those of its words.
@@ -48,10 +48,10 @@ struct ImuModel : config::ImuAccuracy {
 struct GpsModel : config::GpsAccuracy {
   Timing timing = usual_timing(protocols::Protocol::oncore, 9600);
 
-  /// How many times the noise of a settled fix the fix `number` since sight of the sky has: the first ones come
-  /// from few satellites. `number` counts from 0.
+  /// Ratio of the noise of fix `number` to that of a settled fix; `number` counts from 0 since sight of the
+  /// sky. The first fixes come from few satellites.
   [[nodiscard]] double noise_factor(int number) const { return 1 + excess_noise(number); }
-  /// What of that factor exceeds one.
+  /// Excess of that factor over one.
   [[nodiscard]] static double excess_noise(int number);
 };
 

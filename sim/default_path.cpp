@@ -37,7 +37,8 @@ constexpr std::array<Leg, 10> kLegs{{{20, 0, 0},
                                      {20, 0, 0},
                                      {12, kHalf, 0}}};
 
-/// From 0 to 1 over the leg without a jump in its rate: s - sin(2 pi s)/(2 pi); its first and second derivatives.
+/// Smooth step from 0 to 1 over the leg, with a rate that does not jump: s - sin(2 pi s)/(2 pi), and its first
+/// and second derivatives.
 struct Ease {
   double value, rate, rate_change;
 };

@@ -8,7 +8,7 @@
 
 namespace navcal::sim {
 
-/// Where north, east, down = 0 lies on the ellipsoid (WGS84). The one that is shipped is a lake in Virginia.
+/// Geodetic position (WGS84) of north = east = down = 0. The default is a lake in Virginia.
 struct Origin {
   double latitude_deg = 37.0629;
   double longitude_deg = -80.6275;

@@ -30,7 +30,7 @@ class Recording {
     bool turn_on_bias = true;           ///< of the gyros
     bool sky_always_seen = false;       ///< fixes at every depth, from the first second on
     std::vector<ClockFactor> clocks{};  ///< of compass, imu and motor
-    Origin origin{};                    ///< where the fixes are
+    Origin origin{};                    ///< origin of the fixes
     devices::InstrumentModel instruments{};
   };
   Recording(const Options& options, const Motion& motion);

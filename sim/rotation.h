@@ -41,7 +41,8 @@ using Matrix3 = std::array<Vector3, 3>;
           -dtheta * std::sin(phi) + dpsi * std::cos(theta) * std::cos(phi)};
 }
 
-/// What an accelerometer at the origin feels: dv/dt + omega x v - gravity, all in body axes.
+/// Specific force at the origin, as an accelerometer measures it: dv/dt + omega x v - gravity, all in body
+/// axes.
 [[nodiscard]] inline Vector3 specific_force(const Vector3& euler_rad, const Vector3& velocity, const Vector3& rate,
                                             const Vector3& velocity_change_m_s2) {
   const Vector3 turning = cross(rate, velocity);

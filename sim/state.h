@@ -18,8 +18,8 @@ using base::kGravity_m_s2;
   return base::reference::kTemperature_C - 0.25 * depth_m;
 }
 
-/// What the instruments could measure at one instant (docs/simulator.md). Body axes x forward,
-/// y starboard, z down; world axes north, east, down.
+/// True state of the vehicle at one instant (docs/simulator.md). Body axes x forward, y starboard, z down;
+/// world axes north, east, down.
 struct State {
   Vector3 position_m{};  ///< north, east, down
   Vector3 euler_rad{};   ///< roll, pitch, yaw; yaw is not wrapped
@@ -35,17 +35,17 @@ struct State {
   double water_temperature_C = base::reference::kTemperature_C;
 };
 
-/// Between two instants near each other, linearly; what only changes in jumps is that of `a`.
+/// Linear interpolation between two near instants. Values that change only in jumps are those of `a`.
 [[nodiscard]] State between(const State& a, const State& b, double part);
 
-/// What the motor card was told.
+/// One order to the motor card.
 struct Order {
   std::int64_t time_ns = 0;  ///< UTC since the epoch
   double rpm = 0;
   Vector3 fins_rad{};
 };
 
-/// Where the vehicle is, at any time and in any order; the devices know nothing else of it.
+/// Motion of the vehicle, at any time and in any order of times. The devices have no other source of it.
 class Motion {
  public:
   virtual ~Motion() = default;

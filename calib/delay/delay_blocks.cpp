@@ -8,8 +8,9 @@ namespace {
 
 constexpr std::uint32_t kBlock = 100;  // readings: longer than what errs together
 constexpr double kPriorBlocks = 5;
-constexpr double kSettled_s = 0.02;      // standard deviation: before it the filter's other states settle
-constexpr double kLeastDecrease = 0.02;  // of the variance: a block that told less says nothing of its error
+constexpr double kSettled_s = 0.02;  // standard deviation: before it the filter's other states settle
+constexpr double kLeastDecrease =
+    0.02;  // of the variance: a block with less information gives no measure of its error
 
 }  // namespace
 

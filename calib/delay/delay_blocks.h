@@ -7,15 +7,15 @@
 
 namespace navcal::calib {
 
-/// Whether an estimate of a Kalman filter wanders as its covariance says: between two times the variance of its
-/// change is the decrease of its variance (the estimate is a martingale), if the innovations are independent. What
-/// the model leaves out makes neighbouring innovations alike, and the changes over blocks larger.
+/// Tests whether an estimate of a Kalman filter wanders as its covariance says. If the innovations are
+/// independent, the estimate is a martingale: between two times the variance of its change is the decrease of
+/// its variance. Model errors correlate neighbouring innovations and enlarge the changes over blocks.
 class DelayBlocks {
  public:
-  /// At each reading: the estimate and its variance by the filter.
+  /// Called at each reading with the filter's estimate and its variance.
   void update(double estimate, double variance);
-  /// Factor for the filter's variance, at least `noise_scale` (that of single innovations, 1: as stated), which is
-  /// worth five blocks.
+  /// Factor for the filter's variance, at least `noise_scale` (that of single innovations, 1: as stated).
+  /// `noise_scale` is weighted like five blocks.
   [[nodiscard]] double variance_scale(double noise_scale) const;
   void archive(Archive& archive) { archive(in_block_, estimate_, variance_, square_, blocks_); }
 

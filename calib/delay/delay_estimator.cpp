@@ -11,7 +11,7 @@ constexpr double kLeastSpread_rad_s = 0.05;
 Judgement judge(const Delay& delay, double accepted_std_s) {
   Judgement judgement;
   judgement.samples = delay.readings;
-  // What the stamps claim of themselves more readings do not lessen.
+  // More readings do not reduce the part of the uncertainty that the stamps state themselves.
   const double by_noise_s = std::sqrt(delay.std_s * delay.std_s - delay.stamps_std_s * delay.stamps_std_s);
   judgement.accepted = by_noise_s <= accepted_std_s;
   judgement.coverage = judgement.accepted ? 1 : accepted_std_s / by_noise_s;

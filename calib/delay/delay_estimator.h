@@ -26,7 +26,7 @@ class DelayEstimator {
     CourseDelay::Parameters course;
     double tilt_lag_s = base::reference::kTiltLag_s;  ///< of the compass's inclinometer
     double tilt_noise_rad = base::reference::kReckonedTiltNoise_rad;
-    double level_std_s = 0.003;  ///< what tilt and vertical hard iron feign in the heading (measured: bench delay)
+    double level_std_s = 0.003;  ///< error of the heading by tilt and vertical hard iron (measured: bench delay)
     double accepted_std_s = 0.002;  ///< compass
     double accepted_course_std_s = 0.15;
   };
@@ -39,7 +39,8 @@ class DelayEstimator {
   void update(const WaterTrackReading& track) { course_.update(track); }
   void update(const GroundReading& ground) { course_.update(ground); }
 
-  /// Of the compass against the gyro: by the field, or by the heading where that knows it far better.
+  /// Delay of the compass against the gyro: by the field where there are field readings, else by the heading.
+  /// Its standard deviation contains that of both instruments' stamps.
   [[nodiscard]] Delay compass() const;
   [[nodiscard]] const HeadingDelay& heading() const { return heading_; }
   [[nodiscard]] const FieldDelay& field() const { return field_; }

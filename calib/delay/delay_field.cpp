@@ -125,7 +125,7 @@ void FieldDelay::correct(const Eigen::Vector3d& field_uT, const Eigen::Vector3d&
 Delay FieldDelay::estimate() const {
   if (readings_ == 0) return {};
   const auto n = static_cast<double>(readings_);
-  // How noisy the field is and how well the model turns it is not known beforehand; the residuals tell.
+  // The noise of the field and the errors of its rotation are not known beforehand, so the residuals give them.
   const double noise_scale = readings_ < kReadingsForNoise ? 1 : chi_squared_ / (3 * n);
   return {.delay_s = state_[kDelay],
           .std_s = std::sqrt(covariance_(kDelay, kDelay) * blocks_.variance_scale(noise_scale)),

@@ -73,7 +73,7 @@ void HeadingDelay::correct(const TurnStep& step, const TiltSlope& tilt, double m
       tilt.pitch_rad_s * sine - tilt.roll_rad_s * cosine;
   const Vector response = covariance_ * row;
   const double variance = row.dot(response) + base::square(parameters_.heading_noise_rad);
-  // By the nearest turn: the state is not wrapped.
+  // The innovation is taken to the nearest whole turn because the state is not wrapped.
   const double innovation = std::remainder(psi - row.dot(state_), base::kTurn_rad);
   state_ += response * (innovation / variance);
   covariance_ -= response * response.transpose() / variance;

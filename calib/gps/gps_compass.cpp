@@ -14,7 +14,7 @@ namespace {
 
 using Unknowns = GpsCompass::Vector;
 
-constexpr int kHeadings = 36;  // at which the uncertainty is looked at
+constexpr int kHeadings = 36;  // headings at which the uncertainty is evaluated
 constexpr int kMostSteps = 20;
 constexpr double kStepDone = 1e-12;
 

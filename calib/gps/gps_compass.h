@@ -55,15 +55,16 @@ class GpsCompass {
   explicit GpsCompass(const Parameters& parameters);
 
   void update(const WaterTrackReading& track);
-  /// In the order of times with the track.
+  /// Takes a fix, in order of time with the track.
   void update(const GroundReading& ground);
 
-  /// From the next refit on.
+  /// Takes effect at the next refit.
   void set_declination(double declination_rad) { parameters_.declination_rad = declination_rad; }
 
-  /// Of the newest slice; nullopt before the first.
+  /// Estimate after the newest slice of fixes; nullopt before the first slice.
   [[nodiscard]] const std::optional<Estimate>& estimate() const { return estimate_; }
-  /// The same from all that was summed up, now and from the very beginning: what the slices must come to.
+  /// Estimate from the sums of all fixes, iterated from the initial guess. The estimate by slices must agree
+  /// with it.
   [[nodiscard]] std::optional<Estimate> solve() const;
   [[nodiscard]] Judgement judgement() const;
   [[nodiscard]] const HeadingHistogram& rose() const { return rose_; }

@@ -20,7 +20,8 @@ Judgement GpsCompass::judgement() const {
     judgement.manoeuvre = "drive at the surface through all headings, turning to both sides, for some minutes";
     return judgement;
   }
-  // Of the covariance scaled to unit diagonal: how far the unknowns are told apart.
+  // The condition number refers to the covariance scaled to unit diagonal. It tells how well the unknowns are
+  // separated.
   const Vector std = estimate_->covariance.diagonal().cwiseSqrt();
   const Matrix correlation =
       std.cwiseInverse().asDiagonal() * estimate_->covariance * std.cwiseInverse().asDiagonal();

@@ -38,7 +38,7 @@ class GpsSummary {
     double model_correlation_s = 2;  ///< ... for about so long
     double slip_s = -0.15;           ///< k0
     double least_speed_m_s = 0.3;    ///< over ground and through water; below, receivers hold position and course
-    double longest_gap_s = 30;       ///< between fixes: over a longer one the position tells nothing
+    double longest_gap_s = 30;       ///< between fixes: over a longer one the position is not used
     double jump_sigmas = 6;  ///< two fixes that contradict their velocities by more: the position begins anew
   };
   struct LeftOut {
@@ -72,7 +72,7 @@ class GpsSummary {
     Complex state_m;
     double variance_m2 = 0;
     Terms response = Terms::Zero();
-    // For the test of jumps.
+    // The last fix, with which the next one is compared in the test for jumps.
     double time_s = 0;
     Complex fix_m, velocity_m_s;
     void archive(Archive& archive);

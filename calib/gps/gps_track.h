@@ -11,10 +11,10 @@
 
 namespace navcal::calib {
 
-/// What the vehicle itself knows of its way through the water at one instant.
+/// Dead-reckoning data of one instant: heading, turn rate and speed through the water.
 struct WaterTrackReading {
   double time_s = 0;
-  double heading_rad = 0;      ///< as the compass says it
+  double heading_rad = 0;      ///< as the compass measured it
   double turn_rate_rad_s = 0;  ///< of the heading, by a calibrated gyro; 0 where there is none: no slip then
   double speed_m_s = 0;        ///< through the water, by log or propeller (WaterSpeed)
 

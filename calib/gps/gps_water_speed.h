@@ -24,7 +24,7 @@ class WaterSpeed {
   explicit WaterSpeed(const Parameters& parameters) : parameters_(parameters) {}
 
   void update(const MotorReading& motor);
-  /// At or after the newest reading of the motor; nullopt before any.
+  /// Speed at or after the newest reading of the motor; nullopt before any.
   [[nodiscard]] std::optional<double> at(double time_s) const;
   void archive(Archive& archive);
 

@@ -25,12 +25,12 @@ class Misalignment {
     StraightRun::Parameters run;
     double run_std_rad = 0.2 * 0.017453292519943295;  ///< of a run's mean heading and slip, beside its fixes
     double current_std_m_s = 0.15;                    ///< prior, each axis
-    double accepted_std_rad = 0.01745;                ///< A no better known than this is not worth to be in force
+    double accepted_std_rad = 0.01745;                ///< an A with a larger standard deviation is not accepted
   };
   struct Estimate {
     double offset_rad = 0;                                  ///< A
     double offset_std_rad = 0;                              ///< with what a current of the prior could feign
-    double offset_std_without_current_rad = 0;              ///< what it would be in still water
+    double offset_std_without_current_rad = 0;              ///< standard deviation of A in still water
     Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  ///< north, east
     Eigen::Vector2d current_std_m_s = Eigen::Vector2d::Zero();
     std::uint32_t runs = 0;
@@ -45,7 +45,8 @@ class Misalignment {
   void update_heading(double time_s, double heading_rad);
   void update(const GroundReading& ground);
 
-  /// Of the runs so far, with the one under way once it is long enough; nullopt before any.
+  /// Estimate from all runs so far; the run under way is included once it is long enough. Nullopt before any
+  /// run.
   [[nodiscard]] std::optional<Estimate> estimate() const;
   [[nodiscard]] Judgement judgement() const;
   [[nodiscard]] const StraightRun& run() const { return run_; }

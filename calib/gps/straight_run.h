@@ -38,7 +38,7 @@ class StraightRun {
     double length_m = 0;
     std::uint32_t fixes = 0;
   };
-  /// What was not used, and why.
+  /// Numbers of fixes and readings that were not used, by reason.
   struct LeftOut {
     std::uint64_t slow = 0, jumps = 0, turning = 0, no_heading = 0;
     void archive(Archive& archive) { archive(slow, jumps, turning, no_heading); }
@@ -47,7 +47,7 @@ class StraightRun {
   StraightRun() : StraightRun(Parameters{}) {}
   explicit StraightRun(const Parameters& parameters);
 
-  /// Either may end the run; then it returns what the run gave, if it was long enough.
+  /// Each of these may end the run. It then returns the line of the run, if the run was long enough.
   std::optional<Line> update_heading(double time_s, double heading_rad);
   std::optional<Line> update(const GroundReading& ground);
 

@@ -15,13 +15,13 @@ class CurrentTrack {
  public:
   /// Readings come in the order of their times; one without a current is left out.
   void update(const MotorReading& motor);
-  /// In amperes; nullopt where no readings lie within kLongest_s before and after, or only before.
+  /// Interpolated current in amperes; nullopt unless two readings at most kLongest_s apart enclose `time_s`.
   [[nodiscard]] std::optional<double> at(double time_s) const;
-  /// The same, and where it is not known yet the newest reading, if that is not older than kLongest_s.
+  /// Same as at(), but where that is not known yet the newest reading, if it is not older than kLongest_s.
   [[nodiscard]] std::optional<double> at_or_newest(double time_s) const;
   /// The newest reading, if it is not older than kLongest_s.
   [[nodiscard]] std::optional<double> newest(double time_s) const;
-  /// What was read before lies on another time scale.
+  /// Drops all readings; called when their times belong to another time scale.
   void forget() { count_ = 0; }
   void archive(Archive& archive);
 

@@ -40,7 +40,7 @@ void EllipseEstimator::update(const Eigen::Vector3d& field_body_uT, double roll_
   const Eigen::Vector2d field = levelled(field_body_uT, roll_rad, pitch_rad);
   if (!field.allFinite() || field.cwiseAbs().maxCoeff() > kHighestField_uT) return;
   if (fit_) {
-    // A fit that knows nothing of this heading yet says nothing by being off.
+    // The fit is judged only where it is accurate; elsewhere its residuals are meaningless.
     const double known_to = worst_heading_std_rad(fit_->shape, fit_->covariance);
     if (known_to < parameters_.heading_std_rad) {
       const double size = (fit_->shape.axes_uT.inverse() * (field - fit_->shape.centre_uT)).norm();
@@ -83,8 +83,8 @@ double EllipseEstimator::surprise(const Eigen::Vector3d& field_body_uT, double r
   const EllipseShape::Vector row = EllipseShape::slope(u).transpose() * normal;
   const double distance = mean_distance_uT(fit_->shape, reading);
   const double noise_uT = std::max(fit_->residual_uT, held_out_.after_uT());
-  // The vertical offset, of which the ellipse knows nothing, comes into the level with every tilt: a dive is no
-  // change of the field.
+  // Every tilt brings a share of the vertical offset, which the ellipse does not determine, into the level. So
+  // a dive is not a change of the field.
   const double tilted_uT = kVerticalOffset_uT * std::hypot(std::sin(roll_rad), std::sin(pitch_rad));
   const double variance = noise_uT * noise_uT + row.dot(fit_->covariance * row) +
                           parameters_.model_error_uT * parameters_.model_error_uT + tilted_uT * tilted_uT;

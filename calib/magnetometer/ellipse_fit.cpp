@@ -13,7 +13,7 @@ namespace navcal::calib {
 namespace {
 
 constexpr double kOutlier = 6;         // cells further off, in standard deviations of one reading, count less
-constexpr double kPriorReadings = 20;  // what the noise believed beforehand is worth
+constexpr double kPriorReadings = 20;  // weight of the prior noise
 
 struct Distance {
   double distance_uT = 0;
@@ -55,7 +55,7 @@ double total_cost(const EllipseShape& shape, const EllipseCells& cells, double s
   return cost;
 }
 
-/// What one pass over the cells gathers.
+/// Sums over all cells for one iteration: normal equations, cost and residuals.
 struct Sums {
   EllipseShape::Matrix information = EllipseShape::Matrix::Zero();
   EllipseShape::Vector gradient = EllipseShape::Vector::Zero();

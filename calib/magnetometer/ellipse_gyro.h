@@ -49,7 +49,8 @@ class EllipseGyro {
   [[nodiscard]] Eigen::Vector2d gyro() const { return chain_.gyro; }  ///< scale, bias, with what this fit adds
   [[nodiscard]] Matrix covariance() const;
   [[nodiscard]] Judgement judgement() const;
-  /// Of the shape, with misfit and vertical offset, each ten degrees of heading off by `model_error_uT` together.
+  /// Covariance of the shape. It includes the misfit, a vertical offset of kVerticalOffset_uT, and an error of
+  /// `model_error_uT` common to each ten degrees of heading.
   [[nodiscard]] EllipseShape::Matrix stated_covariance(double model_error_uT) const;
   [[nodiscard]] const std::vector<TurnGroup>& groups() const { return groups_; }
 

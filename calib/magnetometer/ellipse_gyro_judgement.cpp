@@ -16,7 +16,8 @@
 
 namespace navcal::calib {
 
-/// In both components, unlike the ellipse's: the gyro says where on the ellipse one should be.
+/// Both components are used, unlike in the ellipse's covariance, because the gyro gives the position on the
+/// ellipse.
 EllipseShape::Matrix EllipseGyro::stated_covariance(double model_error_uT) const {
   using Columns = Eigen::Matrix<double, EllipseShape::kParameters, 2>;
   std::array<Columns, kSharedSectors> sums;
@@ -44,7 +45,7 @@ EllipseShape::Matrix EllipseGyro::stated_covariance(double model_error_uT) const
 Judgement EllipseGyro::judgement() const {
   constexpr double kFullTurn_rad = 2 * std::numbers::pi;
   constexpr double kLeastArc_rad = 45 * base::kRadiansPerDegree;
-  constexpr double kMostMisfit = 4;  // a gyro of another scale or bias than believed shows here
+  constexpr double kMostMisfit = 4;  // a gyro whose scale or bias differs from the prior shows here
   Judgement judgement;
   judgement.samples = samples_;
   judgement.condition = std::numeric_limits<double>::infinity();

@@ -11,9 +11,9 @@ namespace navcal::calib {
 [[nodiscard]] EllipseShape::Matrix stated_covariance(const EllipseFit& fit, const EllipseCells& cells,
                                                      double model_error_uT);
 
-/// How the squares of distances grow two standard deviations away from the fit in its least certain direction,
-/// over the four times the variance that a parabola gives; the worse of both sides, >= 1. Large: the likelihood is
-/// so curved there that the covariance means nothing.
+/// Growth of the squared distances two standard deviations from the fit in its least certain direction,
+/// relative to the growth of a parabola (four times the variance); the larger of both sides, >= 1. Large: the
+/// likelihood is so curved that the covariance is meaningless.
 [[nodiscard]] double curvature_of(const EllipseFit& fit, const EllipseCells& cells);
 
 /// Condition of the information on the parameters, each scaled to unit variance.

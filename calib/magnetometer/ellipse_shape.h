@@ -63,11 +63,11 @@ struct EllipseShape {
 /// to pi.
 [[nodiscard]] double worst_raw_heading_error_rad(const EllipseShape& shape);
 
-/// What a vertical offset of one uT adds to the levelled field.
+/// Derivative of the levelled field with respect to a vertical offset (uT per uT).
 [[nodiscard]] Eigen::Vector2d vertical_in_level(double roll_rad, double pitch_rad);
 
-/// Vertical offset of a magnetometer amid batteries and motors, of which a level fit knows nothing: standard
-/// deviation.
+/// Standard deviation of the vertical offset of a magnetometer near batteries and motors. A level fit does not
+/// determine this offset.
 inline constexpr double kVerticalOffset_uT = 20;
 
 /// Standard deviation of the calibrated heading at the worst heading of the circle, by first order.

@@ -31,7 +31,7 @@ EllipsoidCells EllipsoidEstimator::cells() const {
 
 void EllipsoidEstimator::judge(const Eigen::Vector3d& field_uT) {
   const Departure d = departure(field_uT);
-  // A fit that knows nothing of this direction yet says nothing by being off.
+  // The fit is judged only in directions where it is accurate; elsewhere its residuals are meaningless.
   if (d.fit_variance > 0.25 * d.noise_variance) return;
   held_out_.update(field_uT.norm(), fit_->shape.radius_uT() * d.size);
 }
@@ -61,7 +61,8 @@ void EllipsoidEstimator::update(const Eigen::Vector3d& field_body_uT, double rol
   blocks_.update(field_body_uT, reading.tail<3>());
   ++samples_;
   if (samples_ < kFirstEllipsoidFit) return;
-  // As with the ellipse: early beginnings are poor ones.
+  // Early initial guesses are poor, so the fit starts again at 2, 4, 8, ... times the first number of readings,
+  // as for the ellipse.
   if (std::has_single_bit(samples_ / kFirstEllipsoidFit) && samples_ % kFirstEllipsoidFit == 0) begin();
   if (samples_ % static_cast<std::uint64_t>(parameters_.slice_samples) != 0) return;
   if (!fit_) begin();

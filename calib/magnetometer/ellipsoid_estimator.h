@@ -42,7 +42,7 @@ class EllipsoidEstimator {
 
   /// Roll or pitch not a number: the tilt is not known, the size of the field still tells.
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
-  /// Of one reading, at least; the data correct it.
+  /// Sets the known size and dip of the field, as a prior that the data correct.
   void set_known(const std::optional<KnownField>& known) { parameters_.known = known; }
   void set_tilt_noise(double tilt_noise_rad) { parameters_.tilt_noise_rad = tilt_noise_rad; }
   void settle();
@@ -54,12 +54,12 @@ class EllipsoidEstimator {
   /// The summary: those with tilt, then those without.
   [[nodiscard]] EllipsoidCells cells() const;
   [[nodiscard]] const EllipsoidNoise& noise() const { return noise_; }
-  /// Of centre, matrix and dip, with what noise alone does not explain.
+  /// Covariance of centre, matrix and dip, enlarged by the residuals that noise alone does not explain.
   [[nodiscard]] EllipsoidShape::Matrix covariance() const;
   [[nodiscard]] Judgement judgement() const;
-  /// The greatest angle of the hull's vertical from the plumb line among the cells.
+  /// Largest angle between the hull's vertical axis and the plumb line among the cells.
   [[nodiscard]] double tilt_seen_rad() const;
-  /// As EllipseEstimator's.
+  /// Same as EllipseEstimator::surprise().
   [[nodiscard]] double surprise(const Eigen::Vector3d& field_body_uT) const;
 
   void archive(Archive& archive);

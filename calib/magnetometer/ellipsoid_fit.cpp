@@ -14,13 +14,14 @@ using Cell = FieldCells<3, 6>::Cell;
 using Vector = EllipsoidShape::Vector;
 using Matrix = EllipsoidShape::Matrix;
 
-/// What is known beforehand, as information about the point of linearisation.
+/// The prior as a mean and an information matrix about the point of linearisation.
 struct Known {
   Vector mean = Vector::Zero();  ///< less the shape
   Matrix information = Matrix::Zero();
 
   Known(const EllipsoidShape& shape, const EllipsoidShape& scale, const EllipsoidPrior& prior) {
-    // Wider than any vehicle's iron; what is never seen still has a finite variance.
+    // The prior is wider than any vehicle's iron. It gives components that no reading determines a finite
+    // variance.
     constexpr double kAnyCentre_uT = 100;
     information.diagonal().head<3>().setConstant(1 / (kAnyCentre_uT * kAnyCentre_uT));
     information(9, 9) = 1e-2;
@@ -85,7 +86,7 @@ EllipsoidFit improve(const EllipsoidFit& fit, const EllipsoidCells& cells, const
     gradient -= weighted * r.value;
     cost += cell.count * outlier_cost(square);
   }
-  // In units of the least certain, so that centre (uT) and matrix (1/uT) meet on equal terms.
+  // Each parameter is scaled by its own information, so that centre (uT) and matrix (1/uT) are comparable.
   const Vector scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix scaled = scale.asDiagonal() * information * scale.asDiagonal() + 1e-13 * Matrix::Identity().eval();
   const auto solved = [&](double damping, const auto& right) {

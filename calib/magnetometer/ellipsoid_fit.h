@@ -22,7 +22,7 @@ struct EllipsoidNoise {
   void archive(Archive& archive) { archive(field_uT, tilt_rad, field_inflation, tilt_inflation); }
 };
 
-/// What is known beforehand.
+/// Prior of the fit: size and dip of the field where known, and the scatter of soft iron.
 struct EllipsoidPrior {
   std::optional<KnownField> known;
   double soft_iron_std = 0.15;

@@ -20,7 +20,7 @@ namespace {
 /// Tilt that a manoeuvre may ask for. Beyond it more readings help, and more tilt does not.
 constexpr double kMostTilt_rad = 1.05;
 
-/// What to do for a vertical part that is uncertain, where tilt reached `tilt_rad`.
+/// The manoeuvre that reduces the uncertainty of the vertical part, when tilt has reached `tilt_rad`.
 std::string tilt_manoeuvre(double tilt_rad) {
   constexpr double kMore_rad = 0.26;
   if (tilt_rad >= kMostTilt_rad) {
@@ -30,8 +30,8 @@ std::string tilt_manoeuvre(double tilt_rad) {
          whole_degrees(std::min(1.2, tilt_rad + kMore_rad)) + " degrees";
 }
 
-/// Whether the field came from all sides of the hull, whatever was known of its tilt: the smallest eigenvalue of
-/// the mean square of its direction is a third on a whole sphere, and zero on a plane or a line.
+/// True when the field came from all sides of the hull, whether or not its tilt was known. The smallest eigenvalue
+/// of the mean square of its direction is a third on a whole sphere, and zero on a plane or a line.
 bool is_all_round(const EllipsoidCells& cells, const EllipsoidShape& shape) {
   constexpr double kLeastSquare = 0.12, kMostMean = 0.5;
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
@@ -105,8 +105,8 @@ Judgement EllipsoidEstimator::judgement() const {
                       whole_degrees(tilt_rad) + " degrees does not determine it",
                   tilt_more + "45 degrees, or move the magnetometer away from what is magnetic");
   }
-  // Of a large hard iron a tenth is a gain, even where that tenth is more than the usual limit. The vertical
-  // itself does not count: an error could feign it.
+  // The limit is a tenth of a large hard iron, even where that exceeds the usual limit: removing the rest is a
+  // gain. Only the horizontal offset counts, because an error could imitate a vertical offset.
   if (vertical_uT > std::max(parameters_.offset_std_uT, 0.1 * fit_->shape.centre_uT.head<2>().norm())) {
     return refuse("the vertical offset is uncertain by " + rounded(vertical_uT, 1) + " uT: " +
                       (tilt_rad < kMostTilt_rad ? "tilt stayed within " : "too little was seen at tilts up to ") +

@@ -12,7 +12,7 @@ namespace {
 constexpr double kUnit_uT = 50;                 // of the monomials, so that they are of the order of one
 constexpr double kLeastBlocks = 30;             // fewer do not tell a variance
 constexpr double kAbsorbed = 7;                 // block sums that the parameters of a line make small
-constexpr double kEllipsoidPriorReadings = 50;  // what the noise believed beforehand is worth
+constexpr double kEllipsoidPriorReadings = 50;  // weight of the prior noise
 
 }  // namespace
 
@@ -41,7 +41,8 @@ double ResidualBlocks::Sums<Size>::inflation(const Vector& coefficients) const {
   for (std::size_t i = 1; i < scales.size() && single > 0; ++i) {
     const auto blocks = static_cast<double>(scales[i].blocks);
     if (blocks < kLeastBlocks) break;
-    // Less one standard deviation of the estimate, so that the largest of several is not too large by chance.
+    // One standard deviation of the estimate is subtracted, so that the largest of several is not too large by
+    // chance.
     const double chance = 1 - std::sqrt(2 / blocks);
     worst = std::max(worst, chance * blocks / (blocks - kAbsorbed) * variance(i) / single);
   }
@@ -121,7 +122,7 @@ double pooled(double square, double count, double believed) {
 
 EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& cells, const ResidualBlocks& blocks,
                             const EllipsoidNoise& believed, const EllipsoidNoise& so_far) {
-  constexpr int kRounds = 2;  // what is an outlier depends on the noise that is sought
+  constexpr int kRounds = 2;  // outliers depend on the noise that is sought
   const double across2 = std::max(0.01, 1 - shape.sine_of_dip * shape.sine_of_dip);
   EllipsoidNoise noise;
   noise.field_uT = so_far.field_uT;
@@ -139,7 +140,8 @@ EllipsoidNoise fitted_noise(const EllipsoidShape& shape, const EllipsoidCells& c
   }
   noise.field_inflation = blocks.size_inflation(shape);
   if (!(dip_by_field > 0)) return noise;
-  // What the dip's neighbours have in common is the tilt's, less what the field's noise explains of it.
+  // Residuals of the dip that neighbours share are those of the tilt, less the part that the field's noise
+  // explains.
   const double by_field = noise.field_uT * noise.field_uT * dip_by_field,
                by_tilt = noise.tilt_rad * noise.tilt_rad * across2;
   const double together = blocks.dip_inflation(shape) * (by_field + by_tilt) - noise.field_inflation * by_field;

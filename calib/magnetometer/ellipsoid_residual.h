@@ -7,7 +7,7 @@
 
 namespace navcal::calib {
 
-/// How far the readings of a cell are off the model's two lines: size of the field, and dip.
+/// Residuals of a cell's readings in the two lines of the model: size of the field, and dip.
 struct EllipsoidResidual {
   Eigen::Vector2d value;                 ///< on the mean of the cell's readings
   Eigen::Matrix2d noise;                 ///< of one reading; over the count it is that of their mean

@@ -17,7 +17,7 @@ inline constexpr double kCellSize_uT = 0.7;
 /// Readings judged against a fit before that fit may call others outliers.
 inline constexpr double kJudged = 50;
 
-/// Beyond any sum of the Earth's field and a vehicle's iron: such a reading is left out.
+/// Larger than any sum of the Earth's field and a vehicle's iron. Readings above it are left out.
 inline constexpr double kHighestField_uT = 500;
 
 /// Bounded summary of readings: cubes of the space of the first `Keys` features, each with the count, mean and
@@ -53,7 +53,7 @@ class FieldCells {
   void double_size();
 
   double size_;
-  std::uint64_t newest_ = 0;  ///< where the last reading went; the next one often follows it
+  std::uint64_t newest_ = 0;  ///< cell of the last reading; the next one often follows it
   std::vector<Cell> cells_;
 };
 

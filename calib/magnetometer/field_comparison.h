@@ -26,9 +26,9 @@ class FieldComparison {
   bool update(const CompassReading& reading, const Correction& in_force, const Correction& estimates);
   /// Departures as fractions of the field's size.
   [[nodiscard]] const Comparison& comparison() const { return comparison_; }
-  /// Something else is in force from now on.
+  /// The active correction has changed.
   void on_change();
-  /// The calibrator begins anew.
+  /// Drops everything when the calibrator starts anew.
   void forget() { *this = {}; }
   void archive(Archive& archive);
 

@@ -14,7 +14,7 @@ class FieldCoverage {
   /// `headings_rad`: those of cells or groups of readings; any order, any turn.
   explicit FieldCoverage(std::vector<double> headings_rad);
 
-  /// Of the circle less the largest gap.
+  /// Arc of headings seen: the circle less its largest gap.
   [[nodiscard]] double arc_rad() const { return arc_rad_; }
   /// "turn through 140 more degrees, headings 200 to 340" so that the arc becomes `wanted_rad`.
   [[nodiscard]] std::string manoeuvre(double wanted_rad) const;

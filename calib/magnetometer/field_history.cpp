@@ -34,8 +34,8 @@ void archive_all(Archive& archive, auto& list) {
   for (auto& one : list) archive(one);
 }
 
-/// Whether the field was seen from about one side only: then any heading explains it, and where its hard iron is
-/// the fit does not tell.
+/// True when the field was seen from about one side only. Then any heading explains it, and the fit does not
+/// determine its hard iron.
 bool rested(const EllipsoidCells& cells, const EllipsoidShape& shape, const Eigen::Vector3d& centre_uT) {
   constexpr double kLeastScatter = 0.05;  // of the unit vectors, of 1
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();

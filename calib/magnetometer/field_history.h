@@ -35,10 +35,11 @@ class FieldHistory {
   void archive(Archive& archive);
 
  private:
-  /// Whether both segments turned, and one field explains the size of their readings as well as `two`.
+  /// True when both segments turned and one field explains the size of their readings as well as `two`.
   [[nodiscard]] bool one_field_explains(const SegmentsFit& two, const SegmentNoise& noise,
                                         const SegmentBelief& belief) const;
-  /// Of the field's size within each of the last two segments, when their shape is fitted to the size alone.
+  /// Records the spread of the field's size in each of the last two segments, when their shape is fitted to the
+  /// size alone.
   void tell_spreads(const SegmentNoise& noise, const SegmentBelief& belief);
   /// There was no step between the last two segments.
   void withdraw();

@@ -9,7 +9,7 @@ namespace navcal::calib {
 namespace {
 
 constexpr double kMemory = 300;        // readings of which the noise is learnt
-constexpr double kPriorReadings = 50;  // weight of the noise believed beforehand
+constexpr double kPriorReadings = 50;  // weight of the prior noise
 constexpr double kTiltNoise_rad = 0.01;
 constexpr std::uint64_t kLeastPredicted = 20;  // between two fits
 constexpr std::uint64_t kFitShare = 20;        // a fit each time the readings grew by one in so many

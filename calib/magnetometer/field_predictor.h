@@ -28,9 +28,10 @@ class FieldPredictor {
  public:
   explicit FieldPredictor(double noise_uT, const std::optional<KnownField>& known);
 
-  /// Squared departure per degree of freedom; 0 while too little is known to be surprised.
+  /// Squared departure per degree of freedom; 0 while too few readings are known for a prediction.
   [[nodiscard]] double surprise(const PredictedReading& reading) const;
-  /// The same as if the fit were exact, and whether the uncertainty of the fit is small beside the noise.
+  /// The same, computed as if the fit were exact. `known`: the uncertainty of the fit is small beside the
+  /// noise.
   struct Exact {
     double surprise = 0;
     bool known = false;

@@ -105,7 +105,7 @@ struct State {
   }
 };
 
-/// What is minimised.
+/// Cost function of the fit and its parts.
 struct Problem {
   Segments segments;
   const SegmentNoise& noise;
@@ -180,7 +180,7 @@ struct Normal {
   }
 };
 
-/// In units of each parameter's own certainty, so that uT and 1/uT meet on equal terms.
+/// Each parameter is scaled by its own certainty, so that uT and 1/uT are comparable.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information, double damping) {
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
@@ -189,7 +189,7 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information, double damping) {
   return scale.asDiagonal() * scaled.ldlt().solve(identity) * scale.asDiagonal();
 }
 
-/// From `state` to the least cost that is near.
+/// Minimises the cost from `state` to the nearest local minimum.
 SegmentsFit minimised(const Problem& problem, State& state) {
   SegmentsFit fit;
   double damping = 0;
@@ -210,7 +210,7 @@ SegmentsFit minimised(const Problem& problem, State& state) {
   }
   fit.shape = state.in(0);
   for (std::size_t k = 0; k < problem.segments.size(); ++k) fit.centres_uT.push_back(state.in(k).centre_uT);
-  // In terms of centres and of the differences between them.
+  // The covariance is expressed in the centres and their differences.
   Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(normal.information.rows(), normal.information.cols());
   slope.topLeftCorner<Shape::kParameters, Shape::kParameters>() = state.slope_of_shape(fit.shape.centre_uT);
   for (std::size_t k = 1; k < problem.segments.size(); ++k) {

@@ -19,16 +19,16 @@ struct SegmentNoise {
   double tilt_error_rad = 0.02;  ///< unmodelled, of every cell: lag, accelerations, mounting of the inclinometer
 };
 
-/// Believed before any reading: any hard iron up to some hundred uT, any field of the Earth, soft iron of a tenth.
-/// Directions that no reading tells of keep the variance of this belief, so that a prediction is honest where
-/// nothing was seen.
+/// Prior before any reading: hard iron of up to some hundred uT, any field of the Earth, soft iron of a tenth.
+/// Directions that no reading determines keep the variance of this prior, so that a prediction there states its
+/// full uncertainty.
 struct SegmentBelief {
   double centre_std_uT = 100;
   double field_uT = 40, field_std = 0.35;  ///< relative
   double soft_iron_std = 0.12;
   double sine_of_dip = 0, sine_of_dip_std = 0.7;
 
-  /// Of what is known of the field; its soft iron is believed within the same.
+  /// Prior from what is known of the field. The scatter of soft iron does not depend on it.
   [[nodiscard]] static SegmentBelief about(const std::optional<KnownField>& known);
 };
 
@@ -37,7 +37,7 @@ struct SegmentBelief {
 struct SegmentsFit {
   EllipsoidShape shape;  ///< with the centre of the first segment
   std::vector<Eigen::Vector3d> centres_uT;
-  /// Of the ten parameters of `shape`, then three of the centre of each further segment.
+  /// Covariance of the ten parameters of `shape`, followed by three for the centre of each further segment.
   Eigen::MatrixXd covariance;
   double cost = 0;         ///< squared residuals in units of their variance, with those of the belief
   bool converged = false;  ///< the last iteration gained nothing
@@ -64,8 +64,8 @@ struct SegmentResidual {
 };
 [[nodiscard]] SegmentResidual segment_residual(const EllipsoidShape& shape, const FieldCells<3, 6>::Cell& cell,
                                                const SegmentNoise& noise);
-/// The same for a single reading that may be far off, with slopes at the field that the shape foretells nearest to
-/// it: at the reading itself an error of scale would excuse any departure.
+/// The same for a single reading that may be far off. Its slopes are taken at the nearest field that the shape
+/// predicts, because at the reading itself an error of scale would excuse any departure.
 [[nodiscard]] SegmentResidual predicted_residual(const EllipsoidShape& shape,
                                                  const FieldCells<3, 6>::Cell& reading, const SegmentNoise& noise);
 

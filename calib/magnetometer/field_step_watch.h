@@ -21,7 +21,7 @@ class FieldStepWatch {
   [[nodiscard]] std::uint64_t since_onset() const { return since_onset_; }
   void reset();
 
-  /// Whether a reading is too far off to be used.
+  /// True when a reading is too far off to be used.
   [[nodiscard]] static bool is_off(double z) { return z > kGate; }
 
   void archive(Archive& archive) { archive(sum_, since_onset_); }

@@ -55,7 +55,7 @@ void Magnetometer::update(const Eigen::Vector3d& field_body_uT, double roll_rad,
 }
 
 PredictedReading Magnetometer::predicted_of(const Reading& reading) const {
-  // Without times: those of a compass at its usual rate.
+  // Readings without times are given the interval of a compass at its usual rate.
   constexpr double kUsualInterval_s = 0.1, kLongestInterval_s = 2;
   PredictedReading predicted;
   predicted.cell = cell_of(reading.field_body_uT, reading.roll_rad, reading.pitch_rad);

@@ -46,9 +46,10 @@ class Magnetometer {
   explicit Magnetometer(const Parameters& parameters);
 
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad);
-  /// With the turn since the reading before, by the gyro.
+  /// Takes a reading and the turn since the reading before, as the gyro measured it.
   void update(const Eigen::Vector3d& field_body_uT, double roll_rad, double pitch_rad, const TurnStep& turn);
-  /// With its time, which steps of the field are told by. Roll or pitch not a number: the tilt is not known.
+  /// One reading. Its time is used to date steps of the field. Roll or pitch not a number: the tilt is not
+  /// known.
   struct Reading {
     Eigen::Vector3d field_body_uT = Eigen::Vector3d::Zero();
     double roll_rad = 0, pitch_rad = 0;
@@ -69,9 +70,9 @@ class Magnetometer {
   void settle();
 
   [[nodiscard]] Method method() const { return answer().method; }  ///< none: nothing is accepted
-  /// Of method(); of the best guess when nothing is accepted; nullopt when there is none.
+  /// Estimate by method(), or the best guess when nothing is accepted; nullopt when there is none.
   [[nodiscard]] const std::optional<MagnetometerEstimate>& estimate() const { return answer().estimate; }
-  /// Of the same.
+  /// Judgement of the same method as estimate().
   [[nodiscard]] const Judgement& judgement() const { return answer().judgement; }
 
   [[nodiscard]] const EllipseEstimator& ellipse() const { return now_.ellipse; }
@@ -132,7 +133,8 @@ class Magnetometer {
   void use_those_before(std::size_t onset);
   /// Readings of neither field, taken while it changed.
   void leave_out_those_between(const Comparison& found);
-  /// Of the readings about the onset, where the gyro says how far the hull turned meanwhile.
+  /// Difference of the field between the readings before and after the onset. Its uncertainty includes the
+  /// hull's turn meanwhile, as the gyro measured it.
   [[nodiscard]] std::optional<FieldContrast> contrast(const FieldStep& step) const;
   [[nodiscard]] bool is_field_before() const;
 

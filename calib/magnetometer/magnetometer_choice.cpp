@@ -23,7 +23,8 @@ Magnetometer::Answer Magnetometer::chosen() const {
     least = estimate->heading_std_rad;
     best = {judgement.accepted ? method : Method::none, std::move(estimate), std::move(judgement)};
   };
-  // The ellipsoid first: it alone knows the vertical offset, without which every tilt is an error of heading.
+  // The ellipsoid comes first because it alone determines the vertical offset. Without that, every tilt causes
+  // an error of heading.
   consider(Method::ellipsoid, now_.ellipsoid);
   if (best.method != Method::none) return best;
   consider(Method::ellipse, now_.ellipse);

@@ -17,7 +17,7 @@ struct MagnetometerEstimate {
   Eigen::Vector3d offset_std_uT = Eigen::Vector3d::Zero();  ///< infinite: not determined (vertical, of an ellipse)
   Eigen::Matrix3d matrix_std = Eigen::Matrix3d::Zero();     ///< infinite: not determined
   double residual_uT = 0;  ///< root-mean-square distance of the readings from the fitted curve or surface
-  double field_uT = 0;     ///< what was fitted: size of the horizontal field (2-D), of the field (3-D)
+  double field_uT = 0;     ///< fitted size of the horizontal field (2-D) or of the field (3-D)
   /// Size of the field as measured, once its shape is round, over the size that was given beforehand; 0 where none
   /// was. Away from 1 the magnetometer's scale is off, or what is known of the field.
   double field_scale = 0, field_scale_std = 0;

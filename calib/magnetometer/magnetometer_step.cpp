@@ -22,7 +22,7 @@ constexpr double kLeastGain = 60;
 constexpr double kUndecided = 8;
 /// A magnet takes a second to be put on: so many readings let the new field settle.
 constexpr std::uint64_t kLeastWaiting = 20;
-/// Squared departure beyond which a single reading is worth no more.
+/// Upper limit of the squared departure that a single reading contributes.
 constexpr double kMostSquare = 36;
 /// The step must explain this share of what the readings are off.
 constexpr double kLeastShare = 0.5;
@@ -56,13 +56,14 @@ Magnetometer::Comparison Magnetometer::compare() const {
   const SegmentNoise& noise = found.noise;
   const SegmentBelief& belief = now_.predictor.belief();
   const EllipsoidCells before = now_.ellipsoid.cells();
-  // Of a hull that rolls the tilt lags and its accelerations show: then the size of the field alone is asked.
+  // While the hull rolls, the tilt lags and accelerations disturb it. Then only the size of the field is
+  // compared.
   constexpr double kAgitated_rad = 0.03;
   double lag2 = 0;
   for (const Waiting& waiting : waiting_)
     lag2 += waiting.predicted.tilt_error_rad * waiting.predicted.tilt_error_rad;
   const bool agitated = lag2 > kAgitated_rad * kAgitated_rad * static_cast<double>(waiting_.size());
-  // Readings at one attitude share their errors: a cell of them is worth hardly more than one.
+  // Readings at one attitude share their errors, so a cell of them counts as little more than one reading.
   FieldCells<3, 6> cells(kCellSize_uT);
   for (const Waiting& waiting : waiting_) {
     auto reading = waiting.predicted.cell.mean;
@@ -130,7 +131,7 @@ void Magnetometer::decide() {
     next_decision_ = waiting_.size() + std::max<std::size_t>(4, waiting_.size() / 2);
     return;
   }
-  // What one field explains when all readings are known is news of that field.
+  // One field explains all readings, so its fit replaces that of the predictor.
   now_.predictor.set_fit(*found.one);
   watch_.reset();
   release();
@@ -189,7 +190,7 @@ std::optional<FieldContrast> Magnetometer::contrast(const FieldStep& step) const
   }
   const Eigen::Vector3d field = before.head<3>(), down = before.tail<3>();
   if (down.isZero(0)) return std::nullopt;
-  // Between the means; those left out in between count by their number.
+  // The interval lies between the two means. Readings left out in between count by their number.
   const double between = static_cast<double>(waiting_.front().number - step.onset_sample + 2 * kReadings);
   const double turn_std_rad =
       turn_known ? std::abs(turned_rad) + kGyroBias_rad_s * kUsualInterval_s * between : kUnknownTurn_rad;
@@ -207,7 +208,8 @@ std::optional<FieldContrast> Magnetometer::contrast(const FieldStep& step) const
 
 bool Magnetometer::is_field_before() const {
   if (!before_) return false;
-  // Judged as the watch judges: on the mean less than two standard deviations off, by a fit that knows.
+  // The criterion is that of the watch: readings less than two standard deviations off in the mean, by a fit
+  // that is accurate there.
   constexpr double kFits = 4;
   double sum = 0;
   std::size_t known = 0;

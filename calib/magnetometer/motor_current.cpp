@@ -12,16 +12,16 @@ namespace {
 constexpr double kLead_s = 12, kTail_s = 12;
 /// The gyros' errors grow with the length of a window.
 constexpr double kLongest_s = 40;
-/// Of readings in a window; what comes faster is left out.
+/// Least period of the readings in a window. Readings that come faster are left out.
 constexpr double kLeastPeriod_s = 0.09;
 /// Longer pauses of the gyros end a window.
 constexpr double kLongestRateGap_s = 0.35;
-/// A change of the current is looked for between means of so many readings, so far apart.
+/// A change of the current is the difference of two means of kInMean readings, kApart_s apart.
 constexpr std::size_t kInMean = 4;
 constexpr double kApart_s = 1.2;
-/// Changes below are none: the field of so little current is lost in noise.
+/// Smaller changes are ignored, because the field of such a current is below the noise.
 constexpr double kLeastChange_A = 0.1;
-/// In standard errors of a difference of two means.
+/// Least change that is noticed, in standard errors of a difference of two means.
 constexpr double kNoticeable = 5;
 /// Weight of each new difference in the mean jitter of the current.
 constexpr double kJitterWeight = 0.02;

@@ -40,7 +40,7 @@ class MotorCurrent {
   void update(const MotorReading& reading);
   /// `in_force_uT_per_A`: to compare the estimate with on windows that had no part in it.
   void update(const CompassReading& reading, const Eigen::Vector3d& in_force_uT_per_A);
-  /// No more readings come: the window that is open ends.
+  /// Closes the open window; no more readings come.
   void finish();
   /// Forgets what it has seen; the readings that go on are not.
   void start();
@@ -48,7 +48,8 @@ class MotorCurrent {
 
   [[nodiscard]] std::optional<Estimate> estimate() const;
   [[nodiscard]] Judgement judgement() const;
-  /// Misfit of the field, uT: without, with what is in force, with the estimate made before each window.
+  /// Misfit of the field, uT: without correction, with the active one, and with the estimate made before each
+  /// window.
   [[nodiscard]] const Comparison& comparison() const { return comparison_; }
   /// Current at a time, by the readings so far.
   [[nodiscard]] const CurrentTrack& current() const { return current_; }
@@ -73,7 +74,7 @@ class MotorCurrent {
 
   void take_pending(const Rate& before, const Rate& now);
   void add(const MotorFieldReading& reading);
-  /// Of the current at the newest reading against some time before, in amperes.
+  /// Change of the current between the newest readings and those some time before, in amperes.
   [[nodiscard]] double change_A() const;
   [[nodiscard]] double noticeable_A() const;
   void end_window();

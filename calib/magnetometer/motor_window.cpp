@@ -21,7 +21,7 @@ constexpr int kIterations = 3;
 constexpr double kPriorValues = 10;
 /// Values that the fit of a window on a steady course uses up.
 constexpr double kSpent = 12;
-/// Of the prior of k, A2/uT2: too little to matter, enough to have an inverse.
+/// Information of the prior of k, A2/uT2: small enough not to matter, and large enough for an inverse.
 constexpr double kSlopeInformation = 1e-3;
 
 // Standard deviations of the priors, wide enough for any instrument that is not broken.
@@ -35,10 +35,10 @@ using Unknowns = Eigen::Matrix<double, kAll, 1>;
 /// Far above what the noise of the gyros turns and tilts a window by.
 constexpr double kTurn_rad = 0.05, kTilt_rad = 0.05;
 
-/// How far a window turns about the vertical of its beginning, and tilts away from it.
+/// Rotation of a window about the vertical of its beginning, and its tilt away from that.
 struct Motion {
   double turn_rad = 0, tilt_rad = 0;
-  /// Whether it tells hard iron of an axis from the field of the Earth.
+  /// True when the rotation separates hard iron of an axis from the field of the Earth.
   [[nodiscard]] bool tells(Eigen::Index axis) const {
     return axis < 2 ? turn_rad > kTurn_rad : tilt_rad > kTilt_rad;
   }
@@ -73,7 +73,7 @@ Unknowns prior_variance(const Motion& motion, double fixed_uT) {
   return variance;
 }
 
-/// Without what the window says of hard iron of `axis` by itself.
+/// Removes the information that the window alone gives on hard iron of `axis`.
 void forget_hard_iron(MotorFieldEvidence& evidence, Eigen::Index axis) {
   const Eigen::Index dropped = 3 + axis;
   using Others = Eigen::Matrix<double, 5, 1>;
@@ -87,13 +87,13 @@ void forget_hard_iron(MotorFieldEvidence& evidence, Eigen::Index axis) {
     with[row] = evidence.information(i, dropped);
     vector[row++] = evidence.vector[i];
   }
-  others.diagonal().array() += kSlopeInformation * 1e-3;  // what was dropped before has none
+  others.diagonal().array() += kSlopeInformation * 1e-3;  // components that were dropped before have none
   const Others solved = others.ldlt().solve(with);
   evidence.information(dropped, dropped) = with.dot(solved);
   evidence.vector[dropped] = vector.dot(solved);
 }
 
-/// About which the model is linearised.
+/// Point about which the model is linearised.
 struct Point {
   Eigen::Vector3d field_uT, bias_rad_s = Eigen::Vector3d::Zero();
   double scale = 0;  ///< of the yaw gyro, less 1
@@ -136,7 +136,8 @@ class Turning {
     rows.middleCols<3>(kSlope) = Eigen::Matrix3d::Identity() * before_.current_A;
     return rows;
   }
-  /// What the rows times the unknowns are to give: the reading, but for what the point has taken into the turn.
+  /// Right-hand side of the linear equations: the reading, plus the part that the point of linearisation has
+  /// already put into the turn.
   [[nodiscard]] Eigen::Vector3d observed(const Rows& rows) const {
     return before_.field_body_uT + rows.middleCols<3>(kBias) * point_.bias_rad_s + rows.col(kScale) * point_.scale;
   }

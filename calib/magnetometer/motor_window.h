@@ -24,9 +24,9 @@ struct MotorWindowNoise {
   double rate_rad_sqrt_s = 0.0004;  ///< density of the gyros' noise
 };
 
-/// What one window says of x = (k, h): k the field per ampere in body axes (uT/A), h the hard iron (uT), which all
-/// windows have in common. The misfit of its readings, least over all else that is unknown, is
-/// rest + (x - best)' information (x - best) in units of the variance, for `information * best = vector`.
+/// Evidence of one window on x = (k, h): k is the field per ampere in body axes (uT/A), h the hard iron (uT),
+/// which all windows have in common. The misfit of its readings, minimised over all other unknowns, is rest +
+/// (x - best)' information (x - best) in units of the variance, for `information * best = vector`.
 struct MotorFieldEvidence {
   using Information = Eigen::Matrix<double, 6, 6>;
   using Vector = Eigen::Matrix<double, 6, 1>;
@@ -37,7 +37,7 @@ struct MotorFieldEvidence {
   Vector vector = Vector::Zero();                 ///< A/uT, 1/uT
   double square = 0;                              ///< of the misfit for x = 0, in units of the variance
   double values = 0;                              ///< number of field values
-  double freedom = 0;                             ///< components of x that it tells of
+  double freedom = 0;                             ///< number of components of x that it determines
   double variance_uT2 = 0;                        ///< of a field value, as the window itself shows it
 
   /// Mean square of the misfit of a field value, for a field per ampere of `k` and whatever hard iron fits best.

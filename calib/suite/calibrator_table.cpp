@@ -34,7 +34,7 @@ constexpr std::array kRows{NAVCAL_CALIBRATORS(NAVCAL_ROW_ADDRESS)};
 #undef NAVCAL_ROW_ADDRESS
 static_assert(kRows.size() >= kNamedCalibrators);
 
-/// The same at run time, where a ScopedCalibrator can add to it.
+/// Copy of the table at run time, to which a ScopedCalibrator can add.
 struct CalibratorTable {
   std::vector<const CalibratorRow*> rows;
   std::vector<Calibrator> calibrators;
@@ -53,7 +53,7 @@ CalibratorTable& calibrator_table() {
   return table;
 }
 
-/// In stored states: a name follows instead of a number.
+/// Marks in stored states that a name follows instead of a number.
 constexpr auto kByName = static_cast<Calibrator>(255);
 
 }  // namespace

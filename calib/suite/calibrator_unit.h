@@ -30,7 +30,7 @@ struct LearntReading {
   const CompassReading& reading;
   const std::optional<TurnStep>& turn;
   const WaterTrackReading& track;
-  /// Gyro A in force, or estimated well enough to serve the other calibrators.
+  /// Active calibration of gyro A, or an estimate good enough for the other calibrators.
   const std::optional<RateCorrection>& gyro;
   const Correction& in_force;
 };
@@ -57,7 +57,7 @@ class CalibratorUnit {
   // Inputs as the instruments deliver them, each in the order of its times.
   /// The reading as measured, with the motor's field.
   virtual void update_measured(const CompassReading& /*reading*/, const Correction& /*in_force*/) {}
-  /// The reading without the motor's field where that correction is in force.
+  /// Takes the reading without the motor's field, where that correction is active.
   virtual void update_compass(const CompassReading& /*reading*/) {}
   virtual void update_rate(const RateReading& /*reading*/) {}
   virtual void update_motor(const MotorReading& /*reading*/) {}
@@ -74,7 +74,7 @@ class CalibratorUnit {
 
   /// Forgets what was learnt.
   virtual void start() = 0;
-  /// The value in force changed for one calibrator, possibly this one.
+  /// Called when the active value of a calibrator, possibly this one, has changed.
   virtual void on_in_force(Calibrator /*changed*/, const Correction& /*in_force*/) {}
   /// The Earth's field here became known: the options' local field.
   virtual void on_local_field(const SuiteOptions& /*options*/) {}
@@ -84,21 +84,22 @@ class CalibratorUnit {
   [[nodiscard]] virtual Judgement judgement() const = 0;
   /// Empty when there is no estimate.
   [[nodiscard]] virtual std::vector<Quantity> quantities() const = 0;
-  /// Of coefficients that are correlated; empty for most.
+  /// Covariance of correlated coefficients; empty for most calibrators.
   [[nodiscard]] virtual Eigen::MatrixXd covariance() const { return {}; }
   [[nodiscard]] virtual OwnComparison comparison() const { return {}; }
   /// The whole state, exactly.
   virtual void archive(Archive& archive) = 0;
 
  protected:
-  /// For put_estimate() of a calibrator without a member in Correction. No numbers: there is no estimate.
+  /// Puts the numbers of a calibrator without a member in Correction; used by put_estimate(). No numbers: there
+  /// is no estimate.
   void put_added(Correction& into, std::span<const double> numbers) const { into.added.set(calibrator_, numbers); }
 
  private:
   Calibrator calibrator_ = Calibrator::gyro;
 };
 
-// For quantities().
+// Helpers of quantities().
 inline constexpr double kUnknownStd = std::numeric_limits<double>::infinity();
 /// Infinite for a negative variance or one that is not a number.
 [[nodiscard]] double std_of(double variance);
@@ -112,7 +113,7 @@ template <auto member>
           [](Correction& to, const Correction& from, Calibrator) { to.*member = from.*member; }};
 }
 
-/// For rows: makes a unit of a class.
+/// Makes a unit of the given class; used in the rows of the table.
 template <class Unit>
 std::unique_ptr<CalibratorUnit> make_unit(const SuiteOptions& options, SharedEstimators& shared) {
   return std::make_unique<Unit>(options, shared);

@@ -24,7 +24,8 @@ class Estimators {
  public:
   explicit Estimators(const SuiteOptions& options);
 
-  /// The reading as measured. The others are fed with the field without the motor's, where that is in force.
+  /// Takes the reading as measured. Calibrators other than that of the motor current get the field without the
+  /// motor's, where that correction is active.
   void update(const CompassReading& reading, const Correction& in_force);
   void update(const RateReading& reading);
   void update(const GroundReading& reading, const Correction& in_force);
@@ -32,13 +33,13 @@ class Estimators {
   /// The next reading of the compass whose turn is known, or that will have none; it has been through all
   /// estimators. To be called until there is none.
   std::optional<TurnedReading> next(const Correction& in_force);
-  /// No more readings come.
+  /// Called when no more readings come.
   void finish();
   void settle();
 
-  /// From here on.
+  /// Takes effect from the next reading.
   void set_local_field(const LocalField& field);
-  /// What is in force changed for one calibrator: those that build on it begin anew.
+  /// Restarts the calibrators that build on `calibrator`, whose active correction changed.
   void on_in_force(Calibrator calibrator, const Correction& in_force);
 
   /// The newest estimate of each calibrator that has one.
@@ -46,18 +47,18 @@ class Estimators {
   [[nodiscard]] CalibratorUnit& unit(Calibrator calibrator) { return *units_[index_of(calibrator)]; }
   [[nodiscard]] const CalibratorUnit& unit(Calibrator calibrator) const { return *units_[index_of(calibrator)]; }
   [[nodiscard]] const Magnetometer& magnetometer() const { return shared_->magnetometer; }
-  /// All but the units from the eleventh on: Suite archives those by name.
+  /// Archives all but the units from the eleventh on: Suite archives those by name.
   void archive(Archive& archive);
 
  private:
   static constexpr std::size_t kPending = 64, kBeside = 512;
 
-  /// Gyro A in force, or estimated well enough to serve the other calibrators.
+  /// Active calibration of gyro A, or an estimate good enough for the other calibrators.
   [[nodiscard]] std::optional<RateCorrection> known_gyro(const Correction& in_force) const;
   TurnedReading take_pending(std::optional<TurnStep> turn);
-  /// A fix or a reading of the shaft waits for the readings of the compass before it, which wait for their turns.
+  /// A fix or a shaft reading waits for the compass readings before it, which themselves wait for their turns.
   void wait(const Reading& reading, const Correction& in_force);
-  /// Those up to `time_s` are learnt from.
+  /// Passes the waiting readings up to `time_s` to the calibrators.
   void release(double time_s, const Correction& in_force);
   void learn(const TurnedReading& turned, const Correction& in_force);
 
@@ -69,7 +70,7 @@ class Estimators {
   std::size_t first_pending_ = 0, pending_count_ = 0;
   std::deque<QueuedReading> beside_;  ///< fixes and readings of the shaft, in the order of their times
   std::optional<TurnStep> turn_;      ///< of a pending reading, or of a later one
-  bool heading_seen_ = false;         ///< the compass says headings of its own
+  bool heading_seen_ = false;         ///< the compass sends headings of its own
   bool finishing_ = false;
 };
 

@@ -18,10 +18,10 @@ constexpr std::array<double, kStreams> kGap_s{1, 1, 5, 1};
 /// Noise changes the last digit of every instrument more often than this.
 constexpr std::uint32_t kFrozenLength = 10;
 constexpr double kFrozen_s = 0.9;
-/// Stamps that keep going back are not stragglers: time began anew.
+/// Number of readings in a row with earlier stamps after which the time scale is taken as restarted.
 constexpr std::uint32_t kReversedUntilRestart = 50;
 
-// What no vehicle and no planet gives; far beyond what an instrument of this kind can read.
+// Limits of plausible readings. No vehicle and no planet exceeds them.
 constexpr double kMaxHeading_rad = 2 * std::numbers::pi + 0.01;
 constexpr double kMaxPitch_rad = std::numbers::pi / 2 + 0.01;
 constexpr double kMaxRoll_rad = std::numbers::pi + 0.01;
@@ -249,7 +249,7 @@ bool Gate::release(QueuedReading& entry) {
 bool Gate::release(QueuedReading& entry, CompassReading& reading) {
   if (entry.field_frozen || entry.heading_frozen) {
     count(Stream::compass, Rejection::frozen);
-    // A heading is computed from the field: it is worth no more.
+    // The compass computes its heading from the field, so it is as unusable as the field.
     reading.heading_rad.reset();
     if (entry.field_frozen) reading.field_body_uT.reset();
   }

@@ -44,11 +44,12 @@ struct GateOptions {
   double motor_on_rpm = 30;
 };
 
-/// What stands before all calibrators: takes readings of several instruments as they come, each with the latency
-/// of its instrument, gives them out in the order of their times, and leaves out what is not fit to learn from,
-/// counted by reason. It looks ahead by kDelay_s, so that the first readings of a frozen instrument, and those
-/// just before the motor was switched, are found in time. Time given out never decreases: where the stamps begin
-/// anew (another recording) it goes on kRestartGap_s later.
+/// Sorts and filters readings before all calibrators. Readings of several instruments come in, each with the
+/// latency of its instrument, and leave in the order of their times. Readings that are unfit for calibration
+/// are left out and counted by reason.
+/// The gate looks ahead by kDelay_s. So it finds the first readings of a frozen instrument, and those just
+/// before the motor was switched, in time. Times given out never decrease: where the stamps restart (another
+/// recording), they continue kRestartGap_s later.
 class Gate {
  public:
   static constexpr double kDelay_s = 2;
@@ -60,9 +61,9 @@ class Gate {
   /// The next reading that may be used, its time on the gate's own scale; nullopt while the gate still looks
   /// ahead.
   std::optional<Reading> take();
-  /// No more is coming: take() then gives out all that waits.
+  /// Called when no more readings come: take() then gives out all that wait.
   void flush() { flushing_ = true; }
-  /// What follows comes after a pause of unknown length, on another clock (a restart of the program).
+  /// Announces a pause of unknown length and another clock, as after a restart of the program.
   void restart();
 
   [[nodiscard]] const GateCounts& counts() const { return counts_; }
@@ -88,7 +89,8 @@ class Gate {
   bool clean(MotorReading& reading);
   void watch_frozen(const Reading& reading);
   void mark_frozen(bool QueuedReading::*flag, Stream stream, double since_s);
-  /// What is known by now is applied to a reading that leaves; false when nothing is left of it.
+  /// Removes from a leaving reading what is frozen or disturbed by the motor; false when nothing usable is
+  /// left.
   bool release(QueuedReading& entry);
   bool release(QueuedReading& entry, CompassReading& reading);
   void watch_motor(const MotorReading& motor);

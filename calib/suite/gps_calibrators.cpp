@@ -39,7 +39,7 @@ GpsCompass::Parameters gps_parameters(const SuiteOptions& options) {
   return parameters;
 }
 
-/// What is in force, without A.
+/// The active correction without the misalignment A.
 Correction without_offset(const Correction& in_force) {
   Correction rest = in_force;
   rest.misalignment_rad.reset();

@@ -33,7 +33,7 @@ class GpsCalibrators {
   [[nodiscard]] const Misalignment& misalignment() const { return misalignment_; }
   [[nodiscard]] const GpsCompass& gps_compass() const { return gps_compass_; }
   [[nodiscard]] const Comparison& comparison() const { return comparison_; }
-  /// Another misalignment is in force.
+  /// Called when another misalignment becomes active.
   void on_change() {
     comparison_.on_change();
     fixes_ = 0;

@@ -72,7 +72,7 @@ class MisalignmentUnit : public CalibratorUnit {
   void on_in_force(Calibrator changed, const Correction&) override {
     const Corrects corrects = row_of(changed).corrects;
     if (corrects == Corrects::offset) gps_.on_change();
-    // It was found for another heading.
+    // The misalignment was estimated for another heading.
     if (corrects == Corrects::heading || corrects == Corrects::field) start();
   }
   void put_estimate(Correction& into) const override {

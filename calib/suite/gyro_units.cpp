@@ -60,7 +60,7 @@ class GyroBUnit : public CalibratorUnit {
   [[nodiscard]] Judgement judgement() const override { return gyro_.judgement(); }
   [[nodiscard]] std::vector<Quantity> quantities() const override {
     auto quantities = quantities_of_gyro(gyro_);
-    // Each gyro as corrected by what is in force.
+    // The disagreement is that of the gyros with their active corrections.
     if (const auto disagreement = pair_.disagreement_rad_s())
       quantities.push_back({"disagreement_rad_s", *disagreement, pair_.standard_error_rad_s()});
     return quantities;

@@ -22,10 +22,10 @@ struct CorrectionName {
   [[nodiscard]] std::string text() const;
 };
 
-/// The calibration in force, and the way back from it.
+/// The active calibration and the history of its changes.
 class InForce {
  public:
-  /// So many changes can be taken back.
+  /// Number of changes that can be taken back.
   static constexpr std::size_t kDepth = 32;
 
   [[nodiscard]] const Correction& correction() const { return correction_; }

@@ -18,7 +18,7 @@ class MagnetometerUnit : public CalibratorUnit {
   void update_learnt(const LearntReading& learnt) override {
     const auto& [reading, turn, track, gyro, in_force] = learnt;
     if (!reading.field_body_uT) return;
-    // The size of the field tells of its iron without tilt, too.
+    // The size of the field gives information on iron even without tilt.
     Magnetometer::Reading field;
     field.field_body_uT = *reading.field_body_uT;
     // Where the gyros are known, without the inclinometer's lag.

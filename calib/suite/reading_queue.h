@@ -14,7 +14,7 @@ namespace navcal::calib {
 enum class Stream : std::uint8_t { compass, rate, ground, motor };
 inline constexpr std::size_t kStreams = 4;
 
-/// Its alternatives in the order of Stream.
+/// A reading of any instrument; the alternatives are in the order of Stream.
 using Reading = std::variant<CompassReading, RateReading, GroundReading, MotorReading>;
 [[nodiscard]] inline Stream stream_of(const Reading& reading) { return static_cast<Stream>(reading.index()); }
 [[nodiscard]] double time_of(const Reading& reading);
@@ -43,7 +43,7 @@ class ReadingQueue {
   void pop();
   /// Must not be full. The entry stays where it is until the next push or pop.
   QueuedReading& push(double key_s, const Reading& reading);
-  /// From the newest key back; `visit` returns false to end.
+  /// Visits entries from the newest key backwards; `visit` returns false to end.
   template <class Visit>
   void visit_backwards(Visit visit) {
     for (std::size_t i = count_; i > 0 && visit(at(i - 1)); --i) {

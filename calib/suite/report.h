@@ -17,13 +17,13 @@
 namespace navcal::calib {
 
 enum class Verdict : std::uint8_t {
-  refused,   ///< the data do not support the estimate; its judgement says why and what to do
-  shadow,    ///< accepted, runs beside what is in force
-  in_force,  ///< what is in force is this calibrator's (an earlier estimate of it)
+  refused,   ///< the data do not support the estimate; the judgement gives reason and remedy
+  shadow,    ///< accepted, runs beside the active value
+  in_force,  ///< the active value is from this calibrator (an earlier estimate of it)
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-/// What the estimate is worth, for people.
+/// Result of the estimate for people: whether it is supported and better than before.
 enum class Outcome : std::uint8_t {
   refused,    ///< the data do not support it
   no_better,  ///< supported, but readings that had no part in it are no better with it than before
@@ -32,7 +32,7 @@ enum class Outcome : std::uint8_t {
 /// "refused", "no better", "accepted".
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 
-/// What one calibrator says now.
+/// Current state of one calibrator.
 struct CalibratorReport {
   Calibrator calibrator = Calibrator::gyro;
   Verdict verdict = Verdict::refused;
@@ -50,9 +50,9 @@ struct CalibratorReport {
 /// Root-mean-square of heading against the integrated gyro within blocks, by estimates made before each block.
 struct HeadingCheck {
   std::uint64_t blocks = 0;  ///< 0: nothing was judged yet
-  double before_rad = 0;     ///< as the device says it
+  double before_rad = 0;     ///< as the device measured it
   double after_rad = 0;      ///< by the best that the calibrators say
-  double in_force_rad = 0;   ///< by the calibration in force
+  double in_force_rad = 0;   ///< by the active calibration
 };
 
 /// "2030-01-01T00:00:45.312Z"; of 0 that it is not known.
@@ -63,12 +63,12 @@ struct HeadingCheck {
 
 /// The whole suite, for status, log and calibrate.
 struct Report {
-  CorrectionName name;  ///< of the calibration in force
+  CorrectionName name;  ///< of the active calibration
   Correction in_force;
   Correction estimates;                       ///< the newest of each calibrator that has one, accepted or not
   std::vector<CalibratorReport> calibrators;  ///< those that have instruments, in the order of the table
   HeadingCheck heading;
-  HeadingHistogram rose{};             ///< headings visited, as the compass says them
+  HeadingHistogram rose{};             ///< headings visited, as the compass measured them
   std::vector<FieldStep> steps;        ///< of the field of the compass
   std::vector<FieldSegment> segments;  ///< between them, one more than steps; empty without readings of the field
   GateCounts gate;

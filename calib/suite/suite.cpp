@@ -83,7 +83,7 @@ const Comparison& Suite::comparison(Calibrator calibrator) const {
 bool Suite::is_better(Calibrator calibrator) const {
   const Comparison& found = comparison(calibrator);
   if (found.better_by(options_.margin)) return true;
-  // Where no gyro serves as reference, the field itself does.
+  // The field's own comparison decides where no gyro serves as reference.
   return row_of(calibrator).field_alone && field_.comparison().better_by(options_.margin) && !found.contradicts();
 }
 
@@ -108,7 +108,7 @@ void Suite::on_change(Calibrator calibrator) {
   field_.on_change();
   estimators_.on_in_force(calibrator, in_force_.correction());
   for (const Calibrator other : calibrators()) {
-    // It may have begun anew.
+    // The other calibrator may have started anew.
     if (row_of(other).corrects == Corrects::offset) refresh_accepted(other);
   }
 }
@@ -245,7 +245,7 @@ void Suite::archive(Archive& archive) {
   for (std::size_t i = 0; i < kNamedCalibrators; ++i) archive(flags_[i].adopted);
   archive(rose_, told_steps_);
   if (!archive.saving()) {
-    // What the state lacks, because it is older than the calibrator, begins anew.
+    // A state that is older than a calibrator does not contain it, so that calibrator starts anew.
     for (const Calibrator calibrator : all.subspan(kNamedCalibrators)) {
       estimators_.unit(calibrator).start();
       held_out_.forget_added(calibrator);

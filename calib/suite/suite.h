@@ -18,17 +18,17 @@
 
 namespace navcal::calib {
 
-/// Everything that calibrates: readings in, the calibration in force and what is thought of it out. Readings go
-/// through the Gate to all estimators; their estimates run in shadow, are judged on readings held out (HeldOut),
-/// and come into force when they are accepted and better by the margin, or by the operator's word. The same calls
-/// in the same order give the same results to the last bit.
+/// The whole of the calibration: readings in; the active calibration and the reports on it out. Readings go
+/// through the Gate to all estimators. Their estimates run in shadow and are judged on held-out readings
+/// (HeldOut). They become active when they are accepted and better by the margin, or by the operator's order.
+/// The same calls in the same order give the same results to the last bit.
 class Suite {
  public:
   /// `instruments`: a calibrator that lacks one of its own is not reported.
   Suite(const SuiteOptions& options, Instruments instruments);
 
   void put(const Reading& reading);
-  /// No more readings come: all that wait are used, and what iterates iterates to its end.
+  /// Called when no more readings come: all that wait are used, and iterative fits run to their end.
   void finish();
   /// Readings go on after a pause of unknown length, on another clock.
   void restart() { gate_.restart(); }
@@ -64,12 +64,13 @@ class Suite {
   [[nodiscard]] bool has_instruments(Calibrator calibrator) const;
   /// The first instrument it takes that is configured and has said nothing; empty when all have.
   [[nodiscard]] std::string silent_instrument(Calibrator calibrator) const;
-  /// Whether the compass has said so much that a field, if none has come so far, will not come.
+  /// True when the compass has sent so many readings without a field that none will come.
   [[nodiscard]] bool gives_no_field() const;
   [[nodiscard]] const Comparison& comparison(Calibrator calibrator) const;
   /// Looks anew whether a calibrator's estimate is accepted.
   void refresh_accepted(Calibrator calibrator);
-  /// Held out, the estimate is better than what is in force, and no other instrument contradicts it.
+  /// True when the estimate is better on held-out readings than the active correction, and no other instrument
+  /// contradicts it.
   [[nodiscard]] bool is_better(Calibrator calibrator) const;
   void adopt_what_is_better();
   /// Verdict, outcome and held-out figures of one calibrator.

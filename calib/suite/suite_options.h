@@ -15,11 +15,11 @@ struct LocalField {
   std::optional<KnownField> known;  ///< size and dip
 };
 
-/// What the suite must be told of vehicle, instruments and place.
+/// Description of vehicle, instruments and place for the suite.
 struct SuiteOptions {
   GateOptions gate;
   bool automatic = true;  ///< estimates come into force by themselves
-  double margin = 0.1;    ///< by so much must they be better on readings held out, relative
+  double margin = 0.1;    ///< relative improvement on held-out readings that is required
   double heading_noise_rad = base::reference::kReckonedHeadingNoise_rad;
   double rate_noise_rad_sqrt_s = 0.0004;  ///< density: of a reading times the root of its period
   double bias_walk_rad_s_sqrt_s = 3.5e-4;

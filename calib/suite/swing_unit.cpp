@@ -25,7 +25,7 @@ class SwingUnit : public CalibratorUnit {
     if (!anchored_) {
       reference_rad_ = turn.heading_rad;
     } else if (turn.begins_segment) {
-      // Nothing better is known of the turn across a gap.
+      // The compass itself is the only source for the turn across a gap.
       reference_rad_ += std::remainder(turn.heading_rad - heading_rad_, 2 * std::numbers::pi);
     } else {
       reference_rad_ += learnt.gyro->scale * turn.measured_angle_rad + learnt.gyro->bias_rad_s * turn.bias_time_s +
@@ -43,7 +43,8 @@ class SwingUnit : public CalibratorUnit {
     into.swing.reset();
     const auto table_rad = swing_ ? swing_->table_rad() : std::nullopt;
     if (!table_rad) return;
-    // The gyro knows no north: the mean of the eight is A, which the swing cannot tell.
+    // The gyro gives no absolute heading, so the mean of the eight deviations is A, which a swing cannot
+    // determine.
     SwingCorrection correction{*table_rad};
     const double mean_rad = std::accumulate(table_rad->begin(), table_rad->end(), 0.0) / Swing::kHeadings;
     for (double& deviation_rad : correction.deviation_rad) deviation_rad -= mean_rad;

@@ -63,8 +63,8 @@ class Swing {
   void archive(Archive& archive);
 
  private:
-  /// Over all rests on a heading: weighted sums of means, of headings from the nominal one, of deviations from the
-  /// first that was seen there.
+  /// Weighted sums over all rests on a heading: of the means, of the headings relative to the nominal one, and
+  /// of the deviations from the first rest there.
   struct Sums {
     double weight = 0, heading = 0, deviation = 0, about_rad = 0;
     std::uint32_t rests = 0;
@@ -84,7 +84,7 @@ class Swing {
     }
   };
   void add(const Rest& rest, std::array<Sums, kHeadings>& sums) const;
-  /// With the rest under way when it is long enough.
+  /// Sums for each heading, including the present rest when it is long enough.
   [[nodiscard]] std::array<Sums, kHeadings> sums() const;
 
   Parameters parameters_;

@@ -19,7 +19,7 @@ struct CircleMoments {
     return matrix * (field_uT - centre_uT);
   }
 
-  /// Nothing for less than two points.
+  /// Nullopt for less than two points.
   [[nodiscard]] static std::optional<CircleMoments> fit(std::span<const Eigen::Vector2d> level_field_uT);
 };
 

@@ -33,7 +33,7 @@ class GyroPair {
 
   /// Gyro A less gyro B; nothing before kEnough readings.
   [[nodiscard]] std::optional<double> disagreement_rad_s() const;
-  /// Of the disagreement, by scatter alone: the errors of the calibrations come on top.
+  /// Standard error of the disagreement by scatter alone. The errors of the calibrations are not included.
   [[nodiscard]] double standard_error_rad_s() const;
   void archive(Archive& archive);
 

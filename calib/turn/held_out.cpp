@@ -10,11 +10,11 @@
 namespace navcal::calib {
 namespace {
 
-/// Of a block beside the newest.
+/// Weight of a block relative to the next newer block.
 constexpr double kForgetting = 0.9;
 /// Calibrators with a number in stored states that correct the heading.
 constexpr std::size_t kNamedHeadings = 4;
-/// A block that turns by less does not tell deviations apart.
+/// A block with a smaller turn does not distinguish deviations.
 constexpr double kLeastTurn_rad = 0.5;
 
 }  // namespace
@@ -57,7 +57,7 @@ bool Comparison::contradicts() const {
 }
 
 void HeldOut::Scatter::add(double residual_rad) {
-  // About the mean so far, so that a residual near plus or minus pi is no leap.
+  // The departure is taken from the mean so far, so that a residual near plus or minus pi does not jump.
   const double departure = base::wrapped(residual_rad - mean);
   ++count;
   mean += departure / count;

@@ -12,18 +12,18 @@
 
 namespace navcal::calib {
 
-/// Root-mean-squares over blocks, the newest counting most, of one quantity: as the instrument says it, by what is
-/// in force, and by the estimate.
+/// Root-mean-squares of one quantity over blocks, the newest with the largest weight: as measured, with the
+/// active correction, and with the estimate.
 class Comparison {
  public:
   void add(double before_square, double in_force_square, double estimate_square);
-  /// Something else is in force from now on.
+  /// The active correction has changed.
   void on_change() { since_change_ = {}; }
-  /// The estimate beats what is in force by this relative margin, and from block to block by more than chance
-  /// would have it: three standard errors of the mean gain.
+  /// True when the estimate is better than the active correction by this relative margin, and its gain is
+  /// significant over the blocks: three standard errors of the mean gain.
   [[nodiscard]] bool better_by(double margin) const;
 
-  /// The estimate was judged by enough blocks and did no better than what is in force.
+  /// True when enough blocks have judged the estimate and it was no better than the active correction.
   [[nodiscard]] bool contradicts() const;
 
   [[nodiscard]] double before_rms() const { return all_.rms(all_.before); }
@@ -66,19 +66,19 @@ class HeldOut {
   bool update(const CompassReading& reading, const TurnStep& step, const Correction& in_force,
               const Correction& estimates);
 
-  /// Of the gyros and of the calibrators that correct the heading; empty for others.
+  /// Comparison of a gyro, or of a calibrator that corrects the heading; empty for others.
   [[nodiscard]] const Comparison& of(Calibrator calibrator) const;
-  /// Of the heading with all estimates together.
+  /// Comparison of the heading with all estimates together.
   [[nodiscard]] const Comparison& heading() const { return heading_; }
-  /// Something else is in force from now on.
+  /// The active correction has changed.
   void on_change();
-  /// A calibrator begins anew.
+  /// Drops the comparison of a calibrator that starts anew.
   void forget(Calibrator calibrator);
-  /// All but the calibrators from the eleventh on.
+  /// Archives all but the calibrators from the eleventh on.
   void archive(Archive& archive);
-  /// As forget(), but the block goes on.
+  /// Like forget(), but the present block continues.
   void forget_added(Calibrator calibrator);
-  /// What archive() leaves out, of one of them.
+  /// Archives one of the calibrators that archive() leaves out.
   void archive_added(Archive& archive, Calibrator calibrator);
 
  private:
@@ -101,7 +101,7 @@ class HeldOut {
            tilt_rad = 0;  ///< TurnStep, summed from its beginning
     double least_turn_rad = 0, most_turn_rad = 0;
     Scatter before, with_in_force, with_all;
-    std::vector<Scatter> with;  ///< what is in force but for one, of headings_
+    std::vector<Scatter> with;  ///< residuals with each correction of with_
     std::array<GyroScatter, kGyros.size()> gyros;
     void archive(Archive& archive);
   };
@@ -117,8 +117,8 @@ class HeldOut {
 
   std::vector<Calibrator> headings_;  ///< those that correct the heading
   Block block_;
-  std::vector<Correction> with_;  ///< what is in force but for one, of headings_
-  Correction with_all_;           ///< what is in force, with all estimates
+  std::vector<Correction> with_;  ///< active correction with the estimate of one of headings_
+  Correction with_all_;           ///< active correction with all estimates
   bool in_block_ = false;
   std::vector<Comparison> comparisons_;
   Comparison heading_;

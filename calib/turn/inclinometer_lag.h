@@ -27,10 +27,10 @@ class InclinometerLag {
   /// A reading of the inclinometer (roll, pitch), in the order of their times; gyro readings up to `time_s` are
   /// known.
   void update(double time_s, const Eigen::Vector2d& shown_rad);
-  /// What comes next has no connection with what was before.
+  /// Starts a segment that has no connection with earlier readings.
   void begin_segment();
 
-  /// True until the readings show that the gyros explain them no better through the lag.
+  /// True until the readings show that the gyros explain them no better through the lag than without it.
   [[nodiscard]] bool lags() const { return lags_; }
   void archive(Archive& archive);
 

@@ -43,13 +43,13 @@ class SampledCurve {
     while (i < count_ && this->time_s(i) < time_s) ++i;
     return i;
   }
-  /// Whether no later sample can change the curve up to `time_s`.
+  /// True when no later sample can change the curve up to `time_s`.
   [[nodiscard]] bool settled(double time_s) const { return count_ >= 3 && find(time_s) + 1 < count_; }
 
   struct Point {
     Value value, slope;
   };
-  /// For times from the first to the last sample, of three or more.
+  /// Value and slope at `time_s`, from the first to the last of at least three samples.
   [[nodiscard]] Point at(double time_s) const {
     const std::uint32_t end = std::min(std::max(find(time_s), 1U), count_ - 1);
     const std::uint32_t begin = end - 1;

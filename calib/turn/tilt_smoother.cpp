@@ -13,7 +13,7 @@ namespace {
 
 /// Euler angles lose their meaning at 90 degrees.
 constexpr double kSteepest_rad = 1.4;
-/// How far the slope of the first readings may be off.
+/// Standard deviation of the slope of the first readings.
 constexpr double kSlopeStd_rad_s = 0.1;
 /// Keeps the covariance regular where the fluid has settled; far below any inclinometer's resolution.
 constexpr double kSettledVariance_rad2 = 1e-12;
@@ -118,7 +118,7 @@ void TiltSmoother::archive(Archive& archive) {
   archive(state_, covariance_, since_, count_);
   if (!archive.saving()) first_ = 0;
   if (count_ > kCapacity) count_ = 0;  // damaged
-  // Only what is held: a state is written to the log time and again.
+  // Only nodes in use are archived, because the state is written to the log again and again.
   for (std::uint32_t i = 0; i < count_; ++i) archive(node(i));
 }
 

@@ -36,7 +36,7 @@ class TiltSmoother {
 
   explicit TiltSmoother(const Parameters& parameters);
 
-  /// The tilt begins anew with a reading (roll, pitch) and its slope; what is known of the gyros is kept.
+  /// Restarts the tilt with a reading (roll, pitch) and its slope. The knowledge of the gyros is kept.
   void start(const Eigen::Vector2d& shown_rad, const Eigen::Vector2d& slope_rad_s);
   /// Carried on by the mean rates (p, q as measured; r as it is) over `duration_s`.
   void predict(const Eigen::Vector3d& rate_rad_s, double duration_s);

@@ -90,13 +90,14 @@ double TurnFilter::scale_as_known() const {
 }
 
 void TurnFilter::unwrap(const TurnStep& step) {
-  // By the gyro as far as it is known; a deviation changes little from one reading to the next.
+  // The gyro predicts the turn as far as its calibration is known. The deviation changes little between
+  // readings.
   const double scale = scale_as_known();
   const double bias =
       prior_.mean[kBias] + shrunk(estimate()[kBias] - prior_.mean[kBias], unscaled_covariance()(kBias, kBias));
   const double turn = scale * step.measured_angle_rad + bias * step.bias_time_s + step.tilt_angle_rad;
   unwrapped_rad_ += turn + base::wrapped(step.heading_rad - measured_rad_ - turn);
-  // Whole turns are dropped, lest digits be lost over a long mission.
+  // Whole turns are dropped, so that a long mission does not cost digits.
   const double whole = unwrapped_rad_ - base::wrapped(unwrapped_rad_);
   unwrapped_rad_ -= whole;
   track_(0, 0) += whole;
@@ -161,7 +162,8 @@ void TurnFilter::solve() {
   log_likelihood_ = -(log_variances_ + factors.vectorD().array().log().sum() + products_(0, 0) -
                       moment.dot(solution_.departure)) /
                     2;
-  // How much of the noise stated is there is seen at the estimate, which depends on it: twice is enough.
+  // The ratio of the actual to the stated noise is taken at the estimate, which depends on that ratio. Two
+  // passes are enough.
   for (int pass = 0; pass < 2; ++pass) {
     Row at_estimate;
     at_estimate << 1, -solution_.departure;
@@ -187,7 +189,7 @@ void TurnFilter::solve() {
 double TurnFilter::reduced_chi_squared() const {
   const auto sought = static_cast<std::uint64_t>(std::count(prior_.sought.begin(), prior_.sought.end(), true));
   if (innovations_ < sought + kEnoughInnovations) return 1;
-  // What is sought takes its share away.
+  // The constants sought reduce the degrees of freedom.
   const double left = 1 - static_cast<double>(sought) / static_cast<double>(innovations_);
   return std::max(solution_.square, 0.0) / (solution_.expected_square * left);
 }

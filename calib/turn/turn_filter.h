@@ -39,15 +39,16 @@ class TurnFilter {
   void begin_segment() { in_segment_ = false; }
 
   [[nodiscard]] TurnCoefficients estimate() const;
-  /// Of the estimate; enlarged by reduced_chi_squared() when that exceeds 1.
+  /// Covariance of the estimate, multiplied by reduced_chi_squared() when that exceeds 1.
   [[nodiscard]] TurnCovariance covariance() const;
-  /// Of what the data say of the coefficients sought, each scaled to unit diagonal; large: they cannot be told
-  /// apart; infinite: nothing is known of one of them.
+  /// Condition number of the data's information on the coefficients sought, scaled to unit diagonal. Large:
+  /// they are hardly separable. Infinite: the data do not determine one of them.
   [[nodiscard]] double condition() const;
   /// Mean square of the normalised innovations at the estimate: 1 when the noise is as stated, with standard
   /// deviation sqrt(2/readings()).
   [[nodiscard]] double reduced_chi_squared() const;
-  /// Of all readings, the constants sought left open; but for a constant that depends on neither walk nor noise.
+  /// Log-likelihood of all readings, up to a constant that depends on neither walk nor noise. The constants
+  /// sought are left open.
   [[nodiscard]] double log_likelihood() const { return log_likelihood_; }
   /// Heading at the last reading, less A, and its variance.
   [[nodiscard]] double heading_rad() const;
@@ -59,16 +60,16 @@ class TurnFilter {
   void archive(Archive& archive);
 
  private:
-  /// What does not change: scale, B, C, D, E.
+  /// The constant parameters: scale, B, C, D, E.
   using Constants = Eigen::Matrix<double, 5, 1>;
   using ConstantsMatrix = Eigen::Matrix<double, 5, 5>;
   using Row = TurnNoise::Row;
-  /// Found from the sums so far; constants as departures from the prior.
+  /// Solution of the sums so far, with the constants as departures from the prior.
   struct Solution {
     Constants departure = Constants::Zero();
     ConstantsMatrix covariance = ConstantsMatrix::Zero();
     double square = 0;           ///< sum of the squares of normalised innovations
-    double expected_square = 1;  ///< what it should be by the noise stated
+    double expected_square = 1;  ///< its expectation by the stated noise
     void archive(Archive& archive) { archive(departure, covariance, square, expected_square); }
   };
   /// A compass reading: unwrapped and less the prior's deviation; 0; harmonics of the constants not held.

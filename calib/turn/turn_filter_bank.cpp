@@ -10,7 +10,7 @@ namespace {
 /// Shares of the largest walk, and how probable each is before the first reading.
 constexpr std::array kWalkShares{0.0, 0.1, 1.0};
 constexpr std::array kPrior{0.8, 0.15, 0.05};
-/// No filter falls further behind the best.
+/// Largest log-weight by which a filter may fall behind the best.
 constexpr double kFurthestBehind_nats = 8;
 
 TurnFilter filter_with(TurnFilter::Parameters parameters, double share, const TurnPrior& prior) {

@@ -7,11 +7,11 @@
 
 namespace navcal::calib {
 
-/// Turn filters for several walks of the gyro's bias, weighed by how probable each makes the readings
-/// (multiple-model estimation; Magill, IEEE Trans. Automatic Control 10, 1965). The walks are none, a tenth of the
-/// one in the parameters, and that one. A gyro whose bias stays is so calibrated several times as well as one that
-/// drifts, and nobody has to say which it is. No weight falls so far that it could not come back when the bias
-/// begins to drift.
+/// Turn filters for several walks of the gyro's bias, weighted by the probability that each gives the readings
+/// (multiple-model estimation; Magill, IEEE Trans. Automatic Control 10, 1965). The walks are none, a tenth of
+/// the one in the parameters, and that one. So a gyro with a constant bias is calibrated several times as well
+/// as one that drifts, without a setting. The weights have a lower bound, so that a filter can recover when the
+/// bias begins to drift.
 class TurnFilterBank {
  public:
   explicit TurnFilterBank(const TurnFilter::Parameters& parameters,
@@ -21,9 +21,9 @@ class TurnFilterBank {
 
   /// Mean over the filters.
   [[nodiscard]] TurnCoefficients estimate() const;
-  /// About that mean: each filter's own, and how far they are apart.
+  /// Covariance about that mean: each filter's own, and the scatter between the filters.
   [[nodiscard]] TurnCovariance covariance() const;
-  // Of the most probable filter, as in TurnFilter.
+  // Values of the most probable filter, as in TurnFilter.
   [[nodiscard]] double condition() const { return best().condition(); }
   [[nodiscard]] double reduced_chi_squared() const { return best().reduced_chi_squared(); }
   [[nodiscard]] std::uint64_t readings() const { return filters_.front().readings(); }

@@ -82,7 +82,7 @@ void TurnIntegrator::update(const RateReading& reading) {
     return;
   }
   if (reading.saturated) {
-    // The turn was faster than anybody knows.
+    // The turn exceeded the range of the gyro, so its angle is unknown.
     ++left_out_;
     end_segment();
     rates_.clear();
@@ -115,7 +115,7 @@ std::optional<TurnStep> TurnIntegrator::next(bool last) {
 }
 
 std::optional<TurnStep> TurnIntegrator::step(bool at_once) {
-  // Nothing is known of the turn where either was dropped for lack of room.
+  // The turn is unknown where readings of either instrument were dropped for lack of room.
   if (given_out_s_ && (compass_.size() == 0 || compass_.time_s(0) > *given_out_s_ || rates_.size() == 0 ||
                        rates_.time_s(0) > *given_out_s_)) {
     given_out_s_.reset();
@@ -170,7 +170,7 @@ bool TurnIntegrator::look_ahead(std::uint32_t first) {
     const double to_s = compass_.time_s(i);
     if (to_s <= ahead_s_) continue;
     if (!rates_.settled(to_s)) break;
-    // From one gyro reading to the next in one step.
+    // The smoother advances from one gyro reading to the next in one step.
     while (ahead_s_ < to_s) {
       std::uint32_t r = rates_.find(ahead_s_);
       if (rates_.time_s(r) <= ahead_s_) ++r;
@@ -186,7 +186,7 @@ bool TurnIntegrator::look_ahead(std::uint32_t first) {
 
 TurnStep TurnIntegrator::step_between(double begin_s, double end_s) {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-  // From one gyro reading to the next everything is smooth, so Simpson's rule will do.
+  // All curves are smooth between two gyro readings, so Simpson's rule suffices.
   for (double from_s = begin_s; from_s < end_s;) {
     std::uint32_t i = rates_.find(from_s);
     if (rates_.time_s(i) <= from_s) ++i;

@@ -43,17 +43,17 @@ class TurnIntegrator {
 
   explicit TurnIntegrator(const Parameters& parameters);
 
-  /// Without heading, pitch or roll, or with `faulty`, the reading is left out.
+  /// Takes a compass reading. It is left out without heading, pitch or roll, or with `faulty`.
   void update(const CompassReading& reading);
-  /// With `saturated` the reading ends the segment.
+  /// Takes a gyro reading. A `saturated` reading ends the segment.
   void update(const RateReading& reading);
-  /// What is known of gyro A's z axis, for the tilt: true rate = scale * measured + bias.
+  /// Calibration of gyro A's z axis, used for the tilt: true rate = scale * measured + bias.
   void set_gyro(double scale, double bias_rad_s) { gyro_ = {scale, bias_rad_s}; }
-  /// The next step that is complete, in order; nothing when readings are still missing. `last`: none will come, so
-  /// that nothing is waited for.
+  /// The next complete step, in order; nothing while readings are still missing. `last`: no more readings will
+  /// come, so it waits for none.
   [[nodiscard]] std::optional<TurnStep> next(bool last = false);
 
-  /// What was measured before has no bearing on what comes.
+  /// Starts a segment that is not connected with earlier readings.
   void begin_segment();
 
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }  ///< readings of either, not used
@@ -63,25 +63,25 @@ class TurnIntegrator {
   enum CompassAxis { kRoll, kPitch, kHeading };
   enum RateAxis { kX, kY, kZ, kZOfB };
 
-  /// Whether a reading at `time_s` may follow the others of `curve`; begins anew where there is a gap between.
+  /// True when a reading at `time_s` may follow the others of `curve`. A gap starts the curve anew.
   template <class Curve>
   bool in_order(Curve& curve, double time_s);
-  /// Nothing is known of the turn after the newest step; steps that still wait go into `waiting_`.
+  /// Ends the segment: the turn after the newest step is unknown. Pending steps go into `waiting_`.
   void end_segment();
   [[nodiscard]] std::optional<TurnStep> step(bool at_once);
-  /// Whether the tilt is restored from an inclinometer that lags.
+  /// True when the tilt is restored from an inclinometer that lags.
   [[nodiscard]] bool lags() const { return parameters_.tilt_lag_s > 0 && lags_; }
   /// Tells inclinometer_ of the readings that have settled.
   void test_lag();
   /// Takes the smoother through the readings from `first` on; true when it has looked far enough ahead.
   bool look_ahead(std::uint32_t first);
   [[nodiscard]] TurnStep step_between(double begin_s, double end_s);
-  /// What the step integrates: S1, S1 of gyro B, S2, T per second.
+  /// Integrands of the step: S1, S1 of gyro B, S2 and T, per second.
   [[nodiscard]] Eigen::Vector4d turning_at(double time_s) const;
-  /// Body rates at `time_s`: x and y as measured, z with the gyro as it is known.
+  /// Body rates at `time_s`: x and y as measured, z corrected by the gyro's calibration.
   [[nodiscard]] Eigen::Vector3d body_rate_at(double time_s) const;
   void advance_tilt(double begin_s, double end_s);
-  /// Reading `i` of the compass, levelled by the tilt as it is instead of as it was shown.
+  /// Heading of compass reading `i`, levelled by the true tilt instead of the displayed one.
   [[nodiscard]] double heading_of(std::uint32_t i) const;
 
   Parameters parameters_;
@@ -90,7 +90,7 @@ class TurnIntegrator {
   std::optional<double> given_out_s_;  ///< time of the newest reading given out in this segment
   InclinometerLag inclinometer_;
   std::optional<double> lag_tested_s_;  ///< time of the newest reading of the compass that it was told of
-  bool lags_ = true;                    ///< what it said last
+  bool lags_ = true;                    ///< its last answer
   TiltSmoother smoother_;               ///< its oldest reading is the newest given out, but at the beginning
   double ahead_s_ = 0;                  ///< how far the smoother has come
   TiltSmoother::State tilt_ = TiltSmoother::State::Zero();  ///< on the way from one reading to the next

@@ -17,7 +17,7 @@ class TurnNoise {
   using Row = Eigen::Matrix<double, 6, 1>;
   using Products = Eigen::Matrix<double, 6, 6>;
 
-  /// The heading begins anew with one reading, whose noise enters a row along `direction`.
+  /// Restarts the heading with one reading, whose noise enters a row along `direction`.
   void start(const Row& direction, double variance);
   /// The turn by gyro adds noise along `direction`.
   void predict(double bias_time_s, const Row& direction, double variance);

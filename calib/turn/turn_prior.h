@@ -12,8 +12,8 @@ using TurnCoefficients = Eigen::Matrix<double, 6, 1>;
 using TurnCovariance = Eigen::Matrix<double, 6, 6>;
 enum TurnCoefficient : int { kScale, kBias, kB, kC, kD, kE };
 
-/// What is believed before the first reading. A variance of zero holds the coefficient: a compass without error,
-/// or a gyro known exactly. A gyro calibrated before is the covariance of that calibration.
+/// Prior of the coefficients. A variance of zero fixes a coefficient: a compass without error, or a gyro that
+/// is known exactly. The covariance of an earlier gyro calibration serves as prior of the gyro.
 struct TurnPrior {
   TurnCoefficients mean = TurnCoefficients::Unit(kScale);
   TurnCovariance covariance = TurnCovariance::Zero();

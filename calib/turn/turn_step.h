@@ -5,7 +5,7 @@
 
 namespace navcal::calib {
 
-/// What gyro and tilt say of the turn from one compass reading to the next, in the regressors of THESIS 11.7:
+/// Turn from one compass reading to the next by gyro and tilt, in the regressors of THESIS 11.7:
 ///   psi(end) - psi(begin) = scale * measured_angle + bias * bias_time + tilt_angle
 /// where true rate = scale * measured + bias (2.12) and psi is the true heading, clockwise, radians.
 struct TurnStep {
@@ -22,7 +22,7 @@ struct TurnStep {
   bool tilt_restored = false;  ///< by the gyros, from an inclinometer that lags; else roll and pitch are as shown
   double roll_lag_rad = 0, pitch_lag_rad = 0;  ///< these less what the inclinometer shows, without its noise
 
-  /// The same step as gyro B saw it.
+  /// The same step with gyro B's angle in place of gyro A's.
   [[nodiscard]] TurnStep with_gyro_b() const {
     TurnStep step = *this;
     step.measured_angle_rad = measured_angle_b_rad;

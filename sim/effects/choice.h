@@ -12,8 +12,8 @@
 
 namespace navcal::sim {
 
-/// Parameters of so many typical strengths, in a direction (a sign) that is drawn; a parameter that knows only one
-/// sign gets that.
+/// Draws parameters of `strength` typical values, in a random direction (or sign). A parameter that allows one
+/// sign only gets that sign.
 [[nodiscard]] std::vector<double> drawn_parameters(const EffectDescription& effect, double strength, Noise& noise);
 
 /// Why a value cannot be ("tau_s lies between 0 and 10"), or nothing.

@@ -12,37 +12,37 @@ namespace navcal::sim {
 /// One number of an effect. Zero is neutral.
 struct EffectParameter {
   std::string_view name;  ///< with its unit, as files and answers say it: "x_uT_per_A"
-  double typical = 1;     ///< what counts as strength 1
+  double typical = 1;     ///< value of strength 1
   double least = -std::numeric_limits<double>::infinity();
   double greatest = std::numeric_limits<double>::infinity();
 };
 
-/// Where an effect acts.
+/// Place where an effect acts.
 enum class EffectPlace : std::uint8_t {
-  instruments,  ///< what they measure
+  instruments,  ///< their measurements
   vehicle,      ///< how the vehicle moves
   lines,        ///< noise, clocks and the way of frames to the host: no cause of a gap, but a trial of the host
 };
 
-/// How what it does grows with its parameters: a diagnosis that goes by straight lines must know where there are
-/// none.
+/// How the result of an effect depends on its parameters. A diagnosis that linearises must know which effects
+/// are not linear.
 enum class EffectKind : std::uint8_t {
   amount,    ///< in proportion, or nearly
   lag,       ///< it delays or smooths, the longer the more
   backlash,  ///< something stands anywhere within a width
 };
 
-/// What to do with the vehicle so that an effect shows as no other effect does. There is no default: an effect
-/// without one does not compile.
+/// Manoeuvre during which an effect shows as no other effect does. It has no default, so an effect without one
+/// does not compile.
 class TellingManoeuvre {
  public:
   // Not explicit: a description names the text alone.
   constexpr TellingManoeuvre(const char* text) : text_(text) {  // NOLINT(google-explicit-constructor)
     if (text_.empty()) throw "a manoeuvre without a text";      // at compile time, of a constexpr description
   }
-  /// For EffectPlace::lines only: no diagnosis asks for such an effect.
+  /// No manoeuvre: only for EffectPlace::lines, because no diagnosis looks for such an effect.
   [[nodiscard]] static constexpr TellingManoeuvre none() { return TellingManoeuvre(); }
-  /// Empty: none.
+  /// Empty when there is no manoeuvre.
   [[nodiscard]] constexpr std::string_view text() const { return text_; }
 
  private:
@@ -50,20 +50,21 @@ class TellingManoeuvre {
   std::string_view text_;
 };
 
-/// What a file says of an effect for people and for those who search among all of them.
+/// Static description of an effect, for people and for the search over all effects.
 struct EffectDescription {
   std::string_view name;
   std::string_view equation;
   std::span<const EffectParameter> parameters;
   TellingManoeuvre manoeuvre;
-  /// Names of effects that leave nearly the same traces, by their equations. They are not what a diagnosis said.
+  /// Names of effects whose traces are nearly the same by their equations. They are not results of a diagnosis.
   std::span<const std::string_view> confounders = {};
   EffectPlace place = EffectPlace::instruments;
-  /// So many parameters in a row are the components of one vector (1: each stands alone): of strength 1 when its
-  /// components, each divided by its typical value, have the norm 1.
+  /// Number of consecutive parameters that are the components of one vector (1: each is a scalar). The vector
+  /// has strength 1 when its components, each divided by its typical value, have norm 1.
   std::size_t vector = 1;
-  /// Where several act on the same quantity, the lower goes first: soft iron (0), turned triad (1), what remembers
-  /// the field (2), what is added (3), lag (4); servo, then gain (0), lag (1), backlash (2), offset (3), fin.
+  /// Order of effects on the same quantity, lowest first: soft iron (0), turned triad (1), effects with a
+  /// memory of the field (2), additive effects (3), lag (4); from servo to fin: gain (0), lag (1), backlash
+  /// (2), offset (3).
   int order = 3;
   EffectKind kind = EffectKind::amount;
 };

@@ -81,8 +81,7 @@ void add_effects(std::string_view toml, EffectSet& set, std::vector<config::Prob
       }
       continue;
     }
-    // What belongs to a table that was complained of, and what lies deeper than a parameter of one, is passed
-    // over.
+    // Entries of a rejected table are skipped, and so are entries below a parameter.
     for (Draft& draft : drafts) {
       if (draft.effect->description().name != entry.keys[0] || entry.keys.size() > 2) continue;
       if (auto why = take(draft, entry.keys[1], entry.value); !why.empty()) complain(std::move(why));

@@ -22,15 +22,16 @@ class Effect {
  public:
   virtual ~Effect() = default;
   [[nodiscard]] virtual const EffectDescription& description() const = 0;
-  /// With what its filters hold.
+  /// Copies the effect with the state of its filters.
   [[nodiscard]] virtual std::unique_ptr<Effect> clone() const = 0;
   [[nodiscard]] virtual std::span<const double> parameters() const = 0;
-  /// As many as are described, in that order, in the units of their names.
+  /// Sets the parameters: as many as described, in that order, in the units of their names.
   virtual void set_parameters(std::span<const double> values) = 0;
-  /// For what is random in it.
+  /// Seeds the effect's own random numbers.
   virtual void reseed(std::uint64_t /*seed*/) {}
 
-  // Compass. The earth's field, the body's field, what the inclinometer's fluid is driven to, what it says.
+  // Compass: the Earth's field, the body's field, the tilt that drives the inclinometer's fluid, the tilt it
+  // reports.
   virtual void earth_field(const Instant&, Vector3& /*field_world_uT*/) {}
   virtual void body_field(const Instant&, Vector3& /*field_body_uT*/) {}
   virtual void tilt_seen(const Instant&, Tilt&) {}

@@ -8,7 +8,7 @@
 
 namespace navcal::sim {
 
-/// When an effect acts, in seconds of the mission.
+/// Interval in which an effect acts, in seconds of the mission.
 struct Interval {
   double from_s = -std::numeric_limits<double>::infinity();
   double until_s = std::numeric_limits<double>::infinity();
@@ -28,9 +28,9 @@ class EffectSet final : public VehicleInfluencer {
   EffectSet& operator=(EffectSet&&) = default;
   ~EffectSet() override = default;
 
-  /// Returns the effect added, for whoever changes its parameters.
+  /// Returns the added effect, so that the caller can change its parameters.
   Effect& add(std::unique_ptr<Effect> effect, const Interval& when = {});
-  /// What is random in each effect, by one seed.
+  /// Seeds the random numbers of all effects, each with a seed of its own.
   void reseed(std::uint64_t seed);
   [[nodiscard]] std::size_t size() const { return members_.size(); }
   [[nodiscard]] Effect& operator[](std::size_t i) const { return *members_[i].effect; }
@@ -54,9 +54,9 @@ class EffectSet final : public VehicleInfluencer {
   [[nodiscard]] Delays delays(double time_s);
   void influence(double time_s, Influences& on) override;
   void link_fins(double time_s, double step_s, Vector3& fins_rad) override;
-  /// By which the standard deviation of an instrument's noise is multiplied.
+  /// Factor on the standard deviation of an instrument's noise.
   [[nodiscard]] double noise(Instrument of, double time_s);
-  /// By which an instrument's clock runs slower than nominal.
+  /// Amount by which an instrument's clock runs slower than nominal, parts per million.
   [[nodiscard]] double slow_ppm(Instrument of, double time_s);
   [[nodiscard]] Transmission line(Instrument of, double time_s);
 

@@ -14,10 +14,10 @@ struct EffectEntry {
   std::string_view name;
   std::unique_ptr<Effect> (*make)();
 };
-/// By name, in order of the alphabet.
+/// All effects by name, in alphabetical order.
 [[nodiscard]] std::span<const EffectEntry> effect_table();
 
-/// Neutral. nullptr when there is none of this name.
+/// A new effect with neutral parameters; nullptr when no effect has this name.
 [[nodiscard]] std::unique_ptr<Effect> make_effect(std::string_view name);
 
 }  // namespace navcal::sim

@@ -9,26 +9,26 @@
 // The quantities on which effects act.
 namespace navcal::sim {
 
-/// What the inclinometer sees or says.
+/// Tilt that the inclinometer senses or reports.
 struct Tilt {
   double roll_rad = 0, pitch_rad = 0;
 };
 
-/// Of the inertial card, in the order of its channels: A-x, A-z, B-y, B-z.
+/// Gyro rates of the inertial card, in the order of its channels: A-x, A-z, B-y, B-z.
 using GyroRates = std::array<double, 4>;
-/// Which body axis each of them feels.
+/// Body axis that each of these gyros senses.
 inline constexpr std::array<std::size_t, 4> kGyroAxes{0, 2, 1, 2};
 
 /// All channels of the inertial card as its converter sees them.
 using CardVoltages_mV = std::array<double, 8>;
 
-/// Of the antenna, in world axes.
+/// Motion of the GPS antenna, in world axes.
 struct AntennaMotion {
   Vector3 position_m{};
   Vector3 velocity_m_s{};
 };
 
-/// By which what an instrument says is older than its time says, beyond its nominal latency.
+/// Extra age of an instrument's data relative to their time, beyond its nominal latency.
 struct Delays {
   double card_s = 0;
   double gps_s = 0;
@@ -37,7 +37,7 @@ struct Delays {
 enum class Instrument : std::uint8_t { compass, imu, gps, motor };
 inline constexpr std::size_t kInstruments = 4;
 
-/// How a frame comes through its line.
+/// Transmission of a frame over its line.
 struct Transmission {
   int copies = 1;           ///< 0: it is lost
   double late_s = 0;        ///< the host takes it so much later

@@ -11,11 +11,11 @@ struct ClockFactor {
   std::string port;
   double factor = 1;  ///< rate over nominal rate: 0.99 sends a hundredth too rarely
 
-  /// By how much its seconds are too long, parts per million.
+  /// Excess length of the clock's seconds, parts per million.
   [[nodiscard]] double ppm() const { return (1 / factor - 1) * 1e6; }
 };
 
-/// By how much the seconds of `port` are too long: of the last of `factors` that names it, else `otherwise_ppm`.
+/// Excess length of the seconds of `port`, ppm: from the last of `factors` that names it, else `otherwise_ppm`.
 [[nodiscard]] inline double clock_ppm(const std::vector<ClockFactor>& factors, const std::string& port,
                                       double otherwise_ppm) {
   for (auto it = factors.rbegin(); it != factors.rend(); ++it) {

@@ -17,8 +17,8 @@ struct Emission {
   std::vector<std::uint8_t> bytes;
 };
 
-/// The behaviour of one instrument behind its serial line: no port, no clock. Times are UTC nanoseconds and never
-/// go back; whoever drives it calls advance() at next_event_ns() and hands on what the host sends.
+/// Behaviour of one instrument behind its serial line: no port, no clock. Times are UTC nanoseconds and never
+/// decrease. The caller calls advance() at next_event_ns() and passes on the bytes of the host.
 class Device {
  public:
   virtual ~Device() = default;
@@ -26,7 +26,7 @@ class Device {
   virtual void power_on(std::int64_t t_ns) = 0;
   /// The last of these bytes has arrived at t_ns.
   virtual void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) = 0;
-  /// When it does something of itself; kNever_ns when it waits for its host.
+  /// Time of its next own action; kNever_ns while it waits for its host.
   [[nodiscard]] virtual std::int64_t next_event_ns() const = 0;
   /// Does what is due up to t_ns and appends what it sends for it.
   virtual void advance(std::int64_t t_ns, std::vector<Emission>& out) = 0;

@@ -11,12 +11,12 @@
 
 namespace navcal::sim {
 
-/// What every emulated device can be told.
+/// Options that every emulated device takes.
 struct EmulatorOptions {
   int baud = 0;            ///< 0: that of its row in protocols/device_types.h
   std::uint64_t seed = 1;  ///< of its noise and biases
   double clock_ppm = 0;    ///< positive: its seconds are too long; receivers follow UTC
-  Origin origin{};         ///< where the motion's (0, 0, 0) lies
+  Origin origin{};         ///< position of the motion's (0, 0, 0)
 };
 
 /// A device that speaks `protocol`, as it is delivered. `motion` must outlive it.

@@ -12,20 +12,20 @@
 
 namespace navcal::sim {
 
-/// What a receiver knows at a full second.
+/// Solution of the receiver at a full second.
 struct GpsReading {
   std::int64_t utc_ns = 0;
   bool fixed = false;
-  double degraded = 1;  ///< by which its noise is greater than that of a settled fix
+  double degraded = 1;                                       ///< ratio of its noise to that of a settled fix
   double latitude_deg = 0, longitude_deg = 0, height_m = 0;  ///< without a fix the last known
   double speed_m_s = 0;
   double course_deg = 0;
 };
 
-/// Satellites to position and velocity over ground: none below the antenna's depth, the first fix some seconds
-/// after surfacing or power-on, the first ones of few satellites. Fix n (from 0) has
-/// devices::GpsModel::noise_factor(n) times the final noise and a dilution of precision likewise, and is
-/// two-dimensional as long as that is above 1.4.
+/// Satellites to position and velocity over ground. There is no fix below the antenna's depth. The first fix
+/// comes some seconds after surfacing or power-on, from few satellites. Fix n (from 0) has
+/// devices::GpsModel::noise_factor(n) times the final noise; its dilution of precision is larger by the same
+/// factor. It is two-dimensional as long as that factor is above 1.4.
 class GpsReceiver {
  public:
   struct Options {
@@ -36,11 +36,11 @@ class GpsReceiver {
   GpsReceiver(const Options& options, const Motion& motion, std::uint64_t seed);
 
   void power_on(std::int64_t t_ns);
-  /// Once for each second, in order.
+  /// Called once for each second, in order.
   [[nodiscard]] GpsReading measure(std::int64_t second_ns);
 
  private:
-  /// Whether the sky is seen, and has been for long enough.
+  /// True when the sky is visible and has been for long enough.
   [[nodiscard]] bool fixes(std::int64_t second_ns);
 
   Options options_;

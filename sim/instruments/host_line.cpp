@@ -36,7 +36,7 @@ void HostLine::take(const Emission& emission, int baud, EffectSet& effects) {
 void HostLine::put(std::int64_t time_ns, protocols::Bytes bytes) {
   time_ns = std::max(time_ns, last_ns_);
   last_ns_ = time_ns;
-  // What waited together is read at once.
+  // Bytes that wait at the same time are read together.
   if (!reads_.empty() && reads_.back().time_ns == time_ns) {
     reads_.back().bytes.insert(reads_.back().bytes.end(), bytes.begin(), bytes.end());
   } else {

@@ -19,9 +19,9 @@ struct LineRead {
   std::vector<std::uint8_t> bytes;
 };
 
-/// What a host reads of what a device sends: bytes follow one another at the line's pace (8N1), a read returns
-/// what has come of a frame after 16 bytes or at its end, and a little after that, by an exponential delay.
-/// Effects lose, repeat or delay frames on the way.
+/// Reads of a host from the line of one device. Bytes follow one another at the line's pace (8N1). A read
+/// returns the bytes of a frame after every 16 bytes and at its end, after a further delay that is
+/// exponentially distributed. Effects lose, repeat or delay frames on the way.
 class HostLine {
  public:
   struct Options {

@@ -35,7 +35,7 @@ class ImuCard final : public Device {
 
  private:
   [[nodiscard]] protocols::imu_card::Record measure(std::int64_t t_ns);
-  /// Of the channels in their order, as the sensors give them: deg/s, g, m.
+  /// Sensor outputs of the channels, in their order: deg/s, g, m.
   [[nodiscard]] std::array<double, 8> signals(const Instant& now);
 
   Options options_;

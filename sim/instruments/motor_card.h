@@ -39,7 +39,7 @@ class MotorCard final : public Device {
   void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
   [[nodiscard]] int baud() const override { return options_.baud; }
 
-  /// What the host wants, for a vehicle that obeys; nullopt until it wants something.
+  /// Last command of the host that was not refused; nullopt from power-on to the first.
   [[nodiscard]] const std::optional<protocols::motor_card::Command>& command() const { return command_; }
   /// Commands refused because a fin was beyond its limit.
   [[nodiscard]] std::uint64_t refused() const { return refused_; }
@@ -50,7 +50,7 @@ class MotorCard final : public Device {
     std::array<double, 3> fins_deg{};
     double current_A = 0;
   };
-  /// What shaft and fins do at t_ns.
+  /// Shaft speed, fin angles and current at t_ns.
   [[nodiscard]] Actuators actuators_at(std::int64_t t_ns) const;
   [[nodiscard]] protocols::motor_card::Status measure(std::int64_t t_ns);
 
@@ -63,7 +63,7 @@ class MotorCard final : public Device {
   Ticks ticks_;
   protocols::motor_card::Parser parser_;
   std::optional<protocols::motor_card::Command> command_;
-  Actuators at_command_;  ///< where they stood when the command came
+  Actuators at_command_;  ///< their positions when the command came
   std::int64_t commanded_ns_ = 0;
   std::uint64_t refused_ = 0;
   std::uint8_t sequence_ = 0;

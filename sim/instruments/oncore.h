@@ -15,8 +15,8 @@ namespace navcal::sim {
 class Oncore final : public Device {
  public:
   enum class Kind : std::uint8_t {
-    twelve_channels,  ///< knows Ha and Ea
-    eight_channels,   ///< knows Ea and is silent when asked for Ha
+    twelve_channels,  ///< supports Ha and Ea
+    eight_channels,   ///< supports Ea and does not answer a request for Ha
     nmea,             ///< today's receiver: sentences every second without being asked, deaf to commands
   };
   struct Options {

@@ -8,7 +8,7 @@
 
 namespace navcal::sim {
 
-/// What the receiver's clock says at a reading.
+/// Time of a reading by the receiver's clock.
 struct ReceiverTime {
   std::int64_t reported_ns = 0;  ///< UTC, or GPS time while the leap seconds are not known; rolled over or not
   int leap_seconds = 18;

@@ -71,7 +71,7 @@ class Tcm2 final : public Device {
   bool running_ = false;
   bool calibrating_ = false;
   int baud_;
-  int next_baud_;  ///< in force after a restart
+  int next_baud_;  ///< takes effect after a restart
   std::int64_t measured_ns_ = 0;
 };
 

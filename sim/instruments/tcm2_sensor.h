@@ -10,7 +10,7 @@
 
 namespace navcal::sim {
 
-/// What the sensors inside a TCM2 say, before it is put into units and words.
+/// Outputs of the sensors inside a TCM2, before conversion into its units and text.
 struct Tcm2Reading {
   double heading_rad = 0;  ///< magnetic, 0 to 2 pi, from its own field and tilt
   double pitch_rad = 0;

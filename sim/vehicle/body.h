@@ -8,8 +8,8 @@ namespace navcal::sim {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// How a vehicle lies and moves. The origin is its centre of buoyancy; body axes x forward, y starboard, z down;
-/// world axes north, east, down.
+/// Position, attitude and velocity of a vehicle. The origin is its centre of buoyancy; body axes x forward, y
+/// starboard, z down; world axes north, east, down.
 struct Body {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d euler_rad = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw; yaw is not wrapped

@@ -18,7 +18,7 @@ class DriveHelm final : public Helm {
   [[nodiscard]] Body start() const override;
   [[nodiscard]] Actuators actuators_at_start() const override;
   [[nodiscard]] Actuators next(double time_s, double step_s, const Body& body) override;
-  /// So were the reference paths made.
+  /// True because the reference paths were made so.
   [[nodiscard]] bool holds_over_steps() const override { return true; }
   [[nodiscard]] bool finished() const override { return finished_; }
 

@@ -20,7 +20,8 @@ class FinForces {
 
  private:
   struct Fin {
-    Vector6 of_normal, of_axis;  ///< what a unit force along the normal, and along x, makes about the origin
+    Vector6 of_normal,
+        of_axis;  ///< generalised force about the origin of a unit force along the normal, and along x
   };
 
   config::FinSettings settings_;

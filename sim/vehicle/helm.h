@@ -13,22 +13,23 @@ struct Actuators {
   Eigen::Vector3d fins_rad = Eigen::Vector3d::Zero();  ///< of the servos' shafts
   double shaft_rps = 0;
   double shaft_commanded_rps = 0;
-  /// Of the servos, where the step began with a new order to the motor card.
+  /// Ordered angles of the servos, when the step began with a new order to the motor card.
   std::optional<Eigen::Vector3d> fins_ordered_rad{};
 };
 
-/// Who moves a vehicle's fins and propeller, and where the run begins. Asked once a step, in order of time.
+/// Source of a vehicle's fins and propeller speed, and of the beginning of the run. Called once a step, in
+/// order of time.
 class Helm {
  public:
   virtual ~Helm() = default;
   [[nodiscard]] virtual Body start() const = 0;
   [[nodiscard]] virtual Actuators actuators_at_start() const = 0;
-  /// Where the actuators are at time_s + step_s, for a vehicle that is at `body` at time_s.
+  /// Actuators at time_s + step_s, for a vehicle that is at `body` at time_s.
   [[nodiscard]] virtual Actuators next(double time_s, double step_s, const Body& body) = 0;
-  /// Over a step the vehicle feels the means of both ends, as if the actuators moved on between them. true: the
-  /// fins as they are at its end and the shaft as it is at its beginning.
+  /// False: over a step the actuators have the mean of both ends. True: the fins are those of its end and the
+  /// shaft speed that of its beginning.
   [[nodiscard]] virtual bool holds_over_steps() const { return false; }
-  /// Its orders have ended (once; it goes on all the same, or begins again).
+  /// True when the orders have ended once. The helm continues all the same, or begins again.
   [[nodiscard]] virtual bool finished() const = 0;
 };
 

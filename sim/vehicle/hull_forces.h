@@ -8,7 +8,7 @@
 
 namespace navcal::sim {
 
-/// What the water does to the bare hull, SI units, body axes, about the origin:
+/// Hydrodynamic forces on the bare hull, SI units, body axes, about the origin:
 /// - axial drag X = -1/2 rho Cd0 (pi D^2/4) |u| u;
 /// - cross-flow drag by strips (Fossen 2011, chapter 6): a strip at x, dx long and d(x) wide, meets
 ///   (vl, wl) = (v + x r, w - x q) and feels dY = -1/2 rho Cdc d sqrt(vl^2 + wl^2) vl dx, dZ likewise with wl;

@@ -7,7 +7,7 @@
 
 namespace navcal::sim {
 
-/// What effects do to the vehicle itself; all neutral by default.
+/// Changes of the vehicle itself by effects; all neutral by default.
 struct Influences {
   double thrust_factor = 1;             ///< of the propeller's force
   double yaw_damping_per_s = 0;         ///< N = -k M66 r more
@@ -15,13 +15,13 @@ struct Influences {
   std::array<double, 2> current_m_s{};  ///< north, east: moves the position only
 };
 
-/// Whoever changes the vehicle: called once a step, in order of time.
+/// Interface of effects that change the vehicle; called once a step, in order of time.
 class VehicleInfluencer {
  public:
   virtual ~VehicleInfluencer() = default;
   virtual void influence(double time_s, Influences& on) = 0;
-  /// From the angles of the servos' shafts, which the motor card reports, to those of the fins; `step_s` since the
-  /// last call.
+  /// Converts angles of the servos' shafts, which the motor card reports, to angles of the fins; `step_s` since
+  /// the last call.
   virtual void link_fins(double time_s, double step_s, Vector3& fins_rad) = 0;
 };
 

@@ -13,7 +13,7 @@ struct LambFactors {
   double axial, transverse, rotational;
 };
 
-/// Of a spheroid `length_m` long and `diameter_m` thick; the length must be the greater.
+/// Lamb's factors of a spheroid `length_m` long and `diameter_m` thick; the length must be the greater.
 [[nodiscard]] LambFactors lamb_factors(double length_m, double diameter_m);
 
 /// M = M_RB + M_A about the origin, kg, kg m, kg m2: the centre of gravity lies below the origin, so surge couples

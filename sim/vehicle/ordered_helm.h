@@ -20,8 +20,8 @@ class OrderedHelm final : public Helm {
 
   explicit OrderedHelm(const config::VehicleSettings& vehicle) : vehicle_(vehicle) {}
 
-  /// In order of time, seconds of the run. It counts from the step on whose beginning is nearest; an order for a
-  /// time that is over counts from the next step on.
+  /// Takes an order; times are in order, seconds of the run. An order applies from the step whose beginning is
+  /// nearest. An order for a past time applies from the next step on.
   void order(double time_s, const Eigen::Vector3d& fins_rad, double shaft_rps);
   /// Depth of the origin at the beginning of the newest step.
   [[nodiscard]] double depth_m() const { return depth_m_; }

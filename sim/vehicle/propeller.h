@@ -23,7 +23,7 @@ class Propeller {
   double density_kg_m3_;
 };
 
-/// What the motor draws at this shaft speed: I = I0 + k n^3.
+/// Current that the motor draws at this shaft speed: I = I0 + k n^3.
 [[nodiscard]] double current_A(const config::PropellerSettings& propeller, double shaft_rps);
 
 }  // namespace navcal::sim

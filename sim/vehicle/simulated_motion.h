@@ -13,12 +13,12 @@
 
 namespace navcal::sim {
 
-/// What a SimulatedMotion is made of besides the vehicle and its helm.
+/// Options of a SimulatedMotion besides the vehicle and its helm.
 struct MotionOptions {
   std::int64_t start_ns = 0;                ///< when the run begins
   VehicleInfluencer* influencer = nullptr;  ///< must outlive the motion
-  /// How far back states are kept, seconds; what is asked for further back gets the oldest there is. A state takes
-  /// 0.2 kB, so a run that lasts for days needs a bound.
+  /// Time for which states are kept, seconds. A request for an older state returns the oldest one. A state
+  /// takes 0.2 kB, so a run that lasts for days needs a bound.
   double history_s = std::numeric_limits<double>::infinity();
 };
 
@@ -31,12 +31,12 @@ class SimulatedMotion final : public Motion {
   SimulatedMotion(const config::VehicleSettings& vehicle, std::unique_ptr<Helm> helm,
                   const MotionOptions& options);
 
-  /// Before the run it is as at the beginning. Throws UnstableVehicle.
+  /// State at t_ns; before the run, that of its beginning. Throws UnstableVehicle.
   [[nodiscard]] State at(std::int64_t t_ns) const override;
-  /// Those older than `history_s` are gone, too.
+  /// Appends the orders up to t_ns. Orders older than `history_s` are dropped as well.
   void take_orders(std::int64_t t_ns, std::vector<Order>& out) const override;
-  /// When the orders end, seconds from the start: taken ahead so far, and further back than `history_s` the states
-  /// are gone. Throws UnstableVehicle.
+  /// Duration of the orders, seconds from the start. The call simulates up to that time, so states older than
+  /// `history_s` before it are dropped. Throws UnstableVehicle.
   [[nodiscard]] double duration_s() const;
 
  private:

@@ -18,7 +18,7 @@ class UnstableVehicle : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What is held while a step is taken.
+/// Actuator positions that are held constant during a step.
 struct Controls {
   Eigen::Vector3d fins_rad = Eigen::Vector3d::Zero();
   double shaft_rps = 0;
