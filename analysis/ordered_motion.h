@@ -25,7 +25,7 @@ class OrderedMotion final : public sim::Motion {
   };
   OrderedMotion(const config::VehicleSettings& vehicle, const Options& options);
 
-  /// Of a time to come: the state now. Throws UnstableVehicle.
+  /// The state at t_ns; for a time to come, the state now. Throws UnstableVehicle.
   [[nodiscard]] sim::State at(std::int64_t t_ns) const override;
   /// What the card was told at t_ns. It takes effect at once.
   void order(std::int64_t t_ns, const protocols::motor_card::Command& command);

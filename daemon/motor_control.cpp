@@ -50,8 +50,7 @@ std::optional<std::uint16_t> motor_port(const config::Settings& settings) {
 MotorControl::MotorControl(const boost::asio::any_io_executor& executor, const config::Settings& settings,
                            PortSession& session, LogWriter& log, const pipeline::Pipeline& pipeline,
                            MotorOwner& owner)
-    : settings_(settings),
-      session_(session),
+    : session_(session),
       log_(log),
       pipeline_(pipeline),
       owner_(owner),
@@ -107,19 +106,24 @@ std::string MotorControl::refuse(const ControlRequest& request, const ControlOri
     ++refused_since_;
     return control_error(reason);
   }
-  control::OrderRecord record;
+  control::OrderRecord record = record_of_holder();
   record.outcome = control::Outcome::refused;
-  record.sequence = command_.sequence();
-  if (const auto& holder = command_.holder()) {
-    record.holder = holder->name;
-    record.priority = holder->priority;
-  }
   record.asked_ns = origin.arrival_ns;
   record.wanted = request.order;
   record.reason = std::move(reason);
   record.refused_since = std::exchange(refused_since_, 0);
   log_.command(now_ns, session_.settings().name, record);
   return control_error(record.reason);
+}
+
+control::OrderRecord MotorControl::record_of_holder() const {
+  control::OrderRecord record;
+  record.sequence = command_.sequence();
+  if (const auto& holder = command_.holder()) {
+    record.holder = holder->name;
+    record.priority = holder->priority;
+  }
+  return record;
 }
 
 void MotorControl::client_gone(std::uint64_t client) {
@@ -184,13 +188,8 @@ std::optional<std::int64_t> MotorControl::send(const control::Line& line, std::i
   }
   busy_ = false;
   ++sent_;
-  control::OrderRecord record;
+  control::OrderRecord record = record_of_holder();
   record.source = line.source;
-  record.sequence = command_.sequence();
-  if (const auto& holder = command_.holder()) {
-    record.holder = holder->name;
-    record.priority = holder->priority;
-  }
   if (line.source != control::Source::safe) {
     record.asked_ns = asked_ns_;
     record.late_s = late_s_;

@@ -65,6 +65,8 @@ class MotorControl {
  private:
   [[nodiscard]] std::string answer_lease(const ControlRequest& request, const ControlOrigin& origin);
   [[nodiscard]] std::string answer_order(const ControlRequest& request, const ControlOrigin& origin);
+  /// A record with the number of the last order and who is in charge.
+  [[nodiscard]] control::OrderRecord record_of_holder() const;
   [[nodiscard]] std::string refuse(const ControlRequest& request, const ControlOrigin& origin, std::string reason);
   /// Sends what is due. The time at which the last line was on the wire; nullopt: none was.
   std::optional<std::int64_t> drive(std::int64_t now_ns);
@@ -74,7 +76,6 @@ class MotorControl {
   void take_records(std::int64_t now_ns);
   void tell(std::int64_t now_ns);
 
-  const config::Settings& settings_;
   PortSession& session_;
   LogWriter& log_;
   const pipeline::Pipeline& pipeline_;

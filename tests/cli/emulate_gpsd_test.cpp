@@ -16,9 +16,12 @@
 #include "emulate_program.h"
 #include "sim/geodesy.h"
 #include "tests/ports/harness.h"
+#include "tests/support/free_port.h"
 
 namespace navcal::cli::test {
 namespace {
+
+using navcal::test::free_port;
 
 constexpr const char* kGpsd = "/usr/sbin/gpsd";
 
@@ -28,15 +31,6 @@ sockaddr_in loopback(std::uint16_t port) {
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   return address;
-}
-
-std::uint16_t free_port() {
-  const base::Descriptor probe(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  sockaddr_in address = loopback(0);
-  socklen_t length = sizeof address;
-  ::bind(probe.get(), reinterpret_cast<sockaddr*>(&address), sizeof address);
-  ::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&address), &length);
-  return ntohs(address.sin_port);
 }
 
 /// Debian's gpsd on one device, ended by its id.

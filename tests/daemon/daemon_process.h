@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/daemon/tcp_client.h"
+#include "tests/support/free_port.h"
 #include "tests/support/temporary_folder.h"
 
 namespace navcal::daemon {
@@ -69,16 +70,7 @@ class DaemonProcess {
     const std::string folder = folder_.path();
     std::ofstream(config()) << "[port.compass]\nprotocol = \"nmea\"\npath = \"" << line.path()
                             << "\"\nbaud = 9600\n";
-    // A free port is found by binding to none; the daemon then takes it.
-    const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t length = sizeof address;
-    ::bind(probe, reinterpret_cast<sockaddr*>(&address), length);
-    ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &length);
-    port_ = ntohs(address.sin_port);
-    ::close(probe);
+    port_ = test::free_port();
     arguments_ = {NAVCALD,
                   "--config",
                   config(),

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kPacerMillisecond_ns = 1'000'000;
 
-/// Of reports every `period_ns`, late by turns as `jitter_ns` says, for a minute: how many pass.
+/// Reports come every `period_ns` for a minute, in turn on time and late by `jitter_ns`: how many pass.
 int reports_passed(std::int64_t period_ns, std::int64_t interval_ns, std::int64_t jitter_ns) {
   ReportPacer pacer;
   int count = 0;

@@ -10,12 +10,14 @@
 #include <sstream>
 
 #include "tests/daemon/tcp_client.h"
+#include "tests/support/free_port.h"
 #include "tests/support/process.h"
 
 namespace navcal {
 namespace {
 
 using test::eventually;
+using test::free_port;
 using test::Process;
 using test::TemporaryFolder;
 using Json = nlohmann::json;
@@ -49,17 +51,6 @@ class ControlledVehicle : public testing::Test {
             "--set", "control.socket=" + (folder_ / "control").string(), "--set", "log.free_floor_MB=0"},
         folder_ / "navcald");
     ASSERT_TRUE(eventually([&] { return !state("1").is_null(); }, kPatience)) << daemon_->err();
-  }
-  static std::uint16_t free_port() {
-    const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t length = sizeof address;
-    ::bind(probe, reinterpret_cast<sockaddr*>(&address), length);
-    ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &length);
-    ::close(probe);
-    return ntohs(address.sin_port);
   }
   /// A STATE that has the motor's and the compass's measurements; null while there is none.
   [[nodiscard]] Json state(const std::string& rate_Hz) const {

@@ -3,8 +3,6 @@
 // time. What the vehicle did is read from the emulator's truth file.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -15,29 +13,20 @@
 #include <sstream>
 
 #include "base/descriptor.h"
+#include "tests/support/free_port.h"
 #include "tests/support/process.h"
 
 namespace navcal {
 namespace {
 
 using test::eventually;
+using test::free_port;
 using test::Process;
 
 constexpr std::chrono::seconds kPatience{120};
 constexpr double kSpeedOfMission_rpm = 780;
 
 std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
-
-std::uint16_t free_port() {
-  const base::Descriptor probe(::socket(AF_INET, SOCK_STREAM, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t length = sizeof address;
-  ::bind(probe.get(), reinterpret_cast<sockaddr*>(&address), length);
-  ::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&address), &length);
-  return ntohs(address.sin_port);
-}
 
 struct TruthRow {
   double t_s, depth_m, heading_deg, rpm;
