@@ -21,6 +21,10 @@ std::string mend_of_holder(const std::string& holder, const std::string& device)
 
 Finding check_port(const config::PortSettings& settings, const Account& account) {
   const std::string topic = "port " + settings.name;
+  // Whether a device answers there is for navcald to find out: many converters take one connection only.
+  if (!settings.address.empty())
+    return good(topic,
+                fmt::format("{}: reached through the network; navcald says whether it answers", settings.address));
   std::string why;
   const auto found = ports::find_port(settings, why);
   if (!found) return fault(topic, why, "connect it; `navcal ports` lists the ports and how to configure them");

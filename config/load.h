@@ -13,8 +13,8 @@
 namespace navcal::config {
 
 /// Settings given on the command line, "key=value" with the keys of the file: "status.port=29470",
-/// "port.compass.path=/dev/pts/3", "log.enabled=false". Text needs no quotes. Where a port is (path, udev_name or
-/// usb_serial) replaces what the file says of it, whichever of the three that was.
+/// "port.compass.path=/dev/pts/3", "log.enabled=false". Text needs no quotes. Where a port is (path, udev_name,
+/// usb_serial or address) replaces what the file says of it, whichever of the four that was.
 using Overrides = std::vector<std::string>;
 
 /// Reads a configuration file (docs/configuration.md). Throws Error.

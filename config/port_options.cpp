@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "config/network_address.h"
 #include "config/options.h"
 #include "config/text_rules.h"
 #include "protocols/device_types.h"
@@ -51,8 +52,19 @@ std::vector<Option<P>> make_port_options() {
            .text_rule = "a serial number without control characters",
            .text_holds = is_printable},
           [](auto& p) -> auto& { return p.usb_serial; }),
+      text<P>(
+          {.key = "address",
+           .description = "Instead of path: tcp:HOST:PORT (navcald connects), tcp-listen:ADDRESS:PORT (the device "
+                          "connects) or udp:ADDRESS:PORT (datagrams that arrive there).",
+           .text_rule = "tcp:, tcp-listen: or udp: with an IP address and a port",
+           .text_holds = [](std::string_view text) { return parse_network_address(text).has_value(); }},
+          [](auto& p) -> auto& { return p.address; }),
       integer<P>(
-          {.key = "baud", .description = "Line speed, 8N1.", .unit = kBits, .low = 50, .high = 4000000},
+          {.key = "baud",
+           .description = "Line speed, 8N1; with address that of the serial line behind the converter.",
+           .unit = kBits,
+           .low = 50,
+           .high = 4000000},
           [](auto& p) -> auto& { return p.baud; }),
       boolean<P>(
           {.key = "start_up",

@@ -21,7 +21,9 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool is_place(std::string_view key) { return key == "path" || key == "udev_name" || key == "usb_serial"; }
+bool is_place(std::string_view key) {
+  return key == "path" || key == "udev_name" || key == "usb_serial" || key == "address";
+}
 
 }  // namespace
 
@@ -125,7 +127,7 @@ void Reader::take_port_entry(PortSettings& port, const Entry& entry, bool protoc
     complain(entry, fmt::format("a port of protocol {} has no such setting", protocols::name_of(port.protocol)));
     return;
   }
-  if (entry.line == 0 && is_place(key)) port.path = port.udev_name = port.usb_serial = "";
+  if (entry.line == 0 && is_place(key)) port.path = port.udev_name = port.usb_serial = port.address = "";
   if (auto refused = set(*option, port, entry)) complain(entry, std::move(*refused));
 }
 
@@ -142,11 +144,13 @@ void Reader::check_ports() {
   for (std::size_t i = 0; i < settings_.ports.size(); ++i) {
     const PortSettings& port = settings_.ports[i];
     const std::string key = "port." + port.name;
-    const int places = int{!port.path.empty()} + int{!port.udev_name.empty()} + int{!port.usb_serial.empty()};
+    const int places = int{!port.path.empty()} + int{!port.udev_name.empty()} + int{!port.usb_serial.empty()} +
+                       int{!port.address.empty()};
     if (places == 0)
-      problems_.push_back({port_lines_[i], key, "the place is missing: path, udev_name or usb_serial"});
+      problems_.push_back({port_lines_[i], key, "the place is missing: path, udev_name, usb_serial or address"});
     if (places > 1)
-      problems_.push_back({port_lines_[i], key, "only one of path, udev_name and usb_serial may be given"});
+      problems_.push_back(
+          {port_lines_[i], key, "only one of path, udev_name, usb_serial and address may be given"});
     for (std::size_t j = 0; j < i; ++j) {
       const PortSettings& other = settings_.ports[j];
       const auto same = [&](std::string_view what, const std::string& mine, const std::string& others) {
@@ -157,6 +161,7 @@ void Reader::check_ports() {
       same("path", port.path, other.path);
       same("udev_name", port.udev_name, other.udev_name);
       same("usb_serial", port.usb_serial, other.usb_serial);
+      same("address", port.address, other.address);
     }
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 using protocols::Protocol;
 
-/// One of path, udev_name and usb_serial.
+/// One of path, udev_name, usb_serial and address.
 bool is_place(const OptionInfo& option) { return option.table.empty() && option.kind == Kind::text; }
 
 /// Empty when there is no default.
@@ -24,7 +24,7 @@ std::string default_words(const Option<Settings>& option) { return option.write(
 /// One value when all protocols that have the option agree on it, else each protocol's.
 std::string default_words(const Option<PortSettings>& option) {
   if (option.table.empty() && option.kind == Kind::text)
-    return "none: one of path, udev_name, usb_serial is required";
+    return "none: one of path, udev_name, usb_serial, address is required";
   if (option.key == "protocol" || is_place(option)) return {};
   std::vector<std::string> each;
   std::string first;
@@ -46,7 +46,7 @@ std::string protocols_words(const OptionInfo& option) {
 }
 
 std::string default_clause(const OptionInfo& option, const std::string& words) {
-  if (is_place(option)) return "one of path, udev_name and usb_serial is required";
+  if (is_place(option)) return "one of path, udev_name, usb_serial and address is required";
   return words.empty() ? "required" : "default: " + words;
 }
 

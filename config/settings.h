@@ -46,10 +46,11 @@ struct GpsSettings {
 struct PortSettings {
   std::string name;
   protocols::Protocol protocol = protocols::Protocol::nmea;
-  // Exactly one of the three says where it is; empty when not given.
+  // Exactly one of the four says where it is; empty when not given.
   std::string path;        ///< /dev/ttyUSB0, a pseudo-terminal, a link
   std::string udev_name;   ///< a link that udev keeps, e.g. /dev/navcal/compass or serial/by-id/...
   std::string usb_serial;  ///< serial number of the USB adapter
+  std::string address;     ///< in the network (network_address.h)
   int baud = 9600;
   bool start_up = true;      ///< hold the device's start-up dialogue
   bool low_latency = true;   ///< ask the driver for low latency

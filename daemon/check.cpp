@@ -24,6 +24,7 @@ constexpr std::uint64_t kMB = 1'000'000;
 std::string place(const config::PortSettings& port) {
   if (!port.path.empty()) return port.path;
   if (!port.udev_name.empty()) return fmt::format("udev name {}", port.udev_name);
+  if (!port.address.empty()) return port.address;
   return fmt::format("USB adapter with serial number {}", port.usb_serial);
 }
 

@@ -52,7 +52,8 @@ void PortSession::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
   ++times_opened_;
   opened_anew_ = true;
   owner_.on_port_event(index_, now_ns, "info", "port.opened",
-                       fmt::format("{} at {} Bd{}{}; low latency: {}", port.path, settings_.baud,
+                       fmt::format("{}{}{}{}; low latency: {}", port.path,
+                                   port.is_network ? std::string() : fmt::format(" at {} Bd", settings_.baud),
                                    port.description.empty() ? "" : ", ", port.description, port.low_latency));
   set_state(now_ns, State::running, "opened");
   if (start_up_) start_up_->begin(now_ns);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ports/port.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/awaitable.hpp>
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -18,11 +15,15 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
-#include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "base/descriptor.h"
+#include "config/network_address.h"
 #include "ports/finder.h"
+#include "ports/line.h"
+#include "ports/network_line.h"
 #include "ports/no_throw.h"
 #include "ports/tty.h"
 
@@ -37,6 +38,7 @@ constexpr std::size_t kReadBytes = 4096;
 constexpr std::size_t kSendBytes = 4096;
 constexpr milliseconds kLookAgain{200};  // a device that is not there
 constexpr milliseconds kTryAgain{500};   // one that is there and cannot be opened: finding out why costs more
+constexpr milliseconds kConnect{5000};
 constexpr milliseconds kAfterEmptyRead{10};
 constexpr int kEmptyReads = 20;
 
@@ -44,7 +46,13 @@ constexpr int kEmptyReads = 20;
 
 struct Port::State : std::enable_shared_from_this<Port::State> {
   State(asio::any_io_executor executor, config::PortSettings port_settings, PortListener& port_listener)
-      : settings(std::move(port_settings)), listener(port_listener), descriptor(executor), timer(executor) {
+      : settings(std::move(port_settings)),
+        listener(port_listener),
+        descriptor(executor),
+        timer(executor),
+        address(config::parse_network_address(settings.address)),
+        door(executor),
+        buffer(address ? kLargestDatagram_bytes : kReadBytes) {
     outgoing.reserve(kSendBytes);
   }
 
@@ -52,7 +60,16 @@ struct Port::State : std::enable_shared_from_this<Port::State> {
   awaitable<std::string> read_until_lost();
   awaitable<void> pause(milliseconds duration);
   /// Empty when the port is open now; else why it is not, and when to try again.
-  std::string open(milliseconds& again_after);
+  awaitable<std::string> open(milliseconds& again_after);
+  std::string open_tty(milliseconds& again_after);
+  /// Empty, or why there is no line.
+  std::string take(std::variant<std::unique_ptr<Line>, std::string> opened);
+  awaitable<std::string> connect(const config::NetworkAddress& address);
+  awaitable<std::string> accept(const config::NetworkAddress& address);
+  /// True when the socket is ready; false when it is not within the limit (0: none), or the port was stopped.
+  awaitable<bool> ready(int socket, asio::posix::stream_descriptor::wait_type type, milliseconds limit);
+  /// A device that connects while another one is connected takes its place.
+  void watch_door();
   void close();
   void tell(const std::string& reason);
   /// Reads all that is there after one wake-up. Empty, or why the port is lost.
@@ -61,11 +78,16 @@ struct Port::State : std::enable_shared_from_this<Port::State> {
 
   config::PortSettings settings;
   PortListener& listener;
-  asio::posix::stream_descriptor descriptor;  // borrows the descriptor of tty
+  asio::posix::stream_descriptor descriptor;  // borrows the descriptor of line
   asio::steady_timer timer;
-  std::optional<Tty> tty;
-  std::vector<std::string> told;  // reasons since the port was last open
-  std::array<std::uint8_t, kReadBytes> buffer{};
+  const std::optional<config::NetworkAddress> address;  // of a port without a tty
+  std::unique_ptr<Line> line;
+  asio::posix::stream_descriptor door;  // borrows the descriptor of listening
+  base::Descriptor listening;
+  std::unique_ptr<Line> newcomer;  // connected, and waits until the line before it is closed
+  std::uint64_t waits = 0;         // number of the last ready()
+  std::vector<std::string> told;   // reasons since the port was last open
+  std::vector<std::uint8_t> buffer;
   std::vector<std::uint8_t> outgoing;
   bool writing = false;
   int empty_reads = 0;
@@ -77,7 +99,7 @@ awaitable<void> Port::State::run(std::shared_ptr<State> /*self: keeps the state 
     milliseconds again_after = kLookAgain;
     std::string reason;
     try {
-      reason = open(again_after);
+      reason = co_await open(again_after);
       if (reason.empty()) reason = co_await read_until_lost();
     } catch (const std::exception& error) {
       reason = std::string("failure inside navcald: ") + error.what();
@@ -89,27 +111,112 @@ awaitable<void> Port::State::run(std::shared_ptr<State> /*self: keeps the state 
   }
 }
 
-std::string Port::State::open(milliseconds& again_after) {
+awaitable<std::string> Port::State::open(milliseconds& again_after) {
+  std::string why;
+  if (!address) {
+    why = open_tty(again_after);
+  } else if (address->kind == config::NetworkAddress::Kind::tcp) {
+    again_after = kTryAgain;
+    why = co_await connect(*address);
+  } else if (address->kind == config::NetworkAddress::Kind::tcp_listen) {
+    why = co_await accept(*address);
+  } else {
+    why = take(bind_datagrams(*address));
+  }
+  if (!why.empty() || stopped) co_return why;
+  descriptor.assign(line->fd());
+  told.clear();
+  empty_reads = 0;
+  listener.on_opened(monotonic_ns(), line->info());
+  co_return std::string{};
+}
+
+std::string Port::State::open_tty(milliseconds& again_after) {
   std::string why;
   const auto found = find_port(settings, why);
   if (!found) return why;
-  auto opened = Tty::open(*found, settings.baud, settings.low_latency);
-  if (auto* refusal = std::get_if<std::string>(&opened)) {
-    again_after = kTryAgain;
-    return std::move(*refusal);
-  }
-  tty.emplace(std::get<Tty>(std::move(opened)));
-  descriptor.assign(tty->fd());
-  told.clear();
-  empty_reads = 0;
-  listener.on_opened(monotonic_ns(), tty->info());
+  why = take(Tty::open(*found, settings.baud, settings.low_latency));
+  if (!why.empty()) again_after = kTryAgain;
+  return why;
+}
+
+std::string Port::State::take(std::variant<std::unique_ptr<Line>, std::string> opened) {
+  if (auto* refusal = std::get_if<std::string>(&opened)) return std::move(*refusal);
+  line = std::get<std::unique_ptr<Line>>(std::move(opened));
   return {};
 }
 
+awaitable<bool> Port::State::ready(int socket, asio::posix::stream_descriptor::wait_type type,
+                                   milliseconds limit) {
+  const std::uint64_t number = ++waits;
+  descriptor.assign(socket);
+  if (limit.count() > 0) {
+    timer.expires_after(limit);
+    timer.async_wait([self = shared_from_this(), number](const boost::system::error_code& error) {
+      // An expiry that was queued before its wait was over must not end the next one.
+      if (!error && number == self->waits && self->descriptor.is_open()) self->descriptor.cancel();
+    });
+  }
+  const auto [error] = co_await descriptor.async_wait(type, kNoThrow);
+  ++waits;
+  timer.cancel();
+  if (descriptor.is_open()) descriptor.release();
+  co_return !error && !stopped;
+}
+
+awaitable<std::string> Port::State::connect(const config::NetworkAddress& to) {
+  auto begun = begin_connect(to);
+  if (auto* refusal = std::get_if<std::string>(&begun)) co_return std::move(*refusal);
+  auto& socket = std::get<base::Descriptor>(begun);
+  if (!co_await ready(socket.get(), asio::posix::stream_descriptor::wait_write, kConnect)) {
+    co_return fmt::format("{}: no answer within {} s", settings.address, kConnect.count() / 1000);
+  }
+  co_return take(finish_connect(to, std::move(socket)));
+}
+
+awaitable<std::string> Port::State::accept(const config::NetworkAddress& at) {
+  if (newcomer) {
+    line = std::move(newcomer);
+    watch_door();
+    co_return std::string{};
+  }
+  if (!listening) {
+    auto opened = listen_at(at);
+    if (auto* refusal = std::get_if<std::string>(&opened)) co_return std::move(*refusal);
+    listening = std::get<base::Descriptor>(std::move(opened));
+    door.assign(listening.get());
+  }
+  tell(fmt::format("{}: waiting for a device that connects", settings.address));
+  while (!stopped && !line) {
+    const auto [error] = co_await door.async_wait(asio::posix::stream_descriptor::wait_read, kNoThrow);
+    if (error) co_return error.message();
+    line = accept_at(listening.get());
+  }
+  if (!stopped) watch_door();
+  co_return std::string{};
+}
+
+void Port::State::watch_door() {
+  door.async_wait(asio::posix::stream_descriptor::wait_read,
+                  [self = shared_from_this()](const boost::system::error_code& error) {
+                    if (error || self->stopped || !self->line) return;
+                    self->newcomer = accept_at(self->listening.get());
+                    if (!self->newcomer) return self->watch_door();
+                    self->descriptor.cancel();
+                  });
+}
+
 void Port::State::close() {
-  if (!tty) return;
-  descriptor.release();  // ends what waits on it, and leaves the closing to its owner
-  tty.reset();
+  // Releasing ends what waits on a descriptor, and leaves the closing to its owner.
+  if (descriptor.is_open()) descriptor.release();
+  if (stopped) {
+    if (door.is_open()) door.release();
+    listening = base::Descriptor();
+    newcomer.reset();
+  } else if (line && door.is_open()) {
+    door.cancel();
+  }
+  line.reset();
   outgoing.clear();
 }
 
@@ -129,6 +236,7 @@ awaitable<std::string> Port::State::read_until_lost() {
     const auto [error] = co_await descriptor.async_wait(asio::posix::stream_descriptor::wait_read, kNoThrow);
     const std::int64_t arrival_ns = monotonic_ns();
     if (stopped) break;
+    if (newcomer) co_return fmt::format("{}: another device has connected", line->info().path);
     if (error) co_return error.message();
     if (std::string lost = drain(arrival_ns); !lost.empty()) co_return lost;
     // A tty that reads as empty is ready again at once; without a pause it would eat a core.
@@ -139,18 +247,18 @@ awaitable<std::string> Port::State::read_until_lost() {
 
 std::string Port::State::drain(std::int64_t arrival_ns) {
   for (;;) {
-    const ssize_t n = ::read(tty->fd(), buffer.data(), buffer.size());
+    const ssize_t n = line->read(buffer);
     if (n < 0) {
       if (errno == EAGAIN) return {};
       if (errno == EINTR) continue;
-      return tty->info().path + ": " + std::strerror(errno);
+      return line->info().path + ": " + std::strerror(errno);
     }
     if (n == 0) {
-      if (!tty->alive()) return tty->info().path + ": the device is gone";
+      if (std::string end = line->ended(); !end.empty()) return end;
       // The device is there and yet reads end: its settings were changed by another program. Opening it anew
       // restores them.
       if (++empty_reads < kEmptyReads) return {};
-      return tty->info().path + ": reads end at once although the device is there";
+      return line->info().path + ": reads end at once although the device is there";
     }
     empty_reads = 0;
     const auto size = static_cast<std::size_t>(n);
@@ -162,18 +270,20 @@ std::string Port::State::drain(std::int64_t arrival_ns) {
 
 void Port::State::write_some() {
   writing = true;
-  descriptor.async_write_some(
-      asio::buffer(outgoing), [self = shared_from_this()](const boost::system::error_code& error, std::size_t n) {
-        self->writing = false;
-        if (self->stopped) return;
-        // After an error the reading side finds out what became of the port.
-        if (error) return self->outgoing.clear();
-        n = std::min(n, self->outgoing.size());
-        self->listener.on_sent(monotonic_ns(), protocols::Bytes(self->outgoing.data(), n));
-        if (self->stopped) return;
-        self->outgoing.erase(self->outgoing.begin(), self->outgoing.begin() + static_cast<std::ptrdiff_t>(n));
-        if (!self->outgoing.empty()) self->write_some();
-      });
+  descriptor.async_wait(asio::posix::stream_descriptor::wait_write, [self = shared_from_this()](
+                                                                        const boost::system::error_code& error) {
+    self->writing = false;
+    if (self->stopped || !self->line) return;
+    const ssize_t taken = error ? -1 : self->line->write(self->outgoing);
+    if (taken < 0 && !error && (errno == EAGAIN || errno == EINTR)) return self->write_some();
+    // After an error the reading side finds out what became of the port.
+    if (taken < 0) return self->outgoing.clear();
+    const auto n = std::min(static_cast<std::size_t>(taken), self->outgoing.size());
+    self->listener.on_sent(monotonic_ns(), protocols::Bytes(self->outgoing.data(), n));
+    if (self->stopped) return;
+    self->outgoing.erase(self->outgoing.begin(), self->outgoing.begin() + static_cast<std::ptrdiff_t>(n));
+    if (!self->outgoing.empty()) self->write_some();
+  });
 }
 
 Port::Port(asio::any_io_executor executor, config::PortSettings settings, PortListener& listener)
@@ -185,15 +295,15 @@ void Port::start() { asio::co_spawn(state_->timer.get_executor(), state_->run(st
 
 void Port::send(protocols::Bytes bytes) {
   State& state = *state_;
-  if (!state.tty || state.outgoing.size() + bytes.size() > kSendBytes) return;
+  if (!state.line || state.outgoing.size() + bytes.size() > kSendBytes) return;
   state.outgoing.insert(state.outgoing.end(), bytes.begin(), bytes.end());
   if (!state.writing) state.write_some();
 }
 
 std::optional<std::int64_t> Port::send_now(protocols::Bytes bytes) {
   State& state = *state_;
-  if (!state.tty || state.writing || !state.outgoing.empty()) return std::nullopt;
-  const ssize_t n = ::write(state.tty->fd(), bytes.data(), bytes.size());
+  if (!state.line || state.writing || !state.outgoing.empty()) return std::nullopt;
+  const ssize_t n = state.line->write(bytes);
   const std::int64_t now_ns = monotonic_ns();
   // After an error the reading side finds out what became of the port.
   if (n <= 0) return std::nullopt;
@@ -203,16 +313,7 @@ std::optional<std::int64_t> Port::send_now(protocols::Bytes bytes) {
 }
 
 void Port::flush(milliseconds limit) {
-  const State& state = *state_;
-  if (!state.tty) return;
-  const auto end = std::chrono::steady_clock::now() + limit;
-  int waiting = 0;
-  while (::ioctl(state.tty->fd(), TIOCOUTQ, &waiting) == 0 && waiting > 0 &&
-         std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(milliseconds(1));
-  // The driver has handed over all; the UART's own FIFO holds sixteen bytes of ten bits.
-  if (!state.tty->info().pseudo_terminal)
-    std::this_thread::sleep_for(std::chrono::microseconds(160'000'000 / state.settings.baud));
+  if (state_->line) state_->line->flush(limit);
 }
 
 void Port::stop() {

@@ -16,8 +16,9 @@ namespace navcal::ports {
 
 /// Properties of an opened port.
 struct OpenPort {
-  std::string path;  ///< what was opened, links resolved
+  std::string path;  ///< what was opened, links resolved; of a socket its address
   bool pseudo_terminal = false;
+  bool is_network = false;  ///< a socket: no line speed of its own
   std::string low_latency;  ///< what was asked for and what was read back, in words
   std::string description;  ///< USB ids, driver, where known
 };
@@ -36,9 +37,9 @@ class PortListener {
   virtual void on_lost(std::int64_t now_ns, std::string_view reason) = 0;
 };
 
-/// One configured port for as long as the daemon runs. It is found by path, udev name or USB serial number,
-/// opened and read. A lost port is found again within a second, whatever its name. Reading waits for nothing
-/// but bytes.
+/// One configured port for as long as the daemon runs. It is found by path, udev name, USB serial number or
+/// network address, opened and read. A lost port is found again within a second, whatever its name. Reading waits
+/// for nothing but bytes.
 class Port {
  public:
   Port(boost::asio::any_io_executor executor, config::PortSettings settings, PortListener& listener);

@@ -7,9 +7,11 @@
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <thread>
 
 #include "ports/holder.h"
 #include "ports/raw_mode.h"
@@ -58,8 +60,9 @@ void Tty::CloseSerial::operator()(sp_port* port) const {
   sp_free_port(port);
 }
 
-std::variant<Tty, std::string> Tty::open(const Found& found, int baud, bool low_latency) {
-  Tty tty;
+std::variant<std::unique_ptr<Line>, std::string> Tty::open(const Found& found, int baud, bool low_latency) {
+  std::unique_ptr<Tty> opened(new Tty(baud));
+  Tty& tty = *opened;
   tty.info_.path = found.path;
   tty.info_.description = found.description;
   tty.device_ = base::Descriptor(::open(found.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
@@ -67,21 +70,20 @@ std::variant<Tty, std::string> Tty::open(const Found& found, int baud, bool low_
   if (tcgetattr(tty.device_.get(), &tty.former_) != 0) return fmt::format("{}: is no serial port", found.path);
   if (!lock_device(tty.device_.get())) return refusal(found.path, EBUSY);
   tty.info_.pseudo_terminal = is_pseudo_terminal(tty.device_.get());
-  std::string why =
-      tty.info_.pseudo_terminal ? tty.open_pseudo_terminal(baud) : tty.open_serial(baud, low_latency);
+  std::string why = tty.info_.pseudo_terminal ? tty.open_pseudo_terminal() : tty.open_serial(low_latency);
   if (!why.empty()) return why;
-  return tty;
+  return opened;
 }
 
-std::string Tty::open_pseudo_terminal(int baud) {
+std::string Tty::open_pseudo_terminal() {
   // No TIOCEXCL here: on a pseudo-terminal it outlives a killed owner and would lock out the next one for good.
-  if (!set_raw(device_.get(), baud)) return refusal(info_.path, errno);
+  if (!set_raw(device_.get(), baud_)) return refusal(info_.path, errno);
   fd_ = device_.get();
   info_.low_latency = "not applicable on a pseudo-terminal";
   return {};
 }
 
-std::string Tty::open_serial(int baud, bool low_latency) {
+std::string Tty::open_serial(bool low_latency) {
   sp_port* port = nullptr;
   if (sp_get_port_by_name(info_.path.c_str(), &port) != SP_OK) return info_.path + ": is no serial port";
   if (sp_open(port, SP_MODE_READ_WRITE) != SP_OK) {
@@ -91,7 +93,7 @@ std::string Tty::open_serial(int baud, bool low_latency) {
   }
   serial_.reset(port);
   sp_get_port_handle(port, &fd_);
-  if (std::string why = set_up(port, baud); !why.empty()) return why;
+  if (std::string why = set_up(port, baud_); !why.empty()) return why;
   if (!read_when_there_is_something(fd_)) return refusal(info_.path, errno);
   // TIOCEXCL keeps out programs that do not use our lock.
   if (::ioctl(fd_, TIOCEXCL) != 0) return refusal(info_.path, errno);
@@ -101,9 +103,22 @@ std::string Tty::open_serial(int baud, bool low_latency) {
   return {};
 }
 
-bool Tty::alive() const {
+ssize_t Tty::read(std::span<std::uint8_t> buffer) { return ::read(fd_, buffer.data(), buffer.size()); }
+
+ssize_t Tty::write(protocols::Bytes bytes) { return ::write(fd_, bytes.data(), bytes.size()); }
+
+std::string Tty::ended() const {
   termios settings{};
-  return tcgetattr(fd_, &settings) == 0;
+  return tcgetattr(fd_, &settings) == 0 ? std::string() : info_.path + ": the device is gone";
+}
+
+void Tty::flush(std::chrono::milliseconds limit) const {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  int waiting = 0;
+  while (::ioctl(fd_, TIOCOUTQ, &waiting) == 0 && waiting > 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  // The driver has handed over all; the UART's own FIFO holds sixteen bytes of ten bits.
+  if (!info_.pseudo_terminal) std::this_thread::sleep_for(std::chrono::microseconds(160'000'000 / baud_));
 }
 
 Tty::~Tty() {

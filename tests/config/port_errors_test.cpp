@@ -34,25 +34,25 @@ TEST(ConfigPortErrors, MissingProtocol) {
 
 TEST(ConfigPortErrors, NoPlace) {
   EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm2\"\n"),
-            Problems{"t.toml:1: port.compass: the place is missing: path, udev_name or usb_serial"});
+            Problems{"t.toml:1: port.compass: the place is missing: path, udev_name, usb_serial or address"});
 }
 
 TEST(ConfigPortErrors, AnEmptyPlaceIsNone) {
   EXPECT_EQ(
       problems_of("[port.compass]\nprotocol = \"tcm2\"\nusb_serial = \"\"\n"),
-      (Problems{"t.toml:1: port.compass: the place is missing: path, udev_name or usb_serial",
+      (Problems{"t.toml:1: port.compass: the place is missing: path, udev_name, usb_serial or address",
                 "t.toml:3: port.compass.usb_serial: \"\" is not a serial number without control characters"}));
 }
 
 TEST(ConfigPortErrors, AnAddressIsNoPath) {
   EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm2\"\npath = \"tcp://vehicle:4001\"\n"),
-            (Problems{"t.toml:1: port.compass: the place is missing: path, udev_name or usb_serial",
+            (Problems{"t.toml:1: port.compass: the place is missing: path, udev_name, usb_serial or address",
                       "t.toml:3: port.compass.path: \"tcp://vehicle:4001\" is not a path on this machine without "
                       "control characters"}));
 }
 
 TEST(ConfigPortErrors, SeveralPlaces) {
-  const Problems several{"t.toml:1: port.compass: only one of path, udev_name and usb_serial may be given"};
+  const Problems several{"t.toml:1: port.compass: only one of path, udev_name, usb_serial and address may be given"};
   EXPECT_EQ(problems_of(compass("udev_name = \"x\"\n")), several);
   EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\n")), several);
   EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\nudev_name = \"y\"\n")), several);
