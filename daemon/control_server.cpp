@@ -26,6 +26,8 @@ constexpr auto kAcceptPause = std::chrono::milliseconds(500);
 constexpr double kMaxLines_Hz = 200;
 constexpr auto kSlowDown = std::chrono::milliseconds(50);
 
+asio::awaitable<std::string> do_work(std::function<std::string()> work) { co_return work(); }
+
 }  // namespace
 
 ControlServer::ControlServer(asio::local::stream_protocol::acceptor acceptor, std::filesystem::path own_path,
@@ -89,7 +91,8 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::
     });
     if (!accepted) answers.emplace_back(control_error("line too long"));
     for (ControlAnswer& next : answers) {
-      const std::string text = co_await line_of(std::move(next));
+      asio::awaitable<std::string> line = line_of(std::move(next));
+      const std::string text = co_await std::move(line);
       const auto [write_error, written] = co_await asio::async_write(*socket, asio::buffer(text), ports::kNoThrow);
       if (write_error) co_return;
     }
@@ -106,9 +109,11 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::
 asio::awaitable<std::string> ControlServer::line_of(ControlAnswer answer) {
   if (!answer.work) co_return std::move(answer.text);
   if (!reader_) reader_.emplace(1);
-  co_return co_await asio::co_spawn(
-      *reader_, [work = std::move(answer.work)]() -> asio::awaitable<std::string> { co_return work(); },
-      asio::use_awaitable);
+  const auto reader = reader_->get_executor();
+  // Named, because g++ 12 destroys temporaries of an awaited expression twice.
+  asio::awaitable<std::string> work = do_work(std::move(answer.work));
+  std::string line = co_await asio::co_spawn(reader, std::move(work), asio::use_awaitable);
+  co_return line;
 }
 
 ControlAnswer ControlServer::answer(std::string_view line, const ControlOrigin& origin) const {

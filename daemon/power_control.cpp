@@ -26,16 +26,20 @@ PowerControl::PowerControl(const boost::asio::any_io_executor& executor, const c
 
 void PowerControl::begin(std::int64_t now_ns) {
   for (Supply& supply : supplies_) {
-    supply.line = open_(supply.settings, supply.problem);
-    if (!supply.line) {
+    if (!take(supply, now_ns))
       owner_.on_power_event(now_ns, "error", "power.failed", supply.settings.name + ": " + supply.problem);
-      continue;
-    }
-    const auto on = supply.line->is_on();
-    const bool leave = supply.settings.at_start == config::PowerAtStart::leave;
-    if (on == false) cut(supply, now_ns, "switched off at the start of navcald");
-    if (on == true && !leave) settle(supply, now_ns);
   }
+}
+
+bool PowerControl::take(Supply& supply, std::int64_t now_ns) {
+  supply.line = open_(supply.settings, supply.problem);
+  if (!supply.line) return false;
+  supply.problem.clear();
+  const auto on = supply.line->is_on();
+  const bool leave = supply.settings.at_start == config::PowerAtStart::leave;
+  if (on == false) cut(supply, now_ns, "off since navcald took the line");
+  if (on == true && !leave) settle(supply, now_ns);
+  return true;
 }
 
 std::string PowerControl::answer(const ControlRequest& request) {
@@ -54,8 +58,7 @@ std::string PowerControl::switch_to(Supply& supply, bool on, std::int64_t now_ns
   for (const std::uint16_t port : on ? std::vector<std::uint16_t>() : supply.ports) {
     if (auto why = owner_.why_power_stays(port); !why.empty()) return why;
   }
-  if (!supply.line) supply.line = open_(supply.settings, supply.problem);
-  if (!supply.line) return supply.problem;
+  if (!supply.line && !take(supply, now_ns)) return supply.problem;
   if (supply.line->is_on() == on) return {};
   supply.problem = supply.line->set(on);
   if (!supply.problem.empty()) {

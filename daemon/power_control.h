@@ -53,6 +53,8 @@ class PowerControl {
     std::int64_t ready_ns = LazyTimer::kNever;  ///< when the devices are spoken to after switching on
   };
 
+  /// Opens the line and follows its state; false when it cannot be taken.
+  bool take(Supply& supply, std::int64_t now_ns);
   /// Why the supply was not switched; empty: it is.
   [[nodiscard]] std::string switch_to(Supply& supply, bool on, std::int64_t now_ns);
   void settle(Supply& supply, std::int64_t now_ns);
