@@ -109,7 +109,8 @@ void add_log_control(CLI::App* log) {
 
   auto* const fetch = add_command(log, options, "fetch", "downloads finished logs from a running navcald",
                                   "navcal log fetch --to dives");
-  fetch->add_option("FILE", options->files, "names of logs; without any, all that are finished and not there yet");
+  fetch->add_option("FILE", options->files, "names of logs; without any, all that are finished and not there yet")
+      ->option_text("NAME");
   fetch->add_option("--to", options->to, "folder for the logs")->option_text("DIR")->required();
   fetch->footer(
       "NAME.part grows in the folder, and the same command continues it after an interruption. Checksums are\n"

@@ -101,6 +101,7 @@ class InCharge {
   Json order(double rpm) {
     return ask({{"command", "motor.order"}, {"lease", token_}, {"shaft_rpm", rpm}, {"fins_deg", {0, 0, 0}}});
   }
+  Json release() { return ask({{"command", "motor.release"}, {"lease", token_}}); }
   Json motor() { return ask({{"command", "status"}})["health"][0]["motor"]; }
 
  private:
@@ -143,6 +144,28 @@ TEST_F(House, ALeakThatIsAnAlarmOnlyLeavesTheProgramInCharge) {
   EXPECT_FALSE(said("motor.leak"));
 }
 
+TEST_F(House, TheMotorCardKeepsItsPowerWhileSomebodyIsInCharge) {
+  // There is no such controller: what is tested is that the line is not even asked for.
+  std::ofstream(folder_ / "navcald.toml", std::ios::app)
+      << "[power.drive]\ngpio_chip = \"gpiochip9999\"\nline = 0\ndevices = [\"motor\"]\n";
+  start();
+  EXPECT_TRUE(said("power.failed: drive: gpiochip9999 line 0")) << daemon_->err();
+  InCharge program(folder_ / "control");
+  const Json off{{"command", "power.off"}, {"name", "drive"}};
+  ASSERT_EQ(program.lease(1)["ok"], true);
+  const std::string held =
+      "test (priority 1) holds the motor card: release the lease first, which orders the safe state";
+  EXPECT_EQ(program.ask(off)["error"], held);
+  ASSERT_EQ(program.order(300)["ok"], true);
+  EXPECT_EQ(program.ask(off)["error"], held);
+  EXPECT_EQ(program.release()["ok"], true);
+  EXPECT_NE(program.ask(off)["error"].get<std::string>().find("gpiochip9999"), std::string::npos);
+  const Json supply = program.ask({{"command", "power.list"}})["supplies"][0];
+  EXPECT_EQ(supply["name"], "drive");
+  EXPECT_EQ(supply["on"], nullptr);
+  EXPECT_EQ(supply["devices"], Json({"motor"}));
+}
+
 TEST_F(House, LogsAreListedFetchedStoppedAndStarted) {
   start();
   ASSERT_EQ(log_command({"stop"}), 0) << err_;
@@ -183,6 +206,12 @@ TEST_F(House, LogsAreListedFetchedStoppedAndStarted) {
   daemon_->signal(SIGTERM);
   EXPECT_EQ(daemon_->wait(kHousePatience), 0);
   EXPECT_EQ(log_command({"list"}), 1) << "there is no navcald";
+  // A reader of others, where it is installed (npm ci in tests/mcap).
+  if (fs::exists(NAVCAL_SOURCE_DIR "/tests/mcap/node_modules/@mcap/core")) {
+    Process reader({"node", NAVCAL_SOURCE_DIR "/tests/mcap/read.mjs", original.string()}, folder_ / "reader");
+    EXPECT_EQ(reader.wait(kHousePatience), 0) << reader.err();
+    EXPECT_EQ(Json::parse(reader.out())["finished"], true) << reader.out();
+  }
   // Both logs are whole, and the second says what it lacks.
   int left_out = 0;
   for (const auto& log : fs::directory_iterator(folder_ / "logs")) {
