@@ -12,6 +12,7 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "cli/commands.h"
+#include "cli/log_control.h"
 #include "cli/result_file.h"
 #include "record/export/export.h"
 #include "record/log/log_info.h"
@@ -86,7 +87,8 @@ void add_log(CLI::App& app) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  auto* const log = app.add_subcommand("log", "information on a log; finish it; export it; import a capture");
+  auto* const log =
+      app.add_subcommand("log", "information on a log; finish, export or import; list, fetch, start, stop");
   log->require_subcommand(1);
   log->footer("Example: navcal log info navcal-20261121T023000Z-000123.mcap");
 
@@ -142,6 +144,8 @@ void add_log(CLI::App& app) {
     if (options->exporter == nullptr) throw CLI::RequiredError("one of --csv, --netcdf, --mat and --cap");
     export_log(options->file, options->exporter, options->to);
   });
+
+  add_log_control(log);
 }
 
 }  // namespace navcal::cli

@@ -97,6 +97,20 @@ std::vector<Option<Settings>> command_options() {
            .high = 25,
            .count = 3},
           [](auto& s) -> auto& { return s.command.safe_fins_deg; }),
+      choice<S>(
+          {.table = "command",
+           .key = "on_leak",
+           .description = "What a leak does beside its alarm: nothing, or the leases of programs end and the safe "
+                          "state is ordered.",
+           .choices = {"alarm", "safe"}},
+          [](auto& s) -> auto& { return s.command.on_leak; }),
+      integer<S>(
+          {.table = "command",
+           .key = "operator_priority",
+           .description = "A lease of this priority or more is a person's: no leak ends it or forbids it.",
+           .low = 0,
+           .high = 1001},
+          [](auto& s) -> auto& { return s.command.operator_priority; }),
   };
 }
 

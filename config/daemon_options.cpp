@@ -2,6 +2,7 @@
 #include "config/calibration_options.h"
 #include "config/command_options.h"
 #include "config/instrument_options.h"
+#include "config/log_choice.h"
 #include "config/navigation_options.h"
 #include "config/options.h"
 #include "config/role_options.h"
@@ -62,6 +63,13 @@ std::vector<Option<Settings>> make_daemon_options() {
            .low = 0.1,
            .high = 4096},
           [](auto& s) -> auto& { return s.log.queue_bytes; }),
+      list<Settings>(
+          {.table = "log",
+           .key = "leave_out",
+           .description = "What the log does not contain (docs/log-format.md).",
+           .text_rule = "samples, navigation, health, calibration, commands, raw or raw.NAME of a port",
+           .text_holds = is_log_choice},
+          [](auto& s) -> auto& { return s.log.leave_out; }),
 
       text<Settings>(
           {.table = "status",

@@ -17,6 +17,11 @@ namespace {
 constexpr std::size_t kMaxDepth = 4;
 
 Value value_of(const toml::array& array) {
+  if (!array.empty() && array.is_homogeneous<std::string>()) {
+    std::vector<std::string> texts;
+    for (const toml::node& element : array) texts.push_back(element.as_string()->get());
+    return texts;
+  }
   std::vector<double> numbers;
   for (const toml::node& element : array) {
     const auto number = element.value<double>();

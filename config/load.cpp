@@ -23,6 +23,8 @@ Settings parse(std::string_view toml, std::string_view name, const Overrides& ov
     reader.check_roles();
     reader.check_instruments(entries);
     reader.check_command();
+    reader.check_log();
+    reader.check_power();
   }
   auto& found = reader.problems();
   problems.insert(problems.end(), found.begin(), found.end());

@@ -8,7 +8,7 @@
 namespace navcal::config {
 namespace {
 
-std::string list(const std::vector<std::string_view>& choices) {
+std::string alternatives(const std::vector<std::string_view>& choices) {
   std::string out;
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (i > 0) out += i + 1 == choices.size() ? " or " : ", ";
@@ -38,9 +38,11 @@ std::string OptionInfo::allowed() const {
       return fmt::format("{} numbers, each {}{}", count == 3 ? "three" : "eight", range,
                          zero_allowed ? "" : " and not 0");
     case Kind::choice:
-      return list(choices);
+      return alternatives(choices);
     case Kind::text:
       return std::string(text_rule);
+    case Kind::list:
+      return fmt::format("a list of texts, each {}", text_rule);
   }
   return {};
 }
@@ -93,12 +95,21 @@ std::optional<std::string> OptionInfo::adopt(Value& value) const {
       const auto* text = std::get_if<std::string>(&value);
       if (text == nullptr) return wrong_type("a text");
       if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return std::nullopt;
-      return fmt::format("unknown {} {}; known: {}", key, to_toml_text(value), list(choices));
+      return fmt::format("unknown {} {}; known: {}", key, to_toml_text(value), alternatives(choices));
     }
     case Kind::text: {
       const auto* text = std::get_if<std::string>(&value);
       if (text == nullptr) return wrong_type("a text");
       if (!text_holds(*text)) return fmt::format("{} is not {}", to_toml_text(value), text_rule);
+      return std::nullopt;
+    }
+    case Kind::list: {
+      // An empty array of a file does not say of what it is.
+      if (value == Value(std::vector<double>())) value = std::vector<std::string>();
+      const auto* texts = std::get_if<std::vector<std::string>>(&value);
+      if (texts == nullptr) return fmt::format("{} is expected, not {}", allowed(), words_for(value));
+      const auto bad = std::find_if_not(texts->begin(), texts->end(), text_holds);
+      if (bad != texts->end()) return fmt::format("{} is not {}", to_toml_text(Value(*bad)), text_rule);
       return std::nullopt;
     }
   }

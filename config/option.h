@@ -17,7 +17,7 @@
 
 namespace navcal::config {
 
-enum class Kind : std::uint8_t { boolean, integer, real, text, choice, channels };
+enum class Kind : std::uint8_t { boolean, integer, real, text, choice, channels, list };
 
 /// Description of one setting. The checks, the shipped file and the page in docs/ are made from it.
 struct OptionInfo {
@@ -32,7 +32,7 @@ struct OptionInfo {
   bool octal = false;                              ///< as file modes are written
   std::size_t count = 8;                           ///< of the numbers of `channels`: eight or three
   std::vector<std::string_view> choices{};         ///< in the order of the enumeration's values
-  std::string_view text_rule{};                    ///< what a text must be, in words ...
+  std::string_view text_rule{};                    ///< what a text (of a list: each) must be, in words ...
   bool (*text_holds)(std::string_view) = nullptr;  ///< ... and in code
   std::vector<protocols::Protocol> only_for{};     ///< empty: every port
   /// Another option that sets the same member: this key is still read, and no longer written. Empty: it is the
@@ -119,6 +119,15 @@ Option<Owner> choice(OptionInfo info, Member member) {
               if (choices[i] == std::get<std::string>(value)) member(owner) = static_cast<Field>(i);
             }
           }};
+}
+
+/// A list of texts, which may be empty.
+template <class Owner, class Member>
+Option<Owner> list(OptionInfo info, Member member) {
+  info.kind = Kind::list;
+  return {
+      std::move(info), [member](const Owner& owner) { return Value(member(owner)); },
+      [member](Owner& owner, const Value& value) { member(owner) = std::get<std::vector<std::string>>(value); }};
 }
 
 template <class Owner, class Member>

@@ -14,7 +14,11 @@ namespace navcal::config {
 /// The options of a [port.NAME] table, those of its own first, then sub-table by sub-table.
 [[nodiscard]] const std::vector<Option<PortSettings>>& port_options();
 
-/// One-line purpose of a table: "log", "status", ...; of a port "", "units", "channels", "fix".
+/// The options of a [power.NAME] table.
+[[nodiscard]] const std::vector<Option<PowerSettings>>& power_options();
+
+/// One-line purpose of a table: "log", "status", ...; of a port "", "units", "channels", "fix"; of a
+/// supply "power".
 [[nodiscard]] std::string_view table_description(std::string_view table);
 
 }  // namespace navcal::config

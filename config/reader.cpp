@@ -16,6 +16,7 @@ namespace navcal::config {
 namespace {
 
 constexpr std::string_view kPort = "port";
+constexpr std::string_view kPower = "power";
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -31,35 +32,47 @@ void Reader::complain(const Entry& entry, std::string message) {
   problems_.push_back({entry.line, entry.name(), std::move(message)});
 }
 
+void Reader::collect(NamedTables& tables, const Entry& entry) {
+  const std::string& kind = entry.keys.front();
+  if (entry.keys.size() == 1) {
+    if (!std::holds_alternative<Table>(entry.value))
+      complain(entry, fmt::format("tables [{}.NAME] are expected", kind));
+    return;
+  }
+  const std::string& name = entry.keys[1];
+  auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& known) { return known.first == name; });
+  if (table == tables.end()) {
+    if (entry.line == 0) {
+      std::vector<std::string> names;
+      names.reserve(tables.size());
+      for (const auto& known : tables) names.push_back(known.first);
+      complain(entry, fmt::format("the file has no {} of this name", kind) + suggestion(name, names));
+      return;
+    }
+    table = tables.insert(tables.end(), {name, {}});
+  }
+  table->second.push_back(&entry);
+}
+
 void Reader::take(const std::vector<Entry>& entries) {
-  std::vector<std::pair<std::string, std::vector<const Entry*>>> ports;
+  NamedTables ports, supplies;
   for (const Entry& entry : entries) {
-    if (entry.keys.front() != kPort) {
-      take_daemon(entry);
-    } else if (entry.keys.size() == 1) {
-      if (!std::holds_alternative<Table>(entry.value)) complain(entry, "tables [port.NAME] are expected");
+    if (entry.keys.front() == kPort) {
+      collect(ports, entry);
+    } else if (entry.keys.front() == kPower) {
+      collect(supplies, entry);
     } else {
-      const std::string& name = entry.keys[1];
-      auto port = std::find_if(ports.begin(), ports.end(), [&](const auto& known) { return known.first == name; });
-      if (port == ports.end()) {
-        if (entry.line == 0) {
-          std::vector<std::string> names;
-          names.reserve(ports.size());
-          for (const auto& known : ports) names.push_back(known.first);
-          complain(entry, "the file has no port of this name" + suggestion(name, names));
-          continue;
-        }
-        port = ports.insert(ports.end(), {name, {}});
-      }
-      port->second.push_back(&entry);
+      take_daemon(entry);
     }
   }
   for (const auto& [name, own_entries] : ports) take_port(name, own_entries);
+  for (const auto& [name, own_entries] : supplies) take_power(name, own_entries);
 }
 
 void Reader::take_daemon(const Entry& entry) {
-  if (auto refused = take_entry(daemon_options(), settings_, entry, {std::string(kPort)}))
+  if (auto refused = take_entry(daemon_options(), settings_, entry, {std::string(kPort), std::string(kPower)}))
     complain(entry, std::move(*refused));
+  if (entry.name() == "log.leave_out") leave_out_line_ = entry.line;
   if (entry.keys.front() == "command" && entry.keys.size() == 2) command_lines_[entry.keys[1]] = entry.line;
   if (entry.keys.front() != "roles" || entry.keys.size() != 2) return;
   for (const Role role : kRoles) {

@@ -16,16 +16,17 @@ namespace {
 using protocols::Protocol;
 
 /// One of path, udev_name, usb_serial and address.
-bool is_place(const OptionInfo& option) { return option.table.empty() && option.kind == Kind::text; }
+bool is_place(const OptionInfo& option) {
+  return option.key == "path" || option.key == "udev_name" || option.key == "usb_serial" || option.key == "address";
+}
 
 /// Empty when there is no default.
 std::string default_words(const Option<Settings>& option) { return option.write(option.get(Settings{})); }
 
 /// One value when all protocols that have the option agree on it, else each protocol's.
 std::string default_words(const Option<PortSettings>& option) {
-  if (option.table.empty() && option.kind == Kind::text)
-    return "none: one of path, udev_name, usb_serial, address is required";
-  if (option.key == "protocol" || is_place(option)) return {};
+  if (is_place(option)) return "none: one of path, udev_name, usb_serial, address is required";
+  if (option.key == "protocol") return {};
   std::vector<std::string> each;
   std::string first;
   bool all_equal = true;
@@ -37,6 +38,12 @@ std::string default_words(const Option<PortSettings>& option) {
     each.push_back(fmt::format("{} {}", device.name, value));
   }
   return all_equal ? first : fmt::format("{}", fmt::join(each, ", "));
+}
+
+/// Empty when it has to be given.
+std::string default_words(const Option<PowerSettings>& option) {
+  const bool is_required = option.key == "gpio_chip" || option.key == "line" || option.key == "devices";
+  return is_required ? std::string() : option.write(option.get(PowerSettings{}));
 }
 
 std::string protocols_words(const OptionInfo& option) {
@@ -82,6 +89,16 @@ std::string port_part() {
   return out;
 }
 
+/// Every option of a supply, all of it comment.
+std::string power_part() {
+  std::string out = fmt::format("\n# {}\n#\n# [power.NAME]\n", table_description("power"));
+  for (const auto& option : power_options()) {
+    out += fmt::format("#   {:<16} {}\n#   {:<16} {}; {}\n", option.key, option.description, "", option.allowed(),
+                       default_clause(option, default_words(option)));
+  }
+  return out;
+}
+
 /// A port of the vehicle: what its wiring decides, and what belongs to the single device.
 std::string vehicle_port(const PortSettings& port) {
   std::string out = fmt::format("\n[port.{}]\n", port.name);
@@ -100,7 +117,8 @@ std::string vehicle_port(const PortSettings& port) {
 }
 
 template <class Owner>
-std::string markdown(const std::vector<Option<Owner>>& options, std::string_view prefix) {
+std::string markdown(const std::vector<Option<Owner>>& options, std::string_view prefix,
+                     std::string_view own_description = "") {
   std::string out;
   std::string_view table = "none yet";
   for (const auto& option : options) {
@@ -108,7 +126,8 @@ std::string markdown(const std::vector<Option<Owner>>& options, std::string_view
     if (option.table != table) {
       table = option.table;
       const std::string_view dot = prefix.empty() || table.empty() ? "" : ".";
-      out += fmt::format("\n### `[{}{}{}]`\n\n{}", prefix, dot, table, table_description(table));
+      out += fmt::format("\n### `[{}{}{}]`\n\n{}", prefix, dot, table,
+                         table_description(table.empty() ? own_description : table));
       if (!option.only_for.empty()) out += fmt::format(" For {} only.", protocols_words(option));
       out += "\n\n| key | what | allowed | default |\n|---|---|---|---|\n";
     }
@@ -140,6 +159,7 @@ std::string shipped_file() {
       "# This file is written from the program's own table of options: docs/configuration.md.\n";
   out += daemon_part();
   out += port_part();
+  out += power_part();
   out += "\n# The instruments of the reference vehicle.\n";
   for (const PortSettings& port : shipped_settings().ports) out += vehicle_port(port);
   return out;
@@ -154,6 +174,7 @@ std::string with_option_tables(std::string_view page) {
   std::string out(page.substr(0, begin + kBegin.size()));
   out += markdown(daemon_options(), "");
   out += markdown(port_options(), "port.NAME");
+  out += markdown(power_options(), "power.NAME", "power");
   out += '\n';
   return out += page.substr(end);
 }

@@ -72,6 +72,7 @@ struct LogSettings {
   double rotate_age_s = 86400;
   std::uint64_t free_floor_bytes = 256'000'000;
   std::uint64_t queue_bytes = 32'000'000;  ///< bytes that may wait for a stalled disk before records are lost
+  std::vector<std::string> leave_out;      ///< what is not logged, as in log_choice.h
 
   bool operator==(const LogSettings&) const = default;
 };
@@ -134,6 +135,11 @@ struct NavigationSettings {
   bool operator==(const NavigationSettings&) const = default;
 };
 
+enum class OnLeak : std::uint8_t {
+  alarm,  ///< an alarm and nothing else
+  safe,   ///< leases of programs end, and the safe state is ordered
+};
+
 /// Limits of orders to the motor card, and the orders that apply when nobody holds a lease (docs/control.md).
 /// Speeds and angles are in the card's own units.
 struct CommandSettings {
@@ -148,8 +154,25 @@ struct CommandSettings {
   double echo_timeout_s = 0.5;  ///< the card must have shown an order within this; 0: not watched
   double safe_rpm = 0;
   std::array<double, 3> safe_fins_deg{};
+  OnLeak on_leak = OnLeak::safe;
+  int operator_priority = 2;  ///< a lease of this priority or more is a person's: a leak does not end it
 
   bool operator==(const CommandSettings&) const = default;
+};
+
+enum class PowerAtStart : std::uint8_t { on, off, leave };
+
+/// A supply that is switched by a GPIO line.
+struct PowerSettings {
+  std::string name;
+  std::string gpio_chip;             ///< "gpiochip0"
+  int line = -1;                     ///< offset on the chip
+  std::vector<std::string> devices;  ///< names of the ports whose devices it feeds
+  bool active_low = false;           ///< low level: on
+  PowerAtStart at_start = PowerAtStart::on;
+  double settle_s = 1;  ///< from switching on until the devices are spoken to
+
+  bool operator==(const PowerSettings&) const = default;
 };
 
 struct Settings {
@@ -163,6 +186,7 @@ struct Settings {
   NavigationSettings navigation;
   CommandSettings command;
   std::vector<PortSettings> ports;
+  std::vector<PowerSettings> power;
 
   bool operator==(const Settings&) const = default;
 };

@@ -11,7 +11,7 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 13> kTableDescriptions{{
+constexpr std::array<Description, 14> kTableDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control",
@@ -31,6 +31,8 @@ constexpr std::array<Description, 13> kTableDescriptions{{
     {"",
      "A serial port with its device. NAME (1 to 31 of a-z, 0-9, _ and -) is the device's name in reports, log and "
      "messages."},
+    {"power",
+     "A supply that navcald switches by a GPIO line (docs/status-protocol.md, power.on). NAME as of a port."},
     {"units", "Units of the compass's output, which its words do not state."},
     {"channels", "Zeros and sensitivities of the inertial card, per unit, channel by channel."},
     {"fix", "Processing of the receiver's positions."},

@@ -59,6 +59,15 @@ bool is_port_name(std::string_view text) {
   });
 }
 
+bool is_gpio_chip(std::string_view text) {
+  constexpr std::string_view kFolder = "/dev/", kName = "gpiochip";
+  if (text.starts_with(kFolder)) text.remove_prefix(kFolder.size());
+  if (!text.starts_with(kName)) return false;
+  text.remove_prefix(kName.size());
+  return !text.empty() && text.size() <= 4 &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 bool is_port_name_or_nothing(std::string_view text) { return text.empty() || is_port_name(text); }
 
 }  // namespace navcal::config

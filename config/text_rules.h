@@ -20,6 +20,8 @@ namespace navcal::config {
 [[nodiscard]] bool is_gps_date(std::string_view text);
 /// 1 to 31 of a-z 0-9 _ -: it becomes part of log topics and file names.
 [[nodiscard]] bool is_port_name(std::string_view text);
+/// "gpiochip0", or its path in /dev.
+[[nodiscard]] bool is_gpio_chip(std::string_view text);
 [[nodiscard]] bool is_port_name_or_nothing(std::string_view text);
 
 }  // namespace navcal::config

@@ -42,6 +42,10 @@ std::string to_toml(const Settings& settings) {
     out += line(option, settings);
   }
   for (const auto& port : settings.ports) out += port_table(port);
+  for (const auto& supply : settings.power) {
+    out += fmt::format("\n[power.{}]\n", supply.name);
+    for (const auto& option : power_options()) out += line(option, supply);
+  }
   return out;
 }
 

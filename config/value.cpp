@@ -55,6 +55,9 @@ struct Words {
   std::string operator()(const std::vector<double>& value) const {
     return fmt::format("an array of {} numbers", value.size());
   }
+  std::string operator()(const std::vector<std::string>& value) const {
+    return fmt::format("an array of {} texts", value.size());
+  }
 };
 
 struct Toml {
@@ -66,6 +69,11 @@ struct Toml {
   std::string operator()(const std::string& value) const { return in_quotes(value); }
   std::string operator()(const std::vector<double>& value) const {
     return fmt::format("[{}]", fmt::join(value, ", "));
+  }
+  std::string operator()(const std::vector<std::string>& value) const {
+    std::string out = "[";
+    for (const std::string& text : value) out += (out.size() > 1 ? ", " : "") + in_quotes(text);
+    return out + "]";
   }
 };
 

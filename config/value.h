@@ -22,7 +22,8 @@ struct Unsupported {
 };
 
 /// A value as it stands in a file, in the unit of the file.
-using Value = std::variant<Table, Unsupported, bool, std::int64_t, double, std::string, std::vector<double>>;
+using Value = std::variant<Table, Unsupported, bool, std::int64_t, double, std::string, std::vector<double>,
+                           std::vector<std::string>>;
 
 /// A value as a message quotes it: `the text "10 ms"`, `the number 3.5`, `a table`.
 [[nodiscard]] std::string words_for(const Value& value);

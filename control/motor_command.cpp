@@ -36,6 +36,9 @@ std::string MotorCommand::problem_with(const LeaseRequest& request) const {
 std::string MotorCommand::lease(std::int64_t now_ns, const LeaseRequest& request, std::string token,
                                 std::uint64_t client) {
   if (auto problem = problem_with(request); !problem.empty()) return problem;
+  if (!leak_.empty() && request.priority < settings_.operator_priority)
+    return fmt::format("{} stands: only an operator (priority {} or more) may take charge", leak_,
+                       settings_.operator_priority);
   const auto before = holder();
   if (auto refusal = desk_.grant(now_ns, request, std::move(token), client); !refusal.empty()) return refusal;
   const bool takes_over = before && before->client != client;
@@ -101,6 +104,18 @@ void MotorCommand::safe_echoed() {
   if (following_) return;
   commanded_ = false;
   safe_due_ns_ = kNever_ns;
+}
+
+void MotorCommand::leak(std::int64_t now_ns, std::string leak) {
+  if (settings_.on_leak == config::OnLeak::alarm) return;
+  leak_ = std::move(leak);
+  if (leak_.empty()) return;
+  if (!holder()) return events_.push_back({"warning", "motor.leak", leak_ + ": nobody is in charge"});
+  const std::string who = words_for(*holder());
+  if (holder()->priority >= settings_.operator_priority)
+    return events_.push_back({"warning", "motor.leak", fmt::format("{}: {} stays in charge", leak_, who)});
+  events_.push_back({"warning", "motor.leak", fmt::format("{}: the lease of {} ends", leak_, who)});
+  end_lease(now_ns, "the vehicle has a leak: " + leak_);
 }
 
 void MotorCommand::end_lease(std::int64_t now_ns, std::string reason) {

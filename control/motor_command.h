@@ -25,7 +25,7 @@ class MotorCommand {
   /// An event for people.
   struct Event {
     std::string_view severity;  ///< "info" or "warning"
-    std::string_view name;      ///< "motor.lease", "motor.safe"
+    std::string_view name;      ///< "motor.lease", "motor.safe", "motor.leak"
     std::string message;
   };
 
@@ -46,6 +46,9 @@ class MotorCommand {
   void commanded_before(std::int64_t now_ns);
   /// A status has shown the safe state.
   void safe_echoed();
+  /// `leak` names an alarm that was raised; empty: no leak stands any more. With on_leak "safe", the lease of a
+  /// program ends, and until the leak is over only an operator gets one.
+  void leak(std::int64_t now_ns, std::string leak);
 
   /// Ends a lease whose time is over. Returns the line to be sent now, if any; it counts as sent.
   [[nodiscard]] std::optional<Line> next(std::int64_t now_ns);
@@ -83,6 +86,7 @@ class MotorCommand {
   bool commanded_ = false;
   bool port_open_ = false;
   std::string away_ = "not opened yet";
+  std::string leak_;  ///< the alarm that was raised last; empty: none stands, or leaks are alarms only
 };
 
 }  // namespace navcal::control

@@ -109,6 +109,14 @@ void append_command(std::string& out, const config::Settings& settings) {
       command.safe_rpm, fmt::join(command.safe_fins_deg, " "));
 }
 
+void append_power(std::string& out, const config::Settings& settings) {
+  for (const auto& supply : settings.power) {
+    constexpr std::string_view kAtStart[] = {"on at the start", "off at the start", "left as it is at the start"};
+    out += fmt::format("power {}: of {} by line {} of {}, {}\n", supply.name, fmt::join(supply.devices, ", "),
+                       supply.line, supply.gpio_chip, kAtStart[static_cast<std::size_t>(supply.at_start)]);
+  }
+}
+
 }  // namespace
 
 std::string describe(const config::Settings& settings) {
@@ -125,9 +133,12 @@ std::string describe(const config::Settings& settings) {
     line(fmt::runtime("log: in {}, synced every {} s, a new file every {} MB or {} h, {} MB kept free"),
          settings.log.directory.string(), settings.log.sync_interval_s, settings.log.rotate_bytes / kMB,
          settings.log.rotate_age_s / 3600, settings.log.free_floor_bytes / kMB);
+    if (!settings.log.leave_out.empty())
+      line(fmt::runtime("log: without {}"), fmt::join(settings.log.leave_out, ", "));
   } else {
     line(fmt::runtime("log: off"));
   }
+  append_power(out, settings);
   append_sources(out, settings);
   append_earth_field(out, settings);
   append_calibration(out, settings);

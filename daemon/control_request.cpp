@@ -7,15 +7,25 @@
 #include <utility>
 
 #include "daemon/json_text.h"
+#include "record/log/log_shelf.h"
 
 namespace navcal::daemon {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, ControlCommand>, 10> kCommands{{
+constexpr std::array<std::pair<std::string_view, ControlCommand>, 19> kCommands{{
     {"event", ControlCommand::event},
     {"log.rotate", ControlCommand::log_rotate},
+    {"log.start", ControlCommand::log_start},
+    {"log.stop", ControlCommand::log_stop},
+    {"log.select", ControlCommand::log_select},
+    {"log.list", ControlCommand::log_list},
+    {"log.read", ControlCommand::log_read},
+    {"log.sum", ControlCommand::log_sum},
+    {"power.on", ControlCommand::power_on},
+    {"power.off", ControlCommand::power_off},
+    {"power.list", ControlCommand::power_list},
     {"calibration.start", ControlCommand::calibration_start},
     {"calibration.accept", ControlCommand::calibration_accept},
     {"calibration.rollback", ControlCommand::calibration_rollback},
@@ -100,8 +110,70 @@ std::string take_order(const Json& object, ControlRequest& request) {
   return {};
 }
 
-std::string take_motor(const Json& object, ControlRequest& request) {
+/// The whole number at `key`, from `low` to `high`; false when it is missing or something else.
+bool take_whole(const Json& object, const char* key, std::uint64_t low, std::uint64_t high, std::uint64_t& value) {
+  const auto found = object.find(key);
+  // A negative number is no unsigned one, and 1e3 is none that is whole by its form.
+  if (found == object.end() || !found->is_number_unsigned()) return false;
+  value = found->get<std::uint64_t>();
+  return value >= low && value <= high;
+}
+
+std::string take_part(const Json& object, ControlRequest& request) {
+  const auto file = text_at(object, "file");
+  if (!file || file->empty()) return "file is the name of a log";
+  request.file = *file;
+  if (!take_whole(object, "offset", 0, INT64_MAX, request.offset)) return "offset is a number of bytes";
+  const bool is_sum = request.command == ControlCommand::log_sum;
+  const std::uint64_t most_bytes = is_sum ? record::kMaxSum_bytes : record::kMaxPart_bytes;
+  if (!take_whole(object, "length", 1, most_bytes, request.length))
+    return "length is 1 to " + std::to_string(most_bytes) + " bytes";
+  return {};
+}
+
+std::string take_page(const Json& object, ControlRequest& request) {
+  const auto after = text_at(object, "after");
+  if (!after || (!after->empty() && !record::is_log_name(*after))) return "after is the name of a log";
+  request.file = *after;
+  request.length = record::kMaxPage;
+  if (object.contains("limit") && !take_whole(object, "limit", 1, record::kMaxPage, request.length))
+    return "limit is 1 to " + std::to_string(record::kMaxPage) + " logs";
+  return {};
+}
+
+std::string take_choice(const Json& object, ControlRequest& request) {
+  const auto found = object.find("leave_out");
+  if (found == object.end()) return {};
+  request.leave_out.emplace();
+  constexpr const char* kWanted = "leave_out is a list of texts";
+  if (!found->is_array()) return kWanted;
+  for (const auto& choice : *found) {
+    if (!choice.is_string()) return kWanted;
+    request.leave_out->push_back(choice.get<std::string>());
+  }
+  return {};
+}
+
+std::string take_supply(const Json& object, ControlRequest& request) {
+  const auto name = text_at(object, "name");
+  if (!name || name->empty()) return "name is that of a supply; power.list has them";
+  request.name = *name;
+  return {};
+}
+
+/// What a command has beside the keys that every command may have.
+std::string take_own(const Json& object, ControlRequest& request) {
   switch (request.command) {
+    case ControlCommand::log_list:
+      return take_page(object, request);
+    case ControlCommand::log_read:
+    case ControlCommand::log_sum:
+      return take_part(object, request);
+    case ControlCommand::log_select:
+      return take_choice(object, request);
+    case ControlCommand::power_on:
+    case ControlCommand::power_off:
+      return take_supply(object, request);
     case ControlCommand::motor_lease:
       return take_lease(object, request);
     case ControlCommand::motor_order:
@@ -132,7 +204,7 @@ std::variant<ControlRequest, std::string> parse_control(std::string_view line) {
   request.text = *text;
   request.calibrator = *calibrator;
   request.force = force != object.end() && force->get<bool>();
-  if (auto problem = take_motor(object, request); !problem.empty()) return problem;
+  if (auto problem = take_own(object, request); !problem.empty()) return problem;
   return request;
 }
 

@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "control/lease_desk.h"
 #include "control/order.h"
@@ -18,6 +21,15 @@ inline constexpr std::size_t kMaxControlLength = 4096;
 enum class ControlCommand {
   event,
   log_rotate,
+  log_start,
+  log_stop,
+  log_select,
+  log_list,
+  log_read,
+  log_sum,
+  power_on,
+  power_off,
+  power_list,
   calibration_start,
   calibration_accept,
   calibration_rollback,
@@ -38,6 +50,21 @@ struct ControlRequest {
   std::string lease;                       ///< of motor.order and motor.release
   control::Order order;                    ///< of motor.order
   std::optional<double> state_time_utc_s;  ///< of motor.order: the STATE that it answers
+  std::string name;                        ///< of power.on and power.off: the supply
+  std::string file;                        ///< of log.read and log.sum; of log.list: the one before the first
+  std::uint64_t offset = 0;                ///< of log.read and log.sum, bytes
+  std::uint64_t length = 0;
+  std::optional<std::vector<std::string>> leave_out;  ///< of log.select; nullopt: it only asks
+};
+
+/// The answer to a request.
+struct ControlAnswer {
+  ControlAnswer(std::string line) : text(std::move(line)) {}  // NOLINT: most answers are lines
+  explicit ControlAnswer(std::function<std::string()> disk_work) : work(std::move(disk_work)) {}
+
+  std::string text;  ///< one line, newline included
+  std::function<std::string()>
+      work;  ///< where it is set: makes the line, may wait for the disk, runs on another thread
 };
 
 /// Whence a request came.

@@ -26,6 +26,8 @@ constexpr auto kAcceptPause = std::chrono::milliseconds(500);
 constexpr double kMaxLines_Hz = 200;
 constexpr auto kSlowDown = std::chrono::milliseconds(50);
 
+asio::awaitable<std::string> do_work(std::function<std::string()> work) { co_return work(); }
+
 }  // namespace
 
 ControlServer::ControlServer(asio::local::stream_protocol::acceptor acceptor, std::filesystem::path own_path,
@@ -81,16 +83,20 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::
     const auto [error, n] = co_await socket->async_read_some(asio::buffer(chunk), ports::kNoThrow);
     const ControlOrigin origin{client, ports::monotonic_ns()};
     if (error) co_return;
-    std::string answers;
+    std::vector<ControlAnswer> answers;
     bool too_fast = false;
     const bool accepted = lines.feed({chunk.data(), n}, [&](std::string_view line) {
       too_fast = !rate.take(origin.arrival_ns) || too_fast;
-      answers += answer(line, origin);
+      answers.push_back(answer(line, origin));
     });
-    if (!accepted) answers += control_error("line too long");
-    const auto [write_error, written] =
-        co_await asio::async_write(*socket, asio::buffer(answers), ports::kNoThrow);
-    if (write_error || !accepted) co_return;
+    if (!accepted) answers.emplace_back(control_error("line too long"));
+    for (ControlAnswer& next : answers) {
+      asio::awaitable<std::string> line = line_of(std::move(next));
+      const std::string text = co_await std::move(line);
+      const auto [write_error, written] = co_await asio::async_write(*socket, asio::buffer(text), ports::kNoThrow);
+      if (write_error) co_return;
+    }
+    if (!accepted) co_return;
     if (!too_fast) continue;
     // Requests that arrive during the pause stay in the client's socket; when that is full, the client has to
     // wait.
@@ -100,7 +106,17 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::
   }
 }
 
-std::string ControlServer::answer(std::string_view line, const ControlOrigin& origin) const {
+asio::awaitable<std::string> ControlServer::line_of(ControlAnswer answer) {
+  if (!answer.work) co_return std::move(answer.text);
+  if (!reader_) reader_.emplace(1);
+  const auto reader = reader_->get_executor();
+  // Named, because g++ 12 destroys temporaries of an awaited expression twice.
+  asio::awaitable<std::string> work = do_work(std::move(answer.work));
+  std::string line = co_await asio::co_spawn(reader, std::move(work), asio::use_awaitable);
+  co_return line;
+}
+
+ControlAnswer ControlServer::answer(std::string_view line, const ControlOrigin& origin) const {
   const auto parsed = parse_control(line);
   if (const auto* error = std::get_if<std::string>(&parsed)) return control_error(*error);
   return handler_(std::get<ControlRequest>(parsed), origin);

@@ -3,9 +3,11 @@
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -17,8 +19,8 @@ namespace navcal::daemon {
 /// permissions decide who may connect (docs/status-protocol.md).
 class ControlServer {
  public:
-  /// Answers a request with one line.
-  using Handler = std::function<std::string(const ControlRequest&, const ControlOrigin&)>;
+  /// Answers a request with one line, or with work that makes it.
+  using Handler = std::function<ControlAnswer(const ControlRequest&, const ControlOrigin&)>;
   /// A connection is closed; its number is never used again.
   using Gone = std::function<void(std::uint64_t client)>;
 
@@ -36,7 +38,9 @@ class ControlServer {
   using Socket = boost::asio::local::stream_protocol::socket;
   boost::asio::awaitable<void> accept_clients();
   boost::asio::awaitable<void> serve(std::shared_ptr<Socket> socket, std::uint64_t client);
-  [[nodiscard]] std::string answer(std::string_view line, const ControlOrigin& origin) const;
+  [[nodiscard]] ControlAnswer answer(std::string_view line, const ControlOrigin& origin) const;
+  /// The line of an answer, whose work is done on a thread of its own: the disk may be slow.
+  boost::asio::awaitable<std::string> line_of(ControlAnswer answer);
 
   boost::asio::local::stream_protocol::acceptor acceptor_;
   std::filesystem::path own_path_;
@@ -44,6 +48,7 @@ class ControlServer {
   Gone gone_;
   std::uint64_t last_client_ = 0;
   std::set<std::shared_ptr<Socket>> clients_;
+  std::optional<boost::asio::thread_pool> reader_;  ///< one thread, begun with the first answer that needs it
 };
 
 }  // namespace navcal::daemon

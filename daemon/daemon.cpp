@@ -47,6 +47,7 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
       publisher_(settings_, server_),
       notifier_(executor),
       motor_port_(daemon::motor_port(settings_)),
+      power_(executor, settings_, sessions_, *this),
       state_(settings_, pipeline_),
       state_timer_(executor, [this] { ring_state(); }),
       deadline_timer_(executor, [this] { advance(); }),
@@ -68,6 +69,7 @@ void Daemon::start() {
   event(started_ns_, "info", "daemon.start", "", "navcald " NAVCAL_VERSION);
   watch_system_clock();
   calibrations_.begin(ports::monotonic_ns());
+  power_.begin(ports::monotonic_ns());
   for (const auto& session : sessions_) session->start();
   server_.start();
   control_.start();
@@ -83,6 +85,7 @@ void Daemon::stop(std::string_view reason) {
   pipeline_.advance(now_ns, *this);
   event(now_ns, "info", "daemon.stop", "", reason);
   if (motor_) motor_->stop();
+  power_.stop();
   for (const auto& session : sessions_) session->stop();
   state_timer_.stop();
   deadline_timer_.stop();
@@ -181,6 +184,7 @@ void Daemon::update_alarms(const instruments::Sample& sample, const instruments:
           change.raised ? "alarm.raised" : "alarm.cleared", settings_.ports[sample.port].name,
           name_of(change.alarm));
   }
+  if (motor_ && !changes.empty()) react_to_leaks(changes, sample.stamp.arrival_ns);
   // Whoever watches is to see it now, not at the next report.
   if (!changes.empty()) report_health(sample.stamp.arrival_ns);
 }
@@ -261,7 +265,7 @@ void Daemon::report_health(std::int64_t now_ns) {
   }
   if (server_.watched(ReportClass::log)) {
     std::string report;
-    append_log_report(report, log_.enabled(), log_.state());
+    append_log_report(report, log_.enabled(), log_.state(), log_.left_out());
     server_.publish(ReportClass::log, report);
   }
 }
@@ -288,6 +292,9 @@ std::string Daemon::summary() const {
   });
   std::string text =
       fmt::format("{} of {} ports running, {} clients", running, sessions_.size(), server_.clients());
+  for (const auto& session : sessions_) {
+    if (session->state() == PortSession::State::off) text += fmt::format(", {} off", session->settings().name);
+  }
   for (const auto& alarm : alarms_.standing()) text += fmt::format(", ALARM {}", name_of(alarm.alarm));
   if (const auto log = log_.state(); log.state != DiskState::State::writing) {
     text += fmt::format(", log {}", name_of(log.state));

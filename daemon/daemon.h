@@ -18,6 +18,7 @@
 #include "daemon/motor_control.h"
 #include "daemon/notifier.h"
 #include "daemon/port_session.h"
+#include "daemon/power_control.h"
 #include "daemon/publisher.h"
 #include "daemon/socket_activation.h"
 #include "daemon/state_collector.h"
@@ -29,7 +30,11 @@ namespace navcal::daemon {
 
 /// The service: ports, pipeline, log and sockets put together on one I/O thread. Bytes arrive from a port, go into
 /// the log as they are, through the pipeline, and come back as samples, which are published and logged.
-class Daemon : private pipeline::Sink, private PortOwner, private StatusSource, private MotorOwner {
+class Daemon : private pipeline::Sink,
+               private PortOwner,
+               private StatusSource,
+               private MotorOwner,
+               private PowerOwner {
  public:
   /// Opens what cannot be done without: log folder and sockets. Throws StartError.
   Daemon(const boost::asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets);
@@ -75,7 +80,21 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource, 
                       std::string_view message) override;
   void on_motor_deaf(std::int64_t now_ns, bool is_deaf) override;
 
-  [[nodiscard]] std::string answer(const ControlRequest& request, const ControlOrigin& origin);
+  // PowerOwner
+  void on_power_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
+                      std::string_view message) override {
+    event(now_ns, severity, name, "", message);
+  }
+  [[nodiscard]] std::string why_power_stays(std::uint16_t port) const override {
+    return motor_ && port == motor_port_ ? motor_->why_power_stays() : std::string();
+  }
+
+  [[nodiscard]] ControlAnswer answer(const ControlRequest& request, const ControlOrigin& origin);
+  [[nodiscard]] std::string answer_status() const;
+  [[nodiscard]] ControlAnswer answer_log(const ControlRequest& request);
+  [[nodiscard]] std::string answer_log_select(const ControlRequest& request);
+  void start_log();
+  void stop_log();
   void control_client_gone(std::uint64_t client);
   /// STATE at its rates, and the next ring of its timer.
   void ring_state();
@@ -87,6 +106,8 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource, 
   void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
              std::string_view message);
   void update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu);
+  /// Tells the motor of leaks that were raised or are over.
+  void react_to_leaks(const std::vector<Alarms::Change>& changes, std::int64_t now_ns);
   void advance();
   void tick();
   void watch_system_clock();
@@ -110,6 +131,7 @@ class Daemon : private pipeline::Sink, private PortOwner, private StatusSource, 
   std::vector<std::unique_ptr<PortSession>> sessions_;
   std::optional<std::uint16_t> motor_port_;
   std::unique_ptr<MotorControl> motor_;  ///< null where no orders are taken
+  PowerControl power_;
   StateCollector state_;
   std::string state_report_;
   bool word_came_ = false;  ///< within these bytes, from the compass that serves

@@ -51,15 +51,23 @@ void Daemon::append_device(std::string& out, std::uint16_t port) const {
 
 void Daemon::append_poll(std::string& out) const { publisher_.append_poll(out, utc(ports::monotonic_ns())); }
 
-std::string Daemon::answer(const ControlRequest& request, const ControlOrigin& origin) {
+ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin& origin) {
   switch (request.command) {
     case ControlCommand::event:
       event(ports::monotonic_ns(), "info", "mark", "", request.text);
       return std::string(kOk);
     case ControlCommand::log_rotate:
-      if (!log_.enabled()) return control_error("the log is disabled (log.enabled)");
-      rotate_log();
-      return std::string(kOk);
+    case ControlCommand::log_start:
+    case ControlCommand::log_stop:
+    case ControlCommand::log_select:
+    case ControlCommand::log_list:
+    case ControlCommand::log_read:
+    case ControlCommand::log_sum:
+      return answer_log(request);
+    case ControlCommand::power_on:
+    case ControlCommand::power_off:
+    case ControlCommand::power_list:
+      return power_.answer(request);
     case ControlCommand::calibration_start:
     case ControlCommand::calibration_accept:
     case ControlCommand::calibration_rollback:
@@ -78,6 +86,10 @@ std::string Daemon::answer(const ControlRequest& request, const ControlOrigin& o
     case ControlCommand::status:
       break;
   }
+  return answer_status();
+}
+
+std::string Daemon::answer_status() const {
   std::string out = "{\"ok\":true,\"summary\":";
   append_quoted(out, summary());
   out += ",\"health\":[";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Orders to the motor card, and the state that controllers answer with them.
+#include <algorithm>
+
 #include "daemon/daemon.h"
 
 namespace navcal::daemon {
@@ -18,6 +20,20 @@ void Daemon::on_motor_deaf(std::int64_t now_ns, bool is_deaf) {
   on_motor_event(now_ns, is_deaf ? "alarm" : "info", is_deaf ? "alarm.raised" : "alarm.cleared",
                  name_of(Alarm::command_not_echoed));
   report_health(now_ns);
+}
+
+void Daemon::react_to_leaks(const std::vector<Alarms::Change>& changes, std::int64_t now_ns) {
+  const auto is_leak = [](Alarm alarm) { return alarm == Alarm::leak_forward || alarm == Alarm::leak_aft; };
+  bool changed = false;
+  for (const auto& change : changes) {
+    if (!is_leak(change.alarm)) continue;
+    changed = true;
+    if (change.raised) motor_->leak(now_ns, std::string(name_of(change.alarm)));
+  }
+  const auto& standing = alarms_.standing();
+  const bool stands =
+      std::any_of(standing.begin(), standing.end(), [&](const auto& alarm) { return is_leak(alarm.alarm); });
+  if (changed && !stands) motor_->leak(now_ns, {});
 }
 
 void Daemon::ring_state() {

@@ -34,6 +34,8 @@ std::string_view name_of(DiskState::State state) {
       return "writing";
     case DiskState::State::full:
       return "full";
+    case DiskState::State::stopped:
+      return "stopped";
     case DiskState::State::failing:
       break;
   }
@@ -107,7 +109,11 @@ void DiskThread::write(const Batch& batch) {
   for (const Boundary& boundary : batch.boundaries) {
     write_part(std::string_view(batch.bytes).substr(done, boundary.offset - done));
     done = boundary.offset;
-    change_file(boundary.utc_ns);
+    if (boundary.utc_ns) {
+      change_file(*boundary.utc_ns);
+    } else {
+      end_without_next();
+    }
   }
   write_part(std::string_view(batch.bytes).substr(done));
 }
@@ -162,6 +168,13 @@ void DiskThread::change_file(std::int64_t utc_ns) {
   }
   recovered();
   update_state();
+}
+
+void DiskThread::end_without_next() {
+  finish_file();
+  const std::lock_guard lock(mutex_);
+  state_.file.clear();
+  state_.file_bytes = state_.synced_bytes = 0;
 }
 
 void DiskThread::sync() {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -22,6 +23,7 @@ struct DiskState {
     writing,
     full,     ///< no space, or less than the floor, and no finished log left to remove
     failing,  ///< the disk refuses for another reason
+    stopped,  ///< by log.stop: the file is ended and no other begun
   };
   State state = State::writing;
   std::string reason;  ///< empty while writing
@@ -32,7 +34,7 @@ struct DiskState {
   std::uint64_t dropped = 0;       ///< records refused because the queue was full
 };
 
-/// "writing", "full", "failing".
+/// "writing", "full", "failing", "stopped".
 [[nodiscard]] std::string_view name_of(DiskState::State state);
 
 /// The one thread that waits for the disk. Records are appended to a bounded buffer by the I/O thread; this thread
@@ -84,6 +86,13 @@ class DiskThread {
     wake_.notify_one();
   }
 
+  /// Finishes the present file once all before it is written, and begins no other. end_file() came before.
+  void close_file() {
+    const std::lock_guard lock(mutex_);
+    waiting_.boundaries.push_back({waiting_.bytes.size(), std::nullopt});
+    wake_.notify_one();
+  }
+
   /// Writes everything that waits, finishes the file and ends the thread. A disk that keeps refusing is given up.
   void stop();
 
@@ -93,8 +102,8 @@ class DiskThread {
 
  private:
   struct Boundary {
-    std::size_t offset = 0;  ///< in the batch: what is before it belongs to the file before
-    std::int64_t utc_ns = 0;
+    std::size_t offset = 0;              ///< in the batch: what is before it belongs to the file before
+    std::optional<std::int64_t> utc_ns;  ///< of the file that begins here; nullopt: none does
   };
   struct Batch {
     std::string bytes;
@@ -106,6 +115,7 @@ class DiskThread {
   void write(const Batch& batch);
   void write_part(std::string_view bytes);
   void change_file(std::int64_t utc_ns);
+  void end_without_next();
   /// Removes old logs until the floor is kept; waits while that is not enough. False when the thread is to give
   /// up.
   bool make_room();

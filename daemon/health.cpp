@@ -150,9 +150,13 @@ std::vector<std::string> health_beginnings(const Health& health) {
   return lines;
 }
 
-void append_log_report(std::string& out, bool enabled, const DiskState& log) {
+void append_log_report(std::string& out, bool enabled, const DiskState& log,
+                       const std::vector<std::string>& left_out) {
   out += "{\"class\":\"LOG\"";
   append_log(out, enabled, log);
+  out += ",\"left_out\":[";
+  append_quoted_list(out, left_out);
+  out += ']';
   out += "}\n";
 }
 

@@ -36,7 +36,8 @@ inline constexpr std::size_t kPortsPerHealth = 8;
 /// HEALTH lines without their end, to which the status server adds each client's own count: `,"dropped":0}`.
 [[nodiscard]] std::vector<std::string> health_beginnings(const Health& health);
 
-/// LOG: file, bytes, synced up to. One line, newline included.
-void append_log_report(std::string& out, bool enabled, const DiskState& log);
+/// LOG: file, bytes, synced up to, what is left out. One line, newline included.
+void append_log_report(std::string& out, bool enabled, const DiskState& log,
+                       const std::vector<std::string>& left_out);
 
 }  // namespace navcal::daemon

@@ -78,6 +78,13 @@ void append_quoted(std::string& out, std::string_view text) {
   out += '"';
 }
 
+void append_quoted_list(std::string& out, const std::vector<std::string>& texts) {
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (i > 0) out += ',';
+    append_quoted(out, texts[i]);
+  }
+}
+
 void append_fixed(std::string& out, double value, int decimals) { append_number(out, value, decimals, false); }
 
 void append_shortest(std::string& out, double value, int decimals) { append_number(out, value, decimals, true); }

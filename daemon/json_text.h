@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace navcal::daemon {
 
@@ -13,6 +14,9 @@ namespace navcal::daemon {
 /// `text` in quotes. Whatever is not printable ASCII is escaped byte by byte, so the result is valid JSON for any
 /// input.
 void append_quoted(std::string& out, std::string_view text);
+
+/// `"a","b"`: the texts with commas between them.
+void append_quoted_list(std::string& out, const std::vector<std::string>& texts);
 
 /// `value` rounded to `decimals` (0..9) places, all of them written: 1.5 -> "1.5000".
 void append_fixed(std::string& out, double value, int decimals);

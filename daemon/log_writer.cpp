@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "config/load.h"
 #include "daemon/start_error.h"
 
@@ -29,8 +31,14 @@ record::LogFolder take_folder(const std::filesystem::path& directory) {
 
 }  // namespace
 
+std::string words_for_choice(const std::vector<std::string>& leave_out) {
+  return leave_out.empty() ? "nothing" : fmt::format("{}", fmt::join(leave_out, ", "));
+}
+
 LogWriter::LogWriter(const config::Settings& settings, std::int64_t now_ns, const pipeline::UtcMapping& mapping)
     : settings_(settings.log), encoder_(settings, config::to_toml(settings)), mapping_(mapping) {
+  for (const auto& port : settings.ports) ports_.push_back(port.name);
+  leave_out(settings_.leave_out);
   if (!settings_.enabled) return;
   DiskThread::Options options;
   options.sync_interval = nanoseconds(settings_.sync_interval_s);
@@ -46,24 +54,29 @@ void LogWriter::begin_file(std::int64_t now_ns) {
   disk_->next_file(mapping_.to_utc(now_ns), [&](std::string& out) {
     encoder_.begin(out, now_ns, mapping_);
     if (!calibration.empty()) encoder_.calib(out, now_ns, calibration);
+    if (!settings_.leave_out.empty())
+      encoder_.event(out, now_ns, "info", "log.left_out", "", words_for_choice(settings_.leave_out));
   });
 }
 
 template <class Encode>
 void LogWriter::append(Encode&& encode) {
-  if (disk_) disk_->append(std::forward<Encode>(encode));
+  if (disk_ && !stopped_) disk_->append(std::forward<Encode>(encode));
 }
 
 void LogWriter::raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns,
                     protocols::Bytes bytes) {
+  if (raw_left_out_[port]) return;
   append([&](std::string& out) { encoder_.raw(out, port, direction, time_ns, bytes); });
 }
 
 void LogWriter::sample(const instruments::Sample& sample) {
+  if (!has(config::LogGroup::samples)) return;
   append([&](std::string& out) { encoder_.sample(out, sample); });
 }
 
 void LogWriter::navigation(const pipeline::NavigationSample& sample) {
+  if (!has(config::LogGroup::navigation)) return;
   append([&](std::string& out) { encoder_.navigation(out, sample); });
 }
 
@@ -78,6 +91,7 @@ void LogWriter::event(std::int64_t now_ns, std::string_view severity, std::strin
 }
 
 void LogWriter::health(std::int64_t now_ns, std::string_view json) {
+  if (!has(config::LogGroup::health)) return;
   append([&](std::string& out) { encoder_.health(out, now_ns, json); });
 }
 
@@ -85,18 +99,48 @@ void LogWriter::calib(std::int64_t now_ns, std::string_view json) {
   append([&](std::string& out) { encoder_.calib(out, now_ns, json); });
 }
 
+void LogWriter::calib_report(std::int64_t now_ns, std::string_view json) {
+  if (has(config::LogGroup::calibration)) calib(now_ns, json);
+}
+
+void LogWriter::leave_out(std::vector<std::string> choice) {
+  const auto is_named = [&choice](const std::string& name) {
+    return std::find(choice.begin(), choice.end(), name) != choice.end();
+  };
+  for (std::size_t i = 0; i < left_out_.size(); ++i)
+    left_out_.at(i) = is_named(std::string(config::kLogGroups.at(i)));
+  raw_left_out_.clear();
+  for (const std::string& port : ports_)
+    raw_left_out_.push_back(!has(config::LogGroup::raw) || is_named(std::string(config::kRawChoice) + port));
+  settings_.leave_out = std::move(choice);
+}
+
+void LogWriter::stop(std::int64_t now_ns) {
+  if (!disk_ || stopped_) return;
+  disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });
+  disk_->close_file();
+  stopped_ = true;
+}
+
+void LogWriter::start(std::int64_t now_ns) {
+  if (!disk_ || !stopped_) return;
+  stopped_ = false;
+  begin_file(now_ns);
+}
+
 void LogWriter::command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record) {
+  if (!has(config::LogGroup::commands)) return;
   append([&](std::string& out) { encoder_.command(out, now_ns, device, record); });
 }
 
 void LogWriter::rotate(std::int64_t now_ns) {
-  if (!disk_) return;
+  if (!disk_ || stopped_) return;
   disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });
   begin_file(now_ns);
 }
 
 void LogWriter::tick(std::int64_t now_ns) {
-  if (!disk_) return;
+  if (!disk_ || stopped_) return;
   const bool old = static_cast<double>(now_ns - file_begun_ns_) >= settings_.rotate_age_s * kNs;
   if (old || encoder_.file_bytes() >= settings_.rotate_bytes) rotate(now_ns);
 
@@ -113,11 +157,17 @@ void LogWriter::tick(std::int64_t now_ns) {
 
 void LogWriter::finish(std::int64_t now_ns) {
   if (!disk_) return;
-  disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });
+  if (!stopped_) disk_->end_file([&](std::string& out) { encoder_.finish(out, now_ns); });
   disk_->stop();
 }
 
-DiskState LogWriter::state() const { return disk_ ? disk_->state() : DiskState{}; }
+DiskState LogWriter::state() const {
+  if (!disk_) return {};
+  DiskState state = disk_->state();
+  // A disk that is full or fails still holds up what was logged before the stop: that is what people must know.
+  if (stopped_ && state.state == DiskState::State::writing) state.state = DiskState::State::stopped;
+  return state;
+}
 
 std::vector<std::string> LogWriter::take_notices() {
   return disk_ ? disk_->take_notices() : std::vector<std::string>{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/log_choice.h"
 #include "config/settings.h"
 #include "daemon/disk_thread.h"
 #include "instruments/samples.h"
@@ -17,6 +19,9 @@
 #include "record/log/log_encoder.h"
 
 namespace navcal::daemon {
+
+/// "navigation, raw.gps"; "nothing" for an empty list. The message of an event log.left_out.
+[[nodiscard]] std::string words_for_choice(const std::vector<std::string>& leave_out);
 
 /// Front end of the log for the I/O thread: encodes records into the disk thread's buffer, decides when a new
 /// file begins, and reports lost records. It does nothing when the log is switched off.
@@ -32,7 +37,9 @@ class LogWriter {
   void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
              std::string_view message);
   void health(std::int64_t now_ns, std::string_view json);
+  /// What a replay needs of the calibration: never left out.
   void calib(std::int64_t now_ns, std::string_view json);
+  void calib_report(std::int64_t now_ns, std::string_view json);
 
   void command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record);
 
@@ -42,7 +49,18 @@ class LogWriter {
     calibration_ = std::move(calibration);
   }
 
-  /// Ends this file and begins another.
+  /// Ends the file and writes nothing until start(); records of that time are not logged.
+  void stop(std::int64_t now_ns);
+  /// Begins a new file after stop().
+  void start(std::int64_t now_ns);
+  [[nodiscard]] bool is_stopped() const { return stopped_; }
+
+  /// What is not logged from now on, as in config/log_choice.h, which has checked it. Each later file says so in
+  /// an event log.left_out at its beginning.
+  void leave_out(std::vector<std::string> choice);
+  [[nodiscard]] const std::vector<std::string>& left_out() const { return settings_.leave_out; }
+
+  /// Ends this file and begins another; nothing while the log is stopped.
   void rotate(std::int64_t now_ns);
   /// Called about once a second: rotates by size and age, and writes the event that reports lost records.
   void tick(std::int64_t now_ns);
@@ -56,6 +74,7 @@ class LogWriter {
 
  private:
   void begin_file(std::int64_t now_ns);
+  [[nodiscard]] bool has(config::LogGroup group) const { return !left_out_.at(static_cast<std::size_t>(group)); }
   template <class Encode>
   void append(Encode&& encode);
 
@@ -66,6 +85,10 @@ class LogWriter {
   std::function<std::string(std::int64_t now_ns)> calibration_;
   std::int64_t file_begun_ns_ = 0;
   std::uint64_t told_dropped_ = 0;
+  std::vector<std::string> ports_;                          ///< their names
+  std::array<bool, config::kLogGroups.size()> left_out_{};  ///< by LogGroup
+  std::vector<bool> raw_left_out_;                          ///< by port
+  bool stopped_ = false;
 };
 
 }  // namespace navcal::daemon

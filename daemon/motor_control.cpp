@@ -132,6 +132,19 @@ void MotorControl::client_gone(std::uint64_t client) {
   drive(now_ns);
 }
 
+void MotorControl::leak(std::int64_t now_ns, std::string leak) {
+  command_.leak(now_ns, std::move(leak));
+  drive(now_ns);
+}
+
+std::string MotorControl::why_power_stays() const {
+  const auto& line = command_.last_line();
+  const bool is_safe = line && line->source == control::Source::safe;
+  if (!command_.holder() || is_safe) return {};
+  return fmt::format("{} holds the motor card: release the lease first, which orders the safe state",
+                     control::words_for(*command_.holder()));
+}
+
 void MotorControl::port_changed(std::int64_t now_ns) {
   const bool is_open = session_.open_port().has_value();
   if (is_open == is_open_) return;
@@ -217,7 +230,8 @@ void MotorControl::take_records(std::int64_t now_ns) {
 
 void MotorControl::tell(std::int64_t now_ns) {
   for (auto& event : command_.take_events()) {
-    if (!events_.take(now_ns)) {
+    // No client can make leaks: they need no limit, and must not be lost in a flood of leases.
+    if (event.name != "motor.leak" && !events_.take(now_ns)) {
       ++events_left_out_;
       continue;
     }

@@ -47,6 +47,10 @@ class MotorControl {
   /// A motor.* command; its answer, newline included.
   [[nodiscard]] std::string answer(const ControlRequest& request, const ControlOrigin& origin);
   void client_gone(std::uint64_t client);
+  /// A leak was raised, or (empty) none stands any more.
+  void leak(std::int64_t now_ns, std::string leak);
+  /// Why the card must keep its power now; empty: it may be switched off.
+  [[nodiscard]] std::string why_power_stays() const;
   /// The card's port came or went.
   void port_changed(std::int64_t now_ns);
   /// A status of the card.

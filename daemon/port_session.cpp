@@ -23,6 +23,8 @@ std::string_view name_of(PortSession::State state) {
       return "no_frames";
     case PortSession::State::noisy:
       return "noisy";
+    case PortSession::State::off:
+      return "off";
     case PortSession::State::running:
       break;
   }
@@ -55,7 +57,25 @@ void PortSession::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
                        fmt::format("{}{}{}{}; low latency: {}", port.path,
                                    port.is_network ? std::string() : fmt::format(" at {} Bd", settings_.baud),
                                    port.description.empty() ? "" : ", ", port.description, port.low_latency));
+  if (off_) return;
   set_state(now_ns, State::running, "opened");
+  if (start_up_) start_up_->begin(now_ns);
+  talk(now_ns);
+}
+
+void PortSession::power_off(std::int64_t now_ns, std::string reason) {
+  abandon_calibration(now_ns, "the compass was switched off");
+  talk_timer_.stop();
+  off_ = true;
+  set_state(now_ns, State::off, std::move(reason));
+}
+
+void PortSession::power_on(std::int64_t now_ns) {
+  off_ = false;
+  if (!open_) return set_state(now_ns, State::away, "switched on, not found yet");
+  last_bytes_ns_ = now_ns;
+  opened_anew_ = true;
+  set_state(now_ns, State::running, "switched on");
   if (start_up_) start_up_->begin(now_ns);
   talk(now_ns);
 }
@@ -74,15 +94,18 @@ void PortSession::on_sent(std::int64_t now_ns, protocols::Bytes bytes) {
 void PortSession::on_lost(std::int64_t now_ns, std::string_view reason) {
   open_.reset();
   talk_timer_.stop();
-  if (calibrating_compass_) {
-    // It is unknown whether the compass still calibrates. The start-up after its return makes it send words
-    // again.
-    compass_calibration_->abandon("the compass went away");
-    calibrating_compass_ = false;
-    owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
-  }
-  owner_.on_port_event(index_, now_ns, "warning", "port.lost", reason);
-  set_state(now_ns, State::away, std::string(reason));
+  abandon_calibration(now_ns, "the compass went away");
+  // An adapter that is fed by the same supply goes with its device.
+  owner_.on_port_event(index_, now_ns, off_ ? "info" : "warning", "port.lost", reason);
+  if (!off_) set_state(now_ns, State::away, std::string(reason));
+}
+
+void PortSession::abandon_calibration(std::int64_t now_ns, const std::string& reason) {
+  if (!calibrating_compass_) return;
+  // It is unknown whether the compass still calibrates. The start-up after its return makes it send words again.
+  compass_calibration_->abandon(reason);
+  calibrating_compass_ = false;
+  owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
 }
 
 void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_ns) {
@@ -92,7 +115,7 @@ void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_n
 
 std::string PortSession::calibrate_compass(std::int64_t now_ns) {
   if (!compass_calibration_) return "there is no TCM2 at this port";
-  if (!open_) return "the compass is away: " + reason_;
+  if (!open_port()) return "the compass is away: " + reason_;
   if (calibrating_compass_) return "it is under way: " + compass_calibration_->state();
   compass_calibration_->begin(now_ns);
   calibrating_compass_ = true;
@@ -126,7 +149,7 @@ bool PortSession::talk_of_calibration(std::int64_t now_ns) {
 }
 
 void PortSession::talk(std::int64_t now_ns) {
-  if (!open_ || talk_of_calibration(now_ns) || !start_up_) return;
+  if (!open_port() || talk_of_calibration(now_ns) || !start_up_) return;
   while (const auto bytes = start_up_->next(now_ns)) port_.send(*bytes);
   talk_timer_.arm(start_up_->deadline_ns());
 }
@@ -134,7 +157,7 @@ void PortSession::talk(std::int64_t now_ns) {
 void PortSession::tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics) {
   if (opened_anew_) speed_check_.restart(statistics.bytes);
   opened_anew_ = false;
-  if (!open_) return;
+  if (!open_port()) return;
   std::string reason;
   const State state = judge(statistics, now_ns, reason);
   set_state(now_ns, state, std::move(reason));
@@ -172,8 +195,8 @@ void PortSession::set_state(std::int64_t now_ns, State state, std::string reason
   state_ = state;
   reason_ = std::move(reason);
   if (!changed) return;
-  // Loss and return of the port have been reported already.
-  if (state != State::away && reason_ != "opened") {
+  // Loss and return of the port, and of its supply, have been reported already.
+  if (state != State::away && state != State::off && reason_ != "opened") {
     const bool good = state == State::running;
     owner_.on_port_event(index_, now_ns, good ? "info" : "warning", "port.state",
                          good ? "running again" : std::string_view(reason_));

@@ -46,6 +46,7 @@ class PortSession : private ports::PortListener {
     no_frames,  ///< bytes come, but no intact frame
     noisy,      ///< intact frames between much that is none
     running,
+    off,  ///< its supply is switched off, or has just been switched on
   };
 
   PortSession(const boost::asio::any_io_executor& executor, std::uint16_t port,
@@ -56,7 +57,9 @@ class PortSession : private ports::PortListener {
 
   /// Send as in ports::Port: send_now() sends a whole line at once or nothing. flush() waits until it is on the
   /// wire, no longer than `limit`.
-  [[nodiscard]] std::optional<std::int64_t> send_now(protocols::Bytes bytes) { return port_.send_now(bytes); }
+  [[nodiscard]] std::optional<std::int64_t> send_now(protocols::Bytes bytes) {
+    return off_ ? std::nullopt : port_.send_now(bytes);
+  }
   void flush(std::chrono::milliseconds limit) { port_.flush(limit); }
   /// Called by the pipeline within on_port_bytes().
   void on_frame(const protocols::Frame& frame, std::int64_t arrival_ns);
@@ -66,6 +69,10 @@ class PortSession : private ports::PortListener {
   /// Ends the calibration once the vehicle has turned enough. Returns why that is impossible; empty: the score
   /// will be read.
   [[nodiscard]] std::string stop_calibrating_compass(std::int64_t now_ns);
+  /// The supply of the device was switched off, or on but not settled: nothing is sent, and silence is no fault.
+  void power_off(std::int64_t now_ns, std::string reason);
+  /// The device has its supply again: the start-up dialogue begins.
+  void power_on(std::int64_t now_ns);
   /// Calibrated yaw rate of the vehicle; called by the pipeline.
   void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
   /// Null when this is no TCM2.
@@ -78,8 +85,11 @@ class PortSession : private ports::PortListener {
   [[nodiscard]] const config::PortSettings& settings() const { return settings_; }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// The open port; nullopt while the device is absent.
-  [[nodiscard]] const std::optional<ports::OpenPort>& open_port() const { return open_; }
+  /// The open port; nullopt while the device is absent or switched off.
+  [[nodiscard]] const std::optional<ports::OpenPort>& open_port() const {
+    static const std::optional<ports::OpenPort> kNone;
+    return off_ ? kNone : open_;
+  }
   [[nodiscard]] std::int64_t opened_ns() const { return opened_ns_; }
   [[nodiscard]] std::uint64_t times_opened() const { return times_opened_; }
   /// State of the start-up dialogue, for people; empty for a device without one.
@@ -93,6 +103,7 @@ class PortSession : private ports::PortListener {
   void on_lost(std::int64_t now_ns, std::string_view reason) override;
 
   void talk(std::int64_t now_ns);
+  void abandon_calibration(std::int64_t now_ns, const std::string& reason);
   /// True while the calibration dialogue has the device to itself.
   bool talk_of_calibration(std::int64_t now_ns);
   void set_state(std::int64_t now_ns, State state, std::string reason);
@@ -113,12 +124,13 @@ class PortSession : private ports::PortListener {
   std::int64_t last_bytes_ns_ = 0;
   std::uint64_t times_opened_ = 0;
   bool opened_anew_ = false;  ///< since the last tick
+  bool off_ = false;          ///< no supply
   State state_ = State::away;
   std::string reason_ = "not opened yet";
   ports::Port port_;
 };
 
-/// "away", "silent", "no_frames", "noisy", "running".
+/// "away", "silent", "no_frames", "noisy", "running", "off".
 [[nodiscard]] std::string_view name_of(PortSession::State state);
 
 }  // namespace navcal::daemon

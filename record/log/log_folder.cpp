@@ -104,6 +104,18 @@ LogFolder::Space LogFolder::keep_free(std::uint64_t floor_bytes) {
   return space;
 }
 
+bool is_log_name(std::string_view name) {
+  if (!counter_of(name)) return false;
+  constexpr std::string_view kForm = "00000000T000000Z";
+  static_assert(kForm.size() == kTime);
+  const std::string_view time = name.substr(kPrefix.size(), kTime);
+  for (std::size_t i = 0; i < kTime; ++i) {
+    const bool is_digit = time[i] >= '0' && time[i] <= '9';
+    if (kForm[i] == '0' ? !is_digit : time[i] != kForm[i]) return false;
+  }
+  return true;
+}
+
 std::string log_name(std::int64_t utc_ns, std::uint64_t counter) {
   const auto second = static_cast<std::time_t>(std::max<std::int64_t>(0, utc_ns) / base::kSecond_ns);
   return fmt::format("{}{:%Y%m%dT%H%M%SZ}-{:06}{}", kPrefix, fmt::gmtime(second), counter, kSuffix);

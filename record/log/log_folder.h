@@ -47,6 +47,9 @@ class LogFolder {
   std::uint64_t last_counter_ = 0;
 };
 
+/// Whether this is the name of a log, as log_name() makes them, and nothing else: no path leads through it.
+[[nodiscard]] bool is_log_name(std::string_view name);
+
 /// "navcal-20261121T023000Z-000123.mcap".
 [[nodiscard]] std::string log_name(std::int64_t utc_ns, std::uint64_t counter);
 

@@ -93,7 +93,10 @@ std::optional<Entry> LogRecording::entry_of(const LogMessage& message) {
   } else if (channel.topic == "/event") {
     const auto json = FlatJson::parse(message.data);
     const auto at = json ? nanoseconds(json->get("monotonic")) : std::nullopt;
-    if (at) return LoggedEvent{*at, without_sum(message.data)};
+    if (at) {
+      note_left_out(json->get("name"), json->get("message"));
+      return LoggedEvent{*at, without_sum(message.data)};
+    }
     remark(message, "an event that cannot be read: passed over");
   } else if (channel.topic == "/command") {
     const auto json = FlatJson::parse(message.data);
@@ -130,6 +133,15 @@ std::optional<Entry> LogRecording::raw_entry(const LogMessage& message) {
   const std::string_view bytes = message.data.substr(kRawHead, message.data.size() - kRawHead - kRawTail);
   read.bytes.assign(bytes.begin(), bytes.end());
   return read;
+}
+
+/// What is missing on purpose is said, so that nobody looks for a fault.
+void LogRecording::note_left_out(std::string_view event, std::string_view message) {
+  if (event != "log.left_out" || message == left_out_) return;
+  left_out_ = message;
+  if (message == "nothing") return;
+  remarks_.push_back(
+      fmt::format("{}: left out of this log by log.leave_out or log.select: {}", reader_.name(), message));
 }
 
 void LogRecording::remark(const LogMessage& message, std::string_view what) {

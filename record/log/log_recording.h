@@ -25,12 +25,14 @@ class LogRecording final : public Recording {
   [[nodiscard]] bool take_configuration(const LogMessage& message);
   void assume_configuration();
   void remark(const LogMessage& message, std::string_view what);
+  void note_left_out(std::string_view event, std::string_view message);
 
   LogReader reader_;
   config::Settings settings_;
   std::map<std::uint16_t, std::uint16_t> ports_;  ///< raw channel -> index of its port
   std::optional<Entry> first_;                    ///< read while looking for the configuration
   std::vector<std::string> remarks_;
+  std::string left_out_;            ///< as the last event of it says
   std::size_t reader_remarks_ = 0;  ///< how many of the reader's are among ours
 };
 

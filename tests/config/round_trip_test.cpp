@@ -8,6 +8,7 @@
 #include <random>
 
 #include "config/load.h"
+#include "config/log_choice.h"
 #include "config/options.h"
 
 namespace navcal::config {
@@ -47,6 +48,13 @@ Value some_value(const OptionInfo& option, Random& random) {
       return some_text(option, random);
     case Kind::choice:
       return std::string(option.choices[random() % option.choices.size()]);
+    case Kind::list: {
+      std::vector<std::string> some;  // those of the log: the only list outside the supplies
+      for (const auto group : kLogGroups) {
+        if (random() % 3 == 0) some.emplace_back(group);
+      }
+      return some;
+    }
     case Kind::channels:
       break;
   }
@@ -77,6 +85,18 @@ PortSettings some_port(std::size_t index, Random& random) {
   return port;
 }
 
+PowerSettings some_supply(std::size_t index, const PortSettings& port, Random& random) {
+  PowerSettings supply;
+  supply.name = fmt::format("s{}", index);
+  supply.gpio_chip = random() % 2 == 0 ? "gpiochip0" : "/dev/gpiochip12";
+  supply.line = static_cast<int>(index);
+  supply.devices = {port.name};
+  supply.active_low = random() % 2 == 0;
+  supply.at_start = static_cast<PowerAtStart>(random() % 3);
+  supply.settle_s = static_cast<double>(random() % 6000) / 10;
+  return supply;
+}
+
 Settings some_settings(Random& random) {
   Settings settings;
   for (const auto& option : daemon_options()) {
@@ -98,6 +118,10 @@ Settings some_settings(Random& random) {
   for (const Role role : kRoles) {
     const PortSettings& port = settings.ports[random() % settings.ports.size()];
     if (can_deliver(port.protocol, role)) settings.roles.port_names.at(static_cast<std::size_t>(role)) = port.name;
+  }
+  for (std::size_t i = 0; i < ports; ++i) {
+    if (random() % 2 == 0) settings.power.push_back(some_supply(i, settings.ports[i], random));
+    if (random() % 4 == 0) settings.log.leave_out.push_back("raw." + settings.ports[i].name);
   }
   return settings;
 }

@@ -229,6 +229,49 @@ TEST_F(MotorCommandTest, WhatAnEarlierRunLeftIsMadeSafe) {
   EXPECT_EQ(later.next(7)->source, Source::safe);
 }
 
+TEST_F(MotorCommandTest, ALeakEndsTheLeaseOfAProgramAndOnlyAnOperatorMayTakeChargeUntilItIsOver) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  EXPECT_EQ(lines(0), Lines{"0:780"});
+  command_.leak(now_ns_, "leak_aft");
+  EXPECT_EQ(lines(1), Lines{"0:0 safe"});
+  EXPECT_EQ(order(780), "the vehicle has a leak: leak_aft");
+  EXPECT_EQ(lease(), "leak_aft stands: only an operator (priority 2 or more) may take charge");
+  ASSERT_EQ(lease(kOperator, "b", 2), "");
+  EXPECT_EQ(order(300, "b"), "");
+  EXPECT_EQ(lines(2), Lines{"1:300"});
+  command_.leak(now_ns_, "leak_forward");
+  EXPECT_EQ(order(310, "b"), "") << "a second leak does not end the operator's lease";
+  ASSERT_EQ(command_.release(now_ns_, "b"), "");
+  command_.leak(now_ns_, "");
+  EXPECT_EQ(lease(), "");
+}
+
+TEST_F(MotorCommandTest, ALeakWithNobodyInChargeSendsNothing) {
+  command_.leak(now_ns_, "leak_aft");
+  EXPECT_EQ(lines(1000), Lines{});
+  ASSERT_EQ(command_.take_events().size(), 1U);
+}
+
+class LeakIsAnAlarmTest : public MotorCommandTest {
+ protected:
+  LeakIsAnAlarmTest()
+      : MotorCommandTest([] {
+          auto made = settings();
+          made.on_leak = config::OnLeak::alarm;
+          return made;
+        }()) {}
+};
+
+TEST_F(LeakIsAnAlarmTest, NothingElseHappens) {
+  ASSERT_EQ(lease(), "");
+  static_cast<void>(command_.take_events());
+  command_.leak(now_ns_, "leak_aft");
+  EXPECT_EQ(order(780), "");
+  EXPECT_TRUE(command_.take_events().empty());
+  EXPECT_EQ(lease(), "");
+}
+
 TEST_F(MotorCommandTest, LeasesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(lease({"", 1, 0.5}), "holder is a name of 1 to 64 bytes");
   EXPECT_EQ(lease({std::string(65, 'x'), 1, 0.5}), "holder is a name of 1 to 64 bytes");

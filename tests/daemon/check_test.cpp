@@ -49,6 +49,14 @@ TEST(Check, SaysWhatOrdersMayAskForAndWhatFollows) {
   EXPECT_TRUE(says(port("gps", "oncore"), "orders: no motor card to give them to\n"));
 }
 
+TEST(Check, SaysWhatIsSwitchedAndWhatTheLogLacks) {
+  const std::string gps = port("gps", "oncore");
+  EXPECT_TRUE(
+      says(gps + "[power.mast]\ngpio_chip = \"gpiochip0\"\nline = 17\ndevices = [\"gps\"]\nat_start = \"leave\"\n",
+           "power mast: of gps by line 17 of gpiochip0, left as it is at the start\n"));
+  EXPECT_TRUE(says("[log]\nleave_out = [\"raw.gps\", \"health\"]\n" + gps, "log: without raw.gps, health\n"));
+}
+
 TEST(Check, SaysWhenceTheEarthsFieldIs) {
   const std::string gps = port("gps", "oncore");
   EXPECT_TRUE(says(gps, "field of the Earth: by the World Magnetic Model from the first fix on\n"));

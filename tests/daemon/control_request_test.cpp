@@ -30,6 +30,43 @@ TEST(ControlRequest, EveryCommandOfTheContractIsKnown) {
   }
 }
 
+TEST(ControlRequest, ThePartOfALogIsCheckedNumberByNumber) {
+  const auto part = [](const std::string& more) {
+    return refusal(R"({"command":"log.read","file":"navcal-20261121T023000Z-000123.mcap")" + more + "}");
+  };
+  EXPECT_EQ(part(R"(,"offset":0,"length":65536)"), "accepted");
+  EXPECT_EQ(part(R"(,"offset":9223372036854775807,"length":1)"), "accepted");
+  for (const char* bad : {R"("length":10)", R"("offset":-1,"length":10)", R"("offset":1.5,"length":10)",
+                          R"("offset":9223372036854775808,"length":10)", R"("offset":1e3,"length":10)",
+                          R"("offset":"0","length":10)", R"("offset":null,"length":10)"})
+    EXPECT_EQ(part("," + std::string(bad)), "offset is a number of bytes") << bad;
+  for (const char* bad : {"0", "-5", "65537", "1e400", "1.0", "\"10\"", "[]", "18446744073709551616"})
+    EXPECT_NE(part(R"(,"offset":0,"length":)" + std::string(bad)), "accepted") << bad;
+  EXPECT_NE(part(R"(,"offset":0,"length":NaN)"), "accepted");
+  EXPECT_EQ(refusal(R"({"command":"log.sum","file":"x","offset":0,"length":16777216})"), "accepted");
+  EXPECT_EQ(refusal(R"({"command":"log.read","offset":0,"length":1})"), "file is the name of a log");
+  EXPECT_EQ(refusal(R"({"command":"log.read","file":7,"offset":0,"length":1})"), "file is the name of a log");
+}
+
+TEST(ControlRequest, ListsChoicesAndSuppliesAreChecked) {
+  const auto list = std::get<ControlRequest>(parse_control(R"({"command":"log.list"})"));
+  EXPECT_EQ(list.length, 100U);
+  EXPECT_EQ(refusal(R"({"command":"log.list","after":"navcal-20261121T023000Z-000123.mcap","limit":3})"),
+            "accepted");
+  EXPECT_EQ(refusal(R"({"command":"log.list","after":"../x"})"), "after is the name of a log");
+  EXPECT_EQ(refusal(R"({"command":"log.list","limit":0})"), "limit is 1 to 100 logs");
+  EXPECT_FALSE(std::get<ControlRequest>(parse_control(R"({"command":"log.select"})")).leave_out);
+  const auto choice =
+      std::get<ControlRequest>(parse_control(R"({"command":"log.select","leave_out":["raw.gps"]})"));
+  EXPECT_EQ(choice.leave_out, std::vector<std::string>{"raw.gps"});
+  for (const char* bad : {"\"raw\"", "[1]", "{}", "null"})
+    EXPECT_EQ(refusal(R"({"command":"log.select","leave_out":)" + std::string(bad) + "}"),
+              "leave_out is a list of texts");
+  EXPECT_EQ(refusal(R"({"command":"power.off","name":"mast"})"), "accepted");
+  EXPECT_EQ(refusal(R"({"command":"power.off"})"), "name is that of a supply; power.list has them");
+  EXPECT_EQ(refusal(R"({"command":"power.list"})"), "accepted");
+}
+
 TEST(ControlRequest, ForceIsSaidInSoManyWords) {
   const auto forced = [](const std::string& more) {
     const auto parsed = parse_control(R"({"command":"calibration.accept","calibrator":"compass")" + more + "}");

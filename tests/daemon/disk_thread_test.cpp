@@ -115,6 +115,33 @@ TEST_F(DiskThreadTest, ARecordIsNeverTornAcrossFiles) {
   EXPECT_EQ(logs(), expected);
 }
 
+TEST_F(DiskThreadTest, AClosedFileIsWholeAndTheNextBeginsOnlyWhenAsked) {
+  begin(1 << 20);
+  ASSERT_TRUE(append("one\n"));
+  thread_->end_file([](std::string& out) { out += "end\n"; });
+  thread_->close_file();
+  ASSERT_TRUE(eventually([&] { return logs() == std::vector<std::string>{"begin\none\nend\n"}; }));
+  ASSERT_TRUE(eventually([&] { return thread_->state().file.empty(); }));
+  thread_->next_file(0, [](std::string& out) { out += "again\n"; });
+  ASSERT_TRUE(append("two\n"));
+  thread_->stop();
+  EXPECT_EQ(logs(), (std::vector<std::string>{"begin\none\nend\n", "again\ntwo\n"}));
+}
+
+TEST_F(DiskThreadTest, AFileClosedWhileTheDiskIsFullIsWholeOnceThereIsRoom) {
+  begin(1 << 20);
+  disk_.full = true;
+  ASSERT_TRUE(append("one\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().state == DiskState::State::full; }));
+  thread_->end_file([](std::string& out) { out += "end\n"; });
+  thread_->close_file();
+  EXPECT_EQ(thread_->state().state, DiskState::State::full);
+  disk_.full = false;
+  ASSERT_TRUE(eventually([&] { return thread_->state().file.empty(); }));
+  EXPECT_EQ(thread_->state().state, DiskState::State::writing);
+  EXPECT_EQ(logs(), std::vector<std::string>{"begin\none\nend\n"});
+}
+
 TEST_F(DiskThreadTest, AFullDiskIsSaidWaitedForAndNothingQueuedIsLost) {
   begin(1 << 20);
   ASSERT_TRUE(append("before\n"));

@@ -178,7 +178,8 @@ TEST_F(ClosedLoop, ALeakStopsTheVehicle) {
   constexpr std::string_view kLeak = "imu-status 1\n";
   ASSERT_EQ(::write(console_.get(), kLeak.data(), kLeak.size()), static_cast<ssize_t>(kLeak.size()));
   EXPECT_EQ(run->wait(kPatience), 1);
-  EXPECT_NE(run->err().find("the vehicle was stopped: leak forward"), std::string::npos) << run->err();
+  EXPECT_NE(run->err().find("leak forward"), std::string::npos) << run->err();
+  EXPECT_TRUE(daemon_said("motor.leak: leak_forward: the lease of pilot"));
   let_the_shaft_run_down();
   expect_stopped(finish());
 }

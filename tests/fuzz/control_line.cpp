@@ -8,7 +8,9 @@
 
 #include "control/order.h"
 #include "daemon/control_request.h"
+#include "daemon/log_answers.h"
 #include "protocols/motor_card.h"
+#include "record/log/log_shelf.h"
 
 namespace {
 
@@ -25,6 +27,22 @@ void check_order(const navcal::daemon::ControlRequest& request) {
   }
 }
 
+/// The numbers of a download are within their bounds, and the name of a log leads nowhere else. The folder has no
+/// logs, so that nothing may ever be read.
+void check_download(const navcal::daemon::ControlRequest& request) {
+  using navcal::daemon::ControlCommand;
+  namespace record = navcal::record;
+  const bool is_sum = request.command == ControlCommand::log_sum;
+  if (request.command != ControlCommand::log_read && !is_sum) return;
+  const std::uint64_t most_bytes = is_sum ? record::kMaxSum_bytes : record::kMaxPart_bytes;
+  if (request.length == 0 || request.length > most_bytes || request.offset > INT64_MAX) std::abort();
+  if (record::is_log_name(request.file) &&
+      request.file.find_first_not_of("-.0123456789TZacelmnpv") != std::string::npos)
+    std::abort();
+  const std::string answer = navcal::daemon::answer_from_disk("/", request);
+  if (answer.find("\"ok\":false") == std::string::npos || !nlohmann::json::accept(answer)) std::abort();
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -36,6 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (answer.find('\n') != answer.size() - 1 || !nlohmann::json::accept(answer)) std::abort();
   } else {
     check_order(std::get<ControlRequest>(parsed));
+    check_download(std::get<ControlRequest>(parsed));
   }
   // Bytes from the client must never break a line either.
   const std::string echoed = control_error(line);
