@@ -17,7 +17,8 @@ using protocols::Protocol;
 
 /// One of path, udev_name, usb_serial and address.
 bool is_place(const OptionInfo& option) {
-  return option.key == "path" || option.key == "udev_name" || option.key == "usb_serial" || option.key == "address";
+  return option.table.empty() && (option.key == "path" || option.key == "udev_name" ||
+                                  option.key == "usb_serial" || option.key == "address");
 }
 
 /// Empty when there is no default.
