@@ -165,6 +165,7 @@ TEST_F(LogProcess, ADownloadIsTheFileBitByBit) {
 
 TEST_F(LogProcess, NamesThatAreNotLogsAndPlacesThatAreNotThereAreRefused) {
   start();
+  ASSERT_TRUE(eventually([&] { return log_state()["bytes"] > 1000; }));
   const std::string name = daemon_->logs().front().filename();
   const auto folder = daemon_->folder() / "log";
   const std::string link = "navcal-20261121T023000Z-999999.mcap";
