@@ -92,7 +92,7 @@ TEST_F(LogProcess, AStoppedLogIsWholeAndTheRestRunsOn) {
   EXPECT_EQ(ask({{"command", "log.stop"}})["ok"], true) << "it is stopped already";
   ASSERT_TRUE(wait_for_files(1, 0));
   EXPECT_EQ(log_state()["state"], "stopped");
-  EXPECT_EQ(log_state()["file"], "");
+  EXPECT_TRUE(eventually([&] { return log_state()["file"] == ""; }));
   EXPECT_EQ(ask({{"command", "log.rotate"}})["error"], "the log is stopped (log.start)");
   // It still reads and serves.
   Client status(daemon_->port());
@@ -165,6 +165,7 @@ TEST_F(LogProcess, ADownloadIsTheFileBitByBit) {
 
 TEST_F(LogProcess, NamesThatAreNotLogsAndPlacesThatAreNotThereAreRefused) {
   start();
+  ASSERT_TRUE(eventually([&] { return log_state()["bytes"] > 1000; }));
   const std::string name = daemon_->logs().front().filename();
   const auto folder = daemon_->folder() / "log";
   const std::string link = "navcal-20261121T023000Z-999999.mcap";

@@ -126,6 +126,8 @@ TEST_F(PowerControlTest, ADeviceThatIsSwitchedOffIsOffAndIsSpokenToAgainAfterSwi
   EXPECT_EQ(session().state(), PortSession::State::off);
   EXPECT_FALSE(session().open_port());
   EXPECT_FALSE(session().send_now(std::vector<std::uint8_t>{1}));
+  // What was on its way already leaves.
+  context_.run_for(std::chrono::milliseconds(50));
   while (!line_.read(50).empty()) {
   }
   // Long after it would be silent, and nothing is sent to it.
