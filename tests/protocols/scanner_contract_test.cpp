@@ -3,8 +3,10 @@
 
 #include "protocols/parsers.h"
 #include "tests/protocols/gps_samples.h"
+#include "tests/protocols/mip_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
+#include "tests/protocols/ubx_samples.h"
 
 // Requirements of StreamParser on every scanner (protocols/stream_parser.h).
 namespace navcal::protocols::test {
@@ -20,8 +22,9 @@ template <class Rows>
 struct AllScanners;
 template <std::size_t... Row>
 struct AllScanners<std::index_sequence<Row...>> {
-  using Types = testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
-                               oncore::CommandScanner, GpsStreamScanner>;
+  using Types =
+      testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
+                     oncore::CommandScanner, GpsStreamScanner, ubx::Scanner, ubx::PortScanner, mip::Scanner>;
 };
 TYPED_TEST_SUITE(ScannerContract, AllScanners<std::make_index_sequence<kDeviceCount>>::Types);
 
