@@ -4,6 +4,7 @@
 #include "protocols/parsers.h"
 #include "tests/protocols/gps_samples.h"
 #include "tests/protocols/mip_samples.h"
+#include "tests/protocols/pd0_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
 #include "tests/protocols/ubx_samples.h"
@@ -22,9 +23,9 @@ template <class Rows>
 struct AllScanners;
 template <std::size_t... Row>
 struct AllScanners<std::index_sequence<Row...>> {
-  using Types =
-      testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
-                     oncore::CommandScanner, GpsStreamScanner, ubx::Scanner, ubx::PortScanner, mip::Scanner>;
+  using Types = testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
+                               oncore::CommandScanner, GpsStreamScanner, ubx::Scanner, ubx::PortScanner,
+                               mip::Scanner, pd0::Scanner>;
 };
 TYPED_TEST_SUITE(ScannerContract, AllScanners<std::make_index_sequence<kDeviceCount>>::Types);
 
