@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "protocols/parsers.h"
+#include "tests/protocols/doppler_text_samples.h"
 #include "tests/protocols/gps_samples.h"
 #include "tests/protocols/mip_samples.h"
 #include "tests/protocols/pd0_samples.h"
@@ -25,7 +26,7 @@ template <std::size_t... Row>
 struct AllScanners<std::index_sequence<Row...>> {
   using Types = testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
                                oncore::CommandScanner, GpsStreamScanner, ubx::Scanner, ubx::PortScanner,
-                               mip::Scanner, pd0::Scanner>;
+                               mip::Scanner, pd0::Scanner, pd6::Scanner, water_linked::Scanner>;
 };
 TYPED_TEST_SUITE(ScannerContract, AllScanners<std::make_index_sequence<kDeviceCount>>::Types);
 
