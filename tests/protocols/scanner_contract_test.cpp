@@ -8,6 +8,7 @@
 #include "tests/protocols/pd0_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
+#include "tests/protocols/trax_samples.h"
 #include "tests/protocols/ubx_samples.h"
 
 // Requirements of StreamParser on every scanner (protocols/stream_parser.h).
@@ -26,7 +27,7 @@ template <std::size_t... Row>
 struct AllScanners<std::index_sequence<Row...>> {
   using Types = testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
                                oncore::CommandScanner, GpsStreamScanner, ubx::Scanner, ubx::PortScanner,
-                               mip::Scanner, pd0::Scanner, pd6::Scanner, water_linked::Scanner>;
+                               mip::Scanner, pd0::Scanner, pd6::Scanner, water_linked::Scanner, trax::Scanner>;
 };
 TYPED_TEST_SUITE(ScannerContract, AllScanners<std::make_index_sequence<kDeviceCount>>::Types);
 
