@@ -2,7 +2,10 @@
 #include "protocols/water_linked.h"
 
 #include <charconv>
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "protocols/checked_line.h"
 #include "protocols/decimal.h"
@@ -35,8 +38,7 @@ std::optional<std::string_view> body_text(Bytes frame, FrameId line) {
 }
 
 /// Reads `fields` into `values` in their order; false when one is no number.
-template <std::size_t N>
-bool read_numbers(const std::array<std::string_view, N>& fields,
+bool read_numbers(std::span<const std::string_view> fields,
                   std::initializer_list<std::pair<std::size_t, double*>> to) {
   for (const auto& [index, value] : to) {
     const auto number = signed_number(fields[index]);
