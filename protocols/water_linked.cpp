@@ -14,15 +14,21 @@
 namespace navcal::protocols::water_linked {
 namespace {
 
-constexpr auto kCrc8Table = [] {
-  std::array<std::uint8_t, 256> table{};
+/// kCrc8Tables[k][b]: what byte b contributes to the remainder when k more bytes follow it, so that the look-ups
+/// of a slice do not wait for one another.
+constexpr std::size_t kCrc8Slices = 8;
+constexpr auto kCrc8Tables = [] {
+  std::array<std::array<std::uint8_t, 256>, kCrc8Slices> tables{};
   for (unsigned byte = 0; byte < 256; ++byte) {
     unsigned remainder = byte;
     for (int bit = 0; bit < 8; ++bit)
-      remainder = (remainder & 0x80U) != 0 ? remainder << 1 ^ 0x07U : remainder << 1;
-    table[byte] = static_cast<std::uint8_t>(remainder);
+      remainder = (remainder & 0x80U) != 0 ? remainder << 1 ^ 0x107U : remainder << 1;
+    tables[0][byte] = static_cast<std::uint8_t>(remainder);
   }
-  return table;
+  for (std::size_t k = 1; k < kCrc8Slices; ++k) {
+    for (std::size_t byte = 0; byte < 256; ++byte) tables[k][byte] = tables[0][tables[k - 1][byte]];
+  }
+  return tables;
 }();
 
 constexpr std::size_t kNameLength = 3;
@@ -122,7 +128,12 @@ std::optional<Velocity> decode_old(std::string_view text) {
 
 std::uint8_t crc8(Bytes bytes) {
   std::uint8_t crc = 0;
-  for (const std::uint8_t byte : bytes) crc = kCrc8Table[crc ^ byte];
+  for (; bytes.size() >= kCrc8Slices; bytes = bytes.subspan(kCrc8Slices)) {
+    std::uint8_t next = kCrc8Tables[kCrc8Slices - 1][crc ^ bytes[0]];
+    for (std::size_t i = 1; i < kCrc8Slices; ++i) next ^= kCrc8Tables[kCrc8Slices - 1 - i][bytes[i]];
+    crc = next;
+  }
+  for (const std::uint8_t byte : bytes) crc = kCrc8Tables[0][crc ^ byte];
   return crc;
 }
 
