@@ -128,12 +128,14 @@ std::optional<Velocity> decode_old(std::string_view text) {
 
 std::uint8_t crc8(Bytes bytes) {
   std::uint8_t crc = 0;
-  for (; bytes.size() >= kCrc8Slices; bytes = bytes.subspan(kCrc8Slices)) {
-    std::uint8_t next = kCrc8Tables[kCrc8Slices - 1][crc ^ bytes[0]];
-    for (std::size_t i = 1; i < kCrc8Slices; ++i) next ^= kCrc8Tables[kCrc8Slices - 1 - i][bytes[i]];
-    crc = next;
+  const auto& t = kCrc8Tables;
+  const std::uint8_t* p = bytes.data();
+  std::size_t left = bytes.size();
+  for (; left >= kCrc8Slices; left -= kCrc8Slices, p += kCrc8Slices) {
+    crc = static_cast<std::uint8_t>(t[7][crc ^ p[0]] ^ t[6][p[1]] ^ t[5][p[2]] ^ t[4][p[3]] ^ t[3][p[4]] ^
+                                    t[2][p[5]] ^ t[1][p[6]] ^ t[0][p[7]]);
   }
-  for (const std::uint8_t byte : bytes) crc = kCrc8Tables[0][crc ^ byte];
+  for (; left > 0; --left, ++p) crc = t[0][crc ^ *p];
   return crc;
 }
 
