@@ -12,7 +12,7 @@
 
 /// PNI TRAX, TCM3 and Prime compasses. Source: TRAX user manual, chapter "Operation with PNI binary protocol":
 /// length of the whole packet (u16 BE), frame number, payload (BE), CRC-16/XMODEM over all before it (ICD section
-/// 11). No capture was at hand: everything here follows the manual.
+/// 11). No capture was at hand; unverified (ICD).
 namespace navcal::protocols::trax {
 
 enum class FrameNumber : std::uint8_t {

@@ -11,7 +11,7 @@
 namespace navcal::protocols::test {
 namespace {
 
-TEST(Pd6, LinesAsTheGuideShowsThem) {
+TEST(Pd6, LinesOfEachKind) {
   const auto attitude = pd6::decode_attitude(bytes_of(":SA, -2.31, +4.92,359.58\r\n"));
   EXPECT_EQ(attitude, (pd6::Attitude{-2.31, 4.92, 359.58}));
   const auto velocity = pd6::decode_velocity(bytes_of(":BI,+00000,-02345,-00439,+00012,A\r\n"));

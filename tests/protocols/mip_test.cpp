@@ -37,7 +37,6 @@ TEST(Mip, EveryCutAndEveryFlippedBit) {
 }
 
 TEST(Mip, PingByteForByte) {
-  // The example of every manual.
   EXPECT_EQ(mip::encode_command(mip::BaseCommand::ping), (Buffer{0x75, 0x65, 0x01, 0x02, 0x02, 0x01, 0xE0, 0xC6}));
   const mip::Packet reply = mip::decode(mip::encode_fields(mip::kBaseSet, {{0xF1, {0x01, 0x00}}}));
   EXPECT_EQ(reply.reply, (mip::Reply{1, 0}));

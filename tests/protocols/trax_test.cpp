@@ -26,7 +26,7 @@ TEST(Trax, WhatIsEncodedIsDecoded) {
 }
 
 TEST(Trax, CommandsByteForByte) {
-  // The manual's example of kGetModInfo: 00 05 01 and the checksum EF D4.
+  // kGetModInfo: 00 05 01 and the checksum EF D4.
   EXPECT_EQ(trax::encode_frame(trax::FrameNumber::get_module_info), (Buffer{0x00, 0x05, 0x01, 0xEF, 0xD4}));
   const trax::Component components[] = {trax::Component::heading, trax::Component::pitch};
   const Buffer wanted = trax::encode_components(components);
