@@ -13,10 +13,17 @@
 #include "bench/xor_reference.h"
 #include "protocols/checked_line.h"
 #include "protocols/imu_card.h"
+#include "protocols/mip.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"
 #include "protocols/oncore.h"
+#include "protocols/pd0.h"
+#include "protocols/pd6.h"
 #include "protocols/tcm2.h"
+#include "protocols/trax.h"
+#include "protocols/ubx_navigation.h"
+#include "protocols/vectornav.h"
+#include "protocols/water_linked.h"
 
 namespace navcal::bench {
 namespace {
@@ -106,6 +113,69 @@ Buffer nmea_stream() {
   });
 }
 
+Buffer ubx_stream() {
+  return stream_of([](unsigned i) {
+    protocols::ubx::NavPvt pvt;
+    pvt.time_of_week_ms = i * 100;
+    pvt.latitude_deg = 48 + i * 1e-6;
+    return protocols::ubx::encode_nav_pvt(pvt);
+  });
+}
+
+Buffer mip_stream() {
+  return stream_of([](unsigned i) {
+    protocols::mip::Packet packet;
+    packet.set = protocols::mip::kSensorSet;
+    packet.reference_time_ns = i * 1'000'000ULL;
+    packet.acceleration_m_s2 = packet.rate_rad_s = packet.field_uT = protocols::mip::Triple{0.1 * i, 2, 3};
+    return protocols::mip::encode(packet);
+  });
+}
+
+Buffer pd0_stream() {
+  return stream_of([](unsigned i) {
+    protocols::pd0::VariableLeader variable;
+    variable.ensemble = i;
+    return protocols::pd0::encode({protocols::pd0::FixedLeader{}, variable, protocols::pd0::BottomTrack{}});
+  });
+}
+
+Buffer pd6_stream() {
+  return stream_of([](unsigned i) {
+    return protocols::pd6::encode(
+        protocols::pd6::Velocity{protocols::pd6::kBottomInstrument, {i % 1000 * 1e-3, 0.1, 0.2}, 0.001, true});
+  });
+}
+
+Buffer water_linked_stream() {
+  return stream_of([](unsigned i) {
+    protocols::water_linked::Velocity velocity;
+    velocity.velocity_m_s[0] = i % 1000 * 1e-3;
+    velocity.covariance_m2_s2 = std::array<double, 9>{};
+    return protocols::water_linked::encode(velocity);
+  });
+}
+
+Buffer trax_stream() {
+  return stream_of([](unsigned i) {
+    protocols::trax::Data data;
+    data.heading_deg = i % 360;
+    data.pitch_deg = data.roll_deg = 1.5;
+    data.field_uT = {20, 1, 40};
+    return protocols::trax::encode_data(data);
+  });
+}
+
+Buffer vectornav_stream() {
+  return stream_of([](unsigned i) {
+    protocols::vectornav::Reading reading;
+    reading.since_startup_ns = i * 5'000'000ULL;
+    reading.yaw_pitch_roll_deg = reading.rate_rad_s = reading.acceleration_m_s2 =
+        protocols::vectornav::Triple{1, 2, 3};
+    return protocols::vectornav::encode_binary(reading);
+  });
+}
+
 template <protocols::Scanner S>
 std::uint64_t framed_bytes_of(Bytes stream) {
   protocols::StreamParser<S> parser;
@@ -163,5 +233,12 @@ int main(int argc, char** argv) {
   bench::add<protocols::motor_card::Scanner>("motor_card", bench::motor_card_stream());
   bench::add<protocols::oncore::Scanner>("oncore", bench::oncore_stream());
   bench::add<protocols::nmea::Scanner>("nmea", bench::nmea_stream());
+  bench::add<protocols::ubx::PortScanner>("ubx", bench::ubx_stream());
+  bench::add<protocols::mip::Scanner>("mip", bench::mip_stream());
+  bench::add<protocols::pd0::Scanner>("pd0", bench::pd0_stream());
+  bench::add<protocols::pd6::Scanner>("pd6", bench::pd6_stream());
+  bench::add<protocols::water_linked::Scanner>("water_linked", bench::water_linked_stream());
+  bench::add<protocols::trax::Scanner>("trax", bench::trax_stream());
+  bench::add<protocols::vectornav::Scanner>("vectornav", bench::vectornav_stream());
   benchmark::RunSpecifiedBenchmarks();
 }

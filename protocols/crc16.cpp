@@ -30,10 +30,8 @@ constexpr auto kTables = [] {
   return tables;
 }();
 
-}  // namespace
-
-std::uint16_t crc16_ccitt_false(Bytes bytes) {
-  unsigned crc = 0xFFFF;
+/// Remainder after `bytes`, from that of the bytes before them.
+std::uint16_t continued(unsigned crc, Bytes bytes) {
   const std::uint8_t* p = bytes.data();
   std::size_t left = bytes.size();
   for (; left >= kSlices; left -= kSlices, p += kSlices) {
@@ -46,5 +44,11 @@ std::uint16_t crc16_ccitt_false(Bytes bytes) {
   }
   return static_cast<std::uint16_t>(crc);
 }
+
+}  // namespace
+
+std::uint16_t crc16_ccitt_false(Bytes bytes) { return continued(0xFFFF, bytes); }
+
+std::uint16_t crc16_xmodem(Bytes bytes) { return continued(0, bytes); }
 
 }  // namespace navcal::protocols

@@ -12,4 +12,7 @@ namespace navcal::protocols {
 /// a time.
 [[nodiscard]] std::uint16_t crc16_ccitt_false(Bytes bytes);
 
+/// CRC-16/XMODEM: the same polynomial with start 0; "123456789" gives 0x31C3. PNI and VectorNav use it.
+[[nodiscard]] std::uint16_t crc16_xmodem(Bytes bytes);
+
 }  // namespace navcal::protocols

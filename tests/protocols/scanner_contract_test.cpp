@@ -2,9 +2,15 @@
 #include <gtest/gtest.h>
 
 #include "protocols/parsers.h"
+#include "tests/protocols/doppler_text_samples.h"
 #include "tests/protocols/gps_samples.h"
+#include "tests/protocols/mip_samples.h"
+#include "tests/protocols/pd0_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
+#include "tests/protocols/trax_samples.h"
+#include "tests/protocols/ubx_samples.h"
+#include "tests/protocols/vectornav_samples.h"
 
 // Requirements of StreamParser on every scanner (protocols/stream_parser.h).
 namespace navcal::protocols::test {
@@ -20,8 +26,10 @@ template <class Rows>
 struct AllScanners;
 template <std::size_t... Row>
 struct AllScanners<std::index_sequence<Row...>> {
-  using Types = testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
-                               oncore::CommandScanner, GpsStreamScanner>;
+  using Types =
+      testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
+                     oncore::CommandScanner, GpsStreamScanner, ubx::Scanner, ubx::PortScanner, mip::Scanner,
+                     pd0::Scanner, pd6::Scanner, water_linked::Scanner, trax::Scanner, vectornav::Scanner>;
 };
 TYPED_TEST_SUITE(ScannerContract, AllScanners<std::make_index_sequence<kDeviceCount>>::Types);
 

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocols/water_linked.h"
+
+#include <charconv>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "protocols/checked_line.h"
+#include "protocols/decimal.h"
+#include "protocols/text_fields.h"
+
+namespace navcal::protocols::water_linked {
+namespace {
+
+/// kCrc8Tables[k][b]: what byte b contributes to the remainder when k more bytes follow it, so that the look-ups
+/// of a slice do not wait for one another.
+constexpr std::size_t kCrc8Slices = 8;
+constexpr auto kCrc8Tables = [] {
+  std::array<std::array<std::uint8_t, 256>, kCrc8Slices> tables{};
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    unsigned remainder = byte;
+    for (int bit = 0; bit < 8; ++bit)
+      remainder = (remainder & 0x80U) != 0 ? remainder << 1 ^ 0x107U : remainder << 1;
+    tables[0][byte] = static_cast<std::uint8_t>(remainder);
+  }
+  for (std::size_t k = 1; k < kCrc8Slices; ++k) {
+    for (std::size_t byte = 0; byte < 256; ++byte) tables[k][byte] = tables[0][tables[k - 1][byte]];
+  }
+  return tables;
+}();
+
+constexpr std::size_t kNameLength = 3;
+
+/// Text between `wr?,` and `*` of a line with this name.
+std::optional<std::string_view> body_text(Bytes frame, FrameId line) {
+  const std::string_view text(reinterpret_cast<const char*>(frame.data()), frame.size());
+  const std::size_t star = text.rfind('*');
+  if (!text.starts_with(line.view()) || star == std::string_view::npos || star < kNameLength + 1)
+    return std::nullopt;
+  if (text[kNameLength] != ',') return std::nullopt;
+  return text.substr(kNameLength + 1, star - kNameLength - 1);
+}
+
+/// Reads `fields` into `values` in their order; false when one is no number.
+bool read_numbers(std::span<const std::string_view> fields,
+                  std::initializer_list<std::pair<std::size_t, double*>> to) {
+  for (const auto& [index, value] : to) {
+    const auto number = signed_number(fields[index]);
+    if (!number) return false;
+    *value = *number;
+  }
+  return true;
+}
+
+bool read_valid(std::string_view field, bool& valid) {
+  valid = field == "y";
+  return valid || field == "n";
+}
+
+std::optional<std::array<double, 9>> read_covariance(std::string_view text) {
+  std::array<double, 9> covariance{};
+  for (std::size_t i = 0; i < covariance.size(); ++i) {
+    const std::size_t end = text.find(';');
+    if ((end == std::string_view::npos) != (i + 1 == covariance.size())) return std::nullopt;
+    const auto value = signed_number(text.substr(0, end));
+    if (!value) return std::nullopt;
+    covariance[i] = *value;
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return covariance;
+}
+
+void append_field(std::string& line, double value, int decimals) {
+  line += ',';
+  append_decimal(line, value, decimals);
+}
+
+void append_shortest(std::string& line, double value) {
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+  line.append(digits, end);
+}
+
+std::optional<Velocity> decode_new(std::string_view text) {
+  const auto f = split_exactly<11>(text);
+  if (!f) return std::nullopt;
+  Velocity v;
+  v.covariance_m2_s2 = read_covariance((*f)[6]);
+  v.valid_at_us = integer<std::int64_t>((*f)[7]);
+  v.transmitted_at_us = integer<std::int64_t>((*f)[8]);
+  const auto status = integer<std::uint32_t>((*f)[10]);
+  if (!v.covariance_m2_s2 || !v.valid_at_us || !v.transmitted_at_us || !status || !read_valid((*f)[3], v.valid)) {
+    return std::nullopt;
+  }
+  v.status = *status;
+  if (!read_numbers(*f, {{0, &v.velocity_m_s[0]},
+                         {1, &v.velocity_m_s[1]},
+                         {2, &v.velocity_m_s[2]},
+                         {4, &v.altitude_m},
+                         {5, &v.figure_of_merit_m_s},
+                         {9, &v.since_last_ms}})) {
+    return std::nullopt;
+  }
+  return v;
+}
+
+std::optional<Velocity> decode_old(std::string_view text) {
+  const auto f = split_exactly<8>(text);
+  if (!f) return std::nullopt;
+  Velocity v;
+  const auto status = integer<std::uint32_t>((*f)[7]);
+  if (!status || !read_valid((*f)[6], v.valid)) return std::nullopt;
+  v.status = *status;
+  if (!read_numbers(*f, {{0, &v.since_last_ms},
+                         {1, &v.velocity_m_s[0]},
+                         {2, &v.velocity_m_s[1]},
+                         {3, &v.velocity_m_s[2]},
+                         {4, &v.figure_of_merit_m_s},
+                         {5, &v.altitude_m}})) {
+    return std::nullopt;
+  }
+  return v;
+}
+
+}  // namespace
+
+std::uint8_t crc8(Bytes bytes) {
+  std::uint8_t crc = 0;
+  const auto& t = kCrc8Tables;
+  const std::uint8_t* p = bytes.data();
+  std::size_t left = bytes.size();
+  for (; left >= kCrc8Slices; left -= kCrc8Slices, p += kCrc8Slices) {
+    crc = static_cast<std::uint8_t>(t[7][crc ^ p[0]] ^ t[6][p[1]] ^ t[5][p[2]] ^ t[4][p[3]] ^ t[3][p[4]] ^
+                                    t[2][p[5]] ^ t[1][p[6]] ^ t[0][p[7]]);
+  }
+  for (; left > 0; --left, ++p) crc = t[0][crc ^ *p];
+  return crc;
+}
+
+Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
+  const auto available = std::min(static_cast<std::size_t>(last - first), kMaxFrameLength);
+  const auto need = [&](std::size_t missing) {
+    return available == kMaxFrameLength ? Scan::not_a_frame()
+                                        : Scan::incomplete(std::min(missing, kMaxFrameLength - available));
+  };
+  if (available > 1 && first[1] != 'r') return Scan::not_a_frame();
+  if (available < 4) return need(1);
+  if (first[3] != ',' && first[3] != '*') return Scan::not_a_frame();
+  std::size_t star = 3;
+  while (star < available && first[star] != '*') {
+    if (first[star] < ' ' || first[star] > '~') return Scan::not_a_frame();
+    ++star;
+  }
+  if (star + 3 >= available) return need(star + 4 - available);
+  const unsigned high = detail::kHexValue[first[star + 1]], low = detail::kHexValue[first[star + 2]];
+  if (high > 15 || low > 15 || crc8(Bytes(first, star)) != (high << 4 | low)) return Scan::bad_checksum();
+  const FrameId id(std::string_view(reinterpret_cast<const char*>(first), kNameLength));
+  if (first[star + 3] == '\n') return Scan::frame(star + 4, id);
+  if (first[star + 3] != '\r') return Scan::bad_checksum();
+  if (star + 4 >= available) return need(1);
+  return first[star + 4] == '\n' ? Scan::frame(star + 5, id) : Scan::bad_checksum();
+}
+
+std::optional<Velocity> decode_velocity(Bytes frame) {
+  if (const auto text = body_text(frame, kVelocity)) return decode_new(*text);
+  if (const auto text = body_text(frame, kVelocityOld)) return decode_old(*text);
+  return std::nullopt;
+}
+
+std::vector<std::uint8_t> encode(const Velocity& v) {
+  std::string line(v.covariance_m2_s2 ? kVelocity.view() : kVelocityOld.view());
+  if (!v.covariance_m2_s2) append_field(line, v.since_last_ms, 2);
+  for (const double one : v.velocity_m_s) append_field(line, one, 3);
+  if (!v.covariance_m2_s2) {
+    append_field(line, v.figure_of_merit_m_s, 3);
+    append_field(line, v.altitude_m, 2);
+    line += v.valid ? ",y," : ",n,";
+    return encode_line(line + std::to_string(v.status));
+  }
+  line += v.valid ? ",y" : ",n";
+  append_field(line, v.altitude_m, 2);
+  append_field(line, v.figure_of_merit_m_s, 3);
+  for (std::size_t i = 0; i < 9; ++i) {
+    line += i == 0 ? ',' : ';';
+    append_shortest(line, (*v.covariance_m2_s2)[i]);
+  }
+  line += ',' + std::to_string(v.valid_at_us.value_or(0)) + ',' + std::to_string(v.transmitted_at_us.value_or(0));
+  append_field(line, v.since_last_ms, 2);
+  return encode_line(line + ',' + std::to_string(v.status));
+}
+
+std::optional<Transducer> decode_transducer(Bytes frame) {
+  const auto text = body_text(frame, kTransducer);
+  const auto f = text ? split_exactly<5>(*text) : std::nullopt;
+  if (!f) return std::nullopt;
+  Transducer t;
+  const auto number = integer<std::uint8_t>((*f)[0]);
+  if (!number ||
+      !read_numbers(*f, {{1, &t.velocity_m_s}, {2, &t.distance_m}, {3, &t.signal_dBm}, {4, &t.noise_dBm}})) {
+    return std::nullopt;
+  }
+  t.number = *number;
+  return t;
+}
+
+std::vector<std::uint8_t> encode(const Transducer& t) {
+  std::string line = std::string(kTransducer.view()) + ',' + std::to_string(t.number);
+  append_field(line, t.velocity_m_s, 3);
+  append_field(line, t.distance_m, 2);
+  append_field(line, t.signal_dBm, 0);
+  append_field(line, t.noise_dBm, 0);
+  return encode_line(line);
+}
+
+std::optional<Position> decode_position(Bytes frame) {
+  const auto text = body_text(frame, kPosition);
+  const auto f = text ? split_exactly<9>(*text) : std::nullopt;
+  if (!f) return std::nullopt;
+  Position p;
+  const auto status = integer<std::uint32_t>((*f)[8]);
+  if (!status || !read_numbers(*f, {{0, &p.time_s},
+                                    {1, &p.position_m[0]},
+                                    {2, &p.position_m[1]},
+                                    {3, &p.position_m[2]},
+                                    {4, &p.std_m},
+                                    {5, &p.roll_deg},
+                                    {6, &p.pitch_deg},
+                                    {7, &p.yaw_deg}})) {
+    return std::nullopt;
+  }
+  p.status = *status;
+  return p;
+}
+
+std::vector<std::uint8_t> encode(const Position& p) {
+  std::string line(kPosition.view());
+  append_field(line, p.time_s, 3);
+  for (const double one : p.position_m) append_field(line, one, 2);
+  append_field(line, p.std_m, 2);
+  for (const double one : {p.roll_deg, p.pitch_deg, p.yaw_deg}) append_field(line, one, 1);
+  return encode_line(line + ',' + std::to_string(p.status));
+}
+
+std::vector<std::uint8_t> encode_line(std::string_view body) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  const std::uint8_t crc = crc8({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()});
+  std::string line(body);
+  line += '*';
+  line += kDigits[crc >> 4];
+  line += kDigits[crc & 0x0F];
+  line += "\r\n";
+  return {line.begin(), line.end()};
+}
+
+}  // namespace navcal::protocols::water_linked

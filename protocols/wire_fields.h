@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+/// Numbers in binary messages: integers in two's complement and IEEE 754 floats, in either byte order.
+namespace navcal::protocols {
+
+template <class T>
+concept WireNumber = std::integral<T> ||(std::floating_point<T> && sizeof(T) <= 8);
+
+namespace detail {
+
+template <std::size_t Size>
+using UnsignedOfSize = std::conditional_t<
+    Size == 1, std::uint8_t,
+    std::conditional_t<Size == 2, std::uint16_t, std::conditional_t<Size == 4, std::uint32_t, std::uint64_t>>>;
+
+}  // namespace detail
+
+/// The number of type T that begins at `p`, least significant byte first.
+template <WireNumber T>
+[[nodiscard]] T get_le(const std::uint8_t* p) {
+  using Raw = detail::UnsignedOfSize<sizeof(T)>;
+  std::uint64_t raw = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) raw |= std::uint64_t{p[i]} << 8 * i;
+  return std::bit_cast<T>(static_cast<Raw>(raw));
+}
+
+/// The number of type T that begins at `p`, most significant byte first.
+template <WireNumber T>
+[[nodiscard]] T get_be(const std::uint8_t* p) {
+  using Raw = detail::UnsignedOfSize<sizeof(T)>;
+  std::uint64_t raw = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) raw = raw << 8 | p[i];
+  return std::bit_cast<T>(static_cast<Raw>(raw));
+}
+
+template <WireNumber T>
+void put_le(std::uint8_t* p, T value) {
+  const std::uint64_t raw = std::bit_cast<detail::UnsignedOfSize<sizeof(T)>>(value);
+  for (std::size_t i = 0; i < sizeof(T); ++i) p[i] = static_cast<std::uint8_t>(raw >> 8 * i);
+}
+
+template <WireNumber T>
+void put_be(std::uint8_t* p, T value) {
+  const std::uint64_t raw = std::bit_cast<detail::UnsignedOfSize<sizeof(T)>>(value);
+  for (std::size_t i = 0; i < sizeof(T); ++i) p[i] = static_cast<std::uint8_t>(raw >> 8 * (sizeof(T) - 1 - i));
+}
+
+/// `value` rounded to the nearest integer; the nearest end of the range of T when it does not fit, 0 for NaN.
+template <std::integral T>
+[[nodiscard]] T saturated(double value) {
+  if (std::isnan(value)) return 0;
+  const double rounded = std::round(value);
+  if (rounded <= static_cast<double>(std::numeric_limits<T>::min())) return std::numeric_limits<T>::min();
+  if (rounded >= static_cast<double>(std::numeric_limits<T>::max())) return std::numeric_limits<T>::max();
+  return static_cast<T>(rounded);
+}
+
+}  // namespace navcal::protocols

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes from a VectorNav sensor.
+#include "protocols/vectornav.h"
+
+#include "protocols/checked_line.h"
+#include "tests/fuzz/stream_invariants.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace navcal::protocols;
+  navcal::fuzz::check_stream<vectornav::Scanner>({data, size}, [](const Frame& frame) {
+    static_cast<void>(vectornav::decode_binary(frame.bytes));
+    static_cast<void>(vectornav::decode_line(frame.bytes));
+  });
+  const std::string_view body(reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 200));
+  static_cast<void>(vectornav::decode_line(checked_line(body)));
+  return 0;
+}

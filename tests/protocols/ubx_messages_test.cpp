@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/protocols/shared_capture.h"
+#include "tests/protocols/ubx_samples.h"
+
+namespace navcal::protocols::test {
+namespace {
+
+TEST(UbxMessages, WhatIsEncodedIsDecoded) {
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const ubx::NavPvt pvt = random_pvt(random);
+    EXPECT_EQ(ubx::decode_nav_pvt(ubx::encode_nav_pvt(pvt)), pvt);
+    const ubx::NavTimeGps time{static_cast<std::uint32_t>(random()),
+                               static_cast<std::int32_t>(random()),
+                               2300,
+                               18,
+                               chance(random),
+                               chance(random),
+                               chance(random),
+                               on_step(random, 0, 1'000'000, 1e-9)};
+    EXPECT_EQ(ubx::decode_nav_timegps(ubx::encode_nav_timegps(time)), time);
+    const ubx::NavDop dop{7,
+                          on_step(random, 0, 9999, 0.01),
+                          on_step(random, 0, 9999, 0.01),
+                          on_step(random, 0, 9999, 0.01),
+                          on_step(random, 0, 9999, 0.01),
+                          on_step(random, 0, 9999, 0.01),
+                          on_step(random, 0, 9999, 0.01),
+                          on_step(random, 0, 9999, 0.01)};
+    EXPECT_EQ(ubx::decode_nav_dop(ubx::encode_nav_dop(dop)), dop);
+    const ubx::NavSat sat = random_sat(random);
+    const auto again = ubx::decode_nav_sat(ubx::encode_nav_sat(sat));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->count, sat.count);
+    EXPECT_EQ(again->satellites, sat.satellites);
+  }
+}
+
+TEST(UbxMessages, OfAnotherMessageOrTooShort) {
+  EXPECT_FALSE(ubx::decode_nav_pvt(ubx::encode_frame(ubx::kNavPvt, Buffer(83))));
+  EXPECT_TRUE(ubx::decode_nav_pvt(ubx::encode_frame(ubx::kNavPvt, Buffer(84)))) << "as generation 7 sends it";
+  EXPECT_FALSE(ubx::decode_nav_pvt(ubx::encode_frame(ubx::kNavSat, Buffer(92))));
+  EXPECT_FALSE(ubx::decode_nav_dop(ubx::encode_frame(ubx::kNavDop, Buffer(17))));
+  EXPECT_FALSE(ubx::decode_nav_timegps(ubx::encode_frame(ubx::kNavTimeGps, Buffer(15))));
+  EXPECT_FALSE(ubx::decode_nav_sat(ubx::encode_frame(ubx::kNavSat, Buffer{0, 0, 0, 0, 1, 2, 0, 0, 9, 9})));
+  EXPECT_FALSE(ubx::decode_acknowledgement(ubx::encode_frame(ubx::kAckAck, Buffer{6})));
+}
+
+TEST(UbxMessages, AFixIsOneOnlyWithinItsLimits) {
+  ubx::NavPvt pvt;
+  pvt.fix_type = 3;
+  EXPECT_EQ(pvt.fix(), Fix::none);
+  pvt.fix_ok = true;
+  EXPECT_EQ(pvt.fix(), Fix::fix_3d);
+  pvt.position_invalid = true;
+  EXPECT_EQ(pvt.fix(), Fix::none);
+}
+
+TEST(UbxMessages, TheNanosecondMayBeNegative) {
+  ubx::NavPvt pvt;
+  pvt.date = {2020, 1, 1};
+  pvt.nanosecond = -5;
+  EXPECT_FALSE(pvt.utc_ns());
+  pvt.date_valid = pvt.time_valid = true;
+  EXPECT_EQ(pvt.utc_ns(), 1'577'836'800'000'000'000 - 5);
+  pvt.date.month = 13;
+  EXPECT_FALSE(pvt.utc_ns());
+}
+
+TEST(UbxMessages, Configuration) {
+  const ubx::Acknowledgement refused{ubx::kCfgValset, false};
+  EXPECT_EQ(ubx::decode_acknowledgement(ubx::encode_acknowledgement(refused)), refused);
+  const ubx::MessageRate rate{ubx::kNavPvt, 5};
+  EXPECT_EQ(ubx::decode_cfg_msg(ubx::encode_cfg_msg(rate)), rate);
+  const ubx::ValueSet set{ubx::ram | ubx::flash,
+                          {{ubx::kRateMeasurement_ms, 100}, {ubx::kUart1Baud, 115200}, {ubx::kUart1OutUbx, 1}}};
+  const Buffer frame = ubx::encode_cfg_valset(set.layers, set.items);
+  EXPECT_EQ(ubx::decode_cfg_valset(frame), set);
+  // Key and value of the first item: 01 00 21 30, then 64 00.
+  const Buffer first(frame.begin() + 10, frame.begin() + 16);
+  EXPECT_EQ(first, (Buffer{0x01, 0x00, 0x21, 0x30, 0x64, 0x00}));
+  EXPECT_FALSE(
+      ubx::decode_cfg_valset(ubx::encode_frame(ubx::kCfgValset, Buffer{0, 1, 0, 0, 1, 0, 0x21, 0x30, 5})));
+  EXPECT_FALSE(ubx::decode_cfg_valset(ubx::encode_frame(ubx::kCfgValset, Buffer{0, 1, 0, 0, 1, 0, 0, 0, 5})));
+}
+
+/// The documentation once more, as a packed structure of the machine (little endian here as on the wire).
+struct [[gnu::packed]] PvtOnWire {
+  std::uint32_t tow;
+  std::uint16_t year;
+  std::uint8_t month, day, hour, minute, second, valid;
+  std::uint32_t time_accuracy;
+  std::int32_t nano;
+  std::uint8_t fix, flags, flags2, satellites;
+  std::int32_t longitude, latitude, height, msl;
+  std::uint32_t horizontal, vertical;
+  std::int32_t north, east, down, speed, heading;
+  std::uint32_t speed_accuracy, heading_accuracy;
+  std::uint16_t pdop;
+};
+static_assert(sizeof(PvtOnWire) == 78);
+
+TEST(UbxMessages, ValuesOfACaptureByOthers) {
+  const Buffer stream = shared_capture("ubx/pygpsdata-MIXED.log");
+  if (stream.empty()) GTEST_SKIP() << "no captures of u-blox receivers here";
+  std::size_t positions = 0, lists = 0;
+  for (const Seen& seen : all_at_once<ubx::PortScanner>(stream).frames) {
+    if (seen.id == ubx::id_of(ubx::kNavSat)) {
+      const auto sat = ubx::decode_nav_sat(seen.bytes);
+      ASSERT_TRUE(sat);
+      EXPECT_EQ(seen.bytes.size(), 8 + 8 + 12 * sat->count);
+      ++lists;
+    }
+    if (seen.id != ubx::id_of(ubx::kNavPvt)) continue;
+    ++positions;
+    PvtOnWire wire{};
+    std::memcpy(&wire, seen.bytes.data() + 6, sizeof wire);
+    const auto pvt = ubx::decode_nav_pvt(seen.bytes);
+    ASSERT_TRUE(pvt);
+    EXPECT_NEAR(pvt->latitude_deg, wire.latitude / 1e7, 1e-9);
+    EXPECT_NEAR(pvt->longitude_deg, wire.longitude / 1e7, 1e-9);
+    EXPECT_NEAR(pvt->height_msl_m, wire.msl / 1e3, 1e-6);
+    EXPECT_NEAR(pvt->velocity_ned_m_s[0], wire.north / 1e3, 1e-9);
+    EXPECT_NEAR(pvt->velocity_ned_m_s[2], wire.down / 1e3, 1e-9);
+    EXPECT_NEAR(pvt->heading_of_motion_deg, wire.heading / 1e5, 1e-9);
+    EXPECT_NEAR(pvt->time_accuracy_s, wire.time_accuracy / 1e9, 1e-12);
+    EXPECT_NEAR(pvt->pdop, wire.pdop / 1e2, 1e-9);
+    EXPECT_EQ(pvt->satellites, wire.satellites);
+    EXPECT_EQ(pvt->nanosecond, wire.nano);
+    // Two messages of one receiver agree: the ground speed is the length of the horizontal velocity.
+    EXPECT_NEAR(std::hypot(pvt->velocity_ned_m_s[0], pvt->velocity_ned_m_s[1]), pvt->ground_speed_m_s, 0.002);
+  }
+  EXPECT_EQ(positions, 39U);
+  EXPECT_EQ(lists, 28U);
+}
+
+}  // namespace
+}  // namespace navcal::protocols::test
