@@ -36,6 +36,7 @@ constexpr std::array<Description, 14> kTableDescriptions{{
     {"units", "Units of the compass's output, which its words do not state."},
     {"channels", "Zeros and sensitivities of the inertial card, per unit, channel by channel."},
     {"fix", "Processing of the receiver's positions."},
+    {"mounting", "How the device sits in the vehicle (docs/navigation.md)."},
 }};
 
 }  // namespace
