@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -19,7 +19,6 @@ using Eigen::Vector3d;
 using Value = decltype(Sample::value);
 
 constexpr double kDegree = base::kRadiansPerDegree;
-constexpr double kQuarter = std::numbers::pi / 2;
 
 config::MountingSettings turned_by(double roll_deg, double pitch_deg, double yaw_deg) {
   config::MountingSettings settings;
