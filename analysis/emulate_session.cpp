@@ -136,7 +136,7 @@ void EmulateSession::add_vehicle_devices(const EmulateArguments& arguments, cons
     if (device_at(arguments, name) == nullptr) add(arguments, std::move(name), std::move(device));
   };
   const devices::InstrumentModel model =
-      arguments.no_noise ? devices::without_noise({}) : devices::InstrumentModel{};
+      arguments.no_noise ? devices::without_noise(arguments.instruments) : arguments.instruments;
   sim::Tcm2::Options compass;
   compass.sensor.compass = model.compass;
   compass.baud = arguments.compass_baud;

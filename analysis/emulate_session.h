@@ -16,6 +16,7 @@
 #include "analysis/ordered_motion.h"
 #include "analysis/place_arguments.h"
 #include "analysis/simulated_place.h"
+#include "devices/instrument_model.h"
 #include "sim/effects/effect_set.h"
 #include "sim/instruments/clock_factor.h"
 #include "sim/instruments/imu_card.h"
@@ -44,6 +45,8 @@ struct EmulateArguments {
   std::vector<std::string> effects;  ///< NAME=STRENGTH
   std::filesystem::path effects_file;
   bool no_noise = false;
+  std::filesystem::path config;          ///< of the instruments; empty: the reference instruments
+  devices::InstrumentModel instruments;  ///< line speeds stay those of the vehicle's ports
   std::filesystem::path sent_log;
   double seconds = 0;  ///< 0: until it is stopped
   std::uint64_t seed = 1;

@@ -17,7 +17,9 @@
 #include "cli/emulate_input.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
+#include "config/load.h"
 #include "config/mission_file.h"
+#include "devices/instrument_model.h"
 #include "protocols/device_types.h"
 #include "sim/path.h"
 #include "sim/vehicle/vehicle.h"
@@ -90,6 +92,10 @@ void add_effects(CLI::App* command, analysis::EmulateArguments& arguments) {
                    "departure from the nominal model, in typical strengths, as in simulate; repeatable")
       ->option_text("NAME=STRENGTH");
   command->add_option("--effects", arguments.effects_file, "departures with exact parameters, as in simulate")
+      ->option_text("FILE.toml");
+  command
+      ->add_option("--config", arguments.config,
+                   "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments")
       ->option_text("FILE.toml");
   command->add_flag("--no-noise", arguments.no_noise, "exact instruments; resolution and latency stay");
 }
@@ -181,9 +187,12 @@ void add_emulate(CLI::App& app) {
     if (vehicle->count() > 0 && !arguments->ordered && arguments->vehicle.empty()) {
       throw analysis::Failure(analysis::Exit::usage, "--vehicle: of a mission it needs a file");
     }
-    expect_no_overwriting({arguments->path, arguments->mission, arguments->vehicle, arguments->effects_file},
-                          {arguments->truth, arguments->sent_log});
+    expect_no_overwriting(
+        {arguments->path, arguments->mission, arguments->vehicle, arguments->effects_file, arguments->config},
+        {arguments->truth, arguments->sent_log});
     try {
+      if (!arguments->config.empty())
+        arguments->instruments = devices::instrument_model(config::load(arguments->config));
       run(*arguments);
     } catch (const sim::BadPath& error) {
       throw analysis::Failure(analysis::Exit::bad_input, error.what());

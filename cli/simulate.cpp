@@ -92,7 +92,7 @@ void add_simulate(CLI::App& app) {
       ->option_text("FILE.toml");
   command
       ->add_option("--config", arguments.config,
-                   "a configuration of navcald: noise, lag, latency, rate and scales of the instruments")
+                   "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments")
       ->option_text("FILE.toml");
   command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
       ->check(CLI::Range(0.01, 1e6));

@@ -21,7 +21,7 @@ enum class Kind : std::uint8_t { boolean, integer, real, text, choice, channels,
 
 /// Description of one setting. The checks, the shipped file and the page in docs/ are made from it.
 struct OptionInfo {
-  std::string_view table{};  ///< "log"; of a port: "", "units", "channels", "fix"
+  std::string_view table{};  ///< "log"; of a port: "", "units", "channels", "fix", "mounting"
   std::string_view key{};
   std::string_view description{};
   Kind kind = Kind::text;

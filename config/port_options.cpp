@@ -26,10 +26,23 @@ std::vector<protocols::Protocol> devices_with(bool protocols::OptionTables::*tab
   return devices;
 }
 
+std::vector<protocols::Protocol> devices_that(bool (*delivers)(const protocols::Delivery&)) {
+  std::vector<protocols::Protocol> devices;
+  for (const auto& device : protocols::kDeviceTypes) {
+    if (delivers(device.delivers)) devices.push_back(device.protocol);
+  }
+  return devices;
+}
+
 std::vector<Option<P>> make_port_options() {
   const auto with_units = devices_with(&protocols::OptionTables::units);
   const auto with_channels = devices_with(&protocols::OptionTables::channels);
   const auto with_fix = devices_with(&protocols::OptionTables::fix);
+  const auto with_rotation = devices_that(
+      [](const protocols::Delivery& delivers) { return delivers.heading || delivers.field || delivers.rates; });
+  const auto with_position = devices_that([](const protocols::Delivery& delivers) {
+    return delivers.acceleration || delivers.depth || delivers.position;
+  });
   return {
       choice<P>(
           {.key = "protocol", .description = "Protocol of the device.", .choices = protocol_names()},
@@ -155,6 +168,30 @@ std::vector<Option<P>> make_port_options() {
            .high = 100,
            .only_for = with_fix},
           [](auto& p) -> auto& { return p.gps.course_gate_m_s; }),
+
+      channels<P>(
+          {.table = "mounting",
+           .key = "rotation_deg",
+           .description = "Roll, pitch and yaw of a compass or inertial card in the vehicle: the turns about z, "
+                          "then y, then x "
+                          "that bring the vehicle's axes (x forward, y starboard, z down) on to the device's.",
+           .unit = kPlainDegrees,
+           .low = -360,
+           .high = 360,
+           .count = 3,
+           .only_for = with_rotation},
+          [](auto& p) -> auto& { return p.mounting.rotation_deg; }),
+      channels<P>(
+          {.table = "mounting",
+           .key = "position_m",
+           .description =
+               "Place of an inertial card or antenna from the vehicle's origin: forward, to starboard, down.",
+           .unit = kMetres,
+           .low = -100,
+           .high = 100,
+           .count = 3,
+           .only_for = with_position},
+          [](auto& p) -> auto& { return p.mounting.position_m; }),
   };
 }
 

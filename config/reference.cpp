@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -47,10 +48,17 @@ std::string default_words(const Option<PowerSettings>& option) {
   return is_required ? std::string() : option.write(option.get(PowerSettings{}));
 }
 
-std::string protocols_words(const OptionInfo& option) {
+/// The protocols whose ports have one of the options of a table.
+template <class Owner>
+std::string protocols_words(const std::vector<Option<Owner>>& options, std::string_view table) {
   std::vector<std::string_view> names;
-  for (const Protocol protocol : option.only_for) names.push_back(protocols::name_of(protocol));
-  return fmt::format("{}", fmt::join(names, " and "));
+  for (const protocols::DeviceType& device : protocols::kDeviceTypes) {
+    const auto has = [&](const Option<Owner>& option) {
+      return option.table == table && option.applies_to(device.protocol);
+    };
+    if (std::any_of(options.begin(), options.end(), has)) names.push_back(device.name);
+  }
+  return fmt::format("{}", fmt::join(names, names.size() > 2 ? ", " : " and "));
 }
 
 std::string default_clause(const OptionInfo& option, const std::string& words) {
@@ -81,8 +89,8 @@ std::string port_part() {
   for (const auto& option : port_options()) {
     if (option.table != table) {
       table = option.table;
-      out += fmt::format("#\n# {} (for {})\n# [port.NAME.{}]\n", table_description(table), protocols_words(option),
-                         table);
+      out += fmt::format("#\n# {} (for {})\n# [port.NAME.{}]\n", table_description(table),
+                         protocols_words(port_options(), table), table);
     }
     out += fmt::format("#   {:<16} {}\n#   {:<16} {}; {}\n", option.key, option.description, "", option.allowed(),
                        default_clause(option, default_words(option)));
@@ -129,7 +137,7 @@ std::string markdown(const std::vector<Option<Owner>>& options, std::string_view
       const std::string_view dot = prefix.empty() || table.empty() ? "" : ".";
       out += fmt::format("\n### `[{}{}{}]`\n\n{}", prefix, dot, table,
                          table_description(table.empty() ? own_description : table));
-      if (!option.only_for.empty()) out += fmt::format(" For {} only.", protocols_words(option));
+      if (!option.only_for.empty()) out += fmt::format(" For {} only.", protocols_words(options, table));
       out += "\n\n| key | what | allowed | default |\n|---|---|---|---|\n";
     }
     const std::string words = default_words(option);

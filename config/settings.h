@@ -43,6 +43,16 @@ struct GpsSettings {
   bool operator==(const GpsSettings&) const = default;
 };
 
+/// How a device sits in the vehicle (docs/navigation.md). Body axes x forward, y starboard, z down.
+struct MountingSettings {
+  /// Roll, pitch and yaw that turn the body's axes into the device's, about z, then y, then x.
+  std::array<double, 3> rotation_deg{};
+  /// Place of its sensor in body axes, from the vehicle's origin.
+  std::array<double, 3> position_m{};
+
+  bool operator==(const MountingSettings&) const = default;
+};
+
 struct PortSettings {
   std::string name;
   protocols::Protocol protocol = protocols::Protocol::nmea;
@@ -60,6 +70,7 @@ struct PortSettings {
   CompassSettings compass;
   ImuCardSettings imu_card;
   GpsSettings gps;
+  MountingSettings mounting;
 
   bool operator==(const PortSettings&) const = default;
 };

@@ -11,7 +11,7 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 14> kTableDescriptions{{
+constexpr std::array<Description, 15> kTableDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control",
@@ -36,6 +36,7 @@ constexpr std::array<Description, 14> kTableDescriptions{{
     {"units", "Units of the compass's output, which its words do not state."},
     {"channels", "Zeros and sensitivities of the inertial card, per unit, channel by channel."},
     {"fix", "Processing of the receiver's positions."},
+    {"mounting", "How the device sits in the vehicle (docs/navigation.md)."},
 }};
 
 }  // namespace

@@ -23,6 +23,8 @@ inline constexpr Unit kHours{"h", 3600, 1};
 inline constexpr Unit kMegabytes{"MB", 1e6, 1};
 inline constexpr Unit kKilobytes{"kB", 1e3, 1};
 inline constexpr Unit kDegrees{"deg", std::numbers::pi, 180};
+/// Degrees inside as in the file; of lists, which are not converted.
+inline constexpr Unit kPlainDegrees{"deg"};
 inline constexpr Unit kPercent{"%", 1, 100};
 inline constexpr Unit kDegreesPerSecond{"deg/s", std::numbers::pi, 180};
 inline constexpr Unit kMetres{"m"};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
@@ -57,8 +59,19 @@ void wait_for_signal(asio::signal_set& signals, Daemon& daemon) {
   });
 }
 
+/// Memory that was needed once is given back: one heap for all threads, which allocate little, and large blocks
+/// outside of it. glibc would otherwise keep a heap for each thread, and raise the size of what counts as large.
+void keep_memory_small() {
+  constexpr int kLarge_bytes = 64 << 10;
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_MMAP_THRESHOLD, kLarge_bytes);
+  mallopt(M_TRIM_THRESHOLD, kLarge_bytes);
+}
+
 void run(const navcal::config::Settings& settings) {
-  asio::io_context context(1);
+  // One thread runs the context and all that belongs to it (the disk's thread knows none of it): no locks are
+  // needed.
+  asio::io_context context(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
   // Signals are caught before the daemon can be reached, so that an early one does not kill it.
   asio::signal_set signals(context, SIGTERM, SIGINT, SIGHUP);
   Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()));
@@ -71,6 +84,7 @@ void run(const navcal::config::Settings& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_memory_small();
   Options options;
   if (const auto status = parse(argc, argv, options)) return *status;
   try {

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "base/rotation.h"
+#include "base/vectors.h"
 
 namespace navcal::daemon {
 namespace {
@@ -62,14 +64,23 @@ StateCollector::StateCollector(const config::Settings& settings, const pipeline:
 void StateCollector::take(const instruments::Sample& sample) {
   Last& last = last_[sample.port];
   if (const auto* compass = std::get_if<instruments::CompassSample>(&sample.value)) {
-    last.compass = {sample.stamp, *compass};
+    last.compass = {sample.stamp, *compass, sample.port};
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
-    last.imu = {sample.stamp, *imu};
+    last.imu = {sample.stamp, *imu, sample.port};
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
-    last.motor = {sample.stamp, *motor};
+    last.motor = {sample.stamp, *motor, sample.port};
   } else if (const auto* gps = std::get_if<instruments::GpsSample>(&sample.value)) {
-    if (gps->latitude_rad && gps->longitude_rad) last.fix = {sample.stamp, *gps};
+    if (gps->latitude_rad && gps->longitude_rad) last.fix = {sample.stamp, *gps, sample.port};
   }
+}
+
+double StateCollector::gauge_below_origin_m(std::uint16_t port) const {
+  const auto& position_m = settings_.ports[port].mounting.position_m;
+  if (position_m == std::array<double, 3>{}) return 0;
+  const auto navigation = pipeline_.navigation();
+  const nav::Estimate estimate = navigation ? navigation->estimate : nav::Estimate{};
+  return base::depth_below_origin_m(base::vector_of(position_m), estimate.roll_rad.value_or(0),
+                                    estimate.pitch_rad.value_or(0));
 }
 
 bool StateCollector::is_serving_compass(const instruments::Sample& sample) const {
@@ -97,7 +108,8 @@ StateCollector::Last StateCollector::serving() const {
 }
 
 VehicleState StateCollector::at(std::int64_t now_ns) {
-  const Last last = serving();
+  Last last = serving();
+  if (last.imu) last.imu->value.depth_m -= gauge_below_origin_m(last.imu->port);
   VehicleState state;
   if (pipeline_.mapping().source != pipeline::UtcMapping::Source::none)
     state.time_utc_ns = pipeline_.mapping().to_utc(now_ns);

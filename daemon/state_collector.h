@@ -42,6 +42,7 @@ class StateCollector {
   struct Newest {
     instruments::Stamp stamp;
     Value value;
+    std::uint16_t port = 0;
   };
   struct Last {
     std::optional<Newest<instruments::CompassSample>> compass;
@@ -49,6 +50,8 @@ class StateCollector {
     std::optional<Newest<instruments::MotorSample>> motor;
     std::optional<Newest<instruments::GpsSample>> fix;
   };
+  /// How far the depth gauge of a port lies below the vehicle's origin, at the attitude of the estimate.
+  [[nodiscard]] double gauge_below_origin_m(std::uint16_t port) const;
   /// Newest readings of the devices in use.
   [[nodiscard]] Last serving() const;
   void take_estimate(VehicleState& state, const Last& last, std::int64_t now_ns);

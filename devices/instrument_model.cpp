@@ -80,18 +80,30 @@ InstrumentModel without_noise(InstrumentModel model) {
   return model;
 }
 
+InstrumentModel without_mounting(InstrumentModel model) {
+  model.compass.mounting = model.imu.mounting = model.gps.mounting = {};
+  return model;
+}
+
 InstrumentModel instrument_model(const config::Settings& settings) {
   InstrumentModel model;
   static_cast<config::CompassAccuracy&>(model.compass) = settings.instruments.compass;
   static_cast<config::ImuAccuracy&>(model.imu) = settings.instruments.imu;
   static_cast<config::GpsAccuracy&>(model.gps) = settings.instruments.gps;
   static_cast<config::MotorAccuracy&>(model.motor) = settings.instruments.motor;
-  model.compass.timing = timing_of(port_of(settings, Role::field, {Protocol::tcm2}), model.compass.timing);
+  const config::PortSettings* const compass = port_of(settings, Role::field, {Protocol::tcm2});
+  model.compass.timing = timing_of(compass, model.compass.timing);
+  if (compass != nullptr) model.compass.mounting = compass->mounting;
   const config::PortSettings* const card = port_of(settings, Role::rates, {Protocol::imu_card});
   model.imu.timing = timing_of(card, model.imu.timing);
-  if (card != nullptr) model.imu.channels = card->imu_card;
-  model.gps.timing =
-      timing_of(port_of(settings, Role::position, {Protocol::oncore, Protocol::nmea}), model.gps.timing);
+  if (card != nullptr) {
+    model.imu.channels = card->imu_card;
+    model.imu.mounting = card->mounting;
+  }
+  const config::PortSettings* const receiver =
+      port_of(settings, Role::position, {Protocol::oncore, Protocol::nmea});
+  model.gps.timing = timing_of(receiver, model.gps.timing);
+  if (receiver != nullptr) model.gps.mounting = receiver->mounting;
   model.motor.timing = timing_of(port_of(settings, Role::shaft, {Protocol::motor_card}), model.motor.timing);
   return model;
 }

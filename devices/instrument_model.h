@@ -30,6 +30,7 @@ struct Timing {
 struct CompassModel : config::CompassAccuracy {
   double heading_resolution_deg = 0.1;
   double tilt_resolution_deg = 0.1;
+  config::MountingSettings mounting;
   Timing timing = usual_timing(protocols::Protocol::tcm2, 38400);
 
   /// Roll or pitch: noise of a reading, with what rounding adds, rad.
@@ -41,11 +42,13 @@ struct CompassModel : config::CompassAccuracy {
 /// Inertial card with gyros, accelerometers and depth gauge.
 struct ImuModel : config::ImuAccuracy {
   config::ImuCardSettings channels;  ///< zeros and scales of this unit
+  config::MountingSettings mounting;
   Timing timing = usual_timing(protocols::Protocol::imu_card, 57600);
 };
 
 /// Receiver: a fix at each full second.
 struct GpsModel : config::GpsAccuracy {
+  config::MountingSettings mounting;  ///< of the antenna
   Timing timing = usual_timing(protocols::Protocol::oncore, 9600);
 
   /// Ratio of the noise of fix `number` to that of a settled fix; `number` counts from 0 since sight of the
@@ -73,12 +76,15 @@ struct InstrumentModel {
 };
 
 /// The instruments as a configuration states them: the table [instruments], and of the port that serves each
-/// instrument (named in [roles], else the first) its latency, rate, line speed, zeros and scales. What no port
-/// states is the reference instrument's; an NMEA port that states no latency or rate states none.
+/// instrument (named in [roles], else the first) its latency, rate, line speed, zeros, scales and mounting. What
+/// no port states is the reference instrument's; an NMEA port that states no latency or rate states none.
 [[nodiscard]] InstrumentModel instrument_model(const config::Settings& settings);
 
 /// The same instruments without noise and turn-on bias; resolution, lag and timing stay.
 [[nodiscard]] InstrumentModel without_noise(InstrumentModel model);
+
+/// The same instruments at the origin, with the axes of the body: as samples are that the pipeline has turned.
+[[nodiscard]] InstrumentModel without_mounting(InstrumentModel model);
 
 /// Standard deviation of a reading with white noise that is rounded to a resolution: rounding adds the variance
 /// resolution^2/12 (Widrow, Kollar and Liu, IEEE Trans. Instrumentation and Measurement 45, 1996). Any unit.

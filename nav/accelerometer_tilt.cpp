@@ -16,6 +16,16 @@ using Eigen::Vector3d;
 
 /// A velocity by fixes that is older says nothing of the speed now.
 constexpr double kFixPause_s = 3;
+/// The specific force that the accelerometers would feel at the vehicle's origin: without w x (w x r) + dw/dt x r
+/// at their place r.
+Vector3d force_at_origin(const RateReading& reading, const Vector3d& rate_rad_s,
+                         const Vector3d& rate_change_rad_s2) {
+  const Vector3d& force_m_s2 = *reading.specific_force_m_s2;
+  const Vector3d& position_m = reading.force_position_m;
+  if (position_m.isZero(0)) return force_m_s2;
+  return force_m_s2 - rate_rad_s.cross(rate_rad_s.cross(position_m)) - rate_change_rad_s2.cross(position_m);
+}
+
 /// Gravity that is left must be gravity: within so much of 9.81 m/s2. A blow or a fall says nothing of the tilt.
 constexpr double kGravityWithin_m_s2 = 1.5;
 
@@ -33,10 +43,12 @@ AccelerometerTilt::AccelerometerTilt(const AccelerometerTiltOptions& options)
 
 void AccelerometerTilt::take(const RateReading& reading) {
   if (!reading.specific_force_m_s2 || (time_ns_ && reading.time_ns <= *time_ns_)) return;
-  const Vector3d& force_m_s2 = *reading.specific_force_m_s2;
-  if (!(reading.rate_rad_s.array().abs() <= kMostRate_rad_s).all() || !force_m_s2.allFinite()) return;
+  if (!reading.specific_force_m_s2->allFinite()) return;
+  if (!(reading.rate_rad_s.array().abs() <= kMostRate_rad_s).all()) return;
   const double duration_s = time_ns_ ? base::seconds(reading.time_ns - *time_ns_) : 0;
+  Vector3d rate_change_rad_s2 = Vector3d::Zero();
   if (time_ns_ && duration_s <= kRatePause_s) {
+    rate_change_rad_s2 = (reading.rate_rad_s - rate_rad_s_) / duration_s;
     attitude_.turn((rate_rad_s_ + reading.rate_rad_s) / 2, duration_s);
   } else {
     attitude_.lose_track();
@@ -47,7 +59,7 @@ void AccelerometerTilt::take(const RateReading& reading) {
   move_speed(reading.time_ns, duration_s);
   const Vector3d rate = reading.rate_rad_s + attitude_.zero_rad_s();
   const Vector3d moved = Vector3d(acceleration_m_s2_, 0, 0) + rate.cross(Vector3d(speed_m_s_, 0, 0));
-  const Vector3d gravity = moved - force_m_s2;  // in body axes
+  const Vector3d gravity = moved - force_at_origin(reading, rate, rate_change_rad_s2);  // in body axes
   if (std::abs(gravity.norm() - base::kGravity_m_s2) <= kGravityWithin_m_s2) {
     const double roll_rad = std::atan2(gravity.y(), gravity.z());
     const double pitch_rad = std::atan2(-gravity.x(), std::hypot(gravity.y(), gravity.z()));

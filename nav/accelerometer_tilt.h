@@ -25,7 +25,8 @@ struct AccelerometerTiltOptions {
 /// and Weston, Strapdown Inertial Navigation Technology, ch. 3; sway and heave are taken as zero). What remains
 /// after the first two is gravity, and holds in the long run an attitude that the gyros carry through short times.
 /// The speed is the shaft's through the lag, else that over ground of the newest fixes; without either, turns and
-/// changes of speed show as tilt. Radians, seconds, body axes x forward, y starboard, z down.
+/// changes of speed show as tilt. What accelerometers away from the vehicle's origin feel more than at it is taken
+/// off. Radians, seconds, body axes x forward, y starboard, z down.
 ///
 /// No memory is taken after construction. The same calls give the same results to the last bit.
 class AccelerometerTilt {

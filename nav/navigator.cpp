@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "base/durations.h"
+#include "base/rotation.h"
 #include "nav/reading_pauses.h"
 
 namespace navcal::nav {
@@ -74,7 +75,12 @@ void Navigator::take(const RateReading& reading) {
   // Others may have driven the time beyond the first frames after a pause.
   if (time_ns_ && reading.time_ns <= *time_ns_) return;
   advance(reading.time_ns, follows ? std::optional(mean_rate_rad_s) : std::nullopt);
-  if (reading.depth_m) depth_.correct(*reading.depth_m);
+  if (reading.depth_m) {
+    // Without a tilt the angles are zero.
+    const double below_m =
+        base::depth_below_origin_m(reading.depth_position_m, attitude_.roll_rad(), attitude_.pitch_rad());
+    depth_.correct(*reading.depth_m - below_m);
+  }
 }
 
 void Navigator::take(const CompassReading& reading) {
@@ -234,6 +240,10 @@ Estimate Navigator::estimate() const {
     estimate.since_fix_m = reckoning_.since_fix_m();
   }
   return estimate;
+}
+
+std::optional<Pose> Navigator::attitude_at(std::int64_t time_ns) const {
+  return attitude_.heading_known() ? past_.at(time_ns) : std::nullopt;
 }
 
 std::optional<Outage> Navigator::take_outage() { return std::exchange(outage_, std::nullopt); }

@@ -42,6 +42,9 @@ class Navigator {
   [[nodiscard]] bool started() const { return time_ns_.has_value(); }
   [[nodiscard]] std::int64_t time_ns() const { return time_ns_.value_or(0); }
   [[nodiscard]] Estimate estimate() const;
+  /// Attitude at a time of the last seconds; nullopt before a heading came, and for other
+  /// times. A tilt that was never measured is zero.
+  [[nodiscard]] std::optional<Pose> attitude_at(std::int64_t time_ns) const;
   /// A stretch without fixes that the last fix ended; once.
   [[nodiscard]] std::optional<Outage> take_outage();
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }

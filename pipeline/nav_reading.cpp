@@ -16,6 +16,12 @@ bool has_fix(const instruments::GpsSample& gps) {
 
 }  // namespace
 
+std::vector<Eigen::Vector3d> mounted_positions_m(const config::Settings& settings) {
+  std::vector<Eigen::Vector3d> positions_m;
+  for (const auto& port : settings.ports) positions_m.push_back(base::vector_of(port.mounting.position_m));
+  return positions_m;
+}
+
 bool has_position(const instruments::GpsSample& gps) {
   return has_fix(gps) && gps.latitude_rad && gps.longitude_rad;
 }

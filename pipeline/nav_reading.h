@@ -3,13 +3,17 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
+#include "config/settings.h"
 #include "instruments/samples.h"
 #include "nav/readings.h"
 
 // Samples as the estimators of position and tilt take them.
 namespace navcal::pipeline {
 
+/// Places of the ports' sensors, from the vehicle's origin in body axes; one for each port.
+[[nodiscard]] std::vector<Eigen::Vector3d> mounted_positions_m(const config::Settings& settings);
 /// Whether the receiver has a fix and states its latitude and longitude.
 [[nodiscard]] bool has_position(const instruments::GpsSample& gps);
 /// North and east over ground; nullopt without a fix, a speed or a course.

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <variant>
 
+#include "base/angles.h"
+#include "base/durations.h"
+#include "base/rotation.h"
 #include "devices/instrument_model.h"
 #include "instruments/compass_error.h"
 #include "pipeline/nav_reading.h"
@@ -51,7 +54,8 @@ NavigationStage::NavigationStage(const config::Settings& settings)
       velocity_noise_m_s_(devices::instrument_model(settings).gps.velocity_noise_m_s),
       interval_ns_(std::llround(settings.navigation.interval_s * 1e9)),
       calibrated_(options_),
-      uncalibrated_(options_) {}
+      uncalibrated_(options_),
+      positions_m_(mounted_positions_m(settings)) {}
 
 void NavigationStage::begin_run() {
   calibrated_ = uncalibrated_ = nav::Navigator(options_);
@@ -80,7 +84,10 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
     feed(calibrated_, corrected, *compass, true);
     feed(uncalibrated_, original, std::get<instruments::CompassSample>(original.value), false);
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&corrected.value)) {
-    if (corrected.port == ports_[Role::depth]) depth_m_ = imu->depth_m;
+    if (corrected.port == ports_[Role::depth]) {
+      depth_m_ = imu->depth_m;
+      depth_position_m_ = positions_m_.at(corrected.port);
+    }
     if (corrected.port != ports_[Role::rates]) return;
     feed(calibrated_, corrected, *imu, true);
     feed(uncalibrated_, original, std::get<instruments::ImuSample>(original.value), false);
@@ -123,6 +130,7 @@ void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample&
   nav::RateReading reading = rate_reading(sample, imu);
   if (calibrated && imu.yaw_rate_calibrated_rad_s) reading.rate_rad_s.z() = *imu.yaw_rate_calibrated_rad_s;
   reading.depth_m = depth_m_;
+  reading.depth_position_m = depth_position_m_;
   navigator.take(reading);
 }
 
@@ -145,8 +153,40 @@ void NavigationStage::feed_fix(const instruments::Sample& sample, const instrume
   velocity_m_s_.reset();
   reading.velocity_std_m_s = velocity_noise_m_s_;
   reading.std_m = position_noise_m_ * std::max(1.0, gps.dop.value_or(kGoodDop) / kGoodDop);
+  // Without an attitude the antenna is anywhere around the origin.
+  if (const auto& arm_m = positions_m_.at(sample.port);
+      !arm_m.isZero(0) && !calibrated_.attitude_at(reading.time_ns))
+    reading.std_m = std::hypot(reading.std_m, arm_m.norm());
   calibrated_.take(reading);
   uncalibrated_.take(reading);
+}
+
+std::optional<instruments::Sample> NavigationStage::at_origin(const instruments::Sample& sample) const {
+  const auto* gps = std::get_if<instruments::GpsSample>(&sample.value);
+  const Eigen::Vector3d& position_m = positions_m_.at(sample.port);
+  if (gps == nullptr || position_m.isZero(0)) return std::nullopt;
+  const auto arm_m = [&](std::int64_t time_ns) -> std::optional<Eigen::Vector3d> {
+    const auto pose = calibrated_.attitude_at(time_ns);
+    if (!pose) return std::nullopt;
+    return base::rotation_of({pose->roll_rad, pose->pitch_rad, pose->heading_rad}) * position_m;
+  };
+  const auto arm_now_m = arm_m(sample.stamp.validity_ns);
+  if (!arm_now_m) return std::nullopt;
+  instruments::Sample moved = sample;
+  auto& fix = std::get<instruments::GpsSample>(moved.value);
+  if (has_position(*gps)) {
+    const auto place =
+        base::LocalPlane(*gps->latitude_rad, *gps->longitude_rad).place(-arm_now_m->x(), -arm_now_m->y());
+    fix.latitude_rad = place.latitude_rad;
+    fix.longitude_rad = place.longitude_rad;
+  }
+  const auto arm_before_m = arm_m(sample.stamp.validity_ns - base::kSecond_ns);
+  if (const auto velocity_m_s = ground_velocity_m_s(*gps); velocity_m_s && arm_before_m) {
+    const Eigen::Vector2d origin_m_s = *velocity_m_s - (*arm_now_m - *arm_before_m).head<2>();
+    fix.speed_m_s = origin_m_s.norm();
+    fix.course_rad = base::positive_angle(std::atan2(origin_m_s.y(), origin_m_s.x()));
+  }
+  return moved;
 }
 
 void NavigationStage::tell(const instruments::Sample& trigger, const UtcMapping& mapping, Sink& sink) {

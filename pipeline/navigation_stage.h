@@ -29,6 +29,10 @@ class NavigationStage {
   /// are any. The sink must have had the sample.
   void take(const instruments::Sample& original, const instruments::Sample& corrected,
             const std::optional<nav::TiltReading>& tilt, const UtcMapping& mapping, Sink& sink);
+  /// The sample of a receiver whose antenna is not at the vehicle's origin, with position and velocity of the
+  /// origin; nullopt where it stays as it is. The arm is turned by the attitude of the time of the fix. A
+  /// receiver's velocity is a mean over about the second before, and so is that of the arm.
+  [[nodiscard]] std::optional<instruments::Sample> at_origin(const instruments::Sample& sample) const;
   /// The estimate as it is now, without an outage; its stamp has no arrival. Nullopt before anything came.
   [[nodiscard]] std::optional<NavigationSample> newest(const UtcMapping& mapping) const;
   /// Everything begins anew.
@@ -55,9 +59,11 @@ class NavigationStage {
   std::int64_t interval_ns_;
   nav::Navigator calibrated_, uncalibrated_;
   std::optional<base::LocalPlane> plane_;
-  std::optional<std::int64_t> inclinometer_ns_;  ///< newest tilt of the compass
-  std::optional<double> depth_m_;                ///< newest that is not used yet
-  std::optional<Eigen::Vector2d> velocity_m_s_;  ///< newest that is not used yet
+  std::optional<std::int64_t> inclinometer_ns_;                 ///< newest tilt of the compass
+  std::vector<Eigen::Vector3d> positions_m_;                    ///< of each port's sensor
+  std::optional<double> depth_m_;                               ///< newest that is not used yet
+  Eigen::Vector3d depth_position_m_ = Eigen::Vector3d::Zero();  ///< of its gauge
+  std::optional<Eigen::Vector2d> velocity_m_s_;                 ///< newest that is not used yet
   std::int64_t velocity_ns_ = 0;
   std::int64_t told_ = 0;  ///< intervals of the monotonic clock, up to the one that was last told of
 };

@@ -20,6 +20,7 @@ PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings,
       parser_(protocols::make_port_parser(settings.protocol)),
       track_(settings.baud),
       instrument_(instruments::make_instrument(settings)),
+      mounting_(settings.mounting),
       clock_(settings.rate_Hz, settings.latency_std_s),
       gps_time_(settings.latency_std_s),
       mapping_(mapping) {}
@@ -78,6 +79,7 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   sample.stamp.validity_utc_ns =
       measurement.stated_utc_ns ? *measurement.stated_utc_ns : mapping_.to_utc(sample.stamp.validity_ns);
   sample.value = measurement.value;
+  mounting_.to_body(sample.value);
   ++statistics_.samples;
   sink_->on_sample(sample);
 }

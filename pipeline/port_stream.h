@@ -9,6 +9,7 @@
 #include "instruments/clock_news.h"
 #include "instruments/frame_clock.h"
 #include "instruments/instrument.h"
+#include "instruments/mounting.h"
 #include "pipeline/arrival_track.h"
 #include "pipeline/gps_time_watch.h"
 #include "pipeline/pipeline.h"
@@ -42,6 +43,7 @@ class PortStream : private instruments::Receiver {
   protocols::AnyPortParser parser_;
   ArrivalTrack track_;
   std::unique_ptr<instruments::Instrument> instrument_;
+  instruments::Mounting mounting_;
   instruments::FrameClock clock_;
   GpsTimeWatch gps_time_;
   UtcMapping& mapping_;

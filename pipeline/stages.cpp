@@ -49,8 +49,12 @@ void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, 
   instruments::Sample corrected = original;
   if (calibration_) calibration_->correct(corrected);
   sink.on_sample(corrected);
-  if (navigation_) navigation_->take(original, corrected, tilt_ ? tilt_->newest() : std::nullopt, mapping, sink);
-  if (calibration_) calibration_->learn(original, sink);
+  const auto placed = navigation_ ? navigation_->at_origin(corrected) : std::nullopt;
+  if (navigation_) {
+    navigation_->take(original, placed ? *placed : corrected, tilt_ ? tilt_->newest() : std::nullopt, mapping,
+                      sink);
+  }
+  if (calibration_) calibration_->learn(placed ? *placed : original, sink);
 }
 
 void Stages::take_sources(const instruments::Sample& sample, Sink& sink) {

@@ -26,6 +26,7 @@ TiltStage::TiltStage(const config::Settings& settings)
     : ports_(Sources(settings).serving()),
       options_(tilt_options(settings)),
       tilt_(options_),
+      positions_m_(mounted_positions_m(settings)),
       has_inclinometer_(settings.ports.size()) {}
 
 void TiltStage::begin_run() {
@@ -35,7 +36,10 @@ void TiltStage::begin_run() {
 
 void TiltStage::take(const instruments::Sample& sample) {
   if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
-    if (sample.port == ports_[Role::acceleration] && !imu->over_range) tilt_.take(rate_reading(sample, *imu));
+    if (sample.port != ports_[Role::acceleration] || imu->over_range) return;
+    nav::RateReading reading = rate_reading(sample, *imu);
+    reading.force_position_m = positions_m_.at(sample.port);
+    tilt_.take(reading);
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
     const auto reading = shaft_reading(sample, *motor);
     if (reading && sample.port == ports_[Role::shaft]) tilt_.take(*reading);

@@ -34,7 +34,8 @@ class TiltStage {
   RolePorts ports_;
   nav::AccelerometerTiltOptions options_;
   nav::AccelerometerTilt tilt_;
-  std::vector<bool> has_inclinometer_;  ///< of each port
+  std::vector<Eigen::Vector3d> positions_m_;  ///< of each port's sensor
+  std::vector<bool> has_inclinometer_;        ///< of each port
 };
 
 }  // namespace navcal::pipeline

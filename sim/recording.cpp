@@ -45,7 +45,10 @@ std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel
                                           recording_port("imu", Protocol::imu_card, instruments.imu.timing),
                                           recording_port("gps", Protocol::oncore, instruments.gps.timing),
                                           recording_port("motor", Protocol::motor_card, instruments.motor.timing)};
+  ports[0].mounting = instruments.compass.mounting;
   ports[1].imu_card = instruments.imu.channels;
+  ports[1].mounting = instruments.imu.mounting;
+  ports[2].mounting = instruments.gps.mounting;
   return ports;
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/angles.h"
+#include "config/settings.h"
 #include "sim/state.h"
 
 namespace navcal::sim {
@@ -19,6 +21,13 @@ using Matrix3 = std::array<Vector3, 3>;
            {-st, ct * sf, ct * cf}}};
 }
 
+/// R with v_body = R v_device for a device that is so mounted.
+[[nodiscard]] inline Matrix3 R_body_from_device(const config::MountingSettings& mounting) {
+  Vector3 angles_rad{};
+  for (std::size_t i = 0; i < 3; ++i) angles_rad[i] = mounting.rotation_deg[i] * base::kRadiansPerDegree;
+  return R_world_from_body(angles_rad);
+}
+
 [[nodiscard]] inline Vector3 operator*(const Matrix3& m, const Vector3& v) {
   Vector3 result{};
   for (std::size_t i = 0; i < 3; ++i) result[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
@@ -31,6 +40,14 @@ using Matrix3 = std::array<Vector3, 3>;
 
 [[nodiscard]] inline Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+[[nodiscard]] inline bool is_turned(const config::MountingSettings& mounting) {
+  return mounting.rotation_deg != std::array<double, 3>{};
+}
+
+[[nodiscard]] inline bool is_away_from_origin(const config::MountingSettings& mounting) {
+  return mounting.position_m != std::array<double, 3>{};
 }
 
 /// Body rates of changing Euler angles.

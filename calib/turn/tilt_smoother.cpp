@@ -76,8 +76,14 @@ void TiltSmoother::predict(const Eigen::Vector3d& rate_rad_s, double duration_s)
     transition(i + 2, i + 2) = kept;
     transition(i + 2, i) = 1 - kept;
   }
-  since_ = (transition * since_).eval();
-  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  // Biases and scales stay: their rows are those of the identity.
+  const auto moved = [&](const Covariance& from) {
+    Covariance to = from;
+    to.topRows<4>() = transition.topRows<4>().lazyProduct(from);
+    return to;
+  };
+  since_ = moved(since_);
+  covariance_ = moved(moved(covariance_).transpose()).transpose().eval();
   const double angle_variance = base::square(parameters_.rate_noise_rad_sqrt_s) * duration_s;
   covariance_(kRoll, kRoll) += angle_variance * (1 + base::square(tan_pitch));
   covariance_(kPitch, kPitch) += angle_variance;

@@ -36,6 +36,18 @@ void set_in_order(std::vector<Reading>& readings, const std::vector<std::int64_t
   readings.erase(std::unique(readings.begin(), readings.end(), same), readings.end());
 }
 
+/// The model of a vehicle has its instruments at the origin. Throws record::BadRecording for others; rotations are
+/// undone by the pipeline.
+void expect_instruments_at_origin(const config::Settings& settings, const std::filesystem::path& file) {
+  for (const config::PortSettings& port : settings.ports) {
+    if (port.mounting.position_m == std::array<double, 3>{}) continue;
+    throw record::BadRecording(fmt::format(
+        "{}: port.{}.mounting.position_m is not 0: the diagnosis has no model of an instrument away from the "
+        "vehicle's origin",
+        file.string(), port.name));
+  }
+}
+
 }  // namespace
 
 std::vector<double> Mission::fix_times_s() const {
@@ -163,6 +175,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
                      const std::optional<config::Settings>& stated) {
   const auto recording = record::Recording::open(file);
   const config::Settings& settings = stated ? *stated : recording->settings();
+  expect_instruments_at_origin(settings, file);
   const record::PortMatch ports(recording->settings(), settings);
   pipeline::Pipeline pipeline(samples_only(settings));
   MissionGatherer gatherer;
@@ -193,7 +206,8 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
     progress(recording->progress());
   }
   Mission mission = gatherer.take(begin_ns.value_or(0), said);
-  mission.instruments = devices::instrument_model(settings);
+  // The samples are in body axes already.
+  mission.instruments = devices::without_mounting(devices::instrument_model(settings));
   for (const std::int64_t time_ns : orders_ns) {
     mission.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
   }

@@ -55,6 +55,15 @@ GpsReading GpsReceiver::measure(std::int64_t second_ns) {
   const Instant now = effects_.instant(t_ns, state, electronics_.temperature_C(t_ns, motion_));
   AntennaMotion antenna{state.position_m, R_world_from_body(state.euler_rad) * state.velocity_body_m_s};
   for (std::size_t i = 0; i < 2; ++i) antenna.velocity_m_s[i] += state.current_m_s[i];
+  if (is_away_from_origin(options_.gps.mounting)) {
+    const Matrix3 world_from_body = R_world_from_body(state.euler_rad);
+    const Vector3 arm_m = world_from_body * options_.gps.mounting.position_m;
+    const Vector3 turning_m_s = world_from_body * cross(state.rate_rad_s, options_.gps.mounting.position_m);
+    for (std::size_t i = 0; i < 3; ++i) {
+      antenna.position_m[i] += arm_m[i];
+      antenna.velocity_m_s[i] += turning_m_s[i];
+    }
+  }
   effects_.antenna(now, antenna);
 
   const double louder = last_.degraded * effects_.noise(Instrument::gps, now.time_s);

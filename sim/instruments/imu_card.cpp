@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "sim/rotation.h"
 
 namespace navcal::sim {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 namespace card = protocols::imu_card;
 constexpr double kFullScale = 65520;
 constexpr double kCountsPer_mV = 16;
+constexpr std::int64_t kRateStep_ns = 5'000'000;  ///< to either side, for the change of the rates
 
 }  // namespace
 
@@ -39,14 +41,36 @@ void ImuCard::advance(std::int64_t t_ns, std::vector<Emission>& out) {
   }
 }
 
-std::array<double, 8> ImuCard::signals(const Instant& now) {
-  const State& state = now.state;
+ImuCard::Mounted ImuCard::felt(const State& state, std::int64_t t_ns) const {
+  const config::MountingSettings& mounting = options_.imu.mounting;
+  Mounted mounted{state.rate_rad_s, state.specific_force_m_s2, state.position_m[2]};
+  if (is_away_from_origin(mounting)) {
+    const Vector3& place = mounting.position_m;
+    const Vector3 before = motion_.at(t_ns - kRateStep_ns).rate_rad_s;
+    const Vector3 after = motion_.at(t_ns + kRateStep_ns).rate_rad_s;
+    Vector3 change_rad_s2{};
+    for (std::size_t i = 0; i < 3; ++i)
+      change_rad_s2[i] = (after[i] - before[i]) / (2e-9 * static_cast<double>(kRateStep_ns));
+    const Vector3 centripetal = cross(state.rate_rad_s, cross(state.rate_rad_s, place));
+    const Vector3 turning_up = cross(change_rad_s2, place);
+    for (std::size_t i = 0; i < 3; ++i) mounted.force_m_s2[i] += centripetal[i] + turning_up[i];
+    mounted.depth_m += (R_world_from_body(state.euler_rad) * place)[2];
+  }
+  if (is_turned(mounting)) {
+    const Matrix3 device_from_body = transpose(R_body_from_device(mounting));
+    mounted.rate_rad_s = device_from_body * mounted.rate_rad_s;
+    mounted.force_m_s2 = device_from_body * mounted.force_m_s2;
+  }
+  return mounted;
+}
+
+std::array<double, 8> ImuCard::signals(const Instant& now, const Mounted& mounted) {
   GyroRates rates{};
-  for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = state.rate_rad_s[kGyroAxes[i]];
+  for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = mounted.rate_rad_s[kGyroAxes[i]];
   effects_.gyros(now, rates);
-  Vector3 force = state.specific_force_m_s2;
+  Vector3 force = mounted.force_m_s2;
   effects_.accelerometers(now, force);
-  double depth = state.position_m[2];
+  double depth = mounted.depth_m;
   effects_.depth(now, depth);
 
   const double louder = effects_.noise(Instrument::imu, now.time_s);
@@ -65,7 +89,7 @@ std::array<double, 8> ImuCard::signals(const Instant& now) {
 card::Record ImuCard::measure(std::int64_t t_ns) {
   const State state = motion_.at(t_ns);
   const Instant now = effects_.instant(t_ns, state, electronics_.temperature_C(t_ns, motion_));
-  CardVoltages_mV voltages = signals(now);
+  CardVoltages_mV voltages = signals(now, felt(state, t_ns));
   for (std::size_t i = 0; i < voltages.size(); ++i) {
     voltages[i] = options_.imu.channels.zero_mV[i] + options_.imu.channels.scale[i] * voltages[i];
   }

@@ -35,8 +35,14 @@ class ImuCard final : public Device {
 
  private:
   [[nodiscard]] protocols::imu_card::Record measure(std::int64_t t_ns);
+  /// What the card's sensors meet at their place and along their axes, without errors.
+  struct Mounted {
+    Vector3 rate_rad_s, force_m_s2;
+    double depth_m;
+  };
+  [[nodiscard]] Mounted felt(const State& state, std::int64_t t_ns) const;
   /// Sensor outputs of the channels, in their order: deg/s, g, m.
-  [[nodiscard]] std::array<double, 8> signals(const Instant& now);
+  [[nodiscard]] std::array<double, 8> signals(const Instant& now, const Mounted& mounted);
 
   Options options_;
   const Motion& motion_;

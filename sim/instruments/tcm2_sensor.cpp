@@ -52,9 +52,17 @@ Tcm2Reading Tcm2Sensor::measure(std::int64_t t_ns) {
   const Instant now = effects_.instant(t_ns, state, electronics_.temperature_C(t_ns, motion_));
   Tilt said = tilt_;
   effects_.tilt_said(now, said);
+  Vector3 field_uT = field_body_uT_;
+  if (is_turned(options_.compass.mounting)) {
+    const Matrix3 device_from_body = transpose(R_body_from_device(options_.compass.mounting));
+    const Matrix3 body_from_world = transpose(R_world_from_body({said.roll_rad, said.pitch_rad, 0}));
+    const Vector3 down = device_from_body * (body_from_world * Vector3{0, 0, 1});
+    said = {std::atan2(down[1], down[2]), -std::asin(std::clamp(down[0], -1.0, 1.0))};
+    field_uT = device_from_body * field_uT;
+  }
   const double louder = effects_.noise(Instrument::compass, now.time_s);
   Tcm2Reading reading;
-  reading.field_uT = field_body_uT_;
+  reading.field_uT = field_uT;
   for (double& component : reading.field_uT) component += noise_.normal(options_.compass.field_noise_uT * louder);
   reading.pitch_rad = said.pitch_rad + noise_.normal(options_.compass.tilt_noise_rad * louder);
   reading.roll_rad = said.roll_rad + noise_.normal(options_.compass.tilt_noise_rad * louder);

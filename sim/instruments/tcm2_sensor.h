@@ -22,7 +22,8 @@ struct Tcm2Reading {
 };
 
 /// Magnetometers, fluid inclinometer (a first-order lag of the tilt) and thermometer, with the errors of
-/// docs/simulator.md. Effects see the earth's field, the body's, the tilt before and after the fluid.
+/// docs/simulator.md. The axes are those of the device, turned in the body by its mounting; lag and effects are in
+/// the body's. Effects see the earth's field, the body's, the tilt before and after the fluid.
 class Tcm2Sensor {
  public:
   struct Options {

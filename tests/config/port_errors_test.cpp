@@ -135,6 +135,30 @@ TEST(ConfigPortErrors, Channels) {
                      "per g, per m and not 0"});
 }
 
+TEST(ConfigPortErrors, Mounting) {
+  const auto port = [](std::string_view protocol, std::string_view more) {
+    return problems_of(
+        fmt::format("[port.a]\nprotocol = \"{}\"\npath = \"/dev/x\"\n[port.a.mounting]\n{}\n", protocol, more));
+  };
+  EXPECT_EQ(port("imu-card", "rotation_deg = [180, 0, -90.5]\nposition_m = [0.1, 0, 0.2]"), Problems{});
+  EXPECT_EQ(port("tcm2", "rotation_deg = [0, 0, 90]"), Problems{});
+  EXPECT_EQ(port("oncore", "position_m = [0, 0, -0.3]"), Problems{});
+  EXPECT_EQ(port("nmea", "rotation_deg = [0, 0, 90]\nposition_m = [0, 0, -0.3]"), Problems{});
+  EXPECT_EQ(
+      port("imu-card", "rotation_deg = [1, 2]"),
+      Problems{"t.toml:5: port.a.mounting.rotation_deg: three numbers, each -360 to 360 deg are expected, not an "
+               "array of 2 numbers"});
+  EXPECT_EQ(
+      port("imu-card", "position_m = [0, 0, 101]"),
+      Problems{"t.toml:5: port.a.mounting.position_m: 101 is out of range: three numbers, each -100 to 100 m"});
+  EXPECT_EQ(port("tcm2", "position_m = [0, 0, 0]"),
+            Problems{"t.toml:5: port.a.mounting.position_m: a port of protocol tcm2 has no such setting"});
+  EXPECT_EQ(port("oncore", "rotation_deg = [0, 0, 0]"),
+            Problems{"t.toml:5: port.a.mounting.rotation_deg: a port of protocol oncore has no such setting"});
+  EXPECT_EQ(port("motor-card", "position_m = [0, 0, 0]"),
+            Problems{"t.toml:5: port.a.mounting.position_m: a port of protocol motor-card has no such setting"});
+}
+
 TEST(ConfigPortErrors, RolloverPivotIsADayOfTheCalendar) {
   const auto pivot = [](std::string_view value) {
     return problems_beside_a_port(fmt::format("[port.gps.fix]\nrollover_pivot = {}\n", value));

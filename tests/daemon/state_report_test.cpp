@@ -75,5 +75,21 @@ TEST(Spread, SaysNothingBeforeTenReadingsAndForgets) {
   EXPECT_NEAR(*spread.std(), 1, 1e-3);
 }
 
+TEST(StateCollector, DepthIsThatOfTheOriginAlsoWithoutAnEstimate) {
+  config::Settings settings;
+  settings.calibration.enabled = settings.navigation.enabled = false;
+  settings.ports.emplace_back().protocol = protocols::Protocol::imu_card;
+  settings.ports[0].mounting.position_m = {1, 0, 0.3};
+  const pipeline::Pipeline pipeline(settings);
+  StateCollector collector(settings, pipeline);
+  instruments::Sample sample;
+  instruments::ImuSample card;
+  card.depth_m = 2;
+  sample.value = card;
+  collector.take(sample);
+  EXPECT_NEAR(collector.at(0).depth_m.value(), 1.7, 1e-12);
+  EXPECT_NEAR(collector.at(0).depth_m.value(), 1.7, 1e-12) << "asking does not change it";
+}
+
 }  // namespace
 }  // namespace navcal::daemon

@@ -97,6 +97,20 @@ TEST(InstrumentModel, TakesLatencyRateZerosAndScalesOfThePorts) {
   EXPECT_EQ(model.imu.channels, settings.ports[1].imu_card);
 }
 
+TEST(InstrumentModel, TakesTheMountingOfThePortsAndIsRidOfItAgain) {
+  Settings settings;
+  settings.ports = {port("a", Protocol::tcm2), port("b", Protocol::imu_card), port("c", Protocol::oncore)};
+  const InstrumentModel straight = instrument_model(settings);
+  settings.ports[0].mounting.rotation_deg = {1, 2, 3};
+  settings.ports[1].mounting.position_m = {4, 5, 6};
+  settings.ports[2].mounting.position_m = {7, 8, 9};
+  const InstrumentModel model = instrument_model(settings);
+  EXPECT_EQ(model.compass.mounting, settings.ports[0].mounting);
+  EXPECT_EQ(model.imu.mounting, settings.ports[1].mounting);
+  EXPECT_EQ(model.gps.mounting, settings.ports[2].mounting);
+  EXPECT_EQ(bytes_of(without_mounting(model)), bytes_of(straight));
+}
+
 TEST(InstrumentModel, TakesThePortThatServesTheRole) {
   Settings settings;
   settings.ports = {port("old", Protocol::imu_card), port("new", Protocol::imu_card)};

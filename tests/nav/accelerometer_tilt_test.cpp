@@ -131,5 +131,37 @@ TEST(AccelerometerTilt, BadReadingsSpoilNothing) {
   EXPECT_NEAR(tilt.newest()->pitch_rad, 0, 0.02 * kDegree);
 }
 
+/// Tilt errors of a level, spinning and swinging vehicle with the accelerometers at `place_m`, told or not,
+/// degrees.
+double error_at_place_deg(const Eigen::Vector3d& place_m, bool is_told) {
+  AccelerometerTilt tilt({});
+  double sum = 0;
+  int count = 0;
+  for (std::int64_t t_ns = 0; t_ns < 60'000'000'000; t_ns += kStep_ns) {
+    const double t_s = static_cast<double>(t_ns) * 1e-9;
+    // A level vehicle whose rate of turn swings about 0.8 rad/s.
+    const Eigen::Vector3d rate(0, 0, 0.8 + 0.3 * std::sin(2 * t_s)), change(0, 0, 0.6 * std::cos(2 * t_s));
+    RateReading reading;
+    reading.time_ns = t_ns;
+    reading.rate_rad_s = rate;
+    reading.specific_force_m_s2 =
+        Eigen::Vector3d(0, 0, -kGravity) + rate.cross(rate.cross(place_m)) + change.cross(place_m);
+    if (is_told) reading.force_position_m = place_m;
+    tilt.take(reading);
+    if (t_s < 10) continue;
+    const auto found = tilt.newest();
+    sum += std::pow(found->roll_rad, 2) + std::pow(found->pitch_rad, 2);
+    ++count;
+  }
+  return std::sqrt(sum / count) / kDegree;
+}
+
+TEST(AccelerometerTilt, AccelerometersAwayFromTheOriginFeelTheTurn) {
+  const Eigen::Vector3d place_m(0.8, -0.3, 0.2);
+  EXPECT_GT(error_at_place_deg(place_m, false), 2) << "0.55 m/s2 in 9.81";
+  EXPECT_LT(error_at_place_deg(place_m, true), 0.1);
+  EXPECT_LT(error_at_place_deg(Eigen::Vector3d::Zero(), false), 1e-6);
+}
+
 }  // namespace
 }  // namespace navcal::nav

@@ -8,6 +8,8 @@
 
 #include "base/angles.h"
 #include "base/durations.h"
+#include "base/local_plane.h"
+#include "pipeline/nav_reading.h"
 
 namespace navcal::pipeline {
 namespace {
@@ -218,6 +220,96 @@ TEST(NavigationStageMake, IsNotMadeForNothing) {
   settings = {};
   settings.ports.emplace_back().protocol = protocols::Protocol::motor_card;
   EXPECT_EQ(NavigationStage::make(settings), nullptr);
+}
+
+config::Settings with_antenna_ahead(double ahead_m) {
+  config::Settings settings = vehicle();
+  settings.ports[gps].mounting.position_m = {ahead_m, 0, 0};
+  return settings;
+}
+
+class AntennaAhead : public NavigationStageTest {
+ protected:
+  AntennaAhead() : NavigationStageTest(with_antenna_ahead(3)) {}
+
+  [[nodiscard]] instruments::Sample sample_of(const instruments::GpsSample& fix) const {
+    instruments::Sample sample;
+    sample.port = gps;
+    sample.stamp.validity_ns = now_ns_;
+    sample.value = fix;
+    return sample;
+  }
+};
+
+TEST_F(AntennaAhead, BeforeAHeadingIsKnownTheFixStaysAsItIs) { EXPECT_FALSE(stage_.at_origin(sample_of(fix()))); }
+
+TEST_F(AntennaAhead, TheFixIsBroughtToTheOriginAlongTheHeading) {
+  run(20, false, std::numbers::pi / 2);  // east
+  const auto moved = stage_.at_origin(sample_of(fix()));
+  ASSERT_TRUE(moved);
+  const auto& at_origin = std::get<instruments::GpsSample>(moved->value);
+  const base::LocalPlane plane(kLatitude_rad, kLongitude_rad);
+  const auto [north_m, east_m] = plane.position_m(*at_origin.latitude_rad, *at_origin.longitude_rad);
+  EXPECT_NEAR(north_m, 0, 0.01);
+  EXPECT_NEAR(east_m, -3, 0.01) << "the antenna is 3 m further east than the origin";
+}
+
+TEST_F(AntennaAhead, TheVelocityOfTheArmIsTakenOff) {
+  for (int i = 0; i < 400; ++i) {
+    now_ns_ += 50 * base::kMillisecond_ns;
+    instruments::ImuSample card;
+    card.rate_rad_s = {0, 0, 0.2};
+    give(imu, card);
+    instruments::CompassSample word;
+    word.heading_rad = 0.01 * i;
+    word.pitch_rad = word.roll_rad = 0;
+    give(compass, word);
+  }
+  auto moving = fix();
+  moving.speed_m_s = 1;
+  moving.course_rad = 0;
+  const auto moved = stage_.at_origin(sample_of(moving));
+  ASSERT_TRUE(moved);
+  const auto velocity_m_s = ground_velocity_m_s(std::get<instruments::GpsSample>(moved->value));
+  ASSERT_TRUE(velocity_m_s);
+  // 3 m at 0.2 rad/s.
+  EXPECT_NEAR((*velocity_m_s - Eigen::Vector2d(1, 0)).norm(), 0.6, 0.02);
+}
+
+TEST_F(NavigationStageTest, AnAntennaAtTheOriginLeavesTheFixAlone) {
+  run(20, false);
+  instruments::Sample sample;
+  sample.port = gps;
+  sample.stamp.validity_ns = now_ns_;
+  sample.value = fix();
+  EXPECT_FALSE(stage_.at_origin(sample));
+}
+
+config::Settings with_gauge_ahead() {
+  config::Settings settings = vehicle();
+  settings.ports[imu].mounting.position_m = {2, 0, 0.1};
+  return settings;
+}
+
+class GaugeAhead : public NavigationStageTest {
+ protected:
+  GaugeAhead() : NavigationStageTest(with_gauge_ahead()) {}
+};
+
+TEST_F(GaugeAhead, DepthIsThatOfTheOrigin) {
+  constexpr double kPitch_rad = 0.3;
+  for (int i = 0; i < 600; ++i) {
+    now_ns_ += 50 * base::kMillisecond_ns;
+    instruments::CompassSample word;
+    word.heading_rad = 0;
+    word.pitch_rad = kPitch_rad;
+    word.roll_rad = 0;
+    give(compass, word);
+    instruments::ImuSample card;
+    card.depth_m = 5;
+    give(imu, card);
+  }
+  EXPECT_NEAR(newest().estimate.depth_m.value(), 5 + 2 * std::sin(kPitch_rad) - 0.1 * std::cos(kPitch_rad), 0.02);
 }
 
 }  // namespace

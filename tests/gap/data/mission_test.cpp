@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "record/recording.h"
+#include "sim/recording.h"
 #include "tests/gap/simulated_mission.h"
 #include "tests/support/temporary_folder.h"
 
@@ -51,6 +53,39 @@ TEST(Mission, KnowsWhenTheFinsWereToldSomethingIfThatWasRecorded) {
   EXPECT_TRUE(load_mission(file, [](double) {}).order_times_s.empty());
   std::ofstream(file) << with_others;
   EXPECT_EQ(load_mission(file, [](double) {}).order_times_s, recorded);
+}
+
+TEST(Mission, RotationsOfInstrumentsAreUndoneAndPositionsRefused) {
+  const navcal::test::TemporaryFolder folder;
+  const auto file = folder / "mission.cap";
+  devices::InstrumentModel turned;
+  turned.compass.mounting.rotation_deg = {5, -10, 90};
+  turned.imu.mounting.rotation_deg = {180, 0, 30};
+  test::write_mission(file, "identification", "", 60, 1, turned);
+  config::Settings settings;
+  settings.ports = sim::recording_ports(turned);
+  const Mission mission = load_mission(
+      file, [](double) {}, settings);
+  const Mission straight = simulated_mission("identification", "", 60, 1);
+  ASSERT_EQ(mission.card.size(), straight.card.size());
+  EXPECT_EQ(mission.instruments.compass.mounting, config::MountingSettings{});
+  double worst_rad_s = 0;
+  for (std::size_t i = 0; i < mission.card.size(); ++i) {
+    for (std::size_t gyro = 0; gyro < 4; ++gyro) {
+      const double off_rad_s = mission.card[i].gyro_rad_s[gyro] - straight.card[i].gyro_rad_s[gyro];
+      worst_rad_s = std::max(worst_rad_s, std::abs(off_rad_s));
+    }
+  }
+  EXPECT_LT(worst_rad_s, 0.06) << "noise and turn-on bias, each twice";
+
+  settings.ports[2].mounting.position_m = {0, 0, -0.3};
+  try {
+    (void)load_mission(
+        file, [](double) {}, settings);
+    FAIL();
+  } catch (const record::BadRecording& error) {
+    EXPECT_NE(std::string(error.what()).find("port.gps.mounting.position_m"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Mission, AMotorCardWithoutShaftSpeedIsToldAsSuch) {
