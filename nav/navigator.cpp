@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "base/durations.h"
+#include "nav/error_radius.h"
 #include "nav/reading_pauses.h"
 
 namespace navcal::nav {
@@ -234,6 +235,11 @@ Estimate Navigator::estimate() const {
     estimate.since_fix_m = reckoning_.since_fix_m();
   }
   return estimate;
+}
+
+std::optional<double> Navigator::error_radius_m(double after_s) const {
+  if (!reckoning_.known()) return std::nullopt;
+  return radius_95_m(reckoning_.covariance_m2(after_s));
 }
 
 std::optional<Outage> Navigator::take_outage() { return std::exchange(outage_, std::nullopt); }

@@ -42,6 +42,9 @@ class Navigator {
   [[nodiscard]] bool started() const { return time_ns_.has_value(); }
   [[nodiscard]] std::int64_t time_ns() const { return time_ns_.value_or(0); }
   [[nodiscard]] Estimate estimate() const;
+  /// Radius around the estimated position that contains the true one with a probability of 95 %, in `after_s`, if
+  /// the vehicle goes on as it does and gets no fix, m. Nullopt before the first fix.
+  [[nodiscard]] std::optional<double> error_radius_m(double after_s) const;
   /// A stretch without fixes that the last fix ended; once.
   [[nodiscard]] std::optional<Outage> take_outage();
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
