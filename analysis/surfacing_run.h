@@ -17,7 +17,7 @@ struct RecordedSurfacing {
   std::string file;
   std::int64_t first_fix_utc_ns = 0;
   pipeline::Surfacing surfacing;
-  // Of a stretch of 10 s or more without fixes.
+  // After a stretch of 10 s or more without fixes.
   std::optional<double> distance_m;  ///< way through the water in it
   std::optional<double> error_m;     ///< from the position reckoned to the fix
   std::optional<double> std_m;       ///< of error_m, as stated before the fix

@@ -48,7 +48,7 @@ struct NavigationEvent {
   std::string_view severity, name;
   std::string message;
 };
-/// What is to be told of an estimate: the end of a stretch without fixes, a surfacing, an advice to surface.
+/// Events of an estimate: the end of a stretch without fixes, a surfacing, an advice to surface.
 [[nodiscard]] std::vector<NavigationEvent> events_of(const NavigationSample& sample);
 
 /// "83 s and 91 m without a fix ended 2.3 m off: 2.5 m per 100 m; without calibrations 7.9 m off".
