@@ -74,10 +74,8 @@ class Importer final : public pipeline::Sink {
   }
   void on_navigation(const pipeline::NavigationSample& sample) override {
     encoder_.navigation(text_, sample);
-    if (sample.outage) {
-      encoder_.event(text_, sample.stamp.arrival_ns, "info", "navigation.fix", "",
-                     pipeline::words_for_outage(sample));
-    }
+    for (const auto& told : pipeline::events_of(sample))
+      encoder_.event(text_, sample.stamp.arrival_ns, told.severity, told.name, "", told.message);
   }
   void on_stream_event(const pipeline::StreamEvent& event) override {
     encoder_.event(text_, event.time_ns, event.severity, event.name, ports_[event.port].name, event.message);

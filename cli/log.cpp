@@ -13,6 +13,7 @@
 #include "base/interruptible.h"
 #include "cli/commands.h"
 #include "cli/log_control.h"
+#include "cli/log_surfacings.h"
 #include "cli/result_file.h"
 #include "record/export/export.h"
 #include "record/log/log_info.h"
@@ -87,8 +88,8 @@ void add_log(CLI::App& app) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  auto* const log =
-      app.add_subcommand("log", "information on a log; finish, export or import; list, fetch, start, stop");
+  auto* const log = app.add_subcommand(
+      "log", "information on a log; finish, export or import; list, fetch, start, stop; surfacings");
   log->require_subcommand(1);
   log->footer("Example: navcal log info navcal-20261121T023000Z-000123.mcap");
 
@@ -144,6 +145,7 @@ void add_log(CLI::App& app) {
     if (options->exporter == nullptr) throw CLI::RequiredError("one of --csv, --netcdf, --mat and --cap");
     export_log(options->file, options->exporter, options->to);
   });
+  add_log_surfacings(*log);
 
   add_log_control(log);
 }

@@ -36,6 +36,11 @@ void append_navigation(std::string& out, const nlohmann::json& nav) {
     fmt::format_to(std::back_inserter(out), ", RECKONED: {} s and {} m since the last fix",
                    shown(number(nav, "since_fix_s"), 0), shown(number(nav, "since_fix_m"), 0));
   }
+  if (const double within_s = number(nav, "surface_within_s"); is_reckoned(nav) && !std::isnan(within_s)) {
+    out += within_s > 0 ? fmt::format(", surface within {} s", shown(within_s, 0)) : std::string(", SURFACE NOW");
+    fmt::format_to(std::back_inserter(out), " (error at the next fix {} m)",
+                   shown(number(nav, "predicted_error_m"), 0));
+  }
   out += '\n';
 }
 

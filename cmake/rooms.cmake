@@ -21,7 +21,7 @@ set(NAVCAL_MAY_INCLUDE_gap base protocols config devices instruments calib pipel
 set(NAVCAL_MAY_INCLUDE_analysis base protocols config devices calib pipeline record ports sim)
 set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
 set(NAVCAL_MAY_INCLUDE_validation base config record sim analysis validation/reference)
-set(NAVCAL_MAY_INCLUDE_report base config calib pipeline record sim gap analysis validation)
+set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim gap analysis validation)
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports share)
 set(NAVCAL_MAY_INCLUDE_cli base protocols config devices pipeline record ports autopilot sim gap analysis validation report share)

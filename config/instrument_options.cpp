@@ -55,6 +55,25 @@ std::vector<Option<Settings>> instrument_options() {
       instrument(
           "gps_longest_search_s", "Longest such time; not less than the shortest.", kSeconds, 0, 3600,
           [](auto& s) -> auto& { return s.instruments.gps.longest_search_s; }),
+      choice<Settings>(
+          {.table = "instruments",
+           .key = "gps_search_model",
+           .description = "Model of the search: uniform between these two times, or by what the receiver still "
+                          "knows (receiver-state).",
+           .choices = {"uniform", "receiver-state"}},
+          [](auto& s) -> auto& { return s.instruments.gps.search_model; }),
+      instrument(
+          "gps_hot_start_s", "Mean search with valid ephemerides (receiver-state).", kSeconds, 0, 3600,
+          [](auto& s) -> auto& { return s.instruments.gps.hot_start_s; }),
+      instrument(
+          "gps_warm_start_s", "Mean search with time and position, without ephemerides (receiver-state).",
+          kSeconds, 0, 3600, [](auto& s) -> auto& { return s.instruments.gps.warm_start_s; }),
+      instrument(
+          "gps_cold_start_s", "Mean search without time or position (receiver-state).", kSeconds, 0, 3600,
+          [](auto& s) -> auto& { return s.instruments.gps.cold_start_s; }),
+      instrument(
+          "gps_ephemeris_life_s", "Longest life of an ephemeris without reception; the shortest is half of it.",
+          kSeconds, 1, 86400, [](auto& s) -> auto& { return s.instruments.gps.ephemeris_life_s; }),
       instrument(
           "motor_fin_noise_deg", "Noise of the fin angles that the motor card reports.", kDegrees, 0, 20,
           [](auto& s) -> auto& { return s.instruments.motor.fin_noise_rad; }),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "base/reference_instruments.h"
 
 namespace navcal::config {
@@ -24,12 +26,25 @@ struct ImuAccuracy {
   bool operator==(const ImuAccuracy&) const = default;
 };
 
+/// How long a receiver searches before its first fix (docs/surfacing.md).
+enum class SearchModel : std::uint8_t {
+  uniform,         ///< between two bounds, whatever came before
+  receiver_state,  ///< by what the receiver still knows: ephemerides, time, position
+};
+
 struct GpsAccuracy {
   double position_noise_m = base::reference::kPositionNoise_m;      ///< each axis, of a settled fix
   double velocity_noise_m_s = base::reference::kVelocityNoise_m_s;  ///< likewise
   double antenna_depth_m = base::reference::kAntennaDepth_m;        ///< no fixes where the origin is deeper
   double least_search_s = base::reference::kLeastSearch_s;          ///< from sight of the sky to the first fix
   double longest_search_s = base::reference::kLongestSearch_s;
+  SearchModel search_model = SearchModel::uniform;
+  // The model receiver_state: mean search by what the receiver knows, those of the Motorola M12
+  // (docs/surfacing.md).
+  double hot_start_s = 15;
+  double warm_start_s = 45;
+  double cold_start_s = 70;
+  double ephemeris_life_s = 4 * 3600;
 
   bool operator==(const GpsAccuracy&) const = default;
 };

@@ -53,6 +53,16 @@ std::vector<Option<Settings>> navigation_options() {
            .low = 0,
            .high = 60},
           [](auto& s) -> auto& { return s.navigation.speed_lag_s; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "max_error_m",
+           .description =
+               "Largest position error (95 %) that the mission allows; the advice to surface keeps to it. "
+               "0: no advice.",
+           .unit = kMetres,
+           .low = 0,
+           .high = 100000},
+          [](auto& s) -> auto& { return s.navigation.max_error_m; }),
   };
 }
 

@@ -84,6 +84,12 @@ std::vector<Option<P>> make_port_options() {
            .description = "Set the device to this configuration at start-up, by its own commands."},
           [](auto& p) -> auto& { return p.start_up; }),
       boolean<P>(
+          {.key = "aid",
+           .description = "Give the receiver position and time when it has lost both, by its own commands "
+                          "(docs/surfacing.md).",
+           .only_for = {protocols::Protocol::oncore}},
+          [](auto& p) -> auto& { return p.aid; }),
+      boolean<P>(
           {.key = "low_latency", .description = "Ask the driver to deliver bytes without delay."},
           [](auto& p) -> auto& { return p.low_latency; }),
       real<P>(

@@ -63,6 +63,7 @@ struct PortSettings {
   std::string address;     ///< in the network (network_address.h)
   int baud = 9600;
   bool start_up = true;      ///< hold the device's start-up dialogue
+  bool aid = false;          ///< give a receiver position and time (docs/surfacing.md)
   bool low_latency = true;   ///< ask the driver for low latency
   double latency_s = 0;      ///< from measurement to the first byte on the wire
   double latency_std_s = 0;  ///< its uncertainty
@@ -142,6 +143,7 @@ struct NavigationSettings {
   double heading_error_calibrated_rad = 0.017453292519943295;  ///< 1 degree
   double speed_error = 0.05;                                   ///< of the speed by the shaft, relative
   double speed_lag_s = base::reference::kSpeedLag_s;           ///< of the vehicle's speed behind its shaft's
+  double max_error_m = 0;  ///< bound of the position error for the advice to surface, 95 %; 0: no advice
 
   bool operator==(const NavigationSettings&) const = default;
 };

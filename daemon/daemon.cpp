@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/angles.h"
 #include "daemon/health.h"
 #include "daemon/listeners.h"
 #include "daemon/system_clock.h"
@@ -173,8 +174,8 @@ void Daemon::on_earth_field(const pipeline::EarthField& field) { publisher_.set_
 void Daemon::on_navigation(const pipeline::NavigationSample& sample) {
   publisher_.navigation(sample);
   log_.navigation(sample);
-  if (sample.outage)
-    event(sample.stamp.arrival_ns, "info", "navigation.fix", "", pipeline::words_for_outage(sample));
+  for (const auto& told : pipeline::events_of(sample))
+    event(sample.stamp.arrival_ns, told.severity, told.name, "", told.message);
 }
 
 void Daemon::update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu) {
@@ -197,6 +198,20 @@ void Daemon::on_stream_event(const pipeline::StreamEvent& stream_event) {
 void Daemon::on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity,
                            std::string_view name, std::string_view message) {
   event(now_ns, severity, name, settings_.ports[port].name, message);
+}
+
+std::optional<instruments::ReceiverAid> Daemon::receiver_aid(std::int64_t now_ns) const {
+  // A receiver expects other satellites where the position is off by more.
+  constexpr double kMostStd_m = 20'000;
+  const auto navigation = pipeline_.navigation();
+  const auto& mapping = pipeline_.mapping();
+  const bool known = navigation && navigation->latitude_rad && navigation->longitude_rad &&
+                     navigation->estimate.position_std_m.maxCoeff() <= kMostStd_m;
+  if (!known || mapping.source == pipeline::UtcMapping::Source::none) return std::nullopt;
+  // On the surface of the sea; the geoid is within 110 m of the ellipsoid, which a receiver does not notice.
+  return instruments::ReceiverAid{{*navigation->latitude_rad * base::kDegreesPerRadian,
+                                   *navigation->longitude_rad * base::kDegreesPerRadian, 0},
+                                  mapping.to_utc(now_ns)};
 }
 
 void Daemon::on_port_changed(std::uint16_t port) {

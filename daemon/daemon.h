@@ -64,6 +64,7 @@ class Daemon : private pipeline::Sink,
   void on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity, std::string_view name,
                      std::string_view message) override;
   void on_port_changed(std::uint16_t port) override;
+  [[nodiscard]] std::optional<instruments::ReceiverAid> receiver_aid(std::int64_t now_ns) const override;
   void on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
                              const instruments::Tcm2Calibration& calibration) override;
   // StatusSource

@@ -41,6 +41,7 @@ PortSession::PortSession(const boost::asio::any_io_executor& executor, std::uint
       speed_check_(settings.protocol, settings.baud),
       port_(executor, settings, *this) {
   if (settings.protocol == protocols::Protocol::tcm2) compass_calibration_.emplace(settings);
+  if (settings.protocol == protocols::Protocol::oncore && settings.aid) aid_.emplace();
 }
 
 void PortSession::stop() {
@@ -60,6 +61,7 @@ void PortSession::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
   if (off_) return;
   set_state(now_ns, State::running, "opened");
   if (start_up_) start_up_->begin(now_ns);
+  if (aid_) aid_->begin();
   talk(now_ns);
 }
 
@@ -85,6 +87,7 @@ void PortSession::on_bytes(std::int64_t arrival_ns, protocols::Bytes bytes) {
   owner_.on_port_bytes(index_, arrival_ns, bytes);
   speed_check_.bytes(bytes);
   talk(arrival_ns);
+  aid_receiver(arrival_ns);
 }
 
 void PortSession::on_sent(std::int64_t now_ns, protocols::Bytes bytes) {
@@ -111,6 +114,7 @@ void PortSession::abandon_calibration(std::int64_t now_ns, const std::string& re
 void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_ns) {
   if (compass_calibration_) compass_calibration_->on_frame(frame, arrival_ns);
   if (start_up_) start_up_->on_frame(frame, arrival_ns);
+  if (aid_) aid_->on_frame(frame, arrival_ns);
 }
 
 std::string PortSession::calibrate_compass(std::int64_t now_ns) {
@@ -152,6 +156,16 @@ void PortSession::talk(std::int64_t now_ns) {
   if (!open_port() || talk_of_calibration(now_ns) || !start_up_) return;
   while (const auto bytes = start_up_->next(now_ns)) port_.send(*bytes);
   talk_timer_.arm(start_up_->deadline_ns());
+}
+
+void PortSession::aid_receiver(std::int64_t now_ns) {
+  if (!open_ || !aid_ || !aid_->wanted()) return;
+  const auto aid = owner_.receiver_aid(now_ns);
+  if (!aid) return;
+  for (const auto& command : aid_->give(*aid)) port_.send(command);
+  owner_.on_port_event(index_, now_ns, "info", "receiver.aid",
+                       fmt::format("time and position given: {:.5f}, {:.5f}", aid->position.latitude_deg,
+                                   aid->position.longitude_deg));
 }
 
 void PortSession::tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics) {

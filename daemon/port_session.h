@@ -12,6 +12,7 @@
 #include "daemon/latency_histogram.h"
 #include "daemon/lazy_timer.h"
 #include "daemon/speed_check.h"
+#include "instruments/oncore_aid.h"
 #include "instruments/start_up.h"
 #include "instruments/tcm2_calibration.h"
 #include "pipeline/pipeline.h"
@@ -32,6 +33,8 @@ class PortOwner {
   virtual void on_port_event(std::uint16_t port, std::int64_t now_ns, std::string_view severity,
                              std::string_view name, std::string_view message) = 0;
   virtual void on_port_changed(std::uint16_t port) = 0;
+  /// Where the vehicle is thought to be, and the time, for a receiver that has lost both; nullopt: not known.
+  [[nodiscard]] virtual std::optional<instruments::ReceiverAid> receiver_aid(std::int64_t now_ns) const = 0;
   /// A compass has come to the end of the calibration of itself, good or bad. Not within on_port_bytes().
   virtual void on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
                                      const instruments::Tcm2Calibration& calibration) = 0;
@@ -104,6 +107,7 @@ class PortSession : private ports::PortListener {
 
   void talk(std::int64_t now_ns);
   void abandon_calibration(std::int64_t now_ns, const std::string& reason);
+  void aid_receiver(std::int64_t now_ns);
   /// True while the calibration dialogue has the device to itself.
   bool talk_of_calibration(std::int64_t now_ns);
   void set_state(std::int64_t now_ns, State state, std::string reason);
@@ -114,6 +118,7 @@ class PortSession : private ports::PortListener {
   PortOwner& owner_;
   std::unique_ptr<instruments::StartUp> start_up_;
   std::optional<instruments::Tcm2Calibration> compass_calibration_;
+  std::optional<instruments::OncoreAid> aid_;  ///< of a receiver that is to be aided
   bool calibrating_compass_ = false;
   LazyTimer talk_timer_;
   std::string last_start_up_state_;

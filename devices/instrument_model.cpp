@@ -64,6 +64,20 @@ double CompassModel::heading_noise_rad() const {
 
 double GpsModel::excess_noise(int number) { return std::exp2(1 - number); }
 
+double GpsModel::expired_probability(double unseen_s) const {
+  return std::clamp(2 * unseen_s / ephemeris_life_s - 1, 0.0, 1.0);
+}
+
+double GpsModel::mean_search_s(double unseen_s) const {
+  if (search_model == config::SearchModel::uniform) return (least_search_s + longest_search_s) / 2;
+  return std::lerp(hot_start_s, warm_start_s, expired_probability(unseen_s));
+}
+
+double GpsModel::long_search_s(double unseen_s) const {
+  if (search_model == config::SearchModel::uniform) return longest_search_s;
+  return (1 + kSearchSpread) * (expired_probability(unseen_s) > 0 ? warm_start_s : hot_start_s);
+}
+
 double MotorModel::fin_report_noise_rad() const {
   // To a thousandth of a degree: noise is known no better.
   constexpr double kKnown_per_deg = 1000;

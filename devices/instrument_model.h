@@ -54,6 +54,16 @@ struct GpsModel : config::GpsAccuracy {
   /// Ratio of the noise of fix `number` to that of a settled fix; `number` counts from 0 since sight of the
   /// sky. The first fixes come from few satellites.
   [[nodiscard]] double noise_factor(int number) const { return 1 + excess_noise(number); }
+  /// Mean search of a receiver that has been without reception for `unseen_s` since its last fix, s.
+  [[nodiscard]] double mean_search_s(double unseen_s) const;
+  /// Such a search that is rarely exceeded, s: the longest of the uniform model; by receiver
+  /// state, that of a warm start as soon as one is possible, else of a hot one.
+  [[nodiscard]] double long_search_s(double unseen_s) const;
+  /// Probability that the ephemerides have expired after `unseen_s`: their remaining life at the last fix lies
+  /// evenly between half of ephemeris_life_s and all of it.
+  [[nodiscard]] double expired_probability(double unseen_s) const;
+  /// A search by receiver state lies evenly within this share of its mean.
+  static constexpr double kSearchSpread = 0.3;
   /// Excess of that factor over one.
   [[nodiscard]] static double excess_noise(int number);
 };

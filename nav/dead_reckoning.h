@@ -43,6 +43,8 @@ class DeadReckoning {
   [[nodiscard]] bool known() const { return known_; }
   [[nodiscard]] Eigen::Vector2d position_m() const { return reckoned_m_ + correction_m_; }
   [[nodiscard]] Eigen::Vector2d std_m() const;
+  /// Covariance of north and east in `after_s`, m2, if the vehicle goes on as in the last step and gets no fix.
+  [[nodiscard]] Eigen::Matrix2d covariance_m2(double after_s) const;
   [[nodiscard]] const Eigen::Vector2d& reckoned_m() const { return reckoned_m_; }
   [[nodiscard]] const Eigen::Vector2d& set_m_s() const { return set_m_s_; }
   [[nodiscard]] double since_fix_s() const { return since_fix_s_; }
@@ -61,6 +63,7 @@ class DeadReckoning {
   // gone while nothing told where to.
   Eigen::Vector2d across_m_ = Eigen::Vector2d::Zero(), along_m_ = Eigen::Vector2d::Zero();
   double blind_m_ = 0;
+  Way last_way_;  ///< of the last step that took time
   bool known_ = false;
   double since_fix_s_ = 0, since_fix_m_ = 0;
 };

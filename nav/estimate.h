@@ -12,6 +12,7 @@ struct Outage {
   double duration_s = 0;
   double distance_m = 0;  ///< run through the water
   double error_m = 0;     ///< from the position reckoned to the fix, whose own noise is in it
+  double std_m = 0;       ///< of error_m as stated: root of the sum of the variances of north and east
 };
 
 /// Standard deviations are what the estimator states of itself (docs/navigation.md).

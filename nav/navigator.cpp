@@ -9,6 +9,7 @@
 #include "base/angles.h"
 #include "base/durations.h"
 #include "base/rotation.h"
+#include "nav/error_radius.h"
 #include "nav/reading_pauses.h"
 
 namespace navcal::nav {
@@ -244,6 +245,11 @@ Estimate Navigator::estimate() const {
 
 std::optional<Pose> Navigator::attitude_at(std::int64_t time_ns) const {
   return attitude_.heading_known() ? past_.at(time_ns) : std::nullopt;
+}
+
+std::optional<double> Navigator::error_radius_m(double after_s) const {
+  if (!reckoning_.known()) return std::nullopt;
+  return radius_95_m(reckoning_.covariance_m2(after_s));
 }
 
 std::optional<Outage> Navigator::take_outage() { return std::exchange(outage_, std::nullopt); }

@@ -45,6 +45,9 @@ class Navigator {
   /// Attitude at a time of the last seconds; nullopt before a heading came, and for other
   /// times. A tilt that was never measured is zero.
   [[nodiscard]] std::optional<Pose> attitude_at(std::int64_t time_ns) const;
+  /// Radius around the estimated position that contains the true one with a probability of 95 %, in `after_s`, if
+  /// the vehicle goes on as it does and gets no fix, m. Nullopt before the first fix.
+  [[nodiscard]] std::optional<double> error_radius_m(double after_s) const;
   /// A stretch without fixes that the last fix ended; once.
   [[nodiscard]] std::optional<Outage> take_outage();
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }

@@ -35,4 +35,13 @@ std::string words_for_outage(const NavigationSample& sample) {
   return words;
 }
 
+std::vector<NavigationEvent> events_of(const NavigationSample& sample) {
+  std::vector<NavigationEvent> events;
+  if (sample.outage) events.push_back({"info", "navigation.fix", words_for_outage(sample)});
+  if (sample.surfacing) events.push_back({"info", "surfacing", words_for(*sample.surfacing)});
+  if (sample.advice && sample.surface_news != SurfaceNews::none)
+    events.push_back({"warning", "surface.advice", words_for(*sample.advice, sample.max_error_m)});
+  return events;
+}
+
 }  // namespace navcal::pipeline

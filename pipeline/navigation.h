@@ -5,9 +5,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "instruments/samples.h"
 #include "nav/estimate.h"
+#include "pipeline/surface_advice.h"
+#include "pipeline/surfacing.h"
 
 namespace navcal::pipeline {
 
@@ -34,7 +37,19 @@ struct NavigationSample {
   /// A stretch without fixes that has just ended, and how far off it would have ended without calibrations.
   std::optional<nav::Outage> outage;
   std::optional<double> outage_error_uncalibrated_m;
+  std::optional<Surfacing> surfacing;   ///< that has just ended with a fix
+  std::optional<SurfaceAdvice> advice;  ///< with a position
+  SurfaceNews surface_news = SurfaceNews::none;
+  double max_error_m = 0;  ///< bound of the advice; 0: none
 };
+
+/// An event of the log.
+struct NavigationEvent {
+  std::string_view severity, name;
+  std::string message;
+};
+/// Events of an estimate: the end of a stretch without fixes, a surfacing, an advice to surface.
+[[nodiscard]] std::vector<NavigationEvent> events_of(const NavigationSample& sample);
 
 /// "83 s and 91 m without a fix ended 2.3 m off: 2.5 m per 100 m; without calibrations 7.9 m off".
 [[nodiscard]] std::string words_for_outage(const NavigationSample& sample);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "base/angles.h"
@@ -50,12 +51,13 @@ NavigationStage::NavigationStage(const config::Settings& settings)
     : ports_(Sources(settings).serving()),
       options_(navigation_options(settings)),
       declination_rad_(settings.environment.declination_rad),
-      position_noise_m_(devices::instrument_model(settings).gps.position_noise_m),
-      velocity_noise_m_s_(devices::instrument_model(settings).gps.velocity_noise_m_s),
+      gps_(devices::instrument_model(settings).gps),
+      max_error_m_(settings.navigation.max_error_m),
       interval_ns_(std::llround(settings.navigation.interval_s * 1e9)),
       calibrated_(options_),
       uncalibrated_(options_),
-      positions_m_(mounted_positions_m(settings)) {}
+      positions_m_(mounted_positions_m(settings)),
+      surfacings_(gps_.antenna_depth_m) {}
 
 void NavigationStage::begin_run() {
   calibrated_ = uncalibrated_ = nav::Navigator(options_);
@@ -63,6 +65,9 @@ void NavigationStage::begin_run() {
   inclinometer_ns_.reset();
   depth_m_.reset();
   velocity_m_s_.reset();
+  surfacings_ = SurfacingWatch(gps_.antenna_depth_m);
+  surfacing_.reset();
+  surface_news_ = {};
   told_ = 0;
 }
 
@@ -87,6 +92,7 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
     if (corrected.port == ports_[Role::depth]) {
       depth_m_ = imu->depth_m;
       depth_position_m_ = positions_m_.at(corrected.port);
+      surfacings_.depth(corrected.stamp.validity_ns, imu->depth_m);
     }
     if (corrected.port != ports_[Role::rates]) return;
     feed(calibrated_, corrected, *imu, true);
@@ -143,6 +149,7 @@ void NavigationStage::feed_tilt(const nav::TiltReading& tilt) {
 
 void NavigationStage::feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps) {
   if (!has_position(gps)) return;
+  if (const auto surfacing = surfacings_.fix(sample.stamp.validity_ns, gps)) surfacing_ = surfacing;
   if (!plane_) plane_.emplace(*gps.latitude_rad, *gps.longitude_rad);
   const auto [north_m, east_m] = plane_->position_m(*gps.latitude_rad, *gps.longitude_rad);
   nav::FixReading reading;
@@ -151,8 +158,8 @@ void NavigationStage::feed_fix(const instruments::Sample& sample, const instrume
   const bool fits = std::abs(sample.stamp.validity_ns - velocity_ns_) <= kVelocityAge_ns;
   if (velocity_m_s_ && fits) reading.velocity_m_s = velocity_m_s_;
   velocity_m_s_.reset();
-  reading.velocity_std_m_s = velocity_noise_m_s_;
-  reading.std_m = position_noise_m_ * std::max(1.0, gps.dop.value_or(kGoodDop) / kGoodDop);
+  reading.velocity_std_m_s = gps_.velocity_noise_m_s;
+  reading.std_m = gps_.position_noise_m * std::max(1.0, gps.dop.value_or(kGoodDop) / kGoodDop);
   // Without an attitude the antenna is anywhere around the origin.
   if (const auto& arm_m = positions_m_.at(sample.port);
       !arm_m.isZero(0) && !calibrated_.attitude_at(reading.time_ns))
@@ -194,7 +201,7 @@ void NavigationStage::tell(const instruments::Sample& trigger, const UtcMapping&
   const auto outage = calibrated_.take_outage();
   const auto uncalibrated_outage = uncalibrated_.take_outage();
   const std::int64_t interval = calibrated_.time_ns() / interval_ns_;
-  if (interval <= told_ && !outage) return;
+  if (interval <= told_ && !outage && !surfacing_) return;
   told_ = std::max(told_, interval);
 
   NavigationSample sample = *newest(mapping);
@@ -205,6 +212,10 @@ void NavigationStage::tell(const instruments::Sample& trigger, const UtcMapping&
   sample.stamp = stamp;
   sample.outage = outage;
   if (uncalibrated_outage) sample.outage_error_uncalibrated_m = uncalibrated_outage->error_m;
+  sample.surfacing = std::exchange(surfacing_, std::nullopt);
+  sample.max_error_m = max_error_m_;
+  sample.advice = surface_advice(calibrated_, gps_, max_error_m_);
+  sample.surface_news = surface_news_.take(sample.advice, sample.source == PositionSource::reckoned);
   sink.on_navigation(sample);
 }
 

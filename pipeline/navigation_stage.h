@@ -13,6 +13,7 @@
 #include "pipeline/navigation.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sources.h"
+#include "pipeline/surfacing_watch.h"
 
 namespace navcal::pipeline {
 
@@ -55,7 +56,8 @@ class NavigationStage {
   nav::Options options_;
   double declination_rad_;
   bool heading_was_true_ = false;  ///< the newest one, by the device itself
-  double position_noise_m_, velocity_noise_m_s_;
+  devices::GpsModel gps_;
+  double max_error_m_;
   std::int64_t interval_ns_;
   nav::Navigator calibrated_, uncalibrated_;
   std::optional<base::LocalPlane> plane_;
@@ -65,6 +67,9 @@ class NavigationStage {
   Eigen::Vector3d depth_position_m_ = Eigen::Vector3d::Zero();  ///< of its gauge
   std::optional<Eigen::Vector2d> velocity_m_s_;                 ///< newest that is not used yet
   std::int64_t velocity_ns_ = 0;
+  SurfacingWatch surfacings_;
+  std::optional<Surfacing> surfacing_;  ///< not told yet
+  SurfaceNewsWatch surface_news_;
   std::int64_t told_ = 0;  ///< intervals of the monotonic clock, up to the one that was last told of
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "protocols/checked_line.h"
+#include "protocols/oncore_aid.h"
 #include "protocols/oncore_encode.h"
 
 namespace navcal::protocols::oncore {
@@ -24,6 +25,8 @@ bool contains(const List& list, FrameId id) {
 
 std::size_t command_length(FrameId id) {
   if (contains(kWithRate, id)) return 8;
+  if (id == kGa) return kGaLength;
+  if (id == kGb) return kGbLength;
   return contains(kWithoutRate, id) ? 7 : 0;
 }
 
@@ -50,6 +53,7 @@ std::optional<Command> parse_command(Bytes frame) {
   const Scan found = CommandScanner::scan(frame.data(), frame.data() + frame.size());
   if (found.kind != Scan::Kind::frame || found.length != frame.size() || frame[0] != '@') return std::nullopt;
   if (contains(kWithoutRate, found.id)) return Command{found.id, std::nullopt};
+  if (!contains(kWithRate, found.id)) return std::nullopt;
   return Command{found.id, frame[4]};
 }
 

@@ -22,9 +22,9 @@ struct Command {
 /// receiver drops such input without a word.
 [[nodiscard]] std::optional<Command> parse_command(Bytes frame);
 
-/// Commands of a host, for the emulated receiver.
+/// Commands of a host, for the emulated receiver: polls, and what parse_aid_position() and parse_aid_time() take.
 struct CommandScanner {
-  static constexpr std::size_t kMaxFrameLength = 8;
+  static constexpr std::size_t kMaxFrameLength = 20;
 
   static const std::uint8_t* find_start(const std::uint8_t* first, const std::uint8_t* last) {
     return Scanner::find_start(first, last);

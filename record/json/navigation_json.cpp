@@ -24,7 +24,20 @@ void append_outage(JsonObject& json, const pipeline::NavigationSample& sample) {
   json.number("outage_s", outage ? std::optional(outage->duration_s) : std::nullopt);
   json.number("outage_m", outage ? std::optional(outage->distance_m) : std::nullopt);
   json.number("outage_error_m", outage ? std::optional(outage->error_m) : std::nullopt);
+  json.number("outage_std_m", outage ? std::optional(outage->std_m) : std::nullopt);
   json.number("outage_error_uncalibrated_m", sample.outage_error_uncalibrated_m);
+}
+
+void append_surfacing(JsonObject& json, const std::optional<pipeline::Surfacing>& surfacing) {
+  const auto count = [](const std::optional<std::uint8_t>& satellites) {
+    return satellites ? std::optional<double>(*satellites) : std::nullopt;
+  };
+  json.number("submerged_s", surfacing ? surfacing->submerged_s() : std::nullopt);
+  json.number("deepest_m", surfacing ? surfacing->deepest_m : std::nullopt);
+  json.number("ttff_s", surfacing ? surfacing->time_to_first_fix_s() : std::nullopt);
+  json.number("fix_visible", surfacing ? count(surfacing->visible) : std::nullopt);
+  json.number("fix_tracked", surfacing ? count(surfacing->tracked) : std::nullopt);
+  json.number("fix_dop", surfacing ? surfacing->dop : std::nullopt);
 }
 
 }  // namespace
@@ -54,6 +67,9 @@ void append_json(std::string& out, const pipeline::NavigationSample& sample) {
   json.number("set_north_m_s", of_position(estimate, estimate.set_m_s.x()));
   json.number("set_east_m_s", of_position(estimate, estimate.set_m_s.y()));
   append_outage(json, sample);
+  append_surfacing(json, sample.surfacing);
+  json.number("predicted_error_m", sample.advice ? std::optional(sample.advice->error_m) : std::nullopt);
+  json.number("surface_within_s", sample.advice ? sample.advice->within_s : std::nullopt);
   append_calibration(json, sample.calibration);
 }
 

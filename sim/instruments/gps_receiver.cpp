@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "sim/rotation.h"
 
@@ -23,10 +24,37 @@ void GpsReceiver::power_on(std::int64_t t_ns) {
   powered_ns_ = t_ns;
   electronics_.power_on(t_ns, motion_);
   fix_due_ns_.reset();
+  knows_time_ = knows_position_ = false;
+  ephemerides_until_ns_.reset();
+  fixes_ = 0;
   last_ = {};
   last_.latitude_deg = options_.origin.latitude_deg;
   last_.longitude_deg = options_.origin.longitude_deg;
   last_.height_m = options_.origin.height_m;
+}
+
+void GpsReceiver::learn_time() { learn(knows_time_); }
+
+void GpsReceiver::learn_position() { learn(knows_position_); }
+
+void GpsReceiver::learn(bool& knows) {
+  if (options_.gps.search_model != config::SearchModel::receiver_state) return;
+  const bool new_to_it = !std::exchange(knows, true);
+  if (new_to_it && knows_time_ && knows_position_ && fixes_ == 0) fix_due_ns_.reset();
+}
+
+double GpsReceiver::search_s(std::int64_t begin_ns) {
+  const devices::GpsModel& gps = options_.gps;
+  if (gps.search_model == config::SearchModel::uniform)
+    return noise_.uniform(gps.least_search_s, gps.longest_search_s);
+  double mean_s = gps.cold_start_s;
+  if (ephemerides_until_ns_ && begin_ns <= *ephemerides_until_ns_) {
+    mean_s = gps.hot_start_s;
+  } else if (knows_time_ && knows_position_) {
+    mean_s = gps.warm_start_s;
+  }
+  constexpr double kSpread = devices::GpsModel::kSearchSpread;
+  return mean_s * noise_.uniform(1 - kSpread, 1 + kSpread);
 }
 
 bool GpsReceiver::fixes(std::int64_t second_ns) {
@@ -35,8 +63,8 @@ bool GpsReceiver::fixes(std::int64_t second_ns) {
     return false;
   }
   if (!fix_due_ns_) {
-    const double search_s = noise_.uniform(options_.gps.least_search_s, options_.gps.longest_search_s);
-    fix_due_ns_ = std::max(second_ns, powered_ns_) + std::llround(search_s * 1e9);
+    const std::int64_t begin_ns = std::max(second_ns, powered_ns_);
+    fix_due_ns_ = begin_ns + std::llround(search_s(begin_ns) * 1e9);
     fixes_ = 0;
   }
   return second_ns >= *fix_due_ns_;
@@ -46,7 +74,16 @@ GpsReading GpsReceiver::measure(std::int64_t second_ns) {
   last_.utc_ns = second_ns;
   last_.speed_m_s = last_.course_deg = 0;
   last_.fixed = fixes(second_ns);
+  last_.cold = !last_.fixed && options_.gps.search_model == config::SearchModel::receiver_state &&
+               !(knows_time_ && knows_position_);
   if (!last_.fixed) return last_;
+  // Ephemerides are received with each fix. Their life beyond it is drawn once for each stretch with fixes, so
+  // that the uniform model draws nothing here.
+  if (options_.gps.search_model == config::SearchModel::receiver_state) {
+    knows_time_ = knows_position_ = true;
+    if (fixes_ == 0) life_s_ = options_.gps.ephemeris_life_s * noise_.uniform(0.5, 1);
+    ephemerides_until_ns_ = second_ns + std::llround(life_s_ * 1e9);
+  }
   last_.degraded = options_.gps.noise_factor(fixes_++);
 
   const double late_s = effects_.delays(effects_.time_s(second_ns)).gps_s;

@@ -2,8 +2,10 @@
 #include "sim/instruments/oncore.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/durations.h"
+#include "protocols/oncore_aid.h"
 #include "sim/instruments/oncore_messages.h"
 
 namespace navcal::sim {
@@ -12,6 +14,8 @@ namespace {
 namespace oncore = protocols::oncore;
 constexpr std::int64_t kWeek_ns = 7 * 86400LL * base::kSecond_ns;
 constexpr std::size_t kInputBytes = 1024;
+constexpr double kUsefulPosition_deg = 1;
+constexpr std::int64_t kUsefulTime_ns = 600 * base::kSecond_ns;
 
 }  // namespace
 
@@ -25,6 +29,7 @@ void Oncore::power_on(std::int64_t t_ns) {
   input_.clear();
   parser_ = {};
   requests_.clear();
+  answers_.clear();
   second_ns_ = (t_ns / base::kSecond_ns + 1) * base::kSecond_ns;
 }
 
@@ -44,8 +49,22 @@ void Oncore::read_input() {
   parser_.feed(input_, [&](const protocols::Frame& frame) {
     const auto command = oncore::parse_command(frame.bytes);
     if (command && knows(command->id)) requests_[command->id] = {command->rate.value_or(0), 0};
+    if (!command && options_.kind == Kind::twelve_channels) take_aid(frame.bytes);
   });
   input_.clear();
+}
+
+void Oncore::take_aid(protocols::Bytes frame) {
+  const auto position = oncore::parse_aid_position(frame);
+  const auto utc_ns = oncore::parse_aid_time(frame);
+  if (!position && !utc_ns) return;
+  answers_.emplace_back(frame.begin(), frame.end());
+  // What is far from the truth does not help: other satellites are in view than it lets expect.
+  if (position && std::abs(position->latitude_deg - options_.receiver.origin.latitude_deg) < kUsefulPosition_deg &&
+      std::abs(std::remainder(position->longitude_deg - options_.receiver.origin.longitude_deg, 360)) <
+          kUsefulPosition_deg)
+    receiver_.learn_position();
+  if (utc_ns && std::abs(*utc_ns - second_ns_) < kUsefulTime_ns) receiver_.learn_time();
 }
 
 std::vector<std::uint8_t> Oncore::message(protocols::FrameId id, const GpsReading& reading) const {
@@ -70,6 +89,8 @@ void Oncore::advance(std::int64_t t_ns, std::vector<Emission>& out) {
       continue;
     }
     read_input();
+    for (auto& answer : answers_) line_.put(sent_ns, options_.baud, std::move(answer), out);
+    answers_.clear();
     // The position first: it is what is waited for.
     const auto is_position = [](const auto& entry) {
       return entry.first == oncore::kHa || entry.first == oncore::kEa;

@@ -11,7 +11,8 @@
 namespace navcal::sim {
 
 /// Motorola Oncore (ICD section 2): silent until asked, reads its input once a second, sends some time after
-/// the second that its messages state. Nothing that was asked for outlives a loss of power.
+/// the second that its messages state. With 12 channels it takes position and time from its host. Nothing that was
+/// asked for outlives a loss of power.
 class Oncore final : public Device {
  public:
   enum class Kind : std::uint8_t {
@@ -45,6 +46,8 @@ class Oncore final : public Device {
   [[nodiscard]] std::int64_t latency_ns() const;
   [[nodiscard]] bool knows(protocols::FrameId id) const;
   void read_input();
+  /// Position or time from the host; the answer is the command itself.
+  void take_aid(protocols::Bytes frame);
   /// Empty when this message is not one of this receiver.
   [[nodiscard]] std::vector<std::uint8_t> message(protocols::FrameId id, const GpsReading& reading) const;
 
@@ -52,6 +55,7 @@ class Oncore final : public Device {
   GpsReceiver receiver_;
   Line line_;
   std::vector<std::uint8_t> input_;
+  std::vector<std::vector<std::uint8_t>> answers_;  ///< to be sent at the next second
   protocols::oncore::CommandParser parser_;
   std::map<protocols::FrameId, Request> requests_;
   std::int64_t second_ns_ = 0;

@@ -39,6 +39,7 @@ oncore::Position position_of(const GpsReading& reading, const ReceiverTime& time
   position.visible = static_cast<std::uint8_t>(kSky.size());
   position.tracked = reading.fixed ? (flat ? kSkyUsedFlat : kSkyUsed) : std::uint8_t{0};
   position.fix = reading.fixed ? fix_of(reading) : protocols::Fix::acquiring;
+  position.no_almanac = reading.cold;
   position.antenna = oncore::Antenna::ok;
   position.channel_count = kSky.size();
   for (std::size_t i = 0; i < kSky.size(); ++i) {

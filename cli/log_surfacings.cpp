@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/log_surfacings.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/failure.h"
+#include "analysis/surfacing_run.h"
+#include "cli/result_file.h"
+#include "config/load.h"
+#include "record/recording.h"
+#include "report/surfacings_page.h"
+#include "report/surfacings_text.h"
+
+namespace navcal::cli {
+namespace {
+
+struct SurfacingsOptions {
+  std::vector<std::string> files;
+  std::string config, page;
+  bool json = false;
+};
+
+analysis::SurfacingRun run_surfacings(const SurfacingsOptions& options) {
+  try {
+    const auto settings = options.config.empty() ? record::Recording::open(options.files.front())->settings()
+                                                 : config::load(options.config);
+    analysis::SurfacingRun run(settings);
+    for (const auto& file : options.files) run.play(file);
+    return run;
+  } catch (const record::BadRecording& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  }
+}
+
+void show_surfacings(const SurfacingsOptions& options) {
+  if (!options.page.empty()) {
+    expect_folder_of(options.page);
+    expect_no_overwriting({options.files.begin(), options.files.end()}, {options.page});
+  }
+  const analysis::SurfacingRun run = run_surfacings(options);
+  for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal log: %s\n", remark.c_str());
+  if (!options.page.empty()) {
+    try {
+      write_result(options.page, report::surfacings_page(run.surfacings(), options.files, run.settings()));
+    } catch (const std::system_error& error) {
+      throw analysis::Failure(analysis::Exit::failed, error.what());
+    }
+  }
+  const std::string text = options.json ? report::surfacings_json(run.surfacings(), options.files)
+                                        : report::surfacings_text(run.surfacings());
+  std::fputs(text.c_str(), stdout);
+}
+
+}  // namespace
+
+void add_log_surfacings(CLI::App& log) {
+  const auto options = std::make_shared<SurfacingsOptions>();
+  auto* const command = log.add_subcommand(
+      "surfacings", "time to first fix and error of the dead reckoning at each surfacing of recordings");
+  command
+      ->add_option("FILE", options->files, "logs (.mcap) or captures (.cap); several of one series in their order")
+      ->required();
+  command->add_flag("--json", options->json, "one JSON object instead of a table");
+  command->add_option("--report", options->page, "page with the distributions and plots")
+      ->option_text("FILE.html");
+  command->add_option("--config", options->config, "configuration to use instead of the recording's own")
+      ->option_text("FILE");
+  command->footer(
+      "docs/surfacing.md describes the table and the JSON keys.\n\n"
+      "Example: navcal log surfacings --report surfacings.html dive.mcap");
+  command->callback([options] { show_surfacings(*options); });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocols/oncore_aid.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "protocols/big_endian.h"
+#include "protocols/oncore_command.h"
+#include "protocols/oncore_encode.h"
+#include "protocols/units.h"
+#include "protocols/utc.h"
+
+namespace navcal::protocols::oncore {
+namespace {
+
+constexpr double kMostLatitude_deg = 90, kMostLongitude_deg = 180, kLeastHeight_m = -1000, kMostHeight_m = 18'000;
+constexpr std::uint8_t kGpsHeight = 0;  // the height is above the ellipsoid
+
+void append_u32(std::vector<std::uint8_t>& data, double value, double least, double most, double per_unit) {
+  const auto raw = static_cast<std::uint32_t>(
+      static_cast<std::int32_t>(std::lround(std::clamp(value, least, most) * per_unit)));
+  for (const int shift : {24, 16, 8, 0}) data.push_back(static_cast<std::uint8_t>(raw >> shift));
+}
+
+bool is_command(Bytes frame, FrameId id, std::size_t length) {
+  const Scan found = CommandScanner::scan(frame.data(), frame.data() + frame.size());
+  return found.kind == Scan::Kind::frame && found.length == frame.size() && frame.size() == length &&
+         frame[0] == '@' && found.id == id;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_aid_position(const AidPosition& position) {
+  std::vector<std::uint8_t> data;
+  append_u32(data, position.latitude_deg, -kMostLatitude_deg, kMostLatitude_deg, kMilliarcsecondsPerDegree);
+  append_u32(data, position.longitude_deg, -kMostLongitude_deg, kMostLongitude_deg, kMilliarcsecondsPerDegree);
+  append_u32(data, position.height_m, kLeastHeight_m, kMostHeight_m, 100);
+  data.push_back(kGpsHeight);
+  return encode_frame(kGa, data);
+}
+
+std::vector<std::uint8_t> encode_aid_time(std::int64_t utc_ns) {
+  using std::chrono::floor;
+  const std::chrono::sys_time<std::chrono::nanoseconds> instant{std::chrono::nanoseconds(utc_ns)};
+  const auto day = floor<std::chrono::days>(instant);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss time(floor<std::chrono::seconds>(instant - day));
+  const auto year = static_cast<unsigned>(static_cast<int>(date.year()));
+  const auto u8 = [](auto value) { return static_cast<std::uint8_t>(value); };
+  const std::vector<std::uint8_t> data{u8(static_cast<unsigned>(date.month())),
+                                       u8(static_cast<unsigned>(date.day())),
+                                       u8(year >> 8),
+                                       u8(year),
+                                       u8(time.hours().count()),
+                                       u8(time.minutes().count()),
+                                       u8(time.seconds().count()),
+                                       0,
+                                       0,
+                                       0};
+  return encode_frame(kGb, data);
+}
+
+std::optional<AidPosition> parse_aid_position(Bytes frame) {
+  if (!is_command(frame, kGa, kGaLength)) return std::nullopt;
+  const AidPosition position{read_i32(&frame[4]) / kMilliarcsecondsPerDegree,
+                             read_i32(&frame[8]) / kMilliarcsecondsPerDegree, read_i32(&frame[12]) / 100.0};
+  const bool in_range = std::abs(position.latitude_deg) <= kMostLatitude_deg &&
+                        std::abs(position.longitude_deg) <= kMostLongitude_deg &&
+                        position.height_m >= kLeastHeight_m && position.height_m <= kMostHeight_m;
+  if (!in_range || frame[16] != kGpsHeight) return std::nullopt;
+  return position;
+}
+
+std::optional<std::int64_t> parse_aid_time(Bytes frame) {
+  if (!is_command(frame, kGb, kGbLength)) return std::nullopt;
+  const Date date{read_u16(&frame[6]), frame[4], frame[5]};
+  const TimeOfDay time{frame[8], frame[9], frame[10], 0};
+  const bool is_utc = frame[11] == 0 && frame[12] == 0 && frame[13] == 0;
+  if (!is_utc || !is_valid(date) || !is_valid(time)) return std::nullopt;
+  return unix_ns(date, time);
+}
+
+}  // namespace navcal::protocols::oncore

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/surfacing_run.h"
+#include "config/instruments.h"
+
+namespace navcal::report {
+
+/// Statistics over the surfacings; seconds. Nullopt where no surfacing has the value.
+struct SurfacingStatistics {
+  std::size_t count = 0;
+  std::size_t with_ttff = 0;  ///< whose time of surfacing is known
+  std::optional<double> least_s, median_s, mean_s, p90_s, longest_s;
+  std::size_t with_error = 0;
+  /// Root of the mean square of error over stated standard error: about 1 when the statement is right, below 1
+  /// when the true errors are smaller.
+  std::optional<double> error_over_std;
+};
+
+[[nodiscard]] SurfacingStatistics statistics_of(const std::vector<analysis::RecordedSurfacing>& surfacings);
+
+/// A table for people.
+[[nodiscard]] std::string surfacings_text(const std::vector<analysis::RecordedSurfacing>& surfacings);
+/// One JSON object (docs/surfacing.md), with a line feed.
+[[nodiscard]] std::string surfacings_json(const std::vector<analysis::RecordedSurfacing>& surfacings,
+                                          const std::vector<std::string>& files);
+/// One row of the table for each surfacing, after its heads.
+[[nodiscard]] std::vector<std::string> surfacing_heads();
+[[nodiscard]] std::vector<std::string> surfacing_row(const analysis::RecordedSurfacing& surfacing);
+/// The statistics as sentences.
+[[nodiscard]] std::vector<std::string> surfacing_sentences(const SurfacingStatistics& statistics);
+
+}  // namespace navcal::report
