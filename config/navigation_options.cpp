@@ -53,6 +53,38 @@ std::vector<Option<Settings>> navigation_options() {
            .low = 0,
            .high = 60},
           [](auto& s) -> auto& { return s.navigation.speed_lag_s; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "altitude_noise_m",
+           .description = "Noise of one reading of the altimeter, one standard deviation.",
+           .unit = kMetres,
+           .low = 0.001,
+           .high = 100},
+          [](auto& s) -> auto& { return s.navigation.altitude_noise_m; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "altimeter_range_m",
+           .description = "Greatest distance that the altimeter measures; readings beyond it are left out.",
+           .unit = kMetres,
+           .low = 0.1,
+           .high = 12000},
+          [](auto& s) -> auto& { return s.navigation.altimeter_range_m; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "min_altitude_m",
+           .description = "The alarm floor_near is raised when the height above the sea floor is less; 0: never.",
+           .unit = kMetres,
+           .low = 0,
+           .high = 1000},
+          [](auto& s) -> auto& { return s.navigation.min_altitude_m; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "floor_warning_s",
+           .description = "It is also raised when the height will be less within this time, as it changes now.",
+           .unit = kSeconds,
+           .low = 0,
+           .high = 60},
+          [](auto& s) -> auto& { return s.navigation.floor_warning_s; }),
   };
 }
 

@@ -33,7 +33,8 @@ Stages::Stages(const config::Settings& settings)
       field_(settings.environment),
       tilt_(TiltStage::make(settings)),
       calibration_(CalibrationStage::make(settings)),
-      navigation_(NavigationStage::make(settings)) {
+      navigation_(NavigationStage::make(settings)),
+      battery_(BatteryStage::make(settings)) {
   for (const auto& port : settings.ports) port_names_.push_back(port.name);
 }
 
@@ -50,6 +51,7 @@ void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, 
   if (calibration_) calibration_->correct(corrected);
   sink.on_sample(corrected);
   if (navigation_) navigation_->take(original, corrected, tilt_ ? tilt_->newest() : std::nullopt, mapping, sink);
+  if (battery_) battery_->take(corrected, navigation(mapping), mapping, sink);
   if (calibration_) calibration_->learn(original, sink);
 }
 

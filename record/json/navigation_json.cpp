@@ -53,6 +53,9 @@ void append_json(std::string& out, const pipeline::NavigationSample& sample) {
   }
   json.number("set_north_m_s", of_position(estimate, estimate.set_m_s.x()));
   json.number("set_east_m_s", of_position(estimate, estimate.set_m_s.y()));
+  json.number("altitude_m", sample.altitude_m);
+  json.number("altitude_std_m", sample.altitude_std_m);
+  json.number("water_depth_m", sample.water_depth_m);
   append_outage(json, sample);
   append_calibration(json, sample.calibration);
 }
