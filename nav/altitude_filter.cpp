@@ -21,9 +21,10 @@ bool AltitudeFilter::take(std::int64_t time_ns, double range_m, double pitch_rad
   if (cosine <= 0.1 || (time_ns_ && time_ns <= newest_ns_)) return false;
   const double altitude_m = range_m * cosine;
   const double tilt_rad = std::acos(std::fmin(cosine, 1.0));
-  const double variance_m2 =
-      std::pow(options_.noise_m * cosine, 2) + std::pow(range_m * std::sin(tilt_rad) * options_.tilt_error_rad, 2);
+  const double variance_m2 = std::pow(options_.noise_m * cosine, 2);
+  const double by_tilt_m = range_m * std::sin(tilt_rad) * options_.tilt_error_rad;
   newest_ns_ = time_ns;
+  by_tilt_m_ = by_tilt_m;
   if (!time_ns_ || time_ns - *time_ns_ > kAltitudePause_ns) {
     begin(altitude_m, variance_m2);
     return true;
@@ -31,7 +32,8 @@ bool AltitudeFilter::take(std::int64_t time_ns, double range_m, double pitch_rad
   const State before = predicted(static_cast<double>(time_ns - *time_ns_) * 1e-9);
   const double innovation_m = altitude_m - before.mean[0];
   const double innovation_m2 = before.covariance(0, 0) + variance_m2;
-  if (innovation_m * innovation_m > kOutlierStds * kOutlierStds * innovation_m2) {
+  const double gate_m2 = kOutlierStds * kOutlierStds * (innovation_m2 + by_tilt_m * by_tilt_m);
+  if (innovation_m * innovation_m > gate_m2) {
     if (++outliers_ < kOutliersInARow) return false;
     begin(altitude_m, variance_m2);
     return true;
@@ -71,8 +73,8 @@ std::optional<Altitude> AltitudeFilter::at(std::int64_t time_ns) const {
   if (!time_ns_ || time_ns - *time_ns_ > kAltitudePause_ns) return std::nullopt;
   const double duration_s = std::fmax(0.0, static_cast<double>(time_ns - *time_ns_) * 1e-9);
   const State state = predicted(duration_s);
-  return Altitude{std::fmax(0.0, state.mean[0]), std::sqrt(state.covariance(0, 0)), state.mean[1],
-                  std::sqrt(state.covariance(1, 1))};
+  return Altitude{std::fmax(0.0, state.mean[0]), std::hypot(std::sqrt(state.covariance(0, 0)), by_tilt_m_),
+                  state.mean[1], std::sqrt(state.covariance(1, 1))};
 }
 
 }  // namespace navcal::nav

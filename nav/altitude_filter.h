@@ -24,9 +24,10 @@ struct Altitude {
 /// Height above the sea floor from slant ranges: a Kalman filter with constant rate and white acceleration.
 ///
 /// The transducer looks along the body's z axis and the floor about it is level: altitude = range cos(pitch)
-/// cos(roll). A reading more than five standard deviations off is left out (a fish, a double echo); three of them
-/// in a row, or a pause of two seconds, begin the filter anew. Times never decrease; a reading that is not newer
-/// than the last one is left out. No memory is taken, and no clock read.
+/// cos(roll). The error of the tilt is the same for many readings: it is added to the standard deviation of the
+/// filter, not averaged. A reading more than five standard deviations off is left out (a fish, a double echo);
+/// three of them in a row, or a pause of two seconds, begin the filter anew. Times never decrease; a reading that
+/// is not newer than the last one is left out. No memory is taken, and no clock read.
 class AltitudeFilter {
  public:
   explicit AltitudeFilter(const AltitudeOptions& options) : options_(options) {}
@@ -49,6 +50,7 @@ class AltitudeFilter {
   std::optional<std::int64_t> time_ns_;  ///< of the newest reading that was used
   std::int64_t newest_ns_ = 0;           ///< of the newest reading
   State state_;
+  double by_tilt_m_ = 0;  ///< error by the tilt's, of the newest reading; one standard deviation
   int outliers_ = 0;
 };
 

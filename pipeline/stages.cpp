@@ -51,7 +51,11 @@ void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, 
   if (calibration_) calibration_->correct(corrected);
   sink.on_sample(corrected);
   if (navigation_) navigation_->take(original, corrected, tilt_ ? tilt_->newest() : std::nullopt, mapping, sink);
-  if (battery_) battery_->take(corrected, navigation(mapping), mapping, sink);
+  if (battery_) {
+    // An estimate costs some time: the speed is taken as often as the shaft's.
+    const bool is_motor = std::holds_alternative<instruments::MotorSample>(corrected.value);
+    battery_->take(corrected, is_motor ? navigation(mapping) : std::nullopt, mapping, sink);
+  }
   if (calibration_) calibration_->learn(original, sink);
 }
 
