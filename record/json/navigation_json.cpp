@@ -8,7 +8,7 @@
 namespace navcal::record {
 namespace {
 
-std::optional<double> degrees(const std::optional<double>& rad) {
+std::optional<double> degrees_of(const std::optional<double>& rad) {
   if (!rad) return std::nullopt;
   return *rad * base::kDegreesPerRadian;
 }
@@ -34,8 +34,8 @@ void append_json(std::string& out, const pipeline::NavigationSample& sample) {
   JsonObject json(out, "NAV");
   append_head(json, sample.stamp, pipeline::kNavigationDevice);
   json.text("position", name_of(sample.source));
-  json.number("lat", degrees(sample.latitude_rad));
-  json.number("lon", degrees(sample.longitude_rad));
+  json.number("lat", degrees_of(sample.latitude_rad));
+  json.number("lon", degrees_of(sample.longitude_rad));
   json.number("north_std_m", of_position(estimate, estimate.position_std_m.x()));
   json.number("east_std_m", of_position(estimate, estimate.position_std_m.y()));
   json.number("since_fix_s", of_position(estimate, estimate.since_fix_s));
