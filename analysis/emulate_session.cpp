@@ -16,6 +16,8 @@
 #include "devices/instrument_model.h"
 #include "ports/port.h"
 #include "protocols/device_types.h"
+#include "sim/instruments/altimeter.h"
+#include "sim/instruments/battery_gauge.h"
 #include "sim/instruments/emulators.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/tcm2.h"
@@ -64,6 +66,9 @@ std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments) 
   for (const EmulatedDevice& device : arguments.devices) {
     add(device.port, device.protocol, protocols::device_type(device.protocol).baud);
   }
+  const int nmea_baud = protocols::device_type(protocols::Protocol::nmea).baud;
+  if (arguments.battery_Ah) add("battery", protocols::Protocol::nmea, nmea_baud);
+  if (arguments.floor_depth_m) add("altimeter", protocols::Protocol::nmea, nmea_baud);
   return lines;
 }
 
@@ -119,6 +124,7 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   for (const EmulatedDevice& device : arguments.devices) {
     add(arguments, device.port, emulator_of(device, place.origin, *motion_, seeds));
   }
+  add_gauges(arguments, seeds);
 
   for (const StallPlan& plan : arguments.stalls) stall_regularly(plan);
   for (const UnplugPlan& plan : arguments.unplugs) {
@@ -169,6 +175,27 @@ void EmulateSession::add_vehicle_devices(const EmulateArguments& arguments, cons
     motor.obey = [this](std::int64_t t_ns, const auto& command) { ordered_->order(t_ns, command); };
   }
   add_own("motor", std::make_unique<sim::MotorCard>(motor, *motion_));
+}
+
+void EmulateSession::add_gauges(const EmulateArguments& arguments, sim::Noise& seeds) {
+  if (arguments.battery_Ah) {
+    sim::BatteryGauge::Options gauge;
+    gauge.battery.charge_Ah = *arguments.battery_Ah;
+    gauge.seed = next_seed(seeds);
+    if (arguments.no_noise) gauge.voltage_noise_V = gauge.current_noise_A = 0;
+    add(arguments, "battery", std::make_unique<sim::BatteryGauge>(gauge, *motion_));
+  }
+  if (arguments.floor_depth_m) {
+    sim::Altimeter::Options altimeter;
+    altimeter.floor.depth_m = *arguments.floor_depth_m;
+    if (arguments.floor_slope.size() == 2) {
+      altimeter.floor.slope_north = arguments.floor_slope[0];
+      altimeter.floor.slope_east = arguments.floor_slope[1];
+    }
+    altimeter.seed = next_seed(seeds);
+    if (arguments.no_noise) altimeter.noise_m = altimeter.lost = 0;
+    add(arguments, "altimeter", std::make_unique<sim::Altimeter>(altimeter, *motion_));
+  }
 }
 
 std::int64_t EmulateSession::now_ns() const { return ports::monotonic_ns() + utc_minus_monotonic_ns_; }

@@ -56,6 +56,10 @@ struct EmulateArguments {
   int compass_baud = 38400;
   sim::Oncore::Kind gps = sim::Oncore::Kind::twelve_channels;
   std::vector<EmulatedDevice> devices;
+  std::optional<double> battery_Ah;  ///< charge at the start of a battery, whose gauge is then at the port battery
+  std::optional<double>
+      floor_depth_m;                ///< of the sea floor below an altimeter, which is then at the port altimeter
+  std::vector<double> floor_slope;  ///< how much deeper it is for each metre north and east; empty: level
   double noise = 0;
   double drop = 0;
   std::vector<StallPlan> stalls;
@@ -87,6 +91,7 @@ class EmulateSession {
 
  private:
   void add_vehicle_devices(const EmulateArguments& arguments, const sim::Origin& origin, sim::Noise& seeds);
+  void add_gauges(const EmulateArguments& arguments, sim::Noise& seeds);
   void add(const EmulateArguments& arguments, std::string name, std::unique_ptr<sim::Device> device);
   void write_truth();
   [[nodiscard]] std::int64_t now_ns() const;

@@ -77,6 +77,13 @@ class Importer final : public pipeline::Sink {
     for (const auto& told : pipeline::events_of(sample))
       encoder_.event(text_, sample.stamp.arrival_ns, told.severity, told.name, "", told.message);
   }
+  void on_battery(const pipeline::BatterySample& sample) override { encoder_.battery(text_, sample); }
+  void on_alarm(const pipeline::AlarmChange& change) override {
+    const bool is_battery = change.alarm == pipeline::EstimateAlarm::battery_low;
+    encoder_.event(text_, change.time_ns, change.raised ? "alarm" : "info",
+                   change.raised ? "alarm.raised" : "alarm.cleared", ports_[change.port].name,
+                   (is_battery ? "battery_low: " : "floor_near: ") + change.words);
+  }
   void on_stream_event(const pipeline::StreamEvent& event) override {
     encoder_.event(text_, event.time_ns, event.severity, event.name, ports_[event.port].name, event.message);
   }

@@ -47,6 +47,7 @@ std::optional<std::string> Pilot::alarm(const Reading& reading, double now_s) co
   for (const std::string& alarm : reading.alarms) {
     if (alarm.find("leak") != std::string::npos) return alarm;
     if (alarm.find("supply") != std::string::npos) return alarm;
+    if (alarm == "battery low" || alarm == "floor near") return alarm;
   }
   if (is_silent(reading.compass_age_s, limits_.age_s)) return silence("compass", reading.compass_age_s);
   if (is_silent(reading.imu_age_s, limits_.age_s)) return silence("inertial card", reading.imu_age_s);
@@ -55,6 +56,8 @@ std::optional<std::string> Pilot::alarm(const Reading& reading, double now_s) co
   if (!reading.rate_rad_s || !reading.depth_m) return "inertial card: no turn rates or no depth";
   if (*reading.depth_m > limits_.depth_m)
     return fmt::format("depth {:.2f} m, more than {:g} m", *reading.depth_m, limits_.depth_m);
+  if (reading.altitude_m && *reading.altitude_m < limits_.altitude_m)
+    return fmt::format("{:.2f} m above the floor, less than {:g} m", *reading.altitude_m, limits_.altitude_m);
   if (elapsed_s(now_s) > limits_.duration_s)
     return fmt::format("{:.1f} minutes are over", limits_.duration_s / 60);
   const double range_m = std::hypot(offset_m_[0], offset_m_[1]);

@@ -15,6 +15,7 @@ namespace navcal::autopilot {
 /// Limits whose violation ends a mission early.
 struct PilotLimits {
   double depth_m = 10;
+  double altitude_m = 0;  ///< least height above the sea floor; 0: not watched
   double duration_s = 3600;
   double range_m = 1000;  ///< from where the mission began
   double age_s = 1;       ///< of the newest readings of compass, inertial card and motor card

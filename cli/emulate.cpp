@@ -82,6 +82,24 @@ void add_vehicle(CLI::App* command, analysis::EmulateArguments& arguments) {
           "the reference vehicle")
       ->expected(0, 1)
       ->option_text("[FILE.toml]");
+  command
+      ->add_option("--battery", arguments.battery_Ah,
+                   "a battery of 3.7 Ah with this charge at first; its gauge sends NMEA sentences at DIR/battery")
+      ->check(CLI::Range(0.0, 3.7))
+      ->option_text("AH");
+  CLI::Option* const floor =
+      command
+          ->add_option("--floor-depth", arguments.floor_depth_m,
+                       "depth of a sea floor; an altimeter sends NMEA sentences at DIR/altimeter")
+          ->check(CLI::Range(0.0, 11000.0))
+          ->option_text("METRES");
+  command
+      ->add_option("--floor-slope", arguments.floor_slope,
+                   "how much deeper that floor is for each metre north and east of the start")
+      ->expected(2)
+      ->check(CLI::Range(-10.0, 10.0))
+      ->option_text("NORTH EAST [0 0]")
+      ->needs(floor);
   command->add_option("--truth", arguments.truth, "the true motion, 100 rows a second; complete when it ends")
       ->option_text("FILE.csv");
 }

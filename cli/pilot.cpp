@@ -135,6 +135,13 @@ void add_limits(CLI::App* command, PilotCommandOptions& options) {
       ->capture_default_str()
       ->option_text("METRES [10]")
       ->group(group);
+  command
+      ->add_option("--min-altitude", options.limits.altitude_m,
+                   "nearer to the sea floor than this; 0: not watched")
+      ->check(CLI::Range(0.0, 10000.0))
+      ->capture_default_str()
+      ->option_text("METRES [0]")
+      ->group(group);
   command->add_option("--max-minutes", options.minutes, "under way for longer than this")
       ->check(CLI::Range(0.01, 100000.0))
       ->option_text("MINUTES [60]")
@@ -187,9 +194,9 @@ void add_pilot(CLI::App& app) {
       ->option_text("SECONDS [15]");
   add_limits(command, *options);
   command->footer(
-      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply, when a lease is "
-      "lost, "
-      "and on\nCtrl-C: the shaft is off, the fins steer to the surface for 5 s and are neutral after that.\n"
+      "The mission is done once. The vehicle is stopped at its end, on a leak, on low supply or battery, near "
+      "the sea floor,\nwhen a lease is lost, and on Ctrl-C: the shaft is off, the fins steer to the surface for 5 "
+      "s and are neutral after that.\n"
       "docs/pilot.md shows how to try it without water.\n\n"
       "Example: navcal pilot survey --control /run/navcal/control --max-depth 5");
   command->callback([options] {

@@ -51,6 +51,7 @@ std::optional<StateLine> parse_state(std::string_view line) {
   reading.roll_rad = number_at(report, "roll_rad");
   reading.rate_rad_s = vector(report, "rate_rad_s");
   reading.depth_m = number_at(report, "depth_m");
+  reading.altitude_m = number_at(report, "altitude_m");
   reading.latitude_rad = angle(report, "lat");
   reading.longitude_rad = angle(report, "lon");
   reading.speed_m_s = number_at(report, "speed_m_s");

@@ -15,6 +15,7 @@
 #include "cli/watch_text.h"
 #include "config/load.h"
 #include "pipeline/pipeline.h"
+#include "record/json/battery_json.h"
 #include "record/json/event_json.h"
 #include "record/json/navigation_json.h"
 #include "record/json/sample_json.h"
@@ -54,6 +55,21 @@ class Printer : public pipeline::Sink {
     line_ += '\n';
     output_.append(line_);
   }
+  void on_battery(const pipeline::BatterySample& sample) override {
+    line_.clear();
+    record::append_json(line_, sample, settings_.ports[sample.port].name);
+    line_ += '\n';
+    output_.append(line_);
+  }
+  void on_alarm(const pipeline::AlarmChange& change) override {
+    line_.clear();
+    const bool is_battery = change.alarm == pipeline::EstimateAlarm::battery_low;
+    record::append_event_json(line_, mapping_, change.time_ns, change.raised ? "alarm" : "info",
+                              change.raised ? "alarm.raised" : "alarm.cleared", settings_.ports[change.port].name,
+                              (is_battery ? "battery_low: " : "floor_near: ") + change.words);
+    line_ += '\n';
+    output_.append(line_);
+  }
   /// A command is printed as it was logged, because the result of an order does not follow from the bytes.
   void command(const record::LoggedCommand& command) { output_.append(command.json + '\n'); }
 
@@ -64,10 +80,15 @@ class Printer : public pipeline::Sink {
   std::string line_;
 };
 
-/// The daemon knows nothing of where the vehicle was in its last run, unlike its calibrations.
-bool is_daemon_start(const record::LoggedEvent& event) {
+/// The daemon knows nothing of where the vehicle was in its last run, unlike its calibrations. The battery's
+/// charge does not follow from the bytes.
+void take_event(const record::LoggedEvent& event, pipeline::Pipeline& pipeline, Printer& printer) {
   const auto json = nlohmann::json::parse(event.json, nullptr, false);
-  return json.is_object() && text(json, "name") == "daemon.start";
+  if (!json.is_object()) return;
+  if (text(json, "name") == "daemon.start") pipeline.begin_navigation_run();
+  if (text(json, "name") != "battery.set") return;
+  pipeline.advance(event.time_ns, printer);
+  if (const auto charge = record::battery_event_charge(text(json, "message"))) pipeline.set_battery(*charge);
 }
 
 /// Plays one file through the pipeline; files of one series may follow each other.
@@ -90,7 +111,7 @@ void play(record::Recording& recording, const std::string& file, pipeline::Pipel
         std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), problem.c_str());
     } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) {
       newest_ns = std::max(newest_ns, event->time_ns);
-      if (is_daemon_start(*event)) pipeline.begin_navigation_run();
+      take_event(*event, pipeline, printer);
     } else if (const auto* command = std::get_if<record::LoggedCommand>(&*entry)) {
       printer.command(*command);
     }

@@ -32,6 +32,9 @@ void append_navigation(std::string& out, const nlohmann::json& nav) {
   fmt::format_to(std::back_inserter(out), ", heading {} deg true, {} m/s, depth {} m",
                  shown(number(nav, "heading_rad") * base::kDegreesPerRadian, 1),
                  shown(number(nav, "speed_m_s"), 2), shown(number(nav, "depth_m"), 2));
+  if (!std::isnan(number(nav, "altitude_m"))) {
+    fmt::format_to(std::back_inserter(out), ", {} m above the floor", shown(number(nav, "altitude_m"), 1));
+  }
   if (is_reckoned(nav)) {
     fmt::format_to(std::back_inserter(out), ", RECKONED: {} s and {} m since the last fix",
                    shown(number(nav, "since_fix_s"), 0), shown(number(nav, "since_fix_m"), 0));

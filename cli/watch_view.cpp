@@ -98,7 +98,7 @@ void WatchView::append_sources(std::string& out) const {
   if (!sources_.is_object()) return;
   std::string line, port;
   for (const char* role :
-       {"heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft"}) {
+       {"heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft", "altitude"}) {
     const std::string server = text(sources_, role);
     if (server.empty()) continue;
     if (server == port) {
@@ -171,6 +171,19 @@ void WatchView::append_motor(std::string& out) const {
   }
 }
 
+void WatchView::append_battery(std::string& out) const {
+  const auto found = last_.find("BATTERY");
+  if (found == last_.end()) return;
+  for (const auto& [device, battery] : found->second) {
+    report::append_format(out, "{:<12}{} V, {} A, {} Ah (+-{}) or {} % left, {} min, {} m{}\n", "battery",
+                          shown(number(battery, "voltage_V"), 1), shown(number(battery, "current_A"), 2),
+                          shown(number(battery, "charge_Ah"), 2), shown(number(battery, "charge_std_Ah"), 2),
+                          shown(number(battery, "charge_percent"), 0),
+                          shown(number(battery, "time_left_s") / 60, 0), shown(number(battery, "range_left_m"), 0),
+                          battery.value("low", Json()) == true ? ", LOW" : "");
+  }
+}
+
 void WatchView::append_log(std::string& out) const { report::append_format(out, "{}\n", log_state(log_)); }
 
 void WatchView::append_time(std::string& out) const {
@@ -190,6 +203,7 @@ std::string WatchView::page(Colour colour) const {
   append_position(out);
   append_navigation(out, navigation_);
   append_motor(out);
+  append_battery(out);
   append_log(out);
   append_time(out);
   calibration_.append(out);

@@ -34,6 +34,7 @@ class WatchView {
   void append_attitude(std::string& out) const;
   void append_position(std::string& out) const;
   void append_motor(std::string& out) const;
+  void append_battery(std::string& out) const;
   void append_log(std::string& out) const;
   void append_time(std::string& out) const;
 

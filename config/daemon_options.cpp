@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "config/battery_options.h"
 #include "config/calibration_options.h"
 #include "config/command_options.h"
 #include "config/instrument_options.h"
@@ -164,6 +165,7 @@ std::vector<Option<Settings>> make_daemon_options() {
   for (auto& option : calibration_options()) options.push_back(std::move(option));
   for (auto& option : navigation_options()) options.push_back(std::move(option));
   for (auto& option : command_options()) options.push_back(std::move(option));
+  for (auto& option : battery_options()) options.push_back(std::move(option));
   return options;
 }
 

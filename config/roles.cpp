@@ -6,8 +6,8 @@
 namespace navcal::config {
 
 std::string_view name_of(Role role) {
-  constexpr std::array<std::string_view, kRoles.size()> kNames{"heading", "field",    "rates",    "acceleration",
-                                                               "depth",   "position", "velocity", "shaft"};
+  constexpr std::array<std::string_view, kRoles.size()> kNames{
+      "heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft", "altitude"};
   return kNames.at(static_cast<std::size_t>(role));
 }
 
@@ -29,9 +29,11 @@ bool can_deliver(protocols::Protocol protocol, Role role) {
     case Role::velocity:
       return delivers.velocity;
     case Role::shaft:
+      return delivers.shaft;
+    case Role::altitude:
       break;
   }
-  return delivers.shaft;
+  return delivers.altitude;
 }
 
 Role leader_of(Role role) {
@@ -47,6 +49,7 @@ Role leader_of(Role role) {
     case Role::rates:
     case Role::position:
     case Role::shaft:
+    case Role::altitude:
       break;
   }
   return role;

@@ -11,11 +11,11 @@
 namespace navcal::config {
 
 /// Quantities that navigation and calibration need. One device delivers each of them.
-enum class Role : std::uint8_t { heading, field, rates, acceleration, depth, position, velocity, shaft };
-inline constexpr std::array kRoles{Role::heading, Role::field,    Role::rates,    Role::acceleration,
-                                   Role::depth,   Role::position, Role::velocity, Role::shaft};
+enum class Role : std::uint8_t { heading, field, rates, acceleration, depth, position, velocity, shaft, altitude };
+inline constexpr std::array kRoles{Role::heading,  Role::field,    Role::rates, Role::acceleration, Role::depth,
+                                   Role::position, Role::velocity, Role::shaft, Role::altitude};
 
-/// "heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft".
+/// "heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft", "altitude".
 [[nodiscard]] std::string_view name_of(Role role);
 
 /// True when a device with that protocol can deliver the role.

@@ -143,7 +143,11 @@ struct NavigationSettings {
   double heading_error_calibrated_rad = 0.017453292519943295;  ///< 1 degree
   double speed_error = 0.05;                                   ///< of the speed by the shaft, relative
   double speed_lag_s = base::reference::kSpeedLag_s;           ///< of the vehicle's speed behind its shaft's
-  double max_error_m = 0;  ///< bound of the position error for the advice to surface, 95 %; 0: no advice
+  double max_error_m = 0;          ///< bound of the position error for the advice to surface, 95 %; 0: no advice
+  double altitude_noise_m = 0.1;   ///< of one reading of the altimeter, one standard deviation
+  double altimeter_range_m = 100;  ///< readings beyond it are left out
+  double min_altitude_m = 0;       ///< below it the floor is near; 0: not watched
+  double floor_warning_s = 3;      ///< the floor is also near when the altitude will be less within this time
 
   bool operator==(const NavigationSettings&) const = default;
 };
@@ -188,6 +192,28 @@ struct PowerSettings {
   bool operator==(const PowerSettings&) const = default;
 };
 
+/// The battery: counting of its charge, and what is known of the pack (docs/battery.md).
+struct BatterySettings {
+  bool enabled = false;
+  double capacity_Ah = 3.7;
+  double nominal_V = 21.6;
+  double hotel_A = 0.5;           ///< current of all but the motor, where only the motor's is measured
+  double hotel_error_A = 0.1;     ///< standard deviations from here on
+  double current_error = 0.05;    ///< of a measured current, relative, the same all along
+  double voltage_error_V = 0.15;  ///< of the curve, with the gauge's own
+  double rest_A = 0.6;            ///< up to this current the voltage tells the charge
+  double rest_s = 60;             ///< after so long a rest
+  double resistance_ohm = 0.2;
+  /// Open-circuit voltage at eight charges from empty to full, equally spaced; all 0: not known.
+  std::array<double, 8> curve_V{18.0, 20.7, 21.5, 21.9, 22.5, 23.2, 24.1, 25.1};
+  double low = 0.2;     ///< charge, relative to the capacity
+  double low_V = 0;     ///< voltage under load; 0: not watched
+  double mean_s = 120;  ///< time constant of the means of current and speed
+  double interval_s = 1;
+
+  bool operator==(const BatterySettings&) const = default;
+};
+
 struct Settings {
   LogSettings log;
   StatusSettings status;
@@ -198,6 +224,7 @@ struct Settings {
   CalibrationSettings calibration;
   NavigationSettings navigation;
   CommandSettings command;
+  BatterySettings battery;
   std::vector<PortSettings> ports;
   std::vector<PowerSettings> power;
 

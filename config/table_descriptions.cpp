@@ -28,6 +28,7 @@ constexpr std::array<Description, 15> kTableDescriptions{{
     {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
     {"command",
      "Orders to the motor card: limits, leases, and the state without anybody in charge (docs/control.md)."},
+    {"battery", "The battery: charge, time and range left (docs/battery.md)."},
     {"",
      "A serial port with its device. NAME (1 to 31 of a-z, 0-9, _ and -) is the device's name in reports, log and "
      "messages."},

@@ -40,6 +40,9 @@ inline constexpr Unit kSquareMetres{"m2"};
 inline constexpr Unit kKilograms{"kg"};
 inline constexpr Unit kKilogramsPerCubicMetre{"kg/m3"};
 inline constexpr Unit kAmperes{"A"};
+inline constexpr Unit kAmpereHours{"Ah"};
+inline constexpr Unit kVolts{"V"};
+inline constexpr Unit kOhms{"ohm"};
 inline constexpr Unit kAmperesSecondsCubed{"A s3"};
 inline constexpr Unit kRpm{"rpm", 1, 60};
 /// Units of the motor card, unlike the two above: orders are compared with limits in the card's own units.

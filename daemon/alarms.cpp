@@ -17,6 +17,8 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
     case Alarm::low_supply:
       return imu.low_supply;
     case Alarm::command_not_echoed:
+    case Alarm::battery_low:
+    case Alarm::floor_near:
       break;
   }
   return false;
@@ -34,6 +36,10 @@ std::string_view name_of(Alarm alarm) {
       return "over_range";
     case Alarm::low_supply:
       return "low_supply";
+    case Alarm::battery_low:
+      return "battery_low";
+    case Alarm::floor_near:
+      return "floor_near";
     case Alarm::command_not_echoed:
       break;
   }

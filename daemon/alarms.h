@@ -10,10 +10,18 @@
 
 namespace navcal::daemon {
 
-/// The first four are the inertial card's; the last is the motor card's.
-enum class Alarm : std::uint8_t { leak_forward, leak_aft, over_range, low_supply, command_not_echoed };
+/// The first four are the inertial card's, then the motor card's; the last two follow from estimates.
+enum class Alarm : std::uint8_t {
+  leak_forward,
+  leak_aft,
+  over_range,
+  low_supply,
+  command_not_echoed,
+  battery_low,
+  floor_near
+};
 
-/// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed".
+/// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed", "battery_low", "floor_near".
 [[nodiscard]] std::string_view name_of(Alarm alarm);
 inline constexpr std::array kCardAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range,
                                         Alarm::low_supply};

@@ -46,10 +46,8 @@ std::string describe_instruments(const config::Settings& settings) {
 CalibrationStore::CalibrationStore(const config::Settings& settings)
     : file_(settings.log.directory / "calibration.state"), instruments_(describe_instruments(settings)) {}
 
-CalibrationStore::~CalibrationStore() { stop(); }
-
 std::optional<std::string> CalibrationStore::load() {
-  auto read = record::read_checked(file_);
+  auto read = record::read_checked(file());
   switch (read.state) {
     case record::CheckedContent::State::absent:
       return std::nullopt;
@@ -75,58 +73,15 @@ std::optional<std::string> CalibrationStore::load() {
 void CalibrationStore::reject(std::string_view reason) { keep_aside(".void", reason); }
 
 void CalibrationStore::keep_aside(std::string_view suffix, std::string_view reason) {
-  const std::filesystem::path aside = file_.string() + std::string(suffix);
+  const std::filesystem::path aside = file().string() + std::string(suffix);
   std::error_code error;
-  std::filesystem::rename(file_, aside, error);
-  note(fmt::format("{} is not used: {}; {}; the calibrators begin anew", file_.string(), reason,
-                   error ? "it cannot be renamed: " + error.message() : "kept as " + aside.string()));
+  std::filesystem::rename(file(), aside, error);
+  file_.note(fmt::format("{} is not used: {}; {}; the calibrators begin anew", file().string(), reason,
+                         error ? "it cannot be renamed: " + error.message() : "kept as " + aside.string()));
 }
 
 void CalibrationStore::save(std::string state) {
-  const std::lock_guard lock(mutex_);
-  if (stopping_) return;
-  waiting_ = instruments_ + std::string(kSeparator.substr(1)) + std::move(state);
-  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
-  wake_.notify_one();
-}
-
-void CalibrationStore::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    wake_.notify_one();
-  }
-  if (thread_.joinable()) thread_.join();
-}
-
-void CalibrationStore::run() {
-  for (;;) {
-    std::string content;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return waiting_ || stopping_; });
-      if (!waiting_) return;
-      content = *std::exchange(waiting_, std::nullopt);
-    }
-    std::error_code error;
-    std::filesystem::create_directories(file_.parent_path(), error);
-    if (!error) error = record::write_checked(file_, content);
-    if (error && !std::exchange(failing_, true)) {
-      note(fmt::format("{} cannot be written: {}", file_.string(), error.message()));
-    } else if (!error && std::exchange(failing_, false)) {
-      note(fmt::format("{} can be written again", file_.string()));
-    }
-  }
-}
-
-void CalibrationStore::note(std::string notice) {
-  const std::lock_guard lock(mutex_);
-  notices_.push_back(std::move(notice));
-}
-
-std::vector<std::string> CalibrationStore::take_notices() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(notices_, {});
+  file_.save(instruments_ + std::string(kSeparator.substr(1)) + std::move(state));
 }
 
 }  // namespace navcal::daemon

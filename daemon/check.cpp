@@ -148,6 +148,13 @@ std::string describe(const config::Settings& settings) {
   } else {
     line(fmt::runtime("navigation: off"));
   }
+  const auto& battery = settings.battery;
+  if (battery.enabled) {
+    line(fmt::runtime("battery: {} Ah, {} V, low below {} %"), battery.capacity_Ah, battery.nominal_V,
+         100 * battery.low);
+  } else {
+    line(fmt::runtime("battery: not counted"));
+  }
   append_command(out, settings);
   line(fmt::runtime("status: TCP {} port {}, at most {} clients"), settings.status.address, settings.status.port,
        settings.status.max_clients);

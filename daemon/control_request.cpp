@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, ControlCommand>, 19> kCommands{{
+constexpr std::array<std::pair<std::string_view, ControlCommand>, 21> kCommands{{
     {"event", ControlCommand::event},
     {"log.rotate", ControlCommand::log_rotate},
     {"log.start", ControlCommand::log_start},
@@ -33,6 +33,8 @@ constexpr std::array<std::pair<std::string_view, ControlCommand>, 19> kCommands{
     {"motor.lease", ControlCommand::motor_lease},
     {"motor.order", ControlCommand::motor_order},
     {"motor.release", ControlCommand::motor_release},
+    {"battery.full", ControlCommand::battery_full},
+    {"battery.set", ControlCommand::battery_set},
     {"status", ControlCommand::status},
 }};
 
@@ -161,6 +163,17 @@ std::string take_supply(const Json& object, ControlRequest& request) {
   return {};
 }
 
+std::string take_charge(const Json& object, ControlRequest& request) {
+  double charge_Ah = 0;
+  double std_Ah = 0;
+  if (!object.contains("charge_Ah") || !take_number(object, "charge_Ah", charge_Ah))
+    return "charge_Ah is a number";
+  if (!take_number(object, "charge_std_Ah", std_Ah)) return "charge_std_Ah is a number";
+  request.charge_Ah = charge_Ah;
+  if (object.contains("charge_std_Ah")) request.charge_std_Ah = std_Ah;
+  return {};
+}
+
 /// What a command has beside the keys that every command may have.
 std::string take_own(const Json& object, ControlRequest& request) {
   switch (request.command) {
@@ -180,6 +193,8 @@ std::string take_own(const Json& object, ControlRequest& request) {
       return take_order(object, request);
     case ControlCommand::motor_release:
       return take_token(object, request);
+    case ControlCommand::battery_set:
+      return take_charge(object, request);
     default:
       return {};
   }

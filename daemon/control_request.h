@@ -37,6 +37,8 @@ enum class ControlCommand {
   motor_lease,
   motor_order,
   motor_release,
+  battery_full,
+  battery_set,
   status,
 };
 
@@ -49,6 +51,8 @@ struct ControlRequest {
   control::LeaseRequest lease_request;     ///< of motor.lease
   std::string lease;                       ///< of motor.order and motor.release
   control::Order order;                    ///< of motor.order
+  std::optional<double> charge_Ah;         ///< of battery.set
+  std::optional<double> charge_std_Ah;     ///< likewise
   std::optional<double> state_time_utc_s;  ///< of motor.order: the STATE that it answers
   std::string name;                        ///< of power.on and power.off: the supply
   std::string file;                        ///< of log.read and log.sum; of log.list: the one before the first

@@ -45,6 +45,7 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
           [this](std::uint64_t client) { control_client_gone(client); }),
       log_(settings_, started_ns_, first_mapping()),
       calibrations_(settings_, pipeline_, log_, server_),
+      battery_(settings_),
       publisher_(settings_, server_),
       notifier_(executor),
       motor_port_(daemon::motor_port(settings_)),
@@ -71,6 +72,7 @@ void Daemon::start() {
   watch_system_clock();
   calibrations_.begin(ports::monotonic_ns());
   power_.begin(ports::monotonic_ns());
+  if (const auto charge = battery_.load()) set_battery(*charge, "of the last run");
   for (const auto& session : sessions_) session->start();
   server_.start();
   control_.start();
@@ -99,6 +101,7 @@ void Daemon::finish() {
   const std::int64_t now_ns = ports::monotonic_ns();
   for (const std::string& line : health(now_ns)) log_.health(now_ns, line + "}");
   calibrations_.stop(now_ns);
+  battery_.stop();
   log_.finish(now_ns);
   for (const std::string& notice : log_.take_notices()) spdlog::warn("log: {}", notice);
 }
@@ -244,6 +247,7 @@ void Daemon::tick() {
   calibrations_.tick(now_ns);
   for (const std::string& notice : calibrations_.take_notices())
     event(now_ns, "warning", "calibration.notice", "", notice);
+  for (const std::string& notice : battery_.take_notices()) event(now_ns, "warning", "battery.notice", "", notice);
   for (const std::string& notice : log_.take_notices()) event(now_ns, "warning", "log.notice", "", notice);
   for (const std::string& notice : motor_ ? motor_->take_notices() : std::vector<std::string>())
     event(now_ns, "warning", "motor.notice", "", notice);

@@ -11,6 +11,7 @@
 
 #include "config/settings.h"
 #include "daemon/alarms.h"
+#include "daemon/battery_keeper.h"
 #include "daemon/calibrations.h"
 #include "daemon/control_server.h"
 #include "daemon/lazy_timer.h"
@@ -56,6 +57,8 @@ class Daemon : private pipeline::Sink,
   void on_calibration(const pipeline::CalibrationChange& change) override;
   void on_field_step(const calib::FieldStep& step, std::int64_t now_ns) override;
   void on_navigation(const pipeline::NavigationSample& sample) override;
+  void on_battery(const pipeline::BatterySample& sample) override;
+  void on_alarm(const pipeline::AlarmChange& change) override;
   void on_stream_event(const pipeline::StreamEvent& event) override;
   void on_earth_field(const pipeline::EarthField& field) override;
   // PortOwner
@@ -96,6 +99,8 @@ class Daemon : private pipeline::Sink,
   [[nodiscard]] std::string answer_log_select(const ControlRequest& request);
   void start_log();
   void stop_log();
+  [[nodiscard]] std::string answer_battery(const ControlRequest& request);
+  void set_battery(const pipeline::BatteryCharge& charge, std::string_view cause);
   void control_client_gone(std::uint64_t client);
   /// STATE at its rates, and the next ring of its timer.
   void ring_state();
@@ -126,6 +131,7 @@ class Daemon : private pipeline::Sink,
   ControlServer control_;
   LogWriter log_;  ///< after the sockets: a second daemon must not begin a file before it finds them taken
   Calibrations calibrations_;
+  BatteryKeeper battery_;
   Publisher publisher_;
   Notifier notifier_;
   Alarms alarms_;

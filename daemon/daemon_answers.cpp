@@ -83,6 +83,9 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
     case ControlCommand::motor_release:
       if (!motor_) return control_error(why_no_orders(settings_));
       return motor_->answer(request, origin);
+    case ControlCommand::battery_full:
+    case ControlCommand::battery_set:
+      return answer_battery(request);
     case ControlCommand::status:
       break;
   }

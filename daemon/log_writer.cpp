@@ -80,6 +80,10 @@ void LogWriter::navigation(const pipeline::NavigationSample& sample) {
   append([&](std::string& out) { encoder_.navigation(out, sample); });
 }
 
+void LogWriter::battery(const pipeline::BatterySample& sample) {
+  append([&](std::string& out) { encoder_.battery(out, sample); });
+}
+
 void LogWriter::mapping(std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
   mapping_ = mapping;
   append([&](std::string& out) { encoder_.mapping(out, now_ns, mapping); });

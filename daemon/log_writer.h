@@ -33,6 +33,7 @@ class LogWriter {
   void raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns, protocols::Bytes bytes);
   void sample(const instruments::Sample& sample);
   void navigation(const pipeline::NavigationSample& sample);
+  void battery(const pipeline::BatterySample& sample);
   void mapping(std::int64_t now_ns, const pipeline::UtcMapping& mapping);
   void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
              std::string_view message);

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "daemon/json_text.h"
+#include "record/json/battery_json.h"
 #include "record/json/navigation_json.h"
 #include "record/json/sample_json.h"
 
@@ -28,6 +29,7 @@ ReportClass class_of(const instruments::Sample& sample) {
                         [](const instruments::SkySample&) { return ReportClass::sky; },
                         [](const instruments::MotorSample&) { return ReportClass::motor; },
                         [](const instruments::AltimeterSample&) { return ReportClass::altimeter; },
+                        [](const instruments::PowerSample&) { return ReportClass::power; },
                     },
                     sample.value);
 }
@@ -69,6 +71,14 @@ void Publisher::navigation(const pipeline::NavigationSample& sample) {
   report_.clear();
   append_tpv(report_, sample, utc_known_);
   server_.publish(ReportClass::tpv, device, report_);
+}
+
+void Publisher::battery(const pipeline::BatterySample& sample) {
+  if (!server_.watched(ReportClass::battery, sample.port)) return;
+  report_.clear();
+  record::append_json(report_, sample, settings_.ports[sample.port].name);
+  report_ += '\n';
+  server_.publish(ReportClass::battery, sample.port, report_);
 }
 
 void Publisher::append(const instruments::Sample& sample, ReportSource source) {

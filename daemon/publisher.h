@@ -10,6 +10,7 @@
 #include "daemon/gpsd_reports.h"
 #include "daemon/status_server.h"
 #include "instruments/samples.h"
+#include "pipeline/battery.h"
 #include "pipeline/navigation.h"
 
 namespace navcal::daemon {
@@ -29,6 +30,8 @@ class Publisher {
   /// Publishes NAV to all clients. While no fix is current it also publishes TPV, because the receivers' own
   /// TPV then has no position.
   void navigation(const pipeline::NavigationSample& sample);
+  /// Publishes BATTERY; its device is the instrument whose sample called for it.
+  void battery(const pipeline::BatterySample& sample);
   void set_earth_field(const pipeline::EarthField& field) { earth_field_ = field; }
   /// False while UTC is unknown, so that reports omit their times.
   void set_utc_known(bool known) { utc_known_ = known; }

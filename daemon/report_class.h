@@ -23,9 +23,11 @@ enum class ReportClass : std::uint8_t {
   log,
   calib,
   device,
-  state
+  state,
+  power,
+  battery
 };
-inline constexpr std::size_t kReportClasses = 12;
+inline constexpr std::size_t kReportClasses = 14;
 
 /// "TPV", "SKY", ...
 [[nodiscard]] std::string_view name_of(ReportClass report);

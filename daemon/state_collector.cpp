@@ -140,7 +140,17 @@ VehicleState StateCollector::at(std::int64_t now_ns) {
     }
   }
   take_estimate(state, last, now_ns);
+  take_battery(state);
   return state;
+}
+
+void StateCollector::take_battery(VehicleState& state) const {
+  const auto battery = pipeline_.battery();
+  if (!battery) return;
+  state.battery_V = battery->voltage_V;
+  if (!battery->charge) return;
+  state.charge_Ah = battery->charge->charge_Ah;
+  state.charge_std_Ah = battery->charge->std_Ah;
 }
 
 /// Takes attitude and depth as the instruments measured them; used without an estimator.
@@ -164,6 +174,8 @@ void StateCollector::take_estimate(VehicleState& state, const Last& last, std::i
   const auto navigation = pipeline_.navigation();
   if (!navigation) return take_compass(state, last);
   const nav::Estimate& estimate = navigation->estimate;
+  state.altitude_m = navigation->altitude_m;
+  state.altitude_std_m = navigation->altitude_std_m;
   const double ahead_s = std::clamp(seconds_between(estimate.time_ns, now_ns), 0.0, kMostCarried_s);
   AngleRates rates;
   if (state.rate_rad_s && state.imu_age_s < kMostCarried_s)

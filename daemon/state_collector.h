@@ -55,6 +55,7 @@ class StateCollector {
   /// Newest readings of the devices in use.
   [[nodiscard]] Last serving() const;
   void take_estimate(VehicleState& state, const Last& last, std::int64_t now_ns);
+  void take_battery(VehicleState& state) const;
   void take_compass(VehicleState& state, const Last& last) const;
 
   const config::Settings& settings_;

@@ -93,6 +93,12 @@ void append_state(std::string& out, const VehicleState& state) {
   out += '}';
   append_alarm_words(out, state.alarms);
   append_motor(out, state);
+  append_member(out, ",\"altitude_m\":", state.altitude_m, 3);
+  append_member(out, ",\"altitude_std_m\":", state.altitude_std_m, 3);
+  append_member(out, ",\"battery\":{\"voltage_V\":", state.battery_V, 3);
+  append_member(out, ",\"charge_Ah\":", state.charge_Ah, 4);
+  append_member(out, ",\"charge_std_Ah\":", state.charge_std_Ah, 4);
+  out += '}';
   out += "}\n";
 }
 

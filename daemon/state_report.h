@@ -30,6 +30,8 @@ struct VehicleState {
   double expires_in_s = 0;
   std::uint64_t order_sequence = 0;  ///< 0: no order yet
   std::optional<double> order_late_s;
+  std::optional<double> altitude_m, altitude_std_m;  ///< above the sea floor
+  std::optional<double> battery_V, charge_Ah, charge_std_Ah;
 };
 
 /// Appends one line, newline included.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "instruments/nmea_device.h"
 
+#include <cmath>
+#include <string_view>
+
 #include "base/angles.h"
 #include "instruments/units.h"
 #include "protocols/nmea_attitude.h"
@@ -36,20 +39,45 @@ Verdict read_rot(const nmea::Sentence& sentence, Receiver& receiver) {
   return hand_over(sample, false, receiver);
 }
 
+constexpr double kMaxVoltage_V = 1000;
+constexpr double kMaxCurrent_A = 1000;
+
+// A gauge of the pack names itself BATTERY, or BATTERY#0 where it numbers several (the first one counts).
+bool is_battery(std::string_view name) { return name == "BATTERY" || name == "BATTERY#0"; }
+
+/// False when the value cannot be.
+bool read_gauge(const nmea::Xdr::Transducer& transducer, PowerSample& power) {
+  if (!transducer.value || !is_battery(transducer.name)) return true;
+  const double value = transducer.value->value();
+  if (transducer.type == 'U' && transducer.unit == 'V') {
+    power.voltage_V = value;
+    return value >= 0 && value <= kMaxVoltage_V;
+  }
+  if (transducer.type == 'I' && transducer.unit == 'A') {
+    power.current_A = value;
+    return std::abs(value) <= kMaxCurrent_A;
+  }
+  return true;
+}
+
 // Names in use for tilt: PITCH, PTCH (pypilot, Airmar), ROLL. Other transducers have no unit that can be relied
 // on.
 Verdict read_xdr(const nmea::Sentence& sentence, Receiver& receiver) {
   const auto xdr = nmea::decode_xdr(sentence);
   if (!xdr) return Verdict::out_of_range;
   CompassSample sample;
+  PowerSample power;
   for (std::size_t i = 0; i < xdr->count; ++i) {
     const auto& transducer = xdr->transducers[i];
+    if (!read_gauge(transducer, power)) return Verdict::out_of_range;
     if (transducer.type != 'A' || transducer.unit != 'D' || !transducer.value) continue;
     const double angle_rad = transducer.value->value() * base::kRadiansPerDegree;
     if (transducer.name == "PITCH" || transducer.name == "PTCH") sample.pitch_rad = angle_rad;
     if (transducer.name == "ROLL") sample.roll_rad = angle_rad;
   }
-  if (!sample.pitch_rad && !sample.roll_rad) return Verdict::ignored;
+  const bool has_power = power.voltage_V || power.current_A;
+  if (has_power) hand_over(power, false, receiver);
+  if (!sample.pitch_rad && !sample.roll_rad) return has_power ? Verdict::used : Verdict::ignored;
   return hand_over(sample, false, receiver);
 }
 

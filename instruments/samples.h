@@ -100,11 +100,17 @@ struct AltimeterSample {
   double altitude_m = 0;
 };
 
+/// Gauge of a battery (XDR). At least one member is present.
+struct PowerSample {
+  std::optional<double> voltage_V;  ///< across the pack's terminals, under load
+  std::optional<double> current_A;  ///< whole current out of the pack; negative while it is charged
+};
+
 struct Sample {
   std::uint16_t port = 0;  ///< index into the configuration's ports
   Stamp stamp;
   CalibrationName calibration;
-  std::variant<CompassSample, ImuSample, GpsSample, SkySample, MotorSample, AltimeterSample> value;
+  std::variant<CompassSample, ImuSample, GpsSample, SkySample, MotorSample, AltimeterSample, PowerSample> value;
 };
 
 }  // namespace navcal::instruments

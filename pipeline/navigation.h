@@ -34,6 +34,9 @@ struct NavigationSample {
   nav::Estimate estimate;  ///< its north and east are of no interest outside: they have an origin of their own
   PositionSource source = PositionSource::none;
   std::optional<double> latitude_rad, longitude_rad;  ///< WGS84
+  /// Height of the altimeter above the sea floor, straight down, its standard deviation, and the depth of the
+  /// water there; nullopt without an altimeter, and soon after its last reading.
+  std::optional<double> altitude_m, altitude_std_m, water_depth_m;
   /// A stretch without fixes that has just ended, and how far off it would have ended without calibrations.
   std::optional<nav::Outage> outage;
   std::optional<double> outage_error_uncalibrated_m;

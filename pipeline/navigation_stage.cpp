@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/navigation_stage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -40,6 +42,13 @@ nav::Options navigation_options(const config::Settings& settings) {
   return options;
 }
 
+nav::AltitudeOptions altitude_options(const config::NavigationSettings& settings) {
+  nav::AltitudeOptions options;
+  options.noise_m = settings.altitude_noise_m;
+  options.range_m = settings.altimeter_range_m;
+  return options;
+}
+
 std::unique_ptr<NavigationStage> NavigationStage::make(const config::Settings& settings) {
   const auto has = [&](Role role) { return !candidates(settings, role).empty(); };
   const bool something = has(Role::heading) || has(Role::rates) || has(Role::position);
@@ -57,7 +66,9 @@ NavigationStage::NavigationStage(const config::Settings& settings)
       calibrated_(options_),
       uncalibrated_(options_),
       positions_m_(mounted_positions_m(settings)),
-      surfacings_(gps_.antenna_depth_m) {}
+      surfacings_(gps_.antenna_depth_m),
+      altitude_(altitude_options(settings.navigation)),
+      floor_(settings.navigation) {}
 
 void NavigationStage::begin_run() {
   calibrated_ = uncalibrated_ = nav::Navigator(options_);
@@ -68,6 +79,7 @@ void NavigationStage::begin_run() {
   surfacings_ = SurfacingWatch(gps_.antenna_depth_m);
   surfacing_.reset();
   surface_news_ = {};
+  altitude_ = nav::AltitudeFilter(altitude_.options());
   told_ = 0;
 }
 
@@ -112,6 +124,8 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
     }
     if (corrected.port != ports_[Role::position]) return;
     feed_fix(corrected, *gps);
+  } else if (const auto* altimeter = std::get_if<instruments::AltimeterSample>(&corrected.value)) {
+    if (corrected.port == ports_[Role::altitude]) feed_altitude(corrected, *altimeter, sink);
   }
   tell(corrected, mapping, sink);
 }
@@ -196,6 +210,19 @@ std::optional<instruments::Sample> NavigationStage::at_origin(const instruments:
   return moved;
 }
 
+void NavigationStage::feed_altitude(const instruments::Sample& sample,
+                                    const instruments::AltimeterSample& altimeter, Sink& sink) {
+  const nav::Estimate estimate = calibrated_.estimate();
+  const std::int64_t time_ns = sample.stamp.validity_ns;
+  if (!altitude_.take(time_ns, altimeter.altitude_m, estimate.pitch_rad.value_or(0),
+                      estimate.roll_rad.value_or(0)))
+    return;
+  const auto altitude = altitude_.at(time_ns);
+  if (!altitude || !floor_.take(time_ns, *altitude)) return;
+  sink.on_alarm({EstimateAlarm::floor_near, floor_.is_near(), sample.port, sample.stamp.arrival_ns,
+                 fmt::format("{:.1f} m above the floor, {:+.2f} m/s", altitude->altitude_m, altitude->rate_m_s)});
+}
+
 void NavigationStage::tell(const instruments::Sample& trigger, const UtcMapping& mapping, Sink& sink) {
   if (!calibrated_.started()) return;
   const auto outage = calibrated_.take_outage();
@@ -225,6 +252,11 @@ std::optional<NavigationSample> NavigationStage::newest(const UtcMapping& mappin
   sample.estimate = calibrated_.estimate();
   sample.stamp.validity_ns = sample.estimate.time_ns;
   sample.stamp.validity_utc_ns = mapping.to_utc(sample.estimate.time_ns);
+  if (const auto altitude = altitude_.at(sample.estimate.time_ns)) {
+    sample.altitude_m = altitude->altitude_m;
+    sample.altitude_std_m = altitude->std_m;
+    if (sample.estimate.depth_m) sample.water_depth_m = *sample.estimate.depth_m + altitude->altitude_m;
+  }
   if (const auto& position_m = sample.estimate.position_m; position_m && plane_) {
     const auto place = plane_->place(position_m->x(), position_m->y());
     sample.latitude_rad = place.latitude_rad;

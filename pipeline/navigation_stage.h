@@ -8,8 +8,10 @@
 #include "base/local_plane.h"
 #include "config/settings.h"
 #include "instruments/samples.h"
+#include "nav/altitude_filter.h"
 #include "nav/navigator.h"
 #include "pipeline/calibration_options.h"
+#include "pipeline/floor_watch.h"
 #include "pipeline/navigation.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sources.h"
@@ -50,6 +52,7 @@ class NavigationStage {
             bool calibrated);
   void feed_tilt(const nav::TiltReading& tilt);
   void feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps);
+  void feed_altitude(const instruments::Sample& sample, const instruments::AltimeterSample& altimeter, Sink& sink);
   void tell(const instruments::Sample& trigger, const UtcMapping& mapping, Sink& sink);
 
   RolePorts ports_;
@@ -70,10 +73,13 @@ class NavigationStage {
   SurfacingWatch surfacings_;
   std::optional<Surfacing> surfacing_;  ///< not told yet
   SurfaceNewsWatch surface_news_;
+  nav::AltitudeFilter altitude_;
+  FloorWatch floor_;
   std::int64_t told_ = 0;  ///< intervals of the monotonic clock, up to the one that was last told of
 };
 
 /// Configuration of the estimator, in its units.
 [[nodiscard]] nav::Options navigation_options(const config::Settings& settings);
+[[nodiscard]] nav::AltitudeOptions altitude_options(const config::NavigationSettings& settings);
 
 }  // namespace navcal::pipeline

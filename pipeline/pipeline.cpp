@@ -124,6 +124,14 @@ std::optional<NavigationSample> Pipeline::navigation() const { return state_->st
 
 void Pipeline::begin_navigation_run() { state_->stages.begin_navigation_run(); }
 
+void Pipeline::set_battery(const BatteryCharge& charge) {
+  if (state_->stages.battery()) state_->stages.battery()->set(charge);
+}
+
+std::optional<BatterySample> Pipeline::battery() const {
+  return state_->stages.battery() ? state_->stages.battery()->newest() : std::nullopt;
+}
+
 RolePorts Pipeline::sources() const { return state_->stages.sources().delivering(); }
 const EarthField& Pipeline::earth_field() const { return state_->stages.earth_field(); }
 

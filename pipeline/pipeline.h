@@ -11,6 +11,8 @@
 #include "config/settings.h"
 #include "instruments/clock_state.h"
 #include "instruments/samples.h"
+#include "pipeline/alarm_change.h"
+#include "pipeline/battery.h"
 #include "pipeline/calibration.h"
 #include "pipeline/earth_field.h"
 #include "pipeline/navigation.h"
@@ -48,6 +50,10 @@ class Sink {
   virtual void on_earth_field(const EarthField& /*field*/) {}
   /// Where the vehicle is thought to be, at the interval of the configuration.
   virtual void on_navigation(const NavigationSample& /*sample*/) {}
+  /// Charge of the battery, at the interval of the configuration.
+  virtual void on_battery(const BatterySample& /*sample*/) {}
+  /// An alarm that follows from an estimate was raised or cleared.
+  virtual void on_alarm(const AlarmChange& /*change*/) {}
 };
 
 /// Statistics of one port's stream, counted from the beginning.
@@ -105,6 +111,12 @@ class Pipeline {
 
   /// The estimate of now, between its reports; nullopt without an estimator, and before anything came.
   [[nodiscard]] std::optional<NavigationSample> navigation() const;
+
+  /// The battery's charge is known from here on, with one standard deviation. Does nothing where the battery is
+  /// not counted (battery.enabled).
+  void set_battery(const BatteryCharge& charge);
+  /// The newest estimate; nullopt where the battery is not counted, and before anything came.
+  [[nodiscard]] std::optional<BatterySample> battery() const;
 
   /// Which port serves which role now, of those that have delivered.
   [[nodiscard]] RolePorts sources() const;

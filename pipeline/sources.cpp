@@ -47,6 +47,12 @@ RoleSet roles_of(const instruments::MotorSample& motor) {
   return roles;
 }
 
+RoleSet roles_of(const instruments::AltimeterSample&) {
+  RoleSet roles;
+  roles.add(Role::altitude);
+  return roles;
+}
+
 template <class Other>
 RoleSet roles_of(const Other&) {
   return {};

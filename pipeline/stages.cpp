@@ -33,7 +33,8 @@ Stages::Stages(const config::Settings& settings)
       field_(settings.environment),
       tilt_(TiltStage::make(settings)),
       calibration_(CalibrationStage::make(settings)),
-      navigation_(NavigationStage::make(settings)) {
+      navigation_(NavigationStage::make(settings)),
+      battery_(BatteryStage::make(settings)) {
   for (const auto& port : settings.ports) port_names_.push_back(port.name);
 }
 
@@ -53,6 +54,11 @@ void Stages::take(const instruments::Sample& sample, const UtcMapping& mapping, 
   if (navigation_) {
     navigation_->take(original, placed ? *placed : corrected, tilt_ ? tilt_->newest() : std::nullopt, mapping,
                       sink);
+  }
+  if (battery_) {
+    // An estimate costs some time: the speed is taken as often as the shaft's.
+    const bool is_motor = std::holds_alternative<instruments::MotorSample>(corrected.value);
+    battery_->take(corrected, is_motor ? navigation(mapping) : std::nullopt, mapping, sink);
   }
   if (calibration_) calibration_->learn(placed ? *placed : original, sink);
 }

@@ -6,6 +6,7 @@
 
 #include "config/settings.h"
 #include "instruments/samples.h"
+#include "pipeline/battery_stage.h"
 #include "pipeline/calibration_stage.h"
 #include "pipeline/earth_field.h"
 #include "pipeline/navigation_stage.h"
@@ -21,7 +22,7 @@ class Stages {
  public:
   explicit Stages(const config::Settings& settings);
 
-  [[nodiscard]] bool are_none() const { return !calibration_ && !navigation_; }
+  [[nodiscard]] bool are_none() const { return !calibration_ && !navigation_ && !battery_; }
   void take(const instruments::Sample& sample, const UtcMapping& mapping, Sink& sink);
 
   /// Null when there is nothing to calibrate.
@@ -33,6 +34,8 @@ class Stages {
   [[nodiscard]] std::optional<NavigationSample> navigation(const UtcMapping& mapping) const {
     return navigation_ ? navigation_->newest(mapping) : std::nullopt;
   }
+  /// Null where the battery is not counted.
+  [[nodiscard]] BatteryStage* battery() const { return battery_.get(); }
   [[nodiscard]] const Sources& sources() const { return sources_; }
   [[nodiscard]] const EarthField& earth_field() const { return field_.field(); }
 
@@ -48,6 +51,7 @@ class Stages {
   std::unique_ptr<TiltStage> tilt_;
   std::unique_ptr<CalibrationStage> calibration_;
   std::unique_ptr<NavigationStage> navigation_;
+  std::unique_ptr<BatteryStage> battery_;
 };
 
 /// Sends samples through the stages, and everything else past them.

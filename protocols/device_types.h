@@ -21,6 +21,7 @@ struct Delivery {
   bool position = false;
   bool velocity = false;
   bool shaft = false;
+  bool altitude = false;
 };
 
 /// The tables of options that a port of this device has: [port.NAME.units], [port.NAME.channels], [port.NAME.fix].
@@ -94,7 +95,7 @@ constexpr DeviceType device_row(Protocol protocol) {
       return {.name = "nmea",
               .baud = 4800,
               .latency_std_s = 0.050,
-              .delivers = {.heading = true, .position = true, .velocity = true},
+              .delivers = {.heading = true, .position = true, .velocity = true, .altitude = true},
               .delivers_always = false,
               .options = {.units = true, .fix = true}};
   }

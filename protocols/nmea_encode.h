@@ -43,4 +43,9 @@ using Satellites = std::vector<SatelliteInView>;
 /// Satellites in view in the necessary number of sentences, four satellites in each.
 [[nodiscard]] std::vector<std::uint8_t> encode_gsv(const Satellites& satellites);
 
+/// IIXDR with voltage and current of a battery, which the decoder of instruments takes. Both must be finite.
+[[nodiscard]] std::vector<std::uint8_t> encode_battery(double voltage_V, double current_A);
+/// SDDBT with the distance to the floor; nullopt: there was no echo.
+[[nodiscard]] std::vector<std::uint8_t> encode_dbt(std::optional<double> distance_m);
+
 }  // namespace navcal::protocols::nmea

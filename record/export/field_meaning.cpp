@@ -60,10 +60,22 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "rpm", "rpm", "", "revolutions of the shaft"},
     FieldMeaning{"", "rpm_commanded", "rpm", "", "revolutions commanded"},
     FieldMeaning{"", "fins_rad", "radian", "", "angle of the fin"},
-    FieldMeaning{"", "current_A", "A", "", "current of the motor"},
+    FieldMeaning{"", "current_A", "A", "", "current of the motor, or out of the battery"},
     // Echo sounder.
     FieldMeaning{"", "altitude_m", "m", "height_above_sea_floor", "distance from the transducer to the bottom"},
+    // Battery.
+    FieldMeaning{"", "voltage_V", "V", "", "voltage of the battery under load"},
+    FieldMeaning{"", "current_measured", "", "", "the current is that of a gauge of the whole vehicle"},
+    FieldMeaning{"", "charge_Ah", "A h", "", "charge left"},
+    FieldMeaning{"", "charge_std_Ah", "A h", "", "standard error of the charge left"},
+    FieldMeaning{"", "charge_percent", "percent", "", "charge left, of the capacity"},
+    FieldMeaning{"", "energy_Wh", "W h", "", "energy left, at the nominal voltage"},
+    FieldMeaning{"", "time_left_s", "s", "", "time left at the mean load"},
+    FieldMeaning{"", "range_left_m", "m", "", "way left at the mean load and speed"},
+    FieldMeaning{"", "low", "", "", "the battery is low"},
     // Navigation.
+    FieldMeaning{"", "altitude_std_m", "m", "", "standard error of the height above the sea floor"},
+    FieldMeaning{"", "water_depth_m", "m", "sea_floor_depth_below_sea_surface", "depth of the water"},
     FieldMeaning{"", "position", "", "", "whence the position is"},
     FieldMeaning{"", "north_std_m", "m", "", "standard error of the position northward"},
     FieldMeaning{"", "east_std_m", "m", "", "standard error of the position eastward"},

@@ -8,7 +8,7 @@
 namespace navcal::record {
 namespace {
 
-std::optional<double> degrees(const std::optional<double>& rad) {
+std::optional<double> degrees_of(const std::optional<double>& rad) {
   if (!rad) return std::nullopt;
   return *rad * base::kDegreesPerRadian;
 }
@@ -47,8 +47,8 @@ void append_json(std::string& out, const pipeline::NavigationSample& sample) {
   JsonObject json(out, "NAV");
   append_head(json, sample.stamp, pipeline::kNavigationDevice);
   json.text("position", name_of(sample.source));
-  json.number("lat", degrees(sample.latitude_rad));
-  json.number("lon", degrees(sample.longitude_rad));
+  json.number("lat", degrees_of(sample.latitude_rad));
+  json.number("lon", degrees_of(sample.longitude_rad));
   json.number("north_std_m", of_position(estimate, estimate.position_std_m.x()));
   json.number("east_std_m", of_position(estimate, estimate.position_std_m.y()));
   json.number("since_fix_s", of_position(estimate, estimate.since_fix_s));
@@ -66,6 +66,9 @@ void append_json(std::string& out, const pipeline::NavigationSample& sample) {
   }
   json.number("set_north_m_s", of_position(estimate, estimate.set_m_s.x()));
   json.number("set_east_m_s", of_position(estimate, estimate.set_m_s.y()));
+  json.number("altitude_m", sample.altitude_m);
+  json.number("altitude_std_m", sample.altitude_std_m);
+  json.number("water_depth_m", sample.water_depth_m);
   append_outage(json, sample);
   append_surfacing(json, sample.surfacing);
   json.number("predicted_error_m", sample.advice ? std::optional(sample.advice->error_m) : std::nullopt);

@@ -95,6 +95,11 @@ struct Body {
   }
 
   void operator()(const instruments::AltimeterSample& s) const { json.number("altitude_m", s.altitude_m); }
+
+  void operator()(const instruments::PowerSample& s) const {
+    json.number("voltage_V", s.voltage_V);
+    json.number("current_A", s.current_A);
+  }
 };
 
 struct ClassName {
@@ -104,6 +109,7 @@ struct ClassName {
   std::string_view operator()(const instruments::SkySample&) const { return "SKY"; }
   std::string_view operator()(const instruments::MotorSample&) const { return "MOTOR"; }
   std::string_view operator()(const instruments::AltimeterSample&) const { return "ALTIMETER"; }
+  std::string_view operator()(const instruments::PowerSample&) const { return "POWER"; }
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <vector>
 
+#include "record/json/battery_json.h"
 #include "record/json/command_json.h"
 #include "record/json/event_json.h"
 #include "record/json/json_object.h"
@@ -30,6 +31,7 @@ std::uint16_t topic_of(const instruments::Sample& sample) {
     std::uint16_t operator()(const instruments::SkySample&) const { return 0; }
     std::uint16_t operator()(const instruments::MotorSample&) const { return topic::kMotor; }
     std::uint16_t operator()(const instruments::AltimeterSample&) const { return topic::kAltimeter; }
+    std::uint16_t operator()(const instruments::PowerSample&) const { return topic::kPower; }
   };
   return std::visit(Visitor{}, sample.value);
 }
@@ -202,6 +204,11 @@ void LogEncoder::sample(std::string& out, const instruments::Sample& sample) {
 void LogEncoder::navigation(std::string& out, const pipeline::NavigationSample& sample) {
   state_->json_message(out, topic::kNav, sample.stamp.arrival_ns, sample.stamp.validity_ns,
                        [&](std::string& text) { append_json(text, sample); });
+}
+
+void LogEncoder::battery(std::string& out, const pipeline::BatterySample& sample) {
+  state_->json_message(out, topic::kBattery, sample.stamp.arrival_ns, sample.stamp.validity_ns,
+                       [&](std::string& text) { append_json(text, sample, state_->ports[sample.port].name); });
 }
 
 void LogEncoder::mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping) {

@@ -9,6 +9,7 @@
 #include "config/settings.h"
 #include "control/order.h"
 #include "instruments/samples.h"
+#include "pipeline/battery.h"
 #include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
 #include "protocols/frame.h"
@@ -32,6 +33,7 @@ class LogEncoder {
            protocols::Bytes bytes);
   void sample(std::string& out, const instruments::Sample& sample);
   void navigation(std::string& out, const pipeline::NavigationSample& sample);
+  void battery(std::string& out, const pipeline::BatterySample& sample);
   void mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
   /// `severity`: "info", "warning", "error", "alarm"; `name`: a short key such as "port.lost"; `port` may be
   /// empty.

@@ -89,6 +89,29 @@ constexpr std::array kAltimeter{Field{"time", number, "s"},    Field{"time_std",
                                 Field{"arrival", number, "s"}, Field{"device", text},
                                 Field{"altitude_m"},           Field{"calibration", text}};
 
+constexpr std::array kPower{Field{"time", number, "s"},
+                            Field{"time_std", number, "s"},
+                            Field{"arrival", number, "s"},
+                            Field{"device", text},
+                            Field{"voltage_V"},
+                            Field{"current_A"},
+                            Field{"calibration", text}};
+
+constexpr std::array kBattery{Field{"time", number, "s"},
+                              Field{"time_std", number, "s"},
+                              Field{"arrival", number, "s"},
+                              Field{"device", text},
+                              Field{"voltage_V"},
+                              Field{"current_A"},
+                              Field{"current_measured", boolean},
+                              Field{"charge_Ah"},
+                              Field{"charge_std_Ah"},
+                              Field{"charge_percent"},
+                              Field{"energy_Wh"},
+                              Field{"time_left_s"},
+                              Field{"range_left_m"},
+                              Field{"low", boolean}};
+
 constexpr std::array kNav{Field{"time", number, "s"},
                           Field{"time_std", number, "s"},
                           Field{"arrival", number, "s"},
@@ -109,6 +132,9 @@ constexpr std::array kNav{Field{"time", number, "s"},
                           Field{"velocity_m_s", vector3},
                           Field{"set_north_m_s"},
                           Field{"set_east_m_s"},
+                          Field{"altitude_m"},
+                          Field{"altitude_std_m"},
+                          Field{"water_depth_m"},
                           Field{"outage_s"},
                           Field{"outage_m"},
                           Field{"outage_error_m"},
@@ -147,6 +173,8 @@ constexpr std::array kTopics{
     Topic{topic::kAltimeter, "/altimeter", "navcal.Altimeter", kAltimeter},
     Topic{topic::kNav, "/nav", "navcal.Nav", kNav},
     Topic{topic::kCommand, "/command", "navcal.Command", kCommandFields},
+    Topic{topic::kPower, "/power", "navcal.Power", kPower},
+    Topic{topic::kBattery, "/battery", "navcal.Battery", kBattery},
 };
 
 nlohmann::ordered_json schema_of(const Field& field) {

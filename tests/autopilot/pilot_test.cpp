@@ -88,6 +88,17 @@ TEST_F(PilotDecisions, StopsOnALeak) {
 TEST_F(PilotDecisions, StopsOnLowSupply) {
   expect_stop([](Reading& reading) { reading.alarms = {"low supply"}; }, "low supply");
 }
+TEST_F(PilotDecisions, StopsOnALowBattery) {
+  expect_stop([](Reading& reading) { reading.alarms = {"battery low"}; }, "battery low");
+}
+TEST_F(PilotDecisions, StopsNearTheFloor) {
+  expect_stop([](Reading& reading) { reading.alarms = {"floor near"}; }, "floor near");
+}
+TEST_F(PilotDecisions, StopsBelowTheLeastAltitude) {
+  limits.altitude_m = 2;
+  pilot = on("start.depth_m = 1\nstep = [{do = \"leg\", seconds = 20}]\n");
+  expect_stop([](Reading& reading) { reading.altitude_m = 1.9; }, "1.90 m above the floor, less than 2 m");
+}
 TEST_F(PilotDecisions, StopsWhenTheCompassGoesSilent) {
   expect_stop([](Reading& reading) { reading.compass_age_s = 1.2; }, "compass: silent for 1.2 s");
 }

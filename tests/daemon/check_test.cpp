@@ -46,6 +46,8 @@ TEST(Check, SaysWhatOrdersMayAskForAndWhatFollows) {
            "of 0.2 to 5 s; then 0 rpm, fins 0 0 0 deg\n"));
   EXPECT_TRUE(says("[command]\nslew_rpm_s = 0\nsafe_fins_deg = [1, -2, 0.5]\n" + motor, "1200 rpm (at once)"));
   EXPECT_TRUE(says("[command]\nenabled = false\n" + motor, "orders: off\n"));
+  EXPECT_TRUE(says(motor, "battery: not counted\n"));
+  EXPECT_TRUE(says("[battery]\nenabled = true\n" + motor, "battery: 3.7 Ah, 21.6 V, low below 20 %\n"));
   EXPECT_TRUE(says(port("gps", "oncore"), "orders: no motor card to give them to\n"));
 }
 

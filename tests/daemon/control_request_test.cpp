@@ -67,6 +67,19 @@ TEST(ControlRequest, ListsChoicesAndSuppliesAreChecked) {
   EXPECT_EQ(refusal(R"({"command":"power.list"})"), "accepted");
 }
 
+TEST(ControlRequest, ChargeOfTheBattery) {
+  const auto set = parse_control(R"({"command":"battery.set","charge_Ah":2.5,"charge_std_Ah":0.1})");
+  ASSERT_TRUE(std::holds_alternative<ControlRequest>(set));
+  EXPECT_EQ(std::get<ControlRequest>(set).charge_Ah, 2.5);
+  EXPECT_EQ(std::get<ControlRequest>(set).charge_std_Ah, 0.1);
+  const auto full = parse_control(R"({"command":"battery.full"})");
+  ASSERT_TRUE(std::holds_alternative<ControlRequest>(full));
+  EXPECT_FALSE(std::get<ControlRequest>(full).charge_Ah);
+  EXPECT_NE(refusal(R"({"command":"battery.set"})"), "accepted");
+  EXPECT_NE(refusal(R"({"command":"battery.set","charge_Ah":"full"})"), "accepted");
+  EXPECT_NE(refusal(R"({"command":"battery.set","charge_Ah":1,"charge_std_Ah":[]})"), "accepted");
+}
+
 TEST(ControlRequest, ForceIsSaidInSoManyWords) {
   const auto forced = [](const std::string& more) {
     const auto parsed = parse_control(R"({"command":"calibration.accept","calibrator":"compass")" + more + "}");

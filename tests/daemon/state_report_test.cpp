@@ -28,7 +28,9 @@ TEST(StateReport, WhatIsNotKnownIsNullAndEveryKeyIsThere) {
       "speed_m_s":null,"climb_m_s":null,"shaft_rpm":null,"fins_deg":[null,null,null],
       "std":{"heading_rad":null,"pitch_rad":null,"depth_m":null,"speed_m_s":null},
       "age_s":{"compass":null,"imu":null,"gps":null,"motor":null},"alarms":[],
-      "motor":{"holder":null,"priority":null,"expires_in_s":null},"order":{"sequence":null,"late_s":null}})"));
+      "motor":{"holder":null,"priority":null,"expires_in_s":null},"order":{"sequence":null,"late_s":null},
+      "altitude_m":null,"altitude_std_m":null,
+      "battery":{"voltage_V":null,"charge_Ah":null,"charge_std_Ah":null}})"));
 }
 
 TEST(StateReport, WhatIsKnownIsSaidInTheUnitsOfTheContract) {

@@ -46,8 +46,9 @@ class ClosedLoop : public testing::Test {
   }
   void write(const std::string& name, std::string_view text) const { std::ofstream(folder_ / name) << text; }
 
-  /// Emulator and daemon; `options` are the emulator's.
-  void start(const std::string& options = "") {
+  /// Emulator and daemon; `options` are the emulator's, `gauge` a port of the daemon's with NMEA sentences.
+  void start(const std::string& options = "", const std::string& gauge = "",
+             const std::vector<std::string>& settings = {}) {
     const std::string command = "exec " + tool("cli/navcal") + " emulate --vehicle --dir " +
                                 (folder_ / "ports").string() + " --truth " + (folder_ / "truth.csv").string() +
                                 " " + options + " < " + (folder_ / "console").string();
@@ -55,7 +56,15 @@ class ClosedLoop : public testing::Test {
     ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kPatience))
         << emulator_->err();
     status_port_ = free_port();
-    std::vector<std::string> daemon{tool("daemon/navcald"), "--config", NAVCAL_SOURCE_DIR "/config/navcald.toml"};
+    std::ifstream shipped(NAVCAL_SOURCE_DIR "/config/navcald.toml");
+    std::ofstream configuration(folder_ / "navcald.toml");
+    configuration << shipped.rdbuf();
+    if (!gauge.empty()) {
+      configuration << "\n[port." << gauge << "]\nprotocol = \"nmea\"\npath = " << folder_ / "ports" / gauge
+                    << "\nbaud = 4800\n";
+    }
+    configuration.close();
+    std::vector<std::string> daemon{tool("daemon/navcald"), "--config", (folder_ / "navcald.toml").string()};
     const auto set = [&](const std::string& key, const std::string& value) {
       daemon.insert(daemon.end(), {"--set", key + "=" + value});
     };
@@ -65,6 +74,7 @@ class ClosedLoop : public testing::Test {
     set("log.free_floor_MB", "0");
     set("control.socket", (folder_ / "control").string());
     set("status.port", std::to_string(status_port_));
+    for (const std::string& setting : settings) daemon.insert(daemon.end(), {"--set", setting});
     daemon_ = std::make_unique<Process>(daemon, folder_ / "navcald");
     ASSERT_TRUE(
         eventually([&] { return daemon_->err().find("motor port.opened") != std::string::npos; }, kPatience))
@@ -105,6 +115,14 @@ class ClosedLoop : public testing::Test {
     }
     EXPECT_GT(rows.size(), 100U);
     return rows;
+  }
+  /// The daemon's answer to one line on its control socket; empty without one.
+  [[nodiscard]] std::string control(const std::string& line) const {
+    const std::string program =
+        "import socket,sys\ns=socket.socket(socket.AF_UNIX)\ns.connect(sys.argv[1])\n"
+        "s.sendall(sys.argv[2].encode()+b'\\n')\nprint(s.makefile().readline())";
+    Process client({"python3", "-c", program, (folder_ / "control").string(), line}, folder_ / "client");
+    return client.wait(kPatience) == 0 ? client.out() : std::string();
   }
   [[nodiscard]] bool daemon_said(std::string_view text) const {
     return daemon_->err().find(text) != std::string::npos;
@@ -180,6 +198,32 @@ TEST_F(ClosedLoop, ALeakStopsTheVehicle) {
   EXPECT_EQ(run->wait(kPatience), 1);
   EXPECT_NE(run->err().find("leak forward"), std::string::npos) << run->err();
   EXPECT_TRUE(daemon_said("motor.leak: leak_forward: the lease of pilot"));
+  let_the_shaft_run_down();
+  expect_stopped(finish());
+}
+
+/// The battery is known to be nearly low. What the shaft draws makes it so.
+TEST_F(ClosedLoop, ABatteryThatRunsLowStopsTheVehicle) {
+  start("--battery 2", "battery", {"battery.enabled=true"});
+  const auto run = pilot("long.toml", "pilot");
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  let_the_shaft_run_down();  // up, here
+  EXPECT_FALSE(run->wait(std::chrono::seconds(0)).has_value());
+  ASSERT_NE(control(R"({"command":"battery.set","charge_Ah":0.742})").find("true"), std::string::npos);
+  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_NE(run->err().find("the vehicle was stopped: battery low"), std::string::npos) << run->err();
+  EXPECT_TRUE(daemon_said("battery alarm.raised: battery_low: 0.74 of 3.7 Ah left")) << daemon_->err();
+  let_the_shaft_run_down();
+  expect_stopped(finish());
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "logs/battery.state"));
+}
+
+TEST_F(ClosedLoop, AFloorThatRisesStopsTheVehicle) {
+  start("--floor-depth 6 --floor-slope -0.2 0", "altimeter", {"navigation.min_altitude_m=3"});
+  const auto run = pilot("long.toml", "pilot");
+  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_NE(run->err().find("the vehicle was stopped: floor near"), std::string::npos) << run->err();
+  EXPECT_TRUE(daemon_said("altimeter alarm.raised: floor_near: ")) << daemon_->err();
   let_the_shaft_run_down();
   expect_stopped(finish());
 }

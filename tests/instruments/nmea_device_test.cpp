@@ -95,6 +95,31 @@ TEST_F(NmeaDeviceTest, CompassesAndEchoSounders) {
   EXPECT_EQ(collector_.all<AltimeterSample>()[0].altitude_m, 12.5);
 }
 
+TEST_F(NmeaDeviceTest, GaugesOfABattery) {
+  collector_.feed<Parser>(nmea("IIXDR,U,21.3,V,BATTERY,I,-1.25,A,BATTERY") + nmea("IIXDR,U,22.0,V,BATTERY#0") +
+                          nmea("IIXDR,U,12.0,V,BATTERY#1,U,5,V,LOGIC,I,1,A,MOTOR") + nmea("IIXDR,U,,V,BATTERY") +
+                          nmea("IIXDR,U,3,M,BATTERY"));
+  const auto power = collector_.all<PowerSample>();
+  ASSERT_EQ(power.size(), 2U);
+  EXPECT_EQ(power[0].voltage_V, 21.3);
+  EXPECT_EQ(power[0].current_A, -1.25);
+  EXPECT_EQ(power[1].voltage_V, 22.0);
+  EXPECT_FALSE(power[1].current_A);
+}
+
+TEST_F(NmeaDeviceTest, GaugesWithValuesThatCannotBeGiveNothing) {
+  for (const char* bad : {"IIXDR,U,-1,V,BATTERY", "IIXDR,U,1001,V,BATTERY", "IIXDR,I,1e3,A,BATTERY",
+                          "IIXDR,I,-1001,A,BATTERY", "IIXDR,U,nan,V,BATTERY", "IIXDR,UU,21,V,BATTERY"})
+    collector_.feed<Parser>(nmea(bad));
+  EXPECT_TRUE(collector_.all<PowerSample>().empty());
+}
+
+TEST_F(NmeaDeviceTest, EchoSoundersWithoutAnEchoOrWithABadDepthGiveNothing) {
+  for (const char* bad : {"SDDBT,,f,,M,,F", "SDDBT,,f,-1,M,,F", "SDDPT,,0.3,", "SDDPT,x,0.3,", "SDDBT"})
+    collector_.feed<Parser>(nmea(bad));
+  EXPECT_TRUE(collector_.all<AltimeterSample>().empty());
+}
+
 TEST(NmeaDevice, CountsOfSixteenBitsAreASetUpOfTheDevice) {
   config::PortSettings settings;
   settings.compass.heading_unit = settings.compass.tilt_unit = config::AngleUnit::counts16;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "record/json/battery_json.h"
 #include "record/json/command_json.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
@@ -79,6 +80,39 @@ TEST(Json, EveryKindOfSampleIsJsonWithTheMembersOfItsTopic) {
   check("/motor");
   sample.value = instruments::AltimeterSample{};
   check("/altimeter");
+  sample.value = instruments::PowerSample{};
+  check("/power");
+}
+
+TEST(Json, ABatteryHasTheMembersOfItsTopicWhetherItsChargeIsKnownOrNot) {
+  pipeline::BatterySample sample;
+  sample.capacity_Ah = 4;
+  sample.nominal_V = 20;
+  const auto json_of = [&] {
+    std::string text;
+    append_json(text, sample, "motor");
+    const auto json = nlohmann::json::parse(text);
+    const Topic* const topic = json_topic("/battery");
+    EXPECT_EQ(json.size(), topic->fields.size() + 1);
+    for (const Field& field : topic->fields) EXPECT_TRUE(json.contains(std::string(field.name))) << field.name;
+    return json;
+  };
+  EXPECT_TRUE(json_of()["charge_percent"].is_null());
+  sample.charge = pipeline::BatteryCharge{1, 0.25};
+  const auto json = json_of();
+  EXPECT_EQ(json["charge_percent"], 25);
+  EXPECT_EQ(json["energy_Wh"], 20);
+  EXPECT_EQ(json["charge_std_Ah"], 0.25);
+}
+
+TEST(Json, TheChargeInAnEventIsReadBackToTheLastBit) {
+  const pipeline::BatteryCharge charge{0.1 + 0.2, 1.0 / 3};
+  const auto back = battery_event_charge(battery_event_words(charge, "by command"));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->charge_Ah, charge.charge_Ah);
+  EXPECT_EQ(back->std_Ah, charge.std_Ah);
+  for (const char* bad : {"", "full", "3.7", "3.7 Ah, std ", "3.7 Ah; std 1 Ah"})
+    EXPECT_FALSE(battery_event_charge(bad)) << bad;
 }
 
 TEST(Json, AnEstimateHasTheMembersOfItsTopicWhetherItKnowsMuchOrLittle) {

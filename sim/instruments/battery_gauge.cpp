@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/instruments/battery_gauge.h"
+
+#include <algorithm>
+
+#include "protocols/nmea_encode.h"
+
+namespace navcal::sim {
+
+BatteryGauge::BatteryGauge(const Options& options, const Motion& motion)
+    : options_(options), motion_(motion), battery_(options.battery), noise_(options.seed) {}
+
+void BatteryGauge::power_on(std::int64_t t_ns) {
+  constexpr double kPeriod_s = 0.5;
+  ticks_ = Ticks(t_ns, kPeriod_s, 0);
+  drawn_ns_ = t_ns;
+}
+
+void BatteryGauge::advance(std::int64_t t_ns, std::vector<Emission>& out) {
+  while (ticks_.next_ns() <= t_ns) {
+    const std::int64_t now_ns = ticks_.next_ns();
+    const double motor_A = motion_.at(now_ns).motor_current_A;
+    battery_.draw(motor_A, static_cast<double>(now_ns - drawn_ns_) * 1e-9);
+    drawn_ns_ = now_ns;
+    const double voltage_V = battery_.voltage_V(motor_A) + noise_.normal(options_.voltage_noise_V);
+    const double current_A = battery_.current_A(motor_A) + noise_.normal(options_.current_noise_A);
+    line_.put(now_ns, options_.baud, protocols::nmea::encode_battery(std::max(0.0, voltage_V), current_A), out);
+    ticks_.pass();
+  }
+}
+
+}  // namespace navcal::sim
