@@ -28,6 +28,8 @@ constexpr std::array<Description, 14> kTableDescriptions{{
     {"navigation", "Attitude, depth, and position between fixes (docs/navigation.md)."},
     {"command",
      "Orders to the motor card: limits, leases, and the state without anybody in charge (docs/control.md)."},
+    {"remote",
+     "The narrow link to an operator over a modem or TCP (docs/remote.md); off unless path or listen is given."},
     {"",
      "A serial port with its device. NAME (1 to 31 of a-z, 0-9, _ and -) is the device's name in reports, log and "
      "messages."},

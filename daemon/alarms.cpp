@@ -17,6 +17,7 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
     case Alarm::low_supply:
       return imu.low_supply;
     case Alarm::command_not_echoed:
+    case Alarm::link_dead:
       break;
   }
   return false;
@@ -35,9 +36,11 @@ std::string_view name_of(Alarm alarm) {
     case Alarm::low_supply:
       return "low_supply";
     case Alarm::command_not_echoed:
+      return "command_not_echoed";
+    case Alarm::link_dead:
       break;
   }
-  return "command_not_echoed";
+  return "link_dead";
 }
 
 const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const instruments::ImuSample& imu,

@@ -10,10 +10,13 @@
 
 namespace navcal::daemon {
 
-/// The first four are the inertial card's; the last is the motor card's.
-enum class Alarm : std::uint8_t { leak_forward, leak_aft, over_range, low_supply, command_not_echoed };
+/// The first four are the inertial card's, the fifth is the motor card's, the last the remote link's.
+enum class Alarm : std::uint8_t { leak_forward, leak_aft, over_range, low_supply, command_not_echoed, link_dead };
 
-/// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed".
+/// In place of a port: the alarm of the remote link.
+inline constexpr std::uint16_t kRemotePort = 0xFFFF;
+
+/// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed", "link_dead".
 [[nodiscard]] std::string_view name_of(Alarm alarm);
 inline constexpr std::array kCardAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range,
                                         Alarm::low_supply};

@@ -10,6 +10,7 @@ constexpr std::uint8_t kReportVersion = 1;
 constexpr std::uint8_t kNorthTrue = 1;
 constexpr std::uint8_t kHasTime = 2;
 constexpr std::size_t kShortHolderBytes = 12;
+constexpr std::size_t kCalibratorBytes = 16;
 
 // Units of the fields.
 constexpr double kCentidegree = 0.01;
@@ -68,7 +69,7 @@ Buffer encode_report(const Report& r) {
   out.put_scaled<std::uint16_t>(r.expires_in_s, kHundredth);
   out.put_text(r.holder, kShortHolderBytes);
   if (r.calibration) {
-    out.put(r.calibration->calibrator);
+    out.put_text(r.calibration->calibrator, kCalibratorBytes);
     out.put(r.calibration->verdict);
     out.put(r.calibration->number);
     out.put(r.calibration->hash);
@@ -111,7 +112,7 @@ std::optional<Report> decode_report(Bytes payload) {
   if (!in.is_whole()) return std::nullopt;
   if (in.rest().empty()) return r;
   CalibrationState calibration;
-  calibration.calibrator = in.get<std::uint8_t>();
+  calibration.calibrator = in.get_text();
   calibration.verdict = in.get<std::uint8_t>();
   calibration.number = in.get<std::uint16_t>();
   calibration.hash = in.get<std::uint32_t>();

@@ -18,11 +18,14 @@ inline constexpr std::array<std::string_view, 6> kAlarmNames{"leak_forward", "le
 /// Set for an alarm that this list does not know.
 inline constexpr unsigned kOtherAlarmBit = 15;
 
+/// Verdicts on a calibrator's estimate, by number.
+inline constexpr std::array<std::string_view, 3> kVerdictNames{"refused", "shadow", "in_force"};
+
 /// State of one calibrator; the reports tell of one after the other.
 struct CalibrationState {
-  std::uint8_t calibrator = 0;  ///< number of calib::Calibrator
-  std::uint8_t verdict = 0;     ///< number of calib::Verdict
-  std::uint16_t number = 0;     ///< of the calibration in force, low bits; with the hash its name: "7-1a2b3c4d"
+  std::string calibrator;    ///< "gyro", its first sixteen bytes
+  std::uint8_t verdict = 0;  ///< of kVerdictNames
+  std::uint16_t number = 0;  ///< of the calibration in force, low bits; with the hash its name: "7-1a2b3c4d"
   std::uint32_t hash = 0;
 
   bool operator==(const CalibrationState&) const = default;
@@ -53,7 +56,7 @@ struct Report {
   void set_alarm(std::string_view name);
 };
 
-inline constexpr std::size_t kMaxReport = 86;
+inline constexpr std::size_t kMaxReport = 102;
 
 [[nodiscard]] Buffer encode_report(const Report& report);
 /// nullopt when the payload is too short or of another version.
