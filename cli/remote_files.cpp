@@ -15,7 +15,7 @@
 namespace navcal::cli {
 namespace {
 
-using nlohmann::json;
+using RemoteJson = nlohmann::json;
 
 /// Bytes asked for at once: ten seconds on a link of 2 kB/s.
 constexpr std::uint64_t kRemotePart_bytes = 12288;
@@ -26,8 +26,8 @@ constexpr double kRemotePatience_s = 600;
 
 [[noreturn]] void fail_remote(const std::string& why) { throw analysis::Failure(analysis::Exit::failed, why); }
 
-json granted(RemoteOperator& remote, const json& request) {
-  json answer = json::parse(remote.ask(request.dump(), kRemotePatience_s), nullptr, false);
+RemoteJson granted(RemoteOperator& remote, const RemoteJson& request) {
+  RemoteJson answer = RemoteJson::parse(remote.ask(request.dump(), kRemotePatience_s), nullptr, false);
   if (!answer.is_object()) fail_remote("the vehicle's answer is no JSON object");
   if (answer.value("ok", false)) return answer;
   fail_remote("navcald: " + answer.value("error", std::string("refused")));
@@ -41,8 +41,9 @@ struct VehicleLog {
 std::vector<VehicleLog> logs_of(RemoteOperator& remote) {
   std::vector<VehicleLog> logs;
   for (bool more = true; more;) {
-    const json page = granted(remote, {{"command", "log.list"}, {"after", logs.empty() ? "" : logs.back().name}});
-    for (const json& log : page.at("files")) logs.push_back({log.at("name"), log.at("bytes")});
+    const RemoteJson page =
+        granted(remote, {{"command", "log.list"}, {"after", logs.empty() ? "" : logs.back().name}});
+    for (const RemoteJson& log : page.at("files")) logs.push_back({log.at("name"), log.at("bytes")});
     more = page.value("more", false) && !page.at("files").empty();
   }
   return logs;
@@ -62,7 +63,7 @@ bool is_same(RemoteOperator& remote, const std::string& name, const std::filesys
              std::uint64_t bytes) {
   for (std::uint64_t offset = 0; offset < bytes;) {
     const std::uint64_t length = std::min(kRemoteSum_bytes, bytes - offset);
-    const json sum =
+    const RemoteJson sum =
         granted(remote, {{"command", "log.sum"}, {"file", name}, {"offset", offset}, {"length", length}});
     if (sum.at("length") != length || sum.at("crc32") != sum_of_file(file, offset, length)) return false;
     offset += length;
@@ -72,7 +73,7 @@ bool is_same(RemoteOperator& remote, const std::string& name, const std::filesys
 
 void append_part(RemoteOperator& remote, const std::string& name, const std::filesystem::path& part,
                  std::uint64_t offset) {
-  const json answer = granted(
+  const RemoteJson answer = granted(
       remote, {{"command", "log.read"}, {"file", name}, {"offset", offset}, {"length", kRemotePart_bytes}});
   const auto bytes = record::from_base64(answer.at("data").get<std::string>());
   if (!bytes || bytes->empty() || answer.value("crc32", record::crc32(*bytes)) != record::crc32(*bytes))
@@ -90,7 +91,7 @@ std::string list_files(RemoteOperator& remote) {
     std::string out;
     for (const VehicleLog& log : logs_of(remote)) out += fmt::format("{:>12}  {}\n", log.bytes, log.name);
     return out;
-  } catch (const json::exception& error) {
+  } catch (const RemoteJson::exception& error) {
     fail_remote(std::string("the vehicle's list of logs cannot be read: ") + error.what());
   }
 }
@@ -123,7 +124,7 @@ void get_file(RemoteOperator& remote, const std::string& name, const std::filesy
     if (bytes > found->bytes) std::filesystem::resize_file(part, found->bytes);
     if (!is_same(remote, name, part, found->bytes)) fail_remote(part.string() + ": the checksum is wrong");
     std::filesystem::rename(part, target);
-  } catch (const json::exception& error) {
+  } catch (const RemoteJson::exception& error) {
     fail_remote(name + ": the vehicle's answer cannot be read: " + error.what());
   }
 }
