@@ -29,7 +29,7 @@ link::EndOptions end_of_operator(const RemoteOperator::Options& options) {
   return end;
 }
 
-RemoteOperator::Clock::time_point after(double seconds) {
+RemoteOperator::Clock::time_point remote_deadline(double seconds) {
   return RemoteOperator::Clock::now() +
          std::chrono::duration_cast<RemoteOperator::Clock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -102,7 +102,7 @@ void RemoteOperator::watch_sessions() {
 void RemoteOperator::wait_for_session(double limit_s) {
   std::string why = "the vehicle does not answer";
   const auto notice = std::exchange(on_notice, [&](std::string_view words) { why = words; });
-  const auto until = after(limit_s);
+  const auto until = remote_deadline(limit_s);
   while (!host_.has_session() && Clock::now() < until && !base::Interruptible::interrupted()) work(until);
   on_notice = notice;
   if (!host_.has_session()) throw std::runtime_error(base::Interruptible::interrupted() ? "interrupted" : why);
@@ -111,7 +111,7 @@ void RemoteOperator::wait_for_session(double limit_s) {
 std::string RemoteOperator::ask(std::string_view line, double limit_s) {
   if (!host_.request(line)) throw std::runtime_error("the request is too long, or there is no session");
   const unsigned session = host_.sessions();
-  const auto until = after(limit_s);
+  const auto until = remote_deadline(limit_s);
   while (Clock::now() < until) {
     if (auto response = host_.take_response()) {
       while (response->ends_with('\n')) response->pop_back();
@@ -185,7 +185,7 @@ void RemoteOperator::take_command_answer() {
 }
 
 void RemoteOperator::end() {
-  const auto until = after(kGoodbye_s);
+  const auto until = remote_deadline(kGoodbye_s);
   if (host_.has_session() && is_in_charge()) {
     release();
     while (awaited_ && Clock::now() < until) work(until);

@@ -11,19 +11,19 @@
 namespace navcal::cli {
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
+using RemoteObject = nlohmann::ordered_json;
 
 std::string shown_or_dash(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : std::string("-");
 }
 
-OrderedJson json_or_null(const std::optional<double>& value) {
-  return value ? OrderedJson(*value) : OrderedJson(nullptr);
+RemoteObject json_or_null(const std::optional<double>& value) {
+  return value ? RemoteObject(*value) : RemoteObject(nullptr);
 }
 
 template <std::size_t n>
-OrderedJson json_list(const std::array<std::optional<double>, n>& values) {
-  OrderedJson list = OrderedJson::array();
+RemoteObject json_list(const std::array<std::optional<double>, n>& values) {
+  RemoteObject list = RemoteObject::array();
   for (const auto& value : values) list.push_back(json_or_null(value));
   return list;
 }
@@ -32,7 +32,7 @@ std::string calibration_name(const link::CalibrationState& state) {
   return state.number == 0 ? std::string("none") : fmt::format("{}-{:08x}", state.number, state.hash);
 }
 
-std::string verdict_of(const link::CalibrationState& state) {
+std::string remote_verdict(const link::CalibrationState& state) {
   return state.verdict < link::kVerdictNames.size() ? std::string(link::kVerdictNames.at(state.verdict))
                                                     : "unknown";
 }
@@ -57,7 +57,7 @@ std::string words_of(const link::Report& r) {
              : fmt::format("  motor: {} ({} s)", printable(r.holder), shown_or_dash(r.expires_in_s, 1));
   if (const auto& calibration = r.calibration)
     out += fmt::format("  calibration {} {} {}", calibration_name(*calibration),
-                       printable(calibration->calibrator), verdict_of(*calibration));
+                       printable(calibration->calibrator), remote_verdict(*calibration));
   for (const std::string_view alarm : r.alarm_names()) out += fmt::format("  ALARM {}", alarm);
   return out;
 }
@@ -69,8 +69,8 @@ std::string words_of(const link::Host::Quality& quality, bool is_alive) {
 
 std::string json_of(const link::Host::NewReport& report, const link::Host::Quality& quality, bool is_alive) {
   const link::Report& r = report.report;
-  OrderedJson out{{"class", "REPORT"}};
-  out["time"] = r.time_utc_ms ? OrderedJson(static_cast<double>(*r.time_utc_ms) * 1e-3) : OrderedJson(nullptr);
+  RemoteObject out{{"class", "REPORT"}};
+  out["time"] = r.time_utc_ms ? RemoteObject(static_cast<double>(*r.time_utc_ms) * 1e-3) : RemoteObject(nullptr);
   out["north"] = r.is_north_true ? "true" : "magnetic";
   out["heading_deg"] = json_or_null(r.heading_deg);
   out["pitch_deg"] = json_or_null(r.pitch_deg);
@@ -93,7 +93,7 @@ std::string json_of(const link::Host::NewReport& report, const link::Host::Quali
   out["alarms"] = r.alarm_names();
   out["battery_V"] = json_or_null(r.battery_V);
   out["battery_charge"] = json_or_null(r.battery_charge);
-  out["motor"] = {{"holder", r.holder.empty() ? OrderedJson(nullptr) : OrderedJson(printable(r.holder))},
+  out["motor"] = {{"holder", r.holder.empty() ? RemoteObject(nullptr) : RemoteObject(printable(r.holder))},
                   {"priority", r.priority},
                   {"expires_in_s", json_or_null(r.expires_in_s)},
                   {"order", r.order_sequence}};
@@ -101,7 +101,7 @@ std::string json_of(const link::Host::NewReport& report, const link::Host::Quali
   if (const auto& calibration = r.calibration)
     out["calibration"] = {{"name", calibration_name(*calibration)},
                           {"calibrator", printable(calibration->calibrator)},
-                          {"verdict", verdict_of(*calibration)}};
+                          {"verdict", remote_verdict(*calibration)}};
   out["verified"] = report.is_verified;
   out["link"] = {{"alive", is_alive},
                  {"loss_in", quality.loss_in},

@@ -150,7 +150,8 @@ class RemoteProcess : public testing::Test {
     return json::parse(client.line().value())["health"][0];
   }
   static bool has_alarm(const DaemonProcess& daemon) {
-    for (const auto& alarm : health(daemon)["alarms"]) {
+    const json now = health(daemon);
+    for (const auto& alarm : now["alarms"]) {
       if (alarm["alarm"] == "link_dead") return alarm["device"] == "remote";
     }
     return false;
@@ -285,7 +286,8 @@ TEST_F(RemoteProcess, AKeyThatOthersCanReadAndAnAddressThatIsTakenAreRefused) {
   daemon.wait_until_ready();
   const auto more = [](const std::string& setting) { return std::vector<std::string>{"--set", setting}; };
   auto others = more("status.port=0");
-  others.insert(others.end(), {"--set", "control.socket=" + (folder_ / "other").string()});
+  others.insert(others.end(), {"--set", "control.socket=" + (folder_ / "other").string(), "--set",
+                               "log.directory=" + (folder_ / "other-log").string()});
   const auto taken = daemon.run_another(others);
   EXPECT_EQ(taken.first, 1);
   EXPECT_NE(taken.second.find("remote.listen"), std::string::npos) << taken.second;
