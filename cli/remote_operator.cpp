@@ -175,12 +175,9 @@ void RemoteOperator::take_command_answer() {
   if (is_awaited && std::exchange(is_leasing_, false)) {
     is_leased_ = answer->is_ok;
     order_due_ns_ = now_ns();
-  } else if (!answer->is_ok && is_leased_) {
+  } else if (!answer->is_in_charge) {
     // A lease that is over does not come back by itself; an order beyond a limit ends nothing.
-    const bool is_over = answer->error.starts_with("the lease expired") ||
-                         answer->error.starts_with("preempted") || answer->error.starts_with("no such lease") ||
-                         answer->error.starts_with("the lease ");
-    if (is_over) is_leased_ = false;
+    is_leased_ = false;
   }
 }
 

@@ -88,6 +88,9 @@ class Daemon : private pipeline::Sink,
   void remote_answer(const ControlRequest& request, const ControlOrigin& origin, Reply reply) override;
   void remote_client_gone(std::uint64_t client) override { control_client_gone(client); }
   void end_every_lease() override;
+  [[nodiscard]] bool is_in_charge(std::uint64_t client) const override {
+    return motor_ && motor_->command().holder() && motor_->command().holder()->client == client;
+  }
   void on_remote_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
                        std::string_view message) override {
     event(now_ns, severity, name, "remote", message);

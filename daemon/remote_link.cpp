@@ -190,6 +190,7 @@ void RemoteLink::execute(const link::Command& command, std::int64_t now_ns) {
     reply.error = answer.value("error", "");
     if (reply.is_ok && command.kind == link::Command::Kind::lease) lease_ = answer.value("lease", "");
     if (reply.is_ok && command.kind == link::Command::Kind::release) lease_.clear();
+    reply.is_in_charge = owner_.is_in_charge(kFirstRemoteClient + vehicle_.session());
     vehicle_.answer(reply);
   });
 }

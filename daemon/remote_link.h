@@ -28,6 +28,8 @@ class RemoteOwner {
   /// An operator is gone: its lease ends.
   virtual void remote_client_gone(std::uint64_t client) = 0;
   virtual void end_every_lease() = 0;
+  /// Whether the lease of the motor is this client's.
+  [[nodiscard]] virtual bool is_in_charge(std::uint64_t client) const = 0;
   virtual void on_remote_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
                                std::string_view message) = 0;
   virtual void on_remote_dead(std::int64_t now_ns, bool is_dead) = 0;

@@ -12,6 +12,7 @@ constexpr std::size_t kHolderBytes = 64;
 constexpr std::size_t kErrorBytes = 160;
 constexpr std::uint8_t kOk = 1;
 constexpr std::uint8_t kShaped = 2;
+constexpr std::uint8_t kInCharge = 4;
 
 /// A field without a value: a sender that had none to send.
 bool take(std::optional<double> field, double& value) {
@@ -67,7 +68,8 @@ std::optional<Command> decode_command(Bytes payload) {
 Buffer encode_answer(const CommandAnswer& answer) {
   FieldWriter out;
   out.put(answer.number);
-  out.put(static_cast<std::uint8_t>((answer.is_ok ? kOk : 0) | (answer.is_shaped ? kShaped : 0)));
+  out.put(static_cast<std::uint8_t>((answer.is_ok ? kOk : 0) | (answer.is_shaped ? kShaped : 0) |
+                                    (answer.is_in_charge ? kInCharge : 0)));
   out.put_text(answer.error, kErrorBytes);
   return std::move(out).take();
 }
@@ -79,6 +81,7 @@ std::optional<CommandAnswer> decode_answer(Bytes payload) {
   const auto flags = in.get<std::uint8_t>();
   answer.is_ok = (flags & kOk) != 0;
   answer.is_shaped = (flags & kShaped) != 0;
+  answer.is_in_charge = (flags & kInCharge) != 0;
   answer.error = in.get_text();
   if (!in.is_whole() || !in.rest().empty()) return std::nullopt;
   return answer;

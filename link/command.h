@@ -30,8 +30,9 @@ struct Command {
 struct CommandAnswer {
   std::uint16_t number = 0;  ///< of the command
   bool is_ok = false;
-  bool is_shaped = false;  ///< of an order: slew rates keep it from being reached at once
-  std::string error;       ///< its first 160 bytes
+  bool is_shaped = false;     ///< of an order: slew rates keep it from being reached at once
+  std::string error;          ///< its first 160 bytes
+  bool is_in_charge = false;  ///< the operator holds the lease after the command
 
   bool operator==(const CommandAnswer&) const = default;
 };

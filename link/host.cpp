@@ -40,6 +40,11 @@ void Host::take_frame(std::int64_t now_ns, const FrameView& view) {
     case FrameType::refusal:
       if (view.payload.size() != 1 || view.payload[0] > static_cast<std::uint8_t>(Refusal::unknown_session))
         return;
+      if (has_begun_to_leave()) {
+        // The vehicle has forgotten the session, as it should.
+        if (session_ && view.header.session == session_->id) byes_ = 0;
+        return;
+      }
       refusal_ = static_cast<Refusal>(view.payload[0]);
       // Anybody can send a refusal. A new HELLO costs nothing, and the session goes on until it is answered.
       if (session_ && refusal_ == Refusal::unknown_session && view.header.session == session_->id && !hello_)

@@ -67,6 +67,7 @@ class Host {
   [[nodiscard]] const protocols::Counters& line() const { return parser_.counters(); }
 
  private:
+  [[nodiscard]] bool has_begun_to_leave() const { return byes_ >= 0 && byes_ < kByes; }
   struct Pending {
     Command command;
     std::int64_t due_ns = 0;    ///< when it is sent, again

@@ -179,7 +179,9 @@ TEST_F(RemoteProcess, ReportsComeAndOrdersReachTheCardOverTcpWithLoss) {
   ASSERT_TRUE(operator_.lease(60).is_ok);
   ASSERT_TRUE(operator_.order(300).is_ok);
   ASSERT_TRUE(operator_.until([&] { return !told_.empty() && told_.back() == 300; }));
-  EXPECT_EQ(operator_.order(5000).error, "shaft_rpm 5000 is beyond 1200");
+  const auto refused = operator_.order(5000);
+  EXPECT_EQ(refused.error, "shaft_rpm 5000 is beyond 1200");
+  EXPECT_TRUE(refused.is_in_charge) << "a refused order ends no lease";
   ASSERT_TRUE(operator_.until([&] {
     const auto next = operator_.host.take_report();
     return next && next->report.holder == "operator" && next->report.shaft_rpm == 300;
@@ -209,7 +211,9 @@ TEST_F(RemoteProcess, ADeadLinkEndsInTheSafeStateAnAlarmAndAnEventAndComesBack) 
   operator_.is_cut = false;
   ASSERT_TRUE(operator_.until([&] { return !has_alarm(daemon); }));
   EXPECT_EQ(operator_.host.sessions(), 1U) << "the session goes on";
-  EXPECT_NE(operator_.order(400).error.find("its connection was closed"), std::string::npos);
+  const auto late = operator_.order(400);
+  EXPECT_NE(late.error.find("its connection was closed"), std::string::npos);
+  EXPECT_FALSE(late.is_in_charge);
   EXPECT_EQ(operator_.request(R"({"command":"status"})")["ok"], true);
 }
 

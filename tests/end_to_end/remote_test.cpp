@@ -193,6 +193,12 @@ TEST_F(Remote, SteersThroughALossyRelayAndTheVehicleStopsWhenTheLinkIsCut) {
   ASSERT_TRUE(eventually([&] { return shaft_rpm(*process) >= 0 && shaft_rpm(*process) < 20; }, kLong));
   ASSERT_TRUE(
       eventually([&] { return daemon_->err().find("alarm.cleared: link_dead") != std::string::npos; }, kLong));
+  // The first order that is refused says that the lease is over; it is not repeated.
+  ASSERT_TRUE(eventually([&] { return lines(*process, "ANSWER").back()["ok"] == false; }, kLong));
+  const auto answers = lines(*process, "ANSWER").size();
+  type("order 100 0 0 0\n");
+  ASSERT_TRUE(eventually([&] { return !lines(*process, "NOTICE").empty(); }, kLong));
+  EXPECT_EQ(lines(*process, "ANSWER").size(), answers);
   process->signal(SIGINT);
   EXPECT_EQ(process->wait(kLong), 0) << process->err();
 }

@@ -140,7 +140,7 @@ TEST(LinkCommand, ComesBack) {
   }
   order.shaft_rpm = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(decode_command(encode_command(order))) << "an order that is no number is none";
-  const CommandAnswer answer{7, false, false, "the lease is held by pilot (priority 1)"};
+  const CommandAnswer answer{7, false, false, "the lease is held by pilot (priority 1)", true};
   EXPECT_EQ(decode_answer(encode_answer(answer)), answer);
 }
 

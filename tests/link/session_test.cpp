@@ -242,6 +242,8 @@ TEST(LinkSession, ByeEndsASessionInGoodOrder) {
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[1].kind, Vehicle::Event::Kind::left);
   EXPECT_EQ(world.vehicle.peer(), Vehicle::Peer::none);
+  EXPECT_EQ(world.vehicle.session(), 1U) << "a goodbye begins no session";
+  EXPECT_EQ(world.host.sessions(), 1U);
 }
 
 TEST(LinkSession, AVehicleThatWasStartedAnewGetsANewSessionAndExecutesNothingTwice) {
