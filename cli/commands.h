@@ -20,6 +20,7 @@ void add_log(CLI::App& app);
 void add_pilot(CLI::App& app);
 void add_play(CLI::App& app);
 void add_ports(CLI::App& app);
+void add_remote(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_watch(CLI::App& app);

@@ -6,6 +6,7 @@
 #include "config/log_choice.h"
 #include "config/navigation_options.h"
 #include "config/options.h"
+#include "config/remote_options.h"
 #include "config/role_options.h"
 #include "config/text_rules.h"
 
@@ -166,6 +167,7 @@ std::vector<Option<Settings>> make_daemon_options() {
   for (auto& option : navigation_options()) options.push_back(std::move(option));
   for (auto& option : command_options()) options.push_back(std::move(option));
   for (auto& option : battery_options()) options.push_back(std::move(option));
+  for (auto& option : remote_options()) options.push_back(std::move(option));
   return options;
 }
 

@@ -25,6 +25,7 @@ Settings parse(std::string_view toml, std::string_view name, const Overrides& ov
     reader.check_command();
     reader.check_log();
     reader.check_power();
+    reader.check_remote();
   }
   auto& found = reader.problems();
   problems.insert(problems.end(), found.begin(), found.end());

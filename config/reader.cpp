@@ -73,6 +73,7 @@ void Reader::take_daemon(const Entry& entry) {
   if (auto refused = take_entry(daemon_options(), settings_, entry, {std::string(kPort), std::string(kPower)}))
     complain(entry, std::move(*refused));
   if (entry.name() == "log.leave_out") leave_out_line_ = entry.line;
+  if (entry.keys.front() == "remote") remote_line_ = entry.line;
   if (entry.keys.front() == "command" && entry.keys.size() == 2) command_lines_[entry.keys[1]] = entry.line;
   if (entry.keys.front() != "roles" || entry.keys.size() != 2) return;
   for (const Role role : kRoles) {
@@ -243,6 +244,11 @@ void Reader::check_command() {
             fmt::format("safe_fins_deg {} is beyond max_fin_deg {}", fin_deg, command.max_fin_deg));
     break;
   }
+}
+
+void Reader::check_remote() {
+  if (settings_.remote.path.empty() || settings_.remote.listen.empty()) return;
+  problems_.push_back({remote_line_, "remote.listen", "path and listen are given: the link has one line"});
 }
 
 }  // namespace navcal::config

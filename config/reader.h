@@ -29,6 +29,8 @@ class Reader {
   void check_log();
   /// Reports supplies that are incomplete, share a line or a device, or feed no port.
   void check_power();
+  /// Reports a remote link with two lines.
+  void check_remote();
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] std::vector<Problem>& problems() { return problems_; }
@@ -49,6 +51,7 @@ class Reader {
   unsigned leave_out_line_ = 0;                       ///< where log.leave_out was given last
   std::array<unsigned, kRoles.size()> role_lines_{};  ///< where each role was given last; 0: the command line
   std::map<std::string, unsigned, std::less<>> command_lines_;  ///< where each key of [command] was given last
+  unsigned remote_line_ = 1;                                    ///< of the last key of [remote]
   std::vector<Problem> problems_;
 };
 

@@ -214,6 +214,28 @@ struct BatterySettings {
   bool operator==(const BatterySettings&) const = default;
 };
 
+/// What ends when the remote link is dead (docs/remote.md).
+enum class OnDead : std::uint8_t {
+  release,  ///< the lease that was taken over the link
+  safe,     ///< every lease, that of a controller on board too
+  nothing,  ///< none: each ends by its own time-out
+};
+
+/// The narrow link to an operator, over a serial port or TCP; off without path and listen.
+struct RemoteSettings {
+  std::string path;    ///< of the modem's serial port
+  int baud = 57600;    ///< of that port
+  std::string listen;  ///< "ADDRESS:PORT" for TCP
+  std::string key_file;
+  bool orders_without_key = false;
+  double budget_B_s = 2000;  ///< sent at most
+  double dead_s = 5;         ///< the link is dead after such a silence
+  OnDead on_dead = OnDead::release;
+
+  [[nodiscard]] bool enabled() const { return !path.empty() || !listen.empty(); }
+  bool operator==(const RemoteSettings&) const = default;
+};
+
 struct Settings {
   LogSettings log;
   StatusSettings status;
@@ -225,6 +247,7 @@ struct Settings {
   NavigationSettings navigation;
   CommandSettings command;
   BatterySettings battery;
+  RemoteSettings remote;
   std::vector<PortSettings> ports;
   std::vector<PowerSettings> power;
 

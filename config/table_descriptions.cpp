@@ -11,7 +11,7 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 15> kTableDescriptions{{
+constexpr std::array<Description, 17> kTableDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control",
@@ -29,6 +29,8 @@ constexpr std::array<Description, 15> kTableDescriptions{{
     {"command",
      "Orders to the motor card: limits, leases, and the state without anybody in charge (docs/control.md)."},
     {"battery", "The battery: charge, time and range left (docs/battery.md)."},
+    {"remote",
+     "The narrow link to an operator over a modem or TCP (docs/remote.md); off unless path or listen is given."},
     {"",
      "A serial port with its device. NAME (1 to 31 of a-z, 0-9, _ and -) is the device's name in reports, log and "
      "messages."},

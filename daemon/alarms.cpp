@@ -19,6 +19,7 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
     case Alarm::command_not_echoed:
     case Alarm::battery_low:
     case Alarm::floor_near:
+    case Alarm::link_dead:
       break;
   }
   return false;
@@ -41,9 +42,11 @@ std::string_view name_of(Alarm alarm) {
     case Alarm::floor_near:
       return "floor_near";
     case Alarm::command_not_echoed:
+      return "command_not_echoed";
+    case Alarm::link_dead:
       break;
   }
-  return "command_not_echoed";
+  return "link_dead";
 }
 
 const std::vector<Alarms::Change>& Alarms::update(std::uint16_t port, const instruments::ImuSample& imu,

@@ -10,7 +10,8 @@
 
 namespace navcal::daemon {
 
-/// The first four are the inertial card's, then the motor card's; the last two follow from estimates.
+/// The first four are the inertial card's, then the motor card's; two follow from estimates, the last is the
+/// remote link's.
 enum class Alarm : std::uint8_t {
   leak_forward,
   leak_aft,
@@ -18,10 +19,15 @@ enum class Alarm : std::uint8_t {
   low_supply,
   command_not_echoed,
   battery_low,
-  floor_near
+  floor_near,
+  link_dead
 };
 
-/// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed", "battery_low", "floor_near".
+/// In place of a port: the alarm of the remote link.
+inline constexpr std::uint16_t kRemotePort = 0xFFFF;
+
+/// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed", "battery_low", "floor_near",
+/// "link_dead".
 [[nodiscard]] std::string_view name_of(Alarm alarm);
 inline constexpr std::array kCardAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range,
                                         Alarm::low_supply};

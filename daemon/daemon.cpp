@@ -32,7 +32,8 @@ pipeline::UtcMapping first_mapping() {
 }  // namespace
 
 Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets)
-    : settings_(settings),
+    : executor_(executor),
+      settings_(settings),
       started_ns_(ports::monotonic_ns()),
       tick_ns_(static_cast<std::int64_t>(std::min(kTick_s, settings.status.health_interval_s) * 1e9)),
       pipeline_(settings_),
@@ -63,6 +64,8 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
     motor_ = std::make_unique<MotorControl>(executor, settings_, *sessions_[*motor_port_], log_, pipeline_,
                                             motor_owner);
   }
+  RemoteOwner& remote_owner = *this;
+  if (settings_.remote.enabled()) remote_ = std::make_unique<RemoteLink>(executor, settings_.remote, remote_owner);
 }
 
 Daemon::~Daemon() = default;
@@ -76,6 +79,7 @@ void Daemon::start() {
   for (const auto& session : sessions_) session->start();
   server_.start();
   control_.start();
+  if (remote_) remote_->start();
   next_tick_ns_ = next_health_ns_ = ports::monotonic_ns();
   tick();
   notifier_.ready();
@@ -87,6 +91,7 @@ void Daemon::stop(std::string_view reason) {
   // Replay will advance to the time of the event that follows: what it then gives up must have been given up here.
   pipeline_.advance(now_ns, *this);
   event(now_ns, "info", "daemon.stop", "", reason);
+  if (remote_) remote_->stop();
   if (motor_) motor_->stop();
   power_.stop();
   for (const auto& session : sessions_) session->stop();
@@ -295,6 +300,7 @@ std::vector<std::string> Daemon::health(std::int64_t now_ns) const {
   health.uptime_s = static_cast<double>(now_ns - started_ns_) * 1e-9;
   health.alarms = alarms_.standing();
   if (motor_) health.motor = motor_->health(now_ns);
+  if (remote_) health.remote = remote_->health();
   health.ports = sessions_;
   health.pipeline = &pipeline_;
   health.log_enabled = log_.enabled();

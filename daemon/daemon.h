@@ -3,6 +3,7 @@
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,8 @@
 #include "daemon/port_session.h"
 #include "daemon/power_control.h"
 #include "daemon/publisher.h"
+#include "daemon/remote_link.h"
+#include "daemon/remote_report.h"
 #include "daemon/socket_activation.h"
 #include "daemon/state_collector.h"
 #include "daemon/status_server.h"
@@ -35,7 +38,8 @@ class Daemon : private pipeline::Sink,
                private PortOwner,
                private StatusSource,
                private MotorOwner,
-               private PowerOwner {
+               private PowerOwner,
+               private RemoteOwner {
  public:
   /// Opens what cannot be done without: log folder and sockets. Throws StartError.
   Daemon(const boost::asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets);
@@ -83,6 +87,19 @@ class Daemon : private pipeline::Sink,
   void on_motor_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
                       std::string_view message) override;
   void on_motor_deaf(std::int64_t now_ns, bool is_deaf) override;
+  // RemoteOwner
+  [[nodiscard]] link::Report remote_report(std::int64_t now_ns) override;
+  void remote_answer(const ControlRequest& request, const ControlOrigin& origin, Reply reply) override;
+  void remote_client_gone(std::uint64_t client) override { control_client_gone(client); }
+  void end_every_lease() override;
+  [[nodiscard]] bool is_in_charge(std::uint64_t client) const override {
+    return motor_ && motor_->command().holder() && motor_->command().holder()->client == client;
+  }
+  void on_remote_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
+                       std::string_view message) override {
+    event(now_ns, severity, name, "remote", message);
+  }
+  void on_remote_dead(std::int64_t now_ns, bool is_dead) override;
 
   // PowerOwner
   void on_power_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
@@ -104,6 +121,8 @@ class Daemon : private pipeline::Sink,
   void control_client_gone(std::uint64_t client);
   /// STATE at its rates, and the next ring of its timer.
   void ring_state();
+  /// With alarms and who holds the motor.
+  [[nodiscard]] VehicleState vehicle_state(std::int64_t now_ns);
   [[nodiscard]] const std::string& state_report(std::int64_t now_ns);
   [[nodiscard]] std::string answer_tcm2(const ControlRequest& request);
   /// The session of the compass that can calibrate itself; null when there is none.
@@ -122,6 +141,7 @@ class Daemon : private pipeline::Sink,
   [[nodiscard]] std::string summary() const;
   [[nodiscard]] std::optional<std::int64_t> utc(std::int64_t monotonic_ns) const;
 
+  const boost::asio::any_io_executor executor_;
   const config::Settings settings_;
   const std::int64_t started_ns_;
   const std::int64_t tick_ns_;
@@ -139,6 +159,10 @@ class Daemon : private pipeline::Sink,
   std::optional<std::uint16_t> motor_port_;
   std::unique_ptr<MotorControl> motor_;  ///< null where no orders are taken
   PowerControl power_;
+  std::unique_ptr<RemoteLink> remote_;  ///< null where there is none
+  RemoteReport remote_report_;
+  std::optional<boost::asio::thread_pool>
+      remote_reader_;  ///< one thread, for answers to operators that need the disk
   StateCollector state_;
   std::string state_report_;
   bool word_came_ = false;  ///< within these bytes, from the compass that serves

@@ -42,7 +42,7 @@ void Daemon::ring_state() {
   state_timer_.arm(server_.next_state_ns());
 }
 
-const std::string& Daemon::state_report(std::int64_t now_ns) {
+VehicleState Daemon::vehicle_state(std::int64_t now_ns) {
   VehicleState state = state_.at(now_ns);
   for (const auto& standing : alarms_.standing()) state.alarms.push_back(name_of(standing.alarm));
   if (motor_) {
@@ -55,8 +55,12 @@ const std::string& Daemon::state_report(std::int64_t now_ns) {
     state.order_sequence = command.sequence();
     state.order_late_s = motor_->late_s();
   }
+  return state;
+}
+
+const std::string& Daemon::state_report(std::int64_t now_ns) {
   state_report_.clear();
-  append_state(state_report_, state);
+  append_state(state_report_, vehicle_state(now_ns));
   return state_report_;
 }
 

@@ -29,7 +29,8 @@ void append_alarms(std::string& out, const Health& health) {
     if (!first) out += ',';
     first = false;
     fmt::format_to(std::back_inserter(out), FMT_STRING("{{\"alarm\":\"{}\""), name_of(alarm.alarm));
-    text(out, "device", health.ports[alarm.port]->settings().name);
+    text(out, "device",
+         alarm.port == kRemotePort ? std::string_view("remote") : health.ports[alarm.port]->settings().name);
     out += '}';
   }
   out += ']';
@@ -124,6 +125,7 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
   }
   append_sources(out, health);
   if (first == 0 && !health.motor.empty()) out += ",\"motor\":" + health.motor;
+  if (first == 0 && !health.remote.empty()) out += ",\"remote\":" + health.remote;
   out += ",\"ports\":[";
   for (std::size_t i = first; i < last; ++i) {
     if (i > first) out += ',';

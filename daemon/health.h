@@ -20,7 +20,8 @@ struct Health {
   std::optional<std::int64_t> utc_ns;
   double uptime_s = 0;
   std::span<const Alarms::Standing> alarms;
-  std::string motor;  ///< MotorControl's, an object of JSON; empty where no orders are taken
+  std::string motor;   ///< MotorControl's, an object of JSON; empty where no orders are taken
+  std::string remote;  ///< RemoteLink's, an object of JSON; empty where there is none
   std::span<const std::unique_ptr<PortSession>> ports;
   const pipeline::Pipeline* pipeline = nullptr;
   bool log_enabled = true;

@@ -27,6 +27,7 @@ double number_within(const OptionInfo& option, Random& random) {
 
 std::string some_text(const OptionInfo& option, Random& random) {
   if (option.key == "address") return random() % 2 == 0 ? "0.0.0.0" : "::1";
+  if (option.table == "remote" && option.key == "listen") return random() % 2 == 0 ? "" : "[::1]:2950";
   if (option.key == "rollover_pivot")
     return fmt::format("{}-{:02}-{:02}", 1981 + random() % 90, 1 + random() % 12, 1 + random() % 28);
   constexpr std::string_view kPieces[] = {
@@ -113,6 +114,7 @@ Settings some_settings(Random& random) {
   for (double& fin_deg : command.safe_fins_deg) {
     if (std::abs(fin_deg) > command.max_fin_deg) fin_deg = command.max_fin_deg;
   }
+  if (!settings.remote.listen.empty()) settings.remote.path.clear();
   const auto ports = 1 + random() % 6;
   for (std::size_t i = 0; i < ports; ++i) settings.ports.push_back(some_port(i, random));
   for (const Role role : kRoles) {

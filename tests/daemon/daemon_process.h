@@ -56,6 +56,7 @@ class FakeLine {
     return n > 0 ? std::string(bytes, static_cast<std::size_t>(n)) : std::string();
   }
   [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] int master() const { return master_; }
 
  private:
   int master_;

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <memory>
+#include <string>
+
+#include "base/interruptible.h"
+#include "cli/commands.h"
+#include "cli/remote_console.h"
+#include "cli/remote_files.h"
+#include "cli/remote_operator.h"
+
+namespace navcal::cli {
+namespace {
+
+using RemoteClock = RemoteOperator::Clock;
+
+struct RemoteCommandOptions {
+  RemoteOperator::Options remote;
+  std::string action;
+  std::string argument;
+  std::string output;
+  bool json = false;
+  double seconds = 0;
+  double wait_s = 30;
+};
+
+/// Standard input in lines.
+class TypedLines {
+ public:
+  /// The descriptor to wait for; -1 after the end.
+  [[nodiscard]] int fd() const { return is_over_ ? -1 : STDIN_FILENO; }
+  [[nodiscard]] bool is_over() const { return is_over_; }
+  /// Reads what is there. Called only when something is.
+  void read() {
+    char bytes[512];
+    const ssize_t n = ::read(STDIN_FILENO, bytes, sizeof bytes);
+    if (n > 0) {
+      text_.append(bytes, static_cast<std::size_t>(n));
+    } else if (n == 0 || (errno != EINTR && errno != EAGAIN)) {
+      is_over_ = true;
+    }
+  }
+  [[nodiscard]] std::optional<std::string> next() {
+    const auto end = text_.find('\n');
+    if (end == std::string::npos) return std::nullopt;
+    std::string line = text_.substr(0, end);
+    text_.erase(0, end + 1);
+    return line;
+  }
+
+ private:
+  std::string text_;
+  bool is_over_ = false;
+};
+
+bool can_be_read(int fd) {
+  pollfd readable{fd, POLLIN, 0};
+  return fd >= 0 && ::poll(&readable, 1, 0) > 0;
+}
+
+/// Takes typed lines until Ctrl-C, quit or the end of the time.
+void drive_by_hand(RemoteOperator& remote, const RemoteCommandOptions& options) {
+  const auto picture = options.json                   ? RemoteConsole::Picture::json
+                       : ::isatty(STDOUT_FILENO) != 0 ? RemoteConsole::Picture::terminal
+                                                      : RemoteConsole::Picture::lines;
+  RemoteConsole console(remote, picture);
+  TypedLines typed;
+  const auto end =
+      RemoteClock::now() + std::chrono::duration_cast<RemoteClock::duration>(
+                               std::chrono::duration<double>(options.seconds > 0 ? options.seconds : 1e8));
+  bool goes_on = true;
+  while (goes_on && RemoteClock::now() < end && !base::Interruptible::interrupted() && std::ferror(stdout) == 0) {
+    // Commands that arrive before there is a session wait for it.
+    const bool may_type = remote.host().has_session();
+    remote.work(end, may_type ? typed.fd() : -1);
+    console.show();
+    if (!may_type || !can_be_read(typed.fd())) continue;
+    typed.read();
+    while (goes_on) {
+      const auto line = typed.next();
+      if (!line) break;
+      goes_on = console.take(*line);
+    }
+    // Nobody can type any more: nobody is in charge.
+    if (typed.is_over() && remote.is_in_charge()) remote.release();
+  }
+  remote.end();
+  console.show();
+}
+
+void run_remote(const RemoteCommandOptions& options) {
+  const base::Interruptible interruptible;
+  std::signal(SIGPIPE, SIG_IGN);
+  RemoteOperator remote(options.remote);
+  if (options.action.empty()) return drive_by_hand(remote, options);
+  remote.wait_for_session(options.wait_s);
+  if (options.action == "ls") {
+    fmt::print("{}", list_files(remote));
+  } else if (options.action == "get") {
+    get_file(remote, options.argument, options.output.empty() ? options.argument : options.output);
+  } else {
+    const std::string line = options.action == "status" ? R"({"command":"status"})" : options.argument;
+    fmt::print("{}\n", remote.ask(line, options.wait_s));
+  }
+  remote.end();
+}
+
+void add_line_options(CLI::App* command, RemoteCommandOptions& options) {
+  command->add_option("--baud", options.remote.baud, "speed of the serial port")
+      ->check(CLI::Range(300, 4000000))
+      ->option_text("BAUD [57600]");
+  command
+      ->add_option("--key-file", options.remote.key_file,
+                   "the key that vehicle and operator share; only its owner may have access to the file")
+      ->option_text("FILE");
+  command->add_option("--budget", options.remote.budget_B_s, "bytes a second that this end sends at most")
+      ->check(CLI::Range(300.0, 1e6))
+      ->option_text("B/S [2000]");
+  command->add_option("--wait", options.wait_s, "at most, for the vehicle and for an answer")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->option_text("SECONDS [30]");
+}
+
+}  // namespace
+
+void add_remote(CLI::App& app) {
+  auto* command = app.add_subcommand("remote", "watches and steers a vehicle over a modem or TCP");
+  const auto options = std::make_shared<RemoteCommandOptions>();
+  command->add_option("port", options->remote.address, "the modem's serial port, or tcp:HOST:PORT")
+      ->required()
+      ->option_text("PORT");
+  auto* const action =
+      command
+          ->add_option("action", options->action,
+                       "status; send a line of the control socket; ls lists the logs; get copies one and goes on "
+                       "where it was\ninterrupted. Without one: the live view, which takes typed commands")
+          ->check(CLI::IsMember({"status", "send", "ls", "get"}))
+          ->option_text("[status|send|ls|get]");
+  command
+      ->add_option("argument", options->argument, "of send: the line, an object of JSON; of get: the log's name")
+      ->needs(action)
+      ->option_text("[JSON|NAME]");
+  command->add_option("-o,--output", options->output, "where get puts the log")->option_text("FILE [NAME]");
+  add_line_options(command, *options);
+  command->add_option("--holder", options->remote.holder, "name of the lease's holder, as others see it")
+      ->option_text("NAME [operator]");
+  command->add_option("--priority", options->remote.priority, "of the lease of the motor card, against others'")
+      ->check(CLI::Range(0, 1000))
+      ->option_text("NUMBER [10]");
+  command
+      ->add_option("--lease-timeout", options->remote.lease_timeout_s,
+                   "the vehicle stops when no order has come for so long")
+      ->check(CLI::Range(0.1, 60.0))
+      ->option_text("SECONDS [5]");
+  command->add_flag("--json", options->json, "prints reports and answers as lines of JSON");
+  command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("SECONDS [0]");
+  command->footer(
+      "Typed commands: lease; order RPM A B C; stop; status; send {JSON}; quit. Ctrl-C gives the lease back: the "
+      "vehicle\norders its safe state. docs/remote.md tells what a dead link does.\n\n"
+      "Example: navcal remote /dev/ttyUSB0 --key-file ~/.navcal-key");
+  command->callback([options] {
+    const bool needs_argument = options->action == "send" || options->action == "get";
+    if (needs_argument == options->argument.empty())
+      throw analysis::Failure(analysis::Exit::usage, needs_argument ? options->action + " needs an argument"
+                                                                    : options->action + " takes no argument");
+    run_remote(*options);
+  });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/remote_console.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/remote_text.h"
+#include "cli/watch_text.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr std::string_view kRemoteHelp =
+    "lease            take charge of the motor\n"
+    "order RPM A B C  shaft speed and three fin angles in degrees, repeated until the next one\n"
+    "stop             the safe state at once; ends the lease\n"
+    "status           what navcald says of itself\n"
+    "send {JSON}      any line of the control socket\n"
+    "quit             stop, and end";
+
+/// The first two rows are the picture, the others scroll.
+constexpr std::string_view kBeginScreen = "\033[2J\033[3r\033[3;1H";
+constexpr std::string_view kEndScreen = "\033[r\033[999;1H\n";
+
+std::string first_word(std::string_view line) {
+  std::istringstream words{std::string(line)};
+  std::string word;
+  words >> word;
+  return word;
+}
+
+}  // namespace
+
+RemoteConsole::RemoteConsole(RemoteOperator& remote, Picture picture) : remote_(remote), picture_(picture) {
+  if (picture_ == Picture::terminal) fmt::print("{}", kBeginScreen);
+  remote_.on_notice = [this](std::string_view words) { say(words); };
+}
+
+RemoteConsole::~RemoteConsole() {
+  remote_.on_notice = [](std::string_view) {};
+  if (picture_ == Picture::terminal) fmt::print("{}", kEndScreen);
+  std::fflush(stdout);
+}
+
+void RemoteConsole::say(std::string_view words) {
+  if (picture_ == Picture::json) {
+    fmt::print("{}\n", nlohmann::json{{"class", "NOTICE"}, {"text", words}}.dump());
+  } else {
+    fmt::print("{}\n", words);
+  }
+  std::fflush(stdout);
+}
+
+bool RemoteConsole::give_order(std::string_view line) {
+  std::istringstream words{std::string(line)};
+  std::string name;
+  double shaft_rpm = 0;
+  std::array<double, 3> fins_deg{};
+  words >> name >> shaft_rpm >> fins_deg[0] >> fins_deg[1] >> fins_deg[2];
+  std::string rest;
+  if (!words || words >> rest) {
+    say("order needs four numbers: shaft speed in rpm and three fin angles in degrees");
+    return false;
+  }
+  if (remote_.order(shaft_rpm, fins_deg)) return true;
+  say("nobody is in charge: type lease, and wait for its ok");
+  return false;
+}
+
+bool RemoteConsole::take(std::string_view line) {
+  const std::string word = first_word(line);
+  if (word.empty()) return true;
+  if (word == "quit") return false;
+  if (word == "lease") {
+    remote_.lease();
+  } else if (word == "order") {
+    (void)give_order(line);
+  } else if (word == "stop" || word == "release") {
+    remote_.release();
+  } else if (word == "status") {
+    if (!remote_.host().request(R"({"command":"status"})")) say("there is no session yet");
+  } else if (word == "send") {
+    const auto begin = line.find('{');
+    if (begin == std::string_view::npos || !remote_.host().request(line.substr(begin)))
+      say("send needs an object of JSON and a session");
+  } else {
+    say(kRemoteHelp);
+  }
+  return true;
+}
+
+void RemoteConsole::show_report(const link::Host::NewReport& report) {
+  const auto quality = remote_.host().quality();
+  const bool is_alive = remote_.is_alive();
+  if (picture_ == Picture::json) {
+    fmt::print("{}\n", json_of(report, quality, is_alive));
+  } else {
+    const std::string state = words_of(report.report);
+    const std::string link =
+        words_of(quality, is_alive) + (report.is_verified ? "" : "; reports are not authenticated");
+    if (picture_ == Picture::terminal) {
+      fmt::print("\0337\033[1;1H\033[?7l\033[2K{}\033[2;1H\033[2K{}\033[?7h\0338", state, link);
+    } else {
+      if (RemoteOperator::Clock::now() < next_line_) return;
+      next_line_ = RemoteOperator::Clock::now() + std::chrono::milliseconds(900);
+      fmt::print("{}; {}\n", state, link);
+    }
+  }
+  std::fflush(stdout);
+}
+
+void RemoteConsole::show() {
+  if (const auto report = remote_.host().take_report()) show_report(*report);
+  if (const auto answer = remote_.take_answer()) {
+    if (picture_ == Picture::json) {
+      const bool is_ok = *answer == "ok";
+      nlohmann::ordered_json out{{"class", "ANSWER"}, {"ok", is_ok}};
+      if (!is_ok) out["error"] = printable(*answer);
+      fmt::print("{}\n", out.dump());
+      std::fflush(stdout);
+    } else {
+      say(printable(*answer));
+    }
+  }
+  while (auto response = remote_.host().take_response()) {
+    while (response->ends_with('\n')) response->pop_back();
+    if (picture_ == Picture::json) {
+      auto parsed = nlohmann::ordered_json::parse(*response, nullptr, false);
+      if (parsed.is_discarded()) parsed = printable(*response);
+      fmt::print("{}\n", nlohmann::ordered_json{{"class", "RESPONSE"}, {"response", std::move(parsed)}}.dump());
+      std::fflush(stdout);
+    } else {
+      say(printable(*response));
+    }
+  }
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/remote_operator.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+#include <utility>
+
+#include "base/interruptible.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr std::int64_t kSecondOfRemote_ns = 1'000'000'000;
+/// An order is repeated so often in the time of a lease, and twice a second at least.
+constexpr double kOrdersPerLease = 5;
+constexpr std::int64_t kLongestBetweenOrders_ns = kSecondOfRemote_ns / 2;
+constexpr double kGoodbye_s = 4;
+
+link::EndOptions end_of_operator(const RemoteOperator::Options& options) {
+  link::EndOptions end;
+  end.budget_B_s = options.budget_B_s;
+  if (options.key_file.empty()) return end;
+  auto key = link::Key::from_file(options.key_file);
+  if (const auto* problem = std::get_if<std::string>(&key)) throw std::runtime_error(*problem);
+  end.key = std::get<link::Key>(std::move(key));
+  return end;
+}
+
+RemoteOperator::Clock::time_point remote_deadline(double seconds) {
+  return RemoteOperator::Clock::now() +
+         std::chrono::duration_cast<RemoteOperator::Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+RemoteOperator::RemoteOperator(const Options& options)
+    : options_(options),
+      host_(end_of_operator(options)),
+      connection_(std::in_place, options.address, options.baud) {}
+
+std::int64_t RemoteOperator::now_ns() { return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count(); }
+
+void RemoteOperator::open_again() {
+  if (connection_ || now_ns() < open_again_ns_) return;
+  try {
+    connection_.emplace(options_.address, options_.baud);
+    on_notice("the line is open again");
+  } catch (const std::runtime_error&) {
+    open_again_ns_ = now_ns() + kSecondOfRemote_ns;
+  }
+}
+
+void RemoteOperator::pump() {
+  open_again();
+  watch_sessions();
+  repeat_order();
+  while (const auto frame = host_.next(now_ns())) {
+    if (!connection_ || connection_->send(*frame)) continue;
+    connection_.reset();
+    open_again_ns_ = now_ns() + kSecondOfRemote_ns;
+  }
+}
+
+void RemoteOperator::work(Clock::time_point until, int input) {
+  pump();
+  const std::int64_t now = now_ns();
+  std::int64_t wake_ns = std::min(host_.deadline_ns(), std::chrono::nanoseconds(until.time_since_epoch()).count());
+  if (is_leased_) wake_ns = std::min(wake_ns, order_due_ns_);
+  if (!connection_) wake_ns = std::min(wake_ns, open_again_ns_);
+  std::array<pollfd, 2> readable{{{connection_ ? connection_->fd() : -1, POLLIN, 0}, {input, POLLIN, 0}}};
+  const auto wait_ms = static_cast<int>(std::clamp<std::int64_t>((wake_ns - now + 999'999) / 1'000'000, 0, 1000));
+  const int ready = ::poll(readable.data(), readable.size(), wait_ms);
+  if (ready > 0 && readable[0].revents != 0) {
+    if (const auto bytes = connection_->read()) {
+      host_.take(now_ns(), *bytes);
+    } else {
+      connection_.reset();
+      open_again_ns_ = now_ns() + kSecondOfRemote_ns;
+      on_notice("the line is lost; it is opened again as soon as it is back");
+    }
+  }
+  take_command_answer();
+  if (const auto why = host_.take_refusal(); why != link::Refusal::none && !host_.has_session() && why != told_) {
+    told_ = why;
+    on_notice(link::words_for(why));
+  }
+}
+
+void RemoteOperator::watch_sessions() {
+  if (host_.sessions() == sessions_) return;
+  if (sessions_ > 0) {
+    on_notice("navcald was started anew: nobody knows whether it executed what had not been answered");
+    if (is_in_charge()) on_notice("the lease is lost");
+  }
+  sessions_ = host_.sessions();
+  is_leasing_ = is_leased_ = false;
+}
+
+void RemoteOperator::wait_for_session(double limit_s) {
+  std::string why = "the vehicle does not answer";
+  const auto notice = std::exchange(on_notice, [&](std::string_view words) { why = words; });
+  const auto until = remote_deadline(limit_s);
+  while (!host_.has_session() && Clock::now() < until && !base::Interruptible::interrupted()) work(until);
+  on_notice = notice;
+  if (!host_.has_session()) throw std::runtime_error(base::Interruptible::interrupted() ? "interrupted" : why);
+}
+
+std::string RemoteOperator::ask(std::string_view line, double limit_s) {
+  if (!host_.request(line)) throw std::runtime_error("the request is too long, or there is no session");
+  const unsigned session = host_.sessions();
+  const auto until = remote_deadline(limit_s);
+  while (Clock::now() < until) {
+    if (auto response = host_.take_response()) {
+      while (response->ends_with('\n')) response->pop_back();
+      return *response;
+    }
+    if (base::Interruptible::interrupted()) throw std::runtime_error("interrupted");
+    if (host_.sessions() != session)
+      throw std::runtime_error("navcald was started anew before it answered; perhaps it executed the request");
+    work(until);
+  }
+  throw std::runtime_error("no answer came");
+}
+
+void RemoteOperator::lease() {
+  link::Command command;
+  command.kind = link::Command::Kind::lease;
+  command.priority = static_cast<std::uint16_t>(options_.priority);
+  command.timeout_s = options_.lease_timeout_s;
+  command.holder = options_.holder;
+  awaited_ = host_.command(now_ns(), command);
+  is_leasing_ = awaited_.has_value();
+  if (!awaited_) answer_ = "there is no session yet";
+  shaft_rpm_ = 0;
+  fins_deg_ = {};
+}
+
+bool RemoteOperator::order(double shaft_rpm, const std::array<double, 3>& fins_deg) {
+  if (!is_leased_) return false;
+  shaft_rpm_ = shaft_rpm;
+  fins_deg_ = fins_deg;
+  order_due_ns_ = now_ns();
+  repeat_order();
+  return true;
+}
+
+void RemoteOperator::repeat_order() {
+  if (!is_leased_ || now_ns() < order_due_ns_) return;
+  const auto lease_share_ns = static_cast<std::int64_t>(options_.lease_timeout_s / kOrdersPerLease * 1e9);
+  order_due_ns_ = now_ns() + std::min(kLongestBetweenOrders_ns, lease_share_ns);
+  link::Command command;
+  command.kind = link::Command::Kind::order;
+  command.shaft_rpm = shaft_rpm_;
+  command.fins_deg = fins_deg_;
+  (void)host_.command(now_ns(), command);
+}
+
+void RemoteOperator::release() {
+  is_leasing_ = is_leased_ = false;
+  link::Command command;
+  command.kind = link::Command::Kind::release;
+  awaited_ = host_.command(now_ns(), command);
+  if (!awaited_) answer_ = "there is no session yet";
+}
+
+void RemoteOperator::take_command_answer() {
+  const auto answer = host_.take_answer();
+  if (!answer) return;
+  const bool is_awaited = answer->number == awaited_;
+  if (is_awaited) awaited_.reset();
+  if (is_awaited || !answer->is_ok) answer_ = answer->is_ok ? "ok" : answer->error;
+  if (is_awaited && std::exchange(is_leasing_, false)) {
+    is_leased_ = answer->is_ok;
+    order_due_ns_ = now_ns();
+  } else if (!answer->is_in_charge) {
+    // A lease that is over does not come back by itself; an order beyond a limit ends nothing.
+    is_leased_ = false;
+  }
+}
+
+void RemoteOperator::end() {
+  const auto until = remote_deadline(kGoodbye_s);
+  if (host_.has_session() && is_in_charge()) {
+    release();
+    while (awaited_ && Clock::now() < until) work(until);
+  }
+  if (!host_.has_session()) return;
+  host_.bye();
+  while (!host_.has_said_bye() && Clock::now() < until) work(until);
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "daemon/remote_link.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "daemon/json_text.h"
+#include "daemon/start_error.h"
+#include "ports/port.h"
+
+namespace navcal::daemon {
+namespace {
+
+/// Numbers of the control socket's connections stay below this.
+constexpr std::uint64_t kFirstRemoteClient = std::uint64_t{1} << 63;
+
+constexpr std::string_view kReadOnly =
+    "the link is read-only: navcald has no key for it (remote.key_file, or remote.orders_without_key)";
+/// Commands that change nothing.
+constexpr std::array<std::string_view, 3> kHarmless{"status", "log.list", "log.read"};
+
+link::EndOptions end_options(const config::RemoteSettings& settings) {
+  link::EndOptions options;
+  options.budget_B_s = settings.budget_B_s;
+  options.dead_s = settings.dead_s;
+  if (settings.key_file.empty()) return options;
+  auto key = link::Key::from_file(settings.key_file);
+  if (const auto* problem = std::get_if<std::string>(&key)) throw StartError("remote.key_file: " + *problem);
+  options.key = std::get<link::Key>(std::move(key));
+  return options;
+}
+
+bool is_harmless(std::string_view line) {
+  const auto request = nlohmann::json::parse(line, nullptr, false);
+  if (!request.is_object()) return true;
+  const auto command = request.find("command");
+  if (command == request.end() || !command->is_string()) return true;
+  for (const std::string_view name : kHarmless) {
+    if (command->get_ref<const std::string&>() == name) return true;
+  }
+  return false;
+}
+
+ControlRequest request_of(const link::Command& command, const std::string& lease) {
+  ControlRequest request;
+  request.lease = lease;
+  switch (command.kind) {
+    case link::Command::Kind::lease:
+      request.command = ControlCommand::motor_lease;
+      request.lease_request = {command.holder, command.priority, command.timeout_s};
+      break;
+    case link::Command::Kind::order:
+      request.command = ControlCommand::motor_order;
+      request.order.shaft_rpm = command.shaft_rpm;
+      request.order.fins_deg = command.fins_deg;
+      break;
+    case link::Command::Kind::release:
+      request.command = ControlCommand::motor_release;
+      break;
+  }
+  return request;
+}
+
+std::string_view name_of(link::Vehicle::Peer peer) {
+  switch (peer) {
+    case link::Vehicle::Peer::alive:
+      return "alive";
+    case link::Vehicle::Peer::dead:
+      return "dead";
+    case link::Vehicle::Peer::none:
+      break;
+  }
+  return "none";
+}
+
+}  // namespace
+
+RemoteLink::RemoteLink(const boost::asio::any_io_executor& executor, const config::RemoteSettings& settings,
+                       RemoteOwner& owner)
+    : settings_(settings),
+      owner_(owner),
+      has_key_(!settings.key_file.empty()),
+      vehicle_(end_options(settings)),
+      line_(make_remote_line(executor, settings_,
+                             {[this](std::int64_t now_ns, protocols::Bytes bytes) { on_bytes(now_ns, bytes); },
+                              [this](std::int64_t now_ns, bool is_open, std::string_view words) {
+                                on_line(now_ns, is_open, words);
+                              }})),
+      timer_(executor, [this] { drive(ports::monotonic_ns()); }) {}
+
+void RemoteLink::start() {
+  line_->start();
+  drive(ports::monotonic_ns());
+}
+
+void RemoteLink::stop() {
+  alive_.reset();
+  timer_.stop();
+  line_->stop();
+}
+
+void RemoteLink::on_line(std::int64_t now_ns, bool is_open, std::string_view words) {
+  is_open_ = is_open;
+  owner_.on_remote_event(now_ns, is_open ? "info" : "warning", is_open ? "remote.open" : "remote.lost", words);
+}
+
+void RemoteLink::on_bytes(std::int64_t now_ns, protocols::Bytes bytes) {
+  vehicle_.take(now_ns, bytes);
+  drive(now_ns);
+}
+
+void RemoteLink::drive(std::int64_t now_ns) {
+  vehicle_.advance(now_ns);
+  take_events(now_ns);
+  if (const auto command = vehicle_.take_command()) execute(*command, now_ns);
+  while (!is_answering_) {
+    const auto request = vehicle_.take_request();
+    if (!request) break;
+    answer(*request, now_ns);
+  }
+  if (vehicle_.is_report_due(now_ns)) vehicle_.report(now_ns, link::encode_report(owner_.remote_report(now_ns)));
+  while (const auto frame = vehicle_.next(now_ns)) line_->send(*frame);
+  timer_.arm(vehicle_.deadline_ns());
+}
+
+void RemoteLink::take_events(std::int64_t now_ns) {
+  using Kind = link::Vehicle::Event::Kind;
+  for (const auto& event : vehicle_.take_events()) {
+    switch (event.kind) {
+      case Kind::came:
+        owner_.on_remote_event(
+            now_ns, "info", "remote.operator",
+            has_key_ ? "an operator with the key is on the link" : "an operator is on the link");
+        owner_.on_remote_dead(now_ns, false);
+        break;
+      case Kind::silent:
+        link_is_silent(now_ns);
+        break;
+      case Kind::returned:
+        owner_.on_remote_event(now_ns, "info", "remote.operator", "the link is back, the session goes on");
+        owner_.on_remote_dead(now_ns, false);
+        break;
+      case Kind::left:
+        lease_.clear();
+        owner_.remote_client_gone(kFirstRemoteClient + event.session);
+        owner_.on_remote_event(now_ns, "info", "remote.operator", "the operator has left the link");
+        owner_.on_remote_dead(now_ns, false);
+        break;
+    }
+  }
+}
+
+void RemoteLink::link_is_silent(std::int64_t now_ns) {
+  std::string words = fmt::format("nothing was heard of the operator for {} s", settings_.dead_s);
+  switch (settings_.on_dead) {
+    case config::OnDead::release:
+      owner_.remote_client_gone(kFirstRemoteClient + vehicle_.session());
+      words += "; a lease of the link ends";
+      break;
+    case config::OnDead::safe:
+      owner_.end_every_lease();
+      words += "; every lease ends";
+      break;
+    case config::OnDead::nothing:
+      break;
+  }
+  owner_.on_remote_event(now_ns, "warning", "remote.dead", words);
+  owner_.on_remote_dead(now_ns, true);
+}
+
+ControlOrigin RemoteLink::origin(std::int64_t now_ns) const {
+  return {kFirstRemoteClient + vehicle_.session(), now_ns};
+}
+
+void RemoteLink::execute(const link::Command& command, std::int64_t now_ns) {
+  link::CommandAnswer refusal;
+  refusal.number = command.number;
+  refusal.error = kReadOnly;
+  if (!may_change()) return vehicle_.answer(refusal);
+  // Orders are answered at once; nothing of this link is gone before the reply.
+  owner_.remote_answer(request_of(command, lease_), origin(now_ns), [this, &command](const std::string& line) {
+    const auto answer = nlohmann::json::parse(line, nullptr, false);
+    link::CommandAnswer reply;
+    reply.number = command.number;
+    reply.is_ok = answer.value("ok", false);
+    reply.is_shaped = answer.value("shaped", false);
+    reply.error = answer.value("error", "");
+    if (reply.is_ok && command.kind == link::Command::Kind::lease) lease_ = answer.value("lease", "");
+    if (reply.is_ok && command.kind == link::Command::Kind::release) lease_.clear();
+    reply.is_in_charge = owner_.is_in_charge(kFirstRemoteClient + vehicle_.session());
+    vehicle_.answer(reply);
+  });
+}
+
+void RemoteLink::respond(std::string_view response) {
+  if (!vehicle_.respond(response)) (void)vehicle_.respond(control_error("the answer is too long for the link"));
+}
+
+void RemoteLink::answer(std::string_view line, std::int64_t now_ns) {
+  if (!may_change() && !is_harmless(line)) return respond(control_error(kReadOnly));
+  const auto parsed = parse_control(line);
+  if (const auto* error = std::get_if<std::string>(&parsed)) return respond(control_error(*error));
+  is_answering_ = true;
+  const std::weak_ptr<char> alive = alive_;
+  owner_.remote_answer(std::get<ControlRequest>(parsed), origin(now_ns),
+                       [this, alive, session = vehicle_.session()](const std::string& response) {
+                         if (alive.expired()) return;
+                         is_answering_ = false;
+                         // An operator that came in the meantime has not asked for it.
+                         if (session == vehicle_.session()) respond(response);
+                         // Not within drive(), which goes on by itself.
+                         timer_.arm(0);
+                       });
+}
+
+std::string RemoteLink::health() const {
+  const auto& counters = vehicle_.counters();
+  std::string out = fmt::format(
+      "{{\"operator\":\"{}\",\"sessions\":{},\"open\":{},\"frames\":{},\"bad_checksum\":{},"
+      "\"refused\":{},\"repeated\":{},\"sent_bytes\":{},\"loss\":",
+      name_of(vehicle_.peer()), vehicle_.session(), is_open_, counters.frames, vehicle_.line().bad_checksum,
+      counters.refused, counters.repeated, counters.sent_bytes);
+  append_shortest(out, vehicle_.loss(), 3);
+  return out + '}';
+}
+
+}  // namespace navcal::daemon
