@@ -55,6 +55,11 @@ link::Report RemoteReport::of(const VehicleState& state, const pipeline::Pipelin
   report.gps_age_s = state.gps_age_s;
   report.motor_age_s = state.motor_age_s;
   for (const std::string_view alarm : state.alarms) report.set_alarm(alarm);
+  if (const auto battery = pipeline.battery()) {
+    report.battery_V = battery->voltage_V;
+    if (battery->charge && battery->capacity_Ah > 0)
+      report.battery_charge = battery->charge->charge_Ah / battery->capacity_Ah;
+  }
   report.order_sequence = static_cast<std::uint16_t>(state.order_sequence);
   report.holder = state.holder;
   if (!state.holder.empty()) {
