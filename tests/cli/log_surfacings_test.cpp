@@ -49,7 +49,7 @@ TEST_F(LogSurfacings, MeasuresEachDive) {
     EXPECT_GT(found["without_fix_s"].get<double>(), found["submerged_s"].get<double>());
     EXPECT_GT(found["std_m"].get<double>(), 0);
     EXPECT_LT(found["error_m"].get<double>(), 4 * found["std_m"].get<double>());
-    EXPECT_GT(found["tracked"].get<int>(), 3);
+    EXPECT_GE(found["tracked"].get<int>(), 3);
   }
   EXPECT_EQ(json["statistics"]["count"], 2);
   EXPECT_EQ(json["statistics"]["with_ttff"], 2);
