@@ -43,7 +43,8 @@ void append_sources(std::string& out, const config::Settings& settings) {
     const std::string_view name = config::name_of(role);
     const std::string own = names_of(settings, pipeline::candidates(settings, role));
     if (own.empty()) {
-      missing.emplace_back(name);
+      // Without an altimeter nothing else is missing.
+      if (role != Role::altitude) missing.emplace_back(name);
     } else if (own == ports) {
       groups.back().insert(groups.back().rfind(" by "), fmt::format(" and {}", name));
     } else {

@@ -7,6 +7,7 @@
 
 #include "base/local_plane.h"
 #include "config/settings.h"
+#include "devices/instrument_model.h"
 #include "instruments/samples.h"
 #include "nav/altitude_filter.h"
 #include "nav/navigator.h"

@@ -24,11 +24,12 @@ TEST(Check, SaysWhichPortMayServeWhat) {
       says(port("tcm", "tcm2") + port("imu", "imu-card") + port("gps", "oncore") + port("motor", "motor-card"),
            "sources: heading and field by tcm, rates and acceleration and depth by imu, position and velocity "
            "by gps, shaft by motor\n"));
-  EXPECT_TRUE(says(port("all", "nmea"),
-                   "sources: heading and position and velocity by all; nothing gives field, rates, acceleration, "
-                   "depth, shaft\n"));
-  EXPECT_TRUE(
-      says(port("a", "nmea") + port("b", "nmea"), "sources: heading and position and velocity by a or b;"));
+  EXPECT_TRUE(says(
+      port("all", "nmea"),
+      "sources: heading and position and velocity and altitude by all; nothing gives field, rates, acceleration, "
+      "depth, shaft\n"));
+  EXPECT_TRUE(says(port("a", "nmea") + port("b", "nmea"),
+                   "sources: heading and position and velocity and altitude by a or b;"));
   EXPECT_TRUE(says("[roles]\nheading = \"b\"\n" + port("a", "tcm2") + port("b", "nmea"),
                    "sources: heading by b or a, field by a,"));
 }
