@@ -11,7 +11,7 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 14> kTableDescriptions{{
+constexpr std::array<Description, 15> kTableDescriptions{{
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control",
