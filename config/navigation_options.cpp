@@ -5,73 +5,72 @@ namespace navcal::config {
 
 std::vector<Option<Settings>> navigation_options() {
   using S = Settings;
-  return {boolean<S>(
-              {.table = "navigation",
-               .key = "enabled",
-               .description = "Whether position, attitude and depth are estimated between fixes."},
-              [](auto& s) -> auto& { return s.navigation.enabled; }),
-          real<S>(
-              {.table = "navigation",
-               .key = "interval_s",
-               .description = "Interval at which the estimate is reported and logged.",
-               .unit = kSeconds,
-               .low = 0.05,
-               .high = 60},
-              [](auto& s) -> auto& { return s.navigation.interval_s; }),
-          real<S>(
-              {.table = "navigation",
-               .key = "heading_error_deg",
-               .description =
-                   "Constant error of the heading along a leg, one standard deviation, without an active "
-                   "calibration of the compass.",
-               .unit = kDegrees,
-               .low = 0,
-               .high = 90},
-              [](auto& s) -> auto& { return s.navigation.heading_error_rad; }),
-          real<S>(
-              {.table = "navigation",
-               .key = "heading_error_calibrated_deg",
-               .description = "Constant error of the heading along a leg, one standard deviation, with an active "
-                              "calibration.",
-               .unit = kDegrees,
-               .low = 0,
-               .high = 90},
-              [](auto& s) -> auto& { return s.navigation.heading_error_calibrated_rad; }),
-          real<S>(
-              {.table = "navigation",
-               .key = "speed_error_percent",
-               .description =
-                   "Constant error of the speed that is computed from the shaft, one standard deviation.",
-               .unit = kPercent,
-               .low = 0,
-               .high = 100},
-              [](auto& s) -> auto& { return s.navigation.speed_error; }),
-          real<S>(
-              {.table = "navigation",
-               .key = "speed_lag_s",
-               .description = "Time constant of the first-order lag from shaft speed to vehicle speed; 0: no lag.",
-               .unit = kSeconds,
-               .low = 0,
-               .high = 60},
-              [](auto& s) -> auto& { return s.navigation.speed_lag_s; }),
-          real<S>(
-              {.table = "navigation",
-               .key = "max_error_m",
-               .description =
-                   "Largest position error (95 %) that the mission allows; the advice to surface keeps to it. "
-                   "0: no advice.",
-               .unit = kMetres,
-               .low = 0,
-               .high = 100000},
-              [](auto& s) -> auto& { return s.navigation.max_error_m; }),
-          .key = "altitude_noise_m",
-          .description = "Noise of one reading of the altimeter, one standard deviation.",
-          .unit = kMetres,
-          .low = 0.001,
-          .high = 100},
-         [](auto& s) -> auto& {
-    return s.navigation.altitude_noise_m;
-  }),
+  return {
+      boolean<S>(
+          {.table = "navigation",
+           .key = "enabled",
+           .description = "Whether position, attitude and depth are estimated between fixes."},
+          [](auto& s) -> auto& { return s.navigation.enabled; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "interval_s",
+           .description = "Interval at which the estimate is reported and logged.",
+           .unit = kSeconds,
+           .low = 0.05,
+           .high = 60},
+          [](auto& s) -> auto& { return s.navigation.interval_s; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "heading_error_deg",
+           .description = "Constant error of the heading along a leg, one standard deviation, without an active "
+                          "calibration of the compass.",
+           .unit = kDegrees,
+           .low = 0,
+           .high = 90},
+          [](auto& s) -> auto& { return s.navigation.heading_error_rad; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "heading_error_calibrated_deg",
+           .description = "Constant error of the heading along a leg, one standard deviation, with an active "
+                          "calibration.",
+           .unit = kDegrees,
+           .low = 0,
+           .high = 90},
+          [](auto& s) -> auto& { return s.navigation.heading_error_calibrated_rad; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "speed_error_percent",
+           .description = "Constant error of the speed that is computed from the shaft, one standard deviation.",
+           .unit = kPercent,
+           .low = 0,
+           .high = 100},
+          [](auto& s) -> auto& { return s.navigation.speed_error; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "speed_lag_s",
+           .description = "Time constant of the first-order lag from shaft speed to vehicle speed; 0: no lag.",
+           .unit = kSeconds,
+           .low = 0,
+           .high = 60},
+          [](auto& s) -> auto& { return s.navigation.speed_lag_s; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "max_error_m",
+           .description =
+               "Largest position error (95 %) that the mission allows; the advice to surface keeps to it. "
+               "0: no advice.",
+           .unit = kMetres,
+           .low = 0,
+           .high = 100000},
+          [](auto& s) -> auto& { return s.navigation.max_error_m; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "altitude_noise_m",
+           .description = "Noise of one reading of the altimeter, one standard deviation.",
+           .unit = kMetres,
+           .low = 0.001,
+           .high = 100},
+          [](auto& s) -> auto& { return s.navigation.altitude_noise_m; }),
       real<S>(
           {.table = "navigation",
            .key = "altimeter_range_m",
@@ -79,8 +78,7 @@ std::vector<Option<Settings>> navigation_options() {
            .unit = kMetres,
            .low = 0.1,
            .high = 12000},
-          [](auto& s) -> auto& {
-    return s.navigation.altimeter_range_m; }),
+          [](auto& s) -> auto& { return s.navigation.altimeter_range_m; }),
       real<S>(
           {.table = "navigation",
            .key = "min_altitude_m",
@@ -88,8 +86,7 @@ std::vector<Option<Settings>> navigation_options() {
            .unit = kMetres,
            .low = 0,
            .high = 1000},
-          [](auto& s) -> auto& {
-    return s.navigation.min_altitude_m; }),
+          [](auto& s) -> auto& { return s.navigation.min_altitude_m; }),
       real<S>(
           {.table = "navigation",
            .key = "floor_warning_s",
@@ -97,9 +94,8 @@ std::vector<Option<Settings>> navigation_options() {
            .unit = kSeconds,
            .low = 0,
            .high = 60},
-          [](auto& s) -> auto& {
-    return s.navigation.floor_warning_s; }),
-};
+          [](auto& s) -> auto& { return s.navigation.floor_warning_s; }),
+  };
 }
 
 }  // namespace navcal::config
