@@ -151,7 +151,7 @@ Ramps ramps(double late_s, double obeys, std::uint64_t seed) {
       acts_s = time_s + noise.uniform(0, late_s);
     }
     if (time_s >= acts_s) command = obeys * told;
-    if (ms % 100 != 52) continue;
+    if (ms % 100 != 2) continue;  // the first report is before the first order
     ramps.report_times_s.push_back(time_s);
     ramps.reports_rad.push_back(servo + noise.normal(kNoise_rad));
     ramps.angles_rad.push_back(servo);
