@@ -12,8 +12,9 @@ constexpr double kCurrentMean_s = 4;
 }  // namespace
 
 ActuatorTrack::ActuatorTrack(std::span<const MotorReading> readings, std::span<const double> order_times_s,
-                             double servo_lag_s, const devices::MotorModel& card, double duration_s)
-    : orders_(readings, order_times_s, servo_lag_s, card.fin_report_noise_rad()),
+                             std::span<const Vector3> ordered_fins_rad, double servo_lag_s,
+                             const devices::MotorModel& card, double duration_s)
+    : orders_(readings, order_times_s, ordered_fins_rad, servo_lag_s, card.fin_report_noise_rad()),
       report_s_(1 / card.timing.rate_Hz),
       rows_(static_cast<std::size_t>(std::ceil(std::max(duration_s, 0.0) / kStep_s)) + 2) {
   const auto servos_rad = orders_.servos_rad(rows_.size(), kStep_s);

@@ -23,8 +23,10 @@ class ActuatorTrack {
   };
 
   /// `servo_lag_s`: lag of the nominal servo. Readings in order of time, at least one.
-  ActuatorTrack(std::span<const MotorReading> readings, std::span<const double> order_times_s, double servo_lag_s,
-                const devices::MotorModel& card, double duration_s);
+  /// `ordered_fins_rad`: one for each order; empty: not recorded.
+  ActuatorTrack(std::span<const MotorReading> readings, std::span<const double> order_times_s,
+                std::span<const Vector3> ordered_fins_rad, double servo_lag_s, const devices::MotorModel& card,
+                double duration_s);
 
   [[nodiscard]] const FinOrders& orders() const { return orders_; }
   /// Row k is at time k kStep_s; the rows cover the duration.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/actuators/fin_orders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -36,7 +37,7 @@ std::vector<double> grid(std::size_t count, double step_s, double from_s) {
 }  // namespace
 
 FinOrders::FinOrders(std::span<const MotorReading> readings, std::span<const double> order_times_s,
-                     double servo_lag_s, double report_noise_rad)
+                     std::span<const Vector3> ordered_fins_rad, double servo_lag_s, double report_noise_rad)
     : lag_s_(servo_lag_s), report_noise_rad_(report_noise_rad) {
   report_times_s_.reserve(readings.size());
   for (const MotorReading& reading : readings) report_times_s_.push_back(reading.time_s);
@@ -45,7 +46,9 @@ FinOrders::FinOrders(std::span<const MotorReading> readings, std::span<const dou
     for (const MotorReading& reading : readings) {
       reports_rad_[i].push_back(along(kWaysOfFins[i], reading.fins_rad));
     }
-    smoothers_.emplace_back(report_times_s_, order_times_s, servo_lag_s);
+    std::vector<double> commands_rad;
+    for (const Vector3& fins_rad : ordered_fins_rad) commands_rad.push_back(along(kWaysOfFins[i], fins_rad));
+    smoothers_.emplace_back(report_times_s_, order_times_s, servo_lag_s, commands_rad);
     orders_[i] = smoothers_[i].smoothed(reports_rad_[i], report_noise_rad_);
   }
 }
@@ -60,7 +63,7 @@ std::vector<Vector3> FinOrders::drawn_servos_rad(std::size_t count, double step_
   for (std::size_t i = 0; i < kWays; ++i) {
     drawn[i] = smoothers_[i].drawn(reports_rad_[i], report_noise_rad_, noise);
   }
-  round_off(drawn);
+  if (!obeys()) round_off(drawn);
   return followed(drawn, grid(count, step_s, -later_s));
 }
 
@@ -73,6 +76,10 @@ double FinOrders::misfit() const {
     }
   }
   return square / static_cast<double>(kWays * servos_rad.size());
+}
+
+bool FinOrders::obeys() const {
+  return std::all_of(smoothers_.begin(), smoothers_.end(), [](const auto& smoother) { return smoother.obeys(); });
 }
 
 void FinOrders::round_off(std::array<ServoOrders, kWays>& orders) {
@@ -111,7 +118,10 @@ std::vector<Vector3> FinOrders::followed(const std::array<ServoOrders, kWays>& o
   for (const double time_s : times_s) {
     for (; order < order_times_s().size() && order_times_s()[order] <= time_s; ++order) {
       go_on_until(order_times_s()[order]);
-      for (std::size_t i = 0; i < kWays; ++i) command[i] += orders[i].steps_rad[order];
+      for (std::size_t i = 0; i < kWays; ++i) {
+        command[i] += orders[i].steps_rad[order];
+        if (!orders[i].jolts_rad.empty()) servo[i] += orders[i].jolts_rad[order];
+      }
     }
     if (time_s > at_s) go_on_until(time_s);
     Vector3& fins = path.emplace_back();

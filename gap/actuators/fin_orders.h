@@ -10,14 +10,14 @@
 
 namespace navcal::gap {
 
-/// Commands of the three fin servos, estimated from the motor card's reports. They are kept as roll, rudder and
-/// elevator: these are independent of each other, and the reports' noise is the same in each.
+/// Commands of the three fin servos, recorded or estimated from the motor card's reports. They are kept as roll,
+/// rudder and elevator: these are independent of each other, and the reports' noise is the same in each.
 class FinOrders {
  public:
   /// `order_times_s`: ascending, on the readings' time. At least one reading. `report_noise_rad`: standard
-  /// deviation of a reported angle.
-  FinOrders(std::span<const MotorReading> readings, std::span<const double> order_times_s, double servo_lag_s,
-            double report_noise_rad);
+  /// deviation of a reported angle. `ordered_fins_rad`: one for each order, or none where they were not recorded.
+  FinOrders(std::span<const MotorReading> readings, std::span<const double> order_times_s,
+            std::span<const Vector3> ordered_fins_rad, double servo_lag_s, double report_noise_rad);
 
   /// Angles of the servos' shafts every `step_s` from time zero on, rad.
   [[nodiscard]] std::vector<Vector3> servos_rad(std::size_t count, double step_s) const;
@@ -27,12 +27,14 @@ class FinOrders {
   /// Mean square difference between reports and estimated angles, in units of the report variance. It is about
   /// one if the fins moved by these orders.
   [[nodiscard]] double misfit() const;
+  /// Whether all fins moved as the recorded orders said.
+  [[nodiscard]] bool obeys() const;
   /// Instants of the orders that lie between reports.
   [[nodiscard]] std::span<const double> order_times_s() const { return smoothers_.front().order_times_s(); }
 
  private:
   static constexpr std::size_t kWays = 3;
-  /// Rounds the commands to the resolution of the card.
+  /// Rounds estimated commands to the resolution of the card.
   static void round_off(std::array<ServoOrders, kWays>& orders);
   /// Servo angles under these orders at ascending times.
   [[nodiscard]] std::vector<Vector3> followed(const std::array<ServoOrders, kWays>& orders,

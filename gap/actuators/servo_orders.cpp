@@ -82,11 +82,16 @@ constexpr std::array<double, 4> kFirst_rad{0.2 * base::kRadiansPerDegree, 0.05 *
                                            0.01 * base::kRadiansPerDegree, 0.002 * base::kRadiansPerDegree};
 constexpr int kRounds = 8;
 
+/// Standard deviations of the time at which a recorded command acts.
+constexpr std::array<double, 3> kLate_s{0.0005, 0.003, 0.01};
+
 }  // namespace
 
 ServoSmoother::ServoSmoother(std::span<const double> report_times_s, std::span<const double> order_times_s,
-                             double lag_s) {
-  auto order = std::upper_bound(order_times_s.begin(), order_times_s.end(), report_times_s.front());
+                             double lag_s, std::span<const double> commands_rad)
+    : lag_s_(lag_s) {
+  const auto first = std::upper_bound(order_times_s.begin(), order_times_s.end(), report_times_s.front());
+  auto order = first;
   double at_s = report_times_s.front();
   const auto add = [&](bool is_order, double time_s) {
     events_.push_back({is_order, std::exp(-(time_s - at_s) / lag_s)});
@@ -100,6 +105,41 @@ ServoSmoother::ServoSmoother(std::span<const double> report_times_s, std::span<c
     add(false, report_s);
   }
   variance_rad2_.assign(order_times_s_.size(), kFirst_rad.front() * kFirst_rad.front());
+  jolt_variance_rad2_.assign(order_times_s_.size(), 0);
+  if (commands_rad.empty() || order_times_s_.empty()) return;
+  auto at = static_cast<std::size_t>(first - order_times_s.begin());
+  begin_is_told_ = at > 0;
+  told_first_rad_ = commands_rad[begin_is_told_ ? at - 1 : 0];
+  double command_rad = told_first_rad_;
+  for (std::size_t i = 0; i < order_times_s_.size(); ++i) {
+    told_steps_rad_.push_back(commands_rad[at + i] - command_rad);
+    command_rad = commands_rad[at + i];
+  }
+}
+
+std::vector<double> ServoSmoother::less_the_told(std::span<const double> angles_rad) const {
+  std::vector<double> less_rad;
+  less_rad.reserve(angles_rad.size());
+  double command_rad = told_first_rad_, servo_rad = command_rad;
+  std::size_t order = 0;
+  for (const Event& event : events_) {
+    servo_rad = command_rad + (servo_rad - command_rad) * event.kept;
+    if (event.is_order) {
+      command_rad += told_steps_rad_[order++];
+    } else {
+      less_rad.push_back(angles_rad[less_rad.size()] - servo_rad);
+    }
+  }
+  return less_rad;
+}
+
+void ServoSmoother::obey(double late_s) {
+  variance_rad2_.assign(order_times_s_.size(), 0);
+  // The command before the first one is not recorded.
+  if (!begin_is_told_) variance_rad2_.front() = kAnywhere_rad * kAnywhere_rad;
+  for (std::size_t i = 0; i < told_steps_rad_.size(); ++i) {
+    jolt_variance_rad2_[i] = std::pow(told_steps_rad_[i] * late_s / lag_s_, 2);
+  }
 }
 
 ServoSmoother::Steps ServoSmoother::steps(std::span<const double> angles_rad, double noise_rad) const {
@@ -117,6 +157,7 @@ ServoSmoother::Steps ServoSmoother::steps(std::span<const double> angles_rad, do
     servo = command + (servo - command) * a;
     p = {a * a * p.servo + 2 * a * b * p.both + b * b * p.command, a * p.both + b * p.command, p.command};
     if (event.is_order) {
+      p.servo += jolt_variance_rad2_[order];
       p.command += variance_rad2_[order++];
       continue;
     }
@@ -132,13 +173,15 @@ ServoSmoother::Steps ServoSmoother::steps(std::span<const double> angles_rad, do
   }
 
   // Backward pass: estimate of each step from the reports after it, with its variance.
-  Steps result{0, 0, log_likelihood, std::vector<double>(order), std::vector<double>(order)};
+  Steps result{
+      0, 0, log_likelihood, std::vector<double>(order), std::vector<double>(order), std::vector<double>(order)};
   double by_servo = 0, by_command = 0;
   Two n;
   for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
     if (event->is_order) {
       const double variance = variance_rad2_[--order], mean = variance * by_command;
       result.mean_rad[order] = mean;
+      result.jolt_rad[order] = jolt_variance_rad2_[order] * by_servo;
       result.square_rad2[order] = mean * mean + variance - variance * variance * n.command;
     } else {
       const Taught& t = taught[--report];
@@ -160,8 +203,17 @@ ServoSmoother::Steps ServoSmoother::steps(std::span<const double> angles_rad, do
 
 ServoOrders ServoSmoother::smoothed(std::span<const double> angles_rad, double noise_rad) {
   Steps best;
-  std::vector<double> best_variance_rad2;
+  std::vector<double> best_variance_rad2, best_jolt_variance_rad2;
   double most = -std::numeric_limits<double>::infinity();
+  const auto compare = [&](Steps found, double evidence, bool obeys) {
+    if (evidence <= most) return;
+    most = evidence;
+    obeys_ = obeys;
+    best = std::move(found);
+    best_variance_rad2 = variance_rad2_;
+    best_jolt_variance_rad2 = jolt_variance_rad2_;
+  };
+  jolt_variance_rad2_.assign(order_times_s_.size(), 0);
   for (std::size_t i = 0; i < 2 * kFirst_rad.size(); ++i) {
     const Habit habit{kFirst_rad[i / 2], i % 2 == 0};
     variance_rad2_.assign(order_times_s_.size(), habit.first_rad * habit.first_rad);
@@ -171,37 +223,63 @@ ServoOrders ServoSmoother::smoothed(std::span<const double> angles_rad, double n
       found = steps(angles_rad, noise_rad);
     }
     const double evidence = found.log_likelihood - habit.cost_nats(found.square_rad2);
-    if (evidence <= most) continue;
-    most = evidence;
-    best = std::move(found);
-    best_variance_rad2 = variance_rad2_;
+    compare(std::move(found), evidence, false);
+  }
+  if (!told_steps_rad_.empty()) {
+    const std::vector<double> less_rad = less_the_told(angles_rad);
+    for (const double late_s : kLate_s) {
+      obey(late_s);
+      Steps found = steps(less_rad, noise_rad);
+      const double evidence = found.log_likelihood;
+      compare(std::move(found), evidence, true);
+    }
   }
   variance_rad2_ = std::move(best_variance_rad2);
-  return {best.angle_rad, best.command_rad, std::move(best.mean_rad)};
+  jolt_variance_rad2_ = std::move(best_jolt_variance_rad2);
+  return orders_of(best);
+}
+
+ServoOrders ServoSmoother::orders_of(const Steps& found) const {
+  ServoOrders orders{found.angle_rad, found.command_rad, found.mean_rad, {}};
+  if (!obeys_) return orders;
+  orders.angle_rad += told_first_rad_;
+  orders.command_rad += told_first_rad_;
+  for (std::size_t i = 0; i < told_steps_rad_.size(); ++i) orders.steps_rad[i] += told_steps_rad_[i];
+  orders.jolts_rad = found.jolt_rad;
+  return orders;
 }
 
 ServoOrders ServoSmoother::drawn(std::span<const double> angles_rad, double noise_rad, sim::Noise& noise) const {
   // Simulation smoother (Durbin and Koopman 2002): a servo is simulated under drawn steps, and the smoothed
   // difference between its reports and the recorded ones is added.
-  ServoOrders drawn{angles_rad.front(), angles_rad.front(), {}};
+  const std::vector<double> all_rad =
+      obeys_ ? less_the_told(angles_rad) : std::vector<double>(angles_rad.begin(), angles_rad.end());
+  Steps drawn;
+  drawn.angle_rad = drawn.command_rad = all_rad.front();
   std::vector<double> reports;
-  reports.reserve(angles_rad.size());
+  reports.reserve(all_rad.size());
   double servo = drawn.angle_rad, command = drawn.command_rad;
   for (const Event& event : events_) {
     servo = command + (servo - command) * event.kept;
     if (event.is_order) {
-      drawn.steps_rad.push_back(noise.normal(std::sqrt(variance_rad2_[drawn.steps_rad.size()])));
-      command += drawn.steps_rad.back();
+      const std::size_t order = drawn.mean_rad.size();
+      drawn.jolt_rad.push_back(noise.normal(std::sqrt(jolt_variance_rad2_[order])));
+      drawn.mean_rad.push_back(noise.normal(std::sqrt(variance_rad2_[order])));
+      servo += drawn.jolt_rad.back();
+      command += drawn.mean_rad.back();
     } else {
-      reports.push_back(angles_rad[reports.size()] - (servo + noise.normal(noise_rad)));
+      reports.push_back(all_rad[reports.size()] - (servo + noise.normal(noise_rad)));
     }
   }
   // The smoother is linear: smoothing the difference gives the difference of the smoothed values.
   const Steps missed = steps(reports, noise_rad);
   drawn.angle_rad += missed.angle_rad;
   drawn.command_rad += missed.command_rad;
-  for (std::size_t i = 0; i < drawn.steps_rad.size(); ++i) drawn.steps_rad[i] += missed.mean_rad[i];
-  return drawn;
+  for (std::size_t i = 0; i < drawn.mean_rad.size(); ++i) {
+    drawn.mean_rad[i] += missed.mean_rad[i];
+    drawn.jolt_rad[i] += missed.jolt_rad[i];
+  }
+  return orders_of(drawn);
 }
 
 }  // namespace navcal::gap

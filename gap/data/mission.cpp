@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "base/local_plane.h"
 #include "instruments/compass_error.h"
 #include "protocols/motor_card.h"
@@ -46,6 +47,12 @@ void expect_instruments_at_origin(const config::Settings& settings, const std::f
         "vehicle's origin",
         file.string(), port.name));
   }
+}
+
+Vector3 fins_rad(const protocols::motor_card::Command& command) {
+  Vector3 fins_rad{};
+  for (std::size_t i = 0; i < fins_rad.size(); ++i) fins_rad[i] = command.fins_deg[i] * base::kRadiansPerDegree;
+  return fins_rad;
 }
 
 }  // namespace
@@ -181,6 +188,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
   MissionGatherer gatherer;
   std::optional<std::int64_t> begin_ns;
   std::vector<std::int64_t> orders_ns;
+  std::vector<Vector3> ordered_fins_rad;
   std::optional<protocols::motor_card::Command> last_order;
   MissionGatherer::Said said;
   while (const auto entry = recording->next()) {
@@ -192,6 +200,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
                  order && order != last_order) {
         // A repeated order moves nothing.
         orders_ns.push_back(raw->time_ns);
+        ordered_fins_rad.push_back(fins_rad(*order));
         last_order = order;
       }
     } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry); event != nullptr && !said.field_uT) {
@@ -211,6 +220,7 @@ Mission load_mission(const std::filesystem::path& file, const std::function<void
   for (const std::int64_t time_ns : orders_ns) {
     mission.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
   }
+  mission.ordered_fins_rad = std::move(ordered_fins_rad);
   if (mission.distorted > 0) {
     mission.remarks.push_back(fmt::format("{}: {} words with E001: the compass reports magnetic distortion",
                                           file.string(), mission.distorted));

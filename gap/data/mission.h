@@ -60,6 +60,8 @@ struct Mission {
   std::string motor_lacks;
   /// Times of new commands to the motor card. Empty: not recorded.
   std::vector<double> order_times_s;
+  /// Fins that each of them commanded: what the vehicle was told, not what it did. Empty: not recorded.
+  std::vector<Vector3> ordered_fins_rad;
   double duration_s = 0;
   std::uint64_t distorted = 0;  ///< words of the compass with its remark of magnetic distortion (E001)
   std::vector<std::string> remarks;

@@ -71,6 +71,7 @@ Mission busiest_part(const Mission& mission) {
 Mission ordered_at(const Mission& mission, double phase_s) {
   Mission ordered = mission;
   ordered.order_times_s = regular_orders(phase_s, mission.duration_s);
+  ordered.ordered_fins_rad.clear();
   return ordered;
 }
 

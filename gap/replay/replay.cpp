@@ -43,6 +43,7 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
       vehicle_(vehicle),
       track_(mission.motor,
              mission.order_times_s.empty() ? regular_orders(0, mission.duration_s) : mission.order_times_s,
+             mission.order_times_s.empty() ? std::span<const Vector3>{} : mission.ordered_fins_rad,
              vehicle.fins.lag_s, mission.instruments.motor, mission.duration_s),
       electronics_C_(smoothed_electronics(mission.compass)) {
   std::vector<double> nominal_A;

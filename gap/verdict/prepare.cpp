@@ -76,6 +76,7 @@ void Preparation::replay_orders(Prepared& prepared, const std::string& name, Dia
     if (prepared.replay->actuators().orders().misfit() > kMostCommandMisfit) {
       answer.remarks.push_back(name + ": the fins moved by other orders than those recorded");
       orders_s.clear();
+      prepared.mission.ordered_fins_rad.clear();
     }
   }
   if (orders_s.empty()) {

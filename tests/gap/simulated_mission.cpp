@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
+#include "base/angles.h"
 #include "config/mission_file.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
 #include "sim/effects/document.h"
+#include "sim/noise.h"
 #include "sim/recording.h"
 #include "sim/vehicle/mission_helm.h"
 #include "sim/vehicle/simulated_motion.h"
@@ -19,19 +23,64 @@ namespace {
 
 constexpr std::int64_t kBegin_ns = 1'767'225'600'000'000'000;
 
-}  // namespace
+/// A helm whose orders move towards those of another one, in steps of 50 ms and by 10 degrees each (200 deg/s).
+class ShapedHelm final : public sim::Helm {
+ public:
+  ShapedHelm(const config::VehicleSettings& vehicle, std::unique_ptr<sim::Helm> helm, std::uint64_t seed)
+      : vehicle_(vehicle), helm_(std::move(helm)), dice_(seed), actuators_(helm_->actuators_at_start()) {}
 
-void write_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
+  [[nodiscard]] sim::Body start() const override { return helm_->start(); }
+  [[nodiscard]] sim::Actuators actuators_at_start() const override { return actuators_; }
+  [[nodiscard]] bool finished() const override { return helm_->finished(); }
+  [[nodiscard]] sim::Actuators next(double time_s, double step_s, const sim::Body& body) override {
+    const sim::Actuators wanted = helm_->next(time_s, step_s, body);
+    if (wanted.fins_ordered_rad) wanted_rad_ = *wanted.fins_ordered_rad;
+    actuators_.shaft_rps = wanted.shaft_rps;
+    actuators_.shaft_commanded_rps = wanted.shaft_commanded_rps;
+    actuators_.fins_ordered_rad.reset();
+    // The part of the step before the order acts belongs to the order before.
+    double late_s = 0;
+    const Eigen::Vector3d before_rad = told_rad_;
+    if (until_order_s_ < step_s / 2) {
+      until_order_s_ += 0.05;
+      if (told_rad_ != wanted_rad_) {
+        const Eigen::Vector3d most_rad = Eigen::Vector3d::Constant(10 * base::kRadiansPerDegree);
+        told_rad_ = wanted_rad_.cwiseMax(told_rad_ - most_rad).cwiseMin(told_rad_ + most_rad);
+        actuators_.fins_ordered_rad = told_rad_;
+        late_s = dice_.uniform(0, 0.8 * step_s);
+      }
+    }
+    until_order_s_ -= step_s;
+    follow(before_rad, late_s);
+    follow(told_rad_, step_s - late_s);
+    return actuators_;
+  }
+
+ private:
+  void follow(const Eigen::Vector3d& command_rad, double seconds) {
+    actuators_.fins_rad += -std::expm1(-seconds / vehicle_.fins.lag_s) * (command_rad - actuators_.fins_rad);
+  }
+
+  config::VehicleSettings vehicle_;
+  std::unique_ptr<sim::Helm> helm_;
+  sim::Noise dice_;
+  sim::Actuators actuators_;
+  Eigen::Vector3d told_rad_ = Eigen::Vector3d::Zero(), wanted_rad_ = Eigen::Vector3d::Zero();
+  double until_order_s_ = 0;
+};
+
+std::unique_ptr<sim::Helm> mission_helm(std::string_view mission) {
+  return std::make_unique<sim::MissionHelm>(config::VehicleSettings{}, config::load_mission(std::string(mission)));
+}
+
+void write_steered(const std::filesystem::path& file, std::unique_ptr<sim::Helm> helm, std::string_view effects,
                    double seconds, std::uint64_t seed, const devices::InstrumentModel& model) {
   sim::EffectSet set(kBegin_ns);
   std::vector<config::Problem> problems;
   sim::add_effects(effects, set, problems);
   if (!problems.empty()) throw std::invalid_argument("effects of a test");
   set.reseed(seed);
-  const config::VehicleSettings vehicle;
-  const sim::SimulatedMotion motion(
-      vehicle, std::make_unique<sim::MissionHelm>(vehicle, config::load_mission(std::string(mission))),
-      {kBegin_ns, &set, 20});
+  const sim::SimulatedMotion motion(config::VehicleSettings{}, std::move(helm), {kBegin_ns, &set, 20});
   sim::Recording::Options options;
   options.begin_ns = kBegin_ns;
   options.seed = seed;
@@ -55,6 +104,19 @@ void write_mission(const std::filesystem::path& file, std::string_view mission, 
   record::WholeFile whole(file);
   whole.write(text);
   whole.commit();
+}
+
+}  // namespace
+
+void write_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
+                   double seconds, std::uint64_t seed, const devices::InstrumentModel& model) {
+  write_steered(file, mission_helm(mission), effects, seconds, seed, model);
+}
+
+void write_shaped_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
+                          double seconds, std::uint64_t seed) {
+  auto helm = std::make_unique<ShapedHelm>(config::VehicleSettings{}, mission_helm(mission), seed);
+  write_steered(file, std::move(helm), effects, seconds, seed, {});
 }
 
 Mission simulated_mission(std::string_view mission, std::string_view effects, double seconds, std::uint64_t seed,

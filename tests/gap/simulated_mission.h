@@ -13,7 +13,12 @@ namespace navcal::gap::test {
 void write_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
                    double seconds, std::uint64_t seed, const devices::InstrumentModel& instruments = {});
 
-/// The same as read back.
+/// The same by a vehicle whose orders go through slew rates, twenty a second, as a daemon in between sends them.
+/// Each order acts up to 8 ms after its time.
+void write_shaped_mission(const std::filesystem::path& file, std::string_view mission, std::string_view effects,
+                          double seconds, std::uint64_t seed);
+
+/// write_mission() as read back.
 [[nodiscard]] Mission simulated_mission(std::string_view mission, std::string_view effects, double seconds,
                                         std::uint64_t seed, const devices::InstrumentModel& instruments = {});
 

@@ -30,7 +30,7 @@ TEST_P(StepAt, OfACommandIsSharpBetweenTwoReports) {
     return t < at_s ? 2 * base::kRadiansPerDegree
                     : (15 - 13 * std::exp(-(t - at_s) / kTrackLag_s)) * base::kRadiansPerDegree;
   };
-  const ActuatorTrack track(reports(angle, 6), std::vector{1.0, at_s, 5.0}, kTrackLag_s, {}, 6);
+  const ActuatorTrack track(reports(angle, 6), std::vector{1.0, at_s, 5.0}, {}, kTrackLag_s, {}, 6);
   for (std::size_t k = 100; k < 500; ++k) {
     const double t = static_cast<double>(k) * ActuatorTrack::kStep_s;
     EXPECT_NEAR(track.rows()[k].fins_rad[0], angle(t), 0.1 * base::kRadiansPerDegree) << t;
@@ -55,7 +55,7 @@ TEST(ActuatorTrack, FollowsAHelmWithoutLeadOrLag) {
       }
       return command + (servo - command) * std::exp(-(t - at_s) / kTrackLag_s);
     };
-    const ActuatorTrack track(reports(angle, 20), orders_s, kTrackLag_s, {}, 20);
+    const ActuatorTrack track(reports(angle, 20), orders_s, {}, kTrackLag_s, {}, 20);
     double early = 0, size = 0;
     for (std::size_t k = 200; k < 1800; ++k) {
       const double t = static_cast<double>(k) * ActuatorTrack::kStep_s;
@@ -70,14 +70,14 @@ TEST(ActuatorTrack, FollowsAHelmWithoutLeadOrLag) {
 TEST(ActuatorTrack, ASteadyFinLosesTheNoiseOfItsReports) {
   int sign = 1;
   const auto noisy = [&](double) { return (5 + 0.1 * (sign = -sign)) * base::kRadiansPerDegree; };
-  const ActuatorTrack track(reports(noisy, 20), regular_orders(0, 20), kTrackLag_s, {}, 20);
+  const ActuatorTrack track(reports(noisy, 20), regular_orders(0, 20), {}, kTrackLag_s, {}, 20);
   for (std::size_t k = 200; k < 1800; ++k)
     EXPECT_NEAR(track.rows()[k].fins_rad[2], 5 * base::kRadiansPerDegree, 0.03 * base::kRadiansPerDegree);
 }
 
 TEST(ActuatorTrack, OneReportHoldsForAll) {
   const std::vector<MotorReading> one{{3, 600, {0.1, 0.2, 0.3}, 1}};
-  const ActuatorTrack track(one, regular_orders(0, 5), kTrackLag_s, {}, 5);
+  const ActuatorTrack track(one, regular_orders(0, 5), {}, kTrackLag_s, {}, 5);
   EXPECT_GE(track.rows().size(), 500U);
   for (const auto& row : track.rows()) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(row.fins_rad[i], 0.1 * static_cast<double>(i + 1), 1e-12);
@@ -87,7 +87,7 @@ TEST(ActuatorTrack, OneReportHoldsForAll) {
 
 TEST(ActuatorTrack, TheCurrentIsThatOfTheShaftAndWhatTheReportsAddToItForSeconds) {
   const auto readings = reports([](double) { return 0; }, 60);  // 1.4 A
-  const ActuatorTrack track(readings, regular_orders(0, 60), kTrackLag_s, {}, 60);
+  const ActuatorTrack track(readings, regular_orders(0, 60), {}, kTrackLag_s, {}, 60);
   const std::vector<double> nominal(track.rows().size(), 1.0);
   const auto current = track.current_A(readings, nominal);
   for (std::size_t k = 1000; k < 5000; ++k) EXPECT_NEAR(current[k], 1.4, 0.01);

@@ -18,6 +18,7 @@ constexpr std::size_t kFinRows = 12'000;
 struct Steered {
   std::vector<MotorReading> readings;
   std::vector<Vector3> servos_rad;  ///< every hundredth of a second
+  std::vector<Vector3> told_rad;    ///< every tenth of a second
 };
 
 Steered steered(double restless_deg) {
@@ -37,6 +38,7 @@ Steered steered(double restless_deg) {
       command = {-rudder, rudder / 2 + side, rudder / 2 - side};
       for (double& angle : command)
         angle = std::round(angle / base::kRadiansPerDegree * 10) / 10 * base::kRadiansPerDegree;
+      result.told_rad.push_back(command);
     }
     result.servos_rad.push_back(servo);
     if (k % 10 != 4) continue;
@@ -51,7 +53,7 @@ Steered steered(double restless_deg) {
 }
 
 FinOrders orders_of(const Steered& helm) {
-  return {helm.readings, regular_orders(0, kDuration_s), kFinLag_s, kReport_rad};
+  return {helm.readings, regular_orders(0, kDuration_s), {}, kFinLag_s, kReport_rad};
 }
 
 /// Root mean square of what moves within a tenth of a second beyond the second around it, degrees.
@@ -128,8 +130,27 @@ TEST(FinOrders, OrdersThatTheFinsDidNotObeyAreKnownByWhatTheyLeave) {
   const Steered helm = steered(0.6);
   EXPECT_LT(orders_of(helm).misfit(), 1.1);
   EXPECT_GT(orders_of(helm).misfit(), 0.3);
-  const FinOrders few(helm.readings, std::vector{20.0, 50.0}, kFinLag_s, kReport_rad);
+  const FinOrders few(helm.readings, std::vector{20.0, 50.0}, {}, kFinLag_s, kReport_rad);
   EXPECT_GT(few.misfit(), 10);
+}
+
+TEST(FinOrders, RecordedCommandsPutTheServosNearerToWhereTheyWere) {
+  const Steered helm = steered(0.6);
+  const auto orders_s = regular_orders(0, kDuration_s);
+  const FinOrders recorded(helm.readings, orders_s, std::span(helm.told_rad).first(orders_s.size()), kFinLag_s,
+                           kReport_rad);
+  EXPECT_TRUE(recorded.obeys());
+  EXPECT_FALSE(orders_of(helm).obeys());
+  EXPECT_LT(recorded.misfit(), 1.2);
+  sim::Noise noise(2);
+  const auto servos = recorded.servos_rad(kFinRows, kStep_s),
+             estimated = orders_of(helm).servos_rad(kFinRows, kStep_s),
+             drawn = recorded.drawn_servos_rad(kFinRows, kStep_s, 0, noise);
+  for (const std::size_t fin : {0U, 1U, 2U}) {
+    const double apart_deg = rms_apart_deg(servos, helm.servos_rad, fin);
+    EXPECT_LT(apart_deg, 0.3 * rms_apart_deg(estimated, helm.servos_rad, fin)) << fin;
+    EXPECT_LT(rms_apart_deg(drawn, helm.servos_rad, fin), 0.03) << fin;
+  }
 }
 
 TEST(FinOrders, GoOnWhereThereAreNoReports) {

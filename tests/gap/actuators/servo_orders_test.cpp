@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -128,6 +129,71 @@ TEST(ServoOrders, OrdersAtOneInstantAndReportsFarApartAreNoTrouble) {
     EXPECT_NEAR(command, 4 * base::kRadiansPerDegree, 4.1 * base::kRadiansPerDegree);
   }
 }
+
+/// A helm that moves by ramps: twenty orders a second, of at most ten degrees each, which act up to `late_s`
+/// later.
+struct Ramps {
+  std::vector<double> order_times_s, commands_rad, report_times_s, reports_rad, angles_rad;
+};
+
+Ramps ramps(double late_s, double obeys, std::uint64_t seed) {
+  sim::Noise noise(seed);
+  Ramps ramps;
+  double servo = 0, told = 0, command = 0, wanted = 0, acts_s = 0;
+  for (int ms = 0; ms < 90'000; ++ms) {
+    servo += (command - servo) * -std::expm1(-0.001 / kServoLag_s);
+    const double time_s = 0.001 * ms;
+    if (ms % 100 == 7) wanted = (ms / 3000 % 2 == 0 ? 14 : -14) * base::kRadiansPerDegree + noise.normal(0.01);
+    if (ms % 50 == 7 && told != wanted) {
+      told = std::clamp(wanted, told - 10 * base::kRadiansPerDegree, told + 10 * base::kRadiansPerDegree);
+      ramps.order_times_s.push_back(time_s);
+      ramps.commands_rad.push_back(told);
+      acts_s = time_s + noise.uniform(0, late_s);
+    }
+    if (time_s >= acts_s) command = obeys * told;
+    if (ms % 100 != 2) continue;  // the first report is before the first order
+    ramps.report_times_s.push_back(time_s);
+    ramps.reports_rad.push_back(servo + noise.normal(kNoise_rad));
+    ramps.angles_rad.push_back(servo);
+  }
+  return ramps;
+}
+
+class Recorded : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Recorded, CommandsAreTakenAsTheyWereGivenThoughTheyActALittleLate) {
+  for (const double late_s : {0.0, 0.008}) {
+    const Ramps helm = ramps(late_s, 1, GetParam());
+    ServoSmoother smoother(helm.report_times_s, helm.order_times_s, kServoLag_s, helm.commands_rad);
+    const ServoOrders found = smoother.smoothed(helm.reports_rad, kNoise_rad);
+    EXPECT_TRUE(smoother.obeys()) << late_s;
+    const auto told = commands(found);
+    for (std::size_t i = 1; i < told.size(); ++i)
+      EXPECT_NEAR(told[i] - told[i - 1], helm.commands_rad[i] - helm.commands_rad[i - 1], 1e-9) << i;
+    EXPECT_NEAR(told.back(), helm.commands_rad[told.size() - 1], 0.02 * base::kRadiansPerDegree);
+  }
+}
+
+TEST_P(Recorded, CommandsThatTheServoDoesNotObeyAreNotBelieved) {
+  for (const double obeys : {-1.0, 0.0, 0.6}) {
+    const Ramps helm = ramps(0, obeys, GetParam());
+    ServoSmoother smoother(helm.report_times_s, helm.order_times_s, kServoLag_s, helm.commands_rad);
+    (void)smoother.smoothed(helm.reports_rad, kNoise_rad);
+    EXPECT_FALSE(smoother.obeys()) << obeys;
+  }
+}
+
+TEST_P(Recorded, AServoThatStandsOffItsCommandObeysAndItsOffsetIsFound) {
+  Ramps helm = ramps(0, 1, GetParam());
+  for (double& angle_rad : helm.reports_rad) angle_rad += base::kRadiansPerDegree;
+  ServoSmoother smoother(helm.report_times_s, helm.order_times_s, kServoLag_s, helm.commands_rad);
+  const auto found = commands(smoother.smoothed(helm.reports_rad, kNoise_rad));
+  EXPECT_TRUE(smoother.obeys());
+  EXPECT_NEAR(found.back() - helm.commands_rad[found.size() - 1], base::kRadiansPerDegree,
+              0.02 * base::kRadiansPerDegree);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Recorded, testing::Values(1, 2, 3));
 
 }  // namespace
 }  // namespace navcal::gap

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "base/angles.h"
 #include "record/recording.h"
 #include "sim/recording.h"
 #include "tests/gap/simulated_mission.h"
@@ -39,6 +40,18 @@ TEST(Mission, KnowsWhenTheFinsWereToldSomethingIfThatWasRecorded) {
   const auto recorded = load_mission(file, [](double) {}).order_times_s;
   EXPECT_GT(recorded.size(), 100U);
   EXPECT_TRUE(std::is_sorted(recorded.begin(), recorded.end()));
+  // What each order said is kept beside its time, as the card takes it.
+  const auto told_rad = load_mission(file, [](double) {}).ordered_fins_rad;
+  ASSERT_EQ(told_rad.size(), recorded.size());
+  double most_deg = 0;
+  for (const Vector3& fins_rad : told_rad) {
+    for (const double fin_rad : fins_rad) {
+      const double tenths = fin_rad / base::kRadiansPerDegree * 10;
+      EXPECT_NEAR(tenths, std::round(tenths), 1e-9);
+      most_deg = std::max(most_deg, std::abs(tenths) / 10);
+    }
+  }
+  EXPECT_GT(most_deg, 1);
 
   std::ifstream lines(file);
   std::string line, without, with_others;
@@ -51,8 +64,10 @@ TEST(Mission, KnowsWhenTheFinsWereToldSomethingIfThatWasRecorded) {
   }
   std::ofstream(file) << without;
   EXPECT_TRUE(load_mission(file, [](double) {}).order_times_s.empty());
+  EXPECT_TRUE(load_mission(file, [](double) {}).ordered_fins_rad.empty());
   std::ofstream(file) << with_others;
   EXPECT_EQ(load_mission(file, [](double) {}).order_times_s, recorded);
+  EXPECT_EQ(load_mission(file, [](double) {}).ordered_fins_rad, told_rad);
 }
 
 TEST(Mission, RotationsOfInstrumentsAreUndoneAndPositionsRefused) {

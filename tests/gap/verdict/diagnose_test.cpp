@@ -107,6 +107,22 @@ TEST_F(Diagnose, FindsNoGapInANominalMission) {
   EXPECT_FALSE(found.gap.pooled.closed);
 }
 
+// Between a controller and the card the orders go through slew rates: twenty a second while a fin moves.
+TEST_F(Diagnose, IsAsSureOfAVehicleWhoseOrdersAreShaped) {
+  const auto shaped = [&](const std::string& name, std::string_view effects, std::uint64_t seed) {
+    test::write_shaped_mission(folder_ / name, "identification", effects, 200, seed);
+    return folder_ / name;
+  };
+  const Diagnosis nominal = diagnosis(shaped("a.cap", "", 3), {shaped("b.cap", "", 4)});
+  EXPECT_EQ(nominal.verdict, Verdict::no_gap) << nominal.sentence;
+  constexpr std::string_view kThrust = "[thrust_scale]\nscale = -0.08\n";
+  const Diagnosis found = diagnosis(shaped("c.cap", kThrust, 7), {shaped("d.cap", kThrust, 8)});
+  EXPECT_EQ(found.verdict, Verdict::explained) << found.sentence;
+  ASSERT_EQ(found.effects.size(), 1U) << found.sentence;
+  EXPECT_EQ(found.effects.front().name, "thrust_scale");
+  EXPECT_NEAR(found.effects.front().parameters.front().value, -0.08, 0.015);
+}
+
 TEST_F(Diagnose, SaysOfWhatNothingCanBeSaid) {
   const Diagnosis brief = diagnosis(recorded("brief.cap", "", 15, 5), {});
   EXPECT_EQ(brief.verdict, Verdict::unknown);
