@@ -10,9 +10,9 @@
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"
 
-/// MicroStrain inertial sensors (3DM-CV5, -GX5, -CV7, -GQ7). Source: "MIP protocol" and "Data reference" of the
-/// manuals: 75 65, descriptor set, payload length, fields (length, descriptor, data; big endian), Fletcher over
-/// all before it (ICD section 7).
+/// MicroStrain inertial sensors (3DM-CV5, -GX5, -CV7, -GQ7). Manual, not at hand (ICD): "MIP protocol" and "Data
+/// reference" of the manuals: 75 65, descriptor set, payload length, fields (length, descriptor, data; big
+/// endian), Fletcher over all before it (ICD section 7).
 namespace navcal::protocols::mip {
 
 inline constexpr std::uint8_t kBaseSet = 0x01, k3dmSet = 0x0C, kSensorSet = 0x80, kFilterSet = 0x82,

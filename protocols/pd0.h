@@ -11,9 +11,9 @@
 #include "protocols/stream_parser.h"
 #include "protocols/utc.h"
 
-/// Teledyne RDI Doppler logs and current profilers, format PD0. Source: WorkHorse "Commands and Output Data
-/// Format", chapter "PD0": 7F 7F, length without checksum (u16 LE), number and offsets of the data types, data,
-/// sum of all bytes (u16 LE) (ICD section 8).
+/// Teledyne RDI Doppler logs and current profilers, format PD0. Manual, not at hand (ICD): WorkHorse "Commands and
+/// Output Data Format", chapter "PD0": 7F 7F, length without checksum (u16 LE), number and offsets of the data
+/// types, data, sum of all bytes (u16 LE) (ICD section 8).
 namespace navcal::protocols::pd0 {
 
 inline constexpr FrameId kPd0{"PD0"};

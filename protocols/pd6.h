@@ -10,9 +10,10 @@
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"
 
-/// Teledyne Doppler logs, format PD6: lines `:XX,field,...<CR><LF>`. Source: Explorer and Pathfinder DVL guides,
-/// chapter "PD6" (ICD section 9). The lines have no checksum: a damaged digit is not noticed. Therefore only lines
-/// of known names, made of the characters that they may have, are frames. No capture was at hand.
+/// Teledyne Doppler logs, format PD6: lines `:XX,field,...<CR><LF>`. Manual, not at hand (ICD): Explorer and
+/// Pathfinder DVL guides, chapter "PD6" (ICD section 9). The lines have no checksum: a damaged digit is not
+/// noticed. Therefore only lines of known names, made of the characters that they may have, are frames. No capture
+/// was at hand.
 namespace navcal::protocols::pd6 {
 
 inline constexpr FrameId kAttitude{"SA"}, kTiming{"TS"};

@@ -10,9 +10,9 @@
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"
 
-/// PNI TRAX, TCM3 and Prime compasses. Source: TRAX user manual, chapter "Operation with PNI binary protocol":
-/// length of the whole packet (u16 BE), frame number, payload (BE), CRC-16/XMODEM over all before it (ICD section
-/// 11). No capture was at hand; unverified (ICD).
+/// PNI TRAX, TCM3 and Prime compasses. Manual, not at hand (ICD): TRAX user manual, chapter "Operation with PNI
+/// binary protocol": length of the whole packet (u16 BE), frame number, payload (BE), CRC-16/XMODEM over all
+/// before it (ICD section 11). No capture was at hand; unverified (ICD).
 namespace navcal::protocols::trax {
 
 enum class FrameNumber : std::uint8_t {

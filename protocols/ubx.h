@@ -10,8 +10,9 @@
 #include "protocols/nmea.h"
 #include "protocols/stream_parser.h"
 
-/// u-blox receivers. Source: u-blox interface descriptions M8 (UBX-13003221), F9 (UBX-18010854), chapter "UBX
-/// protocol": B5 62, class, id, payload length (u16 LE), payload, Fletcher over class to payload (ICD section 6).
+/// u-blox receivers. Manual, not at hand (ICD): u-blox interface descriptions M8 (UBX-13003221), F9
+/// (UBX-18010854), chapter "UBX protocol": B5 62, class, id, payload length (u16 LE), payload, Fletcher over class
+/// to payload (ICD section 6).
 namespace navcal::protocols::ubx {
 
 /// Class and number of a message, as `0x0107` for NAV-PVT.

@@ -9,9 +9,9 @@
 #include "protocols/frame.h"
 #include "protocols/stream_parser.h"
 
-/// VectorNav VN-100, VN-200, VN-300. Source: VN-100 user manual, "Binary output messages" and "Asynchronous
-/// messages": FA, group byte, one field word (u16 LE) for each group, fields (LE), CRC-16/XMODEM (BE) over all but
-/// the sync; beside it lines `$VN...*hh` (ICD section 12). No capture was at hand.
+/// VectorNav VN-100, VN-200, VN-300. Manual, not at hand (ICD): VN-100 user manual, "Binary output messages" and
+/// "Asynchronous messages": FA, group byte, one field word (u16 LE) for each group, fields (LE), CRC-16/XMODEM
+/// (BE) over all but the sync; beside it lines `$VN...*hh` (ICD section 12). No capture was at hand.
 namespace navcal::protocols::vectornav {
 
 inline constexpr FrameId kBinary{"VNBIN"};

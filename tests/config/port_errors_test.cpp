@@ -52,7 +52,8 @@ TEST(ConfigPortErrors, AnAddressIsNoPath) {
 }
 
 TEST(ConfigPortErrors, SeveralPlaces) {
-  const Problems several{"t.toml:1: port.compass: only one of path, udev_name, usb_serial and address may be given"};
+  const Problems several{
+      "t.toml:1: port.compass: only one of path, udev_name, usb_serial and address may be given"};
   EXPECT_EQ(problems_of(compass("udev_name = \"x\"\n")), several);
   EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\n")), several);
   EXPECT_EQ(problems_of(compass("usb_serial = \"x\"\nudev_name = \"y\"\n")), several);
