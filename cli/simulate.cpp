@@ -11,6 +11,7 @@
 #include "analysis/simulate_run.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
+#include "cli/place_options.h"
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "devices/instrument_model.h"
