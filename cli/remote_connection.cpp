@@ -12,11 +12,13 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "ports/finder.h"
+#include "ports/tty.h"
 
 namespace navcal::cli {
 namespace {
@@ -62,7 +64,7 @@ base::Descriptor connect_tcp(const std::string& address) {
   throw std::runtime_error(address + ": " + problem);
 }
 
-ports::Tty open_tty(const std::string& path, int baud) {
+std::unique_ptr<ports::Line> open_tty(const std::string& path, int baud) {
   config::PortSettings settings;
   settings.path = path;
   std::string why;
@@ -70,7 +72,7 @@ ports::Tty open_tty(const std::string& path, int baud) {
   if (!found) throw std::runtime_error(why);
   auto opened = ports::Tty::open(*found, baud, false);
   if (const auto* refusal = std::get_if<std::string>(&opened)) throw std::runtime_error(*refusal);
-  return std::get<ports::Tty>(std::move(opened));
+  return std::get<std::unique_ptr<ports::Line>>(std::move(opened));
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ RemoteConnection::RemoteConnection(const std::string& address, int baud) {
   if (address.starts_with(kTcp)) {
     socket_ = connect_tcp(address.substr(kTcp.size()));
   } else {
-    tty_.emplace(open_tty(address, baud));
+    tty_ = open_tty(address, baud);
   }
 }
 
@@ -93,8 +95,7 @@ std::optional<std::vector<std::uint8_t>> RemoteConnection::read() {
 }
 
 bool RemoteConnection::send(protocols::Bytes frame) {
-  const ssize_t n =
-      tty_ ? ::write(fd(), frame.data(), frame.size()) : ::send(fd(), frame.data(), frame.size(), MSG_NOSIGNAL);
+  const ssize_t n = tty_ ? tty_->write(frame) : ::send(fd(), frame.data(), frame.size(), MSG_NOSIGNAL);
   // A frame that was taken in part fails its checksum at the other end, as one that was damaged on its way.
   return n >= 0 || errno == EAGAIN || errno == EINTR;
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/descriptor.h"
-#include "ports/tty.h"
+#include "ports/line.h"
 #include "protocols/frame.h"
 
 namespace navcal::cli {
@@ -24,7 +25,7 @@ class RemoteConnection {
   bool send(protocols::Bytes frame);
 
  private:
-  std::optional<ports::Tty> tty_;
+  std::unique_ptr<ports::Line> tty_;
   base::Descriptor socket_;
 };
 
