@@ -26,8 +26,9 @@ struct ImuAccuracy {
   bool operator==(const ImuAccuracy&) const = default;
 };
 
-/// How long a receiver searches before its first fix (docs/surfacing.md).
-enum class SearchModel : std::uint8_t {
+/// How long a receiver searches before its first fix (docs/surfacing.md). 64 bits, so that no gap lies between the
+/// members of GpsAccuracy: the key of a bank of nulls is made from their bytes.
+enum class SearchModel : std::uint64_t {
   uniform,         ///< between two bounds, whatever came before
   receiver_state,  ///< by what the receiver still knows: ephemerides, time, position
 };

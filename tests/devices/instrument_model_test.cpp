@@ -68,7 +68,9 @@ TEST(InstrumentModel, EachOptionOfTheTableChangesItAndEachOtherwise) {
   for (const auto& option : config::daemon_options()) {
     if (option.table != "instruments") continue;
     Settings settings;
-    option.set(settings, config::Value(option.high));
+    const bool is_choice = option.kind == config::Kind::choice;
+    option.set(settings,
+               is_choice ? config::Value(std::string(option.choices.back())) : config::Value(option.high));
     EXPECT_TRUE(models.insert(bytes_of(instrument_model(settings))).second) << option.name();
     ++options;
   }
