@@ -6,9 +6,8 @@
 namespace navcal::config {
 namespace {
 
-using S = Settings;
-
-std::vector<Option<S>> pack_options() {
+std::vector<Option<Settings>> pack_options() {
+  using S = Settings;
   return {
       boolean<S>(
           {.table = "battery",
@@ -75,7 +74,8 @@ std::vector<Option<S>> pack_options() {
   };
 }
 
-std::vector<Option<S>> load_options() {
+std::vector<Option<Settings>> load_options() {
+  using S = Settings;
   return {
       real<S>(
           {.table = "battery",
