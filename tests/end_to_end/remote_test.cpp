@@ -131,6 +131,7 @@ class Remote : public testing::Test {
     set("remote.listen", "127.0.0.1:" + std::to_string(vehicle_port_));
     set("remote.key_file", (folder_ / "key").string());
     set("remote.dead_s", "3");
+    set("remote.budget_B_s", "50000");  // a copy of a log would take minutes
     daemon_ = std::make_unique<Process>(daemon, folder_ / "navcald");
     ASSERT_TRUE(eventually([&] { return daemon_->err().find("motor port.opened") != std::string::npos; }, kLong))
         << daemon_->err();
@@ -227,6 +228,30 @@ TEST_F(Remote, AsksOnceAndWithoutAKeyOnlyWatches) {
   const auto watcher = remote(vehicle_port_, "--seconds 5", "watcher", false);
   EXPECT_EQ(watcher->wait(kLong), 0);
   EXPECT_NE(watcher->out().find("not authenticated"), std::string::npos) << watcher->out();
+}
+
+TEST_F(Remote, CopiesALogAndGoesOnWhereItWasInterrupted) {
+  const auto rotate = remote(vehicle_port_, "send '{\"command\":\"log.rotate\"}'", "rotate");
+  ASSERT_EQ(rotate->wait(kLong), 0) << rotate->err();
+  const auto list = remote(vehicle_port_, "ls", "list");
+  ASSERT_EQ(list->wait(kLong), 0) << list->err();
+  std::istringstream first(list->out());
+  std::uint64_t bytes = 0;
+  std::string name;
+  ASSERT_TRUE(first >> bytes >> name) << list->out();
+  const std::string log = test::read_file(folder_ / "logs" / name);
+  ASSERT_EQ(log.size(), bytes);
+  // What an interrupted copy has left, and what belongs to another log.
+  for (const std::string& part : {log.substr(0, log.size() / 2), std::string(100, 'x')}) {
+    const auto target = folder_ / "copy";
+    std::filesystem::remove(target);
+    std::ofstream(target.string() + ".part", std::ios::binary) << part;
+    const auto get = remote(vehicle_port_, "get " + name + " -o " + target.string(), "get");
+    ASSERT_EQ(get->wait(kLong), 0) << get->err();
+    EXPECT_TRUE(test::read_file(target) == log);
+    EXPECT_EQ(get->err().find("begins anew") != std::string::npos, part[0] == 'x') << get->err();
+    EXPECT_FALSE(std::filesystem::exists(target.string() + ".part"));
+  }
 }
 
 }  // namespace
