@@ -109,7 +109,10 @@ StateCollector::Last StateCollector::serving() const {
 
 VehicleState StateCollector::at(std::int64_t now_ns) {
   Last last = serving();
-  if (last.imu) last.imu->value.depth_m -= gauge_below_origin_m(last.imu->port);
+  if (last.imu) {
+    const std::uint16_t port = last.imu->port;
+    last.imu->value.depth_m -= gauge_below_origin_m(port);
+  }
   VehicleState state;
   if (pipeline_.mapping().source != pipeline::UtcMapping::Source::none)
     state.time_utc_ns = pipeline_.mapping().to_utc(now_ns);
