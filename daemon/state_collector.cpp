@@ -109,10 +109,7 @@ StateCollector::Last StateCollector::serving() const {
 
 VehicleState StateCollector::at(std::int64_t now_ns) {
   Last last = serving();
-  if (last.imu) {
-    const std::uint16_t port = last.imu->port;
-    last.imu->value.depth_m -= gauge_below_origin_m(port);
-  }
+  if (auto& imu = last.imu) imu->value.depth_m -= gauge_below_origin_m(imu->port);
   VehicleState state;
   if (pipeline_.mapping().source != pipeline::UtcMapping::Source::none)
     state.time_utc_ns = pipeline_.mapping().to_utc(now_ns);

@@ -42,7 +42,7 @@ class StateCollector {
   struct Newest {
     instruments::Stamp stamp;
     Value value;
-    std::uint16_t port = 0;
+    std::uint16_t port;  ///< without a default value: clang 14 crashes on one in a template within a class
   };
   struct Last {
     std::optional<Newest<instruments::CompassSample>> compass;
