@@ -16,28 +16,33 @@ constexpr std::array<std::pair<std::string_view, NetworkAddress::Kind>, 3> kKind
     {"udp:", NetworkAddress::Kind::udp},
 }};
 
-/// IPv6 addresses contain colons themselves, so they stand in brackets.
-std::optional<std::string_view> without_brackets(std::string_view host) {
-  if (!host.starts_with('[')) return host.find(':') == std::string_view::npos ? std::optional(host) : std::nullopt;
-  if (!host.ends_with(']') || host.find(':') == std::string_view::npos) return std::nullopt;
-  return host.substr(1, host.size() - 2);
-}
-
 }  // namespace
+
+std::optional<SocketAddress> socket_address(std::string_view text) {
+  const auto colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  std::string_view address = text.substr(0, colon);
+  const std::string_view port = text.substr(colon + 1);
+  if (address.starts_with('[') && address.ends_with(']')) {
+    address = address.substr(1, address.size() - 2);
+  } else if (address.find(':') != std::string_view::npos) {
+    return std::nullopt;
+  }
+  SocketAddress found{std::string(address), 0};
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), found.port);
+  if (error != std::errc() || end != port.data() + port.size() || !is_ip_address(address)) return std::nullopt;
+  return found;
+}
 
 std::optional<NetworkAddress> parse_network_address(std::string_view text) {
   for (const auto& [prefix, kind] : kKinds) {
     if (!text.starts_with(prefix)) continue;
     const std::string_view rest = text.substr(prefix.size());
-    const std::size_t colon = rest.rfind(':');
-    if (colon == std::string_view::npos) return std::nullopt;
-    const auto host = without_brackets(rest.substr(0, colon));
-    if (!host || !is_ip_address(*host)) return std::nullopt;
-    const std::string_view digits = rest.substr(colon + 1);
-    NetworkAddress address{kind, std::string(*host), 0};
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), address.port);
-    if (error != std::errc{} || end != digits.data() + digits.size() || address.port == 0) return std::nullopt;
-    return address;
+    const auto address = socket_address(rest);
+    const bool is_bracketed_v4 =
+        address && rest.starts_with('[') && address->address.find(':') == std::string::npos;
+    if (!address || address->port == 0 || is_bracketed_v4) return std::nullopt;
+    return NetworkAddress{kind, address->address, address->port};
   }
   return std::nullopt;
 }

@@ -8,6 +8,13 @@
 
 namespace navcal::config {
 
+struct SocketAddress {
+  std::string address;  ///< IPv4 or IPv6 in numbers, or "localhost"; without brackets
+  std::uint16_t port = 0;
+};
+/// "127.0.0.1:2950" or "[::1]:2950"; nullopt when it is no IP address with a port.
+[[nodiscard]] std::optional<SocketAddress> socket_address(std::string_view text);
+
 /// Place of a port that is reached through the network instead of a serial line.
 struct NetworkAddress {
   enum class Kind : std::uint8_t {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/remote_options.h"
 
-#include <charconv>
-
+#include "config/network_address.h"
 #include "config/text_rules.h"
 
 namespace navcal::config {
@@ -13,22 +12,6 @@ bool is_absolute_path_or_nothing(std::string_view text) { return text.empty() ||
 bool is_socket_address_or_nothing(std::string_view text) { return text.empty() || socket_address(text); }
 
 }  // namespace
-
-std::optional<SocketAddress> socket_address(std::string_view text) {
-  const auto colon = text.rfind(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  std::string_view address = text.substr(0, colon);
-  const std::string_view port = text.substr(colon + 1);
-  if (address.starts_with('[') && address.ends_with(']')) {
-    address = address.substr(1, address.size() - 2);
-  } else if (address.find(':') != std::string_view::npos) {
-    return std::nullopt;
-  }
-  SocketAddress found{std::string(address), 0};
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), found.port);
-  if (error != std::errc() || end != port.data() + port.size() || !is_ip_address(address)) return std::nullopt;
-  return found;
-}
 
 std::vector<Option<Settings>> remote_options() {
   using S = Settings;

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/remote_options.h"
+#include "config/network_address.h"
 #include "daemon/start_error.h"
 #include "ports/no_throw.h"
 #include "ports/port.h"

@@ -63,7 +63,7 @@ class Vehicle {
   [[nodiscard]] std::uint64_t session() const { return sessions_; }
   [[nodiscard]] const EndCounters& counters() const { return counters_; }
   [[nodiscard]] const protocols::Counters& line() const { return parser_.counters(); }
-  /// Of the operator's last frames, the share that was lost.
+  /// Share of the operator's last frames that was lost.
   [[nodiscard]] double loss() const { return active_ ? active_->arrivals.loss() : 0; }
 
  private:

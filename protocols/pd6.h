@@ -36,7 +36,7 @@ struct Attitude {
 };
 [[nodiscard]] std::optional<Attitude> decode_attitude(Bytes frame);
 
-/// Of BI, WI (x, y, z), BS, WS (transverse, longitudinal, normal), BE, WE (east, north, up).
+/// Lines BI, WI (x, y, z), BS, WS (transverse, longitudinal, normal), BE, WE (east, north, up).
 struct Velocity {
   FrameId line;
   std::array<std::optional<double>, 3> velocity_m_s;  ///< of the instrument; absent: +-32768 on the line
@@ -46,7 +46,7 @@ struct Velocity {
 };
 [[nodiscard]] std::optional<Velocity> decode_velocity(Bytes frame);
 
-/// Of BD, WD: distance made good, as the instrument integrates it.
+/// Lines BD, WD: distance made good, as the instrument integrates it.
 struct Distance {
   FrameId line;
   std::array<double, 3> east_north_up_m{};

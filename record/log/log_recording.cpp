@@ -135,7 +135,7 @@ std::optional<Entry> LogRecording::raw_entry(const LogMessage& message) {
   return read;
 }
 
-/// What is missing on purpose is said, so that nobody looks for a fault.
+/// Says which parts were left out on purpose, so that nobody looks for a fault.
 void LogRecording::note_left_out(std::string_view event, std::string_view message) {
   if (event != "log.left_out" || message == left_out_) return;
   left_out_ = message;

@@ -59,7 +59,7 @@ void Oncore::take_aid(protocols::Bytes frame) {
   const auto utc_ns = oncore::parse_aid_time(frame);
   if (!position && !utc_ns) return;
   answers_.emplace_back(frame.begin(), frame.end());
-  // What is far from the truth does not help: other satellites are in view than it lets expect.
+  // A position far from the true one does not help: other satellites are in view there.
   if (position && std::abs(position->latitude_deg - options_.receiver.origin.latitude_deg) < kUsefulPosition_deg &&
       std::abs(std::remainder(position->longitude_deg - options_.receiver.origin.longitude_deg, 360)) <
           kUsefulPosition_deg)

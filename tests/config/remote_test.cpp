@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "config/load.h"
-#include "config/remote_options.h"
+#include "config/network_address.h"
 #include "tests/config/expect_problems.h"
 
 namespace navcal::config {

@@ -203,7 +203,7 @@ TEST(GpioLine, AControllerThatIsNotThereIsAProblemInWords) {
   EXPECT_NE(problem.find("gpiochip9999 line 0: the controller cannot be opened"), std::string::npos) << problem;
 }
 
-/// With a simulated controller (module gpio-sim) or a spare line of a real one.
+/// Needs a simulated controller (module gpio-sim) or a spare line of a real one.
 TEST(GpioLine, ARealLineIsSwitched) {
   const char* const chip = std::getenv("NAVCAL_TEST_GPIOCHIP");
   if (chip == nullptr || !std::filesystem::exists(std::string("/dev/") + chip))

@@ -196,7 +196,7 @@ TEST_F(House, LogsAreListedFetchedStoppedAndStarted) {
   std::ofstream(part, std::ios::binary) << std::string(whole.size() + 100, 'x');
   ASSERT_EQ(log_command({"fetch", name, "--to", dives.string()}), 0) << err_;
   EXPECT_EQ(contents(copy), whole);
-  // What is there is never overwritten.
+  // A file that exists is never overwritten.
   fs::remove(copy);
   std::ofstream(copy) << "mine";
   EXPECT_EQ(log_command({"fetch", name, "--to", dives.string()}), 1);
