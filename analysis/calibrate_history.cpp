@@ -44,7 +44,8 @@ void CalibrateHistory::on_sample(const instruments::Sample& sample) {
     ++readings_;
     put(pipeline::calib_reading(*compass, sample.stamp, seconds(sample)));
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
-    if (sample.port == ports_.imu) put(pipeline::calib_reading(*imu, sample.stamp, seconds(sample)));
+    if (sample.port != ports_.imu) return;
+    if (const auto reading = pipeline::calib_reading(*imu, sample.stamp, seconds(sample))) put(*reading);
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
     if (sample.port == ports_.motor && motor->rpm)
       put(calib::MotorReading{seconds(sample), *motor->rpm, motor->current_A});

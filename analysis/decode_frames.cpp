@@ -18,6 +18,14 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::oncore, describe_oncore},
     {Protocol::motor_card, describe_motor_card},
     {Protocol::nmea, describe_nmea},
+    {Protocol::ubx, nullptr},
+    {Protocol::mip, nullptr},
+    {Protocol::vectornav, nullptr},
+    {Protocol::pni, nullptr},
+    {Protocol::pd0, nullptr},
+    {Protocol::pd6, nullptr},
+    {Protocol::water_linked, nullptr},
+    {Protocol::samples, nullptr},
 });
 
 using NextBytes = std::function<protocols::Bytes()>;

@@ -27,8 +27,8 @@ struct CompassReading {
 struct RateReading {
   double time_s = 0;
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();  ///< gyro A-x, B-y, A-z
-  double yaw_rate_b_rad_s = 0;                           ///< gyro B-z, redundant
-  Eigen::Vector3d specific_force_m_s2 = Eigen::Vector3d::Zero();
+  std::optional<double> yaw_rate_b_rad_s;                ///< gyro B-z, redundant; most vehicles have none
+  std::optional<Eigen::Vector3d> specific_force_m_s2;
   bool saturated = false;  ///< the card's converter was over its range
   double time_std_s = 0;   ///< as its stamp claims it
 };

@@ -97,8 +97,8 @@ void WatchView::append_alarms(std::string& out, Colour colour) const {
 void WatchView::append_sources(std::string& out) const {
   if (!sources_.is_object()) return;
   std::string line, port;
-  for (const char* role :
-       {"heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft", "altitude"}) {
+  for (const char* role : {"heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft",
+                           "altitude", "bottom_velocity", "water_velocity"}) {
     const std::string server = text(sources_, role);
     if (server.empty()) continue;
     if (server == port) {

@@ -18,6 +18,8 @@ constexpr std::array<std::string_view, kRoles.size()> kDescriptions{
     "Port of the receiver that gives the velocity over ground. Empty: as for position.",
     "Port that gives the speed of the propeller's shaft. Empty: the first that delivers.",
     "Port of the echo sounder that gives the height above the sea floor. Empty: the first that delivers.",
+    "Port of the Doppler log that gives the velocity over the bottom. Empty: the first that delivers.",
+    "Port of the Doppler log that gives the velocity through the water. Empty: as for bottom_velocity.",
 };
 
 }  // namespace

@@ -7,7 +7,8 @@ namespace navcal::config {
 
 std::string_view name_of(Role role) {
   constexpr std::array<std::string_view, kRoles.size()> kNames{
-      "heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft", "altitude"};
+      "heading",  "field", "rates",    "acceleration",    "depth",         "position",
+      "velocity", "shaft", "altitude", "bottom_velocity", "water_velocity"};
   return kNames.at(static_cast<std::size_t>(role));
 }
 
@@ -31,9 +32,13 @@ bool can_deliver(protocols::Protocol protocol, Role role) {
     case Role::shaft:
       return delivers.shaft;
     case Role::altitude:
+      return delivers.altitude;
+    case Role::bottom_velocity:
+      return delivers.bottom_velocity;
+    case Role::water_velocity:
       break;
   }
-  return delivers.altitude;
+  return delivers.water_velocity;
 }
 
 Role leader_of(Role role) {
@@ -45,11 +50,14 @@ Role leader_of(Role role) {
       return Role::rates;
     case Role::velocity:
       return Role::position;
+    case Role::water_velocity:
+      return Role::bottom_velocity;
     case Role::heading:
     case Role::rates:
     case Role::position:
     case Role::shaft:
     case Role::altitude:
+    case Role::bottom_velocity:
       break;
   }
   return role;

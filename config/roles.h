@@ -11,19 +11,32 @@
 namespace navcal::config {
 
 /// Quantities that navigation and calibration need. One device delivers each of them.
-enum class Role : std::uint8_t { heading, field, rates, acceleration, depth, position, velocity, shaft, altitude };
-inline constexpr std::array kRoles{Role::heading,  Role::field,    Role::rates, Role::acceleration, Role::depth,
-                                   Role::position, Role::velocity, Role::shaft, Role::altitude};
+enum class Role : std::uint8_t {
+  heading,
+  field,
+  rates,
+  acceleration,
+  depth,
+  position,
+  velocity,  ///< over ground, by a receiver
+  shaft,
+  altitude,
+  bottom_velocity,  ///< over the bottom, by a Doppler log
+  water_velocity    ///< through the water, likewise
+};
+inline constexpr std::array kRoles{Role::heading,  Role::field,           Role::rates,         Role::acceleration,
+                                   Role::depth,    Role::position,        Role::velocity,      Role::shaft,
+                                   Role::altitude, Role::bottom_velocity, Role::water_velocity};
 
-/// "heading", "field", "rates", "acceleration", "depth", "position", "velocity", "shaft", "altitude".
+/// As in the table [roles] of the configuration: "heading", "field", ..., "bottom_velocity".
 [[nodiscard]] std::string_view name_of(Role role);
 
 /// True when a device with that protocol can deliver the role.
 [[nodiscard]] bool can_deliver(protocols::Protocol protocol, Role role);
 
 /// The role whose device, where the operator has chosen one, serves this role as well if it can: the field follows
-/// the heading, acceleration and depth follow the rates, the velocity follows the position. Any other follows
-/// itself.
+/// the heading, acceleration and depth follow the rates, the velocity follows the position, the water velocity the
+/// bottom velocity. Any other follows itself.
 [[nodiscard]] Role leader_of(Role role);
 
 /// The operator's choice: a port's name for each role; empty: the best that delivers.

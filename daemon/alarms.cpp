@@ -9,13 +9,13 @@ namespace {
 bool says(const instruments::ImuSample& imu, Alarm alarm) {
   switch (alarm) {
     case Alarm::leak_forward:
-      return imu.leak_forward;
+      return imu.card && imu.card->leak_forward;
     case Alarm::leak_aft:
-      return imu.leak_aft;
+      return imu.card && imu.card->leak_aft;
     case Alarm::over_range:
       return imu.over_range;
     case Alarm::low_supply:
-      return imu.low_supply;
+      return imu.card && imu.card->low_supply;
     case Alarm::command_not_echoed:
     case Alarm::battery_low:
     case Alarm::floor_near:

@@ -43,8 +43,10 @@ void append_sources(std::string& out, const config::Settings& settings) {
     const std::string_view name = config::name_of(role);
     const std::string own = names_of(settings, pipeline::candidates(settings, role));
     if (own.empty()) {
-      // Without an altimeter nothing else is missing.
-      if (role != Role::altitude) missing.emplace_back(name);
+      // Without an echo sounder or a Doppler log nothing else is missing.
+      const bool is_extra =
+          role == Role::altitude || role == Role::bottom_velocity || role == Role::water_velocity;
+      if (!is_extra) missing.emplace_back(name);
     } else if (own == ports) {
       groups.back().insert(groups.back().rfind(" by "), fmt::format(" and {}", name));
     } else {

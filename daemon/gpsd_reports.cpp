@@ -218,15 +218,17 @@ void append_att(std::string& out, const instruments::ImuSample& imu, const instr
                 ReportSource source) {
   begin(out, "ATT", source.device);
   if (source.utc_known) time(out, stamp.validity_utc_ns, 6);
-  const auto& force = imu.specific_force_m_s2;
-  const auto& rate = imu.rate_rad_s;
-  fixed(out, "acc_len", length(force), 4);
-  fixed(out, "acc_x", force[0], 4);
-  fixed(out, "acc_y", force[1], 4);
-  fixed(out, "acc_z", force[2], 4);
-  fixed(out, "gyro_x", rate[0], 4, base::kDegreesPerRadian);
-  fixed(out, "gyro_y", rate[1], 4, base::kDegreesPerRadian);
-  fixed(out, "gyro_z", rate[2], 4, base::kDegreesPerRadian);
+  if (const auto& force = imu.specific_force_m_s2) {
+    fixed(out, "acc_len", length(*force), 4);
+    fixed(out, "acc_x", (*force)[0], 4);
+    fixed(out, "acc_y", (*force)[1], 4);
+    fixed(out, "acc_z", (*force)[2], 4);
+  }
+  if (const auto& rate = imu.rate_rad_s) {
+    fixed(out, "gyro_x", (*rate)[0], 4, base::kDegreesPerRadian);
+    fixed(out, "gyro_y", (*rate)[1], 4, base::kDegreesPerRadian);
+    fixed(out, "gyro_z", (*rate)[2], 4, base::kDegreesPerRadian);
+  }
   fixed(out, "gyro_b_z", imu.yaw_rate_b_rad_s, 4, base::kDegreesPerRadian);
   fixed(out, "gyro_z_calibrated", imu.yaw_rate_calibrated_rad_s, 4, base::kDegreesPerRadian);
   fixed(out, "gyro_b_z_calibrated", imu.yaw_rate_b_calibrated_rad_s, 4, base::kDegreesPerRadian);

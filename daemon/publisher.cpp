@@ -30,6 +30,9 @@ ReportClass class_of(const instruments::Sample& sample) {
                         [](const instruments::MotorSample&) { return ReportClass::motor; },
                         [](const instruments::AltimeterSample&) { return ReportClass::altimeter; },
                         [](const instruments::PowerSample&) { return ReportClass::power; },
+                        [](const instruments::DvlSample&) { return ReportClass::dvl; },
+                        [](const instruments::DepthSample&) { return ReportClass::depth; },
+                        [](const instruments::ScalarSample&) { return ReportClass::sensor; },
                     },
                     sample.value);
 }

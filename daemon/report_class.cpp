@@ -5,8 +5,8 @@ namespace navcal::daemon {
 namespace {
 
 constexpr std::array<std::string_view, kReportClasses> kReportClassNames{
-    "TPV",  "SKY", "ATT",   "MOTOR",  "ALTIMETER", "NAV",   "HEALTH",
-    "TIME", "LOG", "CALIB", "DEVICE", "STATE",     "POWER", "BATTERY"};
+    "TPV",   "SKY",    "ATT",   "MOTOR", "ALTIMETER", "NAV", "HEALTH", "TIME",  "LOG",
+    "CALIB", "DEVICE", "STATE", "POWER", "BATTERY",   "DVL", "DEPTH",  "SENSOR"};
 
 }  // namespace
 

@@ -25,9 +25,12 @@ enum class ReportClass : std::uint8_t {
   device,
   state,
   power,
-  battery
+  battery,
+  dvl,
+  depth,
+  sensor
 };
-inline constexpr std::size_t kReportClasses = 14;
+inline constexpr std::size_t kReportClasses = 17;
 
 /// "TPV", "SKY", ...
 [[nodiscard]] std::string_view name_of(ReportClass report);

@@ -109,7 +109,7 @@ StateCollector::Last StateCollector::serving() const {
 
 VehicleState StateCollector::at(std::int64_t now_ns) {
   Last last = serving();
-  if (auto& imu = last.imu) imu->value.depth_m -= gauge_below_origin_m(imu->port);
+  if (auto& imu = last.imu; imu && imu->value.depth_m) *imu->value.depth_m -= gauge_below_origin_m(imu->port);
   VehicleState state;
   if (pipeline_.mapping().source != pipeline::UtcMapping::Source::none)
     state.time_utc_ns = pipeline_.mapping().to_utc(now_ns);
@@ -127,7 +127,7 @@ VehicleState StateCollector::at(std::int64_t now_ns) {
   if (last.imu) {
     state.time_std_s = static_cast<double>(last.imu->stamp.std_ns) * 1e-9;
     state.rate_rad_s = last.imu->value.rate_rad_s;
-    if (last.imu->value.yaw_rate_calibrated_rad_s)
+    if (state.rate_rad_s && last.imu->value.yaw_rate_calibrated_rad_s)
       (*state.rate_rad_s)[2] = *last.imu->value.yaw_rate_calibrated_rad_s;
   } else if (last.compass) {
     state.time_std_s = static_cast<double>(last.compass->stamp.std_ns) * 1e-9;
@@ -211,9 +211,9 @@ void StateCollector::take_estimate(VehicleState& state, const Last& last, std::i
     const double then_rad = *estimate.pitch_rad + rates.pitch_rad_s * seconds_between(estimate.time_ns, pitch_ns_);
     pitch_.add(*last.compass->value.pitch_rad - then_rad);
   }
-  if (last.imu && estimate.depth_m && last.imu->stamp.validity_ns != depth_ns_) {
+  if (last.imu && last.imu->value.depth_m && estimate.depth_m && last.imu->stamp.validity_ns != depth_ns_) {
     depth_ns_ = last.imu->stamp.validity_ns;
-    depth_.add(last.imu->value.depth_m - *estimate.depth_m);
+    depth_.add(*last.imu->value.depth_m - *estimate.depth_m);
   }
   state.pitch_std_rad = pitch_.std();
   state.depth_std_m = depth_.std();

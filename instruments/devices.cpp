@@ -47,6 +47,14 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::oncore, {make_configured<OncoreReceiver>, start_oncore}},
     {Protocol::motor_card, {make_plain<MotorCard>}},
     {Protocol::nmea, {make_configured<NmeaDevice>}},
+    {Protocol::ubx, {}},
+    {Protocol::mip, {}},
+    {Protocol::vectornav, {}},
+    {Protocol::pni, {}},
+    {Protocol::pd0, {}},
+    {Protocol::pd6, {}},
+    {Protocol::water_linked, {}},
+    {Protocol::samples, {}},
 });
 
 }  // namespace

@@ -32,6 +32,7 @@ void Mounting::to_body(decltype(Sample::value)& value) const {
   if (!turned_) return;
   if (auto* compass = std::get_if<CompassSample>(&value)) to_body(*compass);
   if (auto* imu = std::get_if<ImuSample>(&value)) to_body(*imu);
+  if (auto* dvl = std::get_if<DvlSample>(&value)) to_body(*dvl);
 }
 
 void Mounting::to_body(CompassSample& compass) const {
@@ -52,11 +53,21 @@ void Mounting::to_body(CompassSample& compass) const {
 }
 
 void Mounting::to_body(ImuSample& imu) const {
-  // Gyro B-z takes the place of A-z for the second, redundant yaw rate.
-  const Vector3 rate_b_rad_s{imu.rate_rad_s[0], imu.rate_rad_s[1], imu.yaw_rate_b_rad_s};
-  imu.yaw_rate_b_rad_s = turned(body_from_device_, rate_b_rad_s)[2];
-  imu.rate_rad_s = turned(body_from_device_, imu.rate_rad_s);
-  imu.specific_force_m_s2 = turned(body_from_device_, imu.specific_force_m_s2);
+  if (auto& rate_rad_s = imu.rate_rad_s) {
+    // The second, redundant gyro takes the place of the first.
+    if (auto& rate_b_rad_s = imu.yaw_rate_b_rad_s)
+      rate_b_rad_s = turned(body_from_device_, {(*rate_rad_s)[0], (*rate_rad_s)[1], *rate_b_rad_s})[2];
+    rate_rad_s = turned(body_from_device_, *rate_rad_s);
+  }
+  if (imu.specific_force_m_s2) imu.specific_force_m_s2 = turned(body_from_device_, *imu.specific_force_m_s2);
+}
+
+void Mounting::to_body(DvlSample& dvl) const {
+  // Velocities in the Earth's axes were turned by the device, with an attitude that it measured itself.
+  if (dvl.frame != VelocityFrame::body) return;
+  for (auto* velocity_m_s : {&dvl.bottom_velocity_m_s, &dvl.water_velocity_m_s}) {
+    if (*velocity_m_s) *velocity_m_s = turned(body_from_device_, **velocity_m_s);
+  }
 }
 
 }  // namespace navcal::instruments

@@ -9,7 +9,8 @@
 namespace navcal::instruments {
 
 /// Turns what a device measured along its own axes into the axes of the body, by the configuration: field, rates,
-/// specific force, and the angles of a compass. Distances from the origin are left to those who know the attitude.
+/// specific force, velocities of a Doppler log, and the angles of a compass. Distances from the origin are left to
+/// those who know the attitude.
 class Mounting {
  public:
   explicit Mounting(const config::MountingSettings& settings);
@@ -20,6 +21,7 @@ class Mounting {
  private:
   void to_body(CompassSample& compass) const;
   void to_body(ImuSample& imu) const;
+  void to_body(DvlSample& dvl) const;
 
   bool turned_;
   double yaw_rad_;

@@ -85,7 +85,7 @@ Verdict read_depth(const nmea::Sentence& sentence, nmea::Type type, Receiver& re
   const auto depth = nmea::decode_depth(sentence, type);
   if (!depth) return Verdict::out_of_range;
   if (!depth->depth_m) return Verdict::ignored;
-  return hand_over(AltimeterSample{*depth->depth_m}, true, receiver);
+  return hand_over(AltimeterSample{*depth->depth_m, {}}, true, receiver);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include "protocols/gps_fix.h"
@@ -11,6 +12,25 @@
 namespace navcal::instruments {
 
 using Vector3 = std::array<double, 3>;
+
+/// A short text of fixed size, so that a sample needs no memory of its own. Longer ones are cut.
+template <std::size_t Size>
+class Text {
+ public:
+  constexpr Text() = default;
+  constexpr explicit Text(std::string_view text) {
+    for (std::size_t i = 0; i < text.size() && i < Size; ++i) text_[i] = text[i];
+  }
+  [[nodiscard]] constexpr std::string_view view() const {
+    std::size_t n = 0;
+    while (n < Size && text_[n] != '\0') ++n;
+    return {text_.data(), n};
+  }
+  constexpr bool operator==(const Text&) const = default;
+
+ private:
+  std::array<char, Size> text_{};
+};
 
 /// Times of a measurement. Monotonic times order everything; UTC is a mapping of them (docs/timing.md).
 struct Stamp {
@@ -27,7 +47,12 @@ struct CalibrationName {
   std::uint32_t sum = 0;  ///< checksum of its content
 };
 
-/// Magnetic compass. Body axes x forward, y starboard, z down; angles as the device sends them, magnetic.
+// Samples name what was measured, not the device: one device may give several kinds, and a member that it does not
+// measure is absent. Members `..._std_...` are standard errors of one reading: as the device states them, else by
+// the configuration's table [instruments] (pipeline/standard_errors.h).
+
+/// Attitude and magnetic field: of a compass, or of an inertial unit that knows its attitude. Body axes x forward,
+/// y starboard, z down; angles as the device sends them, magnetic.
 struct CompassSample {
   std::optional<double> heading_rad;             ///< 0..2 pi clockwise from magnetic north
   bool heading_is_true = false;                  ///< the device states true north (HDT, THS)
@@ -40,21 +65,33 @@ struct CompassSample {
   std::optional<double> turn_rate_rad_s;  ///< as the device sends it (ROT), positive to starboard
   std::optional<double> temperature_C;
   std::optional<std::uint32_t> error;  ///< TCM2's raw error code (CompassError); absent when none stands
+  std::optional<double> heading_std_rad;
+  std::optional<double> tilt_std_rad;  ///< roll and pitch
+  std::optional<double> field_std_uT;  ///< each axis
 };
 
-/// Inertial card (ICD section 3), body axes.
-struct ImuSample {
-  Vector3 rate_rad_s{};                               ///< gyro A-x (roll), B-y (pitch), A-z (yaw)
-  double yaw_rate_b_rad_s = 0;                        ///< gyro B-z, redundant
-  std::optional<double> yaw_rate_calibrated_rad_s;    ///< A-z by the calibration in force
-  std::optional<double> yaw_rate_b_calibrated_rad_s;  ///< B-z likewise
-  Vector3 specific_force_m_s2{};                      ///< -9.81 in z when level and still
-  double depth_m = 0;
+/// State of the thesis's inertial card (ICD section 3).
+struct CardState {
   std::uint8_t sequence = 0;
   bool leak_forward = false;
   bool leak_aft = false;
-  bool over_range = false;
   bool low_supply = false;
+};
+
+/// Rates and specific force, body axes, and what else one frame of the same device tells.
+struct ImuSample {
+  std::optional<Vector3> rate_rad_s;                  ///< roll, pitch, yaw (the card's gyros A-x, B-y, A-z)
+  std::optional<double> yaw_rate_b_rad_s;             ///< of a second, redundant gyro
+  std::optional<double> yaw_rate_calibrated_rad_s;    ///< rate_rad_s[2] by the calibration in force
+  std::optional<double> yaw_rate_b_calibrated_rad_s;  ///< yaw_rate_b_rad_s likewise
+  std::optional<Vector3> specific_force_m_s2;         ///< -9.81 in z when level and still
+  std::optional<double> depth_m;
+  std::optional<double> temperature_C;
+  bool over_range = false;  ///< the device says that a value is beyond its range
+  std::optional<CardState> card;
+  std::optional<double> rate_std_rad_s;           ///< each axis
+  std::optional<double> specific_force_std_m_s2;  ///< each axis
+  std::optional<double> depth_std_m;
 };
 
 using Fix = protocols::Fix;
@@ -73,6 +110,9 @@ struct GpsSample {
   std::optional<double> climb_m_s;
   std::optional<double> dop;  ///< PDOP when 3D, HDOP when 2D
   std::optional<std::uint8_t> visible, tracked;
+  std::optional<double> position_std_m;  ///< north and east, each
+  std::optional<double> height_std_m;
+  std::optional<double> velocity_std_m_s;  ///< north and east, each
 };
 
 /// Satellites in view.
@@ -93,11 +133,50 @@ struct MotorSample {
   std::array<std::optional<double>, 3> fins_rad;
   std::optional<double> current_A;
   std::optional<std::uint8_t> sequence;
+  std::optional<double> fins_std_rad;
+  std::optional<double> current_std_A;
 };
 
 /// Echo sounder (DBT, DPT): distance from the transducer down to the bottom.
 struct AltimeterSample {
   double altitude_m = 0;
+  std::optional<double> altitude_std_m;
+};
+
+/// Axes of a velocity.
+enum class VelocityFrame : std::uint8_t {
+  body,   ///< forward, starboard, down
+  earth,  ///< north, east, down; north as the device knows it
+};
+
+/// Doppler log.
+struct DvlSample {
+  VelocityFrame frame = VelocityFrame::body;
+  std::optional<Vector3> bottom_velocity_m_s;     ///< of the device over the bottom; absent without bottom lock
+  std::optional<double> bottom_velocity_std_m_s;  ///< each axis
+  std::optional<Vector3> water_velocity_m_s;      ///< of the device through the water
+  std::optional<double> water_velocity_std_m_s;
+  std::optional<double> altitude_m;  ///< vertical, from the transducer to the bottom
+  std::optional<double> altitude_std_m;
+  std::optional<double> temperature_C;    ///< of the water
+  std::optional<double> sound_speed_m_s;  ///< that the device reckons with
+};
+
+/// Pressure gauge.
+struct DepthSample {
+  std::optional<double> depth_m;  ///< as the device states it
+  std::optional<double> depth_std_m;
+  std::optional<double> pressure_Pa;  ///< absolute
+  std::optional<double> pressure_std_Pa;
+  std::optional<double> temperature_C;
+};
+
+/// A mission sensor: one quantity with its name and unit as the sender writes them ("oxygen", "umol/l").
+struct ScalarSample {
+  Text<24> quantity;
+  Text<16> unit;
+  double value = 0;
+  std::optional<double> value_std;
 };
 
 /// Gauge of a battery (XDR). At least one member is present.
@@ -110,7 +189,9 @@ struct Sample {
   std::uint16_t port = 0;  ///< index into the configuration's ports
   Stamp stamp;
   CalibrationName calibration;
-  std::variant<CompassSample, ImuSample, GpsSample, SkySample, MotorSample, AltimeterSample, PowerSample> value;
+  std::variant<CompassSample, ImuSample, GpsSample, SkySample, MotorSample, AltimeterSample, PowerSample,
+               DvlSample, DepthSample, ScalarSample>
+      value;
 };
 
 }  // namespace navcal::instruments

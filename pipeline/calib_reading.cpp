@@ -23,14 +23,15 @@ calib::CompassReading calib_reading(const instruments::CompassSample& compass, c
   return reading;
 }
 
-calib::RateReading calib_reading(const instruments::ImuSample& imu, const instruments::Stamp& stamp,
-                                 double time_s) {
+std::optional<calib::RateReading> calib_reading(const instruments::ImuSample& imu, const instruments::Stamp& stamp,
+                                                double time_s) {
+  if (!imu.rate_rad_s) return std::nullopt;
   calib::RateReading reading;
   reading.time_s = time_s;
   reading.time_std_s = 1e-9 * static_cast<double>(stamp.std_ns);
-  reading.rate_rad_s = base::vector_of(imu.rate_rad_s);
+  reading.rate_rad_s = base::vector_of(*imu.rate_rad_s);
   reading.yaw_rate_b_rad_s = imu.yaw_rate_b_rad_s;
-  reading.specific_force_m_s2 = base::vector_of(imu.specific_force_m_s2);
+  if (imu.specific_force_m_s2) reading.specific_force_m_s2 = base::vector_of(*imu.specific_force_m_s2);
   reading.saturated = imu.over_range;
   return reading;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "calib/readings.h"
 #include "instruments/samples.h"
 
@@ -10,7 +12,8 @@ namespace navcal::pipeline {
 /// out: calibrators learn magnetic ones.
 [[nodiscard]] calib::CompassReading calib_reading(const instruments::CompassSample& compass,
                                                   const instruments::Stamp& stamp, double time_s);
-[[nodiscard]] calib::RateReading calib_reading(const instruments::ImuSample& imu, const instruments::Stamp& stamp,
-                                               double time_s);
+/// nullopt without rates.
+[[nodiscard]] std::optional<calib::RateReading> calib_reading(const instruments::ImuSample& imu,
+                                                              const instruments::Stamp& stamp, double time_s);
 
 }  // namespace navcal::pipeline

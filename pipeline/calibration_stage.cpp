@@ -55,8 +55,10 @@ void CalibrationStage::correct(instruments::Sample& sample) const {
     sample.stamp.validity_utc_ns -= delay_ns;
   } else if (auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
     if (sample.port != ports_.imu) return;
-    if (correction.gyro) imu->yaw_rate_calibrated_rad_s = (*correction.gyro)(imu->rate_rad_s[2]);
-    if (correction.gyro_b) imu->yaw_rate_b_calibrated_rad_s = (*correction.gyro_b)(imu->yaw_rate_b_rad_s);
+    if (correction.gyro && imu->rate_rad_s)
+      imu->yaw_rate_calibrated_rad_s = (*correction.gyro)((*imu->rate_rad_s)[2]);
+    if (correction.gyro_b && imu->yaw_rate_b_rad_s)
+      imu->yaw_rate_b_calibrated_rad_s = (*correction.gyro_b)(*imu->yaw_rate_b_rad_s);
   }
 }
 
@@ -75,7 +77,8 @@ void CalibrationStage::learn_from(const instruments::Sample& sample, const instr
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::ImuSample& imu) {
   if (sample.port != ports_.imu) return;
-  suite_.put(calib_reading(imu, sample.stamp, seconds(sample.stamp.validity_ns)));
+  if (const auto reading = calib_reading(imu, sample.stamp, seconds(sample.stamp.validity_ns)))
+    suite_.put(*reading);
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::GpsSample& gps) {

@@ -31,11 +31,13 @@ std::optional<Eigen::Vector2d> ground_velocity_m_s(const instruments::GpsSample&
   return *gps.speed_m_s * Eigen::Vector2d(std::cos(*gps.course_rad), std::sin(*gps.course_rad));
 }
 
-nav::RateReading rate_reading(const instruments::Sample& sample, const instruments::ImuSample& imu) {
+std::optional<nav::RateReading> rate_reading(const instruments::Sample& sample,
+                                             const instruments::ImuSample& imu) {
+  if (!imu.rate_rad_s) return std::nullopt;
   nav::RateReading reading;
   reading.time_ns = sample.stamp.validity_ns;
-  reading.rate_rad_s = base::vector_of(imu.rate_rad_s);
-  reading.specific_force_m_s2 = base::vector_of(imu.specific_force_m_s2);
+  reading.rate_rad_s = base::vector_of(*imu.rate_rad_s);
+  if (imu.specific_force_m_s2) reading.specific_force_m_s2 = base::vector_of(*imu.specific_force_m_s2);
   return reading;
 }
 

@@ -18,8 +18,9 @@ namespace navcal::pipeline {
 [[nodiscard]] bool has_position(const instruments::GpsSample& gps);
 /// North and east over ground; nullopt without a fix, a speed or a course.
 [[nodiscard]] std::optional<Eigen::Vector2d> ground_velocity_m_s(const instruments::GpsSample& gps);
-/// Rates and specific force; the depth is left open.
-[[nodiscard]] nav::RateReading rate_reading(const instruments::Sample& sample, const instruments::ImuSample& imu);
+/// Rates, and the specific force where the sample has it; the depth is left open. Nullopt without rates.
+[[nodiscard]] std::optional<nav::RateReading> rate_reading(const instruments::Sample& sample,
+                                                           const instruments::ImuSample& imu);
 /// nullopt without a shaft speed.
 [[nodiscard]] std::optional<nav::ShaftReading> shaft_reading(const instruments::Sample& sample,
                                                              const instruments::MotorSample& motor);

@@ -20,8 +20,6 @@ namespace {
 
 /// Fixes come once a second and half a second late.
 constexpr double kFixIsCurrent_s = 2.5;
-/// A receiver with a good sky has this dilution of precision; the noise of the configuration is meant for it.
-constexpr double kGoodDop = 2;
 /// After such a pause of the inclinometer the accelerometers hold roll and pitch.
 constexpr std::int64_t kInclinometerPause_ns = 2'000'000'000;
 /// The velocity of another receiver is that of a fix when it lies no further from it.
@@ -101,12 +99,12 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
     feed(calibrated_, corrected, *compass, true);
     feed(uncalibrated_, original, std::get<instruments::CompassSample>(original.value), false);
   } else if (const auto* imu = std::get_if<instruments::ImuSample>(&corrected.value)) {
-    if (corrected.port == ports_[Role::depth]) {
+    if (corrected.port == ports_[Role::depth] && imu->depth_m) {
       depth_m_ = imu->depth_m;
       depth_position_m_ = positions_m_.at(corrected.port);
-      surfacings_.depth(corrected.stamp.validity_ns, imu->depth_m);
+      surfacings_.depth(corrected.stamp.validity_ns, *imu->depth_m);
     }
-    if (corrected.port != ports_[Role::rates]) return;
+    if (corrected.port != ports_[Role::rates] || !imu->rate_rad_s) return;
     feed(calibrated_, corrected, *imu, true);
     feed(uncalibrated_, original, std::get<instruments::ImuSample>(original.value), false);
     depth_m_.reset();
@@ -120,6 +118,7 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
     const auto velocity_m_s = ground_velocity_m_s(*gps);
     if (corrected.port == ports_[Role::velocity] && velocity_m_s) {
       velocity_m_s_ = velocity_m_s;
+      velocity_std_m_s_ = gps->velocity_std_m_s.value_or(gps_.velocity_noise_m_s);
       velocity_ns_ = corrected.stamp.validity_ns;
     }
     if (corrected.port != ports_[Role::position]) return;
@@ -147,11 +146,12 @@ void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample&
 
 void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample& sample,
                            const instruments::ImuSample& imu, bool calibrated) {
-  nav::RateReading reading = rate_reading(sample, imu);
-  if (calibrated && imu.yaw_rate_calibrated_rad_s) reading.rate_rad_s.z() = *imu.yaw_rate_calibrated_rad_s;
-  reading.depth_m = depth_m_;
-  reading.depth_position_m = depth_position_m_;
-  navigator.take(reading);
+  auto reading = rate_reading(sample, imu);
+  if (!reading) return;
+  if (calibrated && imu.yaw_rate_calibrated_rad_s) reading->rate_rad_s.z() = *imu.yaw_rate_calibrated_rad_s;
+  reading->depth_m = depth_m_;
+  reading->depth_position_m = depth_position_m_;
+  navigator.take(*reading);
 }
 
 /// While an inclinometer shows the tilt, the accelerometers are not needed.
@@ -170,10 +170,12 @@ void NavigationStage::feed_fix(const instruments::Sample& sample, const instrume
   reading.time_ns = sample.stamp.validity_ns;
   reading.position_m = {north_m, east_m};
   const bool fits = std::abs(sample.stamp.validity_ns - velocity_ns_) <= kVelocityAge_ns;
-  if (velocity_m_s_ && fits) reading.velocity_m_s = velocity_m_s_;
+  if (velocity_m_s_ && fits) {
+    reading.velocity_m_s = velocity_m_s_;
+    reading.velocity_std_m_s = velocity_std_m_s_;
+  }
   velocity_m_s_.reset();
-  reading.velocity_std_m_s = gps_.velocity_noise_m_s;
-  reading.std_m = gps_.position_noise_m * std::max(1.0, gps.dop.value_or(kGoodDop) / kGoodDop);
+  reading.std_m = gps.position_std_m.value_or(gps_.position_noise_m);
   // Without an attitude the antenna is anywhere around the origin.
   if (const auto& arm_m = positions_m_.at(sample.port);
       !arm_m.isZero(0) && !calibrated_.attitude_at(reading.time_ns))

@@ -70,6 +70,7 @@ class NavigationStage {
   std::optional<double> depth_m_;                               ///< newest that is not used yet
   Eigen::Vector3d depth_position_m_ = Eigen::Vector3d::Zero();  ///< of its gauge
   std::optional<Eigen::Vector2d> velocity_m_s_;                 ///< newest that is not used yet
+  double velocity_std_m_s_ = 0;                                 ///< of velocity_m_s_, each axis
   std::int64_t velocity_ns_ = 0;
   SurfacingWatch surfacings_;
   std::optional<Surfacing> surfacing_;  ///< not told yet

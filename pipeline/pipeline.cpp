@@ -12,11 +12,12 @@ namespace navcal::pipeline {
 
 struct Pipeline::State {
   config::Settings settings;
+  StandardErrors errors;
   UtcMapping mapping;
   std::vector<std::unique_ptr<PortStream>> ports;
   Stages stages;
 
-  explicit State(const config::Settings& given) : settings(given), stages(settings) {}
+  explicit State(const config::Settings& given) : settings(given), errors(settings), stages(settings) {}
 
   /// `use(sink)` with the sink to which the ports' samples go.
   template <class Use>
@@ -42,8 +43,8 @@ struct Pipeline::State {
 
 Pipeline::Pipeline(const config::Settings& settings) : state_(std::make_unique<State>(settings)) {
   for (std::size_t i = 0; i < settings.ports.size(); ++i) {
-    state_->ports.push_back(
-        std::make_unique<PortStream>(static_cast<std::uint16_t>(i), state_->settings.ports[i], state_->mapping));
+    state_->ports.push_back(std::make_unique<PortStream>(static_cast<std::uint16_t>(i), state_->settings.ports[i],
+                                                         state_->errors, state_->mapping));
   }
 }
 

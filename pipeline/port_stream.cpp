@@ -13,7 +13,8 @@ constexpr std::int64_t kSilenceMargin_ns = 250'000'000;
 
 }  // namespace
 
-PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, UtcMapping& mapping)
+PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, const StandardErrors& errors,
+                       UtcMapping& mapping)
     : port_(port),
       latency_ns_(std::llround(settings.latency_s * 1e9)),
       nominal_rate_Hz_(settings.rate_Hz),
@@ -23,6 +24,7 @@ PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings,
       mounting_(settings.mounting),
       clock_(settings.rate_Hz, settings.latency_std_s),
       gps_time_(settings.latency_std_s),
+      errors_(errors),
       mapping_(mapping) {}
 
 void PortStream::bytes(std::int64_t arrival_ns, protocols::Bytes bytes, Sink& sink) {
@@ -80,6 +82,7 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
       measurement.stated_utc_ns ? *measurement.stated_utc_ns : mapping_.to_utc(sample.stamp.validity_ns);
   sample.value = measurement.value;
   mounting_.to_body(sample.value);
+  errors_.complete(sample);
   ++statistics_.samples;
   sink_->on_sample(sample);
 }

@@ -13,6 +13,7 @@
 #include "pipeline/arrival_track.h"
 #include "pipeline/gps_time_watch.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/standard_errors.h"
 #include "protocols/parsers.h"
 
 namespace navcal::pipeline {
@@ -20,7 +21,8 @@ namespace navcal::pipeline {
 /// One port's way from bytes to stamped samples.
 class PortStream : private instruments::Receiver {
  public:
-  PortStream(std::uint16_t port, const config::PortSettings& settings, UtcMapping& mapping);
+  PortStream(std::uint16_t port, const config::PortSettings& settings, const StandardErrors& errors,
+             UtcMapping& mapping);
   PortStream(const PortStream&) = delete;
   PortStream& operator=(const PortStream&) = delete;
 
@@ -46,6 +48,7 @@ class PortStream : private instruments::Receiver {
   instruments::Mounting mounting_;
   instruments::FrameClock clock_;
   GpsTimeWatch gps_time_;
+  const StandardErrors& errors_;
   UtcMapping& mapping_;
   PortStatistics statistics_;
   std::int64_t last_arrival_ns_ = 0;

@@ -28,9 +28,11 @@ RoleSet roles_of(const instruments::CompassSample& compass) {
   return roles;
 }
 
-RoleSet roles_of(const instruments::ImuSample&) {
+RoleSet roles_of(const instruments::ImuSample& imu) {
   RoleSet roles;
-  for (const Role role : {Role::rates, Role::acceleration, Role::depth}) roles.add(role);
+  if (imu.rate_rad_s) roles.add(Role::rates);
+  if (imu.specific_force_m_s2) roles.add(Role::acceleration);
+  if (imu.depth_m) roles.add(Role::depth);
   return roles;
 }
 
@@ -50,6 +52,20 @@ RoleSet roles_of(const instruments::MotorSample& motor) {
 RoleSet roles_of(const instruments::AltimeterSample&) {
   RoleSet roles;
   roles.add(Role::altitude);
+  return roles;
+}
+
+RoleSet roles_of(const instruments::DvlSample& dvl) {
+  RoleSet roles;
+  if (dvl.bottom_velocity_m_s) roles.add(Role::bottom_velocity);
+  if (dvl.water_velocity_m_s) roles.add(Role::water_velocity);
+  if (dvl.altitude_m) roles.add(Role::altitude);
+  return roles;
+}
+
+RoleSet roles_of(const instruments::DepthSample& gauge) {
+  RoleSet roles;
+  if (gauge.depth_m || gauge.pressure_Pa) roles.add(Role::depth);
   return roles;
 }
 

@@ -37,9 +37,10 @@ void TiltStage::begin_run() {
 void TiltStage::take(const instruments::Sample& sample) {
   if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
     if (sample.port != ports_[Role::acceleration] || imu->over_range) return;
-    nav::RateReading reading = rate_reading(sample, *imu);
-    reading.force_position_m = positions_m_.at(sample.port);
-    tilt_.take(reading);
+    auto reading = rate_reading(sample, *imu);
+    if (!reading) return;
+    reading->force_position_m = positions_m_.at(sample.port);
+    tilt_.take(*reading);
   } else if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) {
     const auto reading = shaft_reading(sample, *motor);
     if (reading && sample.port == ports_[Role::shaft]) tilt_.take(*reading);

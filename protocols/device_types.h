@@ -22,6 +22,8 @@ struct Delivery {
   bool velocity = false;
   bool shaft = false;
   bool altitude = false;
+  bool bottom_velocity = false;
+  bool water_velocity = false;
 };
 
 /// The tables of options that a port of this device has: [port.NAME.units], [port.NAME.channels], [port.NAME.fix].
@@ -98,6 +100,77 @@ constexpr DeviceType device_row(Protocol protocol) {
               .delivers = {.heading = true, .position = true, .velocity = true, .altitude = true},
               .delivers_always = false,
               .options = {.units = true, .fix = true}};
+    case Protocol::ubx:
+      return {.name = "ubx",
+              .baud = 38400,
+              .latency_s = 0.050,
+              .latency_std_s = 0.020,
+              .rate_Hz = 1,
+              .delivers = {.position = true, .velocity = true},
+              .options = {.fix = true}};
+    case Protocol::mip:
+      return {.name = "mip",
+              .baud = 115200,
+              .latency_s = 0.003,
+              .latency_std_s = 0.001,
+              .rate_Hz = 100,
+              .delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
+              .delivers_always = false};
+    case Protocol::vectornav:
+      return {.name = "vectornav",
+              .baud = 115200,
+              .latency_s = 0.003,
+              .latency_std_s = 0.001,
+              .rate_Hz = 40,
+              .delivers = {.heading = true, .field = true, .rates = true, .acceleration = true},
+              .delivers_always = false};
+    case Protocol::pni:
+      return {.name = "pni",
+              .baud = 38400,
+              .latency_s = 0.030,
+              .latency_std_s = 0.005,
+              .rate_Hz = 10,
+              .delivers = {.heading = true, .field = true, .acceleration = true},
+              .delivers_always = false};
+    case Protocol::pd0:
+      // The ping rate of a Doppler log depends on the range to the bottom.
+      return {.name = "pd0",
+              .baud = 115200,
+              .latency_s = 0.100,
+              .latency_std_s = 0.050,
+              .delivers = {.altitude = true, .bottom_velocity = true, .water_velocity = true},
+              .delivers_always = false};
+    case Protocol::pd6:
+      return {.name = "pd6",
+              .baud = 115200,
+              .latency_s = 0.100,
+              .latency_std_s = 0.050,
+              .delivers = {.altitude = true, .bottom_velocity = true, .water_velocity = true},
+              .delivers_always = false};
+    case Protocol::water_linked:
+      return {.name = "waterlinked",
+              .baud = 115200,
+              .latency_s = 0.100,
+              .latency_std_s = 0.050,
+              .delivers = {.altitude = true, .bottom_velocity = true},
+              .delivers_always = false};
+    case Protocol::samples:
+      // Whatever another program knows; it states the times of validity itself.
+      return {.name = "samples",
+              .baud = 115200,
+              .latency_std_s = 0.010,
+              .delivers = {.heading = true,
+                           .field = true,
+                           .rates = true,
+                           .acceleration = true,
+                           .depth = true,
+                           .position = true,
+                           .velocity = true,
+                           .shaft = true,
+                           .altitude = true,
+                           .bottom_velocity = true,
+                           .water_velocity = true},
+              .delivers_always = false};
   }
   return {};
 }

@@ -12,8 +12,8 @@ namespace navcal::protocols {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// The name of a kind of frame as people write it: "Ea", "WORD", "GPGGA", "PTNTHTM"; at most eight characters.
-/// Packed into one word, so that it compares, hashes and copies like a number.
+/// The name of a kind of frame as people write it: "Ea", "WORD", "GPGGA", "PTNTHTM"; at most sixteen characters.
+/// Of fixed size, so that it copies and compares without memory of its own.
 class FrameId {
  public:
   constexpr FrameId() = default;
@@ -28,7 +28,7 @@ class FrameId {
   constexpr auto operator<=>(const FrameId&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 
  private:
-  std::array<char, 8> text_{};
+  std::array<char, 16> text_{};
 };
 
 /// One intact frame. `bytes` is valid only during the call that hands it over.
@@ -49,9 +49,23 @@ struct Counters {
   std::uint64_t skipped_bytes = 0;
 };
 
-enum class Protocol : std::uint8_t { tcm2, imu_card, oncore, motor_card, nmea };
+enum class Protocol : std::uint8_t {
+  tcm2,
+  imu_card,
+  oncore,
+  motor_card,
+  nmea,
+  ubx,
+  mip,
+  vectornav,
+  pni,
+  pd0,
+  pd6,
+  water_linked,
+  samples
+};
 
-/// "tcm2", "imu-card", "oncore", "motor-card", "nmea" (docs/cli.md, ICD section 5).
+/// The name in the device's row: "tcm2", "imu-card", "ubx", ... (docs/cli.md, ICD section 5).
 [[nodiscard]] std::string_view name_of(Protocol protocol);
 [[nodiscard]] std::optional<Protocol> protocol_named(std::string_view name);
 

@@ -9,10 +9,18 @@
 #include "protocols/device_types.h"
 #include "protocols/gps_stream.h"
 #include "protocols/imu_card.h"
+#include "protocols/mip.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"
 #include "protocols/oncore.h"
+#include "protocols/pd0.h"
+#include "protocols/pd6.h"
+#include "protocols/samples_line.h"
 #include "protocols/tcm2.h"
+#include "protocols/trax.h"
+#include "protocols/ubx.h"
+#include "protocols/vectornav.h"
+#include "protocols/water_linked.h"
 
 /// Which parser each device has.
 namespace navcal::protocols {
@@ -37,6 +45,22 @@ template <>
 struct ScannersOf<Protocol::motor_card> : Scanners<motor_card::Scanner> {};
 template <>
 struct ScannersOf<Protocol::nmea> : Scanners<nmea::Scanner> {};
+template <>
+struct ScannersOf<Protocol::ubx> : Scanners<ubx::Scanner, ubx::PortScanner> {};
+template <>
+struct ScannersOf<Protocol::mip> : Scanners<mip::Scanner> {};
+template <>
+struct ScannersOf<Protocol::vectornav> : Scanners<vectornav::Scanner> {};
+template <>
+struct ScannersOf<Protocol::pni> : Scanners<trax::Scanner> {};
+template <>
+struct ScannersOf<Protocol::pd0> : Scanners<pd0::Scanner> {};
+template <>
+struct ScannersOf<Protocol::pd6> : Scanners<pd6::Scanner> {};
+template <>
+struct ScannersOf<Protocol::water_linked> : Scanners<water_linked::Scanner> {};
+template <>
+struct ScannersOf<Protocol::samples> : Scanners<samples_line::Scanner> {};
 
 template <class Rows>
 struct PortParsers;

@@ -25,6 +25,10 @@ std::optional<double> degrees(const std::optional<double>& rad) {
   return rad ? std::optional(*rad * base::kDegreesPerRadian) : std::nullopt;
 }
 
+std::optional<double> axis(const std::optional<instruments::Vector3>& vector, std::size_t i) {
+  return vector ? std::optional((*vector)[i]) : std::nullopt;
+}
+
 std::vector<Point> fixes_of(const analysis::SimulatedSeries& series, const sim::Origin& origin) {
   const auto corner = sim::geodetic(origin, {1000, 1000, 0});
   std::vector<Point> points;
@@ -117,16 +121,15 @@ std::vector<Figure> instrument_figures(const analysis::SimulatedSeries& series) 
   auto field = plot(), force = plot(), rates = plot(), tilt = plot();
   constexpr std::array<const char*, 3> kGyros{"A-x", "B-y", "A-z"};
   for (std::size_t i = 0; i < 3; ++i) {
-    field.line(kSimulatedInks[i], kAxes[i], series.compass, [i](const auto& word) {
-      return word.field_body_uT ? std::optional((*word.field_body_uT)[i]) : std::nullopt;
-    });
+    field.line(kSimulatedInks[i], kAxes[i], series.compass,
+               [i](const auto& word) { return axis(word.field_body_uT, i); });
     force.line(kSimulatedInks[i], kAxes[i], series.imu,
-               [i](const auto& record) { return record.specific_force_m_s2[i]; });
+               [i](const auto& record) { return axis(record.specific_force_m_s2, i); });
     rates.line(kSimulatedInks[i], kGyros[i], series.imu,
-               [i](const auto& record) { return record.rate_rad_s[i] * base::kDegreesPerRadian; });
+               [i](const auto& record) { return degrees(axis(record.rate_rad_s, i)); });
   }
   rates.line(kSimulatedInks[3], "B-z", series.imu,
-             [](const auto& record) { return record.yaw_rate_b_rad_s * base::kDegreesPerRadian; });
+             [](const auto& record) { return degrees(record.yaw_rate_b_rad_s); });
   tilt.line(kSimulatedInks[0], "roll", series.compass, [](const auto& word) { return degrees(word.roll_rad); })
       .line(kSimulatedInks[1], "pitch", series.compass, [](const auto& word) { return degrees(word.pitch_rad); });
   const auto shaft =

@@ -55,7 +55,7 @@ class RateSum final : public pipeline::Sink {
   void on_sample(const instruments::Sample& sample) override {
     const auto* imu = std::get_if<instruments::ImuSample>(&sample.value);
     if (imu == nullptr) return;
-    sum_rad_s_ += imu->rate_rad_s[2];
+    sum_rad_s_ += imu->rate_rad_s.value()[2];
     ++count_;
   }
   [[nodiscard]] double mean_rad_s() const { return sum_rad_s_ / static_cast<double>(count_); }

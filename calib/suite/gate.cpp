@@ -178,8 +178,9 @@ bool Gate::clean(RateReading& reading) {
     return false;
   }
   for (const Fitness fit :
-       {fitness_of_all(reading.rate_rad_s, kMaxRate_rad_s), fitness(reading.yaw_rate_b_rad_s, kMaxRate_rad_s),
-        fitness_of_all(reading.specific_force_m_s2, kMaxSpecificForce_m_s2)}) {
+       {fitness_of_all(reading.rate_rad_s, kMaxRate_rad_s),
+        fitness(reading.yaw_rate_b_rad_s.value_or(0), kMaxRate_rad_s),
+        fitness_of_all(reading.specific_force_m_s2.value_or(Eigen::Vector3d::Zero()), kMaxSpecificForce_m_s2)}) {
     if (fit == Fitness::good) continue;
     count(Stream::rate, rejection(fit));
     return false;
@@ -218,7 +219,7 @@ void Gate::watch_frozen(const Reading& reading) {
       mark_frozen(&QueuedReading::heading_frozen, Stream::compass, heading_.since_s);
   } else if (const auto* rate = std::get_if<RateReading>(&reading)) {
     const auto& r = rate->rate_rad_s;
-    if (rates_.add({r.x(), r.y(), r.z(), rate->yaw_rate_b_rad_s}, rate->time_s))
+    if (rates_.add({r.x(), r.y(), r.z(), rate->yaw_rate_b_rad_s.value_or(0)}, rate->time_s))
       mark_frozen(&QueuedReading::rate_frozen, Stream::rate, rates_.since_s);
   }
 }

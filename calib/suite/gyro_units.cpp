@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gyros A and B: scale and bias of each from turns, and how far they disagree.
+#include <cmath>
+
 #include "calib/suite/calibrator_unit.h"
 #include "calib/suite/shared_estimators.h"
 
@@ -47,7 +49,9 @@ class GyroBUnit : public CalibratorUnit {
   GyroBUnit(const SuiteOptions& options, SharedEstimators& shared)
       : gyro_(TurnCalibrator::Subject::gyro, turn_parameters(options)), pair_(shared.gyros) {}
   void update_rate(const RateReading& reading) override { pair_.update(reading); }
-  void update_turn(const TurnStep& step) override { gyro_.update(step.with_gyro_b()); }
+  void update_turn(const TurnStep& step) override {
+    if (std::isfinite(step.measured_angle_b_rad)) gyro_.update(step.with_gyro_b());
+  }
   void start() override { gyro_.start(); }
   void on_in_force(Calibrator changed, const Correction& in_force) override {
     if (changed != Calibrator::gyro && changed != Calibrator::gyro_b) return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/suite/reading_queue.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace navcal::calib {
@@ -8,7 +10,15 @@ namespace {
 
 void archive_reading(Archive& archive, CompassReading& r) { calib::archive(archive, r); }
 void archive_reading(Archive& archive, RateReading& r) {
-  archive(r.time_s, r.time_std_s, r.rate_rad_s, r.yaw_rate_b_rad_s, r.specific_force_m_s2, r.saturated);
+  // What is absent is stored as NaN: the layout is that of states in which nothing could be absent.
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  double yaw_rate_b_rad_s = r.yaw_rate_b_rad_s.value_or(kNone);
+  Eigen::Vector3d specific_force_m_s2 = r.specific_force_m_s2.value_or(Eigen::Vector3d::Constant(kNone));
+  archive(r.time_s, r.time_std_s, r.rate_rad_s, yaw_rate_b_rad_s, specific_force_m_s2, r.saturated);
+  r.yaw_rate_b_rad_s.reset();
+  r.specific_force_m_s2.reset();
+  if (!std::isnan(yaw_rate_b_rad_s)) r.yaw_rate_b_rad_s = yaw_rate_b_rad_s;
+  if (!specific_force_m_s2.hasNaN()) r.specific_force_m_s2 = specific_force_m_s2;
 }
 void archive_reading(Archive& archive, GroundReading& r) {
   archive(r.time_s, r.position_m, r.speed_m_s, r.course_rad);

@@ -22,8 +22,9 @@ void GyroPair::set_calibration(const Line& a, const Line& b) {
 }
 
 void GyroPair::update(const RateReading& reading) {
+  if (!reading.yaw_rate_b_rad_s) return;
   const double difference =
-      a_.scale * reading.rate_rad_s.z() + a_.bias_rad_s - (b_.scale * reading.yaw_rate_b_rad_s + b_.bias_rad_s);
+      a_.scale * reading.rate_rad_s.z() + a_.bias_rad_s - (b_.scale * *reading.yaw_rate_b_rad_s + b_.bias_rad_s);
   if (!std::isfinite(difference) || !std::isfinite(reading.time_s) || reading.saturated) return;
   if (readings_ > 0) {
     const double since_s = reading.time_s - last_s_;

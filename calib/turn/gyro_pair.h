@@ -28,7 +28,7 @@ class GyroPair {
 
   /// A change of either begins a new window.
   void set_calibration(const Line& a, const Line& b);
-  /// Left out when not finite, saturated or not later than the one before.
+  /// Left out without gyro B, when not finite, saturated or not later than the one before.
   void update(const RateReading& reading);
 
   /// Gyro A less gyro B; nothing before kEnough readings.

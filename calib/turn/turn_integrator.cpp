@@ -14,6 +14,8 @@ namespace {
 constexpr double kSmallestCosine = 0.17;
 /// The smoother looks no further ahead when so many readings of an instrument wait: their curves have little room.
 constexpr std::uint32_t kCrowded = 100;
+/// Marks the axis of a gyro that is not there; its angle is then no number either.
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 TiltSmoother::Parameters tilt_parameters(const TurnIntegrator::Parameters& parameters) {
   TiltSmoother::Parameters tilt;
@@ -76,8 +78,9 @@ void TurnIntegrator::update(const CompassReading& reading) {
 
 void TurnIntegrator::update(const RateReading& reading) {
   const Eigen::Vector4d value{reading.rate_rad_s.x(), reading.rate_rad_s.y(), reading.rate_rad_s.z(),
-                              reading.yaw_rate_b_rad_s};
-  if (!std::isfinite(reading.time_s) || !value.allFinite()) {
+                              reading.yaw_rate_b_rad_s.value_or(kAbsent)};
+  const bool b_is_sound = !reading.yaw_rate_b_rad_s || std::isfinite(*reading.yaw_rate_b_rad_s);
+  if (!std::isfinite(reading.time_s) || !value.head<3>().allFinite() || !b_is_sound) {
     ++left_out_;
     return;
   }

@@ -15,7 +15,7 @@ struct TurnStep {
   double duration_s = 0;       ///< since the reading before
   double measured_angle_rad =
       0;  ///< S1: integral of F times gyro A's measured yaw rate, F = 1/(cos roll cos pitch)
-  double measured_angle_b_rad = 0;     ///< the same of gyro B
+  double measured_angle_b_rad = 0;     ///< the same of gyro B; NaN without one
   double bias_time_s = 0;              ///< S2: integral of F
   double tilt_angle_rad = 0;           ///< T: integral of tan(roll)/cos(pitch) d(pitch)
   double roll_rad = 0, pitch_rad = 0;  ///< at the reading, without the inclinometer's lag

@@ -95,9 +95,10 @@ void MissionGatherer::add(const instruments::CompassSample& sample, std::int64_t
 }
 
 void MissionGatherer::add(const instruments::ImuSample& sample, std::int64_t time_ns) {
-  const auto& [roll, pitch, yaw] = sample.rate_rad_s;
+  if (!sample.rate_rad_s || !sample.yaw_rate_b_rad_s || !sample.specific_force_m_s2 || !sample.depth_m) return;
+  const auto& [roll, pitch, yaw] = *sample.rate_rad_s;
   mission_.card.push_back(
-      {0, {roll, yaw, pitch, sample.yaw_rate_b_rad_s}, sample.specific_force_m_s2, sample.depth_m});
+      {0, {roll, yaw, pitch, *sample.yaw_rate_b_rad_s}, *sample.specific_force_m_s2, *sample.depth_m});
   times_ns_[card].push_back(time_ns);
 }
 

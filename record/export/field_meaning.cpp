@@ -26,7 +26,7 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "dip_rad", "radian", "", "inclination of the magnetic field as the device said it"},
     FieldMeaning{"", "turn_rate_rad_s", "radian s-1", "platform_yaw_rate_fore_starboard",
                  "rate of turn as the device said it, positive to starboard"},
-    FieldMeaning{"", "temperature_C", "degree_Celsius", "", "temperature of the compass"},
+    FieldMeaning{"", "temperature_C", "degree_Celsius", "", "temperature that the device measures"},
     FieldMeaning{"", "error", "", "", "error code of the compass, hexadecimal"},
     // Inertial card.
     FieldMeaning{"", "rate_rad_s", "radian s-1", "", "rate of turn about body axes (gyros A-x, B-y, A-z)"},
@@ -63,6 +63,36 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "current_A", "A", "", "current of the motor, or out of the battery"},
     // Echo sounder.
     FieldMeaning{"", "altitude_m", "m", "height_above_sea_floor", "distance from the transducer to the bottom"},
+    // Doppler log.
+    FieldMeaning{"", "frame", "", "",
+                 "axes of the velocities: body (forward, starboard, down) or earth (north, east, down)"},
+    FieldMeaning{"", "bottom_velocity_m_s", "m s-1", "", "velocity over the bottom"},
+    FieldMeaning{"", "bottom_velocity_std_m_s", "m s-1", "",
+                 "standard error of the velocity over the bottom, each axis"},
+    FieldMeaning{"", "water_velocity_m_s", "m s-1", "", "velocity through the water"},
+    FieldMeaning{"", "water_velocity_std_m_s", "m s-1", "",
+                 "standard error of the velocity through the water, each axis"},
+    FieldMeaning{"", "sound_speed_m_s", "m s-1", "speed_of_sound_in_sea_water",
+                 "speed of sound that the device reckons with"},
+    // Pressure gauge.
+    FieldMeaning{"", "pressure_Pa", "Pa", "", "absolute pressure"},
+    FieldMeaning{"", "pressure_std_Pa", "Pa", "", "standard error of the pressure"},
+    // Mission sensors.
+    FieldMeaning{"", "quantity", "", "", "quantity that the sensor measures"},
+    FieldMeaning{"", "unit", "", "", "unit of the value"},
+    FieldMeaning{"", "value", "", "", "value in that unit"},
+    FieldMeaning{"", "value_std", "", "", "standard error of the value"},
+    // Standard errors of one reading.
+    FieldMeaning{"", "tilt_std_rad", "radian", "", "standard error of pitch and roll"},
+    FieldMeaning{"", "field_std_uT", "uT", "", "standard error of the magnetic field, each axis"},
+    FieldMeaning{"", "rate_std_rad_s", "radian s-1", "", "standard error of the rates of turn, each axis"},
+    FieldMeaning{"", "specific_force_std_m_s2", "m s-2", "", "standard error of the specific force, each axis"},
+    FieldMeaning{"", "depth_std_m", "m", "", "standard error of the depth"},
+    FieldMeaning{"", "position_std_m", "m", "", "standard error of the position, north and east"},
+    FieldMeaning{"", "height_std_m", "m", "", "standard error of the height"},
+    FieldMeaning{"", "velocity_std_m_s", "m s-1", "", "standard error of the velocity, north and east"},
+    FieldMeaning{"", "fins_std_rad", "radian", "", "standard error of the fin angles"},
+    FieldMeaning{"", "current_std_A", "A", "", "standard error of the current"},
     // Battery.
     FieldMeaning{"", "voltage_V", "V", "", "voltage of the battery under load"},
     FieldMeaning{"", "current_measured", "", "", "the current is that of a gauge of the whole vehicle"},

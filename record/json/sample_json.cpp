@@ -23,6 +23,14 @@ void append_count(JsonObject& json, std::string_view key, const std::optional<st
   }
 }
 
+void append_vector(JsonObject& json, std::string_view key, const std::optional<instruments::Vector3>& vector) {
+  if (vector) {
+    json.numbers(key, *vector);
+  } else {
+    json.null(key);
+  }
+}
+
 /// Writes the members that each kind of sample has of its own.
 struct Body {
   JsonObject& json;
@@ -33,11 +41,7 @@ struct Body {
     json.boolean("heading_is_true", s.heading_is_true);
     json.number("pitch_rad", s.pitch_rad);
     json.number("roll_rad", s.roll_rad);
-    if (s.field_body_uT) {
-      json.numbers("field_body_uT", *s.field_body_uT);
-    } else {
-      json.null("field_body_uT");
-    }
+    append_vector(json, "field_body_uT", s.field_body_uT);
     json.number("dip_rad", s.dip_rad);
     json.number("turn_rate_rad_s", s.turn_rate_rad_s);
     json.number("temperature_C", s.temperature_C);
@@ -47,20 +51,29 @@ struct Body {
       json.null("error");
     }
     json.boolean("tilt_by_accelerometers", s.tilt_by_accelerometers);
+    json.number("heading_std_rad", s.heading_std_rad);
+    json.number("tilt_std_rad", s.tilt_std_rad);
+    json.number("field_std_uT", s.field_std_uT);
   }
 
   void operator()(const instruments::ImuSample& s) const {
-    json.numbers("rate_rad_s", s.rate_rad_s);
+    append_vector(json, "rate_rad_s", s.rate_rad_s);
     json.number("yaw_rate_b_rad_s", s.yaw_rate_b_rad_s);
     json.number("yaw_rate_calibrated_rad_s", s.yaw_rate_calibrated_rad_s);
     json.number("yaw_rate_b_calibrated_rad_s", s.yaw_rate_b_calibrated_rad_s);
-    json.numbers("specific_force_m_s2", s.specific_force_m_s2);
+    append_vector(json, "specific_force_m_s2", s.specific_force_m_s2);
     json.number("depth_m", s.depth_m);
-    json.integer("sequence", s.sequence);
-    json.boolean("leak_forward", s.leak_forward);
-    json.boolean("leak_aft", s.leak_aft);
+    json.number("temperature_C", s.temperature_C);
     json.boolean("over_range", s.over_range);
-    json.boolean("low_supply", s.low_supply);
+    if (const auto& card = s.card) {
+      json.integer("sequence", card->sequence);
+      json.boolean("leak_forward", card->leak_forward);
+      json.boolean("leak_aft", card->leak_aft);
+      json.boolean("low_supply", card->low_supply);
+    }
+    json.number("rate_std_rad_s", s.rate_std_rad_s);
+    json.number("specific_force_std_m_s2", s.specific_force_std_m_s2);
+    json.number("depth_std_m", s.depth_std_m);
   }
 
   void operator()(const instruments::GpsSample& s) const {
@@ -77,6 +90,9 @@ struct Body {
     append_count(json, "tracked", s.tracked);
     json.boolean("time_corrected", s.time_corrected);
     json.boolean("leap_known", s.leap_known);
+    json.number("position_std_m", s.position_std_m);
+    json.number("height_std_m", s.height_std_m);
+    json.number("velocity_std_m_s", s.velocity_std_m_s);
   }
 
   void operator()(const instruments::SkySample& s) const {
@@ -92,13 +108,45 @@ struct Body {
     json.numbers("fins_rad", s.fins_rad);
     json.number("current_A", s.current_A);
     append_count(json, "sequence", s.sequence);
+    json.number("fins_std_rad", s.fins_std_rad);
+    json.number("current_std_A", s.current_std_A);
   }
 
-  void operator()(const instruments::AltimeterSample& s) const { json.number("altitude_m", s.altitude_m); }
+  void operator()(const instruments::AltimeterSample& s) const {
+    json.number("altitude_m", s.altitude_m);
+    json.number("altitude_std_m", s.altitude_std_m);
+  }
 
   void operator()(const instruments::PowerSample& s) const {
     json.number("voltage_V", s.voltage_V);
     json.number("current_A", s.current_A);
+  }
+
+  void operator()(const instruments::DvlSample& s) const {
+    json.text("frame", s.frame == instruments::VelocityFrame::body ? "body" : "earth");
+    append_vector(json, "bottom_velocity_m_s", s.bottom_velocity_m_s);
+    json.number("bottom_velocity_std_m_s", s.bottom_velocity_std_m_s);
+    append_vector(json, "water_velocity_m_s", s.water_velocity_m_s);
+    json.number("water_velocity_std_m_s", s.water_velocity_std_m_s);
+    json.number("altitude_m", s.altitude_m);
+    json.number("altitude_std_m", s.altitude_std_m);
+    json.number("temperature_C", s.temperature_C);
+    json.number("sound_speed_m_s", s.sound_speed_m_s);
+  }
+
+  void operator()(const instruments::DepthSample& s) const {
+    json.number("depth_m", s.depth_m);
+    json.number("depth_std_m", s.depth_std_m);
+    json.number("pressure_Pa", s.pressure_Pa);
+    json.number("pressure_std_Pa", s.pressure_std_Pa);
+    json.number("temperature_C", s.temperature_C);
+  }
+
+  void operator()(const instruments::ScalarSample& s) const {
+    json.text("quantity", s.quantity.view());
+    json.text("unit", s.unit.view());
+    json.number("value", s.value);
+    json.number("value_std", s.value_std);
   }
 };
 
@@ -110,6 +158,9 @@ struct ClassName {
   std::string_view operator()(const instruments::MotorSample&) const { return "MOTOR"; }
   std::string_view operator()(const instruments::AltimeterSample&) const { return "ALTIMETER"; }
   std::string_view operator()(const instruments::PowerSample&) const { return "POWER"; }
+  std::string_view operator()(const instruments::DvlSample&) const { return "DVL"; }
+  std::string_view operator()(const instruments::DepthSample&) const { return "DEPTH"; }
+  std::string_view operator()(const instruments::ScalarSample&) const { return "SENSOR"; }
 };
 
 }  // namespace

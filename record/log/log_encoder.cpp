@@ -32,6 +32,9 @@ std::uint16_t topic_of(const instruments::Sample& sample) {
     std::uint16_t operator()(const instruments::MotorSample&) const { return topic::kMotor; }
     std::uint16_t operator()(const instruments::AltimeterSample&) const { return topic::kAltimeter; }
     std::uint16_t operator()(const instruments::PowerSample&) const { return topic::kPower; }
+    std::uint16_t operator()(const instruments::DvlSample&) const { return topic::kDvl; }
+    std::uint16_t operator()(const instruments::DepthSample&) const { return topic::kDepth; }
+    std::uint16_t operator()(const instruments::ScalarSample&) const { return topic::kSensor; }
   };
   return std::visit(Visitor{}, sample.value);
 }

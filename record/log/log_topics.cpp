@@ -36,6 +36,9 @@ constexpr std::array kCompass{Field{"time", number, "s"},
                               Field{"temperature_C"},
                               Field{"error", text},
                               Field{"tilt_by_accelerometers", boolean},
+                              Field{"heading_std_rad"},
+                              Field{"tilt_std_rad"},
+                              Field{"field_std_uT"},
                               Field{"calibration", text}};
 
 constexpr std::array kImu{Field{"time", number, "s"},
@@ -48,11 +51,15 @@ constexpr std::array kImu{Field{"time", number, "s"},
                           Field{"yaw_rate_b_calibrated_rad_s"},
                           Field{"specific_force_m_s2", vector3},
                           Field{"depth_m"},
+                          Field{"temperature_C"},
+                          Field{"over_range", boolean},
                           Field{"sequence"},
                           Field{"leak_forward", boolean},
                           Field{"leak_aft", boolean},
-                          Field{"over_range", boolean},
                           Field{"low_supply", boolean},
+                          Field{"rate_std_rad_s"},
+                          Field{"specific_force_std_m_s2"},
+                          Field{"depth_std_m"},
                           Field{"calibration", text}};
 
 constexpr std::array kGps{Field{"time", number, "s"},
@@ -72,6 +79,9 @@ constexpr std::array kGps{Field{"time", number, "s"},
                           Field{"tracked"},
                           Field{"time_corrected", boolean},
                           Field{"leap_known", boolean},
+                          Field{"position_std_m"},
+                          Field{"height_std_m"},
+                          Field{"velocity_std_m_s"},
                           Field{"calibration", text}};
 
 constexpr std::array kMotor{Field{"time", number, "s"},
@@ -83,11 +93,14 @@ constexpr std::array kMotor{Field{"time", number, "s"},
                             Field{"fins_rad", vector3},
                             Field{"current_A"},
                             Field{"sequence"},
+                            Field{"fins_std_rad"},
+                            Field{"current_std_A"},
                             Field{"calibration", text}};
 
 constexpr std::array kAltimeter{Field{"time", number, "s"},    Field{"time_std", number, "s"},
                                 Field{"arrival", number, "s"}, Field{"device", text},
-                                Field{"altitude_m"},           Field{"calibration", text}};
+                                Field{"altitude_m"},           Field{"altitude_std_m"},
+                                Field{"calibration", text}};
 
 constexpr std::array kPower{Field{"time", number, "s"},
                             Field{"time_std", number, "s"},
@@ -96,6 +109,42 @@ constexpr std::array kPower{Field{"time", number, "s"},
                             Field{"voltage_V"},
                             Field{"current_A"},
                             Field{"calibration", text}};
+
+constexpr std::array kDvl{Field{"time", number, "s"},
+                          Field{"time_std", number, "s"},
+                          Field{"arrival", number, "s"},
+                          Field{"device", text},
+                          Field{"frame", text},
+                          Field{"bottom_velocity_m_s", vector3},
+                          Field{"bottom_velocity_std_m_s"},
+                          Field{"water_velocity_m_s", vector3},
+                          Field{"water_velocity_std_m_s"},
+                          Field{"altitude_m"},
+                          Field{"altitude_std_m"},
+                          Field{"temperature_C"},
+                          Field{"sound_speed_m_s"},
+                          Field{"calibration", text}};
+
+constexpr std::array kDepth{Field{"time", number, "s"},
+                            Field{"time_std", number, "s"},
+                            Field{"arrival", number, "s"},
+                            Field{"device", text},
+                            Field{"depth_m"},
+                            Field{"depth_std_m"},
+                            Field{"pressure_Pa"},
+                            Field{"pressure_std_Pa"},
+                            Field{"temperature_C"},
+                            Field{"calibration", text}};
+
+constexpr std::array kSensor{Field{"time", number, "s"},
+                             Field{"time_std", number, "s"},
+                             Field{"arrival", number, "s"},
+                             Field{"device", text},
+                             Field{"quantity", text},
+                             Field{"unit", text},
+                             Field{"value"},
+                             Field{"value_std"},
+                             Field{"calibration", text}};
 
 constexpr std::array kBattery{Field{"time", number, "s"},
                               Field{"time_std", number, "s"},
@@ -175,6 +224,9 @@ constexpr std::array kTopics{
     Topic{topic::kCommand, "/command", "navcal.Command", kCommandFields},
     Topic{topic::kPower, "/power", "navcal.Power", kPower},
     Topic{topic::kBattery, "/battery", "navcal.Battery", kBattery},
+    Topic{topic::kDvl, "/dvl", "navcal.Dvl", kDvl},
+    Topic{topic::kDepth, "/depth", "navcal.Depth", kDepth},
+    Topic{topic::kSensor, "/sensor", "navcal.Sensor", kSensor},
 };
 
 nlohmann::ordered_json schema_of(const Field& field) {

@@ -28,9 +28,9 @@ struct Topic {
 namespace topic {
 inline constexpr std::uint16_t kConfig = 1, kTime = 2, kEvent = 3, kHealth = 4, kCalib = 5, kCompass = 6, kImu = 7,
                                kGps = 8, kMotor = 9, kAltimeter = 10, kNav = 11, kCommand = 12, kPower = 13,
-                               kBattery = 14;
-/// Channel of the raw bytes of the first port; the others follow.
-inline constexpr std::uint16_t kFirstRaw = 16;
+                               kBattery = 14, kDvl = 15, kDepth = 16, kSensor = 17;
+/// Channel of the raw bytes of the first port; the others follow. Readers go by the names of the channels.
+inline constexpr std::uint16_t kFirstRaw = 32;
 inline constexpr std::string_view kRawPrefix = "/raw/";
 }  // namespace topic
 

@@ -39,6 +39,14 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::oncore, make_receiver<Oncore::Kind::twelve_channels>},
     {Protocol::motor_card, make_clocked<MotorCard>},
     {Protocol::nmea, make_receiver<Oncore::Kind::nmea>},
+    {Protocol::ubx, nullptr},
+    {Protocol::mip, nullptr},
+    {Protocol::vectornav, nullptr},
+    {Protocol::pni, nullptr},
+    {Protocol::pd0, nullptr},
+    {Protocol::pd6, nullptr},
+    {Protocol::water_linked, nullptr},
+    {Protocol::samples, nullptr},
 });
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST(Alarms, ALeakIsOneAlarmHoweverItSloshes) {
   std::size_t changes = 0;
   for (int i = 0; i < 200; ++i) {
     instruments::ImuSample imu;
-    imu.leak_aft = i % 3 == 0;
+    imu.card = {.leak_aft = i % 3 == 0};
     changes += alarms.update(2, imu, i * kSecond / 20).size();
   }
   EXPECT_EQ(changes, 1U);
@@ -27,9 +27,9 @@ TEST(Alarms, ALeakIsOneAlarmHoweverItSloshes) {
 TEST(Alarms, AnAlarmIsClearedAfterItsTimeAndNotBefore) {
   Alarms alarms;
   instruments::ImuSample imu;
-  imu.low_supply = true;
+  imu.card = {.low_supply = true};
   ASSERT_EQ(alarms.update(0, imu, 0).size(), 1U);
-  imu.low_supply = false;
+  imu.card = instruments::CardState{};
   EXPECT_TRUE(alarms.update(0, imu, Alarms::kClear_ns - 1).empty());
   const auto& cleared = alarms.update(0, imu, Alarms::kClear_ns);
   ASSERT_EQ(cleared.size(), 1U);
@@ -40,10 +40,11 @@ TEST(Alarms, AnAlarmIsClearedAfterItsTimeAndNotBefore) {
 TEST(Alarms, LeaksStandFirstAndCardsApart) {
   Alarms alarms;
   instruments::ImuSample imu;
-  imu.over_range = imu.low_supply = true;
+  imu.over_range = true;
+  imu.card = {.low_supply = true};
   ASSERT_EQ(alarms.update(0, imu, 0).size(), 2U);
   instruments::ImuSample other;
-  other.leak_forward = true;
+  other.card = {.leak_forward = true};
   ASSERT_EQ(alarms.update(1, other, 1).size(), 1U);
   ASSERT_EQ(alarms.standing().size(), 3U);
   EXPECT_EQ(alarms.standing()[0].alarm, Alarm::leak_forward);
@@ -56,7 +57,7 @@ TEST(Alarms, WhatSomebodyElseJudgesStandsBesideTheCards) {
   EXPECT_TRUE(alarms.set(3, Alarm::command_not_echoed, true, 1));
   EXPECT_FALSE(alarms.set(3, Alarm::command_not_echoed, true, 2));
   instruments::ImuSample leaking;
-  leaking.leak_aft = true;
+  leaking.card = {.leak_aft = true};
   EXPECT_EQ(alarms.update(1, leaking, 3).size(), 1U);
   ASSERT_EQ(alarms.standing().size(), 2U);
   EXPECT_EQ(alarms.standing()[0].alarm, Alarm::leak_aft) << "leaks first";

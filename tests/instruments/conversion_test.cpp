@@ -31,17 +31,18 @@ TEST(ImuCard, ChannelsBecomeBodyAxesInSi) {
   const auto samples = collector.all<ImuSample>();
   ASSERT_EQ(samples.size(), 1U);
   const ImuSample& imu = samples[0];
-  EXPECT_DOUBLE_EQ(imu.rate_rad_s[0], 1 * kDeg);
-  EXPECT_DOUBLE_EQ(imu.rate_rad_s[1], 3 * kDeg);
-  EXPECT_DOUBLE_EQ(imu.rate_rad_s[2], 2 * kDeg);
-  EXPECT_DOUBLE_EQ(imu.yaw_rate_b_rad_s, -2 * kDeg);
-  EXPECT_NEAR(imu.specific_force_m_s2[0], 0.981, 1e-12);
-  EXPECT_NEAR(imu.specific_force_m_s2[2], -9.81, 1e-12);
-  EXPECT_DOUBLE_EQ(imu.depth_m, 2);
-  EXPECT_FALSE(imu.leak_forward);
-  EXPECT_TRUE(imu.leak_aft);
+  EXPECT_DOUBLE_EQ(imu.rate_rad_s.value()[0], 1 * kDeg);
+  EXPECT_DOUBLE_EQ(imu.rate_rad_s.value()[1], 3 * kDeg);
+  EXPECT_DOUBLE_EQ(imu.rate_rad_s.value()[2], 2 * kDeg);
+  EXPECT_DOUBLE_EQ(imu.yaw_rate_b_rad_s.value(), -2 * kDeg);
+  EXPECT_NEAR(imu.specific_force_m_s2.value()[0], 0.981, 1e-12);
+  EXPECT_NEAR(imu.specific_force_m_s2.value()[2], -9.81, 1e-12);
+  EXPECT_DOUBLE_EQ(imu.depth_m.value(), 2);
+  ASSERT_TRUE(imu.card);
+  EXPECT_FALSE(imu.card->leak_forward);
+  EXPECT_TRUE(imu.card->leak_aft);
   EXPECT_FALSE(imu.over_range);
-  EXPECT_TRUE(imu.low_supply);
+  EXPECT_TRUE(imu.card->low_supply);
   EXPECT_EQ(collector.measurements[0].sequence, 77);
 }
 
@@ -55,7 +56,7 @@ TEST(ImuCard, ZerosAndScalesAreTheUnitsOwn) {
   record.raw[1] = 2350 * 16;
   const auto bytes = imu_card::encode_record(record);
   collector.feed<imu_card::Parser>(Bytes(bytes));
-  EXPECT_DOUBLE_EQ(collector.all<ImuSample>()[0].rate_rad_s[2], 20 * kDeg);
+  EXPECT_DOUBLE_EQ(collector.all<ImuSample>()[0].rate_rad_s.value()[2], 20 * kDeg);
 }
 
 TEST(MotorCard, EmptyFieldsStayUnknown) {

@@ -66,8 +66,8 @@ TEST(Mounting, WithoutARotationNothingChangesToTheLastBit) {
   EXPECT_FALSE(same.roll_rad);
   EXPECT_TRUE(std::signbit((*same.field_body_uT)[2]));
   ImuSample imu;
-  imu.rate_rad_s = {0.1, 0.2, -0.0};
-  EXPECT_TRUE(std::signbit(in_body(away, imu).rate_rad_s[2]));
+  imu.rate_rad_s = Vector3{0.1, 0.2, -0.0};
+  EXPECT_TRUE(std::signbit(in_body(away, imu).rate_rad_s.value()[2]));
 }
 
 TEST(Mounting, ACompassThatLooksToStarboardShowsAHeadingThatIsTooLarge) {
@@ -135,11 +135,11 @@ TEST(Mounting, RatesAndForceOfTheCardAreTurned) {
   device.yaw_rate_b_rad_s = 4;
   device.specific_force_m_s2 = {9.81, 0, 0};
   const ImuSample body = in_body(settings, device);
-  EXPECT_NEAR(body.rate_rad_s[0], 3, 1e-12);
-  EXPECT_NEAR(body.rate_rad_s[1], 2, 1e-12);
-  EXPECT_NEAR(body.rate_rad_s[2], -1, 1e-12);
-  EXPECT_NEAR(body.yaw_rate_b_rad_s, -1, 1e-12) << "the second z gyro now measures roll";
-  EXPECT_NEAR(body.specific_force_m_s2[2], -9.81, 1e-12);
+  EXPECT_NEAR(body.rate_rad_s.value()[0], 3, 1e-12);
+  EXPECT_NEAR(body.rate_rad_s.value()[1], 2, 1e-12);
+  EXPECT_NEAR(body.rate_rad_s.value()[2], -1, 1e-12);
+  EXPECT_NEAR(body.yaw_rate_b_rad_s.value(), -1, 1e-12) << "the second z gyro now measures roll";
+  EXPECT_NEAR(body.specific_force_m_s2.value()[2], -9.81, 1e-12);
 }
 
 TEST(Mounting, TheSecondYawGyroKeepsItsPlaceWhenTheCardLooksAside) {
@@ -147,8 +147,8 @@ TEST(Mounting, TheSecondYawGyroKeepsItsPlaceWhenTheCardLooksAside) {
   device.rate_rad_s = {0.1, 0.2, 0.3};
   device.yaw_rate_b_rad_s = 0.31;
   const ImuSample body = in_body(turned_by(180, 0, 40), device);
-  EXPECT_NEAR(body.rate_rad_s[2], -0.3, 1e-12);
-  EXPECT_NEAR(body.yaw_rate_b_rad_s, -0.31, 1e-12);
+  EXPECT_NEAR(body.rate_rad_s.value()[2], -0.3, 1e-12);
+  EXPECT_NEAR(body.yaw_rate_b_rad_s.value(), -0.31, 1e-12);
 }
 
 TEST(Mounting, PositionsAreLeftAlone) {

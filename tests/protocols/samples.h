@@ -5,6 +5,7 @@
 
 #include "protocols/imu_card.h"
 #include "protocols/motor_card.h"
+#include "protocols/samples_line.h"
 #include "protocols/tcm2.h"
 #include "protocols/tcm2_commands.h"
 #include "tests/protocols/stream.h"
@@ -95,6 +96,14 @@ template <>
 inline Buffer random_frame<motor_card::Scanner>(Random& random) {
   if (chance(random)) return motor_card::encode_status(random_status(random));
   return motor_card::encode_command({1500, {printed(random, 25, 10), 0, -2.5}});
+}
+
+template <>
+inline Buffer random_frame<samples_line::Scanner>(Random& random) {
+  std::string line = R"({"class":"DEPTH","depth_m":)" + std::to_string(random() % 1000) + "}";
+  if (random() % 4 == 0) line += " \r";
+  line += '\n';
+  return {line.begin(), line.end()};
 }
 
 }  // namespace navcal::protocols::test

@@ -26,10 +26,8 @@ template <class Rows>
 struct AllScanners;
 template <std::size_t... Row>
 struct AllScanners<std::index_sequence<Row...>> {
-  using Types =
-      testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
-                     oncore::CommandScanner, GpsStreamScanner, ubx::Scanner, ubx::PortScanner, mip::Scanner,
-                     pd0::Scanner, pd6::Scanner, water_linked::Scanner, trax::Scanner, vectornav::Scanner>;
+  using Types = testing::Types<typename ScannersOf<kDeviceTypes[Row].protocol>::Own..., tcm2::CommandScanner,
+                               oncore::CommandScanner, GpsStreamScanner, ubx::PortScanner>;
 };
 TYPED_TEST_SUITE(ScannerContract, AllScanners<std::make_index_sequence<kDeviceCount>>::Types);
 

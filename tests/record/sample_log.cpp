@@ -43,7 +43,7 @@ instruments::Sample imu_sample(std::int64_t at_ns) {
   imu.rate_rad_s = {0.001, -0.25, 1.0 / 3.0};
   imu.specific_force_m_s2 = {0.1, 0.2, -9.81};
   imu.depth_m = 12.5;
-  imu.sequence = 255;
+  imu.card = {.sequence = 255};
   sample.value = imu;
   return sample;
 }

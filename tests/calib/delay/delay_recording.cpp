@@ -23,7 +23,7 @@ class Feeder : public pipeline::Sink {
     } else if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
       RateReading reading;
       reading.time_s = time_s;
-      reading.rate_rad_s = Eigen::Vector3d(imu->rate_rad_s.data());
+      reading.rate_rad_s = Eigen::Vector3d(imu->rate_rad_s.value().data());
       gate_.put(reading);
     }
     pass_on();

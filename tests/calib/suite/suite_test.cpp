@@ -65,7 +65,7 @@ TEST(Suite, RefusesWhereTheVehicleDoesNotTurn) {
   Random random(3);
   std::normal_distribution<double> noise(0, 0.004);
   for (int i = 0; i < 600; ++i) {
-    suite.put(RateReading{i * 0.1, {0, 0, 0.1 + noise(random)}, noise(random)});
+    suite.put(RateReading{i * 0.1, {0, 0, 0.1 + noise(random)}, noise(random), {}});
     suite.put(CompassReading{i * 0.1, 1.0 + noise(random), 0.0, 0.0, {}, false});
   }
   suite.finish();
