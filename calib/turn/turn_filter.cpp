@@ -62,9 +62,9 @@ TurnFilter::Reading TurnFilter::reading(double measured_rad) const {
 }
 
 void TurnFilter::update(const TurnStep& step) {
-  Eigen::Matrix<double, 7, 1> all;
-  all << step.time_s, step.heading_rad, step.duration_s, step.measured_angle_rad, step.measured_angle_b_rad,
-      step.bias_time_s, step.tilt_angle_rad;
+  Eigen::Matrix<double, 6, 1> all;
+  all << step.time_s, step.heading_rad, step.duration_s, step.measured_angle_rad, step.bias_time_s,
+      step.tilt_angle_rad;
   const bool begins = step.begins_segment || !in_segment_;
   if (!all.allFinite() || (!begins && step.duration_s <= 0)) {
     ++left_out_;

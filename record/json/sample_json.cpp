@@ -63,14 +63,16 @@ struct Body {
     json.number("yaw_rate_b_calibrated_rad_s", s.yaw_rate_b_calibrated_rad_s);
     append_vector(json, "specific_force_m_s2", s.specific_force_m_s2);
     json.number("depth_m", s.depth_m);
-    json.number("temperature_C", s.temperature_C);
-    json.boolean("over_range", s.over_range);
     if (const auto& card = s.card) {
       json.integer("sequence", card->sequence);
       json.boolean("leak_forward", card->leak_forward);
       json.boolean("leak_aft", card->leak_aft);
       json.boolean("low_supply", card->low_supply);
+    } else {
+      for (const char* key : {"sequence", "leak_forward", "leak_aft", "low_supply"}) json.null(key);
     }
+    json.boolean("over_range", s.over_range);
+    json.number("temperature_C", s.temperature_C);
     json.number("rate_std_rad_s", s.rate_std_rad_s);
     json.number("specific_force_std_m_s2", s.specific_force_std_m_s2);
     json.number("depth_std_m", s.depth_std_m);

@@ -2,6 +2,7 @@
 // Every kind of mistake in a port's table.
 #include <fmt/format.h>
 
+#include "protocols/device_types.h"
 #include "tests/config/expect_problems.h"
 
 namespace navcal::config {
@@ -18,18 +19,25 @@ TEST(ConfigPortErrors, NoPorts) {
   EXPECT_EQ(problems_of("[port]\n"), none);
 }
 
+/// "tcm2, imu-card, ... or samples".
+std::string known_protocols() {
+  std::string names;
+  for (const auto& device : protocols::kDeviceTypes) {
+    const bool is_last = device.protocol == protocols::kDeviceTypes.back().protocol;
+    if (!names.empty()) names += is_last ? " or " : ", ";
+    names += device.name;
+  }
+  return names;
+}
+
 TEST(ConfigPortErrors, UnknownProtocolListsTheKnown) {
-  EXPECT_EQ(
-      problems_of("[port.compass]\nprotocol = \"tcm\"\npath = \"/dev/ttyS1\"\n"),
-      Problems{
-          "t.toml:2: port.compass.protocol: unknown protocol \"tcm\"; known: tcm2, imu-card, oncore, motor-card "
-          "or nmea"});
+  EXPECT_EQ(problems_of("[port.compass]\nprotocol = \"tcm\"\npath = \"/dev/ttyS1\"\n"),
+            Problems{"t.toml:2: port.compass.protocol: unknown protocol \"tcm\"; known: " + known_protocols()});
 }
 
 TEST(ConfigPortErrors, MissingProtocol) {
-  EXPECT_EQ(
-      problems_of("[port.compass]\npath = \"/dev/ttyS1\"\n"),
-      Problems{"t.toml:1: port.compass.protocol: missing; known: tcm2, imu-card, oncore, motor-card or nmea"});
+  EXPECT_EQ(problems_of("[port.compass]\npath = \"/dev/ttyS1\"\n"),
+            Problems{"t.toml:1: port.compass.protocol: missing; known: " + known_protocols()});
 }
 
 TEST(ConfigPortErrors, NoPlace) {

@@ -32,6 +32,12 @@ struct Told : Sink {
   std::vector<NavigationSample> samples;
 };
 
+instruments::ImuSample still_card() {
+  instruments::ImuSample card;
+  card.rate_rad_s = instruments::Vector3{};
+  return card;
+}
+
 /// A vehicle that runs north at 10 revolutions a second; time passes in steps of 50 ms.
 class NavigationStageTest : public testing::Test {
  protected:
@@ -60,7 +66,7 @@ class NavigationStageTest : public testing::Test {
       instruments::MotorSample shaft;
       shaft.rpm = 600;
       give(motor, shaft);
-      give(imu, instruments::ImuSample{});
+      give(imu, still_card());
       instruments::CompassSample word;
       word.heading_rad = heading_rad;
       word.heading_is_true = heading_is_true_;
@@ -83,7 +89,7 @@ TEST_F(NavigationStageTest, AccelerometersHoldTheTiltWhereNoInclinometerDoes) {
   for (int i = 0; i < 100; ++i) {
     now_ns_ += 50 * base::kMillisecond_ns;
     tilt_ = nav::TiltReading{now_ns_, 0.1, -0.05};
-    give(imu, instruments::ImuSample{});
+    give(imu, still_card());
   }
   EXPECT_NEAR(newest().estimate.roll_rad.value(), 0.1, 1e-3);
   EXPECT_NEAR(newest().estimate.pitch_rad.value(), -0.05, 1e-3);
@@ -156,7 +162,7 @@ TEST_F(NavigationStageTest, ACalibratedHeadingIsPreferredByTheOneAndUnknownToThe
     instruments::MotorSample shaft;
     shaft.rpm = 600;
     give(motor, shaft);
-    give(imu, instruments::ImuSample{}, {1, 2});
+    give(imu, still_card(), {1, 2});
     instruments::CompassSample word;
     word.heading_rad = 0.2;
     word.heading_calibrated_rad = 0;
@@ -258,7 +264,7 @@ TEST_F(AntennaAhead, TheVelocityOfTheArmIsTakenOff) {
   for (int i = 0; i < 400; ++i) {
     now_ns_ += 50 * base::kMillisecond_ns;
     instruments::ImuSample card;
-    card.rate_rad_s = {0, 0, 0.2};
+    card.rate_rad_s = instruments::Vector3{0, 0, 0.2};
     give(imu, card);
     instruments::CompassSample word;
     word.heading_rad = 0.01 * i;
@@ -305,7 +311,7 @@ TEST_F(GaugeAhead, DepthIsThatOfTheOrigin) {
     word.pitch_rad = kPitch_rad;
     word.roll_rad = 0;
     give(compass, word);
-    instruments::ImuSample card;
+    auto card = still_card();
     card.depth_m = 5;
     give(imu, card);
   }

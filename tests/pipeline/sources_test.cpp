@@ -52,6 +52,34 @@ std::optional<Sources::Change> take(Sources& sources, const instruments::Sample&
 }
 using Cause = Sources::Change::Cause;
 
+TEST(Sources, ASampleFillsTheRolesOfWhatItMeasured) {
+  instruments::Sample sample = at(0, 0);
+  instruments::ImuSample imu;
+  sample.value = imu;
+  EXPECT_TRUE(roles_of(sample).is_empty());
+  imu.rate_rad_s = instruments::Vector3{};
+  sample.value = imu;
+  EXPECT_TRUE(roles_of(sample).has(Role::rates));
+  EXPECT_FALSE(roles_of(sample).has(Role::acceleration) || roles_of(sample).has(Role::depth));
+
+  instruments::DvlSample dvl;
+  dvl.altitude_m = 5;
+  sample.value = dvl;
+  EXPECT_TRUE(roles_of(sample).has(Role::altitude));
+  EXPECT_FALSE(roles_of(sample).has(Role::bottom_velocity)) << "no bottom lock";
+  dvl.bottom_velocity_m_s = instruments::Vector3{};
+  sample.value = dvl;
+  EXPECT_TRUE(roles_of(sample).has(Role::bottom_velocity));
+  EXPECT_FALSE(roles_of(sample).has(Role::water_velocity));
+
+  instruments::DepthSample gauge;
+  gauge.pressure_Pa = 2e5;
+  sample.value = gauge;
+  EXPECT_TRUE(roles_of(sample).has(Role::depth));
+  sample.value = instruments::ScalarSample{};
+  EXPECT_TRUE(roles_of(sample).is_empty());
+}
+
 TEST(Sources, LinesWithoutAHeadingAreNone) {
   instruments::Sample rate_of_turn = at(0, 0);
   instruments::CompassSample compass;

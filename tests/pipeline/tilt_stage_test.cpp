@@ -32,7 +32,8 @@ instruments::Sample sample_of(std::uint16_t port, std::int64_t time_ns,
 void hold_still(TiltStage& stage) {
   for (int i = 0; i < 200; ++i) {
     instruments::ImuSample card;
-    card.specific_force_m_s2 = {9.81 * std::sin(0.1), 0, -9.81 * std::cos(0.1)};
+    card.rate_rad_s = instruments::Vector3{};
+    card.specific_force_m_s2 = instruments::Vector3{9.81 * std::sin(0.1), 0, -9.81 * std::cos(0.1)};
     stage.take(sample_of(imu_port, i * kStep_ns, card));
   }
 }

@@ -15,7 +15,7 @@ TEST(NmeaStream, TalkerAndTypeAreTheIdentifier) {
                             line("PUBX,00"))),
             "GPGGA PTNTHTM HCHDM PUBX ");
   EXPECT_EQ(ids(parsed_nmea("!AIVDM,1,1,,A,0*0A\r\n")), "AIVDM ");
-  EXPECT_EQ(ids(parsed_nmea(line("PSTMTESTRF"))), "PSTMTEST ") << "eight characters at most";
+  EXPECT_EQ(ids(parsed_nmea(line("PSTMTESTRF"))), "PSTMTESTRF ") << "sixteen characters at most";
 }
 
 TEST(NmeaStream, TheChecksumIsRequired) {

@@ -46,6 +46,29 @@ TEST(Suite, FindsGyrosAndDeviationTogetherWhereTheVehicleTurnsThroughTheCircle) 
   }
 }
 
+TEST(Suite, AVehicleWithoutASecondGyroFindsTheSameForTheFirst) {
+  Suite both(thesis_options(), kCompassAndGyros), one(thesis_options(), kCompassAndGyros);
+  for (Reading reading : readings_along("path2", thesis_deviation(), Noise{}, 1)) {
+    both.put(reading);
+    if (auto* rate = std::get_if<RateReading>(&reading)) rate->yaw_rate_b_rad_s.reset();
+    one.put(reading);
+  }
+  both.finish();
+  one.finish();
+  const Report with = both.report(), without = one.report();
+  ASSERT_TRUE(with.estimates.gyro && without.estimates.gyro);
+  EXPECT_EQ(without.estimates.gyro->scale, with.estimates.gyro->scale);
+  EXPECT_EQ(without.estimates.gyro->bias_rad_s, with.estimates.gyro->bias_rad_s);
+  EXPECT_FALSE(without.estimates.gyro_b);
+  EXPECT_FALSE(without.in_force.gyro_b);
+  const std::string state = saved(one);
+  Suite restored(thesis_options(), kCompassAndGyros);
+  Archive archive(state);
+  restored.archive(archive);
+  EXPECT_TRUE(archive.ok());
+  EXPECT_EQ(saved(restored), state);
+}
+
 TEST(Suite, RefusesWhatAnArcCannotTellAndSaysWhichTurnIsMissing) {
   for (const std::string path : {"path3", "path4"}) {
     const Report report = run(path, thesis_options());

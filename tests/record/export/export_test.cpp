@@ -31,7 +31,8 @@ TEST_F(Export, CsvHasOneFileForEachTopic) {
             "time_s,time_std_s,arrival_s,device,rate_rad_s_x,rate_rad_s_y,rate_rad_s_z,yaw_rate_b_rad_s,"
             "yaw_rate_calibrated_rad_s,yaw_rate_b_calibrated_rad_s,"
             "specific_force_m_s2_x,specific_force_m_s2_y,specific_force_m_s2_z,depth_m,sequence,leak_forward,"
-            "leak_aft,over_range,low_supply,calibration");
+            "leak_aft,low_supply,over_range,temperature_C,rate_std_rad_s,specific_force_std_m_s2,depth_std_m,"
+            "calibration");
   const auto compass = read(path_ / "csv" / "compass.csv");
   EXPECT_NE(
       compass.find("\n1790000004.950000008,0.001500000,1790000005.000000008,compass,5.7334,,false,0.1,,55.11,"),

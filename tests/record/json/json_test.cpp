@@ -55,7 +55,7 @@ TEST(Json, ASampleReadsAsInTheContract) {
       "\"heading_calibrated_rad\":null,\"heading_is_true\":false,\"pitch_rad\":0.1,\"roll_rad\":null,\"field_body_"
       "uT\":[55.11,12.33,-18.43],"
       "\"dip_rad\":null,\"turn_rate_rad_s\":null,\"temperature_C\":null,\"error\":null,\"tilt_by_accelerometers\":"
-      "false,\"calibration\":null}");
+      "false,\"heading_std_rad\":null,\"tilt_std_rad\":null,\"field_std_uT\":null,\"calibration\":null}");
 }
 
 TEST(Json, EveryKindOfSampleIsJsonWithTheMembersOfItsTopic) {
@@ -82,6 +82,12 @@ TEST(Json, EveryKindOfSampleIsJsonWithTheMembersOfItsTopic) {
   check("/altimeter");
   sample.value = instruments::PowerSample{};
   check("/power");
+  sample.value = instruments::DvlSample{};
+  check("/dvl");
+  sample.value = instruments::DepthSample{};
+  check("/depth");
+  sample.value = instruments::ScalarSample{};
+  check("/sensor");
 }
 
 TEST(Json, ABatteryHasTheMembersOfItsTopicWhetherItsChargeIsKnownOrNot) {
