@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "instruments/doppler_limits.h"
 #include "protocols/water_linked.h"
 
@@ -22,6 +23,9 @@ std::optional<std::int64_t> age_ns(const water_linked::Velocity& velocity) {
   return 1000 * age_us;
 }
 
+/// A tilt serves so many velocities; the instrument sends as many lines of either kind.
+constexpr int kTiltServes = 10;
+
 /// Of the axis with the largest variance; else the figure of merit. nullopt when both are zero, as in old lines.
 std::optional<double> stated_std_m_s(const water_linked::Velocity& velocity) {
   double variance_m2_s2 = 0;
@@ -34,15 +38,27 @@ std::optional<double> stated_std_m_s(const water_linked::Velocity& velocity) {
 }  // namespace
 
 Instrument::Verdict WaterLinkedLog::read(const protocols::Frame& frame, Receiver& receiver) {
-  if (frame.id != water_linked::kVelocity && frame.id != water_linked::kVelocityOld) return Verdict::ignored;
-  const auto velocity = water_linked::decode_velocity(frame.bytes);
+  if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld)
+    return read_velocity(frame.bytes, receiver);
+  if (frame.id != water_linked::kPosition) return Verdict::ignored;
+  const auto reckoning = water_linked::decode_position(frame.bytes);
+  if (!reckoning) return Verdict::out_of_range;
+  tilt_cosine_ = std::cos(reckoning->pitch_deg * base::kRadiansPerDegree) *
+                 std::cos(reckoning->roll_deg * base::kRadiansPerDegree);
+  velocities_since_ = 0;
+  return Verdict::used;
+}
+
+Instrument::Verdict WaterLinkedLog::read_velocity(protocols::Bytes line, Receiver& receiver) {
+  const auto velocity = water_linked::decode_velocity(line);
   if (!velocity) return Verdict::out_of_range;
   DvlSample sample;
   if (velocity->valid) {
     sample.bottom_velocity_m_s = velocity->velocity_m_s;
     sample.bottom_velocity_std_m_s = stated_std_m_s(*velocity);
-    sample.altitude_m = velocity->altitude_m;
+    sample.altitude_m = velocity->altitude_m * tilt_cosine_;
   }
+  if (++velocities_since_ == kTiltServes) tilt_cosine_ = 1;
   const bool can_be = clear_of_impossible(sample);
   Measurement measurement;
   measurement.value = sample;

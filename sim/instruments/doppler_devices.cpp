@@ -158,8 +158,10 @@ std::vector<std::uint8_t> WaterLinkedDoppler::encode(const DopplerPing& ping, st
   velocity.figure_of_merit_m_s = std::sqrt(across_m2_s2);
   if (velocity.valid) {
     velocity.velocity_m_s = solved(ping, options().beam_angle_rad).body_m_s;
-    velocity.altitude_m = 0;
-    for (const auto& range_m : ping.range_m) velocity.altitude_m += *range_m * cosine / 4;
+    // Along the instrument's axis: over a plane bottom the inverse ranges of opposite beams have this mean.
+    double inverse_per_m = 0;
+    for (const auto& range_m : ping.range_m) inverse_per_m += 1 / *range_m / 4;
+    velocity.altitude_m = cosine / inverse_per_m;
   }
   velocity.valid_at_us = ping.measured_ns / 1000;
   velocity.transmitted_at_us = sent_ns / 1000;

@@ -317,12 +317,30 @@ TEST(WaterLinkedLog, WithoutLockNothingIsTaken) {
   EXPECT_EQ(collector.verdicts.front(), Verdict::used);
 }
 
+TEST(WaterLinkedLog, ItsOwnTiltMakesTheAltitudeVertical) {
+  water_linked::Velocity velocity;
+  velocity.valid = true;
+  velocity.altitude_m = 10;
+  WaterLinkedLog log;
+  Collector collector(log);
+  const auto velocity_line = water_linked::encode(velocity);
+  collector.feed<water_linked::Parser>(velocity_line);
+  water_linked::Position tilted;
+  tilted.roll_deg = 60;
+  collector.feed<water_linked::Parser>(water_linked::encode(tilted));
+  for (int i = 0; i < 20; ++i) collector.feed<water_linked::Parser>(velocity_line);
+  const auto samples = collector.all<DvlSample>();
+  EXPECT_NEAR(samples.at(0).altitude_m.value(), 10, 1e-9);
+  EXPECT_NEAR(samples.at(1).altitude_m.value(), 5, 1e-9);
+  EXPECT_NEAR(samples.at(20).altitude_m.value(), 10, 1e-9) << "wrp no longer comes";
+}
+
 TEST(WaterLinkedLog, OtherLinesAreIgnoredAndImpossibleOnesCounted) {
   WaterLinkedLog log;
   Collector collector(log);
   collector.feed<water_linked::Parser>("wrp,49056.809,0.41,0.15,1.23,0.4,53.9,13.0,19.3,0*de\n");
   collector.feed<water_linked::Parser>("wru,0,0.070,1.10,-40,-95*9c\n");
-  EXPECT_EQ(collector.verdicts, std::vector<Verdict>(2, Verdict::ignored));
+  EXPECT_EQ(collector.verdicts, (std::vector{Verdict::used, Verdict::ignored}));
   collector.feed<water_linked::Parser>(water_linked::encode_line("wrz,1,2"));
   EXPECT_EQ(collector.verdicts.back(), Verdict::out_of_range);
   EXPECT_TRUE(collector.measurements.empty());
