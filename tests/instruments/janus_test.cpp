@@ -13,7 +13,7 @@
 namespace navcal::instruments {
 namespace {
 
-constexpr double kDegree = base::kRadiansPerDegree;
+constexpr double kDegrees_rad = base::kRadiansPerDegree;
 
 /// Azimuth of the beams from beam 3, seen from above, of a convex head that looks down: to port, starboard,
 /// forward and aft. A head that looks up is turned about its forward axis: 1 and 2 change sides.
@@ -21,7 +21,7 @@ Vector3 beam_in_body(int beam, const JanusHead& head) {
   double azimuth_deg = std::array<double, 4>{-90, 90, 0, 180}.at(static_cast<std::size_t>(beam));
   if (!head.is_convex) azimuth_deg += 180;
   if (head.looks_up) azimuth_deg = -azimuth_deg;
-  const double azimuth_rad = azimuth_deg * kDegree + head.alignment_rad;
+  const double azimuth_rad = azimuth_deg * kDegrees_rad + head.alignment_rad;
   const double aside = std::sin(head.beam_angle_rad);
   return {aside * std::cos(azimuth_rad), aside * std::sin(azimuth_rad),
           (head.looks_up ? -1 : 1) * std::cos(head.beam_angle_rad)};
@@ -43,7 +43,7 @@ std::vector<JanusHead> heads() {
     for (const bool convex : {true, false}) {
       for (const bool up : {true, false}) {
         for (const double alignment_deg : {0.0, 45.0, -30.0})
-          all.push_back({angle_deg * kDegree, convex, up, alignment_deg * kDegree});
+          all.push_back({angle_deg * kDegrees_rad, convex, up, alignment_deg * kDegrees_rad});
       }
     }
   }
@@ -82,7 +82,7 @@ TEST(Janus, AnyThreeBeamsGiveTheSame) {
 }
 
 TEST(Janus, ErrorVelocityHasTheVarianceOfTheHorizontalComponents) {
-  const JanusHead head{30 * kDegree, true, false, 0};
+  const JanusHead head{30 * kDegrees_rad, true, false, 0};
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0, 0.01);
   double x2 = 0, y2 = 0, z2 = 0, e2 = 0;
@@ -103,7 +103,7 @@ TEST(Janus, AltitudeIsTheSameHoweverTheVehicleIsTilted) {
   constexpr double kHeight_m = 12;
   for (const JanusHead& head : heads()) {
     for (const auto& [pitch_deg, roll_deg] : {std::pair(0.0, 0.0), {-25.0, 0.0}, {10.0, 15.0}, {0.0, -20.0}}) {
-      const double pitch = pitch_deg * kDegree, roll = roll_deg * kDegree;
+      const double pitch = pitch_deg * kDegrees_rad, roll = roll_deg * kDegrees_rad;
       const Vector3 down{-std::sin(pitch), std::cos(pitch) * std::sin(roll), std::cos(pitch) * std::cos(roll)};
       BeamValues ranges;
       for (int i = 0; i < 4; ++i) {
@@ -118,21 +118,21 @@ TEST(Janus, AltitudeIsTheSameHoweverTheVehicleIsTilted) {
       EXPECT_NEAR(altitude_of_beams(ranges, head, pitch, roll).value(), kHeight_m, 1e-9);
     }
   }
-  EXPECT_FALSE(altitude_of_beams({}, JanusHead{30 * kDegree, true, false, 0}, 0, 0));
-  EXPECT_FALSE(altitude_of_beams({1.0, 1.0, 1.0, 1.0}, JanusHead{30 * kDegree, true, false, 0}, 1.5, 0))
+  EXPECT_FALSE(altitude_of_beams({}, JanusHead{30 * kDegrees_rad, true, false, 0}, 0, 0));
+  EXPECT_FALSE(altitude_of_beams({1.0, 1.0, 1.0, 1.0}, JanusHead{30 * kDegrees_rad, true, false, 0}, 1.5, 0))
       << "a beam above the horizontal";
 }
 
 TEST(Janus, LevelVelocitiesAreTurnedBackIntoTheBody) {
   // Nose 30 degrees up and straight up through the water: that is forward and up in the body.
-  expect_near(body_of_level({0, 0, -1}, 30 * kDegree, 0), {0.5, 0, -std::sqrt(3) / 2});
+  expect_near(body_of_level({0, 0, -1}, 30 * kDegrees_rad, 0), {0.5, 0, -std::sqrt(3) / 2});
   // Rolled 90 degrees to starboard, down is where starboard points.
-  expect_near(body_of_level({0, 0, 1}, 0, 90 * kDegree), {0, 1, 0});
+  expect_near(body_of_level({0, 0, 1}, 0, 90 * kDegrees_rad), {0, 1, 0});
 }
 
 TEST(Janus, PendulumPitchOfARolledInstrument) {
-  EXPECT_NEAR(euler_pitch_rad(10 * kDegree, 0), 10 * kDegree, 1e-12);
-  const double pitch = 10 * kDegree, roll = 25 * kDegree;
+  EXPECT_NEAR(euler_pitch_rad(10 * kDegrees_rad, 0), 10 * kDegrees_rad, 1e-12);
+  const double pitch = 10 * kDegrees_rad, roll = 25 * kDegrees_rad;
   // Gravity in the instrument's axes: what the pendulum's plane shows.
   const double shown = std::atan2(std::sin(pitch), std::cos(pitch) * std::cos(roll));
   EXPECT_NEAR(euler_pitch_rad(shown, roll), pitch, 1e-12);
