@@ -172,9 +172,10 @@ std::optional<Choice> best_of(const Problem& problem, const Pieces& pieces) {
 /// Readings without a gap from which a term of this size, beside the others in `solution`, would stand out.
 std::optional<double> readings_needed(Solution solution, const std::vector<int>& used, int term, double square,
                                       double period_s, double readings) {
-  constexpr int kMostDoublings = 20;
+  constexpr int kMostSteps = 80;
+  constexpr double kStep = 1.19;  // a fourth of an octave
   solution.squares[term] = square;
-  for (int doubling = 0; doubling < kMostDoublings; ++doubling, readings *= 2) {
+  for (int step = 0; step < kMostSteps; ++step, readings *= kStep) {
     std::vector<AllanPoint> points;
     for (std::size_t m = 1; 2 * static_cast<double>(m) <= readings; m *= 2) {
       AllanPoint point;

@@ -23,6 +23,14 @@ bool all_equal(const Pieces& pieces) {
   return true;
 }
 
+double scatter_about(const Pieces& pieces, double mean) {
+  double squares = 0;
+  for (const auto& piece : pieces) {
+    for (const double value : piece) squares += (value - mean) * (value - mean);
+  }
+  return std::sqrt(squares / static_cast<double>(reading_count(pieces) - 1));
+}
+
 void separate_rounding(ChannelNoise& noise) {
   if (!noise.reading || noise.reading->drifts) return;
   const double std = noise.reading->std, error = noise.reading->std_error;
@@ -71,6 +79,7 @@ ChannelNoise channel_noise(const Series& series, const std::vector<Interval>& in
   noise.rate_Hz = 1 / period_s;
   noise.seconds = static_cast<double>(noise.readings) * period_s;
   noise.mean = mean_of(pieces);
+  noise.scatter = scatter_about(pieces, noise.mean);
   noise.constant = all_equal(pieces);
   if (noise.constant) return noise;
   noise.spectrum = spectrum_of(pieces, period_s);

@@ -14,8 +14,8 @@ namespace navcal::analysis {
 /// What the readings of one channel at rest show. Values are in the channel's unit.
 struct ChannelNoise {
   std::size_t readings = 0, stretches = 0;
-  double rate_Hz = 0, seconds = 0;  ///< of the readings used
-  double mean = 0;
+  double rate_Hz = 0, seconds = 0;   ///< of the readings used
+  double mean = 0, scatter = 0;      ///< scatter: standard deviation of all readings about their mean
   std::optional<double> resolution;  ///< step by which readings are rounded, over the whole recording
   bool constant = false;             ///< all readings are equal: the noise is below the resolution
   /// Noise of one reading, rounding included; nullopt where the readings are too few, equal, or drift.
