@@ -54,7 +54,7 @@ Figure readings_figure(const RecordedChannel& recorded, const analysis::NoiseRep
     points.push_back({time_s[i], values[i]});
     shown.push_back(values[i]);
   }
-  const Range y = range_of(shown);
+  const Range y = whole_range_of(shown);
   SvgPlot plot(recorded.name(), {"seconds from the beginning", {0, std::max(report.duration_s, 1e-3)}},
                {std::string(recorded.channel->unit), y});
   std::string name = report.chosen ? "chosen" : "at rest";

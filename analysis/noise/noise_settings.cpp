@@ -94,6 +94,13 @@ std::string apply(const FoundSetting& found, config::Settings& settings) {
   return comment;
 }
 
+/// A file's name may be any bytes; in a comment only printing ones of ASCII are sure to be read again.
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
 struct KeyComment {
   std::string_view key;
   std::string text;
@@ -151,7 +158,7 @@ std::string noise_configuration(const NoiseReport& report, config::Settings sett
   std::string head = fmt::format(
       "# The configuration of {} with the noise of its instruments at rest, found by\n"
       "# navcal noise. Keys of [instruments] without a comment are as they were.\n",
-      report.file);
+      printable(report.file));
   for (auto& port : settings.ports) {
     if (!port.path.empty() || !port.udev_name.empty() || !port.usb_serial.empty() || !port.address.empty())
       continue;
