@@ -56,7 +56,7 @@ Figure readings_figure(const RecordedChannel& recorded, const analysis::NoiseRep
   }
   const Range y = whole_range_of(shown);
   SvgPlot plot(recorded.name(), {"seconds from the beginning", {0, std::max(report.duration_s, 1e-3)}},
-               {std::string(recorded.channel->unit), y});
+               {recorded.unit, y});
   std::string name = report.chosen ? "chosen" : "at rest";
   for (const auto& interval : report.quiet) {
     const std::array<Point, 2> lower{{{interval.from_s, y.least}, {interval.to_s, y.least}}};
@@ -88,7 +88,7 @@ Figure allan_figure(const RecordedChannel& recorded) {
     high.push_back(log_point(point.tau_s, point.high));
   }
   SvgPlot plot("Allan deviation of " + recorded.name(), log_axis("averaging time, s", taus),
-               log_axis(std::string(recorded.channel->unit), deviations));
+               log_axis(recorded.unit, deviations));
   plot.band(NoiseInk::first, "95 %", low, high);
   const std::array curves{
       TermCurve{terms.white, "white, -1/2", NoiseInk::second,
@@ -116,7 +116,7 @@ Figure spectrum_figure(const RecordedChannel& recorded) {
   const auto& spectrum = recorded.noise.spectrum;
   std::vector<double> frequencies, roots;
   std::vector<Point> line;
-  // Of neighbouring values the largest is shown, so that no line is lost.
+  // The largest of neighbouring values is shown, so that no line is lost.
   const std::size_t step = spectrum.density.size() / kMostDensities + 1;
   for (std::size_t i = 0; i < spectrum.density.size(); i += step) {
     const std::size_t end = std::min(i + step, spectrum.density.size());
@@ -128,7 +128,7 @@ Figure spectrum_figure(const RecordedChannel& recorded) {
     line.push_back(log_point(frequencies.back(), roots.back()));
   }
   SvgPlot plot("Spectrum of " + recorded.name(), log_axis("Hz", frequencies),
-               log_axis(std::string(recorded.channel->unit) + "/sqrt(Hz)", roots));
+               log_axis(recorded.unit + "/sqrt(Hz)", roots));
   plot.line(NoiseInk::first, "", line);
   for (const auto& found : recorded.noise.lines) {
     const auto nearest = std::min_element(frequencies.begin(), frequencies.end(), [&](double a, double b) {
@@ -155,12 +155,12 @@ Figure allan_overview(const std::vector<const RecordedChannel*>& channels) {
       deviations.push_back(point.deviation);
     }
   }
-  const std::string unit(channels.front()->channel->unit);
+  const std::string& unit = channels.front()->unit;
   SvgPlot plot("Allan deviation", log_axis("averaging time, s", taus), log_axis(unit, deviations));
   for (std::size_t i = 0; i < shown; ++i) {
     std::vector<Point> line;
     for (const auto& point : channels[i]->noise.allan) line.push_back(log_point(point.tau_s, point.deviation));
-    plot.line(kInks.at(i), channels[i]->channel->name, line);
+    plot.line(kInks.at(i), channels[i]->quantity, line);
   }
   return {channels.front()->port + ", " + unit, plot.svg(), "Overlapping Allan deviation."};
 }

@@ -42,8 +42,8 @@ NoiseJson channel_json(const analysis::RecordedChannel& recorded) {
   const analysis::ChannelNoise& noise = recorded.noise;
   NoiseJson json;
   json["device"] = recorded.port;
-  json["channel"] = recorded.channel->name;
-  json["unit"] = recorded.channel->unit;
+  json["channel"] = recorded.quantity;
+  json["unit"] = recorded.unit;
   json["readings"] = noise.readings;
   json["stretches"] = noise.stretches;
   json["seconds"] = noise.seconds;

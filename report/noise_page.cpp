@@ -23,7 +23,7 @@ std::vector<ChannelList> overview_groups(const analysis::NoiseReport& report) {
     if (recorded.noise.allan.empty()) continue;
     const auto fits = [&](const ChannelList& group) {
       return group.size() < kTogether && group.front()->port == recorded.port &&
-             group.front()->channel->unit == recorded.channel->unit;
+             group.front()->unit == recorded.unit;
     };
     const auto group = std::find_if(groups.begin(), groups.end(), fits);
     if (group == groups.end())

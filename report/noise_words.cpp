@@ -94,7 +94,7 @@ std::string rest_sentence(const analysis::NoiseReport& report) {
 
 std::vector<std::string> noise_remarks(const analysis::RecordedChannel& recorded) {
   const analysis::ChannelNoise& noise = recorded.noise;
-  const std::string unit(recorded.channel->unit);
+  const std::string unit(recorded.unit);
   std::vector<std::string> remarks;
   const auto add = [&](std::string remark) {
     if (!remark.empty()) remarks.push_back(std::move(remark));
@@ -125,7 +125,7 @@ std::vector<std::string> noise_row(const analysis::RecordedChannel& recorded, st
                                    : noise.constant ? "constant"
                                                     : "-";
   return {recorded.name(),
-          std::string(recorded.channel->unit),
+          recorded.unit,
           fmt::format("{}", noise.readings),
           noise.rate_Hz > 0 ? fmt::format("{:.2f}", noise.rate_Hz) : "-",
           noise.resolution ? fmt::format("{:.4g}", *noise.resolution) : "-",

@@ -43,6 +43,10 @@ template <Value (*kValue)(const instruments::AltimeterSample&)>
 constexpr auto kAltimeter = value_of<instruments::AltimeterSample, kValue>;
 template <Value (*kValue)(const instruments::PowerSample&)>
 constexpr auto kPower = value_of<instruments::PowerSample, kValue>;
+template <Value (*kValue)(const instruments::DvlSample&)>
+constexpr auto kDvl = value_of<instruments::DvlSample, kValue>;
+template <Value (*kValue)(const instruments::DepthSample&)>
+constexpr auto kDepth = value_of<instruments::DepthSample, kValue>;
 
 using Compass = instruments::CompassSample;
 using Imu = instruments::ImuSample;
@@ -50,6 +54,8 @@ using Gps = instruments::GpsSample;
 using Motor = instruments::MotorSample;
 using Altimeter = instruments::AltimeterSample;
 using Power = instruments::PowerSample;
+using Dvl = instruments::DvlSample;
+using Depth = instruments::DepthSample;
 
 /// Tilt by another instrument's accelerometers is not the compass's.
 Value pitch(const Compass& s) { return s.tilt_by_accelerometers ? std::nullopt : degrees(s.pitch_rad); }
@@ -72,6 +78,7 @@ Value force(const Imu& s) {
   return component<kAxis>(s.specific_force_m_s2);
 }
 Value depth(const Imu& s) { return s.depth_m; }
+Value imu_temperature(const Imu& s) { return s.temperature_C; }
 
 bool is_position(const Gps& s) { return s.fix == instruments::Fix::fix_2d || s.fix == instruments::Fix::fix_3d; }
 
@@ -107,9 +114,30 @@ Value altitude(const Altimeter& s) { return s.altitude_m; }
 Value voltage(const Power& s) { return s.voltage_V; }
 Value current(const Power& s) { return s.current_A; }
 
+template <std::size_t kAxis>
+Value bottom_velocity(const Dvl& s) {
+  return component<kAxis>(s.bottom_velocity_m_s);
+}
+template <std::size_t kAxis>
+Value water_velocity(const Dvl& s) {
+  return component<kAxis>(s.water_velocity_m_s);
+}
+Value dvl_altitude(const Dvl& s) { return s.altitude_m; }
+Value water_temperature(const Dvl& s) { return s.temperature_C; }
+
+Value gauge_depth(const Depth& s) { return s.depth_m; }
+Value pressure(const Depth& s) { return s.pressure_Pa; }
+Value gauge_temperature(const Depth& s) { return s.temperature_C; }
+
+Value scalar(const Sample& sample, const ChannelOrigin&) {
+  const auto* const reading = std::get_if<instruments::ScalarSample>(&sample.value);
+  return reading != nullptr ? Value(reading->value) : std::nullopt;
+}
+
 // Limits of what passes for rest. Larger variations pass where the noise of the readings explains them.
 constexpr double kHeading_deg = 0.2, kTilt_deg = 0.1, kField_uT = 0.1, kRate_deg_s = 0.05, kForce_m_s2 = 0.02;
-constexpr double kDepth_m = 0.03, kVelocity_m_s = 0.3, kRpm = 1, kFin_deg = 0.3, kAltitude_m = 0.05;
+constexpr double kDepth_m = 0.03, kVelocity_m_s = 0.3, kRpm = 1, kFin_deg = 0.3, kAltitude_m = 0.05,
+                 kBottom_m_s = 0.02, kPressure_Pa = 300;
 
 constexpr std::string_view kFieldNoise = "compass_field_noise_uT", kTiltNoise = "compass_tilt_noise_deg",
                            kGyroNoise = "imu_gyro_noise_deg_s", kForceNoise = "imu_force_noise_m_s2",
@@ -134,6 +162,7 @@ constexpr std::array kChannels{
     NoiseChannel{"force_y", "m/s2", kImu<force<1>>, false, kForce_m_s2, {}, kForceNoise, Role::acceleration},
     NoiseChannel{"force_z", "m/s2", kImu<force<2>>, false, kForce_m_s2, {}, kForceNoise, Role::acceleration},
     NoiseChannel{"depth", "m", kImu<depth>, false, kDepth_m, {}, "imu_depth_noise_m", Role::depth},
+    NoiseChannel{"imu_temperature", "C", kImu<imu_temperature>},
     NoiseChannel{"north", "m", position<0>, false, 0, {}, kPositionNoise, Role::position},
     NoiseChannel{"east", "m", position<1>, false, 0, {}, kPositionNoise, Role::position},
     NoiseChannel{"height", "m", kGps<height>},
@@ -150,10 +179,25 @@ constexpr std::array kChannels{
     NoiseChannel{"altitude", "m", kAltimeter<altitude>, false, kAltitude_m},
     NoiseChannel{"voltage", "V", kPower<voltage>},
     NoiseChannel{"supply_current", "A", kPower<current>},
+    NoiseChannel{"bottom_velocity_1", "m/s", kDvl<bottom_velocity<0>>, false, kBottom_m_s, kVelocity_m_s},
+    NoiseChannel{"bottom_velocity_2", "m/s", kDvl<bottom_velocity<1>>, false, kBottom_m_s, kVelocity_m_s},
+    NoiseChannel{"bottom_velocity_3", "m/s", kDvl<bottom_velocity<2>>, false, kBottom_m_s, kVelocity_m_s},
+    NoiseChannel{"water_velocity_1", "m/s", kDvl<water_velocity<0>>},
+    NoiseChannel{"water_velocity_2", "m/s", kDvl<water_velocity<1>>},
+    NoiseChannel{"water_velocity_3", "m/s", kDvl<water_velocity<2>>},
+    NoiseChannel{"bottom_distance", "m", kDvl<dvl_altitude>, false, kAltitude_m},
+    NoiseChannel{"water_temperature", "C", kDvl<water_temperature>},
+    NoiseChannel{"gauge_depth", "m", kDepth<gauge_depth>, false, kDepth_m},
+    NoiseChannel{"pressure", "Pa", kDepth<pressure>, false, kPressure_Pa},
+    NoiseChannel{"gauge_temperature", "C", kDepth<gauge_temperature>},
 };
+
+constexpr NoiseChannel kScalar{"scalar", "", scalar};
 
 }  // namespace
 
 std::span<const NoiseChannel> noise_channels() { return kChannels; }
+
+const NoiseChannel& scalar_channel() { return kScalar; }
 
 }  // namespace navcal::analysis

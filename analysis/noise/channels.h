@@ -32,4 +32,7 @@ struct NoiseChannel {
 
 [[nodiscard]] std::span<const NoiseChannel> noise_channels();
 
+/// A mission sensor, whose samples have a name and a unit of their own.
+[[nodiscard]] const NoiseChannel& scalar_channel();
+
 }  // namespace navcal::analysis

@@ -41,10 +41,15 @@ class ChannelCollector final : public pipeline::Sink {
     if (const auto* gps = std::get_if<instruments::GpsSample>(&sample.value); gps != nullptr) {
       if (!is_settled(sample.port, *gps)) return;
     }
+    if (const auto* scalar = std::get_if<instruments::ScalarSample>(&sample.value); scalar != nullptr) {
+      add({sample.port, noise_channels().size(), std::string(scalar->quantity.view())}, scalar->unit.view(),
+          time_s, scalar->value);
+      return;
+    }
     const auto table = noise_channels();
     for (std::size_t i = 0; i < table.size(); ++i) {
-      const auto value = table[i].value(sample, origins_[sample.port]);
-      if (value && std::isfinite(*value)) add({sample.port, i}, time_s, *value);
+      if (const auto value = table[i].value(sample, origins_[sample.port]))
+        add({sample.port, i, std::string(table[i].name)}, table[i].unit, time_s, *value);
     }
   }
 
@@ -52,13 +57,27 @@ class ChannelCollector final : public pipeline::Sink {
   [[nodiscard]] std::int64_t begin_utc_ns() const { return begin_utc_ns_; }
   std::vector<RecordedChannel> channels(const config::Settings& settings) && {
     std::vector<RecordedChannel> channels;
-    for (auto& [key, series] : series_)
-      channels.push_back({settings.ports[key.first].name, &noise_channels()[key.second], std::move(series), {}});
+    for (auto& [key, kept] : channels_)
+      channels.push_back(
+          {settings.ports[key.port].name, key.quantity, kept.unit, &row_of(key), std::move(kept.series), {}});
     return channels;
   }
 
  private:
-  using Key = std::pair<std::uint16_t, std::size_t>;  // port, row of the table
+  struct Key {
+    std::uint16_t port = 0;
+    std::size_t row = 0;  ///< of the table; after its end: a mission sensor
+    std::string quantity;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Kept {
+    std::string unit;
+    Series series;
+  };
+
+  static const NoiseChannel& row_of(const Key& key) {
+    return key.row < noise_channels().size() ? noise_channels()[key.row] : scalar_channel();
+  }
 
   bool is_settled(std::uint16_t port, const instruments::GpsSample& gps) {
     int& fixes = fixes_[port];
@@ -70,11 +89,13 @@ class ChannelCollector final : public pipeline::Sink {
       origins_[port] = {*gps.latitude_rad, *gps.longitude_rad, gps.height_m.value_or(0)};
     return ++fixes > kUnsettledFixes;
   }
-  void add(const Key& key, double time_s, double value) {
-    Series& series = series_[key];
+  void add(Key key, std::string_view unit, double time_s, double value) {
+    if (!std::isfinite(value)) return;
+    const bool is_angle = row_of(key).is_angle;
+    auto& [kept_unit, series] = channels_[std::move(key)];
+    if (kept_unit.empty()) kept_unit = unit;
     // Whole turns are added, so that steps of the readings stay exact.
-    if (noise_channels()[key.second].is_angle && !series.values.empty())
-      value += 360 * std::round((series.values.back() - value) / 360);
+    if (is_angle && !series.values.empty()) value += 360 * std::round((series.values.back() - value) / 360);
     series.time_s.push_back(time_s);
     series.values.push_back(value);
   }
@@ -84,7 +105,7 @@ class ChannelCollector final : public pipeline::Sink {
   double end_s_ = 0;
   std::map<std::uint16_t, ChannelOrigin> origins_;
   std::map<std::uint16_t, int> fixes_;
-  std::map<Key, Series> series_;
+  std::map<Key, Kept> channels_;
 };
 
 void play_into(ChannelCollector& collector, const std::string& file, const config::Settings& settings,

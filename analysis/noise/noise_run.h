@@ -16,11 +16,12 @@ namespace navcal::analysis {
 /// A channel of one port with all its readings.
 struct RecordedChannel {
   std::string port;
+  std::string quantity, unit;  ///< those of the channel; of a mission sensor its own
   const NoiseChannel* channel = nullptr;
   Series series;       ///< times in seconds from the beginning of the recording
   ChannelNoise noise;  ///< within the quiet parts
 
-  [[nodiscard]] std::string name() const { return port + "." + std::string(channel->name); }
+  [[nodiscard]] std::string name() const { return port + "." + quantity; }
 };
 
 struct NoiseReport {

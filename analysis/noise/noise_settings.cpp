@@ -127,7 +127,7 @@ std::string with_comments(const std::string& toml, const std::vector<KeyComment>
 
 std::string why_unknown(const RecordedChannel& recorded) {
   const ChannelNoise& noise = recorded.noise;
-  const std::string_view unit = recorded.channel->unit;
+  const std::string_view unit = recorded.unit;
   if (noise.to_reckon()) return "";
   if (noise.readings == 0) return "no readings at rest";
   if (noise.constant) return "constant: noise below the resolution";

@@ -20,7 +20,7 @@ constexpr double kLongestPeriod_s = 1.5;  // of a channel that judges; readings 
 constexpr double kMotionChance = 1e-5, kMargin = 1.5;
 /// The factor for a filter counts up to this correlation: slow motion of a precise instrument looks like more.
 constexpr double kMostCorrelation = 0.8;
-/// Quantile of the windows that gives a channel's own noise: of any vibration, the smaller part.
+/// Quantile of the windows that gives a channel's own noise: most windows may vibrate.
 constexpr double kFloorQuantile = 0.2;
 
 struct QuietBlock {
@@ -48,7 +48,7 @@ std::vector<QuietBlock> blocks_of(const Series& series, std::size_t count) {
   return blocks;
 }
 
-/// What one channel says of one window.
+/// Statistics of one channel in one window.
 struct QuietWindow {
   bool judged = false;
   double blocks = 0, readings = 0, mean = 0;

@@ -25,7 +25,7 @@ struct MotionChannel {
   std::optional<double> mean_limit;
 };
 
-/// The window that is nearest to rest where none is, by the channel that speaks most against it.
+/// The window that is nearest to rest where none is, with the channel that exceeds its limit most.
 struct QuietestWindow {
   double from_s = 0;
   std::string channel, unit;

@@ -216,5 +216,19 @@ TEST_F(NoiseCommand, ALogThatIsCutIsUsedAsFarAsItGoes) {
   EXPECT_EQ(json["quiet"].size(), 1U);
 }
 
+/// A real board that lay still until 44 s and from 140 s on, by optical motion capture (../shared/data/ORIGIN.md).
+TEST_F(NoiseCommand, ARealBoardIsAtRestWhereMotionCaptureSaysSo) {
+  const std::string capture = NAVCAL_SHARED_DIR "/data/broad34.cap";
+  if (!std::filesystem::exists(capture)) GTEST_SKIP() << "there is no " << capture;
+  const auto json = answer({capture});
+  ASSERT_EQ(json["quiet"].size(), 2U);
+  EXPECT_EQ(json["quiet"][0]["from_s"], 0);
+  EXPECT_GT(json["quiet"][0]["to_s"], 40);
+  EXPECT_LE(json["quiet"][0]["to_s"], 45);
+  EXPECT_GE(json["quiet"][1]["from_s"], 138);
+  EXPECT_LT(json["quiet"][1]["from_s"], 145);
+  EXPECT_GT(json["quiet"][1]["to_s"], 168);
+}
+
 }  // namespace
 }  // namespace navcal::cli

@@ -16,8 +16,10 @@ using analysis::RecordedChannel;
 
 RecordedChannel made_channel(std::size_t row, std::vector<double> values,
                              const std::vector<analysis::Interval>& quiet) {
+  const auto& of = analysis::noise_channels()[row];
   RecordedChannel channel{
-      "imu", &analysis::noise_channels()[row], analysis::test::series_of(std::move(values), 0.05), {}};
+      "imu", std::string(of.name), std::string(of.unit), &of, analysis::test::series_of(std::move(values), 0.05),
+      {}};
   channel.noise = analysis::channel_noise(channel.series, quiet);
   return channel;
 }

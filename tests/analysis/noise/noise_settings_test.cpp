@@ -21,7 +21,12 @@ const NoiseChannel* row(std::string_view name) {
 }
 
 RecordedChannel recorded(std::string port, std::string_view name, std::vector<double> values) {
-  RecordedChannel channel{std::move(port), row(name), test::series_of(std::move(values), 0.05), {}};
+  RecordedChannel channel{std::move(port),
+                          std::string(name),
+                          std::string(row(name)->unit),
+                          row(name),
+                          test::series_of(std::move(values), 0.05),
+                          {}};
   channel.noise = channel_noise(channel.series, {{0, 1e9}});
   return channel;
 }
