@@ -8,7 +8,6 @@
 #include "base/durations.h"
 #include "instruments/tcm2_dialogue.h"
 #include "protocols/decimal.h"
-#include "protocols/device_types.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_command.h"
 #include "protocols/oncore_messages.h"
@@ -142,13 +141,12 @@ constexpr Entry kOncoreCommands[] = {
     {{"cold_start", "sets the receiver to its defaults (@@Cf); it loses almanac, time and position", true},
      cold_start},
 };
-constexpr protocols::PerDevice<std::span<const Entry>> kCommands({
-    {Protocol::tcm2, kTcm2Commands},
-    {Protocol::imu_card, {}},
-    {Protocol::oncore, kOncoreCommands},
-    {Protocol::motor_card, {}},
-    {Protocol::nmea, {}},
-});
+/// A device that takes no commands has none here.
+std::span<const Entry> commands_of(Protocol protocol) {
+  if (protocol == Protocol::tcm2) return kTcm2Commands;
+  if (protocol == Protocol::oncore) return kOncoreCommands;
+  return {};
+}
 
 class ScriptedCommand final : public DeviceCommand {
  public:
@@ -189,13 +187,13 @@ class ScriptedCommand final : public DeviceCommand {
 
 std::vector<DeviceCommandName> device_commands(Protocol protocol) {
   std::vector<DeviceCommandName> names;
-  for (const Entry& entry : kCommands[protocol]) names.push_back(entry.name);
+  for (const Entry& entry : commands_of(protocol)) names.push_back(entry.name);
   return names;
 }
 
 std::unique_ptr<DeviceCommand> make_device_command(const config::PortSettings& settings, std::string_view name,
                                                    std::int64_t now_ns) {
-  for (const Entry& entry : kCommands[settings.protocol]) {
+  for (const Entry& entry : commands_of(settings.protocol)) {
     if (entry.name.name == name) return std::make_unique<ScriptedCommand>(entry.script(settings), now_ns);
   }
   return nullptr;

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/durations.h"
+#include "protocols/device_types.h"
 #include "protocols/oncore_command.h"
 #include "protocols/oncore_encode.h"
 
@@ -60,8 +61,8 @@ struct Talk {
 using Strings = std::vector<std::string>;
 
 TEST(DeviceCommand, EachThatIsListedCanBeMadeAndNoOther) {
-  for (const auto protocol :
-       {Protocol::tcm2, Protocol::imu_card, Protocol::oncore, Protocol::motor_card, Protocol::nmea}) {
+  for (const auto& device : protocols::kDeviceTypes) {
+    const Protocol protocol = device.protocol;
     for (const auto& command : device_commands(protocol)) {
       EXPECT_TRUE(make_device_command(port_of(protocol), command.name, 0)) << command.name;
       EXPECT_FALSE(command.meaning.empty());
