@@ -125,6 +125,7 @@ class Daemon : private pipeline::Sink,
   [[nodiscard]] VehicleState vehicle_state(std::int64_t now_ns);
   [[nodiscard]] const std::string& state_report(std::int64_t now_ns);
   [[nodiscard]] std::string answer_tcm2(const ControlRequest& request);
+  [[nodiscard]] std::string answer_device(const ControlRequest& request);
   /// The session of the compass that can calibrate itself; null when there is none.
   [[nodiscard]] PortSession* tcm2() const;
   [[nodiscard]] std::string tcm2_json() const;

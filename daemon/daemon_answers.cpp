@@ -86,6 +86,9 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
     case ControlCommand::battery_full:
     case ControlCommand::battery_set:
       return answer_battery(request);
+    case ControlCommand::device_command:
+    case ControlCommand::device_commands:
+      return answer_device(request);
     case ControlCommand::status:
       break;
   }

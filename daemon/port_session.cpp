@@ -67,6 +67,7 @@ void PortSession::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
 
 void PortSession::power_off(std::int64_t now_ns, std::string reason) {
   abandon_calibration(now_ns, "the compass was switched off");
+  if (command_) end_command(now_ns, {false, "the device was switched off"});
   talk_timer_.stop();
   off_ = true;
   set_state(now_ns, State::off, std::move(reason));
@@ -98,6 +99,7 @@ void PortSession::on_lost(std::int64_t now_ns, std::string_view reason) {
   open_.reset();
   talk_timer_.stop();
   abandon_calibration(now_ns, "the compass went away");
+  if (command_) end_command(now_ns, {false, "the device went away"});
   // An adapter that is fed by the same supply goes with its device.
   owner_.on_port_event(index_, now_ns, off_ ? "info" : "warning", "port.lost", reason);
   if (!off_) set_state(now_ns, State::away, std::string(reason));
@@ -115,12 +117,14 @@ void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_n
   if (compass_calibration_) compass_calibration_->on_frame(frame, arrival_ns);
   if (start_up_) start_up_->on_frame(frame, arrival_ns);
   if (aid_) aid_->on_frame(frame, arrival_ns);
+  if (command_) command_->on_frame(frame);
 }
 
 std::string PortSession::calibrate_compass(std::int64_t now_ns) {
   if (!compass_calibration_) return "there is no TCM2 at this port";
   if (!open_port()) return "the compass is away: " + reason_;
   if (calibrating_compass_) return "it is under way: " + compass_calibration_->state();
+  if (command_) return given_command_->name + " is under way";
   compass_calibration_->begin(now_ns);
   calibrating_compass_ = true;
   owner_.on_port_event(index_, now_ns, "info", "tcm2.calibration",
@@ -153,7 +157,7 @@ bool PortSession::talk_of_calibration(std::int64_t now_ns) {
 }
 
 void PortSession::talk(std::int64_t now_ns) {
-  if (!open_port() || talk_of_calibration(now_ns) || !start_up_) return;
+  if (!open_port() || talk_of_calibration(now_ns) || talk_of_command(now_ns) || !start_up_) return;
   while (const auto bytes = start_up_->next(now_ns)) port_.send(*bytes);
   talk_timer_.arm(start_up_->deadline_ns());
 }

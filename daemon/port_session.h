@@ -12,6 +12,7 @@
 #include "daemon/latency_histogram.h"
 #include "daemon/lazy_timer.h"
 #include "daemon/speed_check.h"
+#include "instruments/device_command.h"
 #include "instruments/oncore_aid.h"
 #include "instruments/start_up.h"
 #include "instruments/tcm2_calibration.h"
@@ -82,6 +83,16 @@ class PortSession : private ports::PortListener {
   [[nodiscard]] const instruments::Tcm2Calibration* compass_calibration() const {
     return compass_calibration_ ? &*compass_calibration_ : nullptr;
   }
+  /// Gives the device a command of instruments/device_command.h. Returns why it cannot be; empty: it has begun,
+  /// and an event will tell its end. A command that needs force is refused without `force`.
+  [[nodiscard]] std::string command_device(std::string_view name, bool force, std::int64_t now_ns);
+  /// The newest of these commands.
+  struct GivenCommand {
+    std::string name;
+    std::uint64_t number = 0;                                    ///< counts them at this port, from 1
+    std::optional<instruments::DeviceCommand::Outcome> outcome;  ///< nullopt: under way
+  };
+  [[nodiscard]] const std::optional<GivenCommand>& given_command() const { return given_command_; }
   /// Called about once a second: judges the state.
   void tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics);
 
@@ -110,6 +121,11 @@ class PortSession : private ports::PortListener {
   void aid_receiver(std::int64_t now_ns);
   /// True while the calibration dialogue has the device to itself.
   bool talk_of_calibration(std::int64_t now_ns);
+  /// Why a command cannot be given now; empty: it can.
+  [[nodiscard]] std::string why_no_command(std::string_view name, bool force) const;
+  /// True while an operator's command has the device to itself.
+  bool talk_of_command(std::int64_t now_ns);
+  void end_command(std::int64_t now_ns, instruments::DeviceCommand::Outcome outcome);
   void set_state(std::int64_t now_ns, State state, std::string reason);
   State judge(const pipeline::PortStatistics& statistics, std::int64_t now_ns, std::string& reason);
 
@@ -120,6 +136,8 @@ class PortSession : private ports::PortListener {
   std::optional<instruments::Tcm2Calibration> compass_calibration_;
   std::optional<instruments::OncoreAid> aid_;  ///< of a receiver that is to be aided
   bool calibrating_compass_ = false;
+  std::unique_ptr<instruments::DeviceCommand> command_;  ///< under way
+  std::optional<GivenCommand> given_command_;
   LazyTimer talk_timer_;
   std::string last_start_up_state_;
   SpeedCheck speed_check_;

@@ -149,11 +149,13 @@ void CalibrationStage::tell(std::int64_t now_ns, CalibrationChange::Cause cause,
 }
 
 CalibrationChange CalibrationStage::beginning(std::int64_t now_ns) {
-  calib::Archive saving;
+  constexpr std::size_t kGrowth_bytes = 16 << 10;  // since the last saving, and what is stored around it
+  calib::Archive saving(saved_bytes_ + kGrowth_bytes);
   archive(saving);
+  saved_bytes_ = saving.bytes().size();
   const auto& in_force = suite_.in_force();
   return {now_ns,          CalibrationChange::Cause::begin, std::nullopt,
-          in_force.name(), in_force.correction(),           saving.bytes()};
+          in_force.name(), in_force.correction(),           std::move(saving).take()};
 }
 
 bool CalibrationStage::restore(std::string_view state) {
