@@ -6,6 +6,9 @@
 
 #include "analysis/import/csv_log.h"
 #include "analysis/import/dataflash.h"
+#include "analysis/import/mavlink_log.h"
+#include "analysis/import/ros_bag.h"
+#include "analysis/import/ulog.h"
 #include "record/recording.h"
 
 namespace navcal::analysis {
@@ -26,6 +29,9 @@ bool is_never(std::string_view /*head*/) { return false; }
 
 constexpr std::array kFormats{
     ImportFormat{"dataflash", "ArduPilot DataFlash log (.bin)", is_dataflash, read_plain<read_dataflash>},
+    ImportFormat{"ulog", "PX4 ULog (.ulg)", is_ulog, read_plain<read_ulog>},
+    ImportFormat{"ros2", "ROS 2 bag in MCAP (.mcap)", is_ros_bag, read_plain<read_ros_bag>},
+    ImportFormat{"tlog", "MAVLink telemetry log (.tlog)", is_mavlink_log, read_plain<read_mavlink_log>},
     ImportFormat{kCsvFormat, "CSV file with a map of its columns", is_never, read_mapped},
 };
 

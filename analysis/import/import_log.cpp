@@ -24,6 +24,9 @@ constexpr std::int64_t kStatedDate_ns = 946'684'800'000'000'000;
 /// uncertain that one is.
 constexpr std::int64_t kGpsBound_ns = 300'000'000;
 
+/// Other systems log a sample within about this time, and do not say how uncertain it is.
+constexpr double kLogged_std_s = 0.001;
+
 /// Refuses times that are far from all others: a damaged record has any time.
 class TimeGate {
  public:
@@ -179,6 +182,7 @@ config::Settings settings_for(const std::filesystem::path& input, const std::vec
     auto port = config::default_port(name, protocols::Protocol::samples,
                                      config::default_baud(protocols::Protocol::samples));
     port.path = std::filesystem::absolute(input).string() + ":" + name;
+    port.latency_std_s = kLogged_std_s;
     settings.ports.push_back(std::move(port));
   }
   return settings;
