@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "analysis/decode_describe.h"
 #include "protocols/samples_line.h"
@@ -19,6 +20,10 @@ bool is_own_key(std::string_view key) {
   return is_plain && !key.empty() && std::find(kOfFrame.begin(), kOfFrame.end(), key) == kOfFrame.end();
 }
 
+bool is_ascii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
 void write_list(FieldWriter& fields, std::string_view key, std::string_view inside) {
   fields.begin_list(key);
   while (!inside.empty()) {
@@ -34,7 +39,7 @@ void write_list(FieldWriter& fields, std::string_view key, std::string_view insi
 
 }  // namespace
 
-// Numbers stand as they were sent: times have more digits than a double.
+// Values stand as they were sent: times have more digits than a double.
 void describe_samples(FieldWriter& fields, const protocols::Frame& frame, const std::optional<protocols::Date>&) {
   const auto object = samples_line::Object::parse(frame.bytes);
   if (!object) return write_out_of_range(fields);
@@ -44,7 +49,11 @@ void describe_samples(FieldWriter& fields, const protocols::Frame& frame, const 
     if (!is_own_key(member.key) || object->find(member.key) != &member) continue;
     switch (member.kind) {
       case samples_line::Kind::text:
-        fields.text(member.key, reader.text(member.key).value_or(""));
+        if (is_ascii(member.value)) {
+          fields.written(member.key, '"' + std::string(member.value) + '"');
+        } else {
+          fields.text(member.key, reader.text(member.key).value_or(""));
+        }
         break;
       case samples_line::Kind::list:
         if (member.value.find('"') == std::string_view::npos) write_list(fields, member.key, member.value);

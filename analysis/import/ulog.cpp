@@ -65,10 +65,10 @@ void take_air(const UlogMessage& message, const ImportedSample& sample, ImportSi
 
 void take_receiver(const UlogMessage& message, ImportedSample sample, ImportSink& sink) {
   constexpr double kLeast2d = 2, kLeast3d = 3;
-  constexpr std::uint64_t kFirst_us = 315'964'800'000'000, kLast_us = 4'102'444'800'000'000;
+  constexpr std::uint64_t kFirstUtc_us = 315'964'800'000'000, kLastUtc_us = 4'102'444'800'000'000;
   const double quality = message.number("fix_type").value_or(0);
   if (const auto utc_us = message.format.unsigned_number(message.bytes, "time_utc_usec");
-      utc_us && *utc_us > kFirst_us && *utc_us < kLast_us) {
+      utc_us && *utc_us > kFirstUtc_us && *utc_us < kLastUtc_us) {
     sample.utc_ns = static_cast<std::int64_t>(*utc_us) * 1000;
     if (quality >= kLeast3d) sink.utc(sample.time_ns, *sample.utc_ns);
   }
