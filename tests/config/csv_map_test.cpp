@@ -8,7 +8,7 @@
 namespace navcal::config {
 namespace {
 
-std::string problems_of(const std::string& toml) {
+std::string map_problems(const std::string& toml) {
   try {
     (void)parse_csv_map(toml, "map.toml");
   } catch (const Error& error) {
@@ -32,7 +32,7 @@ TEST(CsvMap, ReadsColumnsWithTheirUnits) {
 }
 
 TEST(CsvMap, ProblemsNameLineAndKey) {
-  const std::string problems = problems_of(
+  const std::string problems = map_problems(
       "delimitter = \",\"\n[time]\ncolumn = \"t\"\nformat = \"unixs\"\n[column.a]\nmeaning = \"heading\"\nunit = "
       "\"nT\"\n"
       "[column.b]\nunit = \"m\"\n[column.c]\nmeaning = \"speeed\"\n");
@@ -43,7 +43,7 @@ TEST(CsvMap, ProblemsNameLineAndKey) {
       << problems;
   EXPECT_NE(problems.find("column.b: meaning is missing"), std::string::npos) << problems;
   EXPECT_NE(problems.find("map.toml:11: column.c.meaning: one of heading, pitch"), std::string::npos) << problems;
-  EXPECT_NE(problems_of("[time]\ncolumn = \"t\"\n").find("a map has a [column.NAME] or more"), std::string::npos);
+  EXPECT_NE(map_problems("[time]\ncolumn = \"t\"\n").find("a map has a [column.NAME] or more"), std::string::npos);
 }
 
 TEST(CsvMap, TimesOfIso8601) {
