@@ -278,6 +278,11 @@ class MapReader {
     if (measure == Measure::anything) {
       if (column.quantity.empty()) column.quantity = name;
       if (given.unit) column.unit = std::get<std::string>(given.unit->value);
+      // A sample keeps this much of them (instruments/samples.h).
+      constexpr std::size_t kLongestQuantity = 24, kLongestUnit = 16;
+      if (column.quantity.size() > kLongestQuantity || column.unit.size() > kLongestUnit)
+        return complain(given.table, fmt::format("quantity has at most {} bytes, unit at most {}",
+                                                 kLongestQuantity, kLongestUnit));
     } else if (given.unit) {
       const auto& wanted = std::get<std::string>(given.unit->value);
       const auto found = std::find_if(kUnits.begin(), kUnits.end(), [&](const UnitRow& unit) {

@@ -21,6 +21,7 @@ using dataflash::Table;
 using protocols::samples_line::LineWriter;
 
 constexpr std::string_view kSync = "\xA3\x95";
+constexpr int kNoInstance = -1;
 
 /// Reads the records of one file, from front to back.
 class DataFlashFile {
@@ -98,7 +99,7 @@ void DataFlashFile::take(std::uint8_t type, std::string_view record) {
   if (table_.learn(type, record)) return;
   Plan& plan = plans_[type];
   if (plan.version() != table_.version()) plan = Plan(table_, table_[type]);
-  const std::string& name = table_[type].name;
+  const std::string& name = label(type, 0, false);
   if (plan.kind() == Kind::parameter || plan.kind() == Kind::text) take_text(plan, record);
   if (!plan.why_not().empty() && plan.kind() != Kind::other) {
     sink_.left(fmt::format("{} ({})", name, plan.why_not()));
@@ -144,9 +145,9 @@ void DataFlashFile::take_known(const Plan& plan, std::uint8_t type, std::string_
 }
 
 const std::string& DataFlashFile::label(std::uint8_t type, int instance, bool has_instances) {
-  std::string& name = labels_[{type, instance}];
+  std::string& name = labels_[{type, has_instances ? instance : kNoInstance}];
   if (name.empty()) {
-    name = table_[type].name;
+    name = table_[type].name.empty() ? fmt::format("type {}", type) : table_[type].name;
     if (has_instances) name += fmt::format("[{}]", instance);
   }
   return name;
