@@ -8,6 +8,7 @@
 #include "analysis/import/dataflash.h"
 #include "analysis/import/mavlink_log.h"
 #include "analysis/import/ros_bag.h"
+#include "analysis/import/slocum.h"
 #include "analysis/import/ulog.h"
 #include "record/recording.h"
 
@@ -32,6 +33,7 @@ constexpr std::array kFormats{
     ImportFormat{"ulog", "PX4 ULog (.ulg)", is_ulog, read_plain<read_ulog>},
     ImportFormat{"ros2", "ROS 2 bag in MCAP (.mcap)", is_ros_bag, read_plain<read_ros_bag>},
     ImportFormat{"tlog", "MAVLink telemetry log (.tlog)", is_mavlink_log, read_plain<read_mavlink_log>},
+    ImportFormat{"slocum", "Slocum glider data (.dbd, .sbd, .tbd)", is_slocum, read_plain<read_slocum>},
     ImportFormat{kCsvFormat, "CSV file with a map of its columns", is_never, read_mapped},
 };
 

@@ -47,7 +47,7 @@ TEST_F(SensorExport, AMissionSensorHasThePositionOfItsTimeOfValidity) {
   const auto add_estimate = [&](std::int64_t time_ns, double latitude_rad) {
     pipeline::NavigationSample estimate;
     estimate.stamp = {time_ns, time_ns, 0, time_ns, time_ns};
-    estimate.position = pipeline::NavigationSample::Position::fix;
+    estimate.source = pipeline::PositionSource::fixes;
     estimate.latitude_rad = latitude_rad;
     estimate.longitude_rad = 0.5;
     encoder.navigation(log, estimate);
