@@ -25,7 +25,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::pd0, nullptr},
     {Protocol::pd6, nullptr},
     {Protocol::water_linked, nullptr},
-    {Protocol::samples, nullptr},
+    {Protocol::samples, describe_samples},
 });
 
 using NextBytes = std::function<protocols::Bytes()>;

@@ -67,9 +67,12 @@ std::vector<Option<P>> make_port_options() {
           [](auto& p) -> auto& { return p.usb_serial; }),
       text<P>(
           {.key = "address",
-           .description = "Instead of path: tcp:HOST:PORT (navcald connects), tcp-listen:ADDRESS:PORT (the device "
-                          "connects) or udp:ADDRESS:PORT (datagrams that arrive there).",
-           .text_rule = "tcp:, tcp-listen: or udp: with an IP address and a port",
+           .description =
+               "Instead of path: tcp:HOST:PORT (navcald connects), tcp-listen:ADDRESS:PORT (the device "
+               "connects), udp:ADDRESS:PORT (datagrams that arrive there) or unix-listen:PATH (programs on this "
+               "computer connect, several at once).",
+           .text_rule =
+               "tcp:, tcp-listen: or udp: with an IP address and a port, or unix-listen: with an absolute path",
            .text_holds = [](std::string_view text) { return parse_network_address(text).has_value(); }},
           [](auto& p) -> auto& { return p.address; }),
       integer<P>(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The instrument of each device, and its start-up dialogue.
 #include "instruments/imu_card.h"
+#include "instruments/injected_samples.h"
 #include "instruments/instrument.h"
 #include "instruments/motor_card.h"
 #include "instruments/nmea_device.h"
@@ -54,7 +55,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::pd0, {}},
     {Protocol::pd6, {}},
     {Protocol::water_linked, {}},
-    {Protocol::samples, {}},
+    {Protocol::samples, {make_plain<InjectedSamples>}},
 });
 
 }  // namespace

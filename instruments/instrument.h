@@ -14,6 +14,12 @@ namespace navcal::instruments {
 
 using Value = decltype(Sample::value);
 
+/// When a measurement was valid, as the program says that has sent it. It places the measurement and defines no clock.
+struct SenderTime {
+  std::optional<std::int64_t> utc_ns;  ///< absent: the arrival counts
+  std::optional<std::int64_t> std_ns;  ///< one standard deviation
+};
+
 /// Content of one frame, or of the epoch that it closes, before it is stamped.
 struct Measurement {
   Value value;
@@ -21,6 +27,7 @@ struct Measurement {
   std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
   bool paces = true;                          ///< one tick of the device's clock (not so for satellites in view)
+  std::optional<SenderTime> by_sender{};      ///< of an injected sample
 };
 
 /// Takes measurements as they are found.

@@ -26,6 +26,7 @@
 #include "ports/line.h"
 #include "ports/network_line.h"
 #include "ports/no_throw.h"
+#include "ports/sample_socket.h"
 #include "ports/tty.h"
 
 namespace navcal::ports {
@@ -125,6 +126,8 @@ awaitable<std::string> Port::State::open(milliseconds& again_after) {
     why = co_await connect(*address);
   } else if (address->kind == config::NetworkAddress::Kind::tcp_listen) {
     why = co_await accept(*address);
+  } else if (address->kind == config::NetworkAddress::Kind::unix_listen) {
+    why = take(open_sample_socket(address->host));
   } else {
     why = take(bind_datagrams(*address));
   }

@@ -5,6 +5,7 @@
 #include "sim/instruments/imu_card.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
+#include "sim/instruments/sample_sender.h"
 #include "sim/instruments/tcm2.h"
 
 namespace navcal::sim {
@@ -33,6 +34,13 @@ std::unique_ptr<Device> make_receiver(const EmulatorOptions& options, const Moti
   return std::make_unique<Oncore>(of_device, motion);
 }
 
+std::unique_ptr<Device> make_sample_sender(const EmulatorOptions& options, const Motion& motion) {
+  SampleSender::Options of_device;
+  of_device.baud = options.baud;
+  of_device.seed = options.seed;
+  return std::make_unique<SampleSender>(of_device, motion);
+}
+
 constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::tcm2, make_clocked<Tcm2>},
     {Protocol::imu_card, make_clocked<ImuCard>},
@@ -46,7 +54,7 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::pd0, nullptr},
     {Protocol::pd6, nullptr},
     {Protocol::water_linked, nullptr},
-    {Protocol::samples, nullptr},
+    {Protocol::samples, make_sample_sender},
 });
 
 }  // namespace
