@@ -32,6 +32,7 @@ struct Estimate {
   std::optional<double> depth_m;
   std::optional<double> speed_m_s;  ///< through the water, ahead
   SpeedSource speed_source = SpeedSource::none;
+  std::uint64_t velocity_outliers = 0;                ///< measurements of a DVL that were passed over, so far
   Eigen::Vector2d set_m_s = Eigen::Vector2d::Zero();  ///< of the ground's velocity over the reckoned one
   std::optional<Eigen::Vector3d> velocity_m_s;        ///< north, east, down, over ground
   std::optional<Eigen::Vector2d> position_m;          ///< north, east; none before the first fix

@@ -243,6 +243,7 @@ Estimate Navigator::estimate() const {
   estimate.depth_m = depth_.depth_m();
   if (const auto speed_m_s = speed_through_water_m_s()) estimate.speed_m_s = speed_m_s;
   estimate.speed_source = source_;
+  estimate.velocity_outliers = velocity_outliers();
   estimate.set_m_s = reckoning_.set_m_s();
   if (const auto level_m_s = level_velocity_m_s())
     estimate.velocity_m_s = Vector3d(level_m_s->x(), level_m_s->y(), depth_.sinking_m_s());

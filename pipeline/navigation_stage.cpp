@@ -33,6 +33,8 @@ nav::Options navigation_options(const config::Settings& settings) {
   options.attitude.tilt_lag_s = instruments.compass.tilt_lag_s;
   options.reckoning.set_m_s = settings.calibration.current_m_s;
   options.reckoning.speed_error = settings.navigation.speed_error;
+  options.velocity.scale_error = settings.navigation.dvl_scale_error;
+  options.velocity.alignment_error_rad = settings.navigation.dvl_alignment_error_rad;
   options.advance_m = settings.calibration.advance_m;
   options.speed_lag_s = settings.navigation.speed_lag_s;
   options.heading_error_rad = settings.navigation.heading_error_rad;
