@@ -94,7 +94,8 @@ void Navigator::take(const CompassReading& reading) {
   }
   if (reading.roll_rad && reading.pitch_rad) {
     // The fluid shows the tilt of some time ago.
-    const std::int64_t felt_ns = reading.time_ns - std::llround(options_.attitude.tilt_lag_s * 1e9);
+    const double lag_s = reading.tilt_lags ? options_.attitude.tilt_lag_s : 0;
+    const std::int64_t felt_ns = reading.time_ns - std::llround(lag_s * 1e9);
     const Pose felt = past_.at(felt_ns).value_or(*pose);
     const double since_s = tilt_ns_ ? base::seconds(reading.time_ns - *tilt_ns_) : 0;
     const Vector2d turned = attitude_.correct_tilt(base::wrapped(*reading.roll_rad - felt.roll_rad),

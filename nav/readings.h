@@ -34,6 +34,7 @@ struct CompassReading {
   std::optional<double> pitch_rad;    ///< positive nose-up
   std::optional<double> roll_rad;     ///< positive starboard-down
   bool calibrated = false;            ///< the heading is that of a calibration
+  bool tilt_lags = true;              ///< pitch and roll are those of a fluid (AttitudeOptions::tilt_lag_s)
 };
 
 struct ShaftReading {
