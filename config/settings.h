@@ -146,7 +146,7 @@ struct NavigationSettings {
   double max_error_m = 0;          ///< bound of the position error for the advice to surface, 95 %; 0: no advice
   double dvl_noise_m_s = 0.02;     ///< of one velocity where the device states none, each axis
   double dvl_scale_error = 0.005;  ///< of its velocities, relative; one standard deviation
-  double dvl_alignment_error_rad = 0.00872664625997165;  ///< of its axes in the vehicle: 0.5 degrees
+  double dvl_alignment_error_rad = 0.008726646259971648;  ///< of its axes in the vehicle: 0.5 degrees
   double water_density_kg_m3 = 1025;
   double air_pressure_Pa = 101325;
   double altitude_noise_m = 0.1;   ///< of one reading of the altimeter, one standard deviation

@@ -35,6 +35,7 @@ void DeadReckoning::advance(const Way& way) {
   since_fix_s_ += dt;
   since_fix_m_ += std::abs(run_m);
   (over_bottom ? bottom_across_m_ : across_m_) += way.heading_std_rad * step_m;
+  if (way.set_turns && !over_bottom) across_m_ += way.heading_std_rad * set_m_s_ * dt;
   (over_bottom ? bottom_along_m_ : along_m_) += speed_error(way, options_) * step_m;
   if (!way.speed_known) {
     blind_m_ += options_.unknown_speed_m_s * dt;
@@ -91,7 +92,9 @@ double DeadReckoning::even_variance_m2(double after_s) const {
 Eigen::Matrix2d DeadReckoning::covariance_m2(double after_s) const {
   const Vector2d step_m = last_way_.heading_known ? Vector2d(last_way_.speed_m_s * after_s * last_way_.ahead)
                                                   : Vector2d(Vector2d::Zero());
-  const Vector2d across_m = turned(across_m_ + bottom_across_m_ + last_way_.heading_std_rad * step_m);
+  Vector2d turning_m = step_m;
+  if (last_way_.set_turns && last_way_.source != SpeedSource::bottom) turning_m += set_m_s_ * after_s;
+  const Vector2d across_m = turned(across_m_ + bottom_across_m_ + last_way_.heading_std_rad * turning_m);
   Vector2d along_m = along_m_, bottom_along_m = bottom_along_m_;
   (last_way_.source == SpeedSource::bottom ? bottom_along_m : along_m) +=
       speed_error(last_way_, options_) * step_m;

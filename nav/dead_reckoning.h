@@ -20,6 +20,7 @@ struct Way {
   double heading_std_rad = 0;
   bool speed_known = false, heading_known = false;
   SpeedSource source = SpeedSource::shaft;
+  bool set_turns = false;     ///< the set was shown by a DVL, so the heading's error turned it as well
   double scale_error = 0;     ///< of a measured speed, relative, the same all along; one standard deviation
   double noise_m2_per_s = 0;  ///< growth of the variance of a position, each axis, by its random error
 };

@@ -200,6 +200,7 @@ void Navigator::advance(std::int64_t time_ns, const std::optional<Vector3d>& mea
     if (attitude_.tilt_known()) sinking_m_s = measured_m_s(*held).z();
   }
   source_ = way.source;
+  way.set_turns = over_bottom_ns_.has_value();
   if (source_ == SpeedSource::bottom) over_bottom_ns_ = time_ns;
   reckoning_.advance(way);
   depth_.advance(sinking_m_s, duration_s);

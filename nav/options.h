@@ -33,8 +33,8 @@ struct ReckoningOptions {
 
 /// Of a DVL.
 struct VelocityOptions {
-  double scale_error = 0.005;                        ///< relative, the same all along; one standard deviation
-  double alignment_error_rad = 0.00872664625997165;  ///< of its axes about the vehicle's z axis; one std
+  double scale_error = 0.005;                         ///< relative, the same all along; one standard deviation
+  double alignment_error_rad = 0.008726646259971648;  ///< of its axes about the vehicle's z axis; one std
 };
 
 struct Options {
