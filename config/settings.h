@@ -144,6 +144,11 @@ struct NavigationSettings {
   double speed_error = 0.05;                                   ///< of the speed by the shaft, relative
   double speed_lag_s = base::reference::kSpeedLag_s;           ///< of the vehicle's speed behind its shaft's
   double max_error_m = 0;          ///< bound of the position error for the advice to surface, 95 %; 0: no advice
+  double dvl_noise_m_s = 0.02;     ///< of one velocity where the device states none, each axis
+  double dvl_scale_error = 0.005;  ///< of its velocities, relative; one standard deviation
+  double dvl_alignment_error_rad = 0.008726646259971648;  ///< of its axes in the vehicle: 0.5 degrees
+  double water_density_kg_m3 = 1025;
+  double air_pressure_Pa = 101325;
   double altitude_noise_m = 0.1;   ///< of one reading of the altimeter, one standard deviation
   double altimeter_range_m = 100;  ///< readings beyond it are left out
   double min_altitude_m = 0;       ///< below it the floor is near; 0: not watched
