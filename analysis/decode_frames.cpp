@@ -22,10 +22,12 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::mip, nullptr},
     {Protocol::vectornav, nullptr},
     {Protocol::pni, nullptr},
-    {Protocol::pd0, nullptr},
-    {Protocol::pd6, nullptr},
-    {Protocol::water_linked, nullptr},
+    {Protocol::pd0, describe_pd0},
+    {Protocol::pd6, describe_pd6},
+    {Protocol::water_linked, describe_water_linked},
     {Protocol::samples, describe_samples},
+    {Protocol::paroscientific, describe_paroscientific},
+    {Protocol::keller, describe_keller},
 });
 
 using NextBytes = std::function<protocols::Bytes()>;

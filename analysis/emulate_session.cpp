@@ -42,9 +42,21 @@ const EmulatedDevice* device_at(const EmulateArguments& arguments, std::string_v
   return found == arguments.devices.end() ? nullptr : &*found;
 }
 
+/// The floor that was asked for, or the usual one.
+sim::SeaFloor floor_of(const EmulateArguments& arguments) {
+  sim::SeaFloor floor;
+  if (arguments.floor_depth_m) floor.depth_m = *arguments.floor_depth_m;
+  if (arguments.floor_slope.size() == 2) {
+    floor.slope_north = arguments.floor_slope[0];
+    floor.slope_east = arguments.floor_slope[1];
+  }
+  return floor;
+}
+
 std::unique_ptr<sim::Device> emulator_of(const EmulatedDevice& device, const sim::Origin& origin,
-                                         const sim::Motion& motion, sim::Noise& seeds) {
-  return sim::make_emulator(device.protocol, {.seed = next_seed(seeds), .origin = origin}, motion);
+                                         const sim::SeaFloor& floor, const sim::Motion& motion,
+                                         sim::Noise& seeds) {
+  return sim::make_emulator(device.protocol, {.seed = next_seed(seeds), .origin = origin, .floor = floor}, motion);
 }
 
 /// The lines of the ports, in the order in which the session adds them.
@@ -122,7 +134,7 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   sim::Noise seeds(arguments.seed);
   add_vehicle_devices(arguments, place.origin, seeds);
   for (const EmulatedDevice& device : arguments.devices) {
-    add(arguments, device.port, emulator_of(device, place.origin, *motion_, seeds));
+    add(arguments, device.port, emulator_of(device, place.origin, floor_of(arguments), *motion_, seeds));
   }
   add_gauges(arguments, seeds);
 
@@ -187,11 +199,7 @@ void EmulateSession::add_gauges(const EmulateArguments& arguments, sim::Noise& s
   }
   if (arguments.floor_depth_m) {
     sim::Altimeter::Options altimeter;
-    altimeter.floor.depth_m = *arguments.floor_depth_m;
-    if (arguments.floor_slope.size() == 2) {
-      altimeter.floor.slope_north = arguments.floor_slope[0];
-      altimeter.floor.slope_east = arguments.floor_slope[1];
-    }
+    altimeter.floor = floor_of(arguments);
     altimeter.seed = next_seed(seeds);
     if (arguments.no_noise) altimeter.noise_m = altimeter.lost = 0;
     add(arguments, "altimeter", std::make_unique<sim::Altimeter>(altimeter, *motion_));

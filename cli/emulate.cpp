@@ -90,7 +90,8 @@ void add_vehicle(CLI::App* command, analysis::EmulateArguments& arguments) {
   CLI::Option* const floor =
       command
           ->add_option("--floor-depth", arguments.floor_depth_m,
-                       "depth of a sea floor; an altimeter sends NMEA sentences at DIR/altimeter")
+                       "depth of a sea floor, also for Doppler logs; an altimeter sends NMEA sentences at\n"
+                       "DIR/altimeter. Without it Doppler logs have a floor at 20 m")
           ->check(CLI::Range(0.0, 11000.0))
           ->option_text("METRES");
   command

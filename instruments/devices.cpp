@@ -3,13 +3,20 @@
 #include "instruments/imu_card.h"
 #include "instruments/injected_samples.h"
 #include "instruments/instrument.h"
+#include "instruments/keller_gauge.h"
 #include "instruments/motor_card.h"
 #include "instruments/nmea_device.h"
 #include "instruments/oncore_receiver.h"
+#include "instruments/paroscientific_gauge.h"
+#include "instruments/pd0_log.h"
+#include "instruments/pd6_log.h"
 #include "instruments/start_up.h"
+#include "instruments/start_up_keller.h"
 #include "instruments/start_up_oncore.h"
+#include "instruments/start_up_paroscientific.h"
 #include "instruments/start_up_tcm2.h"
 #include "instruments/tcm2_compass.h"
+#include "instruments/water_linked_log.h"
 #include "protocols/device_types.h"
 
 namespace navcal::instruments {
@@ -40,22 +47,29 @@ std::unique_ptr<Instrument> make_imu_card(const PortSettings& settings) {
 std::unique_ptr<StartUp> start_tcm2(const PortSettings& settings) {
   return std::make_unique<StartUpTcm2>(settings);
 }
-std::unique_ptr<StartUp> start_oncore(const PortSettings&) { return std::make_unique<StartUpOncore>(); }
+template <class S>
+std::unique_ptr<StartUp> start_plain(const PortSettings&) {
+  return std::make_unique<S>();
+}
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::tcm2, {make_tcm2, start_tcm2}},
     {Protocol::imu_card, {make_imu_card}},
-    {Protocol::oncore, {make_configured<OncoreReceiver>, start_oncore}},
+    {Protocol::oncore, {make_configured<OncoreReceiver>, start_plain<StartUpOncore>}},
     {Protocol::motor_card, {make_plain<MotorCard>}},
     {Protocol::nmea, {make_configured<NmeaDevice>}},
     {Protocol::ubx, {}},
     {Protocol::mip, {}},
     {Protocol::vectornav, {}},
     {Protocol::pni, {}},
-    {Protocol::pd0, {}},
-    {Protocol::pd6, {}},
-    {Protocol::water_linked, {}},
+    {Protocol::pd0, {make_plain<Pd0Log>}},
+    {Protocol::pd6, {make_plain<Pd6Log>}},
+    {Protocol::water_linked, {make_plain<WaterLinkedLog>}},
     {Protocol::samples, {make_plain<InjectedSamples>}},
+    // Doppler logs of Teledyne ping as soon as they are powered, if they are set up so. To start them from here (CS)
+    // would let them ping in air, or begin a deployment with parameters that nobody has seen.
+    {Protocol::paroscientific, {make_configured<ParoscientificGauge>, start_plain<StartUpParoscientific>}},
+    {Protocol::keller, {make_plain<KellerGauge>, start_plain<StartUpKeller>}},
 });
 
 }  // namespace

@@ -26,6 +26,8 @@ struct Measurement {
   std::optional<std::uint8_t> sequence;       ///< the device's own counter
   std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
+  /// From the measurement to the first byte on the wire, where the device states it; else the port's latency holds.
+  std::optional<std::int64_t> age_ns;
   bool paces = true;                          ///< one tick of the device's clock (not so for satellites in view)
   std::optional<SenderTime> by_sender{};      ///< of an injected sample
 };

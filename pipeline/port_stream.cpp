@@ -68,7 +68,7 @@ void PortStream::on_frame(const protocols::Frame& frame) {
 }
 
 void PortStream::on_measurement(const instruments::Measurement& measurement) {
-  const std::int64_t observed_ns = place_.start_ns - latency_ns_;
+  const std::int64_t observed_ns = place_.start_ns - measurement.age_ns.value_or(latency_ns_);
   instruments::Sample sample;
   sample.port = port_;
   sample.stamp.arrival_ns = place_.arrival_ns;

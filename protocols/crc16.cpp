@@ -51,4 +51,13 @@ std::uint16_t crc16_ccitt_false(Bytes bytes) { return continued(0xFFFF, bytes); 
 
 std::uint16_t crc16_xmodem(Bytes bytes) { return continued(0, bytes); }
 
+std::uint16_t crc16_modbus(Bytes bytes) {
+  unsigned crc = 0xFFFF;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1 ^ 0xA001U : crc >> 1;
+  }
+  return static_cast<std::uint16_t>(crc);
+}
+
 }  // namespace navcal::protocols

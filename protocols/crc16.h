@@ -15,4 +15,8 @@ namespace navcal::protocols {
 /// CRC-16/XMODEM: the same polynomial with start 0; "123456789" gives 0x31C3. PNI and VectorNav use it.
 [[nodiscard]] std::uint16_t crc16_xmodem(Bytes bytes);
 
+/// CRC-16/MODBUS: polynomial 0x8005 reflected, start 0xFFFF; "123456789" gives 0x4B37. Keller uses it. Its frames
+/// have ten bytes at most, so one bit at a time is quick enough.
+[[nodiscard]] std::uint16_t crc16_modbus(Bytes bytes);
+
 }  // namespace navcal::protocols

@@ -138,14 +138,18 @@ constexpr DeviceType device_row(Protocol protocol) {
               .baud = 115200,
               .latency_s = 0.100,
               .latency_std_s = 0.050,
-              .delivers = {.altitude = true, .bottom_velocity = true, .water_velocity = true},
+              .delivers = {.heading = true,
+                           .depth = true,
+                           .altitude = true,
+                           .bottom_velocity = true,
+                           .water_velocity = true},
               .delivers_always = false};
     case Protocol::pd6:
       return {.name = "pd6",
               .baud = 115200,
               .latency_s = 0.100,
               .latency_std_s = 0.050,
-              .delivers = {.altitude = true, .bottom_velocity = true, .water_velocity = true},
+              .delivers = {.heading = true, .altitude = true, .bottom_velocity = true, .water_velocity = true},
               .delivers_always = false};
     case Protocol::water_linked:
       return {.name = "waterlinked",
@@ -171,6 +175,17 @@ constexpr DeviceType device_row(Protocol protocol) {
                            .bottom_velocity = true,
                            .water_velocity = true},
               .delivers_always = false};
+    case Protocol::paroscientific:
+      // As delivered it integrates for 0.67 s and sends the mean.
+      return {.name = "paroscientific",
+              .baud = 9600,
+              .latency_s = 0.350,
+              .latency_std_s = 0.100,
+              .delivers = {.depth = true}};
+    case Protocol::keller:
+      // It answers when it is asked: the host paces it.
+      return {
+          .name = "keller", .baud = 9600, .latency_s = 0.005, .latency_std_s = 0.005, .delivers = {.depth = true}};
   }
   return {};
 }

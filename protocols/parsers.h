@@ -9,10 +9,12 @@
 #include "protocols/device_types.h"
 #include "protocols/gps_stream.h"
 #include "protocols/imu_card.h"
+#include "protocols/keller.h"
 #include "protocols/mip.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"
 #include "protocols/oncore.h"
+#include "protocols/paroscientific.h"
 #include "protocols/pd0.h"
 #include "protocols/pd6.h"
 #include "protocols/samples_line.h"
@@ -61,6 +63,10 @@ template <>
 struct ScannersOf<Protocol::water_linked> : Scanners<water_linked::Scanner> {};
 template <>
 struct ScannersOf<Protocol::samples> : Scanners<samples_line::Scanner> {};
+template <>
+struct ScannersOf<Protocol::paroscientific> : Scanners<paroscientific::Scanner> {};
+template <>
+struct ScannersOf<Protocol::keller> : Scanners<keller::Scanner> {};
 
 template <class Rows>
 struct PortParsers;

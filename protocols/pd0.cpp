@@ -44,6 +44,12 @@ std::optional<FixedLeader> read_fixed(Bytes p) {
   fixed.allows_three_beams = (p[25] & 2U) != 0;
   fixed.maps_bins = (p[25] & 1U) != 0;
   fixed.heading_alignment_deg = value_at<std::int16_t>(p, 26, kCentidegree_deg);
+  fixed.heading_bias_deg = value_at<std::int16_t>(p, 28, kCentidegree_deg);
+  if (p.size() >= 32) {
+    fixed.used_sensors = p[30];
+    fixed.fitted_sensors = p[31];
+  }
+  if (p.size() >= kFixedLength) fixed.stated_beam_angle_deg = p[58];
   return fixed;
 }
 
@@ -57,6 +63,10 @@ std::vector<std::uint8_t> write_fixed(const FixedLeader& fixed) {
   p[25] = static_cast<std::uint8_t>(static_cast<unsigned>(fixed.axes) << 3 | (fixed.uses_tilts ? 4U : 0U) |
                                     (fixed.allows_three_beams ? 2U : 0U) | (fixed.maps_bins ? 1U : 0U));
   put_value<std::int16_t>(p, 26, fixed.heading_alignment_deg, kCentidegree_deg);
+  put_value<std::int16_t>(p, 28, fixed.heading_bias_deg, kCentidegree_deg);
+  p[30] = fixed.used_sensors;
+  p[31] = fixed.fitted_sensors;
+  p[58] = fixed.stated_beam_angle_deg;
   return p;
 }
 
@@ -122,7 +132,9 @@ std::optional<BottomTrack> read_bottom(Bytes p) {
     bottom.correlation[i] = p[32 + i];
     bottom.amplitude[i] = p[36 + i];
     bottom.percent_good[i] = p[40 + i];
-    if (p.size() >= 58) bottom.water_velocity_m_s[i] = velocity_at(p, 50 + 2 * i);
+    if (p.size() < 70) continue;
+    bottom.water_velocity_m_s[i] = velocity_at(p, 50 + 2 * i);
+    bottom.water_percent_good[i] = p[66 + i];
   }
   return bottom;
 }
@@ -139,6 +151,7 @@ std::vector<std::uint8_t> write_bottom(const BottomTrack& bottom) {
     p[36 + i] = bottom.amplitude[i];
     p[40 + i] = bottom.percent_good[i];
     put_velocity(p, 50 + 2 * i, bottom.water_velocity_m_s[i]);
+    p[66 + i] = bottom.water_percent_good[i];
   }
   return p;
 }
@@ -171,7 +184,15 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   if (first[5] == 0 || length < kHeader + 4U * first[5] || length + 2 > kMaxLength) return Scan::not_a_frame();
   if (available < length + 2) return Scan::incomplete(length + 2 - available);
   if (sum_of(Bytes(first, length)) != get_le<std::uint16_t>(first + length)) return Scan::bad_checksum();
-  return Scan::frame(length + 2, kPd0);
+  return Scan::frame(length + 2, kEnsemble);
+}
+
+std::optional<double> FixedLeader::beam_angle_deg() const {
+  constexpr std::array<double, 3> kNamed_deg{15, 20, 30};
+  const std::size_t code = system >> 8 & 3U;
+  if (code < kNamed_deg.size()) return kNamed_deg[code];
+  if (stated_beam_angle_deg > 0 && stated_beam_angle_deg < 90) return stated_beam_angle_deg;
+  return std::nullopt;
 }
 
 Ensemble decode(Bytes frame) {

@@ -16,7 +16,7 @@
 /// types, data, sum of all bytes (u16 LE) (ICD section 8).
 namespace navcal::protocols::pd0 {
 
-inline constexpr FrameId kPd0{"PD0"};
+inline constexpr FrameId kEnsemble{"ENSEMBLE"};
 /// The longest profile, 255 cells of four beams with four quantities, has less than 6000 bytes.
 inline constexpr std::size_t kMaxLength = 8192;
 
@@ -38,13 +38,36 @@ enum class Axes : std::uint8_t { beam, instrument, ship, earth };
 /// Fixed leader, 0x0000.
 struct FixedLeader {
   std::uint8_t firmware_version = 0, firmware_revision = 0;
-  std::uint16_t system = 0;  ///< bits 0 to 2 frequency, 7 looks upwards
+  std::uint16_t system = 0;  ///< bits 0 to 2 frequency, 3 convex, 7 looks upwards, 8 and 9 beam angle
   std::uint8_t beams = 0, cells = 0;
   Axes axes = Axes::beam;
   bool uses_tilts = false, allows_three_beams = false, maps_bins = false;
-  double heading_alignment_deg = 0;
+  double heading_alignment_deg = 0;        ///< azimuth of beam 3 from the bow, positive to starboard
+  double heading_bias_deg = 0;             ///< added to the heading: the declination, where it was set
+  std::uint8_t used_sensors = 0;           ///< bits of Sensor; others are settings of the host
+  std::uint8_t fitted_sensors = 0;         ///< bits of Sensor
+  std::uint8_t stated_beam_angle_deg = 0;  ///< 0: the leader is too short to state it
   bool operator==(const FixedLeader&) const = default;
+
+  [[nodiscard]] bool looks_up() const { return (system & 0x80U) != 0; }
+  [[nodiscard]] bool is_convex() const { return (system & 0x08U) != 0; }
+  /// Between a beam and the instrument's axis; nullopt when the leader does not say it.
+  [[nodiscard]] std::optional<double> beam_angle_deg() const;
 };
+
+enum Sensor : std::uint8_t {
+  temperature_sensor = 1,
+  conductivity_sensor = 2,
+  roll_sensor = 4,
+  pitch_sensor = 8,
+  heading_sensor = 16,
+  depth_sensor = 32
+};
+
+/// Whether the variable leader's value is measured by the instrument: a sensor that is fitted and used.
+[[nodiscard]] constexpr bool is_measured(const FixedLeader& fixed, Sensor sensor) {
+  return (fixed.used_sensors & fixed.fitted_sensors & sensor) != 0;
+}
 
 /// Variable leader, 0x0080.
 struct VariableLeader {
@@ -59,13 +82,14 @@ struct VariableLeader {
   bool operator==(const VariableLeader&) const = default;
 };
 
-/// Bottom track, 0x0600. Signs are as sent: what the manual calls bottom track velocity.
+/// Bottom track, 0x0600. Signs are as sent: the bottom's velocity relative to the instrument, and the water's.
 struct BottomTrack {
   std::array<std::optional<double>, 4> range_m;  ///< vertical, of each beam; absent: bottom not found
   std::array<std::optional<double>, 4>
       velocity_m_s;  ///< in the axes of the fixed leader; absent: -32768 on the wire
   std::array<std::uint8_t, 4> correlation{}, amplitude{}, percent_good{};
   std::array<std::optional<double>, 4> water_velocity_m_s;  ///< of the reference layer
+  std::array<std::uint8_t, 4> water_percent_good{};
   bool operator==(const BottomTrack&) const = default;
 };
 

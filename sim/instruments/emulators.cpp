@@ -2,10 +2,12 @@
 #include "sim/instruments/emulators.h"
 
 #include "protocols/device_types.h"
+#include "sim/instruments/doppler_devices.h"
 #include "sim/instruments/imu_card.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
 #include "sim/instruments/sample_sender.h"
+#include "sim/instruments/pressure_gauges.h"
 #include "sim/instruments/tcm2.h"
 
 namespace navcal::sim {
@@ -18,6 +20,16 @@ using EmulatorMaker = std::unique_ptr<Device> (*)(const EmulatorOptions&, const 
 template <class D>
 std::unique_ptr<Device> make_clocked(const EmulatorOptions& options, const Motion& motion) {
   typename D::Options of_device;
+  of_device.baud = options.baud;
+  of_device.seed = options.seed;
+  of_device.clock_ppm = options.clock_ppm;
+  return std::make_unique<D>(of_device, motion);
+}
+
+template <class D>
+std::unique_ptr<Device> make_doppler(const EmulatorOptions& options, const Motion& motion) {
+  typename D::Options of_device;
+  of_device.floor = options.floor;
   of_device.baud = options.baud;
   of_device.seed = options.seed;
   of_device.clock_ppm = options.clock_ppm;
@@ -51,10 +63,12 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::mip, nullptr},
     {Protocol::vectornav, nullptr},
     {Protocol::pni, nullptr},
-    {Protocol::pd0, nullptr},
-    {Protocol::pd6, nullptr},
-    {Protocol::water_linked, nullptr},
+    {Protocol::pd0, make_doppler<Pd0Doppler>},
+    {Protocol::pd6, make_doppler<Pd6Doppler>},
+    {Protocol::water_linked, make_doppler<WaterLinkedDoppler>},
     {Protocol::samples, make_sample_sender},
+    {Protocol::paroscientific, make_clocked<ParoscientificEmulator>},
+    {Protocol::keller, make_clocked<KellerEmulator>},
 });
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "protocols/frame.h"
 #include "sim/geodesy.h"
+#include "sim/instruments/altimeter.h"
 #include "sim/instruments/device.h"
 #include "sim/state.h"
 
@@ -17,6 +18,7 @@ struct EmulatorOptions {
   std::uint64_t seed = 1;  ///< of its noise and biases
   double clock_ppm = 0;    ///< positive: its seconds are too long; receivers follow UTC
   Origin origin{};         ///< position of the motion's (0, 0, 0)
+  SeaFloor floor{};        ///< below Doppler logs
 };
 
 /// A device that speaks `protocol`, as it is delivered. `motion` must outlive it.

@@ -18,7 +18,11 @@ inline pd0::Ensemble random_ensemble(Random& random) {
                                     chance(random),
                                     chance(random),
                                     chance(random),
-                                    on_step(random, -18000, 18000, 0.01)};
+                                    on_step(random, -18000, 18000, 0.01),
+                                    on_step(random, -18000, 18000, 0.01),
+                                    static_cast<std::uint8_t>(random()),
+                                    static_cast<std::uint8_t>(random()),
+                                    static_cast<std::uint8_t>(below(random, 90))};
   pd0::VariableLeader variable;
   variable.ensemble = static_cast<std::uint32_t>(below(random, 1U << 24));
   variable.date = {static_cast<std::uint16_t>(2000 + below(random, 50)), 7, 31};
@@ -40,6 +44,7 @@ inline pd0::Ensemble random_ensemble(Random& random) {
       if (chance(random)) bottom.velocity_m_s[i] = on_step(random, -32767, 32767, 1e-3);
       if (chance(random)) bottom.water_velocity_m_s[i] = on_step(random, -32767, 32767, 1e-3);
       bottom.percent_good[i] = static_cast<std::uint8_t>(below(random, 101));
+      bottom.water_percent_good[i] = static_cast<std::uint8_t>(below(random, 101));
     }
     ensemble.bottom = bottom;
   }

@@ -6,6 +6,7 @@
 #include "tests/protocols/gps_samples.h"
 #include "tests/protocols/mip_samples.h"
 #include "tests/protocols/pd0_samples.h"
+#include "tests/protocols/pressure_samples.h"
 #include "tests/protocols/samples.h"
 #include "tests/protocols/stream.h"
 #include "tests/protocols/trax_samples.h"

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "instruments/water_linked_log.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+#include "instruments/doppler_limits.h"
+#include "protocols/water_linked.h"
+
+namespace navcal::instruments {
+namespace {
+
+namespace water_linked = protocols::water_linked;
+
+/// The instrument pings at least once in a second; what is older is a clock that was set in between.
+constexpr std::int64_t kMaxAge_us = 2'000'000;
+
+std::optional<std::int64_t> age_ns(const water_linked::Velocity& velocity) {
+  if (!velocity.valid_at_us || !velocity.transmitted_at_us) return std::nullopt;
+  const std::int64_t age_us = *velocity.transmitted_at_us - *velocity.valid_at_us;
+  if (age_us < 0 || age_us > kMaxAge_us) return std::nullopt;
+  return 1000 * age_us;
+}
+
+/// A tilt serves so many velocities; the instrument sends as many lines of either kind.
+constexpr int kTiltServes = 10;
+
+/// Of the axis with the largest variance; else the figure of merit. nullopt when both are zero, as in old lines.
+std::optional<double> stated_std_m_s(const water_linked::Velocity& velocity) {
+  double variance_m2_s2 = 0;
+  if (const auto& covariance = velocity.covariance_m2_s2)
+    variance_m2_s2 = std::max({(*covariance)[0], (*covariance)[4], (*covariance)[8]});
+  const double std_m_s = variance_m2_s2 > 0 ? std::sqrt(variance_m2_s2) : velocity.figure_of_merit_m_s;
+  return std_m_s > 0 ? std::optional(std_m_s) : std::nullopt;
+}
+
+}  // namespace
+
+Instrument::Verdict WaterLinkedLog::read(const protocols::Frame& frame, Receiver& receiver) {
+  if (frame.id == water_linked::kVelocity || frame.id == water_linked::kVelocityOld)
+    return read_velocity(frame.bytes, receiver);
+  if (frame.id != water_linked::kPosition) return Verdict::ignored;
+  const auto reckoning = water_linked::decode_position(frame.bytes);
+  if (!reckoning) return Verdict::out_of_range;
+  tilt_cosine_ = std::cos(reckoning->pitch_deg * base::kRadiansPerDegree) *
+                 std::cos(reckoning->roll_deg * base::kRadiansPerDegree);
+  velocities_since_ = 0;
+  return Verdict::used;
+}
+
+Instrument::Verdict WaterLinkedLog::read_velocity(protocols::Bytes line, Receiver& receiver) {
+  const auto velocity = water_linked::decode_velocity(line);
+  if (!velocity) return Verdict::out_of_range;
+  DvlSample sample;
+  if (velocity->valid) {
+    sample.bottom_velocity_m_s = velocity->velocity_m_s;
+    sample.bottom_velocity_std_m_s = stated_std_m_s(*velocity);
+    sample.altitude_m = velocity->altitude_m * tilt_cosine_;
+  }
+  if (++velocities_since_ == kTiltServes) tilt_cosine_ = 1;
+  const bool can_be = clear_of_impossible(sample);
+  Measurement measurement;
+  measurement.value = sample;
+  measurement.age_ns = age_ns(*velocity);
+  receiver.on_measurement(measurement);
+  return can_be ? Verdict::used : Verdict::out_of_range;
+}
+
+}  // namespace navcal::instruments

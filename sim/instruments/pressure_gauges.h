@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "protocols/keller.h"
+#include "protocols/paroscientific.h"
+#include "sim/instruments/device.h"
+#include "sim/noise.h"
+#include "sim/state.h"
+
+namespace navcal::sim {
+
+struct PressureOptions {
+  double noise_Pa = 20;
+  double clock_ppm = 0;
+  std::uint64_t seed = 1;
+  int baud = 9600;
+};
+
+/// Absolute pressure at the vehicle's origin, without errors: a standard atmosphere above sea water of 1025 kg/m3.
+[[nodiscard]] double absolute_pressure_Pa(const State& state);
+
+/// Paroscientific gauge as it is delivered: silent until it is asked. UN, VR, P3 and P4 are obeyed. Any command
+/// ends the continuous values of P4.
+class ParoscientificEmulator final : public Device {
+ public:
+  struct Options : PressureOptions {
+    int unit = 1;  ///< UN
+    double integration_s = 2.0 / 3;
+  };
+  ParoscientificEmulator(const Options& options, const Motion& motion);
+
+  void power_on(std::int64_t t_ns) override;
+  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
+  [[nodiscard]] std::int64_t next_event_ns() const override;
+  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
+  [[nodiscard]] int baud() const override { return options_.baud; }
+
+ private:
+  void obey(std::int64_t t_ns, const protocols::Frame& command);
+  [[nodiscard]] std::string value(std::int64_t t_ns);
+
+  Options options_;
+  const Motion& motion_;
+  Noise noise_;
+  Line line_;
+  protocols::paroscientific::Parser parser_;
+  std::optional<Ticks> ticks_;         ///< of P4
+  std::optional<std::int64_t> p3_ns_;  ///< when the answer to P3 is due
+  std::vector<Emission> answers_;
+};
+
+/// Keller transmitter as it is delivered: it answers F48 and F73 at its own address and at 250, and refuses F73
+/// before F48.
+class KellerEmulator final : public Device {
+ public:
+  struct Options : PressureOptions {
+    std::uint8_t address = 1;
+    bool echoes = false;  ///< the host's converter returns what the host says
+  };
+  KellerEmulator(const Options& options, const Motion& motion);
+
+  void power_on(std::int64_t t_ns) override;
+  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
+  [[nodiscard]] std::int64_t next_event_ns() const override;
+  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
+  [[nodiscard]] int baud() const override { return options_.baud; }
+
+ private:
+  [[nodiscard]] std::vector<std::uint8_t> answer(std::int64_t t_ns, const protocols::Frame& request);
+
+  Options options_;
+  const Motion& motion_;
+  Noise noise_;
+  Line line_;
+  protocols::keller::Parser parser_;
+  bool initialised_ = false, was_initialised_ = false;
+  std::vector<Emission> answers_;
+};
+
+}  // namespace navcal::sim

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes on the bus of Keller transmitters.
+#include "protocols/keller.h"
+
+#include "tests/fuzz/stream_invariants.h"
+
+namespace {
+
+void decode(const navcal::protocols::Frame& frame) {
+  using namespace navcal::protocols;
+  static_cast<void>(keller::decode_reading(frame.bytes));
+  static_cast<void>(keller::decode_identity(frame.bytes));
+  static_cast<void>(keller::decode_refusal(frame.bytes));
+  static_cast<void>(keller::requested_channel(frame.bytes));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  navcal::fuzz::check_stream<navcal::protocols::keller::Scanner>({data, size}, decode);
+  // Any bytes, as if their checksum held.
+  decode({{}, 0, {data, size}});
+  return 0;
+}
