@@ -19,7 +19,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::motor_card, describe_motor_card},
     {Protocol::nmea, describe_nmea},
     {Protocol::ubx, nullptr},
-    {Protocol::mip, nullptr},
+    {Protocol::mip, describe_mip},
     {Protocol::vectornav, nullptr},
     {Protocol::pni, nullptr},
     {Protocol::pd0, nullptr},

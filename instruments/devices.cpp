@@ -2,10 +2,12 @@
 // The instrument of each device, and its start-up dialogue.
 #include "instruments/imu_card.h"
 #include "instruments/instrument.h"
+#include "instruments/mip_sensor.h"
 #include "instruments/motor_card.h"
 #include "instruments/nmea_device.h"
 #include "instruments/oncore_receiver.h"
 #include "instruments/start_up.h"
+#include "instruments/start_up_mip.h"
 #include "instruments/start_up_oncore.h"
 #include "instruments/start_up_tcm2.h"
 #include "instruments/tcm2_compass.h"
@@ -39,6 +41,10 @@ std::unique_ptr<Instrument> make_imu_card(const PortSettings& settings) {
 std::unique_ptr<StartUp> start_tcm2(const PortSettings& settings) {
   return std::make_unique<StartUpTcm2>(settings);
 }
+template <class S>
+std::unique_ptr<StartUp> start_plain(const PortSettings& settings) {
+  return std::make_unique<S>(settings);
+}
 std::unique_ptr<StartUp> start_oncore(const PortSettings&) { return std::make_unique<StartUpOncore>(); }
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
@@ -48,7 +54,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::motor_card, {make_plain<MotorCard>}},
     {Protocol::nmea, {make_configured<NmeaDevice>}},
     {Protocol::ubx, {}},
-    {Protocol::mip, {}},
+    {Protocol::mip, {make_plain<MipSensor>, start_plain<StartUpMip>}},
     {Protocol::vectornav, {}},
     {Protocol::pni, {}},
     {Protocol::pd0, {}},

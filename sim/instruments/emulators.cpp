@@ -3,6 +3,7 @@
 
 #include "protocols/device_types.h"
 #include "sim/instruments/imu_card.h"
+#include "sim/instruments/mip_unit.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
 #include "sim/instruments/tcm2.h"
@@ -40,7 +41,7 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::motor_card, make_clocked<MotorCard>},
     {Protocol::nmea, make_receiver<Oncore::Kind::nmea>},
     {Protocol::ubx, nullptr},
-    {Protocol::mip, nullptr},
+    {Protocol::mip, make_clocked<MipUnit>},
     {Protocol::vectornav, nullptr},
     {Protocol::pni, nullptr},
     {Protocol::pd0, nullptr},
