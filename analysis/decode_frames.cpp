@@ -21,7 +21,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::ubx, nullptr},
     {Protocol::mip, describe_mip},
     {Protocol::vectornav, nullptr},
-    {Protocol::pni, nullptr},
+    {Protocol::pni, describe_pni},
     {Protocol::pd0, nullptr},
     {Protocol::pd6, nullptr},
     {Protocol::water_linked, nullptr},

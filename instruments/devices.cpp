@@ -6,9 +6,11 @@
 #include "instruments/motor_card.h"
 #include "instruments/nmea_device.h"
 #include "instruments/oncore_receiver.h"
+#include "instruments/pni_compass.h"
 #include "instruments/start_up.h"
 #include "instruments/start_up_mip.h"
 #include "instruments/start_up_oncore.h"
+#include "instruments/start_up_pni.h"
 #include "instruments/start_up_tcm2.h"
 #include "instruments/tcm2_compass.h"
 #include "protocols/device_types.h"
@@ -56,7 +58,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::ubx, {}},
     {Protocol::mip, {make_plain<MipSensor>, start_plain<StartUpMip>}},
     {Protocol::vectornav, {}},
-    {Protocol::pni, {}},
+    {Protocol::pni, {make_plain<PniCompass>, start_plain<StartUpPni>}},
     {Protocol::pd0, {}},
     {Protocol::pd6, {}},
     {Protocol::water_linked, {}},

@@ -6,6 +6,7 @@
 #include "sim/instruments/mip_unit.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
+#include "sim/instruments/pni_unit.h"
 #include "sim/instruments/tcm2.h"
 
 namespace navcal::sim {
@@ -43,7 +44,7 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::ubx, nullptr},
     {Protocol::mip, make_clocked<MipUnit>},
     {Protocol::vectornav, nullptr},
-    {Protocol::pni, nullptr},
+    {Protocol::pni, make_clocked<PniUnit>},
     {Protocol::pd0, nullptr},
     {Protocol::pd6, nullptr},
     {Protocol::water_linked, nullptr},
