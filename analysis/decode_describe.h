@@ -26,6 +26,8 @@ void describe_pd6(FieldWriter&, const protocols::Frame&, const std::optional<pro
 void describe_water_linked(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_paroscientific(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_keller(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_mip(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_pni(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 
 /// The keys that every message with a position has, whatever its protocol.
 struct PositionFields {

@@ -72,12 +72,13 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
     case ControlCommand::calibration_accept:
     case ControlCommand::calibration_rollback:
       // The compass's own procedure is a dialogue with the device, not one of our calibrators.
-      if (request.calibrator == "tcm2") return answer_tcm2(request);
+      if (instruments::is_compass_calibration(request.calibrator)) return answer_compass(request);
       return calibrations_.answer(request, ports::monotonic_ns(), *this);
     case ControlCommand::calibration_stop:
-      if (request.calibrator == "tcm2") return answer_tcm2(request);
+      if (instruments::is_compass_calibration(request.calibrator)) return answer_compass(request);
       return control_error(
-          "only tcm2, the compass's own calibration, can be stopped; navcald's calibrators run all the time");
+          "only tcm2 and pni, a compass's own calibration, can be stopped; navcald's calibrators run all the "
+          "time");
     case ControlCommand::motor_lease:
     case ControlCommand::motor_order:
     case ControlCommand::motor_release:

@@ -4,16 +4,20 @@
 #include "instruments/injected_samples.h"
 #include "instruments/instrument.h"
 #include "instruments/keller_gauge.h"
+#include "instruments/mip_sensor.h"
 #include "instruments/motor_card.h"
 #include "instruments/nmea_device.h"
 #include "instruments/oncore_receiver.h"
 #include "instruments/paroscientific_gauge.h"
 #include "instruments/pd0_log.h"
 #include "instruments/pd6_log.h"
+#include "instruments/pni_compass.h"
 #include "instruments/start_up.h"
 #include "instruments/start_up_keller.h"
+#include "instruments/start_up_mip.h"
 #include "instruments/start_up_oncore.h"
 #include "instruments/start_up_paroscientific.h"
+#include "instruments/start_up_pni.h"
 #include "instruments/start_up_tcm2.h"
 #include "instruments/tcm2_compass.h"
 #include "instruments/water_linked_log.h"
@@ -51,6 +55,10 @@ template <class S>
 std::unique_ptr<StartUp> start_plain(const PortSettings&) {
   return std::make_unique<S>();
 }
+template <class S>
+std::unique_ptr<StartUp> start_plain(const PortSettings& settings) {
+  return std::make_unique<S>(settings);
+}
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::tcm2, {make_tcm2, start_tcm2}},
@@ -59,9 +67,9 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::motor_card, {make_plain<MotorCard>}},
     {Protocol::nmea, {make_configured<NmeaDevice>}},
     {Protocol::ubx, {}},
-    {Protocol::mip, {}},
+    {Protocol::mip, {make_plain<MipSensor>, start_plain<StartUpMip>}},
     {Protocol::vectornav, {}},
-    {Protocol::pni, {}},
+    {Protocol::pni, {make_plain<PniCompass>, start_plain<StartUpPni>}},
     {Protocol::pd0, {make_plain<Pd0Log>}},
     {Protocol::pd6, {make_plain<Pd6Log>}},
     {Protocol::water_linked, {make_plain<WaterLinkedLog>}},

@@ -61,6 +61,8 @@ std::int64_t PortStream::deadline_ns() const {
 
 void PortStream::on_frame(const protocols::Frame& frame) {
   place_ = track_.locate(frame.offset, frame.end());
+  paced_.reset();
+  repeated_ = false;
   statistics_.last_frame_ns = place_.arrival_ns;
   sink_->on_frame(port_, frame, place_.arrival_ns);
   if (instrument_->read(frame, *this) == instruments::Instrument::Verdict::out_of_range)
@@ -73,12 +75,19 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   sample.port = port_;
   sample.stamp.arrival_ns = place_.arrival_ns;
   sample.stamp.validity_ns = observed_ns;
-  if (measurement.paces) {
-    const auto outcome = clock_.update({observed_ns, measurement.sequence, place_.backlog});
+  if (!measurement.paces && repeated_) return;
+  if (!measurement.paces && paced_) {
+    sample.stamp.validity_ns = paced_->time_ns;
+    sample.stamp.std_ns = paced_->std_ns;
+  } else if (measurement.paces || measurement.device_time_ns) {
+    const auto outcome = clock_.update(
+        {observed_ns, measurement.sequence, place_.backlog, measurement.device_time_ns, measurement.paces});
     if (outcome.news) tell_news(*outcome.news);
+    repeated_ = measurement.paces && outcome.repeated;
     if (outcome.repeated) return;
     sample.stamp.validity_ns = outcome.time.time_ns;
     sample.stamp.std_ns = outcome.time.std_ns;
+    if (measurement.paces) paced_ = outcome.time;
   }
   if (measurement.stated_utc_ns && measurement.utc_is_known) {
     if (const auto mapping = gps_time_.update(*measurement.stated_utc_ns, observed_ns, mapping_)) {

@@ -4,10 +4,12 @@
 #include "protocols/device_types.h"
 #include "sim/instruments/doppler_devices.h"
 #include "sim/instruments/imu_card.h"
+#include "sim/instruments/mip_unit.h"
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
 #include "sim/instruments/sample_sender.h"
 #include "sim/instruments/pressure_gauges.h"
+#include "sim/instruments/pni_unit.h"
 #include "sim/instruments/tcm2.h"
 
 namespace navcal::sim {
@@ -60,9 +62,9 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::motor_card, make_clocked<MotorCard>},
     {Protocol::nmea, make_receiver<Oncore::Kind::nmea>},
     {Protocol::ubx, nullptr},
-    {Protocol::mip, nullptr},
+    {Protocol::mip, make_clocked<MipUnit>},
     {Protocol::vectornav, nullptr},
-    {Protocol::pni, nullptr},
+    {Protocol::pni, make_clocked<PniUnit>},
     {Protocol::pd0, make_doppler<Pd0Doppler>},
     {Protocol::pd6, make_doppler<Pd6Doppler>},
     {Protocol::water_linked, make_doppler<WaterLinkedDoppler>},
