@@ -149,10 +149,10 @@ void CalibrationStage::tell(std::int64_t now_ns, CalibrationChange::Cause cause,
 }
 
 CalibrationChange CalibrationStage::beginning(std::int64_t now_ns) {
-  constexpr std::size_t kGrowth_bytes = 16 << 10;  // since the last saving, and what is stored around it
-  calib::Archive saving(saved_bytes_ + kGrowth_bytes);
+  // Twice what a state takes. Pages that nothing is written to take no memory.
+  constexpr std::size_t kRoom_bytes = 1 << 20;
+  calib::Archive saving(kRoom_bytes);
   archive(saving);
-  saved_bytes_ = saving.bytes().size();
   const auto& in_force = suite_.in_force();
   return {now_ns,          CalibrationChange::Cause::begin, std::nullopt,
           in_force.name(), in_force.correction(),           std::move(saving).take()};

@@ -67,7 +67,6 @@ class CalibrationStage {
   std::optional<double> motor_current_A_;  ///< newest reading
   std::int64_t motor_current_ns_ = 0;      ///< its time of validity
   std::optional<double> origin_latitude_rad_, origin_longitude_rad_;
-  std::size_t saved_bytes_ = 0;  ///< size of the last saved state
 };
 
 }  // namespace navcal::pipeline
