@@ -18,7 +18,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::oncore, describe_oncore},
     {Protocol::motor_card, describe_motor_card},
     {Protocol::nmea, describe_nmea},
-    {Protocol::ubx, nullptr},
+    {Protocol::ubx, describe_ubx},
     {Protocol::mip, nullptr},
     {Protocol::vectornav, nullptr},
     {Protocol::pni, nullptr},

@@ -8,7 +8,9 @@
 #include "instruments/start_up.h"
 #include "instruments/start_up_oncore.h"
 #include "instruments/start_up_tcm2.h"
+#include "instruments/start_up_ubx.h"
 #include "instruments/tcm2_compass.h"
+#include "instruments/ubx_receiver.h"
 #include "protocols/device_types.h"
 
 namespace navcal::instruments {
@@ -39,6 +41,7 @@ std::unique_ptr<Instrument> make_imu_card(const PortSettings& settings) {
 std::unique_ptr<StartUp> start_tcm2(const PortSettings& settings) {
   return std::make_unique<StartUpTcm2>(settings);
 }
+std::unique_ptr<StartUp> start_ubx(const PortSettings& settings) { return std::make_unique<StartUpUbx>(settings); }
 std::unique_ptr<StartUp> start_oncore(const PortSettings&) { return std::make_unique<StartUpOncore>(); }
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
@@ -47,7 +50,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::oncore, {make_configured<OncoreReceiver>, start_oncore}},
     {Protocol::motor_card, {make_plain<MotorCard>}},
     {Protocol::nmea, {make_configured<NmeaDevice>}},
-    {Protocol::ubx, {}},
+    {Protocol::ubx, {make_configured<UbxReceiver>, start_ubx}},
     {Protocol::mip, {}},
     {Protocol::vectornav, {}},
     {Protocol::pni, {}},

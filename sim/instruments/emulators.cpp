@@ -6,6 +6,7 @@
 #include "sim/instruments/motor_card.h"
 #include "sim/instruments/oncore.h"
 #include "sim/instruments/tcm2.h"
+#include "sim/instruments/ubx_receiver.h"
 
 namespace navcal::sim {
 namespace {
@@ -33,13 +34,22 @@ std::unique_ptr<Device> make_receiver(const EmulatorOptions& options, const Moti
   return std::make_unique<Oncore>(of_device, motion);
 }
 
+std::unique_ptr<Device> make_ubx(const EmulatorOptions& options, const Motion& motion) {
+  UbxReceiver::Options of_device;
+  of_device.receiver.origin = options.origin;
+  of_device.receiver.gps.timing = devices::usual_timing(Protocol::ubx, options.baud);
+  of_device.baud = options.baud;
+  of_device.seed = options.seed;
+  return std::make_unique<UbxReceiver>(of_device, motion);
+}
+
 constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::tcm2, make_clocked<Tcm2>},
     {Protocol::imu_card, make_clocked<ImuCard>},
     {Protocol::oncore, make_receiver<Oncore::Kind::twelve_channels>},
     {Protocol::motor_card, make_clocked<MotorCard>},
     {Protocol::nmea, make_receiver<Oncore::Kind::nmea>},
-    {Protocol::ubx, nullptr},
+    {Protocol::ubx, make_ubx},
     {Protocol::mip, nullptr},
     {Protocol::vectornav, nullptr},
     {Protocol::pni, nullptr},
