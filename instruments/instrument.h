@@ -18,6 +18,9 @@ using Value = decltype(Sample::value);
 struct Measurement {
   Value value;
   std::optional<std::uint8_t> sequence;       ///< the device's own counter
+  /// Time of validity by the device's own clock, whatever its origin. A line between this clock and the arrivals
+  /// then gives the time of the sample, also where the sample does not pace.
+  std::optional<std::int64_t> device_time_ns{};
   std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
   bool paces = true;                          ///< one tick of the device's clock (not so for satellites in view)
