@@ -21,6 +21,7 @@ void describe_motor_card(FieldWriter&, const protocols::Frame&, const std::optio
 void describe_oncore(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_nmea(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_ubx(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_vectornav(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 
 /// The keys that every message with a position has, whatever its protocol.
 struct PositionFields {

@@ -20,7 +20,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::nmea, describe_nmea},
     {Protocol::ubx, describe_ubx},
     {Protocol::mip, nullptr},
-    {Protocol::vectornav, nullptr},
+    {Protocol::vectornav, describe_vectornav},
     {Protocol::pni, nullptr},
     {Protocol::pd0, nullptr},
     {Protocol::pd6, nullptr},

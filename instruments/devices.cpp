@@ -9,8 +9,10 @@
 #include "instruments/start_up_oncore.h"
 #include "instruments/start_up_tcm2.h"
 #include "instruments/start_up_ubx.h"
+#include "instruments/start_up_vectornav.h"
 #include "instruments/tcm2_compass.h"
 #include "instruments/ubx_receiver.h"
+#include "instruments/vectornav_sensor.h"
 #include "protocols/device_types.h"
 
 namespace navcal::instruments {
@@ -42,6 +44,9 @@ std::unique_ptr<StartUp> start_tcm2(const PortSettings& settings) {
   return std::make_unique<StartUpTcm2>(settings);
 }
 std::unique_ptr<StartUp> start_ubx(const PortSettings& settings) { return std::make_unique<StartUpUbx>(settings); }
+std::unique_ptr<StartUp> start_vectornav(const PortSettings& settings) {
+  return std::make_unique<StartUpVectorNav>(settings);
+}
 std::unique_ptr<StartUp> start_oncore(const PortSettings&) { return std::make_unique<StartUpOncore>(); }
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
@@ -52,7 +57,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::nmea, {make_configured<NmeaDevice>}},
     {Protocol::ubx, {make_configured<UbxReceiver>, start_ubx}},
     {Protocol::mip, {}},
-    {Protocol::vectornav, {}},
+    {Protocol::vectornav, {make_plain<VectorNavSensor>, start_vectornav}},
     {Protocol::pni, {}},
     {Protocol::pd0, {}},
     {Protocol::pd6, {}},

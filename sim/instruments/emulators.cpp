@@ -7,6 +7,7 @@
 #include "sim/instruments/oncore.h"
 #include "sim/instruments/tcm2.h"
 #include "sim/instruments/ubx_receiver.h"
+#include "sim/instruments/vectornav.h"
 
 namespace navcal::sim {
 namespace {
@@ -51,7 +52,7 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::nmea, make_receiver<Oncore::Kind::nmea>},
     {Protocol::ubx, make_ubx},
     {Protocol::mip, nullptr},
-    {Protocol::vectornav, nullptr},
+    {Protocol::vectornav, make_clocked<VectorNav>},
     {Protocol::pni, nullptr},
     {Protocol::pd0, nullptr},
     {Protocol::pd6, nullptr},
