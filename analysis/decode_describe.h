@@ -28,6 +28,8 @@ void describe_paroscientific(FieldWriter&, const protocols::Frame&, const std::o
 void describe_keller(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_mip(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_pni(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_ubx(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_vectornav(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 
 /// The keys that every message with a position has, whatever its protocol.
 struct PositionFields {
