@@ -26,6 +26,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::pd6, nullptr},
     {Protocol::water_linked, nullptr},
     {Protocol::samples, nullptr},
+    {Protocol::described, nullptr},  // by a description of its own: decode_described.h
 });
 
 using NextBytes = std::function<protocols::Bytes()>;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The instrument of each device, and its start-up dialogue.
+#include "instruments/described_device.h"
 #include "instruments/imu_card.h"
 #include "instruments/instrument.h"
 #include "instruments/motor_card.h"
 #include "instruments/nmea_device.h"
 #include "instruments/oncore_receiver.h"
 #include "instruments/start_up.h"
+#include "instruments/start_up_described.h"
 #include "instruments/start_up_oncore.h"
 #include "instruments/start_up_tcm2.h"
 #include "instruments/tcm2_compass.h"
@@ -41,6 +43,11 @@ std::unique_ptr<StartUp> start_tcm2(const PortSettings& settings) {
 }
 std::unique_ptr<StartUp> start_oncore(const PortSettings&) { return std::make_unique<StartUpOncore>(); }
 
+std::unique_ptr<StartUp> start_described(const PortSettings& settings) {
+  const bool has_lines = settings.described && !settings.described->start_up.empty();
+  return has_lines ? std::make_unique<StartUpDescribed>(settings.described->start_up) : nullptr;
+}
+
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::tcm2, {make_tcm2, start_tcm2}},
     {Protocol::imu_card, {make_imu_card}},
@@ -55,6 +62,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::pd6, {}},
     {Protocol::water_linked, {}},
     {Protocol::samples, {}},
+    {Protocol::described, {make_configured<DescribedDevice>, start_described}},
 });
 
 }  // namespace

@@ -20,7 +20,9 @@ struct Measurement {
   std::optional<std::uint8_t> sequence;       ///< the device's own counter
   std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
-  bool paces = true;                          ///< one tick of the device's clock (not so for satellites in view)
+  /// It comes from the same frame as the measurement before, which paced the clock, and is of the same time.
+  bool of_tick_before = false;
+  bool paces = true;  ///< one tick of the device's clock (not so for satellites in view)
 };
 
 /// Takes measurements as they are found.

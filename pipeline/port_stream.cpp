@@ -18,7 +18,7 @@ PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings,
     : port_(port),
       latency_ns_(std::llround(settings.latency_s * 1e9)),
       nominal_rate_Hz_(settings.rate_Hz),
-      parser_(protocols::make_port_parser(settings.protocol)),
+      parser_(protocols::make_port_parser(settings.protocol, settings.described ? &*settings.described : nullptr)),
       track_(settings.baud),
       instrument_(instruments::make_instrument(settings)),
       mounting_(settings.mounting),
@@ -67,9 +67,12 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   if (measurement.paces) {
     const auto outcome = clock_.update({observed_ns, measurement.sequence, place_.backlog});
     if (outcome.news) tell_news(*outcome.news);
-    if (outcome.repeated) return;
-    sample.stamp.validity_ns = outcome.time.time_ns;
-    sample.stamp.std_ns = outcome.time.std_ns;
+    tick_ = outcome.repeated ? std::nullopt : std::optional(outcome.time);
+  }
+  if (measurement.paces || measurement.of_tick_before) {
+    if (!tick_) return;
+    sample.stamp.validity_ns = tick_->time_ns;
+    sample.stamp.std_ns = tick_->std_ns;
   }
   if (measurement.stated_utc_ns && measurement.utc_is_known) {
     if (const auto mapping = gps_time_.update(*measurement.stated_utc_ns, observed_ns, mapping_)) {

@@ -47,6 +47,8 @@ class PortStream : private instruments::Receiver {
   std::unique_ptr<instruments::Instrument> instrument_;
   instruments::Mounting mounting_;
   instruments::FrameClock clock_;
+  /// Of the newest measurement that paced the clock; nullopt: its frame was a repeated one.
+  std::optional<instruments::TimeEstimate> tick_;
   GpsTimeWatch gps_time_;
   const StandardErrors& errors_;
   UtcMapping& mapping_;

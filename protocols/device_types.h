@@ -171,6 +171,23 @@ constexpr DeviceType device_row(Protocol protocol) {
                            .bottom_velocity = true,
                            .water_velocity = true},
               .delivers_always = false};
+    case Protocol::described:
+      // What a file describes (protocols/described/): of a single device, its description says what it delivers.
+      return {.name = "described",
+              .baud = 9600,
+              .latency_std_s = 0.050,
+              .delivers = {.heading = true,
+                           .field = true,
+                           .rates = true,
+                           .acceleration = true,
+                           .depth = true,
+                           .position = true,
+                           .velocity = true,
+                           .shaft = true,
+                           .altitude = true,
+                           .bottom_velocity = true,
+                           .water_velocity = true},
+              .delivers_always = false};
   }
   return {};
 }

@@ -62,7 +62,8 @@ enum class Protocol : std::uint8_t {
   pd0,
   pd6,
   water_linked,
-  samples
+  samples,
+  described
 };
 
 /// The name in the device's row: "tcm2", "imu-card", "ubx", ... (docs/cli.md, ICD section 5).

@@ -194,13 +194,14 @@ protocols::described::FrameKind read_frame(const Node& node, Defaults defaults, 
   const std::size_t before = problems.size();
   FrameKind kind;
   TableReader frame(node, problems);
-  frame.require("id", "a name of at most 8 characters, which decoding shows");
+  frame.require("id", "a name of at most 16 characters, which decoding shows");
   if (const auto id = frame.text("id")) {
-    const bool holds = !id->empty() && id->size() <= 8 && std::all_of(id->begin(), id->end(), [](char c) {
+    const bool holds = !id->empty() && id->size() <= 16 && std::all_of(id->begin(), id->end(), [](char c) {
       return c > ' ' && c < 0x7F && c != '"' && c != '\\';
     });
     if (!holds)
-      frame.complain("id", fmt::format("{} is not 1 to 8 printable characters without blanks", to_toml_text(*id)));
+      frame.complain("id",
+                     fmt::format("{} is not 1 to 16 printable characters without blanks", to_toml_text(*id)));
     kind.id = protocols::FrameId(*id);
   }
   take_defaults(frame, defaults);

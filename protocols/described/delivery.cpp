@@ -15,6 +15,8 @@ Delivery delivery_of(const Description& description) {
   delivers.velocity = sends(Meaning::speed);
   delivers.shaft = sends(Meaning::rpm);
   delivers.altitude = sends(Meaning::altitude);
+  delivers.bottom_velocity = sends(Meaning::bottom_velocity_x) || sends(Meaning::bottom_velocity_north);
+  delivers.water_velocity = sends(Meaning::water_velocity_x) || sends(Meaning::water_velocity_north);
   return delivers;
 }
 

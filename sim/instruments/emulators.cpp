@@ -47,6 +47,7 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::pd6, nullptr},
     {Protocol::water_linked, nullptr},
     {Protocol::samples, nullptr},
+    {Protocol::described, nullptr},
 });
 
 }  // namespace

@@ -141,4 +141,20 @@ inline Buffer random_frame(Random& random, const Description& device) {
 
 inline Scanner scanner_of(const Description& device) { return Scanner(compile(device)); }
 
+/// A scanner that needs no description of its own.
+struct CardScanner : Scanner {
+  CardScanner() : Scanner(compile(inertial_card())) {}
+};
+
 }  // namespace navcal::protocols::described::test
+
+namespace navcal::protocols::test {
+
+template <Scanner S>
+Buffer random_frame(Random& random);
+template <>
+inline Buffer random_frame<described::test::CardScanner>(Random& random) {
+  return described::test::random_frame(random, described::test::inertial_card());
+}
+
+}  // namespace navcal::protocols::test
