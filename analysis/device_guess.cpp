@@ -27,7 +27,7 @@ bool is_text(protocols::Bytes capture) {
   return static_cast<double>(printable) > kTextShare * static_cast<double>(capture.size()) && ends >= 3;
 }
 
-std::string in_hex(std::string_view bytes) {
+std::string hex_of(std::string_view bytes) {
   std::string out;
   for (const char byte : bytes)
     out += fmt::format("{}{:02X}", out.empty() ? "" : " ", static_cast<unsigned char>(byte));
@@ -84,7 +84,7 @@ std::string binary_description(protocols::Bytes capture, std::optional<double> s
   }
   return head("binary", rate_line(chosen->frames.size(), seconds)) +
          fmt::format("\n[[frame]]  # {} frames, {:.1f} % of the bytes\nid = \"FRAME\"\nsync = \"{}\"\n",
-                     chosen->frames.size(), 100 * chosen->coverage, in_hex(chosen->sync)) +
+                     chosen->frames.size(), 100 * chosen->coverage, hex_of(chosen->sync)) +
          length_line(chosen->length) + checksum_line(checksum) +
          "# Give each a meaning and a unit, such as meaning = \"rate.x\", unit = \"deg/s\", scale = 0.01; take "
          "out what is none.\n"

@@ -14,7 +14,7 @@ using protocols::Bytes;
 using protocols::described::ByteOrder;
 using protocols::described::kMaxFrameLength;
 using protocols::described::Length;
-using protocols::described::Type;
+using NumberType = protocols::described::Type;
 
 constexpr std::size_t kCandidates = 48;
 constexpr std::size_t kLeastFrames = 4;
@@ -121,8 +121,8 @@ void try_stated_lengths(Bytes capture, const std::string& sync, const Places& pl
   constexpr double kLeastShare = 0.4;
   for (std::uint16_t at = 2; at <= kLastPlace; ++at) {
     for (const auto& [type, order] :
-         {std::pair(Type::u8, ByteOrder::little), std::pair(Type::u16, ByteOrder::little),
-          std::pair(Type::u16, ByteOrder::big)}) {
+         {std::pair(NumberType::u8, ByteOrder::little), std::pair(NumberType::u16, ByteOrder::little),
+          std::pair(NumberType::u16, ByteOrder::big)}) {
       std::vector<std::int64_t> differences;
       for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         if (places[i] + at + size_of(type) > capture.size()) break;

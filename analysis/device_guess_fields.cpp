@@ -14,7 +14,7 @@ namespace {
 
 using protocols::Bytes;
 using protocols::described::ByteOrder;
-using protocols::described::Type;
+using NumberType = protocols::described::Type;
 
 constexpr std::size_t kFramesSeen = 2000;
 /// A value that is measured moves little from frame to frame, beside the range of its type.
@@ -22,20 +22,20 @@ constexpr double kSmooth = 0.08;
 
 /// One reading of the bytes at a place.
 struct Reading {
-  Type type = Type::u8;
+  NumberType type = NumberType::u8;
   ByteOrder order = ByteOrder::little;
   double roughness = 1;  ///< mean step from frame to frame, beside the range of the type
   double low = 0, high = 0;
   std::size_t changes = 0;
 };
 
-double range_of(Type type) { return std::ldexp(1, static_cast<int>(8 * size_of(type))); }
+double range_of(NumberType type) { return std::ldexp(1, static_cast<int>(8 * size_of(type))); }
 
-double number_at(Bytes frame, std::size_t at, Type type, bool is_big) {
+double number_at(Bytes frame, std::size_t at, NumberType type, bool is_big) {
   const std::uint8_t* const p = frame.data() + at;
-  if (type == Type::f32)
+  if (type == NumberType::f32)
     return static_cast<double>(is_big ? protocols::get_be<float>(p) : protocols::get_le<float>(p));
-  if (type == Type::f64) return is_big ? protocols::get_be<double>(p) : protocols::get_le<double>(p);
+  if (type == NumberType::f64) return is_big ? protocols::get_be<double>(p) : protocols::get_le<double>(p);
   return static_cast<double>(protocols::described::integer_at(p, type, is_big));
 }
 
@@ -58,7 +58,7 @@ class Columns {
   }
 
  private:
-  [[nodiscard]] Reading read(std::size_t at, Type type, ByteOrder order) const {
+  [[nodiscard]] Reading read(std::size_t at, NumberType type, ByteOrder order) const {
     Reading reading{type, order, 0, 0, 0, 0};
     double before = 0;
     for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -79,7 +79,7 @@ class Columns {
   }
 
   /// Numbers of floating point are of ordinary size; other bytes seldom make such.
-  [[nodiscard]] bool is_float(std::size_t at, Type type, ByteOrder order) const {
+  [[nodiscard]] bool is_float(std::size_t at, NumberType type, ByteOrder order) const {
     constexpr double kSmallest = 1e-7, kLargest = 1e7;
     std::size_t ordinary = 0;
     for (const Bytes frame : frames_) {
@@ -99,18 +99,18 @@ class Columns {
   }
 
   [[nodiscard]] Reading best_at(std::size_t at) const {
-    const Reading byte = read(at, Type::u8, ByteOrder::little);
+    const Reading byte = read(at, NumberType::u8, ByteOrder::little);
     if (is_counter(at)) return byte;
-    const auto fits = [&](Type type) { return at + size_of(type) <= last_; };
-    for (const Type type : {Type::f64, Type::f32}) {
+    const auto fits = [&](NumberType type) { return at + size_of(type) <= last_; };
+    for (const NumberType type : {NumberType::f64, NumberType::f32}) {
       for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
         if (fits(type) && is_float(at, type, order)) return read(at, type, order);
       }
     }
-    if (!fits(Type::u16) || (is_constant(at) && is_constant(at + 1))) return byte;
+    if (!fits(NumberType::u16) || (is_constant(at) && is_constant(at + 1))) return byte;
     Reading best = byte;
     best.roughness = kSmooth;
-    for (const Type type : {Type::u16, Type::i16}) {
+    for (const NumberType type : {NumberType::u16, NumberType::i16}) {
       for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
         const Reading reading = read(at, type, order);
         if (reading.changes > 0 && reading.roughness < best.roughness) best = reading;

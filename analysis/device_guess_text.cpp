@@ -14,7 +14,7 @@ namespace navcal::analysis {
 namespace {
 
 using protocols::Bytes;
-using protocols::described::Type;
+using NumberType = protocols::described::Type;
 
 constexpr std::size_t kLeastLines = 3;
 constexpr std::size_t kMostKinds = 16;
@@ -77,7 +77,9 @@ bool is_checked(std::string_view line) {
                  .kind == protocols::Scan::Kind::frame;
 }
 
-bool is_number(std::string_view text) { return protocols::described::number_of(text, Type::decimal).has_value(); }
+bool is_number(std::string_view text) {
+  return protocols::described::number_of(text, NumberType::decimal).has_value();
+}
 
 /// What lines of the same kind begin with: the first word and the separator, or the first key and its sign;
 /// nothing when the line begins with a number.
@@ -109,7 +111,7 @@ void take_line(std::string_view line, char separator, LineKind& kind) {
       column.key = std::string(field.substr(0, sign));
       field.remove_prefix(sign + 1);
     }
-    if (const auto number = protocols::described::number_of(field, Type::decimal)) column.take(*number);
+    if (const auto number = protocols::described::number_of(field, NumberType::decimal)) column.take(*number);
   }
 }
 

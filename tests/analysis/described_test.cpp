@@ -333,6 +333,21 @@ TEST(DescribedStartUp, LinesAreSentWithPausesAndAgainAfterSilence) {
   EXPECT_FALSE(instruments::make_start_up(imu));
 }
 
+TEST(DevicesPage, ItsExampleReadsAsThePageSays) {
+  const std::string page = test::read_file(NAVCAL_SOURCE_DIR "/docs/devices.md");
+  constexpr std::string_view kBegin = "```toml\n";
+  const std::size_t begin = page.find(kBegin) + kBegin.size();
+  const auto port = described_port_of(std::string_view(page).substr(begin, page.find("```", begin) - begin));
+  Samples device(port);
+  device.take({{kStart_ns, {0xBE, 0xEF, 0x00, 0x12, 0xFE, 0x4C, 0x00, 0x03, 0xFF, 0x41, 0x9F}}});
+  ASSERT_EQ(device.samples.size(), 1U);
+  const auto& imu = std::get<ImuSample>(device.samples[0].value);
+  EXPECT_NEAR(imu.rate_rad_s.value()[0], 0.8486, 5e-5);
+  EXPECT_NEAR(imu.rate_rad_s.value()[1], 3.3957, 5e-5);
+  EXPECT_NEAR(imu.rate_rad_s.value()[2], 0.1785, 5e-5);
+  EXPECT_EQ(imu.temperature_C, 25);
+}
+
 /// All of a capture in one piece.
 DeviceFindings checked(const Description& description, const Octets& capture) {
   bool given = false;
