@@ -28,6 +28,7 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::samples, describe_samples},
     {Protocol::paroscientific, describe_paroscientific},
     {Protocol::keller, describe_keller},
+    {Protocol::described, nullptr},  // by a description of its own: decode_described.h
 });
 
 using NextBytes = std::function<protocols::Bytes()>;

@@ -12,6 +12,7 @@ namespace navcal::cli {
 void add_calibrate(CLI::App& app);
 void add_completion(CLI::App& app);
 void add_decode(CLI::App& app);
+void add_devices(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_emulate(CLI::App& app);
 void add_field(CLI::App& app);

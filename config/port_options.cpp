@@ -75,6 +75,29 @@ std::vector<Option<P>> make_port_options() {
                "tcp:, tcp-listen: or udp: with an IP address and a port, or unix-listen: with an absolute path",
            .text_holds = [](std::string_view text) { return parse_network_address(text).has_value(); }},
           [](auto& p) -> auto& { return p.address; }),
+      text<P>(
+          {.key = "device",
+           .description =
+               "File that describes the device (docs/devices.md); a relative path begins where this file "
+               "lies.",
+           .text_rule = "a path on this machine without control characters",
+           .text_holds = is_local_path,
+           .only_for = {protocols::Protocol::described}},
+          [](auto& p) -> auto& { return p.device; }),
+      text<P>(
+          {.key = "description",
+           .description = "The text of that file, so that it need not be there; navcald writes it into its logs.",
+           .text_rule = "the description of a device",
+           .text_holds = [](std::string_view text) { return !text.empty(); },
+           .only_for = {protocols::Protocol::described}},
+          [](auto& p) -> auto& { return p.description; }),
+      list<P>(
+          {.key = "adjust",
+           .description = "What belongs to the single device, beyond its description.",
+           .text_rule = "a field with zero, scale or sensitivity: \"rate.x: zero = 2051, sensitivity = 10.02\"",
+           .text_holds = [](std::string_view text) { return text.find(':') != std::string_view::npos; },
+           .only_for = {protocols::Protocol::described}},
+          [](auto& p) -> auto& { return p.adjust; }),
       integer<P>(
           {.key = "baud",
            .description = "Line speed, 8N1; with address that of the serial line behind the converter.",

@@ -10,6 +10,7 @@
 
 #include "config/instruments.h"
 #include "config/roles.h"
+#include "protocols/described/description.h"
 #include "protocols/frame.h"
 
 namespace navcal::config {
@@ -72,6 +73,11 @@ struct PortSettings {
   ImuCardSettings imu_card;
   GpsSettings gps;
   MountingSettings mounting;
+  // Of a device that a file describes (docs/devices.md).
+  std::string device;               ///< the file, as the configuration names it
+  std::string description;          ///< its text: the configuration that a log has holds it
+  std::vector<std::string> adjust;  ///< zeros and scales of this single device, as described::adjust() takes them
+  std::optional<protocols::described::Description> described;  ///< the text as it was read, adjusted
 
   bool operator==(const PortSettings&) const = default;
 };

@@ -41,7 +41,7 @@ void Daemon::append_device(std::string& out, std::uint16_t port) const {
   device.baud = settings.baud;
   device.cycle_s = settings.rate_Hz > 0 ? 1 / settings.rate_Hz : 0;
   // gpsd's clients ask which devices are receivers.
-  device.gps = config::can_deliver(settings.protocol, config::Role::position);
+  device.gps = config::can_deliver(settings, config::Role::position);
   if (session.open_port()) {
     device.tty = session.open_port()->path;
     device.activated_utc_ns = utc(session.opened_ns());

@@ -2,6 +2,7 @@
 // The instrument of each device, and its start-up dialogue.
 #include <type_traits>
 
+#include "instruments/described_device.h"
 #include "instruments/imu_card.h"
 #include "instruments/injected_samples.h"
 #include "instruments/instrument.h"
@@ -17,6 +18,7 @@
 #include "instruments/start_up.h"
 #include "instruments/start_up_keller.h"
 #include "instruments/start_up_mip.h"
+#include "instruments/start_up_described.h"
 #include "instruments/start_up_oncore.h"
 #include "instruments/start_up_paroscientific.h"
 #include "instruments/start_up_pni.h"
@@ -63,6 +65,11 @@ std::unique_ptr<StartUp> start(const PortSettings& settings) {
   }
 }
 
+std::unique_ptr<StartUp> start_described(const PortSettings& settings) {
+  const bool has_lines = settings.described && !settings.described->start_up.empty();
+  return has_lines ? std::make_unique<StartUpDescribed>(settings.described->start_up) : nullptr;
+}
+
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::tcm2, {make_tcm2, start<StartUpTcm2>}},
     {Protocol::imu_card, {make_imu_card}},
@@ -81,6 +88,7 @@ constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
     {Protocol::samples, {make_plain<InjectedSamples>}},
     {Protocol::paroscientific, {make_configured<ParoscientificGauge>, start<StartUpParoscientific>}},
     {Protocol::keller, {make_plain<KellerGauge>, start<StartUpKeller>}},
+    {Protocol::described, {make_configured<DescribedDevice>, start_described}},
 });
 
 }  // namespace

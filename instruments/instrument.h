@@ -29,9 +29,11 @@ struct Measurement {
   std::optional<std::int64_t> device_time_ns{};
   std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
+  /// One tick of the device's clock (not so for satellites in view). What comes after it from the same frame, and does
+  /// not pace, is of the same time.
+  bool paces = true;
   /// From the measurement to the first byte on the wire, where the device states it; else the port's latency holds.
   std::optional<std::int64_t> age_ns;
-  bool paces = true;                          ///< one tick of the device's clock (not so for satellites in view)
   std::optional<SenderTime> by_sender{};      ///< of an injected sample
 };
 

@@ -186,6 +186,23 @@ constexpr DeviceType device_row(Protocol protocol) {
       // It answers when it is asked: the host paces it.
       return {
           .name = "keller", .baud = 9600, .latency_s = 0.005, .latency_std_s = 0.005, .delivers = {.depth = true}};
+    case Protocol::described:
+      // What a file describes (protocols/described/): of a single device, its description says what it delivers.
+      return {.name = "described",
+              .baud = 9600,
+              .latency_std_s = 0.050,
+              .delivers = {.heading = true,
+                           .field = true,
+                           .rates = true,
+                           .acceleration = true,
+                           .depth = true,
+                           .position = true,
+                           .velocity = true,
+                           .shaft = true,
+                           .altitude = true,
+                           .bottom_velocity = true,
+                           .water_velocity = true},
+              .delivers_always = false};
   }
   return {};
 }

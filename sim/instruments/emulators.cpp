@@ -82,6 +82,7 @@ constexpr protocols::PerDevice<EmulatorMaker> kEmulatorMakers({
     {Protocol::samples, make_sample_sender},
     {Protocol::paroscientific, make_clocked<ParoscientificEmulator>},
     {Protocol::keller, make_clocked<KellerEmulator>},
+    {Protocol::described, nullptr},
 });
 
 }  // namespace

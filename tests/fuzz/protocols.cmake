@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+navcal_fuzz(fuzz_described SOURCES described.cpp USES navcal::protocols)
 navcal_fuzz(fuzz_gps_stream SOURCES gps_stream.cpp USES navcal::protocols)
 navcal_fuzz(fuzz_imu_card SOURCES imu_card.cpp USES navcal::protocols)
 navcal_fuzz(fuzz_keller SOURCES keller.cpp USES navcal::protocols)
