@@ -127,7 +127,7 @@ void play_into(ChannelCollector& collector, const std::string& file, const confi
     progress.show(recording->progress());
   }
   pipeline.advance(newest_ns, collector);
-  for (const auto& remark : recording->remarks()) remarks.push_back(fmt::format("{}: {}", file, remark));
+  remarks = recording->remarks();  // each names the file
 }
 
 std::vector<Interval> chosen_interval(const NoiseRequest& request, double duration_s) {

@@ -183,7 +183,11 @@ TEST_F(NoiseCommand, BadInputIsTold) {
 
 TEST_F(NoiseCommand, AFewSamplesAndNumbersThatAreNoneAreTakenAsTheyAre) {
   std::string capture = "#capture 1\n#port compass nmea 4800\n";
-  const auto add = [&](int second, const std::string& sentence) {
+  const auto add = [&](int second, const std::string& content) {
+    unsigned sum = 0;
+    for (const char c : content) sum ^= static_cast<unsigned char>(c);
+    constexpr const char* kUpper = "0123456789ABCDEF";
+    const std::string sentence = "$" + content + "*" + kUpper[sum / 16] + kUpper[sum % 16] + "\r\n";
     capture += "19000000" + std::to_string(10 + second) + ".000000000 compass < ";
     for (const char c : sentence) {
       constexpr const char* kDigits = "0123456789abcdef";
@@ -192,11 +196,11 @@ TEST_F(NoiseCommand, AFewSamplesAndNumbersThatAreNoneAreTakenAsTheyAre) {
     }
     capture += "\n";
   };
-  add(0, "$HCHDM,nan,M\r\n");
-  add(1, "$HCHDM,1e999,M\r\n");
-  add(2, "$HCHDM,12.5,M\r\n");
-  add(3, "$HCHDM,12.6,M\r\n");
-  add(4, "$HCHDM,12.5,M\r\n");
+  add(0, "HCHDM,nan,M");
+  add(1, "HCHDM,1e999,M");
+  add(2, "HCHDM,12.5,M");
+  add(3, "HCHDM,12.6,M");
+  add(4, "HCHDM,12.5,M");
   const auto json = answer({write("three.cap", capture)});
   EXPECT_TRUE(json["quiet"].empty());
   const auto chosen = answer({path("three.cap"), "--from", "0"});
