@@ -16,6 +16,8 @@ namespace {
 namespace vn = protocols::vectornav;
 using Verdict = Instrument::Verdict;
 
+constexpr double kVnNaN = std::numeric_limits<double>::quiet_NaN();
+
 vn::Reading whole_reading() {
   vn::Reading reading;
   reading.since_startup_ns = 5'000'000'000;
@@ -111,13 +113,12 @@ TEST_F(VectorNavSamples, AnswersAndPositionsAreNoMeasurements) {
 }
 
 TEST_F(VectorNavSamples, ValuesThatCannotBe) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const auto damaged = [](auto change) {
     vn::Reading reading = whole_reading();
     change(reading);
     return reading;
   };
-  take(damaged([](vn::Reading& r) { (*r.rate_rad_s)[1] = kNaN; }));
+  take(damaged([](vn::Reading& r) { (*r.rate_rad_s)[1] = kVnNaN; }));
   take(damaged([](vn::Reading& r) { (*r.rate_rad_s)[0] = 41; }));
   take(damaged([](vn::Reading& r) { (*r.acceleration_m_s2)[2] = -401; }));
   take(damaged([](vn::Reading& r) { (*r.field_uT)[0] = 1001; }));
@@ -125,7 +126,7 @@ TEST_F(VectorNavSamples, ValuesThatCannotBe) {
   take(damaged([](vn::Reading& r) { (*r.yaw_pitch_roll_deg)[1] = 91; }));
   take(damaged([](vn::Reading& r) { (*r.yaw_pitch_roll_deg)[2] = -181; }));
   take(damaged([](vn::Reading& r) { r.temperature_C = 131; }));
-  take(damaged([](vn::Reading& r) { r.pressure_Pa = kNaN; }));
+  take(damaged([](vn::Reading& r) { r.pressure_Pa = kVnNaN; }));
   take("VNGYR,1,2,99");
   EXPECT_EQ(collector.verdicts, std::vector<Verdict>(10, Verdict::out_of_range));
   EXPECT_TRUE(collector.measurements.empty());
