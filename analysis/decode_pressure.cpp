@@ -42,8 +42,8 @@ void describe_keller(FieldWriter& fields, const Frame& frame, const std::optiona
   } else if (const auto refusal = keller::decode_refusal(frame.bytes)) {
     fields.number("function", refusal->function);
     fields.number("error", refusal->error);
-  } else {
-    fields.number("channel", keller::requested_channel(frame.bytes));
+  } else if (const auto channel = keller::requested_channel(frame.bytes)) {
+    fields.number("channel", *channel);
   }
 }
 

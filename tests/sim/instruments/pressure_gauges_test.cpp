@@ -37,11 +37,11 @@ TEST(ParoscientificEmulator, AnswersAndSendsUntilTheNextCommand) {
   EXPECT_EQ(testing::text_of(testing::run_to(gauge, now_ns += 5 * kSecond_ns)), "") << "silent as delivered";
   EXPECT_EQ(testing::say(gauge, now_ns, "*0100UN\r\n"), "*0001UN=4\r\n");
   EXPECT_EQ(testing::say(gauge, now_ns, "*0200UN\r\n"), "") << "another gauge is meant";
-  EXPECT_EQ(testing::say(gauge, now_ns, "*0100P3\r\n", 1), "*0001201.84281\r\n");
+  EXPECT_EQ(testing::say(gauge, now_ns, "*0100P3\r\n", 1), "*0001201.87750\r\n");
   std::string three = testing::say(gauge, now_ns, "*0100P4\r\n", 2.1);
-  EXPECT_EQ(three, "*0001201.84281\r\n*0001201.84281\r\n*0001201.84281\r\n");
+  EXPECT_EQ(three, "*0001201.87750\r\n*0001201.87750\r\n*0001201.87750\r\n");
   EXPECT_EQ(testing::say(gauge, now_ns, "*0100VR\r\n", 3), "*0001VR=R5.10\r\n") << "any command ends the values";
-  EXPECT_EQ(testing::say(gauge, now_ns, "*0100P4\r\n", 0.7), "*0001201.84281\r\n");
+  EXPECT_EQ(testing::say(gauge, now_ns, "*0100P4\r\n", 0.7), "*0001201.87750\r\n");
   gauge.power_on(now_ns);
   EXPECT_EQ(testing::text_of(testing::run_to(gauge, now_ns += 5 * kSecond_ns)), "");
 }
@@ -64,7 +64,7 @@ TEST(KellerEmulator, AnswersAtItsAddressOnceItIsInitialised) {
   EXPECT_EQ(keller::decode_identity(ask(keller::initialise_request(7))).value().state, 1);
   const auto reading = keller::decode_reading(ask(keller::read_request(7, 1)));
   ASSERT_TRUE(reading);
-  EXPECT_NEAR(reading->value, 2.0184281, 1e-6);
+  EXPECT_NEAR(reading->value, 2.018775, 1e-6);
   EXPECT_EQ(ask(keller::read_request(7, 9)), keller::encode(keller::Refusal{7, 73, 2}));
   transmitter.power_on(now_ns);
   EXPECT_EQ(ask(keller::read_request(7, 1)), keller::encode(keller::Refusal{7, 73, 32}));
