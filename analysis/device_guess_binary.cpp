@@ -118,7 +118,7 @@ void try_length(Bytes capture, const std::string& sync, const Length& length, st
 void try_stated_lengths(Bytes capture, const std::string& sync, const Places& places,
                         std::vector<Framing>& framings) {
   constexpr std::uint16_t kLastPlace = 7;
-  constexpr double kLeastShare = 0.4;
+  constexpr double kLeastShareOfFrames = 0.4;
   for (std::uint16_t at = 2; at <= kLastPlace; ++at) {
     for (const auto& [type, order] :
          {std::pair(NumberType::u8, ByteOrder::little), std::pair(NumberType::u16, ByteOrder::little),
@@ -132,7 +132,7 @@ void try_stated_lengths(Bytes capture, const std::string& sync, const Places& pl
       }
       double share = 0;
       const std::int64_t add = most_frequent(differences, share);
-      if (share < kLeastShare || std::abs(add) > 64) continue;
+      if (share < kLeastShareOfFrames || std::abs(add) > 64) continue;
       try_length(capture, sync, {0, at, type, order, 1, static_cast<int>(add), kMaxFrameLength}, framings);
     }
   }

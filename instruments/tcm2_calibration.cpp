@@ -250,8 +250,8 @@ void Tcm2Calibration::on_unanswered(std::int64_t now_ns) {
 
 std::vector<CompassCalibration::Figure> Tcm2Calibration::figures() const {
   if (!score_) return {};
-  return {{"horizontal", double{score_->horizontal}},
-          {"vertical", double{score_->vertical}},
+  return {{"horizontal", static_cast<double>(score_->horizontal)},
+          {"vertical", static_cast<double>(score_->vertical)},
           {"magnitude", score_->magnitude}};
 }
 

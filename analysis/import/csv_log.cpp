@@ -50,7 +50,7 @@ void split_cells(std::string_view line, char delimiter, std::vector<std::string_
 std::optional<std::int64_t> scaled_ns(std::string_view text, int decimals) {
   const bool is_negative = text.starts_with('-');
   if (is_negative) text.remove_prefix(1);
-  constexpr std::int64_t kMost = INT64_MAX / 100;
+  constexpr std::int64_t kMostValue = INT64_MAX / 100;
   std::int64_t value = 0;
   bool has_digit = false, is_fraction = false;
   for (const char c : text) {
@@ -58,7 +58,7 @@ std::optional<std::int64_t> scaled_ns(std::string_view text, int decimals) {
       is_fraction = true;
       continue;
     }
-    if (c < '0' || c > '9' || value > kMost) return std::nullopt;
+    if (c < '0' || c > '9' || value > kMostValue) return std::nullopt;
     has_digit = true;
     if (is_fraction && decimals-- <= 0) {
       decimals = 0;
@@ -67,7 +67,7 @@ std::optional<std::int64_t> scaled_ns(std::string_view text, int decimals) {
     value = value * 10 + (c - '0');
   }
   for (; decimals > 0; --decimals) {
-    if (value > kMost) return std::nullopt;
+    if (value > kMostValue) return std::nullopt;
     value *= 10;
   }
   if (!has_digit) return std::nullopt;

@@ -157,8 +157,8 @@ Plan::Plan(const Table& table, const MessageType& type) : version_(table.version
 
 std::optional<std::int64_t> Plan::time_ns(std::string_view record) const {
   const auto time = integer_of(*time_, record);
-  constexpr std::int64_t kMost = INT64_MAX / 4;
-  if (!time || *time < 0 || *time > kMost / time_unit_ns_) return std::nullopt;
+  constexpr std::int64_t kMostTime = INT64_MAX / 4;
+  if (!time || *time < 0 || *time > kMostTime / time_unit_ns_) return std::nullopt;
   return *time * time_unit_ns_;
 }
 
