@@ -26,6 +26,8 @@ struct Scanner {
   [[nodiscard]] static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 
+using Parser = StreamParser<Scanner>;
+
 enum class Kind : std::uint8_t { number, text, boolean, null, list };
 
 struct Member {
