@@ -26,6 +26,8 @@ struct Scanner {
   [[nodiscard]] static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
 };
 
+using Parser = StreamParser<Scanner>;
+
 enum class Kind : std::uint8_t { number, text, boolean, null, list };
 
 struct Member {
@@ -97,6 +99,7 @@ class LineWriter {
   LineWriter& number(std::string_view key, double value);
   LineWriter& number(std::string_view key, const std::optional<double>& value);
   LineWriter& vector(std::string_view key, const std::array<double, 3>& values);
+  /// What is no UTF-8 becomes U+FFFD.
   LineWriter& text(std::string_view key, std::string_view value);
   LineWriter& boolean(std::string_view key, bool value);
   /// The whole line with its end. The writer is empty afterwards.

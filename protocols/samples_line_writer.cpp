@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -12,6 +13,27 @@ void append_shortest(std::string& text, double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   text.append(digits, static_cast<std::size_t>(end - digits));
+}
+
+/// Bytes of the UTF-8 sequence at the beginning of `text`; 0 when it is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+  }
+  // Not the shortest form, a surrogate, or beyond the last code point.
+  if (length < 3) return length;
+  const auto second = static_cast<unsigned char>(text[1]);
+  const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+  return is_wrong ? 0 : length;
 }
 
 /// `{` is escaped too: the bytes `{"` begin a line and nothing else.
@@ -80,7 +102,15 @@ LineWriter& LineWriter::vector(std::string_view key, const std::array<double, 3>
 LineWriter& LineWriter::text(std::string_view key, std::string_view value) {
   begin(key);
   line_ += '"';
-  for (const char c : value) append_escaped(line_, c);
+  while (!value.empty()) {
+    const std::size_t length = utf8_length(value);
+    if (length == 1) {
+      append_escaped(line_, value.front());
+    } else {
+      line_ += length == 0 ? std::string_view("\xEF\xBF\xBD") : value.substr(0, length);
+    }
+    value.remove_prefix(std::max<std::size_t>(length, 1));
+  }
   line_ += '"';
   return *this;
 }

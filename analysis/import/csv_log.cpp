@@ -50,7 +50,7 @@ void split_cells(std::string_view line, char delimiter, std::vector<std::string_
 std::optional<std::int64_t> scaled_ns(std::string_view text, int decimals) {
   const bool is_negative = text.starts_with('-');
   if (is_negative) text.remove_prefix(1);
-  constexpr std::int64_t kMostValue = INT64_MAX / 100;
+  constexpr std::int64_t kMostValue = INT64_MAX / 10 - 1;
   std::int64_t value = 0;
   bool has_digit = false, is_fraction = false;
   for (const char c : text) {

@@ -145,6 +145,12 @@ TEST(SamplesLine, WhatIsWrittenIsRead) {
   EXPECT_EQ(fields.text("unit"), "\u00b5mol/l");
   EXPECT_EQ(fields.number("value", kAny), 0.1);
   EXPECT_EQ(object->find("std"), nullptr);
+  EXPECT_NE(LineWriter("SENSOR")
+                .text("unit", "a\xFFz\xC2\xB5\xE0\x80\x80")
+                .finish()
+                .find("a\xEF\xBF\xBDz\xC2\xB5\xEF\xBF\xBD"),
+            std::string::npos)
+      << "what is no UTF-8 is replaced";
   test::Random random(5);
   for (int i = 0; i < 500; ++i) EXPECT_TRUE(Object::parse(bytes_of(test::random_samples_line(random))));
 }

@@ -16,7 +16,7 @@ ImportFindings read(const std::string& csv, const std::string& toml, RecordingSi
   return read_csv(csv, config::parse_csv_map(toml, "map.toml"), sink);
 }
 
-constexpr const char* kMap = R"(
+constexpr const char* kMap = R"map(
 [time]
 column = "t"
 format = "unix_s"
@@ -37,7 +37,7 @@ offset = -20
 meaning = "sensor"
 quantity = "oxygen"
 unit = "umol/l"
-)";
+)map";
 
 TEST(Csv, ColumnsBecomeSamplesByTheMap) {
   RecordingSink sink;

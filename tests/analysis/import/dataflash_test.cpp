@@ -10,6 +10,7 @@
 namespace navcal::analysis {
 namespace {
 
+using testing::append_all;
 using testing::append_number;
 using testing::expect_vector;
 using testing::RecordingSink;
@@ -104,7 +105,7 @@ std::string small_log() {
   log.head(11);
   append_number(log.out, std::uint64_t{1'000'100});
   log.out.push_back('\0');
-  for (const std::int16_t value : {200, -50, 430}) append_number(log.out, value);
+  append_all<std::int16_t>(log.out, {200, -50, 430});
   log.out.push_back('\1');
   log.head(12);
   append_number(log.out, std::uint64_t{1'250'000});
@@ -119,7 +120,7 @@ std::string small_log() {
   for (const float value : {1.5F, 90.0F, -0.5F}) append_number(log.out, value);
   log.head(13);
   append_number(log.out, std::uint64_t{1'300'000});
-  for (const std::int16_t value : {-150, 300, 18000}) append_number(log.out, value);
+  append_all<std::int16_t>(log.out, {-150, 300, 18000});
   log.head(14);
   append_number(log.out, std::uint64_t{1'400'000});
   log.out.push_back('\0');
@@ -127,7 +128,7 @@ std::string small_log() {
   append_number(log.out, 2.25F);
   log.head(15);
   append_number(log.out, std::uint64_t{1'500'000});
-  for (const std::uint16_t value : {1500, 0, 1900}) append_number(log.out, value);
+  append_all<std::uint16_t>(log.out, {1500, 0, 1900});
   for (const char instance : {'\0', '\1'}) {
     log.head(16);
     append_number(log.out, std::uint64_t{1'600'000});
@@ -191,7 +192,7 @@ TEST(DataFlash, OldLogsWithoutUnitsAndWithNumberedNames) {
   log.format(10, 3 + 8 + 6, "MAG2", "Qhhh", "TimeUS,MagX,MagY,MagZ");
   log.head(10);
   append_number(log.out, std::uint64_t{7});
-  for (const std::int16_t value : {100, 0, -100}) append_number(log.out, value);
+  append_all<std::int16_t>(log.out, {100, 0, -100});
   RecordingSink sink;
   (void)read_dataflash(log.out, sink);
   expect_vector(sink.of_port("compass2").at(0).line["field_body_uT"], 10, 0, -10);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -89,6 +90,11 @@ void append_number(std::string& out, T value) {
   char bytes[sizeof value];
   std::memcpy(bytes, &value, sizeof value);
   out.append(bytes, sizeof value);
+}
+
+template <class T>
+void append_all(std::string& out, std::initializer_list<T> values) {
+  for (const T value : values) append_number(out, value);
 }
 
 }  // namespace navcal::analysis::testing
