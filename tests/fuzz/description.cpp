@@ -12,8 +12,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace navcal;
   std::vector<config::Problem> problems;
-  const auto device =
-      config::read_description({reinterpret_cast<const char*>(data), size}, problems);
+  const auto device = config::read_description({reinterpret_cast<const char*>(data), size}, problems);
   if (!problems.empty()) return 0;
   protocols::described::Parser parser{protocols::described::Scanner(protocols::described::compile(device))};
   const auto read = [&](const protocols::Frame& frame) {
