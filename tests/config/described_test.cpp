@@ -234,13 +234,13 @@ class DescribedPort : public testing::Test {
   test::TemporaryFolder folder;
 };
 
-constexpr std::string_view kPort = "[port.d]\nprotocol = \"described\"\npath = \"/dev/ttyS0\"\n";
+constexpr std::string_view kDescribedPort = "[port.d]\nprotocol = \"described\"\npath = \"/dev/ttyS0\"\n";
 
 TEST_F(DescribedPort, TakesItsFileFromBesideTheConfigurationAndSpeedAndRateFromIt) {
   write("sounder.toml",
         "baud = 4800\nrate_Hz = 2\n" + text("field = [{ meaning = \"depth\", number = 1, unit = \"m\" }]\n"));
   write("navcald.toml",
-        std::string(kPort) + "device = \"sounder.toml\"\nrate_Hz = 3\nadjust = [\"depth: zero = 1\"]\n");
+        std::string(kDescribedPort) + "device = \"sounder.toml\"\nrate_Hz = 3\nadjust = [\"depth: zero = 1\"]\n");
   const Settings settings = load(folder.path() / "navcald.toml");
   const PortSettings& port = settings.ports.at(0);
   EXPECT_EQ(port.baud, 4800);
@@ -255,7 +255,7 @@ TEST_F(DescribedPort, TakesItsFileFromBesideTheConfigurationAndSpeedAndRateFromI
 
 TEST_F(DescribedPort, AMistakeIsNamedByItsOwnLine) {
   write("sounder.toml", text("field = [\n  { meaning = \"depth\", number = 1, unit = \"mile\" },\n]\n"));
-  write("navcald.toml", std::string(kPort) + "device = \"sounder.toml\"\n");
+  write("navcald.toml", std::string(kDescribedPort) + "device = \"sounder.toml\"\n");
   const std::string file = (folder.path() / "navcald.toml").native(),
                     device = (folder.path() / "sounder.toml").native();
   EXPECT_EQ(complaints(),
@@ -264,18 +264,19 @@ TEST_F(DescribedPort, AMistakeIsNamedByItsOwnLine) {
 }
 
 TEST_F(DescribedPort, AFileThatIsMissingOrNotNamed) {
-  write("navcald.toml", std::string(kPort) + "device = \"none.toml\"\n");
+  write("navcald.toml", std::string(kDescribedPort) + "device = \"none.toml\"\n");
   ASSERT_EQ(complaints().size(), 1U);
   EXPECT_NE(complaints()[0].find(":4: port.d.device: "), std::string::npos);
   EXPECT_NE(complaints()[0].find("none.toml: cannot be read"), std::string::npos);
-  write("navcald.toml", kPort);
+  write("navcald.toml", kDescribedPort);
   ASSERT_EQ(complaints().size(), 1U);
   EXPECT_NE(complaints()[0].find(":1: port.d.device: missing"), std::string::npos);
 }
 
 TEST_F(DescribedPort, ASettingsTextFromElsewhereReadsNoFile) {
   write("sounder.toml", text(""));
-  const std::string toml = std::string(kPort) + "device = \"" + (folder.path() / "sounder.toml").native() + "\"\n";
+  const std::string toml =
+      std::string(kDescribedPort) + "device = \"" + (folder.path() / "sounder.toml").native() + "\"\n";
   try {
     (void)parse(toml, "log");
     FAIL();
@@ -285,14 +286,15 @@ TEST_F(DescribedPort, ASettingsTextFromElsewhereReadsNoFile) {
 }
 
 TEST_F(DescribedPort, ALogWithoutADescriptionIsRead) {
-  const Settings settings = parse(kPort, "log");
+  const Settings settings = parse(kDescribedPort, "log");
   EXPECT_FALSE(settings.ports.at(0).described);
   EXPECT_EQ(parse(to_toml(settings), "again"), settings);
 }
 
 TEST_F(DescribedPort, ARoleThatTheDescriptionLacks) {
   write("sounder.toml", text("field = [{ meaning = \"depth\", number = 1, unit = \"m\" }]\n"));
-  write("navcald.toml", "[roles]\nheading = \"d\"\n" + std::string(kPort) + "device = \"sounder.toml\"\n");
+  write("navcald.toml",
+        "[roles]\nheading = \"d\"\n" + std::string(kDescribedPort) + "device = \"sounder.toml\"\n");
   ASSERT_EQ(complaints().size(), 1U);
   EXPECT_NE(
       complaints()[0].find("roles.heading: port d is of a described device, and sounder.toml has no heading"),
