@@ -47,7 +47,7 @@ class PortStream : private instruments::Receiver {
   std::unique_ptr<instruments::Instrument> instrument_;
   instruments::Mounting mounting_;
   instruments::FrameClock clock_;
-  /// Of the newest measurement that paced the clock; nullopt: its frame was a repeated one.
+  /// Tick of the newest measurement that paced the clock; nullopt: its frame was a repeated one.
   std::optional<instruments::TimeEstimate> tick_;
   GpsTimeWatch gps_time_;
   const StandardErrors& errors_;
