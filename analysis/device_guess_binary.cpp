@@ -16,7 +16,7 @@ using protocols::described::kMaxFrameLength;
 using protocols::described::Length;
 using NumberType = protocols::described::Type;
 
-constexpr std::size_t kCandidates = 48;
+constexpr std::size_t kCandidates = 128;
 constexpr std::size_t kLeastFrames = 4;
 constexpr std::size_t kShortestFrame = 4;
 

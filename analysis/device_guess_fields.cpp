@@ -87,7 +87,7 @@ class Columns {
       if (!(size <= kLargest)) return false;
       if (size >= kSmallest) ++ordinary;
     }
-    return ordinary * 2 > frames_.size();
+    return ordinary * 2 > frames_.size() && read(at, type, order).changes > 0;
   }
 
   /// Counts by one, whatever its size.
@@ -107,7 +107,8 @@ class Columns {
         if (fits(type) && is_float(at, type, order)) return read(at, type, order);
       }
     }
-    if (!fits(NumberType::u16) || (is_constant(at) && is_constant(at + 1))) return byte;
+    // A byte that never changes is a state or unused rather than the upper half of a number.
+    if (!fits(NumberType::u16) || is_constant(at)) return byte;
     Reading best = byte;
     best.roughness = kSmooth;
     for (const NumberType type : {NumberType::u16, NumberType::i16}) {

@@ -44,6 +44,8 @@ void Reader::take_description(PortSettings& port, const std::vector<const Entry*
     return;
   const Entry& at = description != nullptr ? *description : device != nullptr ? *device : *entries.front();
   if (device == nullptr && description == nullptr) {
+    // A log that was made of a capture has none: nothing is found in the port's bytes.
+    if (!folder_) return;
     problems_.push_back({at.line, at.name() + ".device", "missing; the file that describes the device"});
     return;
   }

@@ -73,7 +73,7 @@ struct PortSettings {
   ImuCardSettings imu_card;
   GpsSettings gps;
   MountingSettings mounting;
-  // Of a device that a file describes (docs/devices.md).
+  // A device that a file describes has these as well (docs/devices.md).
   std::string device;               ///< the file, as the configuration names it
   std::string description;          ///< its text: the configuration that a log has holds it
   std::vector<std::string> adjust;  ///< zeros and scales of this single device, as described::adjust() takes them

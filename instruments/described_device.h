@@ -35,7 +35,7 @@ class DescribedDevice : public Instrument {
     protocols::described::FrameReader reader;
     std::vector<Meaning> meanings;  ///< of the fields, in their order
     std::vector<double> values;     ///< of the newest frame, in the same order; NaN: absent
-    /// By meaning, likewise; those that the frame does not have are always NaN.
+    /// The same by meaning; those that the frame does not have are always NaN.
     std::array<double, protocols::described::kMeaningCount> by_meaning{};
     std::array<std::optional<double>, protocols::described::kMeaningCount> std_by_meaning;
     std::vector<Sensor> sensors;

@@ -218,7 +218,7 @@ protocols::described::FrameKind read_frame(const Node& node, Defaults defaults, 
   }
   frame.finish();
   for (const Node* field : fields) kind.fields.push_back(read_field(*field, defaults, problems));
-  // What is wrong in itself would seem to contradict the rest.
+  // A value that is wrong in itself would seem to contradict the rest.
   if (problems.size() == before) check_frame(kind, defaults.is_text, node, fields, problems);
   return kind;
 }

@@ -11,6 +11,8 @@ namespace navcal::protocols::described {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+/// Beyond it, scale and unit could lead out of what a double holds.
+constexpr double kLargestRaw = 1e200;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// -1 for S, W and -; 1 for N, E, + and nothing; 0 for anything else.
@@ -80,7 +82,7 @@ inline double FrameReader::raw_of(const FieldPlan& field, const std::uint8_t* fr
     }
     case Type::f64: {
       const double value = field.is_big ? get_be<double>(p) : get_le<double>(p);
-      return std::isfinite(value) ? value : kNoValue;
+      return std::abs(value) <= kLargestRaw ? value : kNoValue;
     }
     case Type::u8:
       if (field.mask != 0) return (*p >> field.shift) & field.mask;
@@ -122,7 +124,7 @@ bool FrameReader::for_each_text_value(Bytes frame, Use use) const {
     if (!text.empty()) {
       const auto raw = number_of(text, field.type);
       const double sign = field.sign_at > 0 ? sign_of(texts[field.sign_at]) : 1;
-      if (!raw || sign == 0) {
+      if (!raw || std::abs(*raw) > kLargestRaw || sign == 0) {
         all_are_numbers = false;
       } else {
         value = field.value(sign < 0 ? -*raw : *raw);

@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Described devices from bytes to samples: those of the shipped descriptions give what the built-in drivers give,
-// bit for bit; and what `navcal devices` finds in captures.
+// bit for bit.
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <fstream>
-#include <random>
 
-#include "analysis/device_check.h"
-#include "analysis/device_guess.h"
-#include "analysis/failure.h"
 #include "config/described/description_file.h"
-#include "config/load.h"
-#include "instruments/instrument.h"
 #include "instruments/start_up.h"
-#include "pipeline/pipeline.h"
 #include "protocols/checked_line.h"
 #include "protocols/described/encode.h"
 #include "protocols/imu_card.h"
-#include "protocols/pd0.h"
-#include "sim/instruments/emulators.h"
-#include "tests/sim/drive.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/analysis/described_port.h"
 
-namespace navcal::analysis {
+namespace navcal::analysis::described {
 namespace {
 
 using instruments::AltimeterSample;
@@ -31,53 +20,7 @@ using instruments::CompassSample;
 using instruments::DepthSample;
 using instruments::DvlSample;
 using instruments::ImuSample;
-using instruments::Sample;
 using instruments::ScalarSample;
-using protocols::described::Description;
-using sim::testing::kSecond_ns;
-using sim::testing::kStart_ns;
-using Octets = std::vector<std::uint8_t>;
-
-const std::filesystem::path kShipped = NAVCAL_SOURCE_DIR "/share/devices";
-
-config::PortSettings described_port(const std::filesystem::path& file) {
-  const test::TemporaryFolder folder;
-  std::ofstream(folder / "navcald.toml")
-      << "[port.device]\nprotocol = \"described\"\npath = \"/dev/ttyS0\"\ndevice = \"" << file.native() << "\"\n";
-  return config::load(folder / "navcald.toml").ports.at(0);
-}
-
-config::PortSettings described_port_of(std::string_view toml) {
-  const test::TemporaryFolder folder;
-  std::ofstream(folder / "device.toml") << toml;
-  return described_port(folder / "device.toml");
-}
-
-config::PortSettings built_in_port(protocols::Protocol protocol) {
-  return config::default_port("device", protocol, config::default_baud(protocol));
-}
-
-struct Read {
-  std::int64_t arrival_ns = 0;
-  Octets bytes;
-};
-
-/// What the pipeline makes of reads.
-struct Samples : pipeline::Sink {
-  explicit Samples(const config::PortSettings& port) : pipeline(settings_of(port)) {}
-  static config::Settings settings_of(const config::PortSettings& port) {
-    config::Settings settings;
-    settings.ports.push_back(port);
-    return settings;
-  }
-  void take(const std::vector<Read>& reads) {
-    for (const Read& read : reads) pipeline.bytes(0, read.arrival_ns, read.bytes, *this);
-  }
-  void on_sample(const Sample& sample) override { samples.push_back(sample); }
-
-  pipeline::Pipeline pipeline;
-  std::vector<Sample> samples;
-};
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 std::uint64_t bits(const std::optional<double>& value) { return value ? bits(*value) : 1; }
@@ -107,42 +50,6 @@ void expect_same(const ImuSample& a, const ImuSample& b) {
   EXPECT_EQ(bits(a.rate_std_rad_s), bits(b.rate_std_rad_s));
   EXPECT_EQ(bits(a.specific_force_std_m_s2), bits(b.specific_force_std_m_s2));
   EXPECT_EQ(bits(a.depth_std_m), bits(b.depth_std_m));
-}
-
-/// A vehicle that turns, pitches and dives, so that all channels move.
-struct Moving : sim::testing::Still {
-  [[nodiscard]] sim::State at(std::int64_t t_ns) const override {
-    sim::State now = state;
-    const double t_s = static_cast<double>(t_ns - kStart_ns) * 1e-9;
-    now.position_m[2] = 3 + 2 * std::sin(t_s / 7);
-    now.rate_rad_s = {0.3 * std::sin(t_s), 0.2 * std::cos(2 * t_s), 0.5 * std::sin(t_s / 3)};
-    return now;
-  }
-};
-
-/// A recording of the emulated inertial card, cut into reads that do not keep to its frames.
-std::vector<Read> card_recording(int seconds) {
-  const Moving motion;
-  const auto emulator = sim::make_emulator(protocols::Protocol::imu_card, {}, motion);
-  emulator->power_on(kStart_ns);
-  std::vector<Read> reads;
-  std::mt19937_64 random(3);  // NOLINT: the same reads in every run
-  std::int64_t now_ns = kStart_ns;
-  for (std::int64_t t_ns = kStart_ns; t_ns < kStart_ns + seconds * kSecond_ns; t_ns += kSecond_ns / 50) {
-    std::vector<sim::Emission> emissions;
-    emulator->advance(t_ns, emissions);
-    for (const sim::Emission& emission : emissions) {
-      now_ns = std::max(now_ns + 1, emission.start_ns + 5'000'000);
-      const std::size_t cut = random() % (emission.bytes.size() + 1);
-      reads.push_back(
-          {now_ns, Octets(emission.bytes.begin(), emission.bytes.begin() + static_cast<std::ptrdiff_t>(cut))});
-      reads.push_back({now_ns + 400'000,
-                       Octets(emission.bytes.begin() + static_cast<std::ptrdiff_t>(cut), emission.bytes.end())});
-      now_ns += 400'000;
-    }
-  }
-  std::erase_if(reads, [](const Read& read) { return read.bytes.empty(); });
-  return reads;
 }
 
 void expect_same_imu(const std::vector<Sample>& built_in, const std::vector<Sample>& described) {
@@ -348,188 +255,5 @@ TEST(DevicesPage, ItsExampleReadsAsThePageSays) {
   EXPECT_EQ(imu.temperature_C, 25);
 }
 
-/// All of a capture in one piece.
-DeviceFindings checked(const Description& description, const Octets& capture) {
-  bool given = false;
-  return check_device(description, [&] {
-    return std::exchange(given, true) ? TimedBytes{} : TimedBytes{capture, std::nullopt};
-  });
-}
-
-Octets bytes_of_reads(const std::vector<Read>& reads) {
-  Octets all;
-  for (const Read& read : reads) all.insert(all.end(), read.bytes.begin(), read.bytes.end());
-  return all;
-}
-
-TEST(DevicesCheck, CountsRangesAndPlacesOfWhatIsSkipped) {
-  const auto description = config::load_description(kShipped / "thesis-imu-card.toml");
-  Octets capture{1, 2, 3};
-  const Octets good = bytes_of_reads(card_recording(10));
-  capture.insert(capture.end(), good.begin(), good.end());
-  capture[3 + 5 * 22 + 9] ^= 4;
-  capture.insert(capture.end(), {0xA5, 0x5A, 0});
-  const DeviceFindings findings = checked(description, capture);
-  const auto frames = good.size() / 22;
-  EXPECT_EQ(findings.summary.counters.frames, frames - 1);
-  EXPECT_EQ(findings.summary.counters.bad_checksum, 1U);
-  EXPECT_EQ(findings.summary.incomplete_bytes, 3U);
-  ASSERT_EQ(findings.skipped.size(), 2U);
-  EXPECT_EQ(findings.skipped[0].offset, 0U);
-  EXPECT_EQ(findings.skipped[0].first_bytes, std::string("\1\2\3"));
-  EXPECT_EQ(findings.skipped[1].offset, 3U + 5 * 22);
-  EXPECT_EQ(findings.skipped[1].length, 22U);
-  const auto& depth = findings.kinds.at(0).fields.back();
-  EXPECT_EQ(depth.name, "depth");
-  EXPECT_EQ(depth.values, frames - 1);
-  EXPECT_GT(depth.high, depth.low);
-  EXPECT_EQ(findings.kinds[0].impossible, 0U);
-}
-
-TEST(DevicesCheck, WarnsOfAWrongUnitAndOfWhatNeverChanges) {
-  Description description = config::load_description(kShipped / "thesis-imu-card.toml");
-  for (auto& field : description.kinds[0].fields) {
-    if (field.name.starts_with("specific_force")) field.factor = 1;
-    if (field.name == "depth") field.at = 3;
-    if (field.name == "depth") field.type = protocols::described::Type::u8;
-  }
-  const auto findings = checked(description, bytes_of_reads(card_recording(10)));
-  const auto warned = [&](std::string_view words) {
-    return std::any_of(findings.warnings.begin(), findings.warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
-  };
-  EXPECT_TRUE(warned("gravity is 9.81"));
-  EXPECT_TRUE(warned("depth never changes"));
-  EXPECT_TRUE(config::load_description(kShipped / "thesis-imu-card.toml").kinds.size() == 1);
-  EXPECT_EQ(
-      checked(config::load_description(kShipped / "thesis-imu-card.toml"), bytes_of_reads(card_recording(10)))
-          .warnings,
-      std::vector<std::string>{});
-}
-
-TEST(DevicesCheck, AnEmptyAndAForeignCapture) {
-  const auto description = config::load_description(kShipped / "nmea-dpt.toml");
-  EXPECT_EQ(checked(description, {}).warnings.front(), "the capture is empty");
-  const auto findings = checked(description, bytes_of_reads(card_recording(5)));
-  EXPECT_EQ(findings.summary.counters.frames, 0U);
-  EXPECT_GE(findings.warnings.size(), 2U);
-}
-
-/// What the guessed description finds of its own capture.
-DeviceFindings guessed(const Octets& capture, Description& description) {
-  const std::string toml = guess_description(capture, std::nullopt);
-  description = config::parse_description(toml, "guess");
-  return checked(description, capture);
-}
-
-TEST(DevicesNew, FindsTheFramesAndTheChecksumOfTheInertialCard) {
-  const Octets capture = bytes_of_reads(card_recording(30));
-  Description description;
-  const auto findings = guessed(capture, description);
-  EXPECT_EQ(findings.summary.counters.framed_bytes, capture.size());
-  const auto& kind = description.kinds.at(0);
-  EXPECT_EQ(kind.start, "\xA5\x5A");
-  EXPECT_EQ(kind.length.fixed, 22U);
-  EXPECT_EQ(kind.checksum.sum, protocols::described::Sum::crc16_ccitt);
-  EXPECT_EQ(kind.checksum.from, 2);
-  EXPECT_EQ(kind.fields.at(0).type, protocols::described::Type::u8);  // the sequence counts
-}
-
-TEST(DevicesNew, FindsEachChecksumByItsName) {
-  for (std::size_t i = 1; i < protocols::described::kSumCount; ++i) {
-    const auto sum = static_cast<protocols::described::Sum>(i);
-    Description device = config::load_description(kShipped / "thesis-imu-card.toml");
-    auto& kind = device.kinds[0];
-    const int size = static_cast<int>(size_of(sum));
-    kind.checksum = {sum, 2, -size, -size, protocols::described::ByteOrder::big, '*'};
-    kind.length.fixed = 20 + size_of(sum);
-    std::mt19937_64 random(i);  // NOLINT: the same in every run
-    Octets capture;
-    for (int frame = 0; frame < 60; ++frame) {
-      std::vector<double> values;
-      for (const auto& field : kind.fields)
-        values.push_back(field.bits > 0 ? 0
-                         : field.name == "sequence"
-                             ? frame
-                             : (32768 + static_cast<double>(random() % 900)) / 16 / field.sensitivity -
-                                   field.zero / field.sensitivity);
-      const auto bytes = encode(device, kind, values);
-      capture.insert(capture.end(), bytes.begin(), bytes.end());
-    }
-    Description description;
-    const auto findings = guessed(capture, description);
-    EXPECT_EQ(findings.summary.counters.framed_bytes, capture.size()) << name_of(sum);
-    EXPECT_EQ(name_of(description.kinds.at(0).checksum.sum), name_of(sum));
-  }
-}
-
-TEST(DevicesNew, FindsALengthThatTheFramesState) {
-  Description device;
-  protocols::described::FrameKind kind;
-  kind.id = protocols::FrameId("V");
-  kind.start = "\xC3\x3C";
-  kind.length = {0, 3, protocols::described::Type::u8, protocols::described::ByteOrder::little, 1, 6, 300};
-  kind.checksum = {protocols::described::Sum::crc16_xmodem, 2,  -2, -2,
-                   protocols::described::ByteOrder::little, '*'};
-  device.kinds = {kind};
-  std::mt19937_64 random(1);  // NOLINT: the same in every run
-  Octets capture;
-  for (int i = 0; i < 200; ++i) {
-    auto longer = kind;
-    protocols::described::Field field;
-    field.at = static_cast<std::uint16_t>(4 + random() % 20);
-    longer.fields = {field};
-    const auto bytes = encode(device, longer, std::vector<double>{static_cast<double>(random() % 256)});
-    capture.insert(capture.end(), bytes.begin(), bytes.end());
-  }
-  Description description;
-  const auto findings = guessed(capture, description);
-  EXPECT_EQ(findings.summary.counters.framed_bytes, capture.size());
-  EXPECT_EQ(description.kinds.at(0).length.at, 3);
-  EXPECT_EQ(description.kinds[0].length.add, 6);
-  EXPECT_EQ(description.kinds[0].checksum.sum, protocols::described::Sum::crc16_xmodem);
-}
-
-TEST(DevicesNew, FindsLinesOfSeveralKindsAndKeys) {
-  std::string text = "cut,off\r\n";
-  for (int i = 0; i < 20; ++i) {
-    const auto line = protocols::checked_line("IIDPT," + std::to_string(i) + ".5,0.3");
-    text.append(line.begin(), line.end());
-    text += "IMU," + std::to_string(i) + ",1.5,-2\r\n" + std::to_string(i) + ",2,3\r\n";
-  }
-  Description description;
-  const auto findings = guessed(Octets(text.begin(), text.end()), description);
-  ASSERT_EQ(findings.kinds.size(), 3U);
-  for (const auto& kind : findings.kinds) EXPECT_EQ(kind.frames, 20U) << kind.id.view();
-  EXPECT_EQ(findings.summary.counters.skipped_bytes, 9U);
-
-  text.clear();
-  for (int i = 0; i < 20; ++i) text += "T=" + std::to_string(10 + i) + " C=3.5 P=1" + std::to_string(i) + "\n";
-  const auto keyed = guessed(Octets(text.begin(), text.end()), description);
-  EXPECT_EQ(keyed.summary.counters.frames, 20U);
-  ASSERT_EQ(description.kinds.at(0).fields.size(), 3U);
-  EXPECT_EQ(description.kinds[0].fields[2].key, "P");
-}
-
-TEST(DevicesNew, SaysSoWhenNothingComesBack) {
-  std::mt19937_64 random(1);  // NOLINT: the same in every run
-  Octets noise(20000);
-  for (auto& byte : noise) byte = static_cast<std::uint8_t>(random());
-  EXPECT_THROW((void)guess_description(noise, std::nullopt), Failure);
-  EXPECT_THROW((void)guess_description({}, std::nullopt), Failure);
-  EXPECT_THROW((void)guess_description(protocols::Bytes(noise).first(1), std::nullopt), Failure);
-}
-
-TEST(DevicesNew, AnyCutOfACaptureGivesAFileThatIsReadOrAWord) {
-  const Octets capture = bytes_of_reads(card_recording(6));
-  for (std::size_t length = 1; length < capture.size(); length += 37) {
-    try {
-      (void)config::parse_description(guess_description(protocols::Bytes(capture).first(length), 1.0), "guess");
-    } catch (const Failure& failure) {
-      EXPECT_NE(std::string(failure.what()), "");
-    }
-  }
-}
-
 }  // namespace
-}  // namespace navcal::analysis
+}  // namespace navcal::analysis::described

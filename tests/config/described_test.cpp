@@ -285,6 +285,12 @@ TEST_F(DescribedPort, ASettingsTextFromElsewhereReadsNoFile) {
   }
 }
 
+TEST_F(DescribedPort, ALogWithoutADescriptionIsRead) {
+  const Settings settings = parse(kDescribedPort, "log");
+  EXPECT_FALSE(settings.ports.at(0).described);
+  EXPECT_EQ(parse(to_toml(settings), "again"), settings);
+}
+
 TEST_F(DescribedPort, ARoleThatTheDescriptionLacks) {
   write("sounder.toml", text("field = [{ meaning = \"depth\", number = 1, unit = \"m\" }]\n"));
   write("navcald.toml",

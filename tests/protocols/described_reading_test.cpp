@@ -119,6 +119,18 @@ TEST(DescribedReading, NumbersThatAreNoneAreAbsent) {
   EXPECT_TRUE(possible);
 }
 
+TEST(DescribedReading, NoValueLeavesWhatADoubleHolds) {
+  FrameKind kind = bare_lines().kinds[0];
+  kind.fields[0].scale = 1e15;
+  bool possible = true;
+  (void)sample_values(kind, true, bytes_of("1e300,1,1\n"), possible);
+  EXPECT_FALSE(possible);
+  Description device = two_kinds();
+  device.kinds[1].fields[1].scale = 1e-15;
+  const Buffer frame = encode(device, device.kinds[1], std::vector<double>{0, 1e280});
+  EXPECT_TRUE(std::isnan(plain_values(device, frame, 1)[1]));
+}
+
 TEST(DescribedReading, AFieldBeyondAShorterFrameIsAbsent) {
   Description device = two_kinds();
   FrameKind shorter = device.kinds[1];
