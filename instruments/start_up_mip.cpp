@@ -116,7 +116,7 @@ void StartUpMip::go_on(std::int64_t now_ns) {
   if (!has_filter_ && (next == Step::filter_format || next == Step::filter_stream)) {
     next = static_cast<Step>(static_cast<std::uint8_t>(next) + 1);
   }
-  enter(next, now_ns);
+  enter(next, next == Step::awaiting_data ? now_ns + kMipStopped_ns : now_ns);
 }
 
 void StartUpMip::on_refused(std::uint8_t error, std::int64_t now_ns) {

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "instruments/frame_clock.h"
 #include "tests/instruments/collector.h"
+#include "tests/protocols/shared_capture.h"
 
 namespace navcal::instruments {
 namespace {
@@ -146,6 +149,56 @@ TEST(MipSensor, WhatCannotBeIsOutOfRange) {
   EXPECT_TRUE(reading.collector.measurements.empty());
   reading.feed(0x80, {{0x17, wire({1013.25F})}});
   EXPECT_EQ(reading.collector.verdicts.back(), Instrument::Verdict::ignored) << "the air's pressure is no depth";
+}
+
+Bytes mip_capture() { return protocols::test::shared_capture("mip/mip_data_first.bin"); }
+
+TEST(MipSensor, CaptureByOthersGivesPlausibleSamples) {
+  const Bytes stream = mip_capture();
+  if (stream.empty()) GTEST_SKIP() << "no capture of a MicroStrain sensor here";
+  MipReading reading;
+  FrameClock clock(125, 0.001);
+  reading.collector.feed<mip::Parser>(stream);
+  EXPECT_EQ(reading.collector.verdicts.size(), 4543U);
+  EXPECT_EQ(std::count(reading.collector.verdicts.begin(), reading.collector.verdicts.end(),
+                       Instrument::Verdict::out_of_range),
+            0);
+  const auto imus = reading.collector.all<ImuSample>();
+  EXPECT_EQ(imus.size(), 1943U + 485U);
+  // At the beginning the sensor lies still and nearly level: the force opposes gravity.
+  EXPECT_NEAR((*imus[0].specific_force_m_s2)[2], -9.67, 0.05);
+  EXPECT_EQ(reading.collector.all<CompassSample>().size(), 972U + 485U + 485U + 387U);
+  int true_headings = 0;
+  for (const auto& measurement : reading.collector.measurements) {
+    if (const auto* compass = std::get_if<CompassSample>(&measurement.value))
+      true_headings += compass->heading_is_true ? 1 : 0;
+    if (!measurement.device_time_ns) continue;
+    // Arrivals 3 ms after the device's own times: its clock and ours agree.
+    const auto outcome = clock.update(
+        {*measurement.device_time_ns + 3'000'000, {}, false, measurement.device_time_ns, measurement.paces});
+    EXPECT_LE(outcome.time.time_ns, *measurement.device_time_ns + 3'000'000);
+  }
+  EXPECT_EQ(true_headings, 387);
+}
+
+TEST(MipSensor, TheCaptureCutAndDamagedAnywhereDoesNoHarm) {
+  const Bytes stream = mip_capture();
+  if (stream.empty()) GTEST_SKIP() << "no capture of a MicroStrain sensor here";
+  const Bytes part(stream.begin(), stream.begin() + 600);
+  MipReading whole;
+  whole.collector.feed<mip::Parser>(part);
+  for (std::size_t cut = 0; cut < part.size(); ++cut) {
+    MipReading reading;
+    reading.collector.feed<mip::Parser>(protocols::Bytes(part).first(cut));
+    EXPECT_LE(reading.collector.measurements.size(), whole.collector.measurements.size());
+    for (int bit = 0; bit < 8; ++bit) {
+      Bytes damaged = part;
+      damaged[cut] = static_cast<std::uint8_t>(damaged[cut] ^ 1U << bit);
+      MipReading other;
+      other.collector.feed<mip::Parser>(damaged);
+      EXPECT_LE(other.collector.measurements.size(), whole.collector.measurements.size());
+    }
+  }
 }
 
 }  // namespace
