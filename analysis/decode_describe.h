@@ -20,11 +20,16 @@ void describe_imu_card(FieldWriter&, const protocols::Frame&, const std::optiona
 void describe_motor_card(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_oncore(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_nmea(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_samples(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_pd0(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_pd6(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_water_linked(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_paroscientific(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_keller(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_mip(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_pni(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_ubx(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
+void describe_vectornav(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 
 /// The keys that every message with a position has, whatever its protocol.
 struct PositionFields {

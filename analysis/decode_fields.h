@@ -59,6 +59,11 @@ class FieldWriter {
   void letter(std::string_view key, char value);
   void letter(std::string_view key, std::optional<char> value) { letter(key, value.value_or('\0')); }
   void null(std::string_view key);
+  /// A number, true, false or null, as it was sent.
+  void written(std::string_view key, std::string_view json) {
+    begin_field(key);
+    output_.append(json);
+  }
 
   /// ISO 8601, UTC, as many decimals as it takes in steps of three.
   void time(std::string_view key, const protocols::Date& date, const protocols::TimeOfDay& time);

@@ -18,16 +18,17 @@ constexpr protocols::PerDevice<Describe> kDescriptions({
     {Protocol::oncore, describe_oncore},
     {Protocol::motor_card, describe_motor_card},
     {Protocol::nmea, describe_nmea},
-    {Protocol::ubx, nullptr},
-    {Protocol::mip, nullptr},
-    {Protocol::vectornav, nullptr},
-    {Protocol::pni, nullptr},
+    {Protocol::ubx, describe_ubx},
+    {Protocol::mip, describe_mip},
+    {Protocol::vectornav, describe_vectornav},
+    {Protocol::pni, describe_pni},
     {Protocol::pd0, describe_pd0},
     {Protocol::pd6, describe_pd6},
     {Protocol::water_linked, describe_water_linked},
-    {Protocol::samples, nullptr},
+    {Protocol::samples, describe_samples},
     {Protocol::paroscientific, describe_paroscientific},
     {Protocol::keller, describe_keller},
+    {Protocol::described, nullptr},  // by a description of its own: decode_described.h
 });
 
 using NextBytes = std::function<protocols::Bytes()>;

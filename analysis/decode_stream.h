@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
+
 #include "analysis/decode_summary.h"
 #include "protocols/stream_parser.h"
 
@@ -9,9 +11,9 @@ namespace navcal::analysis {
 /// Runs the frames of a whole stream through `sink(const Frame&)`. `next()` gives the bytes, piece by piece, an
 /// empty piece at the end.
 template <protocols::Scanner S, class Next, class Sink>
-DecodeSummary decode_stream(Next&& next, Sink&& sink) {
+DecodeSummary decode_stream(Next&& next, Sink&& sink, S scanner = {}) {
   DecodeSummary summary;
-  protocols::StreamParser<S> parser;
+  protocols::StreamParser<S> parser(std::move(scanner));
   protocols::FrameId recent;
   std::uint64_t* count = nullptr;  // of `recent`: frames of one kind often follow each other
   const auto counting = [&](const protocols::Frame& frame) {

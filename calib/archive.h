@@ -3,11 +3,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace navcal::calib {
@@ -17,13 +19,17 @@ namespace navcal::calib {
 /// as the saved one would have. A change of a layout changes the tag() of its class.
 class Archive {
  public:
-  Archive() = default;                                                          ///< saves
+  Archive() = default;  ///< saves
+  /// Saves about this many bytes: a buffer that has to grow is in memory twice for a moment.
+  explicit Archive(std::size_t expected_bytes) { saved_.reserve(expected_bytes); }
   explicit Archive(std::string_view bytes) : saving_(false), source_(bytes) {}  ///< restores
 
   [[nodiscard]] bool saving() const { return saving_; }
   /// False after a restore from bytes that are too short, or of another layout.
   [[nodiscard]] bool ok() const { return ok_; }
   [[nodiscard]] const std::string& bytes() const { return saved_; }
+  /// The same, at the end of a saving.
+  [[nodiscard]] std::string take() && { return std::move(saved_); }
   /// True when a restore has read all of its input.
   [[nodiscard]] bool at_end() const { return source_.empty(); }
 

@@ -12,11 +12,13 @@ namespace navcal::cli {
 void add_calibrate(CLI::App& app);
 void add_completion(CLI::App& app);
 void add_decode(CLI::App& app);
+void add_devices(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_emulate(CLI::App& app);
 void add_field(CLI::App& app);
 void add_gap(CLI::App& app);
 void add_log(CLI::App& app);
+void add_noise(CLI::App& app);
 void add_pilot(CLI::App& app);
 void add_play(CLI::App& app);
 void add_ports(CLI::App& app);

@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "analysis/decode_described.h"
 #include "analysis/decode_frames.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
 #include "cli/decode_input.h"
 #include "cli/decode_port.h"
+#include "config/described/description_file.h"
 #include "protocols/device_types.h"
 
 namespace navcal::cli {
@@ -22,6 +24,7 @@ using protocols::Protocol;
 
 struct DecodeArguments {
   std::string protocol;
+  std::string device;
   std::string port;
   std::string file;
   std::string pivot;
@@ -54,6 +57,35 @@ analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& piv
       });
 }
 
+analysis::DecodeSummary decode_described(const protocols::described::Description& description, DecodeSource& input,
+                                         analysis::FieldWriter& fields) {
+  analysis::DescribedDecoder decoder(description);
+  analysis::Progress progress("decode");
+  return decoder.decode(
+      [&] {
+        const protocols::Bytes bytes = input.next();
+        input.show(progress);
+        return bytes;
+      },
+      [&](const protocols::Frame& frame) {
+        fields.begin_frame(name_of(Protocol::described), frame);
+        decoder.describe(fields, frame);
+        fields.end_frame();
+      });
+}
+
+/// The description that applies: the file's, else that of the recording's port; nullopt: the device has a driver.
+std::optional<protocols::described::Description> description_for(const DecodeArguments& arguments,
+                                                                 const PortBytes* port) {
+  if (arguments.device.empty())
+    return port != nullptr && arguments.protocol.empty() ? port->settings().described : std::nullopt;
+  try {
+    return config::load_description(arguments.device);
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  }
+}
+
 void run(const DecodeArguments& arguments) {
   // A reader that goes away (head, less) is told as a failure of the write and not by a signal.
   std::signal(SIGPIPE, SIG_IGN);
@@ -65,12 +97,18 @@ void run(const DecodeArguments& arguments) {
     file = std::make_unique<Input>(arguments.file);
   }
   DecodeSource& input = port ? static_cast<DecodeSource&>(*port) : *file;
-  const Protocol protocol =
-      arguments.protocol.empty() ? port->protocol() : *protocols::protocol_named(arguments.protocol);
+  const auto description = description_for(arguments, port.get());
+  const Protocol protocol = description                  ? Protocol::described
+                            : arguments.protocol.empty() ? port->protocol()
+                                                         : *protocols::protocol_named(arguments.protocol);
+  if (protocol == Protocol::described && !description)
+    throw analysis::Failure(analysis::Exit::usage, "a described device is decoded with --device FILE.toml");
   analysis::Output output(STDOUT_FILENO, "standard output");
   analysis::FieldWriter fields(
       output, arguments.json ? analysis::FieldWriter::Format::json : analysis::FieldWriter::Format::text);
-  const analysis::DecodeSummary summary = decode(protocol, pivot_of(arguments, protocol), input, fields);
+  const analysis::DecodeSummary summary = description
+                                              ? decode_described(*description, input, fields)
+                                              : decode(protocol, pivot_of(arguments, protocol), input, fields);
   if (arguments.json) {
     analysis::write_json(output, summary);
   } else {
@@ -96,6 +134,11 @@ void add_decode(CLI::App& app) {
                    "Protocol of the device; with --port the default is the one in the recording")
       ->check(CLI::IsMember(names));
   command
+      ->add_option("--device", arguments->device,
+                   "File that describes the device; with --port the default is the description in the log")
+      ->type_name("FILE.toml")
+      ->excludes("--protocol");
+  command
       ->add_option("--port", arguments->port, "FILE is a capture or log; decode the bytes that this port received")
       ->type_name("NAME");
   command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
@@ -115,9 +158,11 @@ void add_decode(CLI::App& app) {
       "Examples:\n"
       "  navcal decode --protocol oncore gps.bin\n"
       "  navcal decode --port compass --json dive.cap\n"
+      "  navcal decode --device imu.toml imu.bin\n"
       "  navcal decode --protocol nmea --json - < /dev/ttyUSB0 | jq .heading_deg");
   command->callback([arguments] {
-    if (arguments->protocol.empty() && arguments->port.empty()) throw CLI::RequiredError("--protocol or --port");
+    if (arguments->protocol.empty() && arguments->port.empty() && arguments->device.empty())
+      throw CLI::RequiredError("--protocol, --device or --port");
     run(*arguments);
   });
 }

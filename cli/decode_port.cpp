@@ -31,6 +31,7 @@ protocols::Bytes PortBytes::next() {
       auto* const read = std::get_if<record::RawRead>(&*entry);
       if (read == nullptr || read->port != port_ || read->direction != record::Direction::received) continue;
       bytes_ = std::move(read->bytes);
+      arrival_ns_ = read->time_ns;
       if (!bytes_.empty()) return bytes_;
     }
   } catch (const record::BadRecording& error) {

@@ -17,6 +17,10 @@ class PortBytes final : public DecodeSource {
 
   /// Protocol of the port, from the recording's port line or configuration.
   [[nodiscard]] protocols::Protocol protocol() const;
+  /// Its settings, likewise.
+  [[nodiscard]] const config::PortSettings& settings() const { return recording_->settings().ports[port_]; }
+  /// When the bytes of the newest next() arrived; nullopt before the first.
+  [[nodiscard]] std::optional<std::int64_t> arrival_ns() const { return arrival_ns_; }
   protocols::Bytes next() override;
   void show(analysis::Progress& progress) const override { progress.show(recording_->progress()); }
   /// Remarks for the user once the end is reached: "last line cut short".
@@ -26,6 +30,7 @@ class PortBytes final : public DecodeSource {
   std::unique_ptr<record::Recording> recording_;
   std::uint16_t port_ = 0;
   std::vector<std::uint8_t> bytes_;
+  std::optional<std::int64_t> arrival_ns_;
 };
 
 }  // namespace navcal::cli

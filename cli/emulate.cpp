@@ -144,7 +144,9 @@ std::string mission_names() {
 
 std::string protocol_names() {
   std::vector<std::string_view> names;
-  for (const auto& device : protocols::kDeviceTypes) names.push_back(device.name);
+  for (const auto& device : protocols::kDeviceTypes) {
+    if (device.protocol != protocols::Protocol::described) names.push_back(device.name);
+  }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -8,11 +8,10 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/log_import.h"
-#include "analysis/progress.h"
-#include "base/interruptible.h"
 #include "cli/commands.h"
 #include "cli/log_control.h"
+#include "cli/log_import.h"
+#include "cli/log_run.h"
 #include "cli/log_surfacings.h"
 #include "cli/result_file.h"
 #include "record/export/export.h"
@@ -23,36 +22,15 @@
 namespace navcal::cli {
 namespace {
 
-/// Runs a job with progress; turns what it throws into the statuses of the contract.
-template <class Job>
-auto run(Job job) {
-  const base::Interruptible interruptible;
-  analysis::Progress progress("log");
-  try {
-    return job(record::Progress([&progress](double done) {
-      if (base::Interruptible::interrupted())
-        throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
-      progress.show(done);
-    }));
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
-}
-
-void tell(const std::vector<std::string>& remarks) {
-  for (const auto& remark : remarks) fmt::print(stderr, "navcal log: {}\n", remark);
-}
-
 void show_info(const std::string& file, bool json) {
-  const auto info = run([&](const record::Progress& progress) { return record::read_info(file, progress); });
-  if (!json) tell(info.remarks);
+  const auto info =
+      run_log_job([&](const record::Progress& progress) { return record::read_info(file, progress); });
+  if (!json) tell_remarks(info.remarks);
   std::fputs((json ? to_json(info) : to_text(info)).c_str(), stdout);
 }
 
 void finish(const std::string& file) {
-  const bool log = run([&](const record::Progress&) { return record::is_log(file); });
+  const bool log = run_log_job([&](const record::Progress&) { return record::is_log(file); });
   if (!log) throw analysis::Failure(analysis::Exit::bad_input, file + ": byte 0: not an MCAP file");
   const record::Repair repair = record::finish_log(record::real_disk(), file);
   if (!repair.reason.empty()) throw analysis::Failure(analysis::Exit::bad_input, repair.message());
@@ -63,19 +41,14 @@ void finish(const std::string& file) {
 using Exporter = record::Exported (*)(const std::filesystem::path&, const std::filesystem::path&,
                                       const record::Progress&);
 
-void import_log(const std::string& file, const std::string& to) {
-  expect_no_overwriting({file}, {to});
-  expect_not_ending(to, ".cap", "a log (.mcap)", "navcal log export --cap makes a capture of a log");
-  tell(run([&](const record::Progress& progress) { return analysis::import_capture(file, to, progress); }));
-}
-
 void export_log(const std::string& file, Exporter exporter, const std::string& to) {
   expect_no_overwriting({file}, {to});
   if (exporter == record::export_capture) {
     expect_not_ending(to, ".mcap", "a capture (.cap)", "navcal log import makes a log of a capture");
   }
-  const auto exported = run([&](const record::Progress& progress) { return exporter(file, to, progress); });
-  tell(exported.remarks);
+  const auto exported =
+      run_log_job([&](const record::Progress& progress) { return exporter(file, to, progress); });
+  tell_remarks(exported.remarks);
   for (const auto& path : exported.files) fmt::print("{}\n", path.string());
 }
 
@@ -105,11 +78,7 @@ void add_log(CLI::App& app) {
   end->footer("Example: navcal log finish dive.mcap");
   end->callback([options] { finish(options->file); });
 
-  auto* const in = log->add_subcommand("import", "a log of a capture's bytes, as navcald would have written it");
-  in->add_option("FILE", options->file, "capture (.cap)")->required();
-  in->add_option("-o,--output", options->to, "the log")->option_text("FILE.mcap")->required();
-  in->footer("Example: navcal log import -o survey.mcap survey.cap");
-  in->callback([options] { import_log(options->file, options->to); });
+  add_log_import(*log);
 
   auto* const out = log->add_subcommand("export", "export topics as tables, or the raw bytes as a capture");
   out->add_option("FILE", options->file, "log (.mcap); with --cap also a capture")->required();

@@ -4,15 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/failure.h"
-#include "base/interruptible.h"
 #include "record/json/base64.h"
 #include "record/log/checksum.h"
 
 namespace navcal::cli {
 namespace {
 
-/// A disk that has to be woken takes some seconds.
-constexpr std::chrono::seconds kLogAnswerLimit{30};
 /// The answer is a line of a third more.
 constexpr std::uint64_t kLogPart_bytes = 49152;
 
@@ -23,17 +20,6 @@ std::string text_or_nothing(const nlohmann::json& value) {
 }
 
 }  // namespace
-
-nlohmann::json LogLink::ask(const nlohmann::json& request) {
-  socket_.send(request.dump() + "\n");
-  const auto until = LineSocket::Clock::now() + kLogAnswerLimit;
-  const auto line = socket_.next(until);
-  if (!line) fail_log(base::Interruptible::interrupted() ? "interrupted" : "navcald does not answer");
-  auto answer = nlohmann::json::parse(*line, nullptr, false);
-  if (!answer.is_object()) fail_log("that is no navcald: its answer is no JSON object");
-  if (answer.value("ok", false)) return answer;
-  fail_log("navcald: " + answer.value("error", std::string("refused")));
-}
 
 std::vector<RemoteLog> LogLink::list() {
   std::vector<RemoteLog> logs;

@@ -3,11 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "cli/line_socket.h"
+#include "cli/control_link.h"
 
 namespace navcal::cli {
 
@@ -21,20 +20,15 @@ struct RemoteLog {
 
 /// The log commands of navcald's control socket. Every function throws analysis::Failure with the daemon's words
 /// when it refuses, and std::runtime_error when there is no daemon.
-class LogLink {
+class LogLink : public ControlLink {
  public:
-  explicit LogLink(const std::filesystem::path& control) : socket_(LineSocket::unix_domain(control)) {}
+  using ControlLink::ControlLink;
 
-  /// The daemon's answer to a request that it has granted.
-  nlohmann::json ask(const nlohmann::json& request);
   [[nodiscard]] std::vector<RemoteLog> list();
   /// Bytes from `offset` on, as many as one answer holds; their checksum is right. Empty at the end of the log.
   [[nodiscard]] std::string read(const std::string& name, std::uint64_t offset);
   /// CRC-32 of `length` bytes from `offset` on.
   [[nodiscard]] std::uint32_t sum(const std::string& name, std::uint64_t offset, std::uint64_t length);
-
- private:
-  LineSocket socket_;
 };
 
 }  // namespace navcal::cli

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/ports_command.h"
 #include "ports/port_list.h"
 
 namespace navcal::cli {
@@ -63,7 +64,10 @@ void add_ports(CLI::App& app) {
       "A port can be configured by its path or, better, by the serial number of its USB adapter (usb_serial), "
       "which\n"
       "is the same at any USB socket.\n\nExample: navcal ports");
-  command->callback([json] { run(*json); });
+  add_ports_command(command);
+  command->callback([command, json] {
+    if (command->get_subcommands().empty()) run(*json);
+  });
 }
 
 }  // namespace navcal::cli

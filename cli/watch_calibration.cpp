@@ -101,6 +101,7 @@ void WatchCalibration::take(const Json& calib) {
   name_ = text(calib, "name");
   heading_ = calib.value("heading", Json());
   tcm2_ = calib.value("tcm2", Json());
+  pni_ = calib.value("pni", Json());
   const Json calibrators = calib.value("calibrators", Json::array());
   if (calibrators.is_array()) {
     if (!(number(calib, "part") > 1)) place_ = 0;
@@ -134,6 +135,8 @@ void WatchCalibration::append(std::string& out) const {
   std::vector<std::string> lines;
   for (const auto& [name, calibrator] : calibrators_) append_calibrator(lines, name, calibrator);
   append_tcm2(lines, tcm2_);
+  // Its state names the whole score.
+  if (pni_.is_object()) lines.push_back(fmt::format("{:<14}{}", "pni's own", text(pni_, "state")));
   fmt::format_to(std::back_inserter(out), "active calibration: {}", name_);
   if (heading_.is_object() && number(heading_, "blocks") > 0) {
     fmt::format_to(std::back_inserter(out),

@@ -28,7 +28,7 @@ class WatchCalibration {
   std::vector<std::pair<std::string, Json>> calibrators_;  ///< in the order in which the daemon reports them
   std::size_t place_ = 0;                                  ///< of the next one of a report
   Json heading_;
-  Json tcm2_;
+  Json tcm2_, pni_;  ///< calibrations that compasses make of themselves
   std::array<double, kSectors> rose_{};
 };
 

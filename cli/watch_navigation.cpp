@@ -35,6 +35,8 @@ void append_navigation(std::string& out, const nlohmann::json& nav) {
   if (!std::isnan(number(nav, "altitude_m"))) {
     fmt::format_to(std::back_inserter(out), ", {} m above the floor", shown(number(nav, "altitude_m"), 1));
   }
+  if (const auto lock = nav.find("bottom_lock"); lock != nav.end() && lock->is_boolean())
+    out += lock->get<bool>() ? ", bottom lock" : ", NO BOTTOM LOCK";
   if (is_reckoned(nav)) {
     fmt::format_to(std::back_inserter(out), ", RECKONED: {} s and {} m since the last fix",
                    shown(number(nav, "since_fix_s"), 0), shown(number(nav, "since_fix_m"), 0));

@@ -81,6 +81,47 @@ void collect_list(std::string_view list, toml::table& document, std::vector<Entr
   document.erase(list);
 }
 
+// Depth of the deepest key that is known, frame[].field[].KEY, and one more, so that what lies there is named.
+constexpr std::size_t kMaxTreeDepth = 6;
+
+bool is_list_of_tables(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  return array != nullptr && !array->empty() && array->is_homogeneous<toml::table>();
+}
+
+void grow(const toml::table& table, std::size_t depth, Node& node) {
+  if (depth == kMaxTreeDepth) return;
+  const std::string prefix = node.name.empty() ? "" : node.name + ".";
+  for (const auto& [key, below] : table) {
+    Node child{prefix + std::string(key.str()),
+               std::string(key.str()),
+               static_cast<unsigned>(key.source().begin.line),
+               Table{},
+               is_list_of_tables(below),
+               {}};
+    if (child.is_list) {
+      std::size_t number = 0;
+      for (const toml::node& element : *below.as_array()) {
+        Node item{fmt::format("{}[{}]", child.name, ++number),
+                  child.key,
+                  static_cast<unsigned>(element.source().begin.line),
+                  Table{},
+                  false,
+                  {}};
+        grow(*element.as_table(), depth + 1, item);
+        child.children.push_back(std::move(item));
+      }
+    } else if (const toml::table* inner = below.as_table()) {
+      grow(*inner, depth + 1, child);
+    } else {
+      child.value = value_of(below);
+    }
+    node.children.push_back(std::move(child));
+  }
+  std::stable_sort(node.children.begin(), node.children.end(),
+                   [](const Node& a, const Node& b) { return a.line < b.line; });
+}
+
 /// The value of `text` read as TOML, when it is exactly one.
 std::optional<Value> one_value(const std::string& text) {
   const std::string line = "v=" + text;
@@ -115,6 +156,20 @@ std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& pr
   }
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.line < b.line; });
   return entries;
+}
+
+Node read_tree(std::string_view toml, std::vector<Problem>& problems) {
+  Node root{{}, {}, 1, Table{}, false, {}};
+  if (auto problem = beyond_bounds(toml)) {
+    problems.push_back(std::move(*problem));
+    return root;
+  }
+  try {
+    grow(toml::parse(toml), 0, root);
+  } catch (const toml::parse_error& error) {
+    problems.push_back({static_cast<unsigned>(error.source().begin.line), "", std::string(error.description())});
+  }
+  return root;
 }
 
 std::optional<Entry> read_override(std::string_view text, std::vector<Problem>& problems) {

@@ -32,6 +32,20 @@ struct Problem {
 [[nodiscard]] std::vector<Entry> read_document(std::string_view toml, std::vector<Problem>& problems,
                                                std::string_view list = {});
 
+/// A value, a table or an array of tables of a file, with what lies in it: for files with lists in lists, which
+/// entries cannot name.
+struct Node {
+  std::string name;  ///< "frame[1].field[2].scale"
+  std::string key;   ///< "scale"; of a table in an array: the array's
+  unsigned line = 0;
+  Value value;                 ///< Table for tables and for arrays of tables
+  bool is_list = false;        ///< an array of tables
+  std::vector<Node> children;  ///< in the order of the file
+};
+
+/// The tables of a file; what cannot be read at all is one problem.
+[[nodiscard]] Node read_tree(std::string_view toml, std::vector<Problem>& problems);
+
 /// One "key=value" of the command line.
 [[nodiscard]] std::optional<Entry> read_override(std::string_view text, std::vector<Problem>& problems);
 

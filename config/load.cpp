@@ -9,14 +9,17 @@
 
 namespace navcal::config {
 
-Settings parse(std::string_view toml, std::string_view name, const Overrides& overrides) {
+namespace {
+
+Settings parse_in(std::optional<std::filesystem::path> folder, std::string_view toml, std::string_view name,
+                  const Overrides& overrides) {
   std::vector<Problem> problems;
   auto entries = read_document(toml, problems);
   const bool readable = problems.empty();
   for (const std::string& text : overrides) {
     if (auto entry = read_override(text, problems)) entries.push_back(std::move(*entry));
   }
-  Reader reader;
+  Reader reader(std::move(folder));
   if (readable) {
     reader.take(entries);
     reader.check_ports();
@@ -33,8 +36,14 @@ Settings parse(std::string_view toml, std::string_view name, const Overrides& ov
   return reader.settings();
 }
 
+}  // namespace
+
+Settings parse(std::string_view toml, std::string_view name, const Overrides& overrides) {
+  return parse_in(std::nullopt, toml, name, overrides);
+}
+
 Settings load(const std::filesystem::path& file, const Overrides& overrides) {
-  return parse(content_of(file), file.native(), overrides);
+  return parse_in(file.parent_path(), content_of(file), file.native(), overrides);
 }
 
 }  // namespace navcal::config

@@ -20,7 +20,8 @@ using Overrides = std::vector<std::string>;
 /// Reads a configuration file (docs/configuration.md). Throws Error.
 [[nodiscard]] Settings load(const std::filesystem::path& file, const Overrides& overrides = {});
 
-/// The same from memory; `name` stands for the file in messages. Throws Error.
+/// The same from memory; `name` stands for the file in messages. Other files are not read: a described device
+/// needs the text of its description. Throws Error.
 [[nodiscard]] Settings parse(std::string_view toml, std::string_view name, const Overrides& overrides = {});
 
 /// A complete file of these settings: parse(to_toml(s)) == s for whatever a file can state, and to the last bit.

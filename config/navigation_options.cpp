@@ -55,6 +55,46 @@ std::vector<Option<Settings>> navigation_options() {
           [](auto& s) -> auto& { return s.navigation.speed_lag_s; }),
       real<S>(
           {.table = "navigation",
+           .key = "dvl_noise_m_s",
+           .description = "Random error of one velocity of a DVL that states none, one standard deviation.",
+           .unit = kMetresPerSecond,
+           .low = 0.0001,
+           .high = 1},
+          [](auto& s) -> auto& { return s.navigation.dvl_noise_m_s; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "dvl_scale_error_percent",
+           .description = "Constant error of the scale of a DVL (speed of sound), one standard deviation.",
+           .unit = kPercent,
+           .low = 0,
+           .high = 100},
+          [](auto& s) -> auto& { return s.navigation.dvl_scale_error; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "dvl_alignment_error_deg",
+           .description = "Constant error of the direction in which a DVL is mounted, one standard deviation.",
+           .unit = kDegrees,
+           .low = 0,
+           .high = 90},
+          [](auto& s) -> auto& { return s.navigation.dvl_alignment_error_rad; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "water_density_kg_m3",
+           .description = "Density of the water, for the depth of a gauge that states a pressure alone.",
+           .unit = kKilogramsPerCubicMetre,
+           .low = 900,
+           .high = 1300},
+          [](auto& s) -> auto& { return s.navigation.water_density_kg_m3; }),
+      real<S>(
+          {.table = "navigation",
+           .key = "air_pressure_hPa",
+           .description = "Pressure of the air at the surface, for the same.",
+           .unit = kHectopascals,
+           .low = 500,
+           .high = 1200},
+          [](auto& s) -> auto& { return s.navigation.air_pressure_Pa; }),
+      real<S>(
+          {.table = "navigation",
            .key = "max_error_m",
            .description =
                "Largest position error (95 %) that the mission allows; the advice to surface keeps to it. "

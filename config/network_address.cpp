@@ -35,6 +35,12 @@ std::optional<SocketAddress> socket_address(std::string_view text) {
 }
 
 std::optional<NetworkAddress> parse_network_address(std::string_view text) {
+  constexpr std::string_view kUnix = "unix-listen:";
+  if (text.starts_with(kUnix)) {
+    const std::string_view path = text.substr(kUnix.size());
+    if (!is_socket_path(path)) return std::nullopt;
+    return NetworkAddress{NetworkAddress::Kind::unix_listen, std::string(path), 0};
+  }
   for (const auto& [prefix, kind] : kKinds) {
     if (!text.starts_with(prefix)) continue;
     const std::string_view rest = text.substr(prefix.size());

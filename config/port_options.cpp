@@ -38,10 +38,11 @@ std::vector<Option<P>> make_port_options() {
   const auto with_units = devices_with(&protocols::OptionTables::units);
   const auto with_channels = devices_with(&protocols::OptionTables::channels);
   const auto with_fix = devices_with(&protocols::OptionTables::fix);
-  const auto with_rotation = devices_that(
-      [](const protocols::Delivery& delivers) { return delivers.heading || delivers.field || delivers.rates; });
+  const auto with_rotation = devices_that([](const protocols::Delivery& delivers) {
+    return delivers.heading || delivers.field || delivers.rates || delivers.bottom_velocity;
+  });
   const auto with_position = devices_that([](const protocols::Delivery& delivers) {
-    return delivers.acceleration || delivers.depth || delivers.position;
+    return delivers.acceleration || delivers.depth || delivers.position || delivers.bottom_velocity;
   });
   return {
       choice<P>(
@@ -67,11 +68,37 @@ std::vector<Option<P>> make_port_options() {
           [](auto& p) -> auto& { return p.usb_serial; }),
       text<P>(
           {.key = "address",
-           .description = "Instead of path: tcp:HOST:PORT (navcald connects), tcp-listen:ADDRESS:PORT (the device "
-                          "connects) or udp:ADDRESS:PORT (datagrams that arrive there).",
-           .text_rule = "tcp:, tcp-listen: or udp: with an IP address and a port",
+           .description =
+               "Instead of path: tcp:HOST:PORT (navcald connects), tcp-listen:ADDRESS:PORT (the device "
+               "connects), udp:ADDRESS:PORT (datagrams that arrive there) or unix-listen:PATH (programs on this "
+               "computer connect, several at once).",
+           .text_rule =
+               "tcp:, tcp-listen: or udp: with an IP address and a port, or unix-listen: with an absolute path",
            .text_holds = [](std::string_view text) { return parse_network_address(text).has_value(); }},
           [](auto& p) -> auto& { return p.address; }),
+      text<P>(
+          {.key = "device",
+           .description =
+               "File that describes the device (docs/devices.md); a relative path begins where this file "
+               "lies.",
+           .text_rule = "a path on this machine without control characters",
+           .text_holds = is_local_path,
+           .only_for = {protocols::Protocol::described}},
+          [](auto& p) -> auto& { return p.device; }),
+      text<P>(
+          {.key = "description",
+           .description = "The text of that file, so that it need not be there; navcald writes it into its logs.",
+           .text_rule = "the description of a device",
+           .text_holds = [](std::string_view text) { return !text.empty(); },
+           .only_for = {protocols::Protocol::described}},
+          [](auto& p) -> auto& { return p.description; }),
+      list<P>(
+          {.key = "adjust",
+           .description = "What belongs to the single device, beyond its description.",
+           .text_rule = "a field with zero, scale or sensitivity: \"rate.x: zero = 2051, sensitivity = 10.02\"",
+           .text_holds = [](std::string_view text) { return text.find(':') != std::string_view::npos; },
+           .only_for = {protocols::Protocol::described}},
+          [](auto& p) -> auto& { return p.adjust; }),
       integer<P>(
           {.key = "baud",
            .description = "Line speed, 8N1; with address that of the serial line behind the converter.",
@@ -178,9 +205,10 @@ std::vector<Option<P>> make_port_options() {
       channels<P>(
           {.table = "mounting",
            .key = "rotation_deg",
-           .description = "Roll, pitch and yaw of a compass or inertial card in the vehicle: the turns about z, "
-                          "then y, then x "
-                          "that bring the vehicle's axes (x forward, y starboard, z down) on to the device's.",
+           .description =
+               "Roll, pitch and yaw of a compass, inertial card or Doppler log in the vehicle: the turns about z, "
+               "then y, then x "
+               "that bring the vehicle's axes (x forward, y starboard, z down) on to the device's.",
            .unit = kPlainDegrees,
            .low = -360,
            .high = 360,
@@ -191,7 +219,8 @@ std::vector<Option<P>> make_port_options() {
           {.table = "mounting",
            .key = "position_m",
            .description =
-               "Place of an inertial card or antenna from the vehicle's origin: forward, to starboard, down.",
+               "Place of an inertial card, antenna, Doppler log or pressure gauge from the vehicle's origin: "
+               "forward, to starboard, down.",
            .unit = kMetres,
            .low = -100,
            .high = 100,

@@ -104,6 +104,7 @@ void Reader::take_port(const std::string& name, const std::vector<const Entry*>&
     protocol_known = true;
   }
   PortSettings port = default_port(name, given.protocol, default_baud(given.protocol));
+  if (protocol_known && given.protocol == protocols::Protocol::described) take_description(port, entries);
   for (const Entry* entry : entries) {
     if (entry->keys.size() > 2) {
       take_port_entry(port, *entry, protocol_known);
@@ -215,9 +216,11 @@ void Reader::check_roles() {
                                    [&](const PortSettings& known) { return known.name == name; });
     if (port == settings_.ports.end()) {
       problem(fmt::format("there is no port {}", name) + suggestion(name, names));
-    } else if (!can_deliver(port->protocol, role)) {
-      problem(fmt::format("port {} is of protocol {}, which has no {}", name, protocols::name_of(port->protocol),
-                          name_of(role)));
+    } else if (!can_deliver(*port, role)) {
+      problem(port->described ? fmt::format("port {} is of a described device, and {} has no {}", name,
+                                            port->device.empty() ? "its description" : port->device, name_of(role))
+                              : fmt::format("port {} is of protocol {}, which has no {}", name,
+                                            protocols::name_of(port->protocol), name_of(role)));
     }
   }
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,9 @@ namespace navcal::config {
 /// Turns entries into settings by the option table, and notes what is wrong with them.
 class Reader {
  public:
+  /// `folder` is where relative paths of descriptions begin; nullopt: no file may be read.
+  explicit Reader(std::optional<std::filesystem::path> folder = std::nullopt) : folder_(std::move(folder)) {}
+
   /// Takes entries: first those of the file in its order, then those of the command line.
   void take(const std::vector<Entry>& entries);
   /// Checks that involve several settings: no ports, and places that are missing, ambiguous or shared.
@@ -38,6 +43,8 @@ class Reader {
  private:
   void take_daemon(const Entry& entry);
   void take_port(const std::string& name, const std::vector<const Entry*>& entries);
+  /// Reads the description of a described device, and takes what it says of the port.
+  void take_description(PortSettings& port, const std::vector<const Entry*>& entries);
   void take_port_entry(PortSettings& port, const Entry& entry, bool protocol_known);
   void take_power(const std::string& name, const std::vector<const Entry*>& entries);
   void complain(const Entry& entry, std::string message);
@@ -45,6 +52,7 @@ class Reader {
   using NamedTables = std::vector<std::pair<std::string, std::vector<const Entry*>>>;
   void collect(NamedTables& tables, const Entry& entry);
 
+  std::optional<std::filesystem::path> folder_;
   Settings settings_;
   std::vector<unsigned> port_lines_;                  ///< where each port's table begins
   std::vector<unsigned> power_lines_;                 ///< likewise each supply's

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/roles.h"
 
+#include "config/settings.h"
+#include "protocols/described/delivery.h"
 #include "protocols/device_types.h"
 
 namespace navcal::config {
@@ -12,8 +14,9 @@ std::string_view name_of(Role role) {
   return kNames.at(static_cast<std::size_t>(role));
 }
 
-bool can_deliver(protocols::Protocol protocol, Role role) {
-  const protocols::Delivery& delivers = protocols::device_type(protocol).delivers;
+namespace {
+
+bool delivers_role(const protocols::Delivery& delivers, Role role) {
   switch (role) {
     case Role::heading:
       return delivers.heading;
@@ -39,6 +42,21 @@ bool can_deliver(protocols::Protocol protocol, Role role) {
       break;
   }
   return delivers.water_velocity;
+}
+
+}  // namespace
+
+bool can_deliver(protocols::Protocol protocol, Role role) {
+  return delivers_role(protocols::device_type(protocol).delivers, role);
+}
+
+bool can_deliver(const PortSettings& port, Role role) {
+  if (port.described) return delivers_role(protocols::described::delivery_of(*port.described), role);
+  return can_deliver(port.protocol, role);
+}
+
+bool delivers_always(const PortSettings& port) {
+  return port.described || protocols::device_type(port.protocol).delivers_always;
 }
 
 Role leader_of(Role role) {

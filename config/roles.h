@@ -34,6 +34,12 @@ inline constexpr std::array kRoles{Role::heading,  Role::field,           Role::
 /// True when a device with that protocol can deliver the role.
 [[nodiscard]] bool can_deliver(protocols::Protocol protocol, Role role);
 
+struct PortSettings;
+/// True when the device at a port can deliver the role: of a described device, by its description.
+[[nodiscard]] bool can_deliver(const PortSettings& port, Role role);
+/// True when the device at a port always sends what it can deliver.
+[[nodiscard]] bool delivers_always(const PortSettings& port);
+
 /// The role whose device, where the operator has chosen one, serves this role as well if it can: the field follows
 /// the heading, acceleration and depth follow the rates, the velocity follows the position, the water velocity the
 /// bottom velocity. Any other follows itself.

@@ -10,6 +10,7 @@
 
 #include "config/instruments.h"
 #include "config/roles.h"
+#include "protocols/described/description.h"
 #include "protocols/frame.h"
 
 namespace navcal::config {
@@ -72,6 +73,11 @@ struct PortSettings {
   ImuCardSettings imu_card;
   GpsSettings gps;
   MountingSettings mounting;
+  // A device that a file describes has these as well (docs/devices.md).
+  std::string device;               ///< the file, as the configuration names it
+  std::string description;          ///< its text: the configuration that a log has holds it
+  std::vector<std::string> adjust;  ///< zeros and scales of this single device, as described::adjust() takes them
+  std::optional<protocols::described::Description> described;  ///< the text as it was read, adjusted
 
   bool operator==(const PortSettings&) const = default;
 };
@@ -144,6 +150,11 @@ struct NavigationSettings {
   double speed_error = 0.05;                                   ///< of the speed by the shaft, relative
   double speed_lag_s = base::reference::kSpeedLag_s;           ///< of the vehicle's speed behind its shaft's
   double max_error_m = 0;          ///< bound of the position error for the advice to surface, 95 %; 0: no advice
+  double dvl_noise_m_s = 0.02;     ///< of one velocity where the device states none, each axis
+  double dvl_scale_error = 0.005;  ///< of its velocities, relative; one standard deviation
+  double dvl_alignment_error_rad = 0.008726646259971648;  ///< of its axes in the vehicle: 0.5 degrees
+  double water_density_kg_m3 = 1025;
+  double air_pressure_Pa = 101325;
   double altitude_noise_m = 0.1;   ///< of one reading of the altimeter, one standard deviation
   double altimeter_range_m = 100;  ///< readings beyond it are left out
   double min_altitude_m = 0;       ///< below it the floor is near; 0: not watched

@@ -39,6 +39,7 @@ inline constexpr Unit kBits{"bit/s"};
 inline constexpr Unit kSquareMetres{"m2"};
 inline constexpr Unit kKilograms{"kg"};
 inline constexpr Unit kKilogramsPerCubicMetre{"kg/m3"};
+inline constexpr Unit kHectopascals{"hPa", 100, 1};
 inline constexpr Unit kAmperes{"A"};
 inline constexpr Unit kAmpereHours{"Ah"};
 inline constexpr Unit kVolts{"V"};

@@ -34,6 +34,8 @@ std::string in_quotes(std::string_view text) {
     if (c == U'"' || c == U'\\') {
       out += '\\';
       out += static_cast<char>(c);
+    } else if (c == U'\n') {
+      out += "\\n";
     } else if (c >= 0x20 && c < 0x7f) {
       out += static_cast<char>(c);
     } else if (c <= 0xffff) {

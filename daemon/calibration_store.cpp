@@ -81,7 +81,9 @@ void CalibrationStore::keep_aside(std::string_view suffix, std::string_view reas
 }
 
 void CalibrationStore::save(std::string state) {
-  file_.save(instruments_ + std::string(kSeparator.substr(1)) + std::move(state));
+  // Into the text that is there, since it is large.
+  state.insert(0, instruments_ + std::string(kSeparator.substr(1)));
+  file_.save(std::move(state));
 }
 
 }  // namespace navcal::daemon

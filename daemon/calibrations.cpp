@@ -53,8 +53,9 @@ void Calibrations::report(std::int64_t now_ns, bool into_log) {
   if (!pipeline_.calibrates() || (!into_log && !watched)) return;
   const auto& mapping = pipeline_.mapping();
   const bool utc_known = mapping.source != pipeline::UtcMapping::Source::none;
-  const auto lines = record::calib_lines(pipeline_.calibration_report(),
-                                         utc_known ? std::optional(mapping.to_utc(now_ns)) : std::nullopt, tcm2_);
+  const auto lines =
+      record::calib_lines(pipeline_.calibration_report(),
+                          utc_known ? std::optional(mapping.to_utc(now_ns)) : std::nullopt, compasses_);
   std::uint16_t slot = 0;
   for (const std::string& line : lines) {
     if (into_log) log_.calib_report(now_ns, line);

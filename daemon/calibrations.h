@@ -32,8 +32,9 @@ class Calibrations {
   /// Saves the state; the log gets a last CALIB.
   void stop(std::int64_t now_ns);
 
-  /// Sets the state of the TCM2's own calibration, a JSON object, which CALIB shows beside ours.
-  void set_tcm2(std::string json) { tcm2_ = std::move(json); }
+  /// Sets the states of the calibrations that compasses make of themselves, members of a JSON object, which CALIB
+  /// shows beside ours.
+  void set_compasses(std::string members) { compasses_ = std::move(members); }
   /// A calibration.* command; its answer, newline included.
   [[nodiscard]] std::string answer(const ControlRequest& request, std::int64_t now_ns, pipeline::Sink& sink);
   /// Notices since the last call, for people.
@@ -48,7 +49,7 @@ class Calibrations {
   LogWriter& log_;
   StatusServer& server_;
   CalibrationStore store_;
-  std::string tcm2_;
+  std::string compasses_;
   std::int64_t next_save_ns_ = 0;
   std::int64_t next_log_ns_ = 0;
   bool changed_ = false;  ///< not saved and reported yet

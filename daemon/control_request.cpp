@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, ControlCommand>, 21> kCommands{{
+constexpr std::array<std::pair<std::string_view, ControlCommand>, 23> kCommands{{
     {"event", ControlCommand::event},
     {"log.rotate", ControlCommand::log_rotate},
     {"log.start", ControlCommand::log_start},
@@ -35,6 +35,8 @@ constexpr std::array<std::pair<std::string_view, ControlCommand>, 21> kCommands{
     {"motor.release", ControlCommand::motor_release},
     {"battery.full", ControlCommand::battery_full},
     {"battery.set", ControlCommand::battery_set},
+    {"device.command", ControlCommand::device_command},
+    {"device.commands", ControlCommand::device_commands},
     {"status", ControlCommand::status},
 }};
 
@@ -163,6 +165,17 @@ std::string take_supply(const Json& object, ControlRequest& request) {
   return {};
 }
 
+std::string take_device(const Json& object, ControlRequest& request) {
+  const auto port = text_at(object, "port");
+  const auto name = text_at(object, "name");
+  const bool lists = request.command == ControlCommand::device_commands;
+  if (!port || (port->empty() && !lists)) return "port is the name of a port";
+  if (!name || (name->empty() && !lists)) return "name is that of a command; device.commands has them";
+  request.port = *port;
+  request.name = *name;
+  return {};
+}
+
 std::string take_charge(const Json& object, ControlRequest& request) {
   double charge_Ah = 0;
   double std_Ah = 0;
@@ -195,6 +208,9 @@ std::string take_own(const Json& object, ControlRequest& request) {
       return take_token(object, request);
     case ControlCommand::battery_set:
       return take_charge(object, request);
+    case ControlCommand::device_command:
+    case ControlCommand::device_commands:
+      return take_device(object, request);
     default:
       return {};
   }

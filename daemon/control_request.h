@@ -39,24 +39,27 @@ enum class ControlCommand {
   motor_release,
   battery_full,
   battery_set,
+  device_command,
+  device_commands,
   status,
 };
 
 /// One line of the control socket, e.g. {"command":"event","text":"dive 3"}.
 struct ControlRequest {
   ControlCommand command = ControlCommand::status;
-  std::string text;                        ///< of an event
-  std::string calibrator;                  ///< of calibration.*
-  bool force = false;                      ///< of calibration.accept: an estimate that is refused, too
+  std::string text;        ///< of an event
+  std::string calibrator;  ///< of calibration.*
+  bool force = false;      ///< of calibration.accept: an estimate that is refused, too; of device.command
   control::LeaseRequest lease_request;     ///< of motor.lease
   std::string lease;                       ///< of motor.order and motor.release
   control::Order order;                    ///< of motor.order
   std::optional<double> charge_Ah;         ///< of battery.set
   std::optional<double> charge_std_Ah;     ///< likewise
   std::optional<double> state_time_utc_s;  ///< of motor.order: the STATE that it answers
-  std::string name;                        ///< of power.on and power.off: the supply
-  std::string file;                        ///< of log.read and log.sum; of log.list: the one before the first
-  std::uint64_t offset = 0;                ///< of log.read and log.sum, bytes
+  std::string name;                        ///< of power.on and power.off: the supply; of device.command
+  std::string port;          ///< of device.command, and of device.commands, where it may be empty: all
+  std::string file;          ///< of log.read and log.sum; of log.list: the one before the first
+  std::uint64_t offset = 0;  ///< of log.read and log.sum, bytes
   std::uint64_t length = 0;
   std::optional<std::vector<std::string>> leave_out;  ///< of log.select; nullopt: it only asks
 };

@@ -149,8 +149,7 @@ void Daemon::on_sample(const instruments::Sample& sample) {
     motor_->status(sample.stamp, *motor);
   if (const auto* imu = std::get_if<instruments::ImuSample>(&sample.value)) {
     update_alarms(sample, *imu);
-    if (PortSession* const compass = tcm2(); compass != nullptr && imu->yaw_rate_calibrated_rad_s)
-      compass->on_yaw_rate(*imu->yaw_rate_calibrated_rad_s, sample.stamp.arrival_ns);
+    if (imu->yaw_rate_calibrated_rad_s) turn_compasses(*imu->yaw_rate_calibrated_rad_s, sample.stamp.arrival_ns);
   }
 }
 
@@ -258,7 +257,7 @@ void Daemon::tick() {
     event(now_ns, "warning", "motor.notice", "", notice);
   if (now_ns >= next_health_ns_) {
     report_health(now_ns);
-    calibrations_.set_tcm2(tcm2_json());
+    calibrations_.set_compasses(compasses_json());
     calibrations_.report(now_ns);
     next_health_ns_ = now_ns + static_cast<std::int64_t>(settings_.status.health_interval_s * 1e9) - tick_ns_ / 2;
   }

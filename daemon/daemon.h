@@ -73,7 +73,7 @@ class Daemon : private pipeline::Sink,
   void on_port_changed(std::uint16_t port) override;
   [[nodiscard]] std::optional<instruments::ReceiverAid> receiver_aid(std::int64_t now_ns) const override;
   void on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
-                             const instruments::Tcm2Calibration& calibration) override;
+                             const instruments::CompassCalibration& calibration) override;
   // StatusSource
   [[nodiscard]] std::uint16_t device_count() const override {
     return static_cast<std::uint16_t>(settings_.ports.size());
@@ -124,10 +124,13 @@ class Daemon : private pipeline::Sink,
   /// With alarms and who holds the motor.
   [[nodiscard]] VehicleState vehicle_state(std::int64_t now_ns);
   [[nodiscard]] const std::string& state_report(std::int64_t now_ns);
-  [[nodiscard]] std::string answer_tcm2(const ControlRequest& request);
-  /// The session of the compass that can calibrate itself; null when there is none.
-  [[nodiscard]] PortSession* tcm2() const;
-  [[nodiscard]] std::string tcm2_json() const;
+  [[nodiscard]] std::string answer_compass(const ControlRequest& request);
+  [[nodiscard]] std::string answer_device(const ControlRequest& request);
+  /// The first session whose calibration of itself has this name; null: there is none.
+  [[nodiscard]] PortSession* compass_named(std::string_view name) const;
+  void turn_compasses(double yaw_rate_rad_s, std::int64_t now_ns);
+  /// Members of CALIB: what each compass says of its calibration of itself.
+  [[nodiscard]] std::string compasses_json() const;
   void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
              std::string_view message);
   void update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu);

@@ -41,7 +41,7 @@ void Daemon::append_device(std::string& out, std::uint16_t port) const {
   device.baud = settings.baud;
   device.cycle_s = settings.rate_Hz > 0 ? 1 / settings.rate_Hz : 0;
   // gpsd's clients ask which devices are receivers.
-  device.gps = config::can_deliver(settings.protocol, config::Role::position);
+  device.gps = config::can_deliver(settings, config::Role::position);
   if (session.open_port()) {
     device.tty = session.open_port()->path;
     device.activated_utc_ns = utc(session.opened_ns());
@@ -72,12 +72,13 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
     case ControlCommand::calibration_accept:
     case ControlCommand::calibration_rollback:
       // The compass's own procedure is a dialogue with the device, not one of our calibrators.
-      if (request.calibrator == "tcm2") return answer_tcm2(request);
+      if (instruments::is_compass_calibration(request.calibrator)) return answer_compass(request);
       return calibrations_.answer(request, ports::monotonic_ns(), *this);
     case ControlCommand::calibration_stop:
-      if (request.calibrator == "tcm2") return answer_tcm2(request);
+      if (instruments::is_compass_calibration(request.calibrator)) return answer_compass(request);
       return control_error(
-          "only tcm2, the compass's own calibration, can be stopped; navcald's calibrators run all the time");
+          "only tcm2 and pni, a compass's own calibration, can be stopped; navcald's calibrators run all the "
+          "time");
     case ControlCommand::motor_lease:
     case ControlCommand::motor_order:
     case ControlCommand::motor_release:
@@ -86,6 +87,9 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
     case ControlCommand::battery_full:
     case ControlCommand::battery_set:
       return answer_battery(request);
+    case ControlCommand::device_command:
+    case ControlCommand::device_commands:
+      return answer_device(request);
     case ControlCommand::status:
       break;
   }

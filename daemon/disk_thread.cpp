@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "record/log/reused_buffer.h"
+
 namespace navcal::daemon {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr std::size_t kWakeAt_bytes = 256 << 10;
 /// Written in one call: bounds how long the end of a stall takes to be seen in the state.
 constexpr std::size_t kWriteStep_bytes = 1 << 20;
 constexpr std::uint64_t kCheckSpaceEvery_bytes = 4ULL << 20;
-/// A buffer that a stall has blown up is given back.
-constexpr std::size_t kKeepBuffer_bytes = 256 << 10;
 /// Synced ahead of the interval: what is not yet synced is held in memory, too.
 constexpr std::uint64_t kMostUnsynced_bytes = 4ULL << 20;
 constexpr std::uint64_t kMegabyte = 1'000'000;
@@ -88,8 +88,7 @@ void DiskThread::run() {
       being_written_ = batch.bytes.size();
     }
     write(batch);
-    if (batch.bytes.capacity() > kKeepBuffer_bytes) batch.bytes = {};
-    batch.bytes.clear();
+    record::empty_for_reuse(batch.bytes);
     batch.boundaries.clear();
     const auto now = std::chrono::steady_clock::now();
     if (now >= next_sync || last) {

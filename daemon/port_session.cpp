@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace navcal::daemon {
 namespace {
@@ -37,10 +38,10 @@ PortSession::PortSession(const boost::asio::any_io_executor& executor, std::uint
       settings_(settings),
       owner_(owner),
       start_up_(instruments::make_start_up(settings)),
+      compass_calibration_(instruments::make_compass_calibration(settings)),
       talk_timer_(executor, [this] { talk(ports::monotonic_ns()); }),
       speed_check_(settings.protocol, settings.baud),
       port_(executor, settings, *this) {
-  if (settings.protocol == protocols::Protocol::tcm2) compass_calibration_.emplace(settings);
   if (settings.protocol == protocols::Protocol::oncore && settings.aid) aid_.emplace();
 }
 
@@ -67,6 +68,7 @@ void PortSession::on_opened(std::int64_t now_ns, const ports::OpenPort& port) {
 
 void PortSession::power_off(std::int64_t now_ns, std::string reason) {
   abandon_calibration(now_ns, "the compass was switched off");
+  if (command_) end_command(now_ns, {false, "the device was switched off"});
   talk_timer_.stop();
   off_ = true;
   set_state(now_ns, State::off, std::move(reason));
@@ -98,6 +100,7 @@ void PortSession::on_lost(std::int64_t now_ns, std::string_view reason) {
   open_.reset();
   talk_timer_.stop();
   abandon_calibration(now_ns, "the compass went away");
+  if (command_) end_command(now_ns, {false, "the device went away"});
   // An adapter that is fed by the same supply goes with its device.
   owner_.on_port_event(index_, now_ns, off_ ? "info" : "warning", "port.lost", reason);
   if (!off_) set_state(now_ns, State::away, std::string(reason));
@@ -107,24 +110,42 @@ void PortSession::abandon_calibration(std::int64_t now_ns, const std::string& re
   if (!calibrating_compass_) return;
   // It is unknown whether the compass still calibrates. The start-up after its return makes it send words again.
   compass_calibration_->abandon(reason);
+  end_calibration(now_ns);
+}
+
+void PortSession::end_calibration(std::int64_t now_ns) {
   calibrating_compass_ = false;
-  owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
+  if (!std::exchange(saving_calibration_, false)) {
+    return owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
+  }
+  owner_.on_port_event(index_, now_ns, compass_calibration_->failure().empty() ? "info" : "warning",
+                       fmt::format("{}.calibration", compass_calibration_->name()), compass_calibration_->state());
+}
+
+std::string PortSession::save_compass_calibration(std::int64_t now_ns) {
+  if (!open_port()) return "the compass is away: " + reason_;
+  if (auto why_not = compass_calibration_->save(now_ns); !why_not.empty()) return why_not;
+  calibrating_compass_ = saving_calibration_ = true;
+  talk(now_ns);
+  return {};
 }
 
 void PortSession::on_frame(const protocols::Frame& frame, std::int64_t arrival_ns) {
   if (compass_calibration_) compass_calibration_->on_frame(frame, arrival_ns);
   if (start_up_) start_up_->on_frame(frame, arrival_ns);
   if (aid_) aid_->on_frame(frame, arrival_ns);
+  if (command_) command_->on_frame(frame);
 }
 
 std::string PortSession::calibrate_compass(std::int64_t now_ns) {
-  if (!compass_calibration_) return "there is no TCM2 at this port";
+  if (!compass_calibration_) return "the device at this port does not calibrate itself";
   if (!open_port()) return "the compass is away: " + reason_;
   if (calibrating_compass_) return "it is under way: " + compass_calibration_->state();
+  if (command_) return given_command_->name + " is under way";
   compass_calibration_->begin(now_ns);
   calibrating_compass_ = true;
-  owner_.on_port_event(index_, now_ns, "info", "tcm2.calibration",
-                       "begun: turn twice, slowly, with as much tilt as possible");
+  owner_.on_port_event(index_, now_ns, "info", fmt::format("{}.calibration", compass_calibration_->name()),
+                       fmt::format("begun: {}", compass_calibration_->manoeuvre()));
   talk(now_ns);
   return {};
 }
@@ -147,13 +168,12 @@ bool PortSession::talk_of_calibration(std::int64_t now_ns) {
     talk_timer_.arm(compass_calibration_->deadline_ns());
     return true;
   }
-  calibrating_compass_ = false;
-  owner_.on_compass_calibrated(index_, now_ns, *compass_calibration_);
+  end_calibration(now_ns);
   return false;
 }
 
 void PortSession::talk(std::int64_t now_ns) {
-  if (!open_port() || talk_of_calibration(now_ns) || !start_up_) return;
+  if (!open_port() || talk_of_calibration(now_ns) || talk_of_command(now_ns) || !start_up_) return;
   while (const auto bytes = start_up_->next(now_ns)) port_.send(*bytes);
   talk_timer_.arm(start_up_->deadline_ns());
 }

@@ -12,9 +12,10 @@
 #include "daemon/latency_histogram.h"
 #include "daemon/lazy_timer.h"
 #include "daemon/speed_check.h"
+#include "instruments/compass_calibration.h"
+#include "instruments/device_command.h"
 #include "instruments/oncore_aid.h"
 #include "instruments/start_up.h"
-#include "instruments/tcm2_calibration.h"
 #include "pipeline/pipeline.h"
 #include "ports/port.h"
 
@@ -37,7 +38,7 @@ class PortOwner {
   [[nodiscard]] virtual std::optional<instruments::ReceiverAid> receiver_aid(std::int64_t now_ns) const = 0;
   /// A compass has come to the end of the calibration of itself, good or bad. Not within on_port_bytes().
   virtual void on_compass_calibrated(std::uint16_t port, std::int64_t now_ns,
-                                     const instruments::Tcm2Calibration& calibration) = 0;
+                                     const instruments::CompassCalibration& calibration) = 0;
 };
 
 /// One configured port at work: the port itself, the device's start-up dialogue, and what is known of both.
@@ -67,21 +68,33 @@ class PortSession : private ports::PortListener {
   /// Called by the pipeline within on_port_bytes().
   void on_frame(const protocols::Frame& frame, std::int64_t arrival_ns);
   void published(std::int64_t latency_ns) { latency_.add(latency_ns); }
-  /// Lets a TCM2 calibrate itself. Returns why it cannot; empty: it has begun.
+  /// Lets a compass calibrate itself. Returns why it cannot; empty: it has begun.
   [[nodiscard]] std::string calibrate_compass(std::int64_t now_ns);
   /// Ends the calibration once the vehicle has turned enough. Returns why that is impossible; empty: the score
   /// will be read.
   [[nodiscard]] std::string stop_calibrating_compass(std::int64_t now_ns);
+  /// Lets the compass keep the result. Returns why it cannot; empty: it was begun.
+  [[nodiscard]] std::string save_compass_calibration(std::int64_t now_ns);
   /// The supply of the device was switched off, or on but not settled: nothing is sent, and silence is no fault.
   void power_off(std::int64_t now_ns, std::string reason);
   /// The device has its supply again: the start-up dialogue begins.
   void power_on(std::int64_t now_ns);
   /// Calibrated yaw rate of the vehicle; called by the pipeline.
   void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
-  /// Null when this is no TCM2.
-  [[nodiscard]] const instruments::Tcm2Calibration* compass_calibration() const {
-    return compass_calibration_ ? &*compass_calibration_ : nullptr;
+  /// Null when the device has no calibration of itself.
+  [[nodiscard]] const instruments::CompassCalibration* compass_calibration() const {
+    return compass_calibration_.get();
   }
+  /// Gives the device a command of instruments/device_command.h. Returns why it cannot be; empty: it has begun,
+  /// and an event will tell its end. A command that needs force is refused without `force`.
+  [[nodiscard]] std::string command_device(std::string_view name, bool force, std::int64_t now_ns);
+  /// The newest of these commands.
+  struct GivenCommand {
+    std::string name;
+    std::uint64_t number = 0;                                    ///< counts them at this port, from 1
+    std::optional<instruments::DeviceCommand::Outcome> outcome;  ///< nullopt: under way
+  };
+  [[nodiscard]] const std::optional<GivenCommand>& given_command() const { return given_command_; }
   /// Called about once a second: judges the state.
   void tick(std::int64_t now_ns, const pipeline::PortStatistics& statistics);
 
@@ -106,10 +119,16 @@ class PortSession : private ports::PortListener {
   void on_lost(std::int64_t now_ns, std::string_view reason) override;
 
   void talk(std::int64_t now_ns);
+  void end_calibration(std::int64_t now_ns);
   void abandon_calibration(std::int64_t now_ns, const std::string& reason);
   void aid_receiver(std::int64_t now_ns);
   /// True while the calibration dialogue has the device to itself.
   bool talk_of_calibration(std::int64_t now_ns);
+  /// Why a command cannot be given now; empty: it can.
+  [[nodiscard]] std::string why_no_command(std::string_view name, bool force) const;
+  /// True while an operator's command has the device to itself.
+  bool talk_of_command(std::int64_t now_ns);
+  void end_command(std::int64_t now_ns, instruments::DeviceCommand::Outcome outcome);
   void set_state(std::int64_t now_ns, State state, std::string reason);
   State judge(const pipeline::PortStatistics& statistics, std::int64_t now_ns, std::string& reason);
 
@@ -117,9 +136,12 @@ class PortSession : private ports::PortListener {
   const config::PortSettings settings_;
   PortOwner& owner_;
   std::unique_ptr<instruments::StartUp> start_up_;
-  std::optional<instruments::Tcm2Calibration> compass_calibration_;
+  std::unique_ptr<instruments::CompassCalibration> compass_calibration_;
   std::optional<instruments::OncoreAid> aid_;  ///< of a receiver that is to be aided
   bool calibrating_compass_ = false;
+  std::unique_ptr<instruments::DeviceCommand> command_;  ///< under way
+  std::optional<GivenCommand> given_command_;
+  bool saving_calibration_ = false;  ///< the dialogue is that of save(): nothing new was found
   LazyTimer talk_timer_;
   std::string last_start_up_state_;
   SpeedCheck speed_check_;

@@ -13,6 +13,7 @@ enum class Timing : std::uint8_t {
   periodic,   ///< by the model of the device's clock
   bursts,     ///< likewise, and the frames come several at a time
   irregular,  ///< no clock explains them: by their own arrival
+  device,     ///< by the times that the device states with its own clock
 };
 
 [[nodiscard]] std::string_view name_of(Timing timing);

@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // The instrument of each device, and its start-up dialogue.
+#include <type_traits>
+
+#include "instruments/described_device.h"
 #include "instruments/imu_card.h"
+#include "instruments/injected_samples.h"
 #include "instruments/instrument.h"
 #include "instruments/keller_gauge.h"
+#include "instruments/mip_sensor.h"
 #include "instruments/motor_card.h"
 #include "instruments/nmea_device.h"
 #include "instruments/oncore_receiver.h"
 #include "instruments/paroscientific_gauge.h"
 #include "instruments/pd0_log.h"
 #include "instruments/pd6_log.h"
+#include "instruments/pni_compass.h"
 #include "instruments/start_up.h"
+#include "instruments/start_up_described.h"
 #include "instruments/start_up_keller.h"
+#include "instruments/start_up_mip.h"
 #include "instruments/start_up_oncore.h"
 #include "instruments/start_up_paroscientific.h"
+#include "instruments/start_up_pni.h"
 #include "instruments/start_up_tcm2.h"
+#include "instruments/start_up_ubx.h"
+#include "instruments/start_up_vectornav.h"
 #include "instruments/tcm2_compass.h"
+#include "instruments/ubx_receiver.h"
+#include "instruments/vectornav_sensor.h"
 #include "instruments/water_linked_log.h"
 #include "protocols/device_types.h"
 
@@ -43,32 +56,39 @@ std::unique_ptr<Instrument> make_tcm2(const PortSettings& settings) {
 std::unique_ptr<Instrument> make_imu_card(const PortSettings& settings) {
   return std::make_unique<ImuCard>(settings.imu_card);
 }
-std::unique_ptr<StartUp> start_tcm2(const PortSettings& settings) {
-  return std::make_unique<StartUpTcm2>(settings);
-}
 template <class S>
-std::unique_ptr<StartUp> start_plain(const PortSettings&) {
-  return std::make_unique<S>();
+std::unique_ptr<StartUp> start(const PortSettings& settings) {
+  if constexpr (std::is_constructible_v<S, const PortSettings&>) {
+    return std::make_unique<S>(settings);
+  } else {
+    return std::make_unique<S>();
+  }
+}
+
+std::unique_ptr<StartUp> start_described(const PortSettings& settings) {
+  const bool has_lines = settings.described && !settings.described->start_up.empty();
+  return has_lines ? std::make_unique<StartUpDescribed>(settings.described->start_up) : nullptr;
 }
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
-    {Protocol::tcm2, {make_tcm2, start_tcm2}},
+    {Protocol::tcm2, {make_tcm2, start<StartUpTcm2>}},
     {Protocol::imu_card, {make_imu_card}},
-    {Protocol::oncore, {make_configured<OncoreReceiver>, start_plain<StartUpOncore>}},
+    {Protocol::oncore, {make_configured<OncoreReceiver>, start<StartUpOncore>}},
     {Protocol::motor_card, {make_plain<MotorCard>}},
     {Protocol::nmea, {make_configured<NmeaDevice>}},
-    {Protocol::ubx, {}},
-    {Protocol::mip, {}},
-    {Protocol::vectornav, {}},
-    {Protocol::pni, {}},
-    // Doppler logs of Teledyne ping as soon as they are powered, if they are set up so. To start them from here (CS)
-    // would let them ping in air, or begin a deployment with parameters that nobody has seen.
+    {Protocol::ubx, {make_configured<UbxReceiver>, start<StartUpUbx>}},
+    {Protocol::mip, {make_plain<MipSensor>, start<StartUpMip>}},
+    {Protocol::vectornav, {make_plain<VectorNavSensor>, start<StartUpVectorNav>}},
+    {Protocol::pni, {make_plain<PniCompass>, start<StartUpPni>}},
+    // Doppler logs of Teledyne ping as soon as they are powered, if they are set up so. To start them from here
+    // (CS) would let them ping in air, or begin a deployment with parameters that nobody has seen.
     {Protocol::pd0, {make_plain<Pd0Log>}},
     {Protocol::pd6, {make_plain<Pd6Log>}},
     {Protocol::water_linked, {make_plain<WaterLinkedLog>}},
-    {Protocol::samples, {}},
-    {Protocol::paroscientific, {make_configured<ParoscientificGauge>, start_plain<StartUpParoscientific>}},
-    {Protocol::keller, {make_plain<KellerGauge>, start_plain<StartUpKeller>}},
+    {Protocol::samples, {make_plain<InjectedSamples>}},
+    {Protocol::paroscientific, {make_configured<ParoscientificGauge>, start<StartUpParoscientific>}},
+    {Protocol::keller, {make_plain<KellerGauge>, start<StartUpKeller>}},
+    {Protocol::described, {make_configured<DescribedDevice>, start_described}},
 });
 
 }  // namespace

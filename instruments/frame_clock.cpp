@@ -16,6 +16,7 @@ constexpr double kArrivalStd_s = 1e-3;  // of a stamp by arrival where no rate i
 constexpr double kUnknownStd_s = 12e-3;
 constexpr double kUnknownFrames = 3;     // after so many more frames, half of that is left
 constexpr double kScarce = 4;            // frames by which the delays of a short run may look too small
+constexpr int kFramesWithoutTime = 32;   // by then a device has ceased to state its time
 constexpr double kAheadTolerance = 0.5;  // periods: an earlier frame contradicts the phase
 constexpr double kPauseLimit_s = 0.5;    // later than that with nothing behind it, a frame means a pause
 // A counted frame that is later than this many periods and seconds together means a pause, too. A host that was
@@ -58,6 +59,8 @@ std::string_view name_of(Timing timing) {
       return "bursts";
     case Timing::irregular:
       return "irregular";
+    case Timing::device:
+      return "device";
   }
   return "arrival";
 }
@@ -68,7 +71,34 @@ FrameClock::FrameClock(double rate_Hz, double latency_std_s)
       timing_(rate_Hz > 0 ? Timing::searching : Timing::arrival),
       model_(rate_Hz > 0 ? nominal_s_ : 1.0) {}
 
+FrameClock::Outcome FrameClock::by_device(const FrameObservation& frame) {
+  if (!device_) device_.emplace(nominal_s_);
+  DeviceClock::Outcome outcome = device_->update(frame);
+  timing_ = Timing::device;
+  frames_without_time_ = 0;
+  if (frame.paces && !outcome.repeated) {
+    if (const double period_s = device_->period_s(); period_s > 0 && nominal_s_ > 0) tell_rate(period_s, 0);
+    observed_ns_ = frame.observed_ns;
+    return {finish(outcome.time, 0), false, std::exchange(news_, std::nullopt)};
+  }
+  outcome.time.std_ns = std::llround(std::hypot(static_cast<double>(outcome.time.std_ns), latency_std_s_ * 1e9));
+  return {outcome.time, outcome.repeated, std::nullopt};
+}
+
+/// A single frame without a time changes nothing. After many the stream has to be searched for a rhythm.
+bool FrameClock::leaves_device_clock() {
+  if (++frames_without_time_ < kFramesWithoutTime) return false;
+  lost_ += device_->lost();
+  repeated_ += device_->repeated();
+  device_.reset();
+  timing_ = nominal_s_ > 0 ? Timing::searching : Timing::arrival;
+  finder_.clear();
+  return true;
+}
+
 FrameClock::Outcome FrameClock::update(const FrameObservation& frame) {
+  if (frame.device_time_ns) return by_device(frame);
+  if (device_ && !leaves_device_clock()) return {finish({frame.observed_ns, ns(kUnknownStd_s)}, 0), false, {}};
   if (any_ && is_repeated(frame)) {
     ++repeated_;
     return {{stamped_ns_, ns(kUnknownStd_s)}, true, std::nullopt};
@@ -164,8 +194,10 @@ void FrameClock::tell_rhythm(Timing timing) {
 /// Reports a rate that differs significantly from the configured one, or from the one reported last.
 void FrameClock::watch_rate() {
   if (++frames_tracked_ % kRateFrames != 0 || news_ || model_.contradicted()) return;
-  const double period_s = model_.period_s();
-  const double doubt_s = kRateSigmas * model_.period_std_s();
+  tell_rate(model_.period_s(), kRateSigmas * model_.period_std_s());
+}
+
+void FrameClock::tell_rate(double period_s, double doubt_s) {
   const double known_s = told_period_s_ > 0 ? told_period_s_ : nominal_s_;
   if (std::abs(period_s - known_s) < kRateTolerance * known_s + doubt_s) return;
   const bool right = std::abs(period_s - nominal_s_) < kRateTolerance * nominal_s_;
@@ -291,6 +323,7 @@ std::int64_t FrameClock::by_time(const FrameObservation& frame, double late_peri
 }
 
 ClockState FrameClock::state() const {
+  if (timing_ == Timing::device) return device_->state();
   ClockState state = model_.state();
   state.timing = timing_;
   const bool tracking = timing_ == Timing::periodic || timing_ == Timing::bursts;

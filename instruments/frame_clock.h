@@ -6,6 +6,7 @@
 
 #include "instruments/clock_model.h"
 #include "instruments/clock_news.h"
+#include "instruments/device_clock.h"
 #include "instruments/frame_observation.h"
 #include "instruments/period_finder.h"
 
@@ -16,6 +17,9 @@ namespace navcal::instruments {
 /// Lost and repeated frames are counted by the sequence number or, without one, by the device's clock. The
 /// period is learnt from the frames, whatever the configuration says. Streams without a nominal rate, and those
 /// that no clock explains, are stamped by arrival. Times of validity strictly increase.
+///
+/// Frames that carry a time of the device's own clock are stamped by DeviceClock instead: there each frame says
+/// itself which tick it is.
 class FrameClock {
  public:
   /// `rate_Hz` nominal, 0 for none; `latency_std_s` the uncertainty of the nominal latency.
@@ -28,11 +32,13 @@ class FrameClock {
   };
   Outcome update(const FrameObservation& frame);
 
-  [[nodiscard]] std::uint64_t lost() const { return lost_; }
-  [[nodiscard]] std::uint64_t repeated() const { return repeated_; }
+  [[nodiscard]] std::uint64_t lost() const { return lost_ + (device_ ? device_->lost() : 0); }
+  [[nodiscard]] std::uint64_t repeated() const { return repeated_ + (device_ ? device_->repeated() : 0); }
   [[nodiscard]] ClockState state() const;
 
  private:
+  Outcome by_device(const FrameObservation& frame);
+  bool leaves_device_clock();
   TimeEstimate search(const FrameObservation& frame);
   TimeEstimate track(const FrameObservation& frame);
   TimeEstimate by_arrival(const FrameObservation& frame);
@@ -47,6 +53,7 @@ class FrameClock {
   [[nodiscard]] int counted_step(const FrameObservation& frame) const;
   void watch_intervals(const FrameObservation& frame);
   void watch_rate();
+  void tell_rate(double period_s, double doubt_s);
   void tell_rhythm(Timing timing);
   TimeEstimate finish(TimeEstimate time, double least_step_s);
 
@@ -55,6 +62,8 @@ class FrameClock {
   Timing timing_;
   ClockModel model_;
   PeriodFinder finder_;
+  std::optional<DeviceClock> device_;  ///< once a frame has stated its time
+  int frames_without_time_ = 0;
   std::int64_t index_ = 0;
   std::int64_t guessed_lost_ = 0;  ///< frames thought lost by time alone, until the next frame confirms it
   std::optional<std::uint8_t> sequence_;

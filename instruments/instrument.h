@@ -14,15 +14,29 @@ namespace navcal::instruments {
 
 using Value = decltype(Sample::value);
 
+/// When a measurement was valid, as the program says that has sent it. It places the measurement and defines no
+/// clock.
+struct SenderTime {
+  std::optional<std::int64_t> utc_ns;  ///< absent: the arrival counts
+  std::optional<std::int64_t> std_ns;  ///< one standard deviation
+};
+
 /// Content of one frame, or of the epoch that it closes, before it is stamped.
 struct Measurement {
   Value value;
-  std::optional<std::uint8_t> sequence;       ///< the device's own counter
+  std::optional<std::uint8_t> sequence;  ///< the device's own counter
+  /// Time of validity by the device's own clock, whatever its origin. A line between this clock and the arrivals
+  /// then gives the time of the sample, also where the sample does not pace.
+  std::optional<std::int64_t> device_time_ns{};
   std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
-  /// From the measurement to the first byte on the wire, where the device states it; else the port's latency holds.
+  /// One tick of the device's clock (not so for satellites in view). What comes after it from the same frame, and
+  /// does not pace, is of the same time.
+  bool paces = true;
+  /// From the measurement to the first byte on the wire, where the device states it; else the port's latency
+  /// holds.
   std::optional<std::int64_t> age_ns;
-  bool paces = true;                          ///< one tick of the device's clock (not so for satellites in view)
+  std::optional<SenderTime> by_sender{};  ///< of an injected sample
 };
 
 /// Takes measurements as they are found.

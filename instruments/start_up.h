@@ -25,6 +25,8 @@ class StartUp {
   virtual std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) = 0;
   /// Time at which next() should be called again, monotonic; INT64_MAX when only a frame can change something.
   [[nodiscard]] virtual std::int64_t deadline_ns() const = 0;
+  /// True when the dialogue is over and the device delivers.
+  [[nodiscard]] virtual bool in_service() const = 0;
   /// State as text for people: "running", "settings sent", "no answer to Ha: trying Ea", ...
   [[nodiscard]] virtual std::string state() const = 0;
 };

@@ -16,6 +16,7 @@ class StartUpKeller final : public StartUp {
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
   [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
+  [[nodiscard]] bool in_service() const override { return phase_ == Phase::polling; }
   [[nodiscard]] std::string state() const override;
 
  private:

@@ -17,6 +17,7 @@ class StartUpOncore final : public StartUp {
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
   [[nodiscard]] std::int64_t deadline_ns() const override;
+  [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
   [[nodiscard]] std::string state() const override;
 
  private:

@@ -248,6 +248,13 @@ void Tcm2Calibration::on_unanswered(std::int64_t now_ns) {
   enter(Phase::idle, kNever_ns);
 }
 
+std::vector<CompassCalibration::Figure> Tcm2Calibration::figures() const {
+  if (!score_) return {};
+  return {{"horizontal", static_cast<double>(score_->horizontal)},
+          {"vertical", static_cast<double>(score_->vertical)},
+          {"magnitude", score_->magnitude}};
+}
+
 std::string Tcm2Calibration::state() const {
   std::string text;
   switch (phase_) {

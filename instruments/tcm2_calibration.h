@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "config/settings.h"
+#include "instruments/compass_calibration.h"
 #include "instruments/turn_count.h"
-#include "protocols/frame.h"
 #include "protocols/tcm2_reply.h"
 
 namespace navcal::instruments {
@@ -17,11 +16,10 @@ namespace navcal::instruments {
 /// The TCM2's own calibration (ICD section 1): `h` twice, `cc`, `mpcal=e`, `go`. The vehicle then makes two
 /// slow turns with as much tilt as possible. At the end: `h` twice, `mpcal=d`, which answers the score
 /// (otherwise `lc?` does), `go`.
-///
-/// A state machine like StartUp, which must be silent meanwhile. In every case it ends with `go`, and a device
-/// that may still be calibrating is told to stop calibrating.
-class Tcm2Calibration {
+class Tcm2Calibration final : public CompassCalibration {
  public:
+  static constexpr std::string_view kName = "tcm2";
+
   struct Limits {
     double turns = 2;
     std::int64_t longest_ns = 600'000'000'000;  ///< the score is read after this time, turned or not
@@ -29,29 +27,30 @@ class Tcm2Calibration {
   explicit Tcm2Calibration(const config::PortSettings& settings) : Tcm2Calibration(settings, Limits{}) {}
   Tcm2Calibration(const config::PortSettings& settings, const Limits& limits);
 
-  /// Begins a calibration; the device must be in service. The results of an earlier one are forgotten.
-  void begin(std::int64_t now_ns);
-  /// Ends the turning on the operator's request. Before the turning has begun, it calls the calibration off.
-  void stop(std::int64_t now_ns);
-  /// Ends at once, because the device cannot be reached any more.
-  void abandon(std::string reason);
-  void on_frame(const protocols::Frame& frame, std::int64_t now_ns);
-  /// Calibrated yaw rate of a gyro. Without a gyro, the compass that is being calibrated counts the turns.
-  void on_yaw_rate(double rate_rad_s, std::int64_t now_ns);
-  /// Bytes to send now, if any; call again until nullopt.
-  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns);
-  /// Time at which next() should be called again, monotonic; INT64_MAX when only a frame can change something.
-  [[nodiscard]] std::int64_t deadline_ns() const { return due_ns_; }
+  [[nodiscard]] std::string_view name() const override { return kName; }
+  [[nodiscard]] std::string_view manoeuvre() const override {
+    return "turn twice, slowly, with as much tilt as possible";
+  }
+  void begin(std::int64_t now_ns) override;
+  void stop(std::int64_t now_ns) override;
+  void abandon(std::string reason) override;
+  std::string save(std::int64_t) override {
+    return "the TCM2 applies its calibration itself: there is nothing to accept or to roll back";
+  }
+  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
+  /// Without a gyro, the compass that is being calibrated counts the turns.
+  void on_yaw_rate(double rate_rad_s, std::int64_t now_ns) override;
+  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
+  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
 
-  [[nodiscard]] bool busy() const { return phase_ != Phase::idle; }
+  [[nodiscard]] bool busy() const override { return phase_ != Phase::idle; }
   /// Score of the current or last calibration, once the compass has answered it.
   [[nodiscard]] const std::optional<protocols::tcm2::CalibrationScore>& score() const { return score_; }
-  /// Whether `cc` was sent: the compass then corrects itself differently than before, whatever the result.
-  [[nodiscard]] bool touched() const { return touched_; }
-  /// Reason why there is no score; empty during a calibration and after success.
-  [[nodiscard]] const std::string& failure() const { return failure_; }
-  /// State as text for people: "turned 310 of 720 degrees", "score H9V3M1.2", "failed: cc refused (E010)".
-  [[nodiscard]] std::string state() const;
+  [[nodiscard]] std::vector<Figure> figures() const override;
+  /// Whether `cc` was sent.
+  [[nodiscard]] bool touched() const override { return touched_; }
+  [[nodiscard]] const std::string& failure() const override { return failure_; }
+  [[nodiscard]] std::string state() const override;
 
  private:
   enum class Phase : std::uint8_t {

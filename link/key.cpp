@@ -2,9 +2,8 @@
 #include "link/key.h"
 
 #include <fmt/format.h>
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
-#include <openssl/hmac.h>
+#include <nettle/hmac.h>
+#include <nettle/memops.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 
@@ -26,12 +25,11 @@ constexpr std::string_view kPurpose = "navcal link 1";
 using Digest = std::array<std::uint8_t, 32>;
 
 Digest hmac(std::string_view key, const Buffer& text) {
+  hmac_sha256_ctx context;
+  hmac_sha256_set_key(&context, key.size(), reinterpret_cast<const std::uint8_t*>(key.data()));
+  hmac_sha256_update(&context, text.size(), text.data());
   Digest digest{};
-  unsigned length = 0;
-  if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), text.data(), text.size(), digest.data(),
-           &length) == nullptr ||
-      length != digest.size())
-    throw std::runtime_error("the library of cryptography gives no HMAC");
+  hmac_sha256_digest(&context, digest.size(), digest.data());
   return digest;
 }
 
@@ -54,7 +52,7 @@ Tag SessionKey::tag(Direction direction, Bytes covered) const {
 
 bool SessionKey::verifies(Direction direction, Bytes covered, Bytes given) const {
   const Tag right = tag(direction, covered);
-  return given.size() == right.size() && CRYPTO_memcmp(given.data(), right.data(), right.size()) == 0;
+  return given.size() == right.size() && memeql_sec(given.data(), right.data(), right.size()) != 0;
 }
 
 std::variant<Key, std::string> Key::from_text(std::string_view text) {

@@ -94,7 +94,8 @@ void Navigator::take(const CompassReading& reading) {
   }
   if (reading.roll_rad && reading.pitch_rad) {
     // The fluid shows the tilt of some time ago.
-    const std::int64_t felt_ns = reading.time_ns - std::llround(options_.attitude.tilt_lag_s * 1e9);
+    const double lag_s = reading.tilt_lags ? options_.attitude.tilt_lag_s : 0;
+    const std::int64_t felt_ns = reading.time_ns - std::llround(lag_s * 1e9);
     const Pose felt = past_.at(felt_ns).value_or(*pose);
     const double since_s = tilt_ns_ ? base::seconds(reading.time_ns - *tilt_ns_) : 0;
     const Vector2d turned = attitude_.correct_tilt(base::wrapped(*reading.roll_rad - felt.roll_rad),
@@ -149,7 +150,10 @@ void Navigator::take(const FixReading& reading) {
   }
   if (const auto outage = reckoning_.fix(reading, pose->reckoned_m, base::seconds(*time_ns_ - reading.time_ns)))
     outage_ = outage;
-  if (reading.velocity_m_s && speed_known_ && attitude_.heading_known()) observe_set(reading);
+  // The way of the last second must have been one through the water.
+  const bool over_bottom = over_bottom_ns_ && *over_bottom_ns_ >= reading.time_ns - base::kSecond_ns;
+  if (reading.velocity_m_s && source_ != SpeedSource::none && attitude_.heading_known() && !over_bottom)
+    observe_set(reading);
 }
 
 /// A receiver's velocity is a mean over about the second before: what changed within it is no measure of the set.
@@ -175,6 +179,8 @@ void Navigator::advance(std::int64_t time_ns, const std::optional<Vector3d>& mea
   way.duration_s = duration_s;
   way.heading_std_rad = heading_std_rad();
   const Vector2d ahead_before = ahead();
+  const HeldVelocity* const held = held_velocity();
+  const Vector3d held_before_m_s = held != nullptr ? measured_m_s(*held) : Vector3d(Vector3d::Zero());
   if (mean_rate_rad_s) {
     attitude_.turn(*mean_rate_rad_s, duration_s);
   } else {
@@ -187,8 +193,17 @@ void Navigator::advance(std::int64_t time_ns, const std::optional<Vector3d>& mea
   move_speed(duration_s);
   way.speed_known = speed_known_;
   way.speed_m_s = speed_known_ ? (speed_before_m_s + speed_m_s_) / 2 : 0;
+  double sinking_m_s = attitude_.tilt_known() ? -way.speed_m_s * std::sin(attitude_.pitch_rad()) : 0;
+  way.source = speed_known_ ? SpeedSource::shaft : SpeedSource::none;
+  if (held != nullptr) {
+    measure(way, *held, held_before_m_s);
+    if (attitude_.tilt_known()) sinking_m_s = measured_m_s(*held).z();
+  }
+  source_ = way.source;
+  way.set_turns = over_bottom_ns_.has_value();
+  if (source_ == SpeedSource::bottom) over_bottom_ns_ = time_ns;
   reckoning_.advance(way);
-  depth_.advance(attitude_.tilt_known() ? -way.speed_m_s * std::sin(attitude_.pitch_rad()) : 0, duration_s);
+  depth_.advance(sinking_m_s, duration_s);
   past_.push(
       {time_ns, attitude_.roll_rad(), attitude_.pitch_rad(), attitude_.heading_rad(), reckoning_.reckoned_m()});
 }
@@ -228,12 +243,12 @@ Estimate Navigator::estimate() const {
     estimate.roll_rad = attitude_.roll_rad();
   }
   estimate.depth_m = depth_.depth_m();
-  if (speed_known_) estimate.speed_m_s = speed_m_s_;
+  if (const auto speed_m_s = speed_through_water_m_s()) estimate.speed_m_s = speed_m_s;
+  estimate.speed_source = source_;
+  estimate.velocity_outliers = velocity_outliers();
   estimate.set_m_s = reckoning_.set_m_s();
-  if (speed_known_ && attitude_.heading_known()) {
-    const Vector2d level_m_s = speed_m_s_ * ahead() + reckoning_.set_m_s();
-    estimate.velocity_m_s = Vector3d(level_m_s.x(), level_m_s.y(), depth_.sinking_m_s());
-  }
+  if (const auto level_m_s = level_velocity_m_s())
+    estimate.velocity_m_s = Vector3d(level_m_s->x(), level_m_s->y(), depth_.sinking_m_s());
   if (reckoning_.known()) {
     estimate.position_m = reckoning_.position_m();
     estimate.position_std_m = reckoning_.std_m();

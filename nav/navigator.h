@@ -8,15 +8,17 @@
 #include "nav/dead_reckoning.h"
 #include "nav/depth_filter.h"
 #include "nav/estimate.h"
+#include "nav/held_velocity.h"
 #include "nav/options.h"
 #include "nav/past_poses.h"
 #include "nav/readings.h"
+#include "nav/set_window.h"
 
 namespace navcal::nav {
 
-/// Attitude, depth and position of a vehicle that has a compass, gyros, a depth gauge, a shaft that is counted,
-/// and now and then a fix (docs/navigation.md). Readings come in the order of their arrival, each with the time at
-/// which it was measured.
+/// Attitude, depth and position of a vehicle that has a compass, gyros, a depth gauge, a shaft that is counted, a
+/// DVL, and now and then a fix; any of them may be absent (docs/navigation.md). Readings come in the order of
+/// their arrival, each with the time at which it was measured.
 ///
 /// The card with the gyros drives the time: each of its frames moves everything on to its own time. Any other
 /// reading is compared with what was thought of its time, and what follows from the difference corrects the
@@ -33,6 +35,11 @@ class Navigator {
   /// The tilt by accelerometers, for a vehicle without an inclinometer.
   void take(const TiltReading& reading);
   void take(const ShaftReading& reading);
+  /// It moves the position while it comes, and shows the set. An outlier is passed over and counted.
+  void take(const GroundVelocityReading& reading);
+  /// It takes the place of the shaft's speed.
+  void take(const WaterVelocityReading& reading);
+  void take(const DepthReading& reading);
   void take(const FixReading& reading);
 
   /// Headings are counted from another north from here on (the declination became known): they grow by this.
@@ -51,6 +58,8 @@ class Navigator {
   /// A stretch without fixes that the last fix ended; once.
   [[nodiscard]] std::optional<Outage> take_outage();
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
+  /// Measurements of a DVL that disagreed with those before them.
+  [[nodiscard]] std::uint64_t velocity_outliers() const { return bottom_.outliers() + water_.outliers(); }
 
  private:
   /// The newest reading of a kind.
@@ -62,6 +71,25 @@ class Navigator {
   void drive(std::int64_t time_ns);
   void advance(std::int64_t time_ns, const std::optional<Eigen::Vector3d>& mean_rate_rad_s);
   void move_speed(double duration_s);
+  /// The best that is current; null without any.
+  [[nodiscard]] const HeldVelocity* held_velocity() const;
+  [[nodiscard]] Eigen::Vector3d measured_m_s(const HeldVelocity& held) const;
+  [[nodiscard]] bool direction_known(const HeldVelocity& held) const;
+  /// Of an instrument at that place, by the turning of the vehicle, in this frame.
+  [[nodiscard]] Eigen::Vector3d arm_velocity_m_s(const Pose& pose, const Eigen::Vector3d& position_m,
+                                                 VelocityFrame frame) const;
+  template <class VelocityReading>
+  bool hold(HeldVelocity& held, const VelocityReading& reading, const Pose& pose, SpeedSource source);
+  [[nodiscard]] std::optional<HeldVelocity::Expected> expected(const GroundVelocityReading& reading,
+                                                               const Pose& pose) const;
+  [[nodiscard]] std::optional<HeldVelocity::Expected> expected(const WaterVelocityReading& reading,
+                                                               const Pose& pose) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> water_velocity_m_s(const Pose& pose) const;
+  [[nodiscard]] std::optional<double> speed_through_water_m_s() const;
+  /// North and east, over ground.
+  [[nodiscard]] std::optional<Eigen::Vector2d> level_velocity_m_s() const;
+  /// The way of a step by a DVL; `before_m_s` at its begin.
+  void measure(Way& way, const HeldVelocity& held, const Eigen::Vector3d& before_m_s) const;
   [[nodiscard]] Eigen::Vector2d ahead() const;
   void observe_set(const FixReading& reading);
   [[nodiscard]] double heading_std_rad() const;
@@ -72,11 +100,15 @@ class Navigator {
   DeadReckoning reckoning_;
   PastPoses past_;
   std::optional<std::int64_t> time_ns_;
-  Last rates_ns_, compass_ns_, tilt_reading_ns_, shaft_ns_, fix_ns_;
+  Last rates_ns_, compass_ns_, tilt_reading_ns_, shaft_ns_, fix_ns_, bottom_ns_, water_ns_, depth_ns_;
   Eigen::Vector3d rate_rad_s_ = Eigen::Vector3d::Zero();
   double revolutions_per_s_ = 0;
   double speed_m_s_ = 0;
   bool speed_known_ = false;
+  HeldVelocity bottom_, water_;
+  SetWindow set_window_;
+  SpeedSource source_ = SpeedSource::none;            ///< of the last step
+  std::optional<std::int64_t> over_bottom_ns_;        ///< end of the last step by the velocity over the bottom
   std::optional<std::int64_t> heading_ns_, tilt_ns_;  ///< of the last reading that had one
   bool heading_calibrated_ = false;
   double drift_rad_ = 0;  ///< of the heading since then, one standard deviation

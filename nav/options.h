@@ -23,17 +23,25 @@ struct DepthOptions {
 };
 
 struct ReckoningOptions {
-  double walk_m2_per_s = 0.02;     ///< growth of the variance of a position, each axis
-  double set_m_s = 0.15;           ///< standard deviation of the set, each axis; 0: there is none
-  double set_time_s = 3600;        ///< after which a set is forgotten
-  double speed_error = 0.05;       ///< relative, the same all along
-  double unknown_speed_m_s = 1.5;  ///< how fast it may go when nothing tells how fast it goes
+  double walk_m2_per_s = 0.02;           ///< growth of the variance of a position, each axis
+  double bottom_walk_m2_per_s = 0.0005;  ///< the same while the velocity over the bottom is measured
+  double set_m_s = 0.15;                 ///< standard deviation of the set, each axis; 0: there is none
+  double set_time_s = 3600;              ///< after which a set is forgotten
+  double speed_error = 0.05;             ///< relative, the same all along
+  double unknown_speed_m_s = 1.5;        ///< how fast it may go when nothing tells how fast it goes
+};
+
+/// Of a DVL.
+struct VelocityOptions {
+  double scale_error = 0.005;                         ///< relative, the same all along; one standard deviation
+  double alignment_error_rad = 0.008726646259971648;  ///< of its axes about the vehicle's z axis; one std
 };
 
 struct Options {
   AttitudeOptions attitude;
   DepthOptions depth;
   ReckoningOptions reckoning;
+  VelocityOptions velocity;
   double advance_m =
       base::reference::kAdvance_m;  ///< through the water for one revolution of the shaft; 0: not known
   double speed_lag_s = base::reference::kSpeedLag_s;  ///< of the vehicle's speed behind its shaft's

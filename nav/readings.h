@@ -34,11 +34,43 @@ struct CompassReading {
   std::optional<double> pitch_rad;    ///< positive nose-up
   std::optional<double> roll_rad;     ///< positive starboard-down
   bool calibrated = false;            ///< the heading is that of a calibration
+  bool tilt_lags = true;              ///< pitch and roll are those of a fluid (AttitudeOptions::tilt_lag_s)
 };
 
 struct ShaftReading {
   std::int64_t time_ns = 0;
   double revolutions_per_s = 0;
+};
+
+/// Axes of a velocity.
+enum class VelocityFrame : std::uint8_t {
+  body,   ///< x forward, y starboard, z down
+  earth,  ///< north, east, down, as the instrument's own compass has it
+};
+
+/// Velocity over the bottom, at the place of the instrument: a DVL with bottom lock.
+struct GroundVelocityReading {
+  std::int64_t time_ns = 0;
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  VelocityFrame frame = VelocityFrame::body;
+  double std_m_s = 0;                                    ///< random, each axis
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the instrument, from the vehicle's origin
+};
+
+/// Velocity through the water some metres from the vehicle, at the place of the instrument.
+struct WaterVelocityReading {
+  std::int64_t time_ns = 0;
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  VelocityFrame frame = VelocityFrame::body;
+  double std_m_s = 0;                                    ///< random, each axis
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the instrument, from the vehicle's origin
+};
+
+/// Depth of a gauge that is not on the card with the gyros.
+struct DepthReading {
+  std::int64_t time_ns = 0;
+  double depth_m = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the gauge, from the vehicle's origin
 };
 
 struct FixReading {

@@ -2,6 +2,7 @@
 #include "pipeline/calib_reading.h"
 
 #include "base/vectors.h"
+#include "calib/correction.h"
 #include "instruments/compass_error.h"
 
 namespace navcal::pipeline {
@@ -15,6 +16,9 @@ calib::CompassReading calib_reading(const instruments::CompassSample& compass, c
   reading.pitch_rad = compass.pitch_rad;
   reading.roll_rad = compass.roll_rad;
   if (compass.field_body_uT) reading.field_body_uT = base::vector_of(*compass.field_body_uT);
+  // An inertial unit gives its field, and the heading of its filter apart from it, or for true north.
+  if (!reading.heading_rad && reading.field_body_uT && compass.roll_rad && compass.pitch_rad)
+    reading.heading_rad = calib::levelled_heading(*reading.field_body_uT, *compass.roll_rad, *compass.pitch_rad);
   reading.utc_ns = stamp.validity_utc_ns;
   reading.distorted = error.distortion;
   reading.tilt_out_of_range = error.tilt_out_of_range;

@@ -9,7 +9,8 @@
 namespace navcal::pipeline {
 
 /// A sample as the calibrators take it; `time_s` from an origin of the caller's choice. True headings are left
-/// out: calibrators learn magnetic ones.
+/// out, because calibrators learn magnetic ones. A sample without a magnetic heading gets that of its own field,
+/// levelled by its own tilt.
 [[nodiscard]] calib::CompassReading calib_reading(const instruments::CompassSample& compass,
                                                   const instruments::Stamp& stamp, double time_s);
 /// nullopt without rates.

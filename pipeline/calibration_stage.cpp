@@ -149,11 +149,13 @@ void CalibrationStage::tell(std::int64_t now_ns, CalibrationChange::Cause cause,
 }
 
 CalibrationChange CalibrationStage::beginning(std::int64_t now_ns) {
-  calib::Archive saving;
+  // Twice what a state takes. Pages that nothing is written to take no memory.
+  constexpr std::size_t kRoom_bytes = 1 << 20;
+  calib::Archive saving(kRoom_bytes);
   archive(saving);
   const auto& in_force = suite_.in_force();
   return {now_ns,          CalibrationChange::Cause::begin, std::nullopt,
-          in_force.name(), in_force.correction(),           saving.bytes()};
+          in_force.name(), in_force.correction(),           std::move(saving).take()};
 }
 
 bool CalibrationStage::restore(std::string_view state) {

@@ -15,14 +15,23 @@ constexpr double kJump_s = 0.9;       // of what is stated against what is obser
 constexpr int kJumpsToBelieve = 4;    // in a row
 constexpr double kEarly_s = 0.1;
 constexpr double kBoundSigmas = 3;
+/// By which the epoch of a receiver may lie beside the second. A u-blox receiver keeps its clock within half a
+/// millisecond and states the exact time.
+constexpr std::int64_t kBeside_ns = 2'000'000;
 
 }  // namespace
 
 std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::int64_t observed_ns,
                                                const UtcMapping& in_force) {
   if (in_force.source == UtcMapping::Source::file) return std::nullopt;
-  if (stated_utc_ns % base::kSecond_ns != 0) return std::nullopt;  // faster than 1 Hz: the whole seconds suffice
-  const std::int64_t second = stated_utc_ns / base::kSecond_ns;
+  std::int64_t second = stated_utc_ns / base::kSecond_ns;
+  std::int64_t beside_ns = stated_utc_ns % base::kSecond_ns;
+  if (beside_ns > base::kSecond_ns / 2) {
+    ++second;
+    beside_ns -= base::kSecond_ns;
+  }
+  if (std::abs(beside_ns) > kBeside_ns) return std::nullopt;  // faster than 1 Hz: the whole seconds suffice
+  observed_ns -= beside_ns;
   if (!model_.empty()) {
     const std::int64_t steps = second - last_second_;
     if (steps == 0) return std::nullopt;
@@ -43,7 +52,7 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
 
   UtcMapping candidate;
   candidate.source = UtcMapping::Source::gps;
-  candidate.offset_ns = stated_utc_ns - time.time_ns;
+  candidate.offset_ns = stated_utc_ns - beside_ns - time.time_ns;
   candidate.bound_ns =
       std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns)));
   candidate.at_ns = observed_ns;

@@ -21,6 +21,19 @@ namespace navcal::pipeline {
 /// Rates, and the specific force where the sample has it; the depth is left open. Nullopt without rates.
 [[nodiscard]] std::optional<nav::RateReading> rate_reading(const instruments::Sample& sample,
                                                            const instruments::ImuSample& imu);
+/// Velocity of a DVL at `position_m` over the bottom; nullopt without bottom lock. An error that the device states
+/// as zero, as some do, is a millimetre a second.
+[[nodiscard]] std::optional<nav::GroundVelocityReading> bottom_reading(const instruments::Sample& sample,
+                                                                       const instruments::DvlSample& dvl,
+                                                                       const Eigen::Vector3d& position_m);
+/// Likewise through the water.
+[[nodiscard]] std::optional<nav::WaterVelocityReading> water_reading(const instruments::Sample& sample,
+                                                                     const instruments::DvlSample& dvl,
+                                                                     const Eigen::Vector3d& position_m);
+/// Depth that the gauge states; else that of its pressure in water of one density: (p - p_air)/(rho g). Nullopt
+/// when it measured neither.
+[[nodiscard]] std::optional<double> depth_m(const instruments::DepthSample& gauge,
+                                            const config::NavigationSettings& settings);
 /// nullopt without a shaft speed.
 [[nodiscard]] std::optional<nav::ShaftReading> shaft_reading(const instruments::Sample& sample,
                                                              const instruments::MotorSample& motor);

@@ -23,6 +23,20 @@ std::string_view name_of(PositionSource source) {
   return "none";
 }
 
+std::string_view name_of(nav::SpeedSource source) {
+  switch (source) {
+    case nav::SpeedSource::shaft:
+      return "shaft";
+    case nav::SpeedSource::water:
+      return "water";
+    case nav::SpeedSource::bottom:
+      return "dvl";
+    case nav::SpeedSource::none:
+      break;
+  }
+  return {};
+}
+
 std::string words_for_outage(const NavigationSample& sample) {
   if (!sample.outage) return {};
   const auto& outage = *sample.outage;

@@ -27,6 +27,9 @@ enum class PositionSource : std::uint8_t {
 /// "none", "fixes", "reckoned".
 [[nodiscard]] std::string_view name_of(PositionSource source);
 
+/// "shaft", "water", "dvl"; empty: the speed is unknown.
+[[nodiscard]] std::string_view name_of(nav::SpeedSource source);
+
 /// The estimate of one instant (docs/navigation.md).
 struct NavigationSample {
   instruments::Stamp stamp;  ///< validity is that of the estimate, arrival that of the sample that called for it
@@ -37,6 +40,8 @@ struct NavigationSample {
   /// Height of the altimeter above the sea floor, straight down, its standard deviation, and the depth of the
   /// water there; nullopt without an altimeter, and soon after its last reading.
   std::optional<double> altitude_m, altitude_std_m, water_depth_m;
+  /// Whether a DVL that is heard measures the velocity over the bottom; nullopt without one.
+  std::optional<bool> bottom_lock;
   /// A stretch without fixes that has just ended, and how far off it would have ended without calibrations.
   std::optional<nav::Outage> outage;
   std::optional<double> outage_error_uncalibrated_m;

@@ -24,6 +24,15 @@ constexpr double kFixIsCurrent_s = 2.5;
 constexpr std::int64_t kInclinometerPause_ns = 2'000'000'000;
 /// The velocity of another receiver is that of a fix when it lies no further from it.
 constexpr std::int64_t kVelocityAge_ns = 600'000'000;
+/// A DVL that is silent for longer is not heard any more.
+constexpr std::int64_t kDvlPause_ns = 3'000'000'000;
+
+/// An inclinometer is a fluid and lags. A device that measures rates as well carries its tilt by them.
+std::vector<bool> tilt_lags_of(const config::Settings& settings) {
+  std::vector<bool> lags;
+  for (const auto& port : settings.ports) lags.push_back(!config::can_deliver(port.protocol, Role::rates));
+  return lags;
+}
 
 }  // namespace
 
@@ -33,6 +42,8 @@ nav::Options navigation_options(const config::Settings& settings) {
   options.attitude.tilt_lag_s = instruments.compass.tilt_lag_s;
   options.reckoning.set_m_s = settings.calibration.current_m_s;
   options.reckoning.speed_error = settings.navigation.speed_error;
+  options.velocity.scale_error = settings.navigation.dvl_scale_error;
+  options.velocity.alignment_error_rad = settings.navigation.dvl_alignment_error_rad;
   options.advance_m = settings.calibration.advance_m;
   options.speed_lag_s = settings.navigation.speed_lag_s;
   options.heading_error_rad = settings.navigation.heading_error_rad;
@@ -55,7 +66,9 @@ std::unique_ptr<NavigationStage> NavigationStage::make(const config::Settings& s
 }
 
 NavigationStage::NavigationStage(const config::Settings& settings)
-    : ports_(Sources(settings).serving()),
+    : settings_(settings.navigation),
+      tilt_lags_(tilt_lags_of(settings)),
+      ports_(Sources(settings).serving()),
       options_(navigation_options(settings)),
       declination_rad_(settings.environment.declination_rad),
       gps_(devices::instrument_model(settings).gps),
@@ -71,6 +84,7 @@ NavigationStage::NavigationStage(const config::Settings& settings)
 void NavigationStage::begin_run() {
   calibrated_ = uncalibrated_ = nav::Navigator(options_);
   plane_.reset();
+  dvl_ns_.reset();
   inclinometer_ns_.reset();
   depth_m_.reset();
   velocity_m_s_.reset();
@@ -125,6 +139,10 @@ void NavigationStage::take(const instruments::Sample& original, const instrument
     feed_fix(corrected, *gps);
   } else if (const auto* altimeter = std::get_if<instruments::AltimeterSample>(&corrected.value)) {
     if (corrected.port == ports_[Role::altitude]) feed_altitude(corrected, *altimeter, sink);
+  } else if (const auto* dvl = std::get_if<instruments::DvlSample>(&corrected.value)) {
+    feed_dvl(corrected, *dvl, sink);
+  } else if (const auto* gauge = std::get_if<instruments::DepthSample>(&corrected.value)) {
+    if (corrected.port == ports_[Role::depth]) feed_depth(corrected, *gauge);
   }
   tell(corrected, mapping, sink);
 }
@@ -140,6 +158,7 @@ void NavigationStage::feed(nav::Navigator& navigator, const instruments::Sample&
   if (!compass.tilt_by_accelerometers) {
     reading.pitch_rad = compass.pitch_rad;
     reading.roll_rad = compass.roll_rad;
+    reading.tilt_lags = tilt_lags_.at(sample.port);
   }
   navigator.take(reading);
 }
@@ -212,13 +231,42 @@ std::optional<instruments::Sample> NavigationStage::at_origin(const instruments:
   return moved;
 }
 
+void NavigationStage::feed_dvl(const instruments::Sample& sample, const instruments::DvlSample& dvl, Sink& sink) {
+  const Eigen::Vector3d& position_m = positions_m_.at(sample.port);
+  const bool over_bottom = sample.port == ports_[Role::bottom_velocity];
+  const bool through_water = sample.port == ports_[Role::water_velocity];
+  if (over_bottom || through_water) dvl_ns_ = sample.stamp.validity_ns;
+  // The velocity over the bottom is compared with that through the water at the same time.
+  if (const auto reading = water_reading(sample, dvl, position_m); reading && through_water) {
+    calibrated_.take(*reading);
+    uncalibrated_.take(*reading);
+  }
+  if (const auto reading = bottom_reading(sample, dvl, position_m); reading && over_bottom) {
+    calibrated_.take(*reading);
+    uncalibrated_.take(*reading);
+  }
+  if (dvl.altitude_m && sample.port == ports_[Role::altitude]) feed_altitude(sample, *dvl.altitude_m, 0, 0, sink);
+}
+
+void NavigationStage::feed_depth(const instruments::Sample& sample, const instruments::DepthSample& gauge) {
+  const auto depth_now_m = depth_m(gauge, settings_);
+  if (!depth_now_m) return;
+  const nav::DepthReading reading{sample.stamp.validity_ns, *depth_now_m, positions_m_.at(sample.port)};
+  calibrated_.take(reading);
+  uncalibrated_.take(reading);
+  surfacings_.depth(sample.stamp.validity_ns, *depth_now_m);
+}
+
 void NavigationStage::feed_altitude(const instruments::Sample& sample,
                                     const instruments::AltimeterSample& altimeter, Sink& sink) {
   const nav::Estimate estimate = calibrated_.estimate();
+  feed_altitude(sample, altimeter.altitude_m, estimate.pitch_rad.value_or(0), estimate.roll_rad.value_or(0), sink);
+}
+
+void NavigationStage::feed_altitude(const instruments::Sample& sample, double range_m, double pitch_rad,
+                                    double roll_rad, Sink& sink) {
   const std::int64_t time_ns = sample.stamp.validity_ns;
-  if (!altitude_.take(time_ns, altimeter.altitude_m, estimate.pitch_rad.value_or(0),
-                      estimate.roll_rad.value_or(0)))
-    return;
+  if (!altitude_.take(time_ns, range_m, pitch_rad, roll_rad)) return;
   const auto altitude = altitude_.at(time_ns);
   if (!altitude || !floor_.take(time_ns, *altitude)) return;
   sink.on_alarm({EstimateAlarm::floor_near, floor_.is_near(), sample.port, sample.stamp.arrival_ns,
@@ -254,6 +302,8 @@ std::optional<NavigationSample> NavigationStage::newest(const UtcMapping& mappin
   sample.estimate = calibrated_.estimate();
   sample.stamp.validity_ns = sample.estimate.time_ns;
   sample.stamp.validity_utc_ns = mapping.to_utc(sample.estimate.time_ns);
+  if (dvl_ns_ && sample.estimate.time_ns - *dvl_ns_ <= kDvlPause_ns)
+    sample.bottom_lock = sample.estimate.speed_source == nav::SpeedSource::bottom;
   if (const auto altitude = altitude_.at(sample.estimate.time_ns)) {
     sample.altitude_m = altitude->altitude_m;
     sample.altitude_std_m = altitude->std_m;

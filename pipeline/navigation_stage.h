@@ -53,9 +53,16 @@ class NavigationStage {
             bool calibrated);
   void feed_tilt(const nav::TiltReading& tilt);
   void feed_fix(const instruments::Sample& sample, const instruments::GpsSample& gps);
+  void feed_dvl(const instruments::Sample& sample, const instruments::DvlSample& dvl, Sink& sink);
+  void feed_depth(const instruments::Sample& sample, const instruments::DepthSample& gauge);
   void feed_altitude(const instruments::Sample& sample, const instruments::AltimeterSample& altimeter, Sink& sink);
+  /// `range_m` along the z axis of a body with this tilt.
+  void feed_altitude(const instruments::Sample& sample, double range_m, double pitch_rad, double roll_rad,
+                     Sink& sink);
   void tell(const instruments::Sample& trigger, const UtcMapping& mapping, Sink& sink);
 
+  config::NavigationSettings settings_;
+  std::vector<bool> tilt_lags_;  ///< of each port
   RolePorts ports_;
   nav::Options options_;
   double declination_rad_;
@@ -65,6 +72,7 @@ class NavigationStage {
   std::int64_t interval_ns_;
   nav::Navigator calibrated_, uncalibrated_;
   std::optional<base::LocalPlane> plane_;
+  std::optional<std::int64_t> dvl_ns_;                          ///< newest sample of the DVL that serves
   std::optional<std::int64_t> inclinometer_ns_;                 ///< newest tilt of the compass
   std::vector<Eigen::Vector3d> positions_m_;                    ///< of each port's sensor
   std::optional<double> depth_m_;                               ///< newest that is not used yet

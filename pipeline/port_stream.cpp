@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/port_stream.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/durations.h"
 
 namespace navcal::pipeline {
 namespace {
@@ -11,14 +14,20 @@ namespace {
 // although it is whole. A longer margin would delay what follows a torn frame.
 constexpr std::int64_t kSilenceMargin_ns = 250'000'000;
 
+// A sample that was valid later than this after its arrival has a wrong time: clocks of programs on one vehicle
+// agree better. To it comes how far off our own mapping may be, which is not taken for more than an hour.
+constexpr std::int64_t kAhead_ns = base::kSecond_ns;
+constexpr std::int64_t kMostBound_ns = 3600 * base::kSecond_ns;
+
 }  // namespace
 
 PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, const StandardErrors& errors,
                        UtcMapping& mapping)
     : port_(port),
       latency_ns_(std::llround(settings.latency_s * 1e9)),
+      latency_std_ns_(std::llround(settings.latency_std_s * 1e9)),
       nominal_rate_Hz_(settings.rate_Hz),
-      parser_(protocols::make_port_parser(settings.protocol)),
+      parser_(protocols::make_port_parser(settings.protocol, settings.described ? &*settings.described : nullptr)),
       track_(settings.baud),
       instrument_(instruments::make_instrument(settings)),
       mounting_(settings.mounting),
@@ -52,6 +61,8 @@ std::int64_t PortStream::deadline_ns() const {
 
 void PortStream::on_frame(const protocols::Frame& frame) {
   place_ = track_.locate(frame.offset, frame.end());
+  paced_.reset();
+  repeated_ = false;
   statistics_.last_frame_ns = place_.arrival_ns;
   sink_->on_frame(port_, frame, place_.arrival_ns);
   if (instrument_->read(frame, *this) == instruments::Instrument::Verdict::out_of_range)
@@ -64,12 +75,19 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   sample.port = port_;
   sample.stamp.arrival_ns = place_.arrival_ns;
   sample.stamp.validity_ns = observed_ns;
-  if (measurement.paces) {
-    const auto outcome = clock_.update({observed_ns, measurement.sequence, place_.backlog});
+  if (!measurement.paces && repeated_) return;
+  if (!measurement.paces && paced_) {
+    sample.stamp.validity_ns = paced_->time_ns;
+    sample.stamp.std_ns = paced_->std_ns;
+  } else if (measurement.paces || measurement.device_time_ns) {
+    const auto outcome = clock_.update(
+        {observed_ns, measurement.sequence, place_.backlog, measurement.device_time_ns, measurement.paces});
     if (outcome.news) tell_news(*outcome.news);
+    repeated_ = measurement.paces && outcome.repeated;
     if (outcome.repeated) return;
     sample.stamp.validity_ns = outcome.time.time_ns;
     sample.stamp.std_ns = outcome.time.std_ns;
+    if (measurement.paces) paced_ = outcome.time;
   }
   if (measurement.stated_utc_ns && measurement.utc_is_known) {
     if (const auto mapping = gps_time_.update(*measurement.stated_utc_ns, observed_ns, mapping_)) {
@@ -77,14 +95,27 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
       sink_->on_mapping(mapping_);
     }
   }
+  if (measurement.by_sender && !place(*measurement.by_sender, sample.stamp)) {
+    ++statistics_.out_of_range;
+    return;
+  }
+  const auto stated_utc_ns = measurement.by_sender ? measurement.by_sender->utc_ns : measurement.stated_utc_ns;
   sample.stamp.arrival_utc_ns = mapping_.to_utc(sample.stamp.arrival_ns);
-  sample.stamp.validity_utc_ns =
-      measurement.stated_utc_ns ? *measurement.stated_utc_ns : mapping_.to_utc(sample.stamp.validity_ns);
+  sample.stamp.validity_utc_ns = stated_utc_ns ? *stated_utc_ns : mapping_.to_utc(sample.stamp.validity_ns);
   sample.value = measurement.value;
   mounting_.to_body(sample.value);
   errors_.complete(sample);
   ++statistics_.samples;
   sink_->on_sample(sample);
+}
+
+bool PortStream::place(const instruments::SenderTime& time, instruments::Stamp& stamp) const {
+  stamp.std_ns = time.std_ns.value_or(latency_std_ns_);
+  // Without a mapping the sender's UTC says nothing of our clock.
+  if (!time.utc_ns || mapping_.source == UtcMapping::Source::none) return true;
+  stamp.validity_ns = *time.utc_ns - mapping_.offset_ns;
+  const std::int64_t bound_ns = std::min(mapping_.bound_ns, kMostBound_ns);
+  return stamp.validity_ns - stamp.arrival_ns <= kAhead_ns + bound_ns;
 }
 
 void PortStream::tell_news(instruments::ClockNews news) {

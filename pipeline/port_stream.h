@@ -37,10 +37,12 @@ class PortStream : private instruments::Receiver {
  private:
   void on_frame(const protocols::Frame& frame);
   void on_measurement(const instruments::Measurement& measurement) override;
+  /// Sets the time of validity of an injected sample. False when it lies too far behind the arrival.
+  [[nodiscard]] bool place(const instruments::SenderTime& time, instruments::Stamp& stamp) const;
   void tell_news(instruments::ClockNews news);
 
   std::uint16_t port_;
-  std::int64_t latency_ns_;
+  std::int64_t latency_ns_, latency_std_ns_;
   double nominal_rate_Hz_;
   protocols::AnyPortParser parser_;
   ArrivalTrack track_;
@@ -55,6 +57,9 @@ class PortStream : private instruments::Receiver {
   // Sink of the frame being read; set only during a call.
   Sink* sink_ = nullptr;
   ArrivalTrack::Frame place_;
+  // Of the frame being read, once one of its samples paces: the others of the same frame have the same time.
+  std::optional<instruments::TimeEstimate> paced_;
+  bool repeated_ = false;
 };
 
 }  // namespace navcal::pipeline

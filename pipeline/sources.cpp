@@ -93,7 +93,7 @@ bool is_chosen(const config::Settings& settings, std::uint16_t port, Role role) 
 /// 0: chosen; 1: its protocol always says it; 2: it may.
 int rank(const config::Settings& settings, std::uint16_t port, Role role) {
   if (is_chosen(settings, port, role)) return 0;
-  return protocols::device_type(settings.ports[port].protocol).delivers_always ? 1 : 2;
+  return config::delivers_always(settings.ports[port]) ? 1 : 2;
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ RoleSet roles_of(const instruments::Sample& sample) {
 std::vector<std::uint16_t> candidates(const config::Settings& settings, Role role) {
   std::vector<std::uint16_t> ports;
   for (std::size_t i = 0; i < settings.ports.size(); ++i) {
-    if (config::can_deliver(settings.ports[i].protocol, role)) ports.push_back(static_cast<std::uint16_t>(i));
+    if (config::can_deliver(settings.ports[i], role)) ports.push_back(static_cast<std::uint16_t>(i));
   }
   std::stable_sort(ports.begin(), ports.end(), [&](std::uint16_t a, std::uint16_t b) {
     return rank(settings, a, role) < rank(settings, b, role);

@@ -22,7 +22,8 @@ StandardErrors::StandardErrors(const config::Settings& settings)
       heading_std_rad_(instruments_.compass.heading_noise_rad()),
       tilt_std_rad_(instruments_.compass.tilt_reading_noise_rad()),
       fin_std_rad_(instruments_.motor.fin_report_noise_rad()),
-      altitude_std_m_(settings.navigation.altitude_noise_m) {}
+      altitude_std_m_(settings.navigation.altitude_noise_m),
+      dvl_std_m_s_(settings.navigation.dvl_noise_m_s) {}
 
 void StandardErrors::complete(instruments::Sample& sample) const {
   std::visit([this](auto& value) { complete(value); }, sample.value);
@@ -57,6 +58,12 @@ void StandardErrors::complete(instruments::MotorSample& motor) const {
 
 void StandardErrors::complete(instruments::AltimeterSample& altimeter) const {
   complete_error(altimeter.altitude_std_m, true, altitude_std_m_);
+}
+
+void StandardErrors::complete(instruments::DvlSample& dvl) const {
+  complete_error(dvl.bottom_velocity_std_m_s, dvl.bottom_velocity_m_s.has_value(), dvl_std_m_s_);
+  complete_error(dvl.water_velocity_std_m_s, dvl.water_velocity_m_s.has_value(), dvl_std_m_s_);
+  complete_error(dvl.altitude_std_m, dvl.altitude_m.has_value(), altitude_std_m_);
 }
 
 }  // namespace navcal::pipeline

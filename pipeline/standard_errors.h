@@ -22,12 +22,13 @@ class StandardErrors {
   void complete(instruments::GpsSample& gps) const;
   void complete(instruments::MotorSample& motor) const;
   void complete(instruments::AltimeterSample& altimeter) const;
+  void complete(instruments::DvlSample& dvl) const;
   template <class Other>
   void complete(Other& /*sample*/) const {}
 
   devices::InstrumentModel instruments_;
   double heading_std_rad_, tilt_std_rad_, fin_std_rad_;
-  double altitude_std_m_;
+  double altitude_std_m_, dvl_std_m_s_;
 };
 
 }  // namespace navcal::pipeline

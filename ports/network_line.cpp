@@ -39,6 +39,7 @@ std::string_view kind_of(const NetworkAddress& address) {
     case NetworkAddress::Kind::tcp_listen:
       return "tcp-listen";
     case NetworkAddress::Kind::udp:
+    case NetworkAddress::Kind::unix_listen:
       break;
   }
   return "udp";

@@ -9,6 +9,7 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <cerrno>
@@ -25,6 +26,7 @@
 #include "ports/line.h"
 #include "ports/network_line.h"
 #include "ports/no_throw.h"
+#include "ports/sample_socket.h"
 #include "ports/tty.h"
 
 namespace navcal::ports {
@@ -74,7 +76,11 @@ struct Port::State : std::enable_shared_from_this<Port::State> {
   void tell(const std::string& reason);
   /// Reads all that is there after one wake-up. Empty, or why the port is lost.
   std::string drain(std::int64_t arrival_ns);
+  /// Writes in the next turn of the loop, without a wait for the port to become ready: Asio would keep watching
+  /// the port for that, and each read would then wake the loop twice.
+  void write_soon();
   void write_some();
+  void write_when_ready();
 
   config::PortSettings settings;
   PortListener& listener;
@@ -120,6 +126,8 @@ awaitable<std::string> Port::State::open(milliseconds& again_after) {
     why = co_await connect(*address);
   } else if (address->kind == config::NetworkAddress::Kind::tcp_listen) {
     why = co_await accept(*address);
+  } else if (address->kind == config::NetworkAddress::Kind::unix_listen) {
+    why = take(open_sample_socket(address->host));
   } else {
     why = take(bind_datagrams(*address));
   }
@@ -268,22 +276,33 @@ std::string Port::State::drain(std::int64_t arrival_ns) {
   }
 }
 
-void Port::State::write_some() {
+void Port::State::write_soon() {
   writing = true;
-  descriptor.async_wait(asio::posix::stream_descriptor::wait_write, [self = shared_from_this()](
-                                                                        const boost::system::error_code& error) {
-    self->writing = false;
-    if (self->stopped || !self->line) return;
-    const ssize_t taken = error ? -1 : self->line->write(self->outgoing);
-    if (taken < 0 && !error && (errno == EAGAIN || errno == EINTR)) return self->write_some();
-    // After an error the reading side finds out what became of the port.
-    if (taken < 0) return self->outgoing.clear();
-    const auto n = std::min(static_cast<std::size_t>(taken), self->outgoing.size());
-    self->listener.on_sent(monotonic_ns(), protocols::Bytes(self->outgoing.data(), n));
-    if (self->stopped) return;
-    self->outgoing.erase(self->outgoing.begin(), self->outgoing.begin() + static_cast<std::ptrdiff_t>(n));
-    if (!self->outgoing.empty()) self->write_some();
-  });
+  asio::post(timer.get_executor(), [self = shared_from_this()] { self->write_some(); });
+}
+
+void Port::State::write_some() {
+  writing = false;
+  if (stopped || !line || outgoing.empty()) return;
+  const ssize_t taken = line->write(outgoing);
+  if (taken < 0 && (errno == EAGAIN || errno == EINTR)) return write_when_ready();
+  // After an error the reading side finds out what became of the port.
+  if (taken < 0) return outgoing.clear();
+  const auto n = std::min(static_cast<std::size_t>(taken), outgoing.size());
+  listener.on_sent(monotonic_ns(), protocols::Bytes(outgoing.data(), n));
+  if (stopped) return;
+  outgoing.erase(outgoing.begin(), outgoing.begin() + static_cast<std::ptrdiff_t>(n));
+  if (!outgoing.empty() && !writing) write_when_ready();
+}
+
+void Port::State::write_when_ready() {
+  writing = true;
+  descriptor.async_wait(asio::posix::stream_descriptor::wait_write,
+                        [self = shared_from_this()](const boost::system::error_code& error) {
+                          self->writing = false;
+                          if (error) return self->outgoing.clear();
+                          self->write_some();
+                        });
 }
 
 Port::Port(asio::any_io_executor executor, config::PortSettings settings, PortListener& listener)
@@ -297,7 +316,7 @@ void Port::send(protocols::Bytes bytes) {
   State& state = *state_;
   if (!state.line || state.outgoing.size() + bytes.size() > kSendBytes) return;
   state.outgoing.insert(state.outgoing.end(), bytes.begin(), bytes.end());
-  if (!state.writing) state.write_some();
+  if (!state.writing) state.write_soon();
 }
 
 std::optional<std::int64_t> Port::send_now(protocols::Bytes bytes) {

@@ -159,9 +159,9 @@ constexpr DeviceType device_row(Protocol protocol) {
               .delivers = {.altitude = true, .bottom_velocity = true},
               .delivers_always = false};
     case Protocol::samples:
-      // Whatever another program knows; it states the times of validity itself.
+      // Whatever another program knows; it states the times of validity itself. No wire delays its lines.
       return {.name = "samples",
-              .baud = 115200,
+              .baud = 4'000'000,
               .latency_std_s = 0.010,
               .delivers = {.heading = true,
                            .field = true,
@@ -186,6 +186,23 @@ constexpr DeviceType device_row(Protocol protocol) {
       // It answers when it is asked: the host paces it.
       return {
           .name = "keller", .baud = 9600, .latency_s = 0.005, .latency_std_s = 0.005, .delivers = {.depth = true}};
+    case Protocol::described:
+      // What a file describes (protocols/described/): of a single device, its description says what it delivers.
+      return {.name = "described",
+              .baud = 9600,
+              .latency_std_s = 0.050,
+              .delivers = {.heading = true,
+                           .field = true,
+                           .rates = true,
+                           .acceleration = true,
+                           .depth = true,
+                           .position = true,
+                           .velocity = true,
+                           .shaft = true,
+                           .altitude = true,
+                           .bottom_velocity = true,
+                           .water_velocity = true},
+              .delivers_always = false};
   }
   return {};
 }

@@ -64,7 +64,8 @@ enum class Protocol : std::uint8_t {
   water_linked,
   samples,
   paroscientific,
-  keller
+  keller,
+  described
 };
 
 /// The name in the device's row: "tcm2", "imu-card", "ubx", ... (docs/cli.md, ICD section 5).

@@ -36,6 +36,8 @@ constexpr std::uint8_t kGpsTimeField = 0xD3, kDeltaTimeField = 0xD4, kReferenceF
                        kReferenceDelta = 0xD6;
 constexpr std::uint8_t kReplyField = 0xF1, kPressureField = 0x17, kPositionField = 0x01, kStatusField = 0x10;
 
+constexpr std::uint8_t kSensorRateReply = 0x83, kFilterRateReply = 0x8A, kRateReply = 0x8E;
+
 bool is_data_set(std::uint8_t set) { return set >= 0x80; }
 
 bool is_gps_time(std::uint8_t set, std::uint8_t descriptor) {
@@ -82,6 +84,19 @@ Reading read_position(Bytes data, Packet& packet) {
   return Reading::taken;
 }
 
+/// Base rate of sensor data, of filter data, or of the set that the answer names.
+Reading read_base_rate(std::uint8_t descriptor, Bytes data, Packet& packet) {
+  if (descriptor == kRateReply) {
+    if (data.size() < 3) return Reading::invalid;
+    packet.base_rate = {data[0], get_be<std::uint16_t>(&data[1])};
+  } else {
+    if (data.size() < 2) return Reading::invalid;
+    packet.base_rate = {descriptor == kSensorRateReply ? kSensorSet : kFilterSet,
+                        get_be<std::uint16_t>(data.data())};
+  }
+  return Reading::taken;
+}
+
 Reading read_field(std::uint8_t descriptor, Bytes data, Packet& packet) {
   const std::uint8_t set = packet.set;
   for (const VectorField& field : kVectorFields) {
@@ -107,6 +122,10 @@ Reading read_field(std::uint8_t descriptor, Bytes data, Packet& packet) {
     packet.reply = Reply{data[0], data[1]};
     return Reading::taken;
   }
+  if (set == k3dmSet &&
+      (descriptor == kSensorRateReply || descriptor == kFilterRateReply || descriptor == kRateReply)) {
+    return read_base_rate(descriptor, data, packet);
+  }
   return Reading::unknown;
 }
 
@@ -127,7 +146,7 @@ Field field_of(std::uint8_t descriptor, T... values) {
 
 FrameId id_of(std::uint8_t set) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
-  const std::array<char, 6> text{'M', 'I', 'P', '-', kDigits[set >> 4], kDigits[set & 0x0F]};
+  const std::array<char, 2> text{kDigits[set >> 4], kDigits[set & 0x0F]};
   return FrameId(std::string_view(text.data(), text.size()));
 }
 

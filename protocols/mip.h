@@ -18,7 +18,7 @@ namespace navcal::protocols::mip {
 inline constexpr std::uint8_t kBaseSet = 0x01, k3dmSet = 0x0C, kSensorSet = 0x80, kFilterSet = 0x82,
                               kSystemSet = 0xA0;
 
-/// "MIP-80": the identifier of packets of a descriptor set.
+/// "80": the identifier of packets of a descriptor set, its number in hexadecimal.
 [[nodiscard]] FrameId id_of(std::uint8_t set);
 
 inline constexpr std::size_t kOverhead = 6;  ///< sync, set, length, checksum
@@ -50,6 +50,13 @@ struct Reply {
   bool operator==(const Reply&) const = default;
 };
 
+/// Base rate of a data set, answered to a command.
+struct BaseRate {
+  std::uint8_t set = 0;
+  std::uint16_t rate_Hz = 0;
+  bool operator==(const BaseRate&) const = default;
+};
+
 /// Fields of one packet; those that it lacks, or that the device marks as invalid, are absent. Body axes are x
 /// forward, y to starboard, z down, as marked on the case.
 struct Packet {
@@ -59,6 +66,7 @@ struct Packet {
   std::optional<double> delta_time_s;               ///< 0xD4
   std::optional<GpsTime> gps_time;
   std::optional<Reply> reply;
+  std::optional<BaseRate> base_rate;  ///< decoded only
 
   // Sensor data, set 0x80.
   std::optional<Triple> acceleration_m_s2;  ///< specific force

@@ -11,7 +11,7 @@ namespace navcal::protocols::oncore {
 namespace {
 
 constexpr std::array kWithRate{kHa, kHb, kEa, kBa, kBb, kBo, kHn, kEq};
-constexpr std::array kWithoutRate{kCj, kGj};
+constexpr std::array kWithoutRate{kCf, kCj, kGj};
 
 FrameId id_of(const std::uint8_t* frame) {
   const char letters[2] = {static_cast<char>(frame[2]), static_cast<char>(frame[3])};

@@ -8,8 +8,12 @@
 
 namespace navcal::protocols::oncore {
 
-/// The command that asks for a message. `rate` 0: once, n: every n seconds. Cj and Gj are only ever sent once and
-/// take no rate byte (ICD section 2).
+/// Sets everything to its defaults: nothing is sent unasked, and almanac, ephemerides, time and position are
+/// cleared. The receiver answers with the same frame.
+inline constexpr FrameId kCf{"Cf"};
+
+/// The command that asks for a message. `rate` 0: once, n: every n seconds. Cf, Cj and Gj are only ever sent once
+/// and take no rate byte (ICD section 2).
 [[nodiscard]] std::vector<std::uint8_t> encode_poll(FrameId id, std::uint8_t rate);
 
 /// Request of a host.

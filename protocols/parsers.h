@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "protocols/described/scanner.h"
 #include "protocols/device_types.h"
 #include "protocols/gps_stream.h"
 #include "protocols/imu_card.h"
@@ -67,6 +68,8 @@ template <>
 struct ScannersOf<Protocol::paroscientific> : Scanners<paroscientific::Scanner> {};
 template <>
 struct ScannersOf<Protocol::keller> : Scanners<keller::Scanner> {};
+template <>
+struct ScannersOf<Protocol::described> : Scanners<described::Scanner> {};
 
 template <class Rows>
 struct PortParsers;
@@ -83,7 +86,13 @@ struct PortParsers<std::index_sequence<Row...>> {
 /// The parser of a port, whichever device is there.
 using AnyPortParser = PortParsers<std::make_index_sequence<kDeviceCount>>::Any;
 
-[[nodiscard]] inline AnyPortParser make_port_parser(Protocol protocol) {
+/// `description` is that of a described device; without one its parser finds nothing.
+[[nodiscard]] inline AnyPortParser make_port_parser(Protocol protocol,
+                                                    const described::Description* description = nullptr) {
+  if (protocol == Protocol::described && description != nullptr) {
+    constexpr auto kDescribed = static_cast<std::size_t>(Protocol::described);
+    return AnyPortParser(std::in_place_index<kDescribed>, described::Scanner(described::compile(*description)));
+  }
   return PortParsers<std::make_index_sequence<kDeviceCount>>::kMakers.at(static_cast<std::size_t>(protocol))();
 }
 

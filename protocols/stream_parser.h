@@ -5,6 +5,7 @@
 #include <array>
 #include <concepts>
 #include <cstring>
+#include <utility>
 
 #include "protocols/frame.h"
 
@@ -32,11 +33,15 @@ struct Scan {
 /// prefix that suffices: once it has answered anything but `incomplete`, more bytes never change the answer. Given
 /// kMaxFrameLength bytes it never answers `incomplete`. Therefore the frames of a stream do not depend on how its
 /// bytes were divided into reads.
+///
+/// A scanner without members has static functions. One that a file describes is an object, and may be told the
+/// last byte that was left, as a frame or skipped, by `left(byte)`: with it, a line can begin behind the end of
+/// another.
 template <class S>
-concept Scanner = requires(const std::uint8_t* p) {
+concept Scanner = std::default_initializable<S> && requires(const S& scanner, const std::uint8_t* p) {
   { S::kMaxFrameLength } -> std::convertible_to<std::size_t>;
-  { S::find_start(p, p) } -> std::same_as<const std::uint8_t*>;  // first byte that may begin a frame, or last
-  { S::scan(p, p) } -> std::same_as<Scan>;
+  { scanner.find_start(p, p) } -> std::same_as<const std::uint8_t*>;  // first byte that may begin a frame, or last
+  { scanner.scan(p, p) } -> std::same_as<Scan>;
 };
 
 /// Push parser: bytes in, frames out. No I/O, no clock, no allocation, no exceptions.
@@ -44,6 +49,9 @@ concept Scanner = requires(const std::uint8_t* p) {
 template <Scanner S>
 class StreamParser {
  public:
+  StreamParser() = default;
+  explicit StreamParser(S scanner) : scanner_(std::move(scanner)) {}
+
   /// Takes the bytes of one read; `sink(const Frame&)` is called for each frame completed by them.
   template <class Sink>
   void feed(Bytes bytes, Sink&& sink) {
@@ -76,6 +84,7 @@ class StreamParser {
     ++counters_.skipped_bytes;
     ++position_;
     --held_;
+    leave(buffer_.data() + 1);
     std::memmove(buffer_.data(), buffer_.data() + 1, held_);
     drain(sink);
   }
@@ -101,11 +110,12 @@ class StreamParser {
   template <class Sink>
   const std::uint8_t* scan_run(const std::uint8_t* p, const std::uint8_t* const last, Sink& sink) {
     while (p != last) {
-      const std::uint8_t* const start = S::find_start(p, last);
+      const std::uint8_t* const start = scanner_.find_start(p, last);
+      if (start != p) leave(start);
       skip(static_cast<std::size_t>(start - p));
       p = start;
       if (p == last) break;
-      const Scan found = S::scan(p, last);
+      const Scan found = scanner_.scan(p, last);
       switch (found.kind) {
         case Scan::Kind::frame:
           ++counters_.frames;
@@ -113,6 +123,7 @@ class StreamParser {
           sink(Frame{found.id, position_, Bytes(p, found.length)});
           position_ += found.length;
           p += found.length;
+          leave(p);
           break;
         case Scan::Kind::bad_checksum:
           ++counters_.bad_checksum;
@@ -120,6 +131,7 @@ class StreamParser {
         case Scan::Kind::not_a_frame:
           skip(1);
           ++p;
+          leave(p);
           break;
         case Scan::Kind::incomplete:
           missing_ = found.length;
@@ -129,11 +141,17 @@ class StreamParser {
     return p;
   }
 
+  /// All bytes before `next` have been left.
+  void leave([[maybe_unused]] const std::uint8_t* next) {
+    if constexpr (requires { scanner_.left(*next); }) scanner_.left(next[-1]);
+  }
+
   void skip(std::size_t n) {
     counters_.skipped_bytes += n;
     position_ += n;
   }
 
+  [[no_unique_address]] S scanner_;
   Counters counters_;
   std::uint64_t position_ = 0;
   std::size_t held_ = 0;

@@ -107,8 +107,42 @@ constexpr Component kFloats[] = {Component::heading,        Component::pitch,   
 }  // namespace
 
 FrameId id_of(std::uint8_t number) {
+  // Names of the manual, by number.
+  constexpr std::string_view kNames[] = {"",
+                                         "GetModInfo",
+                                         "ModInfoResp",
+                                         "SetDataComponents",
+                                         "GetData",
+                                         "DataResp",
+                                         "SetConfig",
+                                         "GetConfig",
+                                         "ConfigResp",
+                                         "Save",
+                                         "StartCal",
+                                         "StopCal",
+                                         "SetParam",
+                                         "GetParam",
+                                         "ParamResp",
+                                         "PowerDown",
+                                         "SaveDone",
+                                         "UserCalSampCount",
+                                         "UserCalScore",
+                                         "SetConfigDone",
+                                         "SetParamDone",
+                                         "StartContinuous",
+                                         "StopContinuous",
+                                         "PowerUp",
+                                         "SetAcqParams",
+                                         "GetAcqParams",
+                                         "AcqParamsDone",
+                                         "AcqParamsResp",
+                                         "PowerDownDone",
+                                         "FactoryUserCal",
+                                         "FacUserCalDone",
+                                         "TakeUserCalSample"};
+  if (number > 0 && number < std::size(kNames)) return FrameId(kNames[number]);
   constexpr std::string_view kDigits = "0123456789ABCDEF";
-  const std::array<char, 7> text{'T', 'R', 'A', 'X', '-', kDigits[number >> 4], kDigits[number & 0x0F]};
+  const std::array<char, 2> text{kDigits[number >> 4], kDigits[number & 0x0F]};
   return FrameId(std::string_view(text.data(), text.size()));
 }
 
@@ -220,6 +254,24 @@ std::vector<std::uint8_t> encode_setting(Setting setting, double value) {
     payload.push_back(saturated<std::uint8_t>(value));
   }
   return encode_frame(FrameNumber::set_config, payload);
+}
+
+std::vector<std::uint8_t> encode_acquisition(const Acquisition& acquisition) {
+  std::vector<std::uint8_t> payload{acquisition.polled ? std::uint8_t{1} : std::uint8_t{0}, 0};  // no flush
+  append_float(payload, 0);                                                                      // reserved
+  append_float(payload, acquisition.interval_s);
+  return encode_frame(FrameNumber::set_acquisition, payload);
+}
+std::optional<Acquisition> decode_acquisition(Bytes frame) {
+  const auto payload = payload_if(frame, FrameNumber::set_acquisition, 10);
+  if (!payload) return std::nullopt;
+  return Acquisition{(*payload)[0] != 0, double{get_be<float>(&(*payload)[6])}};
+}
+
+std::optional<bool> decode_save_done(Bytes frame) {
+  const auto payload = payload_if(frame, FrameNumber::save_done, 2);
+  if (!payload) return std::nullopt;
+  return get_be<std::uint16_t>(payload->data()) == 0;
 }
 
 std::vector<std::uint8_t> encode_start_calibration(Calibration calibration) {

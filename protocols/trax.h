@@ -31,10 +31,13 @@ enum class FrameNumber : std::uint8_t {
   set_config_done = 19,
   start_continuous = 21,
   stop_continuous = 22,
+  set_acquisition = 24,
+  acquisition_done = 26,
   take_calibration_sample = 31,
 };
 
-/// "TRAX-05": the identifier of frames with this number.
+/// The manual's name without its k ("DataResp"), cut to sixteen letters; the number in hexadecimal where it has
+/// none.
 [[nodiscard]] FrameId id_of(std::uint8_t number);
 
 inline constexpr std::size_t kOverhead = 5;
@@ -118,6 +121,19 @@ enum class Setting : std::uint8_t {
   angles_during_calibration = 16,  ///< bool
 };
 [[nodiscard]] std::vector<std::uint8_t> encode_setting(Setting setting, double value);
+
+/// kSetAcqParams. Polled: the device answers kGetData only. Else it sends by itself after kStartContinuousMode,
+/// with `interval_s` between the frames; 0: as fast as it can.
+struct Acquisition {
+  bool polled = false;
+  double interval_s = 0;
+  bool operator==(const Acquisition&) const = default;
+};
+[[nodiscard]] std::vector<std::uint8_t> encode_acquisition(const Acquisition& acquisition);
+[[nodiscard]] std::optional<Acquisition> decode_acquisition(Bytes frame);
+
+/// kSaveDone: whether the device has written its settings and calibration.
+[[nodiscard]] std::optional<bool> decode_save_done(Bytes frame);
 
 /// kStartCal.
 enum class Calibration : std::uint32_t {

@@ -10,7 +10,6 @@
 namespace navcal::protocols::ubx {
 namespace {
 
-constexpr std::string_view kIdPrefix = "UBX-";
 constexpr std::string_view kHexDigits = "0123456789ABCDEF";
 
 /// CRC-24Q (RTCM 10403.3, 4.2): polynomial 0x1864CFB, start 0, not reflected.
@@ -36,9 +35,9 @@ std::uint32_t crc24q(Bytes bytes) {
 }  // namespace
 
 FrameId id_of(MessageCode code) {
-  std::array<char, 8> text{};
-  std::copy(kIdPrefix.begin(), kIdPrefix.end(), text.begin());
-  for (std::size_t i = 0; i < 4; ++i) text[4 + i] = kHexDigits[code >> (12 - 4 * i) & 0xFU];
+  if (const std::string_view name = name_of(code); !name.empty()) return FrameId(name);
+  std::array<char, 4> text{};
+  for (std::size_t i = 0; i < 4; ++i) text[i] = kHexDigits[code >> (12 - 4 * i) & 0xFU];
   return FrameId(std::string_view(text.data(), text.size()));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "protocols/frame.h"
@@ -19,7 +20,9 @@ namespace navcal::protocols::ubx {
 using MessageCode = std::uint16_t;
 
 inline constexpr MessageCode kNavDop = 0x0104, kNavPvt = 0x0107, kNavTimeGps = 0x0120, kNavSat = 0x0135;
-inline constexpr MessageCode kAckNak = 0x0500, kAckAck = 0x0501, kCfgMsg = 0x0601, kCfgValset = 0x068A;
+inline constexpr MessageCode kAckNak = 0x0500, kAckAck = 0x0501;
+inline constexpr MessageCode kCfgMsg = 0x0601, kCfgRate = 0x0608, kCfgValset = 0x068A;
+inline constexpr MessageCode kMonVer = 0x0A04, kTimTp = 0x0D01;
 
 inline constexpr std::size_t kOverhead = 8;  ///< sync, class, id, length, checksum
 /// The format allows 65535. The longest message in use, RXM-RAWX with 127 measurements, has 4080; a wrong length
@@ -29,7 +32,9 @@ inline constexpr std::size_t kMaxRtcm3 = 1029;
 
 inline constexpr FrameId kRtcm3{"RTCM3"};
 
-/// "UBX-0107": the identifier of the frame of a message.
+/// "NAV-PVT"; empty for a message without a name here.
+[[nodiscard]] std::string_view name_of(MessageCode code);
+/// The identifier of the frame of a message: its name, or class and number in hexadecimal ("0199").
 [[nodiscard]] FrameId id_of(MessageCode code);
 /// Class and number of a UBX frame; nullopt for a frame of another kind.
 [[nodiscard]] std::optional<MessageCode> code_of(const Frame& frame);

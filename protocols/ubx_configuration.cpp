@@ -38,6 +38,19 @@ std::vector<std::uint8_t> encode_cfg_msg(const MessageRate& rate) {
   return encode_frame(kCfgMsg, payload);
 }
 
+std::optional<EpochRate> decode_cfg_rate(Bytes frame) {
+  if (code_in(frame) != kCfgRate || frame.size() != kOverhead + 6) return std::nullopt;
+  const Bytes payload = payload_of(frame);
+  return EpochRate{get_le<std::uint16_t>(payload.data()), get_le<std::uint16_t>(payload.data() + 2)};
+}
+
+std::vector<std::uint8_t> encode_cfg_rate(const EpochRate& rate) {
+  std::array<std::uint8_t, 6> payload{};  // the last two bytes: reference time 0, which is UTC
+  put_le(payload.data(), rate.interval_ms);
+  put_le(payload.data() + 2, rate.epochs);
+  return encode_frame(kCfgRate, payload);
+}
+
 std::optional<ValueSet> decode_cfg_valset(Bytes frame) {
   if (code_in(frame) != kCfgValset || frame.size() < kOverhead + 4) return std::nullopt;
   const Bytes payload = payload_of(frame);

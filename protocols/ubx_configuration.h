@@ -30,6 +30,16 @@ struct MessageRate {
 [[nodiscard]] std::optional<MessageRate> decode_cfg_msg(Bytes frame);
 [[nodiscard]] std::vector<std::uint8_t> encode_cfg_msg(const MessageRate& rate);
 
+/// CFG-RATE: time between two epochs, and epochs between two solutions; receivers up to generation 8.
+struct EpochRate {
+  std::uint16_t interval_ms = 0;
+  std::uint16_t epochs = 1;  ///< measured for each solution
+  bool operator==(const EpochRate&) const = default;
+};
+[[nodiscard]] std::optional<EpochRate> decode_cfg_rate(Bytes frame);
+/// The epochs are aligned to UTC.
+[[nodiscard]] std::vector<std::uint8_t> encode_cfg_rate(const EpochRate& rate);
+
 /// One item of CFG-VALSET. The size of a value is in bits 28 to 30 of its key.
 struct ConfigurationItem {
   std::uint32_t key = 0;
@@ -53,15 +63,29 @@ struct ConfigurationItem {
   }
 }
 
-// Keys of the F9 and M10 that the start-up needs.
+// Keys of generations 9 and 10 that the start-up needs.
 inline constexpr std::uint32_t kRateMeasurement_ms = 0x30210001;  ///< CFG-RATE-MEAS
+inline constexpr std::uint32_t kRateNavigation = 0x30210002;      ///< CFG-RATE-NAV
 inline constexpr std::uint32_t kUart1Baud = 0x40520001;           ///< CFG-UART1-BAUDRATE
-inline constexpr std::uint32_t kUart1OutUbx = 0x10740001;         ///< CFG-UART1OUTPROT-UBX
-inline constexpr std::uint32_t kUart1OutNmea = 0x10740002;        ///< CFG-UART1OUTPROT-NMEA
-inline constexpr std::uint32_t kUart1NavPvt = 0x20910007;         ///< CFG-MSGOUT-UBX_NAV_PVT_UART1
-inline constexpr std::uint32_t kUart1NavTimeGps = 0x20910048;     ///< CFG-MSGOUT-UBX_NAV_TIMEGPS_UART1
-inline constexpr std::uint32_t kUart1NavDop = 0x20910039;         ///< CFG-MSGOUT-UBX_NAV_DOP_UART1
-inline constexpr std::uint32_t kUart1NavSat = 0x20910016;         ///< CFG-MSGOUT-UBX_NAV_SAT_UART1
+
+/// A port of the receiver. The number is the place of its key after that of UART1, where messages are concerned.
+enum class ReceiverPort : std::uint8_t { uart1 = 0, uart2 = 1, usb = 2 };
+
+/// CFG-UART1OUTPROT-UBX, CFG-UART2OUTPROT-UBX, CFG-USBOUTPROT-UBX: UBX on this port; the key of NMEA is one more.
+[[nodiscard]] constexpr std::uint32_t key_of_ubx_output(ReceiverPort port) {
+  return 0x10740001 + 0x20000 * static_cast<std::uint32_t>(port);
+}
+[[nodiscard]] constexpr std::uint32_t key_of_nmea_output(ReceiverPort port) { return key_of_ubx_output(port) + 1; }
+/// CFG-MSGOUT-UBX_NAV_PVT_UART1 and so on: epochs between two of this message on this port; 0 for a message whose
+/// key is not known here.
+[[nodiscard]] constexpr std::uint32_t key_of_message(MessageCode code, ReceiverPort port) {
+  const std::uint32_t uart1 = code == kNavPvt       ? 0x20910007
+                              : code == kNavTimeGps ? 0x20910048
+                              : code == kNavDop     ? 0x20910039
+                              : code == kNavSat     ? 0x20910016
+                                                    : 0;
+  return uart1 == 0 ? 0 : uart1 + static_cast<std::uint32_t>(port);
+}
 
 enum Layer : std::uint8_t { ram = 1, battery_backed = 2, flash = 4 };
 

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <string>
 #include <string_view>
 
 #include "protocols/checked_line.h"
 #include "protocols/crc16.h"
-#include "protocols/decimal.h"
-#include "protocols/text_fields.h"
 #include "protocols/wire_fields.h"
 
 namespace navcal::protocols::vectornav {
@@ -28,6 +25,9 @@ constexpr std::array<std::array<std::uint8_t, 16>, 7> kFieldSizes{{
     {2, 24, 24, 12, 12, 12, 12, 12, 12, 4, 4, 0, 0, 0, 0, 0},
     {8, 8, 2, 1, 1, 24, 24, 12, 12, 12, 4, 4, 2, 28, 0, 0},
 }};
+
+constexpr std::size_t kAttitudeGroup = 4;
+constexpr unsigned kAttitudeStd = 8;  // its field of standard deviations
 
 /// Bits of the common group.
 enum Common : unsigned {
@@ -50,45 +50,98 @@ Triple triple(const std::uint8_t* p, double unit = 1) {
           double{get_le<T>(p + 2 * sizeof(T))} * unit};
 }
 
-void read_common(unsigned bit, const std::uint8_t* p, Reading& reading) {
+/// A field of the common group; false for one that is left.
+bool read_common(unsigned bit, const std::uint8_t* p, Reading& reading) {
   switch (bit) {
     case time_startup:
       reading.since_startup_ns = get_le<std::uint64_t>(p);
-      break;
+      return true;
     case time_gps:
       reading.gps_time_ns = get_le<std::uint64_t>(p);
-      break;
+      return true;
     case yaw_pitch_roll:
       reading.yaw_pitch_roll_deg = triple<float>(p);
-      break;
+      return true;
     case quaternion_field: {
       const Triple vector = triple<float>(p);
       reading.quaternion = {vector[0], vector[1], vector[2], double{get_le<float>(p + 12)}};
-      break;
+      return true;
     }
     case angular_rate:
       reading.rate_rad_s = triple<float>(p);
-      break;
+      return true;
     case position_field:
       reading.position = triple<double>(p);
-      break;
+      return true;
     case velocity_field:
       reading.velocity_ned_m_s = triple<float>(p);
-      break;
+      return true;
     case acceleration_field:
       reading.acceleration_m_s2 = triple<float>(p);
-      break;
+      return true;
     case imu_field:
       reading.raw_acceleration_m_s2 = triple<float>(p);
       reading.raw_rate_rad_s = triple<float>(p + 12);
-      break;
+      return true;
     case field_and_pressure:
       reading.field_uT = triple<float>(p, kVnGauss_uT);
       reading.temperature_C = double{get_le<float>(p + 12)};
       reading.pressure_Pa = double{get_le<float>(p + 16)} * kKilopascal_Pa;
-      break;
+      return true;
     default:
-      ++reading.unknown_fields;
+      return false;
+  }
+}
+
+/// A field of the IMU group.
+bool read_imu(unsigned bit, const std::uint8_t* p, Reading& reading) {
+  switch (bit) {
+    case 1:
+      reading.raw_field_uT = triple<float>(p, kVnGauss_uT);
+      return true;
+    case 2:
+      reading.raw_acceleration_m_s2 = triple<float>(p);
+      return true;
+    case 3:
+      reading.raw_rate_rad_s = triple<float>(p);
+      return true;
+    case 4:
+      reading.temperature_C = double{get_le<float>(p)};
+      return true;
+    case 5:
+      reading.pressure_Pa = double{get_le<float>(p)} * kKilopascal_Pa;
+      return true;
+    case 8:
+      reading.field_uT = triple<float>(p, kVnGauss_uT);
+      return true;
+    case 9:
+      reading.acceleration_m_s2 = triple<float>(p);
+      return true;
+    case 10:
+      reading.rate_rad_s = triple<float>(p);
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// A field of a group, counted from 0.
+bool read_field(std::size_t group, unsigned bit, const std::uint8_t* p, Reading& reading) {
+  switch (group) {
+    case 0:
+      return read_common(bit, p, reading);
+    case 1:  // time: since start-up, GPS
+      return bit <= 1 && read_common(bit == 0 ? time_startup : time_gps, p, reading);
+    case 2:
+      return read_imu(bit, p, reading);
+    case kAttitudeGroup:
+      if (bit == 1) return read_common(yaw_pitch_roll, p, reading);
+      if (bit == 2) return read_common(quaternion_field, p, reading);
+      if (bit != kAttitudeStd) return false;
+      reading.yaw_pitch_roll_std_deg = triple<float>(p);
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -153,8 +206,7 @@ std::optional<Reading> decode_binary(Bytes frame) {
     word += 2;
     for (unsigned bit = 0; bit < 16; ++bit) {
       if ((fields >> bit & 1U) == 0) continue;
-      if (group == 0) read_common(bit, field, reading);
-      if (group > 0) ++reading.unknown_fields;
+      if (!read_field(group, bit, field, reading)) ++reading.unknown_fields;
       field += kFieldSizes[group][bit];
     }
   }
@@ -203,47 +255,17 @@ std::vector<std::uint8_t> encode_binary(const Reading& reading) {
   }
   std::vector<std::uint8_t> frame{0xFA, 0x01, static_cast<std::uint8_t>(bits),
                                   static_cast<std::uint8_t>(bits >> 8)};
+  if (reading.yaw_pitch_roll_std_deg) {
+    frame[1] |= 1U << kAttitudeGroup;
+    frame.push_back(0);
+    frame.push_back(1U << (kAttitudeStd - 8));
+    append_numbers<float>(fields, *reading.yaw_pitch_roll_std_deg);
+  }
   frame.insert(frame.end(), fields.begin(), fields.end());
   const std::uint16_t crc = crc16_xmodem(Bytes(frame).subspan(1));
   frame.push_back(static_cast<std::uint8_t>(crc >> 8));
   frame.push_back(static_cast<std::uint8_t>(crc));
   return frame;
-}
-
-std::optional<Reading> decode_line(Bytes frame) {
-  constexpr std::string_view kName = "VNYMR,";
-  std::string_view body = body_of(frame);
-  if (!body.starts_with(kName)) return std::nullopt;
-  body.remove_prefix(kName.size());
-  const auto fields = split_exactly<12>(body);
-  if (!fields) return std::nullopt;
-  std::array<double, 12> v{};
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const auto value = signed_number((*fields)[i]);
-    if (!value) return std::nullopt;
-    v[i] = *value;
-  }
-  Reading reading;
-  reading.yaw_pitch_roll_deg = {v[0], v[1], v[2]};
-  reading.field_uT = {v[3] * kVnGauss_uT, v[4] * kVnGauss_uT, v[5] * kVnGauss_uT};
-  reading.acceleration_m_s2 = {v[6], v[7], v[8]};
-  reading.rate_rad_s = {v[9], v[10], v[11]};
-  return reading;
-}
-
-std::vector<std::uint8_t> encode_line(const Reading& reading) {
-  std::string body = "VNYMR";
-  const auto append = [&](const std::optional<Triple>& values, double unit, int decimals) {
-    for (const double value : values.value_or(Triple{})) {
-      body += ',';
-      append_decimal(body, value / unit, decimals);
-    }
-  };
-  append(reading.yaw_pitch_roll_deg, 1, 3);
-  append(reading.field_uT, kVnGauss_uT, 4);
-  append(reading.acceleration_m_s2, 1, 3);
-  append(reading.rate_rad_s, 1, 6);
-  return checked_line(body);
 }
 
 }  // namespace navcal::protocols::vectornav

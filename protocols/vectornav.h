@@ -41,21 +41,18 @@ struct Reading {
   std::optional<Triple> position;                   ///< latitude, longitude in degrees, ellipsoid height in m
   std::optional<Triple> velocity_ned_m_s;
   std::optional<Triple> acceleration_m_s2;
-  std::optional<Triple> raw_acceleration_m_s2, raw_rate_rad_s;  ///< uncompensated
+  std::optional<Triple> raw_acceleration_m_s2, raw_rate_rad_s, raw_field_uT;  ///< uncompensated
   std::optional<Triple> field_uT;
-  std::optional<double> temperature_C, pressure_Pa;
-  std::size_t unknown_fields = 0;  ///< of groups other than the common one, whose size is known and that are left
+  std::optional<double> temperature_C, pressure_Pa;  ///< inside the sensor
+  std::optional<Triple> yaw_pitch_roll_std_deg;      ///< one standard deviation, as the sensor estimates it
+  std::size_t unknown_fields = 0;                    ///< whose size is known and that are left
   bool operator==(const Reading&) const = default;
 };
-/// Fields of the common group (group 1) of a binary message; nullopt for a line.
+/// Fields of a binary message: of the common group, and the same quantities of the groups time, IMU and attitude;
+/// nullopt for a line.
 [[nodiscard]] std::optional<Reading> decode_binary(Bytes frame);
-/// Binary message with the fields of the common group that are present; the pairs of raw values, and field with
-/// temperature and pressure, are sent together.
+/// Binary message with the fields of the common group that are present, and the attitude's standard deviations of
+/// the attitude group; the pairs of raw values, and field with temperature and pressure, are sent together.
 [[nodiscard]] std::vector<std::uint8_t> encode_binary(const Reading& reading);
-
-/// VNYMR: yaw, pitch, roll, field, acceleration, rate; nullopt for another line or when a field is no number.
-[[nodiscard]] std::optional<Reading> decode_line(Bytes frame);
-/// VNYMR; values that are absent are sent as 0.
-[[nodiscard]] std::vector<std::uint8_t> encode_line(const Reading& reading);
 
 }  // namespace navcal::protocols::vectornav

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validation/commitment.h"
 
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 #include <sys/random.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -37,11 +36,12 @@ std::string fresh_salt() {
 }  // namespace
 
 std::string sha256_of(std::string_view text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (::EVP_Digest(text.data(), text.size(), digest.data(), &length, ::EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("libcrypto does not reckon SHA-256 here");
-  return hexadecimal(std::span(digest).first(length));
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
+  std::array<unsigned char, SHA256_DIGEST_SIZE> digest{};
+  sha256_digest(&context, digest.size(), digest.data());
+  return hexadecimal(digest);
 }
 
 Commitment commitment_to(std::string truth) {

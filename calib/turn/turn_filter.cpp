@@ -164,7 +164,8 @@ void TurnFilter::solve() {
                     2;
   // The ratio of the actual to the stated noise is taken at the estimate, which depends on that ratio. Two
   // passes are enough.
-  for (int pass = 0; pass < 2; ++pass) {
+  constexpr int kPasses = 2;
+  for (int pass = 0; pass < kPasses; ++pass) {
     Row at_estimate;
     at_estimate << 1, -solution_.departure;
     solution_.square = at_estimate.dot(products_ * at_estimate);
@@ -179,6 +180,7 @@ void TurnFilter::solve() {
     const ConstantsMatrix inverse =
         ConstantsMatrix(information - noise_information).ldlt().solve(ConstantsMatrix::Identity());
     solution_.departure = inverse * (moment - noise.bottomLeftCorner<5, 1>());
+    if (pass < kPasses - 1) continue;  // only departure and squares enter the next one
     // The subtraction made the information smaller, not the noise; and a compass whose deviation falls with the
     // heading shows less noise than its readings have.
     const double noise_seen = innovations_ > 0 ? solution_.expected_square / static_cast<double>(innovations_) : 1;

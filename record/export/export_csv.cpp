@@ -7,6 +7,7 @@
 
 #include "record/export/csv_table.h"
 #include "record/export/export.h"
+#include "record/export/sensor_places.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
 #include "record/json/mapping_json.h"
@@ -52,7 +53,8 @@ void append_raw_line(std::string& out, std::string_view data, const pipeline::Ut
 
 class Exporter {
  public:
-  Exporter(LogReader& log, std::filesystem::path folder) : log_(log), folder_(std::move(folder)) {}
+  Exporter(LogReader& log, const std::filesystem::path& log_file, std::filesystem::path folder)
+      : log_(log), folder_(std::move(folder)), places_(log_file) {}
 
   void take(const LogMessage& message) {
     const LogChannel& channel = log_.channels().at(message.channel);
@@ -67,7 +69,9 @@ class Exporter {
     if (channel.raw) {
       append_raw_line(output.text, message.data, mapping_);
     } else if (output.table) {
-      if (!output.table->append_line(output.text, message.data)) ++unreadable_;
+      const bool is_sensor = channel.topic == kSensorTopic;
+      const std::string placed = is_sensor ? places_.placed(message.data) : std::string{};
+      if (!output.table->append_line(output.text, is_sensor ? placed : message.data)) ++unreadable_;
     } else {
       append_seconds(output.text,
                      mapping_.to_utc(static_cast<std::int64_t>(message.log_time_ns) - log_.log_offset_ns()));
@@ -119,6 +123,7 @@ class Exporter {
   LogReader& log_;
   std::filesystem::path folder_;
   std::map<std::uint16_t, std::unique_ptr<Output>> outputs_;
+  SensorPlaces places_;
   pipeline::UtcMapping mapping_;
   std::uint64_t unreadable_ = 0;
 };
@@ -129,7 +134,7 @@ Exported export_csv(const std::filesystem::path& log_file, const std::filesystem
                     const Progress& progress) {
   LogReader log(open_file(log_file), log_file.string());
   std::filesystem::create_directories(folder);
-  Exporter exporter(log, folder);
+  Exporter exporter(log, log_file, folder);
   std::uint64_t messages = 0;
   while (const auto message = log.next()) {
     exporter.take(*message);

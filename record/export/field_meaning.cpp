@@ -110,7 +110,7 @@ constexpr std::array kMeanings{
     FieldMeaning{"", "north_std_m", "m", "", "standard error of the position northward"},
     FieldMeaning{"", "east_std_m", "m", "", "standard error of the position eastward"},
     FieldMeaning{"", "since_fix_s", "s", "", "time since the last fix"},
-    FieldMeaning{"", "since_fix_m", "m", "", "way through the water since the last fix"},
+    FieldMeaning{"", "since_fix_m", "m", "", "way since the last fix, through the water or over the bottom"},
     // Orders to the motor card.
     FieldMeaning{"/command", "outcome", "", "", "what became of the order"},
     FieldMeaning{"/command", "source", "", "", "what caused the line: an order, the ramp to it, the safe state"},
@@ -130,6 +130,9 @@ constexpr std::array kMeanings{
     FieldMeaning{"/nav", "heading_rad", "radian", "platform_orientation", "heading from true north"},
     FieldMeaning{"", "heading_std_rad", "radian", "", "standard error of the heading"},
     FieldMeaning{"/nav", "speed_m_s", "m s-1", "platform_speed_wrt_sea_water", "speed through the water"},
+    FieldMeaning{"", "speed_source", "", "", "instrument whose velocity moves the position"},
+    FieldMeaning{"", "bottom_lock", "", "", "whether the Doppler log measures over the bottom"},
+    FieldMeaning{"", "dvl_outliers", "1", "", "velocities of the Doppler log that were passed over, so far"},
     FieldMeaning{"", "velocity_m_s", "m s-1", "", "velocity over ground (north, east, down)"},
     FieldMeaning{"", "set_north_m_s", "m s-1", "", "set northward"},
     FieldMeaning{"", "set_east_m_s", "m s-1", "", "set eastward"},

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "record/export/sensor_places.h"
 #include "record/json/flat_json.h"
 #include "record/json/mapping_json.h"
 #include "record/log/log_reader.h"
@@ -21,6 +22,7 @@ LogTables read_tables(const std::filesystem::path& log_file, const Progress& pro
   LogReader log(open_file(log_file), log_file.string());
   LogTables found;
   std::map<std::uint16_t, std::size_t> table_of;
+  SensorPlaces places(log_file);
   pipeline::UtcMapping mapping;
   std::uint64_t unreadable = 0;
   std::uint64_t messages = 0;
@@ -39,7 +41,10 @@ LogTables read_tables(const std::filesystem::path& log_file, const Progress& pro
     const auto [place, is_new] = table_of.try_emplace(message->channel, found.tables.size());
     if (is_new) found.tables.emplace_back(channel.topic);
     const auto arrival_ns = static_cast<std::int64_t>(message->log_time_ns) - log.log_offset_ns();
-    if (!found.tables[place->second].append(message->data, mapping.to_utc(arrival_ns))) ++unreadable;
+    const bool is_sensor = channel.topic == kSensorTopic;
+    const std::string placed = is_sensor ? places.placed(message->data) : std::string{};
+    if (!found.tables[place->second].append(is_sensor ? placed : message->data, mapping.to_utc(arrival_ns)))
+      ++unreadable;
   }
   std::erase_if(found.tables, [](const TopicTable& table) { return table.rows() == 0; });
   if (unreadable > 0) found.remarks.push_back(fmt::format("{} messages are not JSON: left out", unreadable));

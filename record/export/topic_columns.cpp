@@ -4,11 +4,21 @@
 #include <array>
 
 namespace navcal::record {
+namespace {
+
+/// What SensorPlaces adds to a sample.
+constexpr std::array kSensorPlace{Field{"lat", FieldKind::number, "deg"}, Field{"lon", FieldKind::number, "deg"}};
+
+}  // namespace
 
 std::vector<TopicColumn> topic_columns(const Topic& topic) {
   constexpr std::array<std::string_view, 3> kAxes{"_x", "_y", "_z"};
   constexpr std::array<std::string_view, 3> kFins{"_1", "_2", "_3"};
   std::vector<TopicColumn> columns;
+  const auto add = [&](const Field& field) {
+    const std::string name(field.name);
+    columns.push_back({field.unit.empty() ? name : name + "_" + std::string(field.unit), name, &field});
+  };
   for (const Field& field : topic.fields) {
     const std::string name(field.name);
     if (field.kind == FieldKind::vector3) {
@@ -17,8 +27,11 @@ std::vector<TopicColumn> topic_columns(const Topic& topic) {
         columns.push_back({name + std::string(endings[i]), name + "." + std::to_string(i), &field});
       }
     } else {
-      columns.push_back({field.unit.empty() ? name : name + "_" + std::string(field.unit), name, &field});
+      add(field);
     }
+  }
+  if (topic.name == kSensorTopic) {
+    for (const Field& field : kSensorPlace) add(field);
   }
   return columns;
 }

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "record/log/log_topics.h"
 
 namespace navcal::record {
+
+/// Topic of the mission sensors. Its tables have the position too (sensor_places.h).
+inline constexpr std::string_view kSensorTopic = "/sensor";
 
 /// One column of a table of a topic's messages.
 struct TopicColumn {

@@ -72,7 +72,7 @@ std::string beginning(const calib::Report& report, std::optional<std::int64_t> u
 }  // namespace
 
 std::vector<std::string> calib_lines(const calib::Report& report, std::optional<std::int64_t> utc_ns,
-                                     std::string_view tcm2) {
+                                     std::string_view compasses) {
   const std::string common = beginning(report, utc_ns);
   Json whole;
   whole["heading"] = heading_in_force_json(report.heading);
@@ -80,9 +80,9 @@ std::vector<std::string> calib_lines(const calib::Report& report, std::optional<
   if (!report.steps.empty()) whole["field_step"] = steps_json({report.steps.back()}).front();
   whole["left_out"] = gate_json(report.gate);
   std::string rest = whole.dump();
-  if (!tcm2.empty()) {
+  if (!compasses.empty()) {
     rest.pop_back();
-    rest.append(",\"tcm2\":").append(tcm2).append("}");
+    rest.append(",").append(compasses).append("}");
   }
   rest.front() = ',';  // its members go on where those of the beginning end
 

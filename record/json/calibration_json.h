@@ -14,10 +14,10 @@
 namespace navcal::record {
 
 /// CALIB of the status socket and of /calib (docs/status-protocol.md): one object a line, no newlines; several
-/// when one would be longer than gpsd's clients can read. Angles in degrees. `tcm2`: what is known of the TCM2's
-/// calibration of itself, an object; empty for none.
+/// when one would be longer than gpsd's clients can read. Angles in degrees. `compasses`: what is known of
+/// the calibrations that compasses make of themselves, members "tcm2" or "pni"; empty for none.
 [[nodiscard]] std::vector<std::string> calib_lines(const calib::Report& report, std::optional<std::int64_t> utc_ns,
-                                                   std::string_view tcm2 = {});
+                                                   std::string_view compasses = {});
 
 /// The answer of `navcal calibrate`: one object with `gyro`, `gyro_b`, `compass`, `magnetometer` and `heading`,
 /// and beyond them `misalignment`, `gps_compass`, `swing`, `latency`, `left_out`. No newline.

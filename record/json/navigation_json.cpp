@@ -19,6 +19,21 @@ std::optional<double> of_position(const nav::Estimate& estimate, double value) {
   return value;
 }
 
+void append_speed_source(JsonObject& json, const pipeline::NavigationSample& sample) {
+  if (const auto name = pipeline::name_of(sample.estimate.speed_source); !name.empty()) {
+    json.text("speed_source", name);
+  } else {
+    json.null("speed_source");
+  }
+  if (sample.bottom_lock) {
+    json.boolean("bottom_lock", *sample.bottom_lock);
+    json.integer("dvl_outliers", static_cast<std::int64_t>(sample.estimate.velocity_outliers));
+  } else {
+    json.null("bottom_lock");
+    json.null("dvl_outliers");
+  }
+}
+
 void append_outage(JsonObject& json, const pipeline::NavigationSample& sample) {
   const auto& outage = sample.outage;
   json.number("outage_s", outage ? std::optional(outage->duration_s) : std::nullopt);
@@ -59,6 +74,7 @@ void append_json(std::string& out, const pipeline::NavigationSample& sample) {
   json.number("pitch_rad", estimate.pitch_rad);
   json.number("roll_rad", estimate.roll_rad);
   json.number("speed_m_s", estimate.speed_m_s);
+  append_speed_source(json, sample);
   if (const auto& v = estimate.velocity_m_s) {
     json.numbers("velocity_m_s", std::array{v->x(), v->y(), v->z()});
   } else {

@@ -18,12 +18,22 @@ namespace {
 constexpr std::string_view kMagic = "navcal checked file 1\n";
 constexpr std::size_t kCrcSize = sizeof(std::uint32_t);
 
-std::error_code write_whole(int descriptor, std::string_view bytes) {
+std::error_code write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(descriptor, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return base::last_error();
     bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return {};
+}
+
+/// Piece by piece, since a copy of a large content would double its memory.
+std::error_code write_pieces(int descriptor, std::string_view content) {
+  std::string sum;
+  append_le(sum, crc32c(content, crc32c(kMagic)));
+  for (const std::string_view piece : {kMagic, content, std::string_view(sum)}) {
+    if (const auto error = write_all(descriptor, piece)) return error;
   }
   return ::fsync(descriptor) == 0 ? std::error_code{} : base::last_error();
 }
@@ -31,14 +41,11 @@ std::error_code write_whole(int descriptor, std::string_view bytes) {
 }  // namespace
 
 std::error_code write_checked(const std::filesystem::path& file, std::string_view content) {
-  std::string bytes(kMagic);
-  bytes += content;
-  append_le(bytes, crc32c(bytes));
   const std::filesystem::path part = file.string() + ".part";
   {
     const base::Descriptor out(::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0640));
     if (out.get() < 0) return base::last_error();
-    if (const auto error = write_whole(out.get(), bytes)) return error;
+    if (const auto error = write_pieces(out.get(), content)) return error;
   }
   if (::rename(part.c_str(), file.c_str()) != 0) return base::last_error();
   const base::Descriptor folder(::open((file.has_parent_path() ? file.parent_path() : ".").c_str(),

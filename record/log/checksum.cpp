@@ -6,8 +6,8 @@
 namespace navcal::record {
 namespace {
 
-using Crc32c = boost::crc_optimal<32, 0x1EDC6F41, 0xFFFFFFFF, 0xFFFFFFFF, true, true>;
 // Boost takes the initial remainder unreflected and without the final xor: undone by hand to continue a sum.
+using Crc32c = boost::crc_optimal<32, 0x1EDC6F41, 0, 0, true, true>;
 using Crc32 = boost::crc_optimal<32, 0x04C11DB7, 0, 0, true, true>;
 
 std::uint32_t reflected(std::uint32_t value) {
@@ -16,18 +16,17 @@ std::uint32_t reflected(std::uint32_t value) {
   return result;
 }
 
-}  // namespace
-
-std::uint32_t crc32c(std::string_view bytes) {
-  Crc32c crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
-
-std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
-  Crc32 crc(reflected(~before));
+template <class Crc>
+std::uint32_t continued(std::string_view bytes, std::uint32_t before) {
+  Crc crc(reflected(~before));
   crc.process_bytes(bytes.data(), bytes.size());
   return ~crc.checksum();
 }
+
+}  // namespace
+
+std::uint32_t crc32c(std::string_view bytes, std::uint32_t before) { return continued<Crc32c>(bytes, before); }
+
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before) { return continued<Crc32>(bytes, before); }
 
 }  // namespace navcal::record

@@ -6,10 +6,11 @@
 
 namespace navcal::record {
 
-/// CRC-32C (Castagnoli, reflected, RFC 3720), which protects every message of a log. "123456789" gives E3069283.
-[[nodiscard]] std::uint32_t crc32c(std::string_view bytes);
+/// CRC-32C (Castagnoli, reflected, RFC 3720), which protects every message of a log. `before` continues an earlier
+/// sum. "123456789" gives E3069283.
+[[nodiscard]] std::uint32_t crc32c(std::string_view bytes, std::uint32_t before = 0);
 
-/// CRC-32 of zip and MCAP. `before` continues an earlier sum. "123456789" gives CBF43926.
+/// CRC-32 of zip and MCAP. `before` as there. "123456789" gives CBF43926.
 [[nodiscard]] std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
 }  // namespace navcal::record

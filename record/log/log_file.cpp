@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_file.h"
 
+#include "record/log/reused_buffer.h"
+
 namespace navcal::record {
-namespace {
-
-/// A buffer that a stall has blown up is given back.
-constexpr std::size_t kKeepCapacity = 256 << 10;
-
-}  // namespace
 
 LogFile::LogFile(std::unique_ptr<DiskFile> file, std::filesystem::path path)
     : file_(std::move(file)), path_(std::move(path)) {}
@@ -42,8 +38,7 @@ std::error_code LogFile::sync() {
   write_anew_ = static_cast<bool>(error);
   if (error) return error;
   synced_bytes_ = bytes_;
-  if (unsynced_.capacity() > kKeepCapacity) unsynced_ = {};
-  unsynced_.clear();
+  empty_for_reuse(unsynced_);
   return {};
 }
 

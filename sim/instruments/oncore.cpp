@@ -48,6 +48,11 @@ bool Oncore::knows(protocols::FrameId id) const {
 void Oncore::read_input() {
   parser_.feed(input_, [&](const protocols::Frame& frame) {
     const auto command = oncore::parse_command(frame.bytes);
+    if (command && command->id == oncore::kCf) {
+      requests_.clear();
+      receiver_.power_on(second_ns_);  // it has forgotten as much as after a loss of power
+      answers_.emplace_back(frame.bytes.begin(), frame.bytes.end());
+    }
     if (command && knows(command->id)) requests_[command->id] = {command->rate.value_or(0), 0};
     if (!command && options_.kind == Kind::twelve_channels) take_aid(frame.bytes);
   });

@@ -15,7 +15,7 @@ namespace keller = protocols::keller;
 
 constexpr double kBarometer_Pa = 101325;
 constexpr double kSalt_kg_m3 = 1025;
-constexpr std::int64_t kThinks_ns = 2'000'000;  ///< between a request and its answer
+constexpr std::int64_t kAnswersAfter_ns = 2'000'000;  ///< between a request and its answer
 constexpr paroscientific::Address kToHost{paroscientific::kHost, paroscientific::kFirstGauge};
 
 /// Puts the answers that are due on the line.
@@ -59,7 +59,7 @@ void ParoscientificEmulator::obey(std::int64_t t_ns, const protocols::Frame& com
   ticks_.reset();
   p3_ns_.reset();
   const auto say = [&](const std::string& text) {
-    answers_.push_back({t_ns + kThinks_ns, paroscientific::encode_line(kToHost, text)});
+    answers_.push_back({t_ns + kAnswersAfter_ns, paroscientific::encode_line(kToHost, text)});
   };
   const std::string_view name = command.id.view();
   if (command.id == paroscientific::kUnits) say(fmt::format("UN={}", options_.unit));
@@ -105,7 +105,7 @@ void KellerEmulator::on_bytes(std::int64_t t_ns, protocols::Bytes bytes) {
     if (frame.bytes[0] != options_.address && frame.bytes[0] != keller::kAnyAddress) return;
     if (options_.echoes) answers_.push_back({t_ns, {frame.bytes.begin(), frame.bytes.end()}});
     if (auto bytes_to_send = answer(t_ns, frame); !bytes_to_send.empty())
-      answers_.push_back({t_ns + kThinks_ns, std::move(bytes_to_send)});
+      answers_.push_back({t_ns + kAnswersAfter_ns, std::move(bytes_to_send)});
   });
 }
 

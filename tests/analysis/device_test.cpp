@@ -176,9 +176,17 @@ TEST_P(EachDevice, KeepsTheRateOfItsRow) {
   const DeviceAtPort device(row);
   // Only samples that are ticks of the device's clock have an uncertainty in time.
   const std::int64_t from_ns = kStart_ns + kDuration_ns / 2;
-  const auto ticks = std::count_if(device.samples.begin(), device.samples.end(), [&](const auto& sample) {
-    return sample.stamp.std_ns > 0 && sample.stamp.arrival_ns >= from_ns;
-  });
+  // Several samples of one frame, or of frames that belong together, are one tick.
+  std::set<std::int64_t> times_ns;
+  for (const auto& sample : device.samples) {
+    if (sample.stamp.std_ns > 0 && sample.stamp.arrival_ns >= from_ns) times_ns.insert(sample.stamp.validity_ns);
+  }
+  int ticks = 0;
+  std::int64_t before_ns = 0;
+  for (const std::int64_t time_ns : times_ns) {
+    if (static_cast<double>(time_ns - before_ns) > 0.3e9 / row.rate_Hz) ++ticks;
+    before_ns = time_ns;
+  }
   const double expected = row.rate_Hz * static_cast<double>(kDuration_ns / 2) * 1e-9;
   EXPECT_NEAR(static_cast<double>(ticks), expected, std::max(2.0, 0.02 * expected));
 }
@@ -213,7 +221,10 @@ TEST_P(EachDevice, HasAStreamFromElsewhereAndAFuzzTarget) {
 
 std::vector<std::string> names_of_devices() {
   std::vector<std::string> names;
-  for (const DeviceType& device : protocols::kDeviceTypes) names.emplace_back(device.name);
+  for (const DeviceType& device : protocols::kDeviceTypes) {
+    // A described device is what its file says: described_test.cpp.
+    if (device.protocol != protocols::Protocol::described) names.emplace_back(device.name);
+  }
   return names;
 }
 

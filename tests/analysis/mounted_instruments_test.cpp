@@ -43,7 +43,8 @@ class AgainstTruth : public pipeline::Sink {
     const auto* imu = std::get_if<instruments::ImuSample>(&sample.value);
     if (imu == nullptr || !is_settled(sample.stamp.validity_ns)) return;
     const double truth_rad_s = motion_.at(sample.stamp.validity_ns).rate_rad_s[2];
-    sums_.yaw_rate_deg_s += squared(imu->yaw_rate_calibrated_rad_s.value_or(imu->rate_rad_s.value()[2]) - truth_rad_s);
+    sums_.yaw_rate_deg_s +=
+        squared(imu->yaw_rate_calibrated_rad_s.value_or(imu->rate_rad_s.value()[2]) - truth_rad_s);
     ++frames_;
   }
   void on_navigation(const pipeline::NavigationSample& sample) override {

@@ -122,5 +122,14 @@ TEST(Archive, TheStateIsTheObjectsAndNotWhatMemoryHeldBefore) {
   EXPECT_EQ(state_over<TurnIntegrator>(0xA5, parameters), state_over<TurnIntegrator>(0x5A, parameters));
 }
 
+TEST(Archive, RoomForWhatIsSavedChangesNothing) {
+  std::vector<double> values(1000, 1.5);
+  Archive plain, with_room(1 << 20);
+  plain(values);
+  with_room(values);
+  EXPECT_EQ(plain.bytes(), with_room.bytes());
+  EXPECT_EQ(std::move(with_room).take(), plain.bytes());
+}
+
 }  // namespace
 }  // namespace navcal::calib

@@ -64,6 +64,18 @@ TEST(WatchView, TellsAReckonedPositionFromOneByFixes) {
   EXPECT_FALSE(view.page(Colour::none).empty());
 }
 
+TEST(WatchView, TellsWhetherTheDopplerLogHasBottomLock) {
+  WatchView view;
+  const std::string begin = R"({"class":"NAV","device":"navigation","position":"none","bottom_lock":)";
+  view.take(begin + "true}");
+  EXPECT_TRUE(page_has(view.page(Colour::none), ", bottom lock"));
+  view.take(begin + "false}");
+  EXPECT_TRUE(page_has(view.page(Colour::none), ", NO BOTTOM LOCK"));
+  view.take(begin + "null}");
+  EXPECT_FALSE(page_has(view.page(Colour::none), "ottom lock"));
+  EXPECT_FALSE(page_has(view.page(Colour::none), "BOTTOM LOCK"));
+}
+
 TEST(WatchView, EveryKindOfReportIsShown) {
   WatchView view;
   view.take(health(1, 20, "[]", 3));

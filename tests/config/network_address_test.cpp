@@ -20,6 +20,14 @@ TEST(NetworkAddress, AnIpv6AddressStandsInBrackets) {
   EXPECT_EQ(parse_network_address("udp:[127.0.0.1]:4003"), std::nullopt);
 }
 
+TEST(NetworkAddress, AUnixSocketIsAnAbsolutePath) {
+  EXPECT_EQ(parse_network_address("unix-listen:/run/navcal/samples"),
+            (NetworkAddress{Way::unix_listen, "/run/navcal/samples", 0}));
+  EXPECT_EQ(parse_network_address("unix-listen:samples"), std::nullopt);
+  EXPECT_EQ(parse_network_address("unix-listen:"), std::nullopt);
+  EXPECT_EQ(parse_network_address("unix-listen:/" + std::string(200, 'x')), std::nullopt);
+}
+
 TEST(NetworkAddress, RefusesWhatItCannotReach) {
   for (const char* const text :
        {"", "tcp", "tcp:", "tcp::", "tcp:127.0.0.1", "tcp:127.0.0.1:", "tcp:127.0.0.1:0", "tcp:127.0.0.1:65536",

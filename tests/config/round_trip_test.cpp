@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "config/described/description_file.h"
 #include "config/load.h"
 #include "config/log_choice.h"
 #include "config/options.h"
@@ -64,6 +65,17 @@ Value some_value(const OptionInfo& option, Random& random) {
   return numbers;
 }
 
+/// A file that is not there any more, with its text, and a zero of the single device.
+void describe(PortSettings& port) {
+  port.device = "no/such/file.toml";
+  port.description =
+      "# \"quotes\" and \\\nform = \"text\"\n[[frame]]\nid = \"D\"\nstart = \"D,\"\nchecksum = \"none\"\n"
+      "field = [{ meaning = \"depth\", number = 1, unit = \"m\" }]\n";
+  port.adjust = {"depth: zero = 0.25"};
+  port.described = parse_description(port.description, "test");
+  ASSERT_EQ(adjust(*port.described, port.adjust.front()), std::nullopt);
+}
+
 PortSettings some_port(std::size_t index, Random& random) {
   const auto& options = port_options();
   PortSettings port;
@@ -71,8 +83,10 @@ PortSettings some_port(std::size_t index, Random& random) {
   port = default_port(fmt::format("p{}", index), port.protocol, default_baud(port.protocol));
   const auto place = random() % 4;
   std::size_t places = 0;
+  if (port.protocol == protocols::Protocol::described) describe(port);
   for (const auto& option : options) {
     if (option.key == "protocol" || !option.applies_to(port.protocol)) continue;
+    if (option.key == "device" || option.key == "description" || option.key == "adjust") continue;
     Value value = some_value(option, random);
     if (option.table.empty() && option.kind == Kind::text) {
       if (places++ != place) continue;
@@ -119,7 +133,7 @@ Settings some_settings(Random& random) {
   for (std::size_t i = 0; i < ports; ++i) settings.ports.push_back(some_port(i, random));
   for (const Role role : kRoles) {
     const PortSettings& port = settings.ports[random() % settings.ports.size()];
-    if (can_deliver(port.protocol, role)) settings.roles.port_names.at(static_cast<std::size_t>(role)) = port.name;
+    if (can_deliver(port, role)) settings.roles.port_names.at(static_cast<std::size_t>(role)) = port.name;
   }
   for (std::size_t i = 0; i < ports; ++i) {
     if (random() % 2 == 0) settings.power.push_back(some_supply(i, settings.ports[i], random));

@@ -67,6 +67,21 @@ TEST(ControlRequest, ListsChoicesAndSuppliesAreChecked) {
   EXPECT_EQ(refusal(R"({"command":"power.list"})"), "accepted");
 }
 
+TEST(ControlRequest, CommandsToInstruments) {
+  const auto given =
+      parse_control(R"({"command":"device.command","port":"gps","name":"cold_start","force":true})");
+  ASSERT_TRUE(std::holds_alternative<ControlRequest>(given));
+  EXPECT_EQ(std::get<ControlRequest>(given).port, "gps");
+  EXPECT_EQ(std::get<ControlRequest>(given).name, "cold_start");
+  EXPECT_TRUE(std::get<ControlRequest>(given).force);
+  EXPECT_EQ(refusal(R"({"command":"device.command","name":"cold_start"})"), "port is the name of a port");
+  EXPECT_EQ(refusal(R"({"command":"device.command","port":7,"name":"cold_start"})"), "port is the name of a port");
+  EXPECT_EQ(refusal(R"({"command":"device.command","port":"gps"})"),
+            "name is that of a command; device.commands has them");
+  EXPECT_EQ(refusal(R"({"command":"device.commands"})"), "accepted");
+  EXPECT_EQ(refusal(R"({"command":"device.commands","port":[]})"), "port is the name of a port");
+}
+
 TEST(ControlRequest, ChargeOfTheBattery) {
   const auto set = parse_control(R"({"command":"battery.set","charge_Ah":2.5,"charge_std_Ah":0.1})");
   ASSERT_TRUE(std::holds_alternative<ControlRequest>(set));

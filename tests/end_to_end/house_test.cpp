@@ -66,9 +66,13 @@ class House : public testing::Test {
   }
   /// `navcal log ...`; its exit status.
   int log_command(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {house_tool("cli/navcal"), "log"});
+    arguments.insert(arguments.begin(), "log");
+    return tool_command(std::move(arguments));
+  }
+  int tool_command(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), house_tool("cli/navcal"));
     arguments.insert(arguments.end(), {"--control", (folder_ / "control").string()});
-    Process program(arguments, folder_ / "log-command");
+    Process program(arguments, folder_ / "tool-command");
     const int status = program.wait(kHousePatience).value_or(-1);
     out_ = program.out();
     err_ = program.err();
@@ -225,6 +229,40 @@ TEST_F(House, LogsAreListedFetchedStoppedAndStarted) {
     }
   }
   EXPECT_EQ(left_out, 1);
+}
+
+TEST_F(House, CompassAndReceiverObeyTheOperatorAndGoOnDelivering) {
+  std::ofstream(folder_ / "navcald.toml", std::ios::app)
+      << "[port.compass]\nprotocol = \"tcm2\"\nbaud = 38400\npath = \"" << (folder_ / "ports" / "compass").string()
+      << "\"\n[port.gps]\nprotocol = \"oncore\"\npath = \"" << (folder_ / "ports" / "gps").string() << "\"\n";
+  start();
+  const auto comes = [&](std::string_view text) { return eventually([&] { return said(text); }, kHousePatience); };
+  ASSERT_TRUE(comes("compass port.start_up: running")) << daemon_->err();
+  ASSERT_TRUE(comes("gps port.start_up: running on Ha")) << daemon_->err();
+  ASSERT_EQ(tool_command({"ports", "command"}), 0) << err_;
+  for (const char* listed : {"restart_stream", "calibration_score", "receiver_id", "(--force)"})
+    EXPECT_NE(out_.find(listed), std::string::npos) << out_;
+  EXPECT_EQ(tool_command({"ports", "command", "compass", "calibration_score"}), 0) << err_;
+  EXPECT_EQ(out_.substr(0, 1), "H");
+  EXPECT_EQ(tool_command({"ports", "command", "compass", "restart_stream"}), 0) << err_;
+  EXPECT_EQ(out_, "words come\n");
+  EXPECT_EQ(tool_command({"ports", "command", "compass", "restart", "--force"}), 0) << err_;
+  EXPECT_EQ(out_, "TCM2 emulated, navcal\n");
+  EXPECT_EQ(tool_command({"ports", "command", "gps", "receiver_id"}), 0) << err_;
+  EXPECT_GT(out_.size(), 10U);
+  EXPECT_EQ(tool_command({"ports", "command", "gps", "cold_start"}), 1);
+  EXPECT_NE(err_.find("it needs force"), std::string::npos) << err_;
+  EXPECT_EQ(tool_command({"ports", "command", "gps", "cold_start", "--force"}), 0) << err_;
+  EXPECT_EQ(tool_command({"ports", "command", "motor", "go"}), 1);
+  // Both were silent, and are set up again.
+  const auto running = [&] {
+    InCharge person(folder_ / "control");
+    const Json health = person.ask({{"command", "status"}});
+    const auto text = health.dump();
+    return text.find("\"start_up\":\"running\"") != std::string::npos &&
+           text.find("\"start_up\":\"running on Ha\"") != std::string::npos;
+  };
+  EXPECT_TRUE(eventually(running, kHousePatience)) << daemon_->err();
 }
 
 }  // namespace

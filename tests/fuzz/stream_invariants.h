@@ -45,7 +45,7 @@ void require_same_alone(const protocols::Frame& frame) {
 
 /// `use(frame)` is called for every frame and must not crash.
 template <protocols::Scanner S, class Use>
-void check_stream(protocols::Bytes input, Use&& use) {
+void check_stream(protocols::Bytes input, Use&& use, const S& scanner = {}) {
   if (input.empty()) return;
   std::uint32_t state = input[0] + 1U;
   const protocols::Bytes stream = input.subspan(1);
@@ -63,7 +63,7 @@ void check_stream(protocols::Bytes input, Use&& use) {
   };
 
   std::vector<Found> whole;
-  protocols::StreamParser<S> at_once;
+  protocols::StreamParser<S> at_once(scanner);
   at_once.feed(stream, [&](const protocols::Frame& frame) {
     whole.push_back(found(frame));
     use(frame);
@@ -71,7 +71,7 @@ void check_stream(protocols::Bytes input, Use&& use) {
   require_accounts(at_once, stream.size());
 
   std::vector<Found> cut;
-  protocols::StreamParser<S> in_pieces;
+  protocols::StreamParser<S> in_pieces(scanner);
   std::size_t fed = 0;
   bool nothing = false;  // was the piece before; two in a row could go on for ever
   while (fed < stream.size()) {
@@ -89,7 +89,7 @@ void check_stream(protocols::Bytes input, Use&& use) {
 
   // Silences in between may produce other frames, but each byte still lies in one place, and all held bytes can be
   // given up.
-  protocols::StreamParser<S> with_silences;
+  protocols::StreamParser<S> with_silences(scanner);
   std::uint64_t end = 0;
   const auto in_order = [&](const protocols::Frame& frame) {
     require(frame.offset >= end);

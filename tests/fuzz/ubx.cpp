@@ -4,6 +4,7 @@
 
 #include "protocols/ubx_configuration.h"
 #include "protocols/ubx_navigation.h"
+#include "protocols/ubx_receiver.h"
 #include "tests/fuzz/stream_invariants.h"
 
 namespace {
@@ -18,6 +19,9 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(ubx::decode_acknowledgement(frame.bytes));
   static_cast<void>(ubx::decode_cfg_msg(frame.bytes));
   static_cast<void>(ubx::decode_cfg_valset(frame.bytes));
+  static_cast<void>(ubx::decode_cfg_rate(frame.bytes));
+  static_cast<void>(ubx::decode_mon_ver(frame.bytes));
+  static_cast<void>(ubx::decode_tim_tp(frame.bytes));
 }
 
 }  // namespace
@@ -28,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Messages with a valid checksum and an arbitrary payload.
   if (size > 2 && size < ubx::kMaxPayload) {
     for (const ubx::MessageCode code : {ubx::kNavPvt, ubx::kNavSat, ubx::kNavDop, ubx::kNavTimeGps, ubx::kAckAck,
-                                        ubx::kCfgMsg, ubx::kCfgValset}) {
+                                        ubx::kCfgMsg, ubx::kCfgValset, ubx::kCfgRate, ubx::kMonVer, ubx::kTimTp}) {
       const auto frame = ubx::encode_frame(code, {data, size});
       decode({ubx::id_of(code), 0, frame});
     }

@@ -3,6 +3,7 @@
 #include "protocols/vectornav.h"
 
 #include "protocols/checked_line.h"
+#include "protocols/vectornav_lines.h"
 #include "tests/fuzz/stream_invariants.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -10,6 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   navcal::fuzz::check_stream<vectornav::Scanner>({data, size}, [](const Frame& frame) {
     static_cast<void>(vectornav::decode_binary(frame.bytes));
     static_cast<void>(vectornav::decode_line(frame.bytes));
+    static_cast<void>(vectornav::decode_register(frame.bytes));
+    static_cast<void>(vectornav::decode_error(frame.bytes));
   });
   const std::string_view body(reinterpret_cast<const char*>(data), std::min<std::size_t>(size, 200));
   static_cast<void>(vectornav::decode_line(checked_line(body)));

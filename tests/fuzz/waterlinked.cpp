@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes from a Doppler log that sends text.
 #include "protocols/water_linked.h"
-
 #include "tests/fuzz/stream_invariants.h"
 
 namespace {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/angles.h"
+#include "base/rotation.h"
 
 namespace navcal::nav::test {
 namespace {
@@ -37,6 +38,41 @@ void sample(std::vector<Arrived>& out, double duration_s, Timing timing, bool la
   const std::int64_t end_ns = kStart_ns + std::llround(duration_s * 1e9);
   for (std::int64_t t_ns = kStart_ns; t_ns <= end_ns; t_ns += timing.period_ns)
     make(t_ns, [&](const Reading& reading) { out.push_back({t_ns + (late ? timing.latency_ns : 0), reading}); });
+}
+
+/// Of the place of the instrument: over the bottom, or through the water.
+Eigen::Vector3d velocity_there_m_s(const sim::State& state, const DvlOptions& dvl,
+                                   const Eigen::Vector2d& current_m_s) {
+  const Eigen::Matrix3d world_from_body =
+      base::rotation_of({state.euler_rad[0], state.euler_rad[1], state.euler_rad[2]});
+  const Eigen::Vector3d rate_rad_s(state.rate_rad_s.data());
+  const Eigen::Vector3d body_m_s =
+      Eigen::Vector3d(state.velocity_body_m_s.data()) +
+      world_from_body.transpose() * Eigen::Vector3d(current_m_s.x(), current_m_s.y(), 0) +
+      rate_rad_s.cross(dvl.position_m);
+  if (dvl.frame == VelocityFrame::earth) return world_from_body * body_m_s;
+  return base::rotation_of({0, 0, dvl.yaw_rad}).transpose() * body_m_s;
+}
+
+void sample_dvl(std::vector<Arrived>& out, double duration_s, const sim::Motion& motion,
+                const DriveOptions& options) {
+  const DvlOptions& dvl = *options.dvl;
+  Normal noise(options.seed + 1000, options.noise);
+  std::mt19937 random(options.seed + 2000);
+  const Timing timing{std::llround(dvl.period_s * 1e9), std::llround(dvl.latency_s * 1e9)};
+  sample(out, duration_s, timing, options.late, [&](std::int64_t t_ns, auto put) {
+    const auto state = motion.at(t_ns);
+    const auto measured_m_s = [&](const Eigen::Vector2d& current_m_s) -> Eigen::Vector3d {
+      Eigen::Vector3d measured = dvl.scale * velocity_there_m_s(state, dvl, current_m_s);
+      for (double& axis : measured) axis += noise(dvl.noise_m_s);
+      if (std::uniform_real_distribution<double>()(random) < dvl.bad_share) measured.x() -= 3;
+      return measured;
+    };
+    if (dvl.water) put(WaterVelocityReading{t_ns, measured_m_s({0, 0}), dvl.frame, dvl.noise_m_s, dvl.position_m});
+    if (dvl.bottom && dvl.locked(since_start_s(t_ns)))
+      put(GroundVelocityReading{t_ns, measured_m_s(options.current_m_s), dvl.frame, dvl.noise_m_s,
+                                dvl.position_m});
+  });
 }
 
 }  // namespace
@@ -81,6 +117,7 @@ std::vector<Arrived> readings_along(const sim::Motion& motion, double duration_s
     for (double& axis : velocity_m_s) axis += noise(0.1);
     put(FixReading{t_ns, position_m, 1, velocity_m_s, 0.1});
   });
+  if (options.dvl) sample_dvl(out, duration_s, motion, options);
   std::stable_sort(out.begin(), out.end(),
                    [](const Arrived& a, const Arrived& b) { return a.arrival_ns < b.arrival_ns; });
   return out;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -16,7 +17,20 @@ inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 inline constexpr std::int64_t kStart_ns = 1'000 * kSecond_ns;
 inline constexpr double kDegree = 0.017453292519943295;
 
-using Reading = std::variant<RateReading, CompassReading, ShaftReading, FixReading>;
+using Reading = std::variant<RateReading, CompassReading, ShaftReading, FixReading, GroundVelocityReading,
+                             WaterVelocityReading>;
+
+struct DvlOptions {
+  double period_s = 0.2, latency_s = 0.12;
+  bool bottom = true, water = false;
+  std::function<bool(double t_s)> locked = [](double) { return true; };
+  double noise_m_s = 0.01;  ///< each axis; also what it states
+  double scale = 1;         ///< read over true
+  double yaw_rad = 0;       ///< of its axes from the body's, not known to the navigator
+  VelocityFrame frame = VelocityFrame::body;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double bad_share = 0;  ///< of the measurements that are metres a second off
+};
 
 struct DriveOptions {
   bool rates = true, compass = true, shaft = true;
@@ -25,10 +39,11 @@ struct DriveOptions {
   std::function<double(double heading_rad)> compass_says = [](double heading_rad) { return heading_rad; };
   Eigen::Vector3d zero_rad_s = Eigen::Vector3d::Zero();   ///< of the gyros
   Eigen::Vector2d current_m_s = Eigen::Vector2d::Zero();  ///< moves the position
-  double advance_m = 0.0872;                              ///< of the shaft
-  double shaft_share = 1;                                 ///< read over true
-  bool noise = true;                                      ///< of VEHICLE's usual instruments
-  bool late = true;                                       ///< readings come as late as on the vehicle
+  std::optional<DvlOptions> dvl;
+  double advance_m = 0.0872;  ///< of the shaft
+  double shaft_share = 1;     ///< read over true
+  bool noise = true;          ///< of VEHICLE's usual instruments
+  bool late = true;           ///< readings come as late as on the vehicle
   std::uint32_t seed = 1;
 };
 

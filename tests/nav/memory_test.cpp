@@ -25,7 +25,9 @@ namespace {
 
 TEST(NavigatorMemory, IsTakenOnceAndIsSmall) {
   const auto way = reference_way("path5");
-  const auto readings = readings_along(way, 50, {});
+  DriveOptions options;
+  options.dvl.emplace().water = true;
+  const auto readings = readings_along(way, 50, options);
   Navigator navigator({});
   const std::size_t before = allocations;
   for (const auto& arrived : readings) {

@@ -56,6 +56,21 @@ TEST(Navigator, AVehicleThatLiesStillStaysWhereItIs) {
   EXPECT_EQ(estimate.since_fix_m, 0);
 }
 
+TEST(Navigator, TheTiltOfAnInertialUnitDoesNotLag) {
+  for (const bool lags : {false, true}) {
+    Navigator navigator({});
+    for (std::int64_t i = 0; i < 400; ++i) {
+      const std::int64_t t_ns = kStart_ns + i * (kSecond_ns / 20);
+      const double true_rad = 0.002 * static_cast<double>(i);
+      navigator.take(RateReading{t_ns, Eigen::Vector3d(0.04, 0, 0), 0});
+      navigator.take(CompassReading{t_ns, 0.0, 0.0, true_rad - (lags ? 0.012 : 0), false, lags});
+      if (i > 200) {
+        ASSERT_NEAR(navigator.estimate().roll_rad.value(), true_rad, 1e-3) << lags;
+      }
+    }
+  }
+}
+
 TEST(Navigator, GoesRoundAndRoundWithoutAJumpAtNorthOrSouth) {
   const auto way = level_way(200, 1, [](double) { return -0.5; });
   Navigator navigator({});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "base/durations.h"
@@ -40,6 +41,34 @@ TEST(GpsTimeWatch, ALeapSecondLearntMovesTheMapping) {
       mapping = *better;
   }
   EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 0, 0.01);
+}
+
+/// A receiver whose clock is not steered measures beside the second, and says by how much.
+TEST(GpsTimeWatch, AnEpochBesideTheSecondCountsByItsStatedTime) {
+  std::optional<std::int64_t> offset_ns;  // of a receiver that measures at the second
+  for (const std::int64_t beside_ns : {0LL, -400'000LL, 52'000LL, 1'900'000LL}) {
+    GpsTimeWatch watch(0.020);
+    UtcMapping mapping;
+    for (int k = 10; k < 40; ++k) {
+      for (const std::int64_t part_ns : {0LL, 250'000'000LL, 500'000'000LL, 750'000'000LL}) {
+        const std::int64_t epoch_ns = k * base::kSecond_ns + part_ns + beside_ns;
+        if (const auto better = watch.update(kUtc + epoch_ns, epoch_ns, mapping)) mapping = *better;
+      }
+    }
+    EXPECT_EQ(mapping.source, UtcMapping::Source::gps) << beside_ns;
+    if (!offset_ns) offset_ns = mapping.offset_ns;
+    EXPECT_EQ(mapping.offset_ns, *offset_ns) << beside_ns;
+    EXPECT_LT(std::abs(mapping.offset_ns - kUtc), 1'000'000) << beside_ns;
+  }
+}
+
+TEST(GpsTimeWatch, EpochsBetweenTheSecondsAreLeftOut) {
+  GpsTimeWatch watch(0.020);
+  const UtcMapping mapping;
+  for (int k = 10; k < 40; ++k) {
+    const std::int64_t epoch_ns = k * base::kSecond_ns + 100'000'000;
+    EXPECT_FALSE(watch.update(kUtc + epoch_ns, epoch_ns, mapping));
+  }
 }
 
 /// Whenever the host stands still, one or two messages are read late; no mapping may follow them.

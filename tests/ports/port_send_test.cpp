@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "ports/pseudo_terminal.h"
 #include "tests/ports/harness.h"
 
 namespace navcal::ports::testing {
@@ -73,6 +75,27 @@ TEST_F(PortSend, ADeviceThatDoesNotReadHoldsUpNothingElse) {
   port->send(bytes_of("h\r"));
   EXPECT_TRUE(run_until(io, [&] { return recorder.received == ":\r\n"; }));
   EXPECT_LT(other.sent.size(), 400'000U);
+  second.stop();
+}
+
+TEST_F(PortSend, ReadsAfterItWakeTheLoopNoMoreOftenThanBefore) {
+  const PseudoTerminal device = make_pseudo_terminal(9600);
+  Recorder other;
+  Port second(io.get_executor(), settings_for(device.slave_name), other);
+  second.start();
+  ASSERT_TRUE(run_until(io, [&] { return !other.opened.empty(); }));
+  const auto turns_of_a_read = [&] {
+    const std::size_t before = other.received.size();
+    EXPECT_EQ(::write(device.master.get(), "x", 1), 1);
+    std::size_t turns = 0;
+    while (other.received.size() == before) turns += io.run_one();
+    for (int i = 0; i < 20; ++i) turns += io.poll();
+    return turns;
+  };
+  const std::size_t before = turns_of_a_read();
+  second.send(bytes_of("go"));
+  ASSERT_TRUE(run_until(io, [&] { return other.sent == "go"; }));
+  EXPECT_EQ(turns_of_a_read(), before);
   second.stop();
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "protocols/mip_commands.h"
 #include "tests/protocols/mip_samples.h"
 #include "tests/protocols/shared_capture.h"
 
@@ -76,6 +77,33 @@ TEST(Mip, AFieldOfNoLengthEndsThePacket) {
 TEST(Mip, MessageFormat) {
   EXPECT_EQ(mip::encode_message_format(mip::kSensorSet, {{0x04, 10}}),
             mip::encode_fields(0x0C, {{0x0F, {1, 0x80, 1, 0x04, 0, 10}}}));
+}
+
+TEST(Mip, CommandsOfTheStartUpByteForByte) {
+  EXPECT_EQ(mip::encode_base_rate_request(mip::kSensorSet, false), mip::encode_fields(0x0C, {{0x0E, {0x80}}}));
+  EXPECT_EQ(mip::encode_base_rate_request(mip::kSensorSet, true), mip::encode_fields(0x0C, {{0x06, {}}}));
+  EXPECT_EQ(mip::encode_base_rate_request(mip::kFilterSet, true), mip::encode_fields(0x0C, {{0x0B, {}}}));
+  EXPECT_EQ(mip::encode_format_by_set(mip::kFilterSet, {{0x05, 25}}),
+            mip::encode_fields(0x0C, {{0x0A, {1, 1, 0x05, 0, 25}}}));
+  EXPECT_EQ(mip::encode_data_stream(mip::kFilterSet, true, false),
+            mip::encode_fields(0x0C, {{0x11, {1, 0x82, 1}}}));
+  EXPECT_EQ(mip::encode_data_stream(mip::kFilterSet, true, true), mip::encode_fields(0x0C, {{0x11, {1, 3, 1}}}));
+}
+
+TEST(Mip, BaseRates) {
+  // 1000 Hz is 03 E8.
+  const mip::Packet newer = mip::decode(mip::encode_fields(0x0C, {{0xF1, {0x0E, 0}}, {0x8E, {0x80, 3, 0xE8}}}));
+  EXPECT_EQ(newer.base_rate, (mip::BaseRate{0x80, 1000}));
+  const mip::Packet older = mip::decode(mip::encode_fields(0x0C, {{0xF1, {0x0B, 0}}, {0x8A, {3, 0xE8}}}));
+  EXPECT_EQ(older.base_rate, (mip::BaseRate{0x82, 1000}));
+  EXPECT_EQ(mip::decode(mip::encode_fields(0x0C, {{0x83, {3}}})).invalid_fields, 1U);
+  EXPECT_EQ(mip::decode(mip::encode_base_rate({0x06, 0}, {0, 500})).base_rate, (mip::BaseRate{0x80, 500}));
+}
+
+TEST(Mip, AListOfFieldsOfAnotherLengthIsNone) {
+  EXPECT_EQ(mip::decode_format(Buffer{2, 4, 0, 5, 5, 0, 5}).size(), 2U);
+  EXPECT_TRUE(mip::decode_format(Buffer{2, 4, 0, 5}).empty());
+  EXPECT_TRUE(mip::decode_format(Buffer{}).empty());
 }
 
 /// A number of the capture, read from the documentation: most significant byte first.

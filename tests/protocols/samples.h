@@ -55,6 +55,16 @@ inline imu_card::Record random_record(Random& random) {
   return record;
 }
 
+inline std::string random_samples_line(Random& random) {
+  samples_line::LineWriter line(chance(random) ? "IMU" : "DEPTH");
+  if (chance(random)) line.seconds("time", static_cast<std::int64_t>(random() % 4'000'000'000'000'000'000));
+  line.number("depth_m", printed(random, 500, 1000));
+  line.vector("rate_rad_s", {printed(random, 3, 10000), 0, -1e-9});
+  if (chance(random)) line.text("unit", "\"{\" \\ \n degC");
+  line.boolean("over_range", chance(random));
+  return line.finish();
+}
+
 template <Scanner S>
 Buffer random_frame(Random& random);
 
@@ -100,9 +110,8 @@ inline Buffer random_frame<motor_card::Scanner>(Random& random) {
 
 template <>
 inline Buffer random_frame<samples_line::Scanner>(Random& random) {
-  std::string line = R"({"class":"DEPTH","depth_m":)" + std::to_string(random() % 1000) + "}";
-  if (random() % 4 == 0) line += " \r";
-  line += '\n';
+  std::string line = random_samples_line(random);
+  if (chance(random)) line.insert(line.size() - 1, "\r");
   return {line.begin(), line.end()};
 }
 

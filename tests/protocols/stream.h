@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "protocols/stream_parser.h"
@@ -39,6 +40,9 @@ struct Outcome {
 template <Scanner S>
 class Run {
  public:
+  Run() = default;
+  explicit Run(S scanner) : parser_(std::move(scanner)) {}
+
   void feed(Bytes bytes) { parser_.feed(bytes, sink()); }
   void silence() { parser_.silence(sink()); }
   [[nodiscard]] const StreamParser<S>& parser() const { return parser_; }
@@ -68,8 +72,8 @@ class Run {
 
 /// Feeds `stream` in pieces whose lengths `next_length()` gives.
 template <Scanner S, class NextLength>
-Run<S> run_in_pieces(Bytes stream, NextLength next_length) {
-  Run<S> run;
+Run<S> run_in_pieces(Bytes stream, NextLength next_length, S scanner = {}) {
+  Run<S> run(std::move(scanner));
   while (!stream.empty()) {
     const std::size_t length = std::min(stream.size(), static_cast<std::size_t>(next_length()));
     run.feed(stream.first(length));
@@ -79,13 +83,17 @@ Run<S> run_in_pieces(Bytes stream, NextLength next_length) {
 }
 
 template <Scanner S>
-Outcome all_at_once(Bytes stream) {
-  return run_in_pieces<S>(stream, [&] { return stream.size(); }).outcome();
+Outcome all_at_once(Bytes stream, S scanner = {}) {
+  return run_in_pieces<S>(
+             stream, [&] { return stream.size(); }, std::move(scanner))
+      .outcome();
 }
 
 template <Scanner S>
-Outcome byte_by_byte(Bytes stream) {
-  return run_in_pieces<S>(stream, [] { return 1; }).outcome();
+Outcome byte_by_byte(Bytes stream, S scanner = {}) {
+  return run_in_pieces<S>(
+             stream, [] { return 1; }, std::move(scanner))
+      .outcome();
 }
 
 inline void append(Buffer& stream, Bytes bytes) {

@@ -37,6 +37,28 @@ TEST(Trax, CommandsByteForByte) {
   EXPECT_EQ(Buffer(north.begin(), north.end() - 2), (Buffer{0, 7, 6, 2, 1}));
 }
 
+TEST(Trax, AcquisitionByteForByte) {
+  // Continuous, no flush, reserved, 0.5 s as a float: 3F 00 00 00.
+  const Buffer frame = trax::encode_acquisition({false, 0.5});
+  EXPECT_EQ(Buffer(frame.begin(), frame.end() - 2), (Buffer{0, 15, 24, 0, 0, 0, 0, 0, 0, 0x3F, 0, 0, 0}));
+  EXPECT_EQ(trax::decode_acquisition(frame), (trax::Acquisition{false, 0.5}));
+  EXPECT_EQ(trax::decode_acquisition(trax::encode_acquisition({true, 0})), (trax::Acquisition{true, 0}));
+}
+
+TEST(Trax, NamesOfTheManual) {
+  EXPECT_EQ(trax::id_of(5).view(), "DataResp");
+  EXPECT_EQ(trax::id_of(17).view(), "UserCalSampCount");
+  EXPECT_EQ(trax::id_of(31).view(), "TakeUserCalSampl") << "sixteen letters";
+  EXPECT_EQ(trax::id_of(0).view(), "00");
+  EXPECT_EQ(trax::id_of(200).view(), "C8");
+}
+
+TEST(Trax, SaveDoneSaysWhetherItWasSaved) {
+  EXPECT_EQ(trax::decode_save_done(trax::encode_frame(trax::FrameNumber::save_done, Buffer{0, 0})), true);
+  EXPECT_EQ(trax::decode_save_done(trax::encode_frame(trax::FrameNumber::save_done, Buffer{0, 1})), false);
+  EXPECT_FALSE(trax::decode_save_done(trax::encode_frame(trax::FrameNumber::save_done, Buffer{0})));
+}
+
 TEST(Trax, AnUnknownComponentEndsTheReading) {
   const Buffer payload{3, 8, 1, 200, 5, 0, 0, 0, 0};
   const auto data = trax::decode_data(trax::encode_frame(trax::FrameNumber::data, payload));

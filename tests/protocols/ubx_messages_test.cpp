@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "protocols/ubx_receiver.h"
 #include "tests/protocols/shared_capture.h"
 #include "tests/protocols/ubx_samples.h"
 
@@ -77,7 +78,9 @@ TEST(UbxMessages, Configuration) {
   const ubx::MessageRate rate{ubx::kNavPvt, 5};
   EXPECT_EQ(ubx::decode_cfg_msg(ubx::encode_cfg_msg(rate)), rate);
   const ubx::ValueSet set{ubx::ram | ubx::flash,
-                          {{ubx::kRateMeasurement_ms, 100}, {ubx::kUart1Baud, 115200}, {ubx::kUart1OutUbx, 1}}};
+                          {{ubx::kRateMeasurement_ms, 100},
+                           {ubx::kUart1Baud, 115200},
+                           {ubx::key_of_ubx_output(ubx::ReceiverPort::uart1), 1}}};
   const Buffer frame = ubx::encode_cfg_valset(set.layers, set.items);
   EXPECT_EQ(ubx::decode_cfg_valset(frame), set);
   // Key and value of the first item: 01 00 21 30, then 64 00.
@@ -86,6 +89,31 @@ TEST(UbxMessages, Configuration) {
   EXPECT_FALSE(
       ubx::decode_cfg_valset(ubx::encode_frame(ubx::kCfgValset, Buffer{0, 1, 0, 0, 1, 0, 0x21, 0x30, 5})));
   EXPECT_FALSE(ubx::decode_cfg_valset(ubx::encode_frame(ubx::kCfgValset, Buffer{0, 1, 0, 0, 1, 0, 0, 0, 5})));
+}
+
+TEST(UbxMessages, VersionAndTimePulse) {
+  const ubx::Version version{"EXT CORE 1.00 (f17067)", "00190000", {"FWVER=HPG 1.50", "", "GPS;GLO;GAL;BDS"}};
+  EXPECT_EQ(ubx::decode_mon_ver(ubx::encode_mon_ver(version)), version);
+  const ubx::Version long_texts{std::string(40, 'x'), std::string(20, 'y'), {}};
+  EXPECT_EQ(ubx::decode_mon_ver(ubx::encode_mon_ver(long_texts))->software, std::string(30, 'x'));
+  EXPECT_FALSE(ubx::decode_mon_ver(ubx::encode_frame(ubx::kMonVer, {}))) << "the question";
+  const ubx::TimePulse pulse{216'000'000, 0.25, -4321, 2400, true, true};
+  EXPECT_EQ(ubx::decode_tim_tp(ubx::encode_tim_tp(pulse)), pulse);
+  EXPECT_FALSE(ubx::decode_tim_tp(ubx::encode_frame(ubx::kTimTp, Buffer(15))));
+  const ubx::EpochRate rate{200, 1};
+  EXPECT_EQ(ubx::decode_cfg_rate(ubx::encode_cfg_rate(rate)), rate);
+  const Buffer frame = ubx::encode_cfg_rate(rate);
+  EXPECT_EQ(Buffer(frame.begin() + 6, frame.end() - 2), (Buffer{200, 0, 1, 0, 0, 0}));
+}
+
+TEST(UbxMessages, KeysOfThePorts) {
+  using ubx::ReceiverPort;
+  EXPECT_EQ(ubx::key_of_message(ubx::kNavPvt, ReceiverPort::uart1), 0x20910007U);
+  EXPECT_EQ(ubx::key_of_message(ubx::kNavPvt, ReceiverPort::usb), 0x20910009U);
+  EXPECT_EQ(ubx::key_of_message(ubx::kNavSat, ReceiverPort::uart2), 0x20910017U);
+  EXPECT_EQ(ubx::key_of_message(ubx::kAckAck, ReceiverPort::uart1), 0U);
+  EXPECT_EQ(ubx::key_of_ubx_output(ReceiverPort::uart2), 0x10760001U);
+  EXPECT_EQ(ubx::key_of_nmea_output(ReceiverPort::usb), 0x10780002U);
 }
 
 /// The documentation once more, as a packed structure of the machine (little endian here as on the wire).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 
 #include "protocols/ubx.h"
@@ -40,8 +41,26 @@ TEST(UbxStream, KindsAreTold) {
     kinds += std::to_string(static_cast<int>(ubx::kind_of(frame))) + std::string(frame.id.view()) + ' ';
     EXPECT_EQ(ubx::code_of(frame).has_value(), ubx::kind_of(frame) == ubx::Kind::ubx);
   });
-  EXPECT_EQ(kinds, "0UBX-1234 1GNRMC 2RTCM3 ");
+  EXPECT_EQ(kinds, "01234 1GNRMC 2RTCM3 ");
   EXPECT_EQ(parser.counters().skipped_bytes, 0U);
+}
+
+TEST(UbxStream, FramesHaveTheNamesOfTheProtocol) {
+  const std::pair<ubx::MessageCode, const char*> named[] = {
+      {0x0104, "NAV-DOP"},  {0x0107, "NAV-PVT"},    {0x0120, "NAV-TIMEGPS"}, {0x0135, "NAV-SAT"},
+      {0x0501, "ACK-ACK"},  {0x068A, "CFG-VALSET"}, {0x0A04, "MON-VER"},     {0x0164, "NAV-TIMETRUSTED"},
+      {0x1002, "ESF-MEAS"}, {0x0215, "RXM-RAWX"},   {0x2907, "NAV2-PVT"},    {0x2703, "SEC-UNIQID"},
+      {0x0199, "0199"},     {0xABCD, "ABCD"},       {0x0000, "0000"}};
+  for (const auto& [code, name] : named) EXPECT_EQ(ubx::id_of(code).view(), name);
+  // No two messages share a name, and none is cut.
+  std::set<std::string_view> names;
+  for (unsigned code = 0; code < 0x10000; ++code) {
+    const std::string_view name = ubx::name_of(static_cast<ubx::MessageCode>(code));
+    if (name.empty()) continue;
+    EXPECT_TRUE(names.insert(name).second) << name;
+    EXPECT_EQ(ubx::id_of(static_cast<ubx::MessageCode>(code)).view(), name);
+  }
+  EXPECT_GT(names.size(), 150U);
 }
 
 TEST(UbxStream, KnownChecksums) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "protocols/vectornav.h"
+#include "protocols/vectornav_lines.h"
 #include "tests/protocols/mip_samples.h"
 
 // Random messages of a VectorNav sensor.
@@ -17,6 +17,7 @@ inline vectornav::Reading random_vectornav_reading(Random& random) {
   reading.velocity_ned_m_s = perhaps_triple(random, 1);
   reading.acceleration_m_s2 = perhaps_triple(random, 1);
   if (chance(random)) reading.quaternion = {random_float(random, 1), random_float(random, 1), 0, 1};
+  reading.yaw_pitch_roll_std_deg = perhaps_triple(random, 1);
   if (chance(random)) {
     reading.raw_acceleration_m_s2 = vectornav::Triple{random_float(random, 9), 1, 2};
     reading.raw_rate_rad_s = vectornav::Triple{random_float(random, 9), 1, 2};

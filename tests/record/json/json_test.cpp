@@ -135,8 +135,9 @@ TEST(Json, AnEstimateHasTheMembersOfItsTopicWhetherItKnowsMuchOrLittle) {
   auto json = json_of();
   EXPECT_EQ(json["class"], "NAV");
   EXPECT_EQ(json["position"], "none");
-  for (const char* key : {"lat", "north_std_m", "since_fix_s", "heading_rad", "heading_std_rad", "velocity_m_s",
-                          "set_north_m_s", "outage_m", "outage_error_uncalibrated_m", "calibration"})
+  for (const char* key :
+       {"lat", "north_std_m", "since_fix_s", "heading_rad", "heading_std_rad", "velocity_m_s", "set_north_m_s",
+        "outage_m", "outage_error_uncalibrated_m", "calibration", "speed_source", "bottom_lock", "dvl_outliers"})
     EXPECT_TRUE(json[key].is_null()) << key;
 
   sample.source = pipeline::PositionSource::reckoned;
@@ -155,6 +156,19 @@ TEST(Json, AnEstimateHasTheMembersOfItsTopicWhetherItKnowsMuchOrLittle) {
   EXPECT_EQ(json["east_std_m"], 4);
   EXPECT_EQ(json["velocity_m_s"], nlohmann::json::parse("[1,0.5,-0.25]"));
   EXPECT_EQ(json["outage_error_m"], 2);
+
+  using nav::SpeedSource;
+  sample.bottom_lock = false;
+  sample.estimate.velocity_outliers = 7;
+  for (const auto& [source, name] :
+       {std::pair(SpeedSource::shaft, "shaft"), std::pair(SpeedSource::water, "water"),
+        std::pair(SpeedSource::bottom, "dvl")}) {
+    sample.estimate.speed_source = source;
+    json = json_of();
+    EXPECT_EQ(json["speed_source"], name);
+  }
+  EXPECT_EQ(json["bottom_lock"], false);
+  EXPECT_EQ(json["dvl_outliers"], 7);
 }
 
 TEST(Json, AnOrderHasTheMembersOfItsTopicWhateverBecameOfIt) {

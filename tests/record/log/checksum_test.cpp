@@ -12,12 +12,14 @@ TEST(Checksum, CheckValuesOfTheCatalogue) {
   EXPECT_EQ(crc32c("123456789"), 0xE3069283U);
   EXPECT_EQ(crc32("123456789"), 0xCBF43926U);
   EXPECT_EQ(crc32(""), 0U);
+  EXPECT_EQ(crc32c(""), 0U);
 }
 
 TEST(Checksum, ASumCanBeContinued) {
   for (std::size_t cut = 0; cut <= 9; ++cut) {
     const std::string_view text = "123456789";
     EXPECT_EQ(crc32(text.substr(cut), crc32(text.substr(0, cut))), 0xCBF43926U) << cut;
+    EXPECT_EQ(crc32c(text.substr(cut), crc32c(text.substr(0, cut))), 0xE3069283U) << cut;
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes from a TRAX compass or to it.
 #include "protocols/trax.h"
-
 #include "tests/fuzz/stream_invariants.h"
 
 namespace {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "analysis/import/import_sink.h"
+
+namespace navcal::analysis {
+
+/// Whether a file begins with a FMT record that describes FMT.
+[[nodiscard]] bool is_dataflash(std::string_view head);
+
+/// ArduPilot's DataFlash log (.bin), version of the self-describing records A3 95. Taken are IMU, MAG, BARO, GPS
+/// (with the errors of GPA), ATT, BAT and RCOU; columns, units and multipliers by FMT, FMTU, UNIT and MULT.
+/// ArduPilot's body axes are those of navcal: forward, starboard, down. docs/import.md has the table.
+[[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink);
+
+}  // namespace navcal::analysis

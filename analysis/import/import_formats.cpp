@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/import/import_formats.h"
+
+#include <algorithm>
+#include <array>
+
+#include "analysis/import/csv_log.h"
+#include "analysis/import/dataflash.h"
+#include "analysis/import/mavlink_log.h"
+#include "analysis/import/ros_bag.h"
+#include "analysis/import/slocum.h"
+#include "analysis/import/ulog.h"
+#include "record/recording.h"
+
+namespace navcal::analysis {
+namespace {
+
+template <ImportFindings (*Read)(std::string_view, ImportSink&)>
+ImportFindings read_plain(std::string_view file, const ImportOptions& /*options*/, ImportSink& sink) {
+  return Read(file, sink);
+}
+
+ImportFindings read_mapped(std::string_view file, const ImportOptions& options, ImportSink& sink) {
+  if (options.map.empty()) throw record::BadRecording("a CSV file needs a map of its columns (--map)");
+  return read_csv(file, config::load_csv_map(options.map), sink);
+}
+
+/// A CSV file is whatever a map is given for.
+bool is_never(std::string_view /*head*/) { return false; }
+
+constexpr std::array kFormats{
+    ImportFormat{"dataflash", "ArduPilot DataFlash log (.bin)", is_dataflash, read_plain<read_dataflash>},
+    ImportFormat{"ulog", "PX4 ULog (.ulg)", is_ulog, read_plain<read_ulog>},
+    ImportFormat{"ros2", "ROS 2 bag in MCAP (.mcap)", is_ros_bag, read_plain<read_ros_bag>},
+    ImportFormat{"tlog", "MAVLink telemetry log (.tlog)", is_mavlink_log, read_plain<read_mavlink_log>},
+    ImportFormat{"slocum", "Slocum glider data (.dbd, .sbd, .tbd)", is_slocum, read_plain<read_slocum>},
+    ImportFormat{kCsvFormat, "CSV file with a map of its columns", is_never, read_mapped},
+};
+
+}  // namespace
+
+std::span<const ImportFormat> import_formats() { return kFormats; }
+
+const ImportFormat* import_format_of(std::string_view head) {
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                  [&](const ImportFormat& format) { return format.recognises(head); });
+  return found == kFormats.end() ? nullptr : &*found;
+}
+
+const ImportFormat* import_format_named(std::string_view name) {
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                  [&](const ImportFormat& format) { return format.name == name; });
+  return found == kFormats.end() ? nullptr : &*found;
+}
+
+}  // namespace navcal::analysis

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "analysis/import/import_sink.h"
+
+namespace navcal::analysis {
+
+struct ImportOptions {
+  std::string format;  ///< name of a format; empty: the content says it
+  std::string map;     ///< file that gives the columns of a CSV file their meaning; empty: none
+};
+
+/// A kind of log of another system.
+struct ImportFormat {
+  std::string_view name;         ///< as --format takes it
+  std::string_view description;  ///< for people
+  bool (*recognises)(std::string_view head);
+  /// Throws record::BadRecording for what cannot be read at all.
+  ImportFindings (*read)(std::string_view file, const ImportOptions& options, ImportSink& sink);
+};
+
+/// The format of a file for which a map is given.
+inline constexpr std::string_view kCsvFormat = "csv";
+
+/// All formats, in the order in which a file is tried.
+[[nodiscard]] std::span<const ImportFormat> import_formats();
+
+/// nullptr when no format recognises these first bytes of a file.
+[[nodiscard]] const ImportFormat* import_format_of(std::string_view head);
+/// nullptr when there is no format of this name.
+[[nodiscard]] const ImportFormat* import_format_named(std::string_view name);
+
+}  // namespace navcal::analysis

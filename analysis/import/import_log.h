@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "analysis/import/import_formats.h"
+#include "analysis/import/import_report.h"
+#include "record/log/log_info.h"
+
+namespace navcal::analysis {
+
+/// Makes a log of a file of another system: each source instrument is a port of the protocol `samples`, the bytes
+/// are lines of injected samples. The file is read twice: first for its instruments, its times and its UTC, then
+/// for the samples. What other systems keep in memory order is put in the order of time.
+///
+/// UTC is the clock of the file where its times are UTC. Else it follows from the times that a receiver with a fix
+/// states; the largest difference to the clock of the file counts, since it belongs to the fix that was logged
+/// with the least delay. Else times count from 2000-01-01, and the report says so.
+///
+/// The log appears under its name only when it is whole. Throws record::BadRecording for what cannot be read,
+/// std::system_error; what `progress` throws ends it too.
+[[nodiscard]] ImportReport import_log(const std::filesystem::path& input, const std::filesystem::path& log,
+                                      const ImportOptions& options, const record::Progress& progress);
+
+/// Whether the file is one of the formats of import_formats(), by name or content. Throws std::system_error.
+[[nodiscard]] bool is_foreign_log(const std::filesystem::path& input, const ImportOptions& options);
+
+}  // namespace navcal::analysis

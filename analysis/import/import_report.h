@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace navcal::analysis {
+
+/// What was found in a log of another system, and what became of it.
+struct ImportReport {
+  enum class Utc : std::uint8_t {
+    of_file,  ///< its times are UTC
+    of_gps,   ///< by what a receiver stated
+    unknown,  ///< times count from the stated date
+  };
+  struct Taken {
+    std::string port;
+    std::uint64_t messages = 0;
+    std::uint64_t samples = 0;
+    std::int64_t first_ns = 0, last_ns = 0;
+    /// Messages a second; 0 when there is one only.
+    [[nodiscard]] double rate_Hz() const;
+  };
+
+  std::string input, output, format;
+  std::uint64_t bytes = 0;
+  std::map<std::string, Taken, std::less<>> taken;         ///< by the message's name
+  std::map<std::string, std::uint64_t, std::less<>> left;  ///< messages that were not taken
+  Utc utc = Utc::unknown;
+  std::int64_t start_utc_ns = 0;  ///< of the first sample
+  std::int64_t duration_ns = 0;
+  std::uint64_t refused = 0;  ///< samples whose values are out of range: in the log as bytes, not as samples
+  std::optional<std::uint64_t> cut_at{};
+  std::uint64_t damaged_bytes = 0;
+  std::vector<std::string> remarks;
+};
+
+/// The report as text, and as one JSON object (docs/cli.md).
+[[nodiscard]] std::string to_text(const ImportReport& report);
+[[nodiscard]] std::string to_json(const ImportReport& report);
+
+}  // namespace navcal::analysis

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocols/samples_line.h"
+
+namespace navcal::analysis {
+
+/// One sample of a log of another system.
+struct ImportedSample {
+  std::string_view message;              ///< its name in that log: "IMU[0]"
+  std::string_view port;                 ///< source instrument, the name of a port in the navcal log
+  std::int64_t time_ns = 0;              ///< on the clock of that log
+  std::optional<std::int64_t> utc_ns{};  ///< time of validity that the message itself states
+  bool continues = false;                ///< a further sample of the same message
+};
+
+/// Takes what a reader finds in a log of another system.
+class ImportSink {
+ public:
+  virtual ~ImportSink() = default;
+  /// `line` has its class and values, in the units of navcal; the time is added here.
+  virtual void sample(const ImportedSample& sample, protocols::samples_line::LineWriter& line) = 0;
+  /// A message that is not taken. `message` may say why: "MAG[1] (not healthy)".
+  virtual void left(std::string_view message) = 0;
+  /// A receiver with a fix states this time at `time_ns` of the log's clock.
+  virtual void utc(std::int64_t time_ns, std::int64_t utc_ns) = 0;
+  /// Bytes of the file that were read. May throw, to end the reading.
+  virtual void progress(std::uint64_t done) = 0;
+};
+
+/// What a reader has to say of a whole file.
+struct ImportFindings {
+  bool times_are_utc = false;             ///< else its clock counts from an unknown moment, such as the boot
+  std::optional<std::uint64_t> cut_at{};  ///< first byte of a record that is not whole at the end of the file
+  std::uint64_t damaged_bytes = 0;        ///< passed over until the next record
+  std::vector<std::string> remarks{};
+};
+
+}  // namespace navcal::analysis

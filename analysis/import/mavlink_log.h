@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "analysis/import/import_sink.h"
+
+namespace navcal::analysis {
+
+/// Whether a file begins with a time of this century and an intact MAVLink frame.
+[[nodiscard]] bool is_mavlink_log(std::string_view head);
+
+/// MAVLink telemetry log (.tlog): frames of version 1 or 2, each behind the UTC of the computer that received it,
+/// eight bytes, big endian, in microseconds. Frames are checked where the CRC_EXTRA of their message is known
+/// here. Units and axes are those of the messages' definitions (common.xml); RAW_IMU is read as ArduPilot fills
+/// it. The first system that sends a message of a vehicle is taken. docs/import.md has the table.
+[[nodiscard]] ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink);
+
+}  // namespace navcal::analysis

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/import/ros_bag.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "analysis/import/ros_messages.h"
+#include "analysis/import/wire_reader.h"
+#include "record/log/mcap_format.h"
+
+namespace navcal::analysis {
+namespace {
+
+using record::kMcapMagic;
+using record::kRecordHead;
+using record::Opcode;
+
+constexpr std::uint8_t kChunk = 0x06;
+
+/// Takes fields of a record from front to back; what lies beyond its end is empty or zero.
+class RecordReader {
+ public:
+  explicit RecordReader(std::string_view record) : rest_(record) {}
+  template <class T>
+  T number() {
+    const T value = little_endian_at<T>(rest_, 0);
+    rest_.remove_prefix(std::min(sizeof(T), rest_.size()));
+    return value;
+  }
+  std::string_view text() {
+    const std::size_t length = std::min<std::size_t>(number<std::uint32_t>(), rest_.size());
+    const std::string_view taken = rest_.substr(0, length);
+    rest_.remove_prefix(length);
+    return taken;
+  }
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_;
+};
+
+struct BagChannel {
+  ros::Topic topic;
+  const ros::MessageType* type = nullptr;
+  std::string left_as;  ///< why its messages are not taken
+};
+
+class RosBag {
+ public:
+  RosBag(std::string_view file, ImportSink& sink) : file_(file), sink_(sink) {}
+
+  ImportFindings read() {
+    findings_.times_are_utc = true;
+    read_records(file_.substr(kMcapMagic.size()), kMcapMagic.size(), true);
+    for (const auto& [name, count] : compressed_)
+      findings_.remarks.push_back(fmt::format(
+          "{} chunks are compressed with {}: convert the file by \"mcap decompress\" first", count, name));
+    return std::move(findings_);
+  }
+
+ private:
+  /// `offset`: of the records in the file.
+  void read_records(std::string_view records, std::uint64_t offset, bool is_file) {
+    while (!records.empty()) {
+      const std::uint64_t length = little_endian_at<std::uint64_t>(records, 1);
+      if (records.size() < kRecordHead || length > records.size() - kRecordHead) {
+        // Behind the footer the file ends with its magic.
+        if (!ended_ && !findings_.cut_at) findings_.cut_at = offset;
+        return;
+      }
+      take(static_cast<std::uint8_t>(records.front()), records.substr(kRecordHead, length), offset + kRecordHead);
+      records.remove_prefix(kRecordHead + length);
+      offset += kRecordHead + length;
+      if (is_file) sink_.progress(offset);
+      if (ended_) return;
+    }
+    if (is_file && !ended_) findings_.cut_at = offset;
+  }
+
+  void take(std::uint8_t opcode, std::string_view record, std::uint64_t offset) {
+    if (opcode == kChunk) return take_chunk(record, offset);
+    switch (static_cast<Opcode>(opcode)) {
+      case Opcode::schema:
+        return take_schema(record);
+      case Opcode::channel:
+        return take_channel(record);
+      case Opcode::message:
+        return take_message(record);
+      case Opcode::data_end:
+      case Opcode::footer:
+        ended_ = true;
+        return;
+      default:
+        return;
+    }
+  }
+
+  void take_chunk(std::string_view record, std::uint64_t offset) {
+    RecordReader reader(record);
+    for (int i = 0; i < 3; ++i) (void)reader.number<std::uint64_t>();
+    (void)reader.number<std::uint32_t>();
+    const std::string compression(reader.text());
+    const auto length = reader.number<std::uint64_t>();
+    if (!compression.empty()) {
+      ++compressed_[compression];
+      return sink_.left(fmt::format("chunk (compressed with {})", compression));
+    }
+    const std::string_view inside = reader.rest();
+    read_records(inside.substr(0, std::min<std::size_t>(length, inside.size())),
+                 offset + (record.size() - inside.size()), false);
+  }
+
+  void take_schema(std::string_view record) {
+    RecordReader reader(record);
+    const auto id = reader.number<std::uint16_t>();
+    schemas_[id] = reader.text();
+  }
+
+  void take_channel(std::string_view record) {
+    RecordReader reader(record);
+    const auto id = reader.number<std::uint16_t>();
+    const auto schema = schemas_.find(reader.number<std::uint16_t>());
+    if (channels_.count(id) > 0) return;
+    BagChannel channel;
+    channel.topic.name = reader.text();
+    const std::string_view encoding = reader.text();
+    const std::string type = schema == schemas_.end() ? "no type" : schema->second;
+    channel.type = encoding == "cdr" ? ros::message_type(type) : nullptr;
+    channel.left_as = fmt::format("{} ({}{})", channel.topic.name, type, encoding == "cdr" ? "" : ", not in CDR");
+    if (channel.type != nullptr) channel.topic.instance = instances_[channel.type->kind]++;
+    channels_.emplace(id, std::move(channel));
+  }
+
+  void take_message(std::string_view record) {
+    RecordReader reader(record);
+    const auto channel = channels_.find(reader.number<std::uint16_t>());
+    (void)reader.number<std::uint32_t>();
+    const auto log_time_ns = reader.number<std::uint64_t>();
+    (void)reader.number<std::uint64_t>();
+    if (channel == channels_.end()) return sink_.left("message without a channel");
+    const BagChannel& of = channel->second;
+    if (of.type == nullptr) return sink_.left(of.left_as);
+    constexpr std::uint64_t kLast_ns = 9'000'000'000'000'000'000;
+    const bool is_good = log_time_ns < kLast_ns &&
+                         of.type->decode(reader.rest(), of.topic, static_cast<std::int64_t>(log_time_ns), sink_);
+    if (!is_good) sink_.left(fmt::format("{} (not a whole message of its type)", of.topic.name));
+  }
+
+  std::string_view file_;
+  ImportSink& sink_;
+  ImportFindings findings_;
+  std::map<std::uint16_t, std::string> schemas_;
+  std::map<std::uint16_t, BagChannel> channels_;
+  std::map<PortKind, int> instances_;
+  std::map<std::string, std::uint64_t> compressed_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+bool is_ros_bag(std::string_view head) {
+  if (!head.starts_with(kMcapMagic)) return false;
+  const std::size_t profile = kMcapMagic.size() + kRecordHead;
+  RecordReader reader(head.substr(std::min(profile, head.size())));
+  return reader.text() != record::kProfile;
+}
+
+ImportFindings read_ros_bag(std::string_view file, ImportSink& sink) {
+  if (!file.starts_with(kMcapMagic)) return {.cut_at = 0};
+  return RosBag(file, sink).read();
+}
+
+}  // namespace navcal::analysis

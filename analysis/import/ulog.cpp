@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/import/ulog.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "analysis/import/port_name.h"
+#include "analysis/import/ulog_format.h"
+#include "analysis/import/wire_reader.h"
+#include "base/angles.h"
+
+namespace navcal::analysis {
+namespace {
+
+using protocols::samples_line::LineWriter;
+using ulog::UlogFormat;
+
+constexpr std::string_view kUlogMagic{"ULog\x01\x12\x35", 7};
+constexpr std::size_t kUlogHeader = 16, kUlogMessageHead = 3;
+
+struct UlogMessage {
+  const UlogFormat& format;
+  std::string_view bytes;
+
+  [[nodiscard]] std::optional<double> number(std::string_view name, std::size_t i = 0) const {
+    return format.number(bytes, name, i);
+  }
+  /// The first of two names that the message has: names change between versions of PX4.
+  [[nodiscard]] std::optional<double> either(std::string_view now, double factor_now, std::string_view before,
+                                             double factor_before) const {
+    if (const auto value = number(now)) return *value * factor_now;
+    const auto value = number(before);
+    return value ? std::optional(*value * factor_before) : std::nullopt;
+  }
+  [[nodiscard]] std::array<double, 3> vector(std::string_view name, double factor = 1) const {
+    return {factor * number(name, 0).value_or(NAN), factor * number(name, 1).value_or(NAN),
+            factor * number(name, 2).value_or(NAN)};
+  }
+};
+
+void take_combined(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
+  LineWriter line("IMU");
+  line.vector("rate_rad_s", message.vector("gyro_rad"));
+  line.vector("specific_force_m_s2", message.vector("accelerometer_m_s2"));
+  sink.sample(sample, line);
+}
+
+void take_magnetometer(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
+  constexpr double kMicroteslaPerGauss = 100;
+  LineWriter line("COMPASS");
+  line.vector("field_body_uT", message.vector("magnetometer_ga", kMicroteslaPerGauss));
+  sink.sample(sample, line);
+}
+
+void take_air(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
+  LineWriter line("DEPTH");
+  line.number("pressure_Pa", message.number("baro_pressure_pa"));
+  line.number("temperature_C", message.either("baro_temp_celcius", 1, "ambient_temperature", 1));
+  sink.sample(sample, line);
+}
+
+void take_receiver(const UlogMessage& message, ImportedSample sample, ImportSink& sink) {
+  constexpr double kLeast2d = 2, kLeast3d = 3;
+  constexpr std::uint64_t kFirstUtc_us = 315'964'800'000'000, kLastUtc_us = 4'102'444'800'000'000;
+  const double quality = message.number("fix_type").value_or(0);
+  if (const auto utc_us = message.format.unsigned_number(message.bytes, "time_utc_usec");
+      utc_us && *utc_us > kFirstUtc_us && *utc_us < kLastUtc_us) {
+    sample.utc_ns = static_cast<std::int64_t>(*utc_us) * 1000;
+    if (quality >= kLeast3d) sink.utc(sample.time_ns, *sample.utc_ns);
+  }
+  LineWriter line("GPS");
+  line.text("fix", quality >= kLeast3d ? "3d" : quality == kLeast2d ? "2d" : "none");
+  if (quality >= kLeast2d) {
+    line.number("lat", message.either("latitude_deg", 1, "lat", 1e-7));
+    line.number("lon", message.either("longitude_deg", 1, "lon", 1e-7));
+    line.number("height_m", message.either("altitude_ellipsoid_m", 1, "alt_ellipsoid", 1e-3));
+    line.number("height_msl_m", message.either("altitude_msl_m", 1, "alt", 1e-3));
+    line.number("speed_m_s", message.number("vel_m_s"));
+    if (const auto course_rad = message.number("cog_rad"))
+      line.number("course_rad", base::as_heading(*course_rad));
+    if (const auto down_m_s = message.number("vel_d_m_s")) line.number("climb_m_s", -*down_m_s);
+    line.number("dop", message.number("hdop"));
+    line.number("position_std_m", message.number("eph")).number("height_std_m", message.number("epv"));
+    line.number("velocity_std_m_s", message.number("s_variance_m_s"));
+  }
+  line.number("tracked", message.number("satellites_used"));
+  sink.sample(sample, line);
+}
+
+/// Rotation of the body (forward, starboard, down) in the world (north, east, down), scalar first.
+void take_attitude(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
+  std::array<double, 4> q{};
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = message.number("q", i).value_or(NAN);
+  const auto [w, x, y, z] = q;
+  LineWriter line("COMPASS");
+  line.number("heading_rad", base::as_heading(std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))));
+  line.boolean("heading_is_true", true);
+  line.number("pitch_rad", std::asin(std::clamp(2 * (w * y - z * x), -1.0, 1.0)));
+  line.number("roll_rad", std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)));
+  sink.sample(sample, line);
+}
+
+void take_battery(const UlogMessage& message, const ImportedSample& sample, ImportSink& sink) {
+  LineWriter line("POWER");
+  line.number("voltage_V", message.number("voltage_v")).number("current_A", message.number("current_a"));
+  sink.sample(sample, line);
+}
+
+// Outputs have the unit of their driver: a pulse, a share of the full throttle.
+void take_outputs(const UlogMessage& message, ImportedSample sample, ImportSink& sink) {
+  const auto used = static_cast<std::size_t>(message.number("noutputs").value_or(0));
+  for (std::size_t i = 0; i < used; ++i) {
+    const auto output = message.number("output", i);
+    if (!output) break;
+    LineWriter line("SENSOR");
+    line.text("quantity", fmt::format("output{}", i + 1)).text("unit", "").number("value", *output);
+    sink.sample(sample, line);
+    sample.continues = true;
+  }
+  if (!sample.continues) sink.left("actuator_outputs (no output in use)");
+}
+
+struct UlogTarget {
+  std::string_view message;
+  PortKind kind;
+  void (*take)(const UlogMessage&, ImportedSample, ImportSink&);
+};
+
+template <void (*Take)(const UlogMessage&, const ImportedSample&, ImportSink&)>
+void taken_by(const UlogMessage& message, ImportedSample sample, ImportSink& sink) {
+  Take(message, sample, sink);
+}
+
+constexpr std::array kUlogTargets{
+    UlogTarget{"sensor_combined", PortKind::imu, taken_by<take_combined>},
+    UlogTarget{"vehicle_magnetometer", PortKind::compass, taken_by<take_magnetometer>},
+    UlogTarget{"vehicle_air_data", PortKind::baro, taken_by<take_air>},
+    UlogTarget{"vehicle_gps_position", PortKind::gps, take_receiver},
+    UlogTarget{"sensor_gps", PortKind::gps, take_receiver},
+    UlogTarget{"vehicle_attitude", PortKind::attitude, taken_by<take_attitude>},
+    UlogTarget{"battery_status", PortKind::battery, taken_by<take_battery>},
+    UlogTarget{"actuator_outputs", PortKind::motor, take_outputs}};
+
+class UlogFile {
+ public:
+  UlogFile(std::string_view file, ImportSink& sink) : file_(file), sink_(sink) {}
+  ImportFindings read();
+
+ private:
+  struct Subscription {
+    std::string name, label;
+    int instance = 0;
+    const UlogTarget* target = nullptr;
+  };
+
+  [[nodiscard]] static bool is_type(char type) {
+    return std::string_view("BFIMPQARDLCSO").find(type) != std::string_view::npos;
+  }
+  void take(char type, std::string_view content);
+  void subscribe(std::string_view content);
+  void take_data(std::string_view content);
+
+  std::string_view file_;
+  ImportSink& sink_;
+  ImportFindings findings_;
+  ulog::UlogFormats formats_;
+  std::map<std::uint16_t, Subscription> subscriptions_;
+  std::string_view receiver_;  ///< the message that gives the position; the other one repeats it
+  std::uint64_t dropouts_ = 0, dropped_ms_ = 0;
+};
+
+ImportFindings UlogFile::read() {
+  constexpr std::size_t kProgressBytes = 1 << 16;
+  std::size_t at = kUlogHeader, told = 0;
+  while (at < file_.size()) {
+    const std::string_view rest = file_.substr(at);
+    const std::size_t length = kUlogMessageHead + little_endian_at<std::uint16_t>(rest, 0);
+    if (rest.size() < kUlogMessageHead || (is_type(rest[2]) && rest.size() < length)) {
+      findings_.cut_at = at;
+      break;
+    }
+    if (!is_type(rest[2])) {
+      ++findings_.damaged_bytes;
+      ++at;
+      continue;
+    }
+    take(rest[2], rest.substr(kUlogMessageHead, length - kUlogMessageHead));
+    at += length;
+    if (at - told >= kProgressBytes) sink_.progress(told = at);
+  }
+  if (dropouts_ > 0)
+    findings_.remarks.push_back(fmt::format("{} dropouts of the logger, {} ms in all", dropouts_, dropped_ms_));
+  return std::move(findings_);
+}
+
+void UlogFile::take(char type, std::string_view content) {
+  if (type == 'F') formats_.learn(content);
+  if (type == 'A') subscribe(content);
+  if (type == 'D') take_data(content);
+  if (type == 'O') {
+    ++dropouts_;
+    dropped_ms_ += little_endian_at<std::uint16_t>(content, 0);
+  }
+}
+
+void UlogFile::subscribe(std::string_view content) {
+  constexpr std::size_t kName = 3;
+  if (content.size() <= kName) return;
+  Subscription subscription;
+  subscription.instance = static_cast<std::uint8_t>(content[0]);
+  subscription.name = content.substr(kName);
+  subscription.label = subscription.instance == 0
+                           ? subscription.name
+                           : fmt::format("{}[{}]", subscription.name, subscription.instance);
+  const auto target = std::find_if(kUlogTargets.begin(), kUlogTargets.end(),
+                                   [&](const UlogTarget& t) { return t.message == subscription.name; });
+  if (target != kUlogTargets.end()) subscription.target = &*target;
+  subscriptions_[little_endian_at<std::uint16_t>(content, 1)] = std::move(subscription);
+}
+
+void UlogFile::take_data(std::string_view content) {
+  const auto found = subscriptions_.find(little_endian_at<std::uint16_t>(content, 0));
+  if (found == subscriptions_.end() || content.size() < 2) return sink_.left("data without a subscription");
+  const Subscription& subscription = found->second;
+  if (subscription.target == nullptr) return sink_.left(subscription.label);
+  const UlogFormat* const format = formats_.find(subscription.name);
+  if (format == nullptr) return sink_.left(fmt::format("{} (no format)", subscription.label));
+  const UlogMessage message{*format, content.substr(2)};
+  const auto sampled = format->unsigned_number(message.bytes, "timestamp_sample");
+  const auto time_us = sampled && *sampled > 0 ? sampled : format->unsigned_number(message.bytes, "timestamp");
+  constexpr std::uint64_t kMost_us = 4'000'000'000'000'000;
+  if (!time_us || *time_us > kMost_us) return sink_.left(fmt::format("{} (no time)", subscription.label));
+  if (subscription.target->kind == PortKind::gps) {
+    if (receiver_.empty()) receiver_ = subscription.target->message;
+    if (receiver_ != subscription.target->message)
+      return sink_.left(fmt::format("{} (the same as {})", subscription.label, receiver_));
+  }
+  subscription.target->take(message,
+                            {subscription.label, port_name(subscription.target->kind, subscription.instance),
+                             static_cast<std::int64_t>(*time_us) * 1000},
+                            sink_);
+}
+
+}  // namespace
+
+bool is_ulog(std::string_view head) { return head.size() >= kUlogHeader && head.starts_with(kUlogMagic); }
+
+ImportFindings read_ulog(std::string_view file, ImportSink& sink) { return UlogFile(file, sink).read(); }
+
+}  // namespace navcal::analysis

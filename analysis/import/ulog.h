@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "analysis/import/import_sink.h"
+
+namespace navcal::analysis {
+
+[[nodiscard]] bool is_ulog(std::string_view head);
+
+/// PX4's ULog (.ulg), by the definitions of its own messages. Times are microseconds since boot; UTC follows from
+/// the receiver. PX4's body axes are those of navcal: forward, starboard, down. docs/import.md has the table of
+/// messages.
+[[nodiscard]] ImportFindings read_ulog(std::string_view file, ImportSink& sink);
+
+}  // namespace navcal::analysis

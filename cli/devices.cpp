@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/device_check.h"
+#include "analysis/device_guess.h"
+#include "analysis/progress.h"
+#include "cli/commands.h"
+#include "cli/device_capture.h"
+#include "config/described/description_file.h"
+
+namespace navcal::cli {
+namespace {
+
+struct CheckArguments {
+  std::string description, capture, port;
+  bool json = false;
+};
+
+struct NewArguments {
+  std::string capture, port, output;
+};
+
+protocols::described::Description read_device_file(const std::string& file) {
+  try {
+    return config::load_description(file);
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  }
+}
+
+void check(const CheckArguments& arguments) {
+  const auto description = read_device_file(arguments.description);
+  DeviceCapture capture(arguments.capture, arguments.port);
+  analysis::Progress progress("devices");
+  const auto findings = analysis::check_device(description, [&] {
+    const auto piece = capture.next();
+    capture.show(progress);
+    return piece;
+  });
+  std::fputs((arguments.json ? analysis::to_json(findings) : analysis::to_text(findings)).c_str(), stdout);
+}
+
+/// Writes a new file; one that is there already is never written over.
+void write_new(const std::string& file, const std::string& text) {
+  const auto refused = [&](const std::string& why) {
+    return analysis::Failure(analysis::Exit::usage, file + ": " + why);
+  };
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+    throw refused(errno == EEXIST ? "it is there already, and is not written over" : std::strerror(errno));
+  std::FILE* const out = ::fdopen(descriptor, "w");
+  const bool written = std::fputs(text.c_str(), out) >= 0;
+  if (std::fclose(out) != 0 || !written)
+    throw analysis::Failure(analysis::Exit::failed, file + ": cannot be written");
+}
+
+void begin(const NewArguments& arguments) {
+  DeviceCapture capture(arguments.capture, arguments.port);
+  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+  std::vector<std::uint8_t> bytes;
+  std::optional<std::int64_t> first_ns, last_ns;
+  for (auto piece = capture.next(); !piece.bytes.empty() && bytes.size() < kMostBytes; piece = capture.next()) {
+    bytes.insert(bytes.end(), piece.bytes.begin(), piece.bytes.end());
+    if (!first_ns) first_ns = piece.arrival_ns;
+    last_ns = piece.arrival_ns;
+  }
+  std::optional<double> seconds;
+  if (first_ns && last_ns && *last_ns > *first_ns) seconds = static_cast<double>(*last_ns - *first_ns) * 1e-9;
+  const std::string toml = analysis::guess_description(bytes, seconds);
+  if (arguments.output.empty() || arguments.output == "-") {
+    std::fputs(toml.c_str(), stdout);
+  } else {
+    write_new(arguments.output, toml);
+  }
+}
+
+void add_check(CLI::App& devices) {
+  const auto arguments = std::make_shared<CheckArguments>();
+  auto* const command =
+      devices.add_subcommand("check", "What a description finds in a capture of the device's bytes");
+  command->add_option("FILE", arguments->description, "Description of the device (.toml)")->required();
+  command
+      ->add_option("CAPTURE", arguments->capture,
+                   "Bytes as the device sent them (- is standard input), or a capture or log")
+      ->required();
+  command->add_option("--port", arguments->port, "Port of the capture or log; default: the only one")
+      ->type_name("NAME");
+  command->add_flag("--json", arguments->json, "One JSON object a line, the last one the summary");
+  command->footer(
+      "Shows frames by kind, bad checksums, skipped bytes and where the first ones are, the range of each field, "
+      "and\n"
+      "warnings about what cannot be. Rates are known of a capture or log only.\n\n"
+      "Example: navcal devices check imu.toml imu.bin");
+  command->callback([arguments] { check(*arguments); });
+}
+
+void add_new(CLI::App& devices) {
+  const auto arguments = std::make_shared<NewArguments>();
+  auto* const command =
+      devices.add_subcommand("new", "Begin the description of a device from a capture of its bytes");
+  command
+      ->add_option("CAPTURE", arguments->capture,
+                   "Bytes as the device sent them (- is standard input), or a capture or log")
+      ->required();
+  command->add_option("--port", arguments->port, "Port of the capture or log; default: the only one")
+      ->type_name("NAME");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to be written; one that is there is never written over. Default: standard output")
+      ->type_name("FILE.toml");
+  command->footer(
+      "Finds how frames begin and how long they are, their checksum, and numbers that vary. What the numbers mean "
+      "is\n"
+      "for you to fill in.\n\n"
+      "Example: navcal devices new -o imu.toml imu.bin");
+  command->callback([arguments] { begin(*arguments); });
+}
+
+}  // namespace
+
+void add_devices(CLI::App& app) {
+  auto* const devices = app.add_subcommand("devices", "Devices of your own, described by a file");
+  devices->require_subcommand(1);
+  devices->footer(
+      "A description says how the bytes of a device are to be read, without a change to the programs.");
+  add_check(*devices);
+  add_new(*devices);
+}
+
+}  // namespace navcal::cli

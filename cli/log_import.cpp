@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/log_import.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "analysis/import/import_log.h"
+#include "analysis/log_import.h"
+#include "cli/log_run.h"
+#include "cli/result_file.h"
+
+namespace navcal::cli {
+namespace {
+
+struct ImportArguments {
+  std::string file, to;
+  analysis::ImportOptions options;
+  bool json = false;
+};
+
+void expect_known_format(const std::string& name) {
+  if (name.empty() || analysis::import_format_named(name) != nullptr) return;
+  std::string known;
+  for (const auto& format : analysis::import_formats())
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", format.name);
+  throw analysis::Failure(analysis::Exit::usage, fmt::format("--format {}: known are {}", name, known));
+}
+
+void import_file(const ImportArguments& arguments) {
+  expect_known_format(arguments.options.format);
+  expect_no_overwriting({arguments.file, arguments.options.map}, {arguments.to});
+  expect_not_ending(arguments.to, ".cap", "a log (.mcap)", "navcal log export --cap makes a capture of a log");
+  expect_folder_of(arguments.to);
+  const bool is_foreign = run_log_job(
+      [&](const record::Progress&) { return analysis::is_foreign_log(arguments.file, arguments.options); });
+  if (!is_foreign) {
+    return tell_remarks(run_log_job([&](const record::Progress& progress) {
+      return analysis::import_capture(arguments.file, arguments.to, progress);
+    }));
+  }
+  if (std::filesystem::exists(arguments.to))
+    throw analysis::Failure(analysis::Exit::failed, arguments.to + ": there is a file already");
+  const auto report = run_log_job([&](const record::Progress& progress) {
+    return analysis::import_log(arguments.file, arguments.to, arguments.options, progress);
+  });
+  if (!arguments.json) tell_remarks(report.remarks);
+  std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
+}
+
+}  // namespace
+
+void add_log_import(CLI::App& log) {
+  const auto arguments = std::make_shared<ImportArguments>();
+  auto* const in = log.add_subcommand("import", "a log of a capture's bytes, or of a log of another system");
+  in->add_option("FILE", arguments->file, "capture (.cap), or a log of another system, known by its content")
+      ->required();
+  in->add_option("-o,--output", arguments->to, "the log")->option_text("FILE.mcap")->required();
+  std::string known;
+  for (const auto& format : analysis::import_formats())
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", format.name);
+  in->add_option("--format", arguments->options.format, "read the file as this: " + known)->option_text("NAME");
+  in->add_option("--map", arguments->options.map, "meaning of the columns of a CSV file")
+      ->option_text("FILE.toml");
+  in->add_flag("--json", arguments->json, "one JSON object instead of a table, for a log of another system");
+  in->footer(
+      "docs/import.md describes the formats, and the map of a CSV file.\n\n"
+      "Example: navcal log import -o survey.mcap survey.cap\n"
+      "         navcal log import -o dive.mcap 00000042.BIN");
+  in->callback([arguments] { import_file(*arguments); });
+}
+
+}  // namespace navcal::cli

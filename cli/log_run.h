@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "analysis/failure.h"
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "config/load.h"
+#include "record/log/log_info.h"
+#include "record/recording.h"
+
+namespace navcal::cli {
+
+/// Runs a job on a log with progress; turns what it throws into the statuses of the contract.
+template <class Job>
+auto run_log_job(Job job) {
+  const base::Interruptible interruptible;
+  analysis::Progress progress("log");
+  try {
+    return job(record::Progress([&progress](double done) {
+      if (base::Interruptible::interrupted())
+        throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
+      progress.show(done);
+    }));
+  } catch (const record::BadRecording& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+inline void tell_remarks(const std::vector<std::string>& remarks) {
+  for (const auto& remark : remarks) fmt::print(stderr, "navcal log: {}\n", remark);
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "analysis/noise/noise_run.h"
+#include "analysis/noise/noise_settings.h"
+#include "analysis/output.h"
+#include "cli/commands.h"
+#include "cli/result_file.h"
+#include "config/load.h"
+#include "record/recording.h"
+#include "report/noise_page.h"
+#include "report/noise_text.h"
+
+namespace navcal::cli {
+namespace {
+
+struct NoiseCommandOptions {
+  analysis::NoiseRequest request;
+  std::string config, page, write;
+  bool json = false;
+};
+
+/// Whoever has a configuration there may depend on it.
+void expect_new(const std::string& file) {
+  std::error_code error;
+  if (file.empty() || !std::filesystem::exists(std::filesystem::symlink_status(file, error))) return;
+  throw analysis::Failure(analysis::Exit::failed, file + ": the file exists and is not overwritten");
+}
+
+void expect_outputs(const NoiseCommandOptions& options) {
+  for (const std::string& file : {options.page, options.write}) {
+    if (!file.empty()) expect_folder_of(file);
+  }
+  expect_no_overwriting({options.request.file, options.config}, {options.page, options.write});
+  expect_new(options.write);
+}
+
+void write_configuration(const NoiseCommandOptions& options, const analysis::NoiseReport& report,
+                         const config::Settings& settings) {
+  const std::string toml = analysis::noise_configuration(report, settings);
+  if (toml.empty())
+    throw analysis::Failure(analysis::Exit::failed,
+                            options.write + ": not written, because no noise of [instruments] was found");
+  expect_new(options.write);
+  write_result(options.write, toml);
+}
+
+void find_noise(const NoiseCommandOptions& options) {
+  expect_outputs(options);
+  try {
+    const auto settings = options.config.empty() ? record::Recording::open(options.request.file)->settings()
+                                                 : config::load(options.config);
+    const analysis::NoiseReport report = analysis::noise_of(options.request, settings);
+    for (const auto& remark : report.remarks) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+    analysis::Output output(STDOUT_FILENO, "standard output");
+    output.append(options.json ? report::noise_json(report) : report::noise_text(report));
+    output.flush();
+    if (!options.page.empty()) write_result(options.page, report::noise_page(report));
+    if (!options.write.empty()) write_configuration(options, report, settings);
+  } catch (const record::BadRecording& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+}  // namespace
+
+void add_noise(CLI::App& app) {
+  auto options = std::make_shared<NoiseCommandOptions>();
+  auto* command = app.add_subcommand(
+      "noise", "noise of each channel of a recording at rest: Allan deviation, spectrum, resolution");
+  command->add_option("FILE", options->request.file, "log (.mcap) or capture (.cap)")->required();
+  command->add_option("--config", options->config, "configuration to use instead of the recording's own")
+      ->option_text("FILE.toml");
+  command
+      ->add_option("--from", options->request.from_s,
+                   "begin of the part to use, from the beginning of the recording; default: all parts at rest")
+      ->option_text("S");
+  command->add_option("--to", options->request.to_s, "end of that part")->option_text("S");
+  command->add_flag("--json", options->json, "one JSON object instead of a table");
+  command->add_option("--report", options->page, "page to write, with pictures; needs no other file")
+      ->option_text("FILE.html");
+  command
+      ->add_option("--write", options->write,
+                   "configuration to write, with the noise in [instruments]; an existing file is not overwritten")
+      ->option_text("FILE.toml");
+  command->footer(
+      "docs/noise.md describes the method, the table and the JSON keys.\n\n"
+      "Example: navcal noise --report bench.html --write measured.toml bench.mcap");
+  command->callback([options] { find_noise(*options); });
+}
+
+}  // namespace navcal::cli

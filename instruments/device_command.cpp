@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "instruments/device_command.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "base/durations.h"
+#include "instruments/tcm2_dialogue.h"
+#include "protocols/decimal.h"
+#include "protocols/oncore.h"
+#include "protocols/oncore_command.h"
+#include "protocols/oncore_messages.h"
+#include "protocols/tcm2.h"
+#include "protocols/tcm2_commands.h"
+#include "protocols/tcm2_reply.h"
+
+namespace navcal::instruments {
+namespace {
+
+namespace oncore = protocols::oncore;
+namespace tcm2 = protocols::tcm2;
+using Outcome = DeviceCommand::Outcome;
+using protocols::Protocol;
+/// The outcome that a frame brings; nullopt when it is no answer.
+using Judge = std::optional<Outcome> (*)(const protocols::Frame& frame);
+
+struct Step {
+  std::vector<std::uint8_t> bytes;
+  std::int64_t wait_ns = 0;  ///< until the next step, or longest wait for the answer
+};
+
+/// What is sent, step by step. The last step asks and is repeated.
+struct Script {
+  std::vector<Step> steps;
+  int attempts = 1;
+  Judge judge = nullptr;
+};
+
+/// A restarted TCM2 sends its banner within a second; a slow one is given more.
+constexpr std::int64_t kBanner_ns = 5 * base::kSecond_ns;
+/// The receiver reads its input once a second and answers within the second after the next.
+constexpr std::int64_t kReceiverAnswers_ns = 3 * base::kSecond_ns + base::kSecond_ns / 2;
+
+std::string line_of(protocols::Bytes bytes) {
+  std::string text(bytes.begin(), bytes.end());
+  while (!text.empty() && (text.back() == '\r' || text.back() == '\n')) text.pop_back();
+  return text;
+}
+
+std::optional<Outcome> refusal(const protocols::Frame& frame) {
+  const auto reply = frame.id == tcm2::kReply ? tcm2::decode_reply(frame.bytes) : std::nullopt;
+  if (!reply || reply->kind != tcm2::Reply::Kind::refused) return std::nullopt;
+  std::string text = "refused (E";
+  protocols::append_hex(text, reply->error, 3);
+  return Outcome{false, text + ')'};
+}
+
+std::optional<Outcome> words_come(const protocols::Frame& frame) {
+  if (frame.id == tcm2::kBanner) return Outcome{false, "the compass has restarted"};
+  if (frame.id == tcm2::kReply) return refusal(frame);
+  return Outcome{true, "words come"};
+}
+
+std::optional<Outcome> score(const protocols::Frame& frame) {
+  const auto reply = frame.id == tcm2::kReply ? tcm2::decode_reply(frame.bytes) : std::nullopt;
+  if (!reply || reply->kind != tcm2::Reply::Kind::calibration) return refusal(frame);
+  const std::string text = line_of(frame.bytes);
+  return Outcome{true, text.substr(text.find('H'))};
+}
+
+std::optional<Outcome> banner(const protocols::Frame& frame) {
+  if (frame.id != tcm2::kBanner) return refusal(frame);
+  return Outcome{true, line_of(frame.bytes)};
+}
+
+/// The lines of the identification without the blanks that fill them.
+std::optional<Outcome> identification(const protocols::Frame& frame) {
+  if (frame.id != oncore::kCj) return std::nullopt;
+  const auto text = oncore::decode_cj(frame.bytes);
+  if (!text) return std::nullopt;
+  std::string joined;
+  for (std::string_view rest = *text; !rest.empty();) {
+    const auto end = std::min(rest.find_first_of("\r\n"), rest.size());
+    std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    line = line.substr(0, line.find_last_not_of(' ') + 1);
+    if (line.empty()) continue;
+    joined += joined.empty() ? "" : "; ";
+    joined += line;
+  }
+  return Outcome{true, std::move(joined)};
+}
+
+std::optional<Outcome> defaults_set(const protocols::Frame& frame) {
+  if (frame.id != oncore::kCf) return std::nullopt;
+  return Outcome{true, "almanac, time and position are forgotten; the first fix takes minutes"};
+}
+
+std::vector<std::uint8_t> bytes_of(tcm2::Verb verb) { return tcm2::encode_command({verb}); }
+
+Script restart_stream(const config::PortSettings& settings) {
+  const auto three_words_ns = settings.rate_Hz > 0 ? static_cast<std::int64_t>(3e9 / settings.rate_Hz) : 0;
+  return {{{bytes_of(tcm2::Verb::halt), kBetweenHalts_ns},
+           {bytes_of(tcm2::Verb::halt), kSettle_ns},
+           {bytes_of(tcm2::Verb::go), std::max(kTcm2Stopped_ns, three_words_ns)}},
+          kAttempts,
+          words_come};
+}
+
+Script calibration_score(const config::PortSettings& /*settings*/) {
+  return {{{bytes_of(tcm2::Verb::calibration_score), kReplyTimeout_ns}}, kAttempts, score};
+}
+
+// A second restart would undo what the first one began.
+Script restart(const config::PortSettings& /*settings*/) {
+  return {{{bytes_of(tcm2::Verb::warm_restart), kBanner_ns}}, 1, banner};
+}
+
+Script receiver_id(const config::PortSettings& /*settings*/) {
+  return {{{oncore::encode_poll(oncore::kCj, 0), kReceiverAnswers_ns}}, 2, identification};
+}
+
+Script cold_start(const config::PortSettings& /*settings*/) {
+  return {{{oncore::encode_poll(oncore::kCf, 0), kReceiverAnswers_ns}}, 1, defaults_set};
+}
+
+struct Entry {
+  DeviceCommandName name;
+  Script (*script)(const config::PortSettings& settings) = nullptr;
+};
+
+constexpr Entry kTcm2Commands[] = {
+    {{"restart_stream", "stops the words and lets them begin again (h, h, go)"}, restart_stream},
+    {{"calibration_score", "asks for the score of the compass's calibration of itself (lc?)"}, calibration_score},
+    {{"restart", "restarts the compass (ax); it sends nothing until it is set up again", true}, restart},
+};
+constexpr Entry kOncoreCommands[] = {
+    {{"receiver_id", "asks for model, serial number and version (@@Cj)"}, receiver_id},
+    {{"cold_start", "sets the receiver to its defaults (@@Cf); it loses almanac, time and position", true},
+     cold_start},
+};
+/// A device that takes no commands has none here.
+std::span<const Entry> commands_of(Protocol protocol) {
+  if (protocol == Protocol::tcm2) return kTcm2Commands;
+  if (protocol == Protocol::oncore) return kOncoreCommands;
+  return {};
+}
+
+class ScriptedCommand final : public DeviceCommand {
+ public:
+  ScriptedCommand(Script script, std::int64_t now_ns) : script_(std::move(script)), due_ns_(now_ns) {}
+
+  void on_frame(const protocols::Frame& frame) override {
+    // Before the question was asked, a frame is no answer to it.
+    if (!outcome_ && attempts_ > 0) outcome_ = script_.judge(frame);
+  }
+  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override {
+    if (outcome_ || now_ns < due_ns_) return std::nullopt;
+    const bool asks = step_ + 1 == script_.steps.size();
+    if (asks && attempts_ == script_.attempts) {
+      outcome_ = Outcome{false, "no answer"};
+      return std::nullopt;
+    }
+    const Step& step = script_.steps[step_];
+    due_ns_ = now_ns + step.wait_ns;
+    if (asks) {
+      ++attempts_;
+    } else {
+      ++step_;
+    }
+    return step.bytes;
+  }
+  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
+  [[nodiscard]] const std::optional<Outcome>& outcome() const override { return outcome_; }
+
+ private:
+  Script script_;
+  std::size_t step_ = 0;
+  int attempts_ = 0;  ///< times that the last step was sent
+  std::int64_t due_ns_;
+  std::optional<Outcome> outcome_;
+};
+
+}  // namespace
+
+std::vector<DeviceCommandName> device_commands(Protocol protocol) {
+  std::vector<DeviceCommandName> names;
+  for (const Entry& entry : commands_of(protocol)) names.push_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<DeviceCommand> make_device_command(const config::PortSettings& settings, std::string_view name,
+                                                   std::int64_t now_ns) {
+  for (const Entry& entry : commands_of(settings.protocol)) {
+    if (entry.name.name == name) return std::make_unique<ScriptedCommand>(entry.script(settings), now_ns);
+  }
+  return nullptr;
+}
+
+}  // namespace navcal::instruments

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocols/ubx_receiver.h"
+
+#include <algorithm>
+
+#include "protocols/wire_fields.h"
+
+namespace navcal::protocols::ubx {
+namespace {
+
+constexpr std::size_t kSoftwareLength = 30, kHardwareLength = 10, kExtensionLength = 30;
+constexpr std::size_t kPulseLength = 16;
+constexpr double kPulseFraction_ms = 1.0 / 4294967296.0;
+constexpr std::uint8_t kPulseUtc = 1, kPulseQuantizationInvalid = 0x10;
+
+std::string text_in(Bytes field) {
+  const auto end = std::find(field.begin(), field.end(), std::uint8_t{0});
+  std::string text(field.begin(), end);
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+void append_text(std::vector<std::uint8_t>& payload, const std::string& text, std::size_t length) {
+  const std::size_t begin = payload.size();
+  payload.resize(begin + length);
+  std::copy_n(text.begin(), std::min(text.size(), length), payload.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
+bool is_message(Bytes frame, MessageCode code, std::size_t least) {
+  return frame.size() >= kOverhead + least && get_be<MessageCode>(frame.data() + 2) == code;
+}
+
+}  // namespace
+
+std::optional<Version> decode_mon_ver(Bytes frame) {
+  if (!is_message(frame, kMonVer, kSoftwareLength + kHardwareLength)) return std::nullopt;
+  Bytes rest = payload_of(frame);
+  Version version{
+      text_in(rest.first(kSoftwareLength)), text_in(rest.subspan(kSoftwareLength, kHardwareLength)), {}};
+  for (rest = rest.subspan(kSoftwareLength + kHardwareLength); rest.size() >= kExtensionLength;
+       rest = rest.subspan(kExtensionLength)) {
+    version.extensions.push_back(text_in(rest.first(kExtensionLength)));
+  }
+  return version;
+}
+
+std::vector<std::uint8_t> encode_mon_ver(const Version& version) {
+  std::vector<std::uint8_t> payload;
+  append_text(payload, version.software, kSoftwareLength);
+  append_text(payload, version.hardware, kHardwareLength);
+  for (const std::string& extension : version.extensions) append_text(payload, extension, kExtensionLength);
+  return encode_frame(kMonVer, payload);
+}
+
+std::optional<TimePulse> decode_tim_tp(Bytes frame) {
+  if (!is_message(frame, kTimTp, kPulseLength)) return std::nullopt;
+  const Bytes p = payload_of(frame);
+  return TimePulse{get_le<std::uint32_t>(&p[0]), get_le<std::uint32_t>(&p[4]) * kPulseFraction_ms,
+                   get_le<std::int32_t>(&p[8]),  get_le<std::uint16_t>(&p[12]),
+                   (p[14] & kPulseUtc) != 0,     (p[14] & kPulseQuantizationInvalid) == 0};
+}
+
+std::vector<std::uint8_t> encode_tim_tp(const TimePulse& pulse) {
+  std::vector<std::uint8_t> p(kPulseLength);
+  put_le(&p[0], pulse.time_of_week_ms);
+  put_le(&p[4], saturated<std::uint32_t>(pulse.fraction_ms / kPulseFraction_ms));
+  put_le(&p[8], pulse.quantization_ps);
+  put_le(&p[12], pulse.week);
+  p[14] = static_cast<std::uint8_t>((pulse.is_utc ? kPulseUtc : 0U) |
+                                    (pulse.quantization_valid ? 0U : kPulseQuantizationInvalid));
+  return encode_frame(kTimTp, p);
+}
+
+}  // namespace navcal::protocols::ubx

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "devices/instrument_model.h"
+#include "protocols/mip.h"
+#include "protocols/mip_commands.h"
+#include "sim/instruments/device.h"
+#include "sim/noise.h"
+#include "sim/state.h"
+
+namespace navcal::sim {
+
+/// MicroStrain inertial sensor (ICD section 7): sensor data, filter data with true headings, reference time of its
+/// own clock, and the commands of the start-up dialogue. After power-on it streams nothing until it is configured.
+/// Noise and turn-on bias are those of the reference card and compass.
+class MipUnit final : public Device {
+ public:
+  struct Options {
+    devices::ImuModel imu;
+    devices::CompassModel compass;
+    double clock_ppm = 0;  ///< positive: its seconds are too long
+    std::uint64_t seed = 1;
+    int baud = 115200;
+    bool newer_commands = true;     ///< those that name the data set
+    bool has_complementary = true;  ///< attitude in the sensor data
+    bool has_filter = true;
+  };
+  MipUnit(const Options& options, const Motion& motion);
+
+  void power_on(std::int64_t t_ns) override;
+  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
+  [[nodiscard]] std::int64_t next_event_ns() const override;
+  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
+  [[nodiscard]] int baud() const override { return options_.baud; }
+
+ private:
+  struct Stream {
+    std::uint8_t set = 0;
+    std::vector<std::uint8_t> fields;
+    std::int64_t decimation = 0;  ///< base ticks; 0: no format
+    bool on = false;
+    std::int64_t next_tick = 0;
+  };
+  struct Answer {
+    std::int64_t due_ns;
+    std::vector<std::uint8_t> bytes;
+  };
+  void obey(std::int64_t t_ns, protocols::Bytes frame);
+  /// Error of the reply.
+  std::uint8_t obey_base(std::int64_t t_ns, std::uint8_t command);
+  std::uint8_t obey_3dm(std::int64_t t_ns, std::uint8_t command, protocols::Bytes data);
+  std::uint8_t set_format(std::int64_t t_ns, std::uint8_t set, protocols::Bytes list);
+  std::uint8_t set_stream(std::int64_t t_ns, std::uint8_t selector, bool on);
+  void begin_stream(Stream& stream, std::int64_t t_ns) const;
+  [[nodiscard]] bool knows(std::uint8_t set, std::uint8_t descriptor) const;
+  [[nodiscard]] Stream* stream_of(std::uint8_t set);
+  [[nodiscard]] std::int64_t time_of(std::int64_t tick) const;
+  [[nodiscard]] const Stream* first_due() const;
+  [[nodiscard]] std::int64_t sent_ns(const Stream& stream) const;
+  [[nodiscard]] std::vector<std::uint8_t> packet(const Stream& stream);
+  void put_sensor(const std::vector<std::uint8_t>& fields, const State& state, protocols::mip::Packet& packet);
+  void put_filter(const std::vector<std::uint8_t>& fields, const State& state, protocols::mip::Packet& packet);
+
+  Options options_;
+  const Motion& motion_;
+  Noise noise_;
+  Line line_;
+  protocols::mip::Parser parser_;
+  std::array<Stream, 2> streams_;
+  std::deque<Answer> answers_;
+  Vector3 bias_rad_s_{};
+  bool idle_ = false;
+  std::int64_t powered_ns_ = 0;
+};
+
+}  // namespace navcal::sim

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "devices/instrument_model.h"
+#include "protocols/vectornav_lines.h"
+#include "sim/instruments/device.h"
+#include "sim/instruments/electronics.h"
+#include "sim/noise.h"
+#include "sim/state.h"
+
+namespace navcal::sim {
+
+/// VectorNav VN-100 (ICD section 12). As delivered it sends lines VNYMR at 40 Hz; its registers are written by its
+/// host and forgotten with its power. Noise is white and that of its data sheet at this rate; the errors of its
+/// attitude are those that it states. Yaw is magnetic.
+class VectorNav final : public Device {
+ public:
+  struct Options {
+    devices::Timing timing = devices::usual_timing(protocols::Protocol::vectornav, 115200);
+    int port = 1;            ///< of its two serial ports that at which its host is
+    bool has_errors = true;  ///< the attitude group has the standard deviations: not in old firmware
+    bool is_bare = false;    ///< without binary output
+    double clock_ppm = 0;    ///< positive: its seconds are too long
+    double rate_noise_rad_s = 7e-4;
+    double force_noise_m_s2 = 0.02;
+    double field_noise_uT = 0.2;
+    double heading_noise_rad = 0.02;
+    double tilt_noise_rad = 0.005;
+    std::uint64_t seed = 1;
+    int baud = 115200;
+  };
+  VectorNav(const Options& options, const Motion& motion);
+
+  void power_on(std::int64_t t_ns) override;
+  void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
+  [[nodiscard]] std::int64_t next_event_ns() const override;
+  void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
+  [[nodiscard]] int baud() const override { return options_.baud; }
+
+ private:
+  struct Answer {
+    std::int64_t due_ns = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+  void obey(std::int64_t t_ns, const protocols::Frame& frame);
+  [[nodiscard]] std::string value_of(unsigned number) const;
+  /// 0 when it was carried out, else the code of the error.
+  std::uint8_t set(const protocols::vectornav::Register& wanted);
+  std::uint8_t set_output(const std::string& values);
+  void restart_ticks(double rate_Hz);
+  [[nodiscard]] protocols::vectornav::Reading measure();
+
+  Options options_;
+  const Motion& motion_;
+  Electronics electronics_;
+  Noise noise_;
+  Line line_;
+  protocols::vectornav::Parser parser_;
+  std::vector<Answer> answers_;
+  std::int64_t powered_ns_ = 0, now_ns_ = 0;
+  Ticks ticks_;
+  int line_type_ = 14, line_rate_Hz_ = 40;
+  std::string output_ = "0,0,00";  ///< of register 75
+  bool sends_binary_ = false, sends_errors_ = false;
+};
+
+}  // namespace navcal::sim

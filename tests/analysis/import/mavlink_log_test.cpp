@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/import/mavlink_log.h"
+
+#include <gtest/gtest.h>
+
+#include "analysis/import/mavlink_frame.h"
+#include "tests/analysis/import/recording_sink.h"
+
+namespace navcal::analysis {
+namespace {
+
+using testing::append_number;
+using testing::expect_vector;
+using testing::RecordingSink;
+
+constexpr std::uint64_t kStart_us = 1'700'000'000'000'000;
+
+template <class... Values>
+std::string payload_of(Values... values) {
+  std::string payload;
+  (append_number(payload, values), ...);
+  return payload;
+}
+
+/// One entry of a telemetry log: time, and a frame of version 1 or 2.
+std::string entry(std::uint64_t time_us, std::uint32_t id, std::string payload, std::uint8_t crc_extra,
+                  bool is_second, std::uint8_t system = 1) {
+  std::string time;
+  for (int i = 7; i >= 0; --i) time.push_back(static_cast<char>(time_us >> (8 * i) & 0xFF));
+  if (is_second) {
+    while (payload.size() > 1 && payload.back() == '\0') payload.pop_back();
+  }
+  std::string frame(1, static_cast<char>(payload.size()));
+  if (is_second) frame += std::string(2, '\0');
+  frame += std::string(1, '\x05') + static_cast<char>(system) + '\x01';
+  frame.push_back(static_cast<char>(id & 0xFF));
+  if (is_second) {
+    frame.push_back(static_cast<char>(id >> 8 & 0xFF));
+    frame.push_back(static_cast<char>(id >> 16));
+  }
+  frame += payload;
+  append_number(frame, mavlink::checksum(frame, crc_extra));
+  return time + (is_second ? '\xFD' : '\xFE') + frame;
+}
+
+std::string small_tlog(bool is_second) {
+  std::string log = entry(kStart_us, 0,
+                          payload_of(std::uint32_t{0}, std::uint8_t{12}, std::uint8_t{3}, std::uint8_t{0},
+                                     std::uint8_t{4}, std::uint8_t{3}),
+                          50, is_second);
+  const auto i16 = [](int value) { return static_cast<std::int16_t>(value); };
+  log += entry(kStart_us + 1000, 116,
+               payload_of(std::uint32_t{5}, i16(100), i16(-200), i16(-1000), i16(500), i16(-250), i16(125),
+                          i16(200), i16(-50), i16(430)),
+               76, is_second);
+  log += entry(kStart_us + 2000, 24,
+               payload_of(std::uint64_t{9}, std::int32_t{475'000'000}, std::int32_t{-1'225'000'000},
+                          std::int32_t{12'500}, std::uint16_t{85}, std::uint16_t{65535}, std::uint16_t{150},
+                          std::uint16_t{9000}, std::uint8_t{3}, std::uint8_t{11}),
+               24, is_second);
+  log += entry(kStart_us + 3000, 30, payload_of(std::uint32_t{5}, -0.25F, 0.125F, -1.5F, 0.0F, 0.0F, 0.0F), 39,
+               is_second);
+  log += entry(kStart_us + 4000, 137, payload_of(std::uint32_t{5}, 1350.0F, 0.0F, i16(1850)), 195, is_second);
+  log += entry(kStart_us + 5000, 1,
+               payload_of(std::uint32_t{0}, std::uint32_t{0}, std::uint32_t{0}, std::uint16_t{0},
+                          std::uint16_t{15500}, i16(225), std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0},
+                          std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, std::uint8_t{90}),
+               124, is_second);
+  log += entry(
+      kStart_us + 6000, 36,
+      payload_of(std::uint32_t{5}, std::uint16_t{1500}, std::uint16_t{0}, std::uint16_t{1900}, std::uint16_t{0},
+                 std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, std::uint8_t{0}),
+      222, is_second);
+  log += entry(kStart_us + 7000, 30, payload_of(std::uint32_t{5}, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F), 39,
+               is_second, 9);
+  return log + entry(kStart_us + 8000, 2, payload_of(std::uint64_t{kStart_us - 10'000'000}, std::uint32_t{9}), 137,
+                     is_second);
+}
+
+TEST(MavlinkLog, ReadsEachMessageInUnitsOfNavcal) {
+  for (const bool is_second : {false, true}) {
+    ASSERT_TRUE(is_mavlink_log(small_tlog(is_second)));
+    RecordingSink sink;
+    const auto findings = read_mavlink_log(small_tlog(is_second), sink);
+    EXPECT_TRUE(findings.times_are_utc);
+    EXPECT_EQ(findings.damaged_bytes, 0U);
+    const auto imu = sink.of_port("imu2").at(0);
+    EXPECT_EQ(imu.time_ns, static_cast<std::int64_t>(kStart_us + 1000) * 1000);
+    expect_vector(imu.line["rate_rad_s"], 0.5, -0.25, 0.125);
+    expect_vector(imu.line["specific_force_m_s2"], 0.980665, -1.96133, -9.80665);
+    expect_vector(sink.of_port("compass2").at(0).line["field_body_uT"], 20, -5, 43);
+    const auto gps = sink.of_port("gps").at(0);
+    EXPECT_NEAR(gps.line["lat"].get<double>(), 47.5, 1e-12);
+    EXPECT_NEAR(gps.line["height_msl_m"].get<double>(), 12.5, 1e-12);
+    EXPECT_NEAR(gps.line["speed_m_s"].get<double>(), 1.5, 1e-12);
+    EXPECT_FALSE(gps.line.contains("position_std_m"));
+    const auto attitude = sink.of_port("attitude");
+    ASSERT_EQ(attitude.size(), 1U) << "of the first vehicle";
+    EXPECT_NEAR(attitude[0].line["heading_rad"].get<double>(), 2 * 3.14159265358979 - 1.5, 1e-9);
+    EXPECT_EQ(attitude[0].line["pitch_rad"], 0.125);
+    EXPECT_EQ(sink.of_port("baro2").at(0).line["pressure_Pa"], 135'000);
+    EXPECT_NEAR(sink.of_port("battery").at(0).line["voltage_V"].get<double>(), 15.5, 1e-12);
+    EXPECT_NEAR(sink.of_port("battery").at(0).line["current_A"].get<double>(), 2.25, 1e-12);
+    ASSERT_EQ(sink.of_port("motor").size(), 2U);
+    EXPECT_EQ(sink.of_port("motor")[1].line["quantity"], "output3");
+    EXPECT_EQ(sink.left_counts["HEARTBEAT"], 1);
+    EXPECT_EQ(sink.left_counts["ATTITUDE (of system 9)"], 1);
+    ASSERT_EQ(findings.remarks.size(), 1U);
+    EXPECT_NE(findings.remarks[0].find("10.0 s ahead"), std::string::npos) << findings.remarks[0];
+  }
+}
+
+// Bytes that pymavlink's CRC gives for the heartbeat of the MAVLink guide: X.25 of "123456789" is 0x6F91 before
+// its complement, which MAVLink leaves out.
+TEST(MavlinkLog, TheChecksumIsThatOfTheSpecification) { EXPECT_EQ(mavlink::checksum("12345678", '9'), 0x6F91); }
+
+TEST(MavlinkLog, AFrameWithADamagedByteIsPassedOver) {
+  std::string log = small_tlog(true);
+  log[8 + 12] = '\x55';
+  RecordingSink sink;
+  const auto findings = read_mavlink_log(log, sink);
+  EXPECT_GT(findings.damaged_bytes, 0U);
+  EXPECT_EQ(sink.of_port("imu2").size(), 1U) << "the one after it";
+}
+
+TEST(MavlinkLog, NoCutAndNoDamageBringsItDown) {
+  testing::expect_robust(small_tlog(true),
+                         [](const std::string& file, ImportSink& sink) { return read_mavlink_log(file, sink); });
+}
+
+}  // namespace
+}  // namespace navcal::analysis

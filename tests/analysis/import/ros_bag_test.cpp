@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/import/ros_bag.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+
+#include "record/log/mcap_format.h"
+#include "tests/analysis/import/recording_sink.h"
+
+namespace navcal::analysis {
+namespace {
+
+using record::append_le;
+using record::append_mcap_string;
+using record::Opcode;
+using record::RecordScope;
+using testing::expect_vector;
+using testing::RecordingSink;
+
+constexpr std::uint64_t kLogged_ns = 1'700'000'000'500'000'000;
+
+/// A message in CDR, little-endian, as rmw_fastrtps writes it.
+class Cdr {
+ public:
+  Cdr() : out("\x00\x01\x00\x00", 4) {}
+  template <class T>
+  Cdr& put(T value) {
+    while ((out.size() - 4) % sizeof(T) != 0) out.push_back('\0');
+    testing::append_number(out, value);
+    return *this;
+  }
+  template <std::size_t N>
+  Cdr& put(const std::array<double, N>& values) {
+    for (const double value : values) put(value);
+    return *this;
+  }
+  /// Header of frame "imu_link" with a stamp half a second before the message was logged.
+  Cdr& header() {
+    put(std::int32_t{1'700'000'000}).put(std::uint32_t{7}).put(std::uint32_t{9});
+    out += std::string("imu_link\0", 9);
+    return *this;
+  }
+  std::string out;
+};
+
+class BagWriter {
+ public:
+  BagWriter() {
+    out = record::kMcapMagic;
+    RecordScope record(out, Opcode::header);
+    append_mcap_string(out, "ros2");
+    append_mcap_string(out, "libmcap 1.0");
+  }
+  void topic(std::string& to, std::uint16_t id, const std::string& name, const std::string& type) {
+    {
+      RecordScope record(to, Opcode::schema);
+      append_le(to, id);
+      append_mcap_string(to, type);
+      append_mcap_string(to, "ros2msg");
+      append_mcap_string(to, "");
+    }
+    RecordScope record(to, Opcode::channel);
+    append_le(to, id);
+    append_le(to, id);
+    append_mcap_string(to, name);
+    append_mcap_string(to, "cdr");
+    append_mcap_string(to, "");
+  }
+  static void message(std::string& to, std::uint16_t channel, const std::string& cdr) {
+    RecordScope record(to, Opcode::message);
+    append_le(to, channel);
+    append_le(to, std::uint32_t{0});
+    append_le(to, kLogged_ns);
+    append_le(to, kLogged_ns);
+    to += cdr;
+  }
+  void chunk(const std::string& records, const std::string& compression) {
+    RecordScope record(out, static_cast<Opcode>(0x06));
+    append_le(out, kLogged_ns);
+    append_le(out, kLogged_ns);
+    append_le(out, std::uint64_t{records.size()});
+    append_le(out, std::uint32_t{0});
+    append_mcap_string(out, compression);
+    append_le(out, std::uint64_t{records.size()});
+    out += records;
+  }
+  std::string finished() {
+    {
+      RecordScope record(out, Opcode::data_end);
+      append_le(out, std::uint32_t{0});
+    }
+    {
+      RecordScope record(out, Opcode::footer);
+      out.append(record::kFooterLength, '\0');
+    }
+    return out + std::string(record::kMcapMagic);
+  }
+  std::string out;
+};
+
+constexpr std::array<double, 9> kVariance{0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.09};
+
+std::string imu_message() {
+  Cdr imu;
+  imu.header();
+  // A quarter turn to port (about the axis that points up): from east to north.
+  imu.put(std::array<double, 4>{0, 0, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2}).put(kVariance);
+  imu.put(std::array<double, 3>{0.5, 0.25, -0.125}).put(kVariance);
+  return imu.put(std::array<double, 3>{0.5, -1, 9.75}).put(kVariance).out;
+}
+
+std::string small_bag(const std::string& compression = "") {
+  BagWriter bag;
+  std::string inside;
+  bag.topic(inside, 1, "/imu/data", "sensor_msgs/msg/Imu");
+  bag.topic(inside, 2, "/imu/mag", "sensor_msgs/msg/MagneticField");
+  bag.topic(inside, 3, "/fix", "sensor_msgs/msg/NavSatFix");
+  bag.topic(inside, 4, "/pressure", "sensor_msgs/msg/FluidPressure");
+  bag.topic(inside, 5, "/dvl", "geometry_msgs/msg/TwistWithCovarianceStamped");
+  bag.topic(inside, 6, "/water", "sensor_msgs/msg/Temperature");
+  bag.topic(inside, 7, "/camera", "sensor_msgs/msg/Image");
+  BagWriter::message(inside, 1, imu_message());
+  BagWriter::message(inside, 2, Cdr().header().put(std::array<double, 3>{20e-6, 5e-6, -43e-6}).put(kVariance).out);
+  BagWriter::message(inside, 3,
+                     Cdr()
+                         .header()
+                         .put(std::int8_t{0})
+                         .put(std::uint16_t{1})
+                         .put(std::array<double, 3>{47.5, -122.5, 12.5})
+                         .put(kVariance)
+                         .put(std::uint8_t{2})
+                         .out);
+  BagWriter::message(inside, 4, Cdr().header().put(135'000.0).put(0.0).out);
+  BagWriter::message(inside, 5,
+                     Cdr()
+                         .header()
+                         .put(std::array<double, 3>{1, 0.5, -0.25})
+                         .put(std::array<double, 3>{})
+                         .put(std::array<double, 36>{0.01, 0, 0, 0, 0, 0, 0, 0.01})
+                         .out);
+  BagWriter::message(inside, 6, Cdr().header().put(8.25).put(0.0).out);
+  BagWriter::message(inside, 7, Cdr().header().out);
+  bag.chunk(inside, compression);
+  return bag.finished();
+}
+
+TEST(RosBag, AxesOfRep103BecomeThoseOfNavcal) {
+  ASSERT_TRUE(is_ros_bag(small_bag()));
+  RecordingSink sink;
+  const auto findings = read_ros_bag(small_bag(), sink);
+  EXPECT_TRUE(findings.times_are_utc);
+  EXPECT_FALSE(findings.cut_at);
+  const auto imu = sink.of_port("imu").at(0);
+  EXPECT_EQ(imu.message, "/imu/data");
+  EXPECT_EQ(imu.time_ns, static_cast<std::int64_t>(kLogged_ns));
+  EXPECT_EQ(imu.utc_ns, 1'700'000'000'000'000'007);
+  expect_vector(imu.line["rate_rad_s"], 0.5, -0.25, 0.125);
+  expect_vector(imu.line["specific_force_m_s2"], 0.5, 1, -9.75);
+  EXPECT_NEAR(imu.line["rate_std_rad_s"].get<double>(), 0.2, 1e-12);
+  const auto attitude = sink.of_port("attitude").at(0);
+  EXPECT_NEAR(attitude.line["heading_rad"].get<double>(), 0, 1e-9) << "north";
+  expect_vector(sink.of_port("compass").at(0).line["field_body_uT"], 20, -5, 43, 1e-9);
+  const auto fix = sink.of_port("gps").at(0);
+  EXPECT_EQ(fix.line["lat"], 47.5);
+  EXPECT_EQ(fix.line["height_m"], 12.5);
+  EXPECT_NEAR(fix.line["height_std_m"].get<double>(), 0.3, 1e-12);
+  EXPECT_EQ(sink.of_port("depth").at(0).line["pressure_Pa"], 135'000);
+  expect_vector(sink.of_port("dvl").at(0).line["bottom_velocity_m_s"], 1, -0.5, 0.25);
+  EXPECT_EQ(sink.of_port("sensors").at(0).line["value"], 8.25);
+  EXPECT_EQ(sink.left_counts["/camera (sensor_msgs/msg/Image)"], 1);
+}
+
+TEST(RosBag, PitchAndRollOfABodyThatIsForwardLeftUp) {
+  // Nose up by 0.25 rad is a negative turn about the axis to port; starboard down by 0.5 rad a positive one about
+  // the axis forward.
+  for (const auto& [q, pitch_rad, roll_rad] :
+       {std::tuple(std::array<double, 4>{0, -std::sin(0.125), 0, std::cos(0.125)}, 0.25, 0.0),
+        std::tuple(std::array<double, 4>{std::sin(0.25), 0, 0, std::cos(0.25)}, 0.0, 0.5)}) {
+    BagWriter bag;
+    bag.topic(bag.out, 1, "/imu", "sensor_msgs/msg/Imu");
+    Cdr imu;
+    imu.header().put(q).put(kVariance).put(std::array<double, 3>{}).put(kVariance);
+    BagWriter::message(bag.out, 1, imu.put(std::array<double, 3>{}).put(kVariance).out);
+    RecordingSink sink;
+    (void)read_ros_bag(bag.finished(), sink);
+    const auto attitude = sink.of_port("attitude").at(0);
+    EXPECT_NEAR(attitude.line["pitch_rad"].get<double>(), pitch_rad, 1e-12);
+    EXPECT_NEAR(attitude.line["roll_rad"].get<double>(), roll_rad, 1e-12);
+    EXPECT_NEAR(attitude.line["heading_rad"].get<double>(), std::numbers::pi / 2, 1e-12) << "east";
+  }
+}
+
+TEST(RosBag, CompressedChunksAreNamed) {
+  RecordingSink sink;
+  const auto findings = read_ros_bag(small_bag("zstd"), sink);
+  EXPECT_TRUE(sink.samples.empty());
+  ASSERT_EQ(findings.remarks.size(), 1U);
+  EXPECT_EQ(findings.remarks[0],
+            "1 chunks are compressed with zstd: convert the file by \"mcap decompress\" first");
+}
+
+TEST(RosBag, ALogOfNavcalIsNone) {
+  std::string log(record::kMcapMagic);
+  {
+    RecordScope record(log, Opcode::header);
+    append_mcap_string(log, record::kProfile);
+  }
+  EXPECT_FALSE(is_ros_bag(log));
+}
+
+TEST(RosBag, NoCutAndNoDamageBringsItDown) {
+  testing::expect_robust(
+      small_bag(), [](const std::string& file, ImportSink& sink) { return read_ros_bag(file, sink); }, 3);
+}
+
+}  // namespace
+}  // namespace navcal::analysis

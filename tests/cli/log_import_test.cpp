@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// `navcal log import` of logs of other systems; the readers have tests of their own (tests/analysis/import).
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_outcome.h"
+#include "tests/record/temporary_folder.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr const char* kColumns =
+    "[time]\ncolumn = \"t\"\nformat = \"unix_s\"\n[column.depth]\nmeaning = \"depth\"\n"
+    "[column.o2]\nmeaning = \"sensor\"\nunit = \"umol/l\"\n";
+
+class LogImport : public record::testing::TemporaryFolder {
+ protected:
+  static test::Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "log");
+    return test::run_command(add_log, std::move(arguments));
+  }
+  [[nodiscard]] std::string to(const std::string& name) const { return (path_ / name).string(); }
+};
+
+TEST_F(LogImport, WhatWasTakenAndLeftIsSaidAndTheLogReplays) {
+  const auto csv =
+      write("a.csv", "t,depth,o2\n1700000000,1.5,250\n1700000001,2.5,251\nnever,3,4\n1700000002,50000,\n")
+          .string();
+  const auto map = write("a.toml", kColumns).string();
+  const auto outcome = run({"import", "--json", "--map", map, "-o", to("a.mcap"), csv});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  const auto json = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(json["class"], "IMPORT");
+  EXPECT_EQ(json["format"], "csv");
+  EXPECT_EQ(json["utc"], "file");
+  EXPECT_EQ(json["start"], 1'700'000'000);
+  EXPECT_EQ(json["cut_at"], nullptr);
+  EXPECT_EQ(json["refused"], 1) << "a depth of 50 km";
+  ASSERT_EQ(json["taken"].size(), 2U);
+  EXPECT_EQ(json["taken"][0]["message"], "DEPTH depth");
+  EXPECT_EQ(json["taken"][0]["count"], 3);
+  EXPECT_EQ(json["taken"][0]["rate_Hz"], 1);
+  EXPECT_EQ(json["left"][0]["message"], "row (no time)");
+  const auto info = nlohmann::json::parse(run({"info", "--json", to("a.mcap")}).output);
+  EXPECT_EQ(info["finished"], true);
+  EXPECT_EQ(info["topics"]["/depth"]["messages"], 2);
+  EXPECT_EQ(info["topics"]["/sensor"]["messages"], 2);
+  const auto replay = test::run_command(add_replay, {"--json", to("a.mcap")});
+  EXPECT_NE(replay.output.find("\"class\":\"DEPTH\",\"time\":1700000001.000000000"), std::string::npos)
+      << replay.output;
+}
+
+TEST_F(LogImport, TheTextNamesCutsAndUtc) {
+  const auto csv = write("a.csv", "t,depth,o2\n1500,1.5,250\n2500,1.5").string();
+  std::string columns = kColumns;
+  columns.replace(columns.find("unix_s"), 6, "ms");
+  const auto outcome = run({"import", "--map", write("a.toml", columns).string(), "-o", to("a.mcap"), csv});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  EXPECT_NE(outcome.output.find("no UTC: times count from boot, which is set to 2000-01-01"), std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("its last record, at byte 24, is not whole"), std::string::npos) << outcome.output;
+}
+
+TEST_F(LogImport, AnOutputThatIsThereIsLeftAlone) {
+  const auto csv = write("a.csv", "t,depth,o2\n1700000000,1.5,250\n").string();
+  const auto map = write("a.toml", kColumns).string();
+  write("a.mcap", "precious");
+  const auto outcome = run({"import", "--map", map, "-o", to("a.mcap"), csv});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(read(path_ / "a.mcap"), "precious");
+}
+
+TEST_F(LogImport, WhatCannotBeReadIsSaidAndNothingIsWritten) {
+  const auto nothing = write("nothing.bin", std::string(1000, 'x')).string();
+  EXPECT_EQ(run({"import", "-o", to("b.mcap"), nothing}).status, 3);
+  const auto outcome = run({"import", "--format", "ulog", "-o", to("b.mcap"), nothing});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.message.find("without any message that can be taken"), std::string::npos) << outcome.message;
+  EXPECT_EQ(run({"import", "--format", "floppy", "-o", to("b.mcap"), nothing}).status, 2);
+  EXPECT_EQ(run({"import", "--format", "csv", "-o", to("b.mcap"), nothing}).status, 3) << "it needs a map";
+  EXPECT_EQ(run({"import", "--map", write("bad.toml", "x = 1\n").string(), "-o", to("b.mcap"), nothing}).status,
+            3);
+  EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap"));
+  EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap.part"));
+}
+
+}  // namespace
+}  // namespace navcal::cli

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/angles.h"
+#include "base/gravity.h"
+#include "protocols/described/reading.h"
+#include "protocols/described/text.h"
+#include "tests/protocols/described_samples.h"
+#include "tests/protocols/text.h"
+
+namespace navcal::protocols::described::test {
+namespace {
+
+using protocols::test::bytes_of;
+
+std::vector<double> plain_values(const Description& device, Bytes frame, std::size_t kind = 0) {
+  std::vector<double> values(device.kinds.at(kind).fields.size());
+  FrameReader(device.kinds.at(kind), device.is_text).read_plain(frame, values);
+  return values;
+}
+
+std::vector<double> sample_values(const FrameKind& kind, bool is_text, Bytes frame, bool& possible) {
+  std::vector<double> values(kind.fields.size());
+  possible = FrameReader(kind, is_text).read(frame, values);
+  return values;
+}
+
+TEST(DescribedSums, CheckValues) {
+  const auto of = [](Sum sum) { return sum_of(sum, bytes_of("123456789")); };
+  EXPECT_EQ(of(Sum::none), 0U);
+  EXPECT_EQ(of(Sum::sum8), 0xDDU);
+  EXPECT_EQ(of(Sum::negated_sum8), 0x23U);
+  EXPECT_EQ(of(Sum::sum16), 0x01DDU);
+  EXPECT_EQ(of(Sum::xor8), 0x31U);
+  EXPECT_EQ(of(Sum::crc8), 0xF4U);
+  EXPECT_EQ(of(Sum::crc16_ccitt), 0x29B1U);
+  EXPECT_EQ(of(Sum::crc16_xmodem), 0x31C3U);
+  EXPECT_EQ(of(Sum::crc16_modbus), 0x4B37U);
+  EXPECT_EQ(of(Sum::crc32), 0xCBF43926U);
+  EXPECT_EQ(sum_of(Sum::fletcher16, bytes_of("abcde")), 0xEFC3U);  // 8-bit Fletcher modulo 256 of RFC 1145
+}
+
+TEST(DescribedSums, NamesAreReadBack) {
+  for (std::size_t i = 0; i < kSumCount; ++i) {
+    const auto sum = static_cast<Sum>(i);
+    EXPECT_EQ(sum_named(name_of(sum)), sum);
+  }
+  EXPECT_FALSE(sum_named("crc17"));
+}
+
+TEST(DescribedUnits, AreThoseOfTheProgram) {
+  EXPECT_EQ(unit_named("deg/s")->factor, base::kRadiansPerDegree);
+  EXPECT_EQ(unit_named("deg")->factor, base::kRadiansPerDegree);
+  EXPECT_EQ(unit_named("g")->factor, base::kGravity_m_s2);
+  EXPECT_NEAR(212 * unit_named("F")->factor + unit_named("F")->offset, 100, 1e-12);
+  EXPECT_EQ(unit_named("furlong"), nullptr);
+}
+
+TEST(DescribedUnits, EachMeaningHasAUnitOfSamples) {
+  for (std::size_t i = 0; i < kMeaningCount; ++i) {
+    const auto meaning = static_cast<Meaning>(i);
+    const MeaningInfo& info = info_of(meaning);
+    EXPECT_EQ(meaning_named(info.name), meaning);
+    EXPECT_LT(info.low, info.high) << info.name;
+    if (info.dimension == Dimension::any || info.dimension == Dimension::number) continue;
+    const Unit* unit = unit_named(sample_unit(info.dimension));
+    ASSERT_NE(unit, nullptr) << info.name;
+    EXPECT_EQ(unit->factor, 1) << info.name;
+  }
+}
+
+TEST(DescribedReading, WhatIsEncodedIsRead) {
+  Random random(1);
+  for (const NamedDevice& device : all_devices()) {
+    for (int i = 0; i < 200; ++i) {
+      const std::size_t at = below(random, device.description.kinds.size());
+      const FrameKind& kind = device.description.kinds[at];
+      const auto values = random_values(random, kind);
+      EXPECT_EQ(plain_values(device.description, encode(device.description, kind, values), at), values)
+          << device.name;
+    }
+  }
+}
+
+TEST(DescribedReading, ScalesBeforeItTakesTheZeroAndTheUnitComesLast) {
+  Description device = inertial_card();
+  Field& field = device.kinds[0].fields[2];
+  field.scale = 0.0625;
+  field.zero = 2048;
+  field.sensitivity = 10;
+  field.factor = base::kRadiansPerDegree;
+  field.meaning = Meaning::rate_x;
+  std::vector<double> raw(10, 0.0);
+  raw[2] = (33333 / 16.0 - 2048) / 10;
+  const Buffer frame = encode(device, device.kinds[0], raw);
+  bool possible = false;
+  EXPECT_EQ(sample_values(device.kinds[0], false, frame, possible)[2], raw[2] * base::kRadiansPerDegree);
+  EXPECT_TRUE(possible);
+}
+
+TEST(DescribedReading, SignedNumbersAndBits) {
+  const Description device = two_kinds();
+  const std::vector<double> values{-1.5, -8388608, 127};
+  EXPECT_EQ(plain_values(device, encode(device, device.kinds[0], values)), values);
+}
+
+TEST(DescribedReading, NumbersThatAreNoneAreAbsent) {
+  Description device = two_kinds();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Buffer frame = encode(device, device.kinds[0], std::vector<double>{0, 0, 0});
+  for (std::size_t i = 2; i < 6; ++i) frame[i] = 0xFF;  // NaN as f32
+  EXPECT_TRUE(std::isnan(plain_values(device, frame)[0]));
+  device.kinds[0].fields[1].absent = -32768;
+  frame = encode(device, device.kinds[0], std::vector<double>{1, nan, 3});
+  bool possible = false;
+  EXPECT_TRUE(std::isnan(sample_values(device.kinds[0], false, frame, possible)[1]));
+  EXPECT_TRUE(possible);
+}
+
+TEST(DescribedReading, NoValueLeavesWhatADoubleHolds) {
+  FrameKind kind = bare_lines().kinds[0];
+  kind.fields[0].scale = 1e15;
+  bool possible = true;
+  (void)sample_values(kind, true, bytes_of("1e300,1,1\n"), possible);
+  EXPECT_FALSE(possible);
+  Description device = two_kinds();
+  device.kinds[1].fields[1].scale = 1e-15;
+  const Buffer frame = encode(device, device.kinds[1], std::vector<double>{0, 1e280});
+  EXPECT_TRUE(std::isnan(plain_values(device, frame, 1)[1]));
+}
+
+TEST(DescribedReading, AFieldBeyondAShorterFrameIsAbsent) {
+  Description device = two_kinds();
+  FrameKind shorter = device.kinds[1];
+  shorter.fields.pop_back();
+  const auto values = plain_values(device, encode(device, shorter, std::vector<double>{7}), 1);
+  EXPECT_EQ(values[0], 7);
+  EXPECT_TRUE(std::isnan(values[1]));
+}
+
+TEST(DescribedReading, RefusesWhatCannotBe) {
+  Description device = inertial_card();
+  Field& field = device.kinds[0].fields[2];
+  std::vector<double> raw(10, 0.0);
+  raw[2] = 4000;
+  const Buffer frame = encode(device, device.kinds[0], raw);
+  bool possible = false;
+  (void)sample_values(device.kinds[0], false, frame, possible);
+  EXPECT_TRUE(possible);
+  field.high = 3999;
+  (void)sample_values(device.kinds[0], false, frame, possible);
+  EXPECT_FALSE(possible);
+  field.high.reset();
+  field.meaning = Meaning::rate_x;  // 4000 rad/s
+  (void)sample_values(device.kinds[0], false, frame, possible);
+  EXPECT_FALSE(possible);
+}
+
+TEST(DescribedReading, TextThatIsNoNumberIsRefusedAndNothingIsAbsent) {
+  const FrameKind kind = bare_lines().kinds[0];
+  bool possible = false;
+  auto values = sample_values(kind, true, bytes_of("1.5, ,-2e1\r\n"), possible);
+  EXPECT_TRUE(possible);
+  EXPECT_EQ(values[0], 1.5);
+  EXPECT_TRUE(std::isnan(values[1]));
+  EXPECT_EQ(values[2], -20);
+  (void)sample_values(kind, true, bytes_of("1.5,x,3\n"), possible);
+  EXPECT_FALSE(possible);
+  (void)sample_values(kind, true, bytes_of("nan,1,3\n"), possible);
+  EXPECT_FALSE(possible);
+}
+
+TEST(DescribedReading, DegreesAndMinutesWithTheirSign) {
+  FrameKind kind = bare_lines().kinds[0];
+  kind.fields.resize(1);
+  kind.fields[0].type = Type::degrees_minutes;
+  kind.fields[0].sign_at = 2;
+  bool possible = false;
+  EXPECT_NEAR(sample_values(kind, true, bytes_of("4807.0380,S,\n"), possible)[0], -48.1173, 1e-12);
+  EXPECT_TRUE(possible);
+  (void)sample_values(kind, true, bytes_of("4807.0380,X,\n"), possible);
+  EXPECT_FALSE(possible);
+  (void)sample_values(kind, true, bytes_of("4867.0,S,\n"), possible);
+  EXPECT_FALSE(possible);
+}
+
+TEST(DescribedReading, Hexadecimal) {
+  EXPECT_EQ(number_of("ff", Type::hex), 255);
+  EXPECT_EQ(number_of("0xFF", Type::hex), 255);
+  EXPECT_EQ(number_of("-1", Type::hex), -1);
+  EXPECT_FALSE(number_of("fg", Type::hex));
+}
+
+}  // namespace
+}  // namespace navcal::protocols::described::test
