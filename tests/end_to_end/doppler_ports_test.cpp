@@ -61,7 +61,7 @@ struct DopplerPorts : ::testing::Test {
     return logs.empty() ? std::string() : *logs.begin();
   }
   /// What `navcal` answers to the words.
-  [[nodiscard]] std::string navcal(std::vector<std::string> words) const {
+  std::string navcal(std::vector<std::string> words) const {
     words.insert(words.begin(), NAVCAL_BINARY_DIR "/cli/navcal");
     Process process(words, folder / "navcal");
     process.wait(kDopplerPatience);
