@@ -17,7 +17,7 @@ constexpr std::int64_t kVnStopped_ns = base::kSecond_ns;
 constexpr std::int64_t kVnRest_ns = 10 * base::kSecond_ns;
 constexpr int kVnAttempts = 3;
 constexpr double kImuRate_Hz = 800;  // of which binary outputs are a whole part
-constexpr double kUsualRate_Hz = 40;
+constexpr double kVnUsualRate_Hz = 40;
 constexpr std::uint8_t kInvalidChecksum = 3;
 
 /// The common group with time since start-up, yaw, pitch and roll, rate, acceleration, and field with temperature
@@ -45,7 +45,7 @@ bool is_question_answered(const std::optional<vn::Register>& answer, unsigned nu
 }  // namespace
 
 StartUpVectorNav::StartUpVectorNav(const config::PortSettings& settings) : stopped_after_ns_(kVnStopped_ns) {
-  const double rate_Hz = settings.rate_Hz > 0 ? settings.rate_Hz : kUsualRate_Hz;
+  const double rate_Hz = settings.rate_Hz > 0 ? settings.rate_Hz : kVnUsualRate_Hz;
   stopped_after_ns_ = std::max(kVnStopped_ns, static_cast<std::int64_t>(3e9 / rate_Hz));
   const auto divisor = static_cast<int>(std::clamp(std::round(kImuRate_Hz / rate_Hz), 1.0, 65535.0));
   steps_.push_back({Purpose::silence, {true, vn::kAsyncType, "0"}, false});

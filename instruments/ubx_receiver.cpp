@@ -51,7 +51,7 @@ void put_velocity(const ubx::NavPvt& pvt, double course_gate_m_s, GpsSample& sam
   sample.speed_m_s = pvt.ground_speed_m_s;
   if (pvt.ground_speed_m_s >= course_gate_m_s)
     sample.course_rad = pvt.heading_of_motion_deg * base::kRadiansPerDegree;
-  sample.climb_m_s = -pvt.velocity_ned_m_s[2];
+  sample.climb_m_s = 0 - pvt.velocity_ned_m_s[2];  // no negative zero
   // The speed's error is that of one axis, the one along the course.
   sample.velocity_std_m_s = pvt.speed_accuracy_m_s;
 }

@@ -20,7 +20,7 @@ constexpr double kLeastInside_C = -60, kMostInside_C = 130, kMostInside_Pa = 200
 constexpr double kYawLimit_deg = 360.001, kPitchLimit_deg = 90.001, kRollLimit_deg = 180.001;
 
 /// Absent, or finite and not beyond the limit.
-bool is_within(const std::optional<Triple>& values, double limit) {
+bool is_absent_or_within(const std::optional<Triple>& values, double limit) {
   return !values || std::all_of(values->begin(), values->end(), [limit](double value) {
     return std::isfinite(value) && std::abs(value) <= limit;
   });
@@ -29,18 +29,19 @@ bool is_within(const std::optional<Triple>& values, double limit) {
 bool can_be(const vn::Reading& reading) {
   const auto& angles = reading.yaw_pitch_roll_deg;
   const bool angles_can_be =
-      is_within(angles, kYawLimit_deg) &&
+      is_absent_or_within(angles, kYawLimit_deg) &&
       (!angles || (std::abs((*angles)[1]) <= kPitchLimit_deg && std::abs((*angles)[2]) <= kRollLimit_deg));
   const bool inside_can_be =
       (!reading.temperature_C ||
        (*reading.temperature_C >= kLeastInside_C && *reading.temperature_C <= kMostInside_C)) &&
       (!reading.pressure_Pa || (*reading.pressure_Pa >= 0 && *reading.pressure_Pa <= kMostInside_Pa));
-  return angles_can_be && inside_can_be && is_within(reading.rate_rad_s, kMaxRate_rad_s) &&
-         is_within(reading.raw_rate_rad_s, kMaxRate_rad_s) &&
-         is_within(reading.acceleration_m_s2, kMaxForce_m_s2) &&
-         is_within(reading.raw_acceleration_m_s2, kMaxForce_m_s2) && is_within(reading.field_uT, kMaxVnField_uT) &&
-         is_within(reading.raw_field_uT, kMaxVnField_uT) &&
-         is_within(reading.yaw_pitch_roll_std_deg, kYawLimit_deg);
+  return angles_can_be && inside_can_be && is_absent_or_within(reading.rate_rad_s, kMaxRate_rad_s) &&
+         is_absent_or_within(reading.raw_rate_rad_s, kMaxRate_rad_s) &&
+         is_absent_or_within(reading.acceleration_m_s2, kMaxForce_m_s2) &&
+         is_absent_or_within(reading.raw_acceleration_m_s2, kMaxForce_m_s2) &&
+         is_absent_or_within(reading.field_uT, kMaxVnField_uT) &&
+         is_absent_or_within(reading.raw_field_uT, kMaxVnField_uT) &&
+         is_absent_or_within(reading.yaw_pitch_roll_std_deg, kYawLimit_deg);
 }
 
 std::optional<ImuSample> imu_of(const vn::Reading& reading) {

@@ -100,7 +100,7 @@ class PowerControlTest : public testing::Test, protected PortOwner, protected Po
     if (severity == "warning") warnings_.emplace_back(name);
   }
   void on_port_changed(std::uint16_t) override {}
-  void on_compass_calibrated(std::uint16_t, std::int64_t, const instruments::Tcm2Calibration&) override {}
+  void on_compass_calibrated(std::uint16_t, std::int64_t, const instruments::CompassCalibration&) override {}
   [[nodiscard]] std::optional<instruments::ReceiverAid> receiver_aid(std::int64_t) const override { return {}; }
   void on_power_event(std::int64_t, std::string_view, std::string_view name, std::string_view) override {
     events_.emplace_back(name);

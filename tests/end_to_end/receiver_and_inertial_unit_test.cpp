@@ -78,12 +78,19 @@ TEST_F(ReceiverAndInertialUnit, AreSetUpLoggedAndReplayed) {
   ASSERT_TRUE(eventually(
       [&] {
         lines = replayed();
-        // As delivered, neither sends errors: the receiver NMEA, the unit lines without them.
         return count(lines, "GPS", "lat") > 2 && count(lines, "IMU", "rate_rad_s") > 100 &&
                count(lines, "COMPASS", "heading_std_rad") > 40;
       },
       kDevicePatience))
       << daemon->err() << lines.size();
+  // As delivered, the receiver sends NMEA and the unit lines.
+  EXPECT_TRUE(eventually(
+      [&] {
+        return daemon->err().find("running on NAV-PVT") != std::string::npos &&
+               daemon->err().find("running on binary messages") != std::string::npos;
+      },
+      kDevicePatience))
+      << daemon->err();
   for (const auto& line : lines) {
     if (line.value("class", "") != "GPS" || !line.contains("lat") || line["lat"].is_null()) continue;
     EXPECT_GT(line.value("position_std_m", 0.0), 0) << line;
