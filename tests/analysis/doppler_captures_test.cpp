@@ -20,7 +20,6 @@ using instruments::DvlSample;
 using protocols::Protocol;
 using sim::operator*;
 using sim::testing::kStart_ns;
-using test::OnePort;
 namespace pd0 = protocols::pd0;
 
 std::vector<std::uint8_t> capture(const std::string& name) {

@@ -19,7 +19,6 @@ using instruments::CompassSample;
 using instruments::DepthSample;
 using instruments::DvlSample;
 using protocols::Protocol;
-using test::OnePort;
 using sim::operator*;
 using sim::testing::kSecond_ns;
 using sim::testing::kStart_ns;

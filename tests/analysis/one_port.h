@@ -8,7 +8,7 @@
 #include "sim/instruments/device.h"
 #include "tests/sim/drive.h"
 
-namespace navcal::analysis::test {
+namespace navcal::analysis {
 
 /// One port without anything else.
 class OnePort : private pipeline::Sink {
@@ -48,4 +48,4 @@ class OnePort : private pipeline::Sink {
   pipeline::Pipeline pipeline_;
 };
 
-}  // namespace navcal::analysis::test
+}  // namespace navcal::analysis
