@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kAngleStep_deg = 1e-7, kHeadingStep_deg = 1e-5, kMillimetre_m = 1e-3, kNanosecond_s = 1e-9;
 constexpr double kDopStep = 0.01, kResidualStep_m = 0.1;
+// GPS time begins in 1980; nanoseconds since 1970 in 64 bits end in 2262.
+constexpr std::uint16_t kFirstPvtYear = 1980, kLastPvtYear = 2261;
 constexpr std::size_t kPvtLength = 92, kPvtLengthOld = 84;  // the old one is that of generation 7
 constexpr std::size_t kTimeGpsLength = 16, kDopLength = 18, kSatHeader = 8, kSatSlot = 12;
 
@@ -34,6 +36,7 @@ void put_scaled(std::vector<std::uint8_t>& payload, std::size_t at, double value
 std::optional<std::int64_t> NavPvt::utc_ns() const {
   const TimeOfDay time{hour, minute, second, 0};
   if (!date_valid || !time_valid || !is_valid(date) || !is_valid(time)) return std::nullopt;
+  if (date.year < kFirstPvtYear || date.year > kLastPvtYear) return std::nullopt;
   return unix_ns(date, time) + nanosecond;
 }
 

@@ -40,7 +40,8 @@ struct NavPvt {
   double pdop = 0;
   bool position_invalid = false;  ///< invalidLlh: position and height are not to be used
 
-  /// UTC in nanoseconds since 1970; nullopt unless date and time are valid and exist in the calendar.
+  /// UTC in nanoseconds since 1970; nullopt unless date and time are valid and exist in the calendar, 1980 to
+  /// 2261.
   [[nodiscard]] std::optional<std::int64_t> utc_ns() const;
   /// The kind of fix; `none` unless `fix_ok`, and for a time alone.
   [[nodiscard]] Fix fix() const;

@@ -37,9 +37,17 @@ std::vector<ChannelList> overview_groups(const analysis::NoiseReport& report) {
 void append_channel(HtmlPage& page, const RecordedChannel& recorded, const analysis::NoiseReport& report) {
   const auto figures = channel_figures(recorded, report);
   if (figures.empty()) return;
-  std::string title = recorded.name();
-  for (const auto& remark : noise_remarks(recorded)) title += (title == recorded.name() ? ": " : "; ") + remark;
-  page.folded_figures(title, figures);
+  page.folded_figures(recorded.name(), figures);
+}
+
+void append_remarks(HtmlPage& page, const analysis::NoiseReport& report) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& recorded : report.channels) {
+    for (const auto& remark : noise_remarks(recorded)) rows.push_back({recorded.name(), remark});
+  }
+  if (rows.empty()) return;
+  page.section("Remarks");
+  page.table({"channel", "remark"}, rows);
 }
 
 }  // namespace
@@ -67,6 +75,7 @@ std::string noise_page(const analysis::NoiseReport& report) {
   }
   page.section("Each channel");
   for (const auto& recorded : report.channels) append_channel(page, recorded, report);
+  if (found) append_remarks(page, report);
   page.section("Made from");
   page.table({"", ""}, {{"Recording", report.file},
                         {"Length", duration_text(report.duration_s)},

@@ -12,7 +12,7 @@ namespace navcal::analysis {
 
 /// Where the positions of a receiver are counted from.
 struct ChannelOrigin {
-  double latitude_rad = 0, longitude_rad = 0, height_m = 0;
+  double latitude_rad = 0, longitude_rad = 0;
 };
 
 /// One channel of an instrument: a number that its samples may have, in the unit that people use for it. A new

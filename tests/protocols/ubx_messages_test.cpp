@@ -70,6 +70,13 @@ TEST(UbxMessages, TheNanosecondMayBeNegative) {
   EXPECT_EQ(pvt.utc_ns(), 1'577'836'800'000'000'000 - 5);
   pvt.date.month = 13;
   EXPECT_FALSE(pvt.utc_ns());
+  // Years that nanoseconds in 64 bits do not reach, and those before there were satellites.
+  for (const std::uint16_t year : {53, 1979, 2262, 9999}) {
+    pvt.date = {year, 6, 1};
+    EXPECT_FALSE(pvt.utc_ns()) << year;
+  }
+  pvt.date = {2261, 12, 31};
+  EXPECT_TRUE(pvt.utc_ns());
 }
 
 TEST(UbxMessages, Configuration) {
