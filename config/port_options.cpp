@@ -38,10 +38,11 @@ std::vector<Option<P>> make_port_options() {
   const auto with_units = devices_with(&protocols::OptionTables::units);
   const auto with_channels = devices_with(&protocols::OptionTables::channels);
   const auto with_fix = devices_with(&protocols::OptionTables::fix);
-  const auto with_rotation = devices_that(
-      [](const protocols::Delivery& delivers) { return delivers.heading || delivers.field || delivers.rates; });
+  const auto with_rotation = devices_that([](const protocols::Delivery& delivers) {
+    return delivers.heading || delivers.field || delivers.rates || delivers.bottom_velocity;
+  });
   const auto with_position = devices_that([](const protocols::Delivery& delivers) {
-    return delivers.acceleration || delivers.depth || delivers.position;
+    return delivers.acceleration || delivers.depth || delivers.position || delivers.bottom_velocity;
   });
   return {
       choice<P>(
@@ -204,9 +205,10 @@ std::vector<Option<P>> make_port_options() {
       channels<P>(
           {.table = "mounting",
            .key = "rotation_deg",
-           .description = "Roll, pitch and yaw of a compass or inertial card in the vehicle: the turns about z, "
-                          "then y, then x "
-                          "that bring the vehicle's axes (x forward, y starboard, z down) on to the device's.",
+           .description =
+               "Roll, pitch and yaw of a compass, inertial card or Doppler log in the vehicle: the turns about z, "
+               "then y, then x "
+               "that bring the vehicle's axes (x forward, y starboard, z down) on to the device's.",
            .unit = kPlainDegrees,
            .low = -360,
            .high = 360,
@@ -217,7 +219,8 @@ std::vector<Option<P>> make_port_options() {
           {.table = "mounting",
            .key = "position_m",
            .description =
-               "Place of an inertial card or antenna from the vehicle's origin: forward, to starboard, down.",
+               "Place of an inertial card, antenna, Doppler log or pressure gauge from the vehicle's origin: "
+               "forward, to starboard, down.",
            .unit = kMetres,
            .low = -100,
            .high = 100,

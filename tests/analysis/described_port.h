@@ -25,14 +25,14 @@ using Octets = std::vector<std::uint8_t>;
 inline const std::filesystem::path kShipped = NAVCAL_SOURCE_DIR "/share/devices";
 
 inline config::PortSettings described_port(const std::filesystem::path& file) {
-  const test::TemporaryFolder folder;
+  const navcal::test::TemporaryFolder folder;
   std::ofstream(folder / "navcald.toml")
       << "[port.device]\nprotocol = \"described\"\npath = \"/dev/ttyS0\"\ndevice = \"" << file.native() << "\"\n";
   return config::load(folder / "navcald.toml").ports.at(0);
 }
 
 inline config::PortSettings described_port_of(std::string_view toml) {
-  const test::TemporaryFolder folder;
+  const navcal::test::TemporaryFolder folder;
   std::ofstream(folder / "device.toml") << toml;
   return described_port(folder / "device.toml");
 }

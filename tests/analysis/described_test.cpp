@@ -241,7 +241,7 @@ TEST(DescribedStartUp, LinesAreSentWithPausesAndAgainAfterSilence) {
 }
 
 TEST(DevicesPage, ItsExampleReadsAsThePageSays) {
-  const std::string page = test::read_file(NAVCAL_SOURCE_DIR "/docs/devices.md");
+  const std::string page = navcal::test::read_file(NAVCAL_SOURCE_DIR "/docs/devices.md");
   constexpr std::string_view kBegin = "```toml\n";
   const std::size_t begin = page.find(kBegin) + kBegin.size();
   const auto port = described_port_of(std::string_view(page).substr(begin, page.find("```", begin) - begin));

@@ -153,6 +153,9 @@ TEST(ConfigPortErrors, Mounting) {
   EXPECT_EQ(port("tcm2", "rotation_deg = [0, 0, 90]"), Problems{});
   EXPECT_EQ(port("oncore", "position_m = [0, 0, -0.3]"), Problems{});
   EXPECT_EQ(port("nmea", "rotation_deg = [0, 0, 90]\nposition_m = [0, 0, -0.3]"), Problems{});
+  for (const char* doppler_log : {"waterlinked", "pd0", "pd6"})
+    EXPECT_EQ(port(doppler_log, "rotation_deg = [0, 0, 45]\nposition_m = [0.5, 0, 0.1]"), Problems{});
+  EXPECT_EQ(port("keller", "position_m = [0.5, 0, 0.1]"), Problems{});
   EXPECT_EQ(
       port("imu-card", "rotation_deg = [1, 2]"),
       Problems{"t.toml:5: port.a.mounting.rotation_deg: three numbers, each -360 to 360 deg are expected, not an "
@@ -164,6 +167,8 @@ TEST(ConfigPortErrors, Mounting) {
             Problems{"t.toml:5: port.a.mounting.position_m: a port of protocol tcm2 has no such setting"});
   EXPECT_EQ(port("oncore", "rotation_deg = [0, 0, 0]"),
             Problems{"t.toml:5: port.a.mounting.rotation_deg: a port of protocol oncore has no such setting"});
+  EXPECT_EQ(port("keller", "rotation_deg = [0, 0, 0]"),
+            Problems{"t.toml:5: port.a.mounting.rotation_deg: a port of protocol keller has no such setting"});
   EXPECT_EQ(port("motor-card", "position_m = [0, 0, 0]"),
             Problems{"t.toml:5: port.a.mounting.position_m: a port of protocol motor-card has no such setting"});
 }
