@@ -124,7 +124,7 @@ TEST_F(PniProcess, ItsScoreStandsBesideOursAndIsSavedOnOrder) {
                                 {"distribution_error", 2},
                                 {"tilt_error", 0.75},
                                 {"tilt_range_deg", 40}}));
-  json accepted;
+  json accepted = json::object();
   // The score is known before the compass is back in service.
   for (int i = 0; i < 100 && accepted.value("ok", false) == false; ++i) {
     accepted = ask("calibration.accept");
