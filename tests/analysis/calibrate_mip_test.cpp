@@ -27,7 +27,8 @@ constexpr std::int64_t kRunStep_ns = kSecond_ns / 100;
 constexpr sim::Vector3 kIron_uT{4, -3, 2};
 constexpr double kGyroBias_rad_s = 0.01;
 
-/// Turns to both sides, pitching and rolling; the sensor's place has iron and its yaw gyro a bias.
+/// Turns to both sides at the surface, pitching and rolling a little; the sensor's place has iron and its yaw gyro
+/// a bias.
 struct Circles : sim::Motion {
   [[nodiscard]] static double yaw_rate_rad_s(double t_s) { return std::fmod(t_s, 60) < 40 ? 0.3 : -0.35; }
   [[nodiscard]] static double yaw_rad(double t_s) {
@@ -37,8 +38,8 @@ struct Circles : sim::Motion {
   [[nodiscard]] sim::State at(std::int64_t t_ns) const override {
     const double t_s = static_cast<double>(t_ns - kStart_ns) * 1e-9;
     sim::State state;
-    const double roll = 0.45 * std::sin(0.7 * t_s), pitch = 0.3 * std::sin(0.5 * t_s);
-    const double roll_rate = 0.315 * std::cos(0.7 * t_s), pitch_rate = 0.15 * std::cos(0.5 * t_s);
+    const double roll = 0.04 * std::sin(0.7 * t_s), pitch = 0.03 * std::sin(0.5 * t_s);
+    const double roll_rate = 0.028 * std::cos(0.7 * t_s), pitch_rate = 0.015 * std::cos(0.5 * t_s);
     const double yaw_rate = yaw_rate_rad_s(t_s);
     state.euler_rad = {roll, pitch, yaw_rad(t_s)};
     state.rate_rad_s = {roll_rate - std::sin(pitch) * yaw_rate,
