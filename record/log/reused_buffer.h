@@ -13,7 +13,7 @@ inline void empty_for_reuse(std::string& buffer) {
   constexpr std::size_t kAlwaysKept_bytes = 16 << 10, kNeverKept_bytes = 256 << 10;
   const bool oversized = buffer.capacity() > kAlwaysKept_bytes && buffer.size() < buffer.capacity() / 4;
   if (oversized || buffer.capacity() > kNeverKept_bytes) {
-    buffer = std::string();
+    std::string().swap(buffer);  // an assignment of an empty text keeps the memory
   } else {
     buffer.clear();
   }
