@@ -105,7 +105,7 @@ void take_line(std::string_view line, char separator, LineKind& kind) {
   ++kind.counts[fields.count];
   kind.columns.resize(std::max(kind.columns.size(), fields.count));
   for (std::size_t i = 0; i < fields.count; ++i) {
-    std::string_view field = fields[i + 1];
+    std::string_view field = protocols::described::without_blanks(fields[i + 1]);
     Column& column = kind.columns[i];
     if (const std::size_t sign = field.find('='); sign != std::string_view::npos) {
       column.key = std::string(field.substr(0, sign));

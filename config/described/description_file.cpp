@@ -40,6 +40,12 @@ std::vector<std::string> read_start_up(TableReader& table) {
   return lines;
 }
 
+unsigned line_of_id(const Node& frame) {
+  const auto id = std::find_if(frame.children.begin(), frame.children.end(),
+                               [](const Node& child) { return child.key == "id"; });
+  return id != frame.children.end() ? id->line : frame.line;
+}
+
 /// Two kinds of frames that nothing tells apart, so that the second is never found.
 void check_kinds(const std::vector<FrameKind>& kinds, const std::vector<const Node*>& nodes,
                  std::vector<Problem>& problems) {
@@ -47,7 +53,7 @@ void check_kinds(const std::vector<FrameKind>& kinds, const std::vector<const No
     for (std::size_t j = 0; j < i; ++j) {
       const FrameKind &mine = kinds[i], &other = kinds[j];
       if (mine.id == other.id && !mine.id.view().empty())
-        problems.push_back({nodes[i]->line, nodes[i]->name + ".id",
+        problems.push_back({line_of_id(*nodes[i]), nodes[i]->name + ".id",
                             fmt::format("\"{}\" is already that of {} (line {})", mine.id.view(), nodes[j]->name,
                                         nodes[j]->line)});
       const bool alike = mine.start == other.start && mine.constants == other.constants &&

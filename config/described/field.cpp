@@ -123,7 +123,7 @@ void read_bits(TableReader& table, Field& field) {
 void read_place(TableReader& table, Field& field, const described::Defaults& defaults) {
   std::vector<std::string> types;
   for (const Type type : {Type::u8, Type::i8, Type::u16, Type::i16, Type::u24, Type::i24, Type::u32, Type::i32,
-                          Type::f32, Type::f64, Type::decimal, Type::hex, Type::degrees_minutes}) {
+                          Type::f32, Type::f64, Type::decimal, Type::hex, Type::degrees_minutes, Type::nmea}) {
     if ((size_of(type) == 0) == defaults.is_text) types.emplace_back(name_of(type));
   }
   field.type = defaults.is_text ? Type::decimal : Type::u8;

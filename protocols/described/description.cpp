@@ -25,7 +25,8 @@ constexpr auto kTypes = std::to_array<TypeInfo>({{"u8", 1},
                                                  {"f64", 8},
                                                  {"decimal", 0},
                                                  {"hex", 0},
-                                                 {"degrees-minutes", 0}});
+                                                 {"degrees-minutes", 0},
+                                                 {"nmea", 0}});
 
 /// Bytes that a place needs: from the front up to its end, or from the back.
 std::size_t reach(int place, std::size_t size) {
@@ -59,10 +60,11 @@ std::size_t least_length(const FrameKind& kind) {
   const Checksum& checksum = kind.checksum;
   if (checksum.sum == Sum::none) return least;
   least = std::max(least, reach(checksum.at, size_of(checksum.sum)));
-  // The covered bytes end where the checksum begins, or before; `from` and a positive `to` lie before the end.
   least = std::max(least, reach(checksum.to, 0));
-  std::size_t behind = checksum.to < 0 ? static_cast<std::size_t>(-checksum.to) : 0;
-  return std::max(least, reach(checksum.from, 0) + (checksum.from < 0 ? 0 : behind));
+  if (checksum.from < 0) return std::max(least, reach(checksum.from, 0));
+  // A byte at least is covered before the end, which may be counted from the back.
+  const std::size_t behind = checksum.to < 0 ? static_cast<std::size_t>(-checksum.to) : 0;
+  return std::max(least, static_cast<std::size_t>(checksum.from) + 1 + behind);
 }
 
 }  // namespace navcal::protocols::described

@@ -20,8 +20,24 @@ inline constexpr std::size_t kMaxFrameLength = 1024;
 
 enum class ByteOrder : std::uint8_t { little, big };
 
-/// How a number is written. The last three are of text.
-enum class Type : std::uint8_t { u8, i8, u16, i16, u24, i24, u32, i32, f32, f64, decimal, hex, degrees_minutes };
+/// How a number is written. From decimal on they are of text: `nmea` is decimal as NMEA 0183 has it, without
+/// exponent and without blanks.
+enum class Type : std::uint8_t {
+  u8,
+  i8,
+  u16,
+  i16,
+  u24,
+  i24,
+  u32,
+  i32,
+  f32,
+  f64,
+  decimal,
+  hex,
+  degrees_minutes,
+  nmea
+};
 
 /// "u16".
 [[nodiscard]] std::string_view name_of(Type type);

@@ -24,13 +24,12 @@ double sign_of(std::string_view text) {
 /// The text behind `key` and the sign in one of the fields; empty when there is none.
 std::string_view value_of_key(const TextFields& fields, std::string_view key, char sign) {
   for (std::size_t i = 1; i <= fields.count; ++i) {
-    std::string_view field = fields[i];
+    std::string_view field = without_blanks(fields[i]);
     if (!field.starts_with(key)) continue;
     field.remove_prefix(key.size());
     if (!field.starts_with(sign)) continue;
     field.remove_prefix(1);
-    while (field.starts_with(' ')) field.remove_prefix(1);
-    return field;
+    return without_blanks(field);
   }
   return {};
 }
@@ -121,9 +120,10 @@ bool FrameReader::for_each_text_value(Bytes frame, Use use) const {
     const FieldPlan& field = fields_[i];
     const std::string_view text = field.at > 0 ? texts[field.at] : value_of_key(texts, field.key, key_sign_);
     double value = kNoValue;
-    if (!text.empty()) {
+    const bool is_empty = field.type == Type::nmea ? text.empty() : without_blanks(text).empty();
+    if (!is_empty) {
       const auto raw = number_of(text, field.type);
-      const double sign = field.sign_at > 0 ? sign_of(texts[field.sign_at]) : 1;
+      const double sign = field.sign_at > 0 ? sign_of(without_blanks(texts[field.sign_at])) : 1;
       if (!raw || std::abs(*raw) > kLargestRaw || sign == 0) {
         all_are_numbers = false;
       } else {

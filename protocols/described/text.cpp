@@ -13,12 +13,6 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 std::string_view as_text(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 /// `use(field)` for each field; a blank as separator stands for any number of them.
@@ -35,7 +29,7 @@ void for_each_field(char separator, std::string_view body, Use use) {
   }
   while (true) {
     const std::size_t end = body.find(separator);
-    use(without_blanks(body.substr(0, end)));
+    use(body.substr(0, end));
     if (end == std::string_view::npos) return;
     body.remove_prefix(end + 1);
   }
@@ -67,6 +61,12 @@ std::optional<double> number_in_minutes(std::string_view text) {
 
 }  // namespace
 
+std::string_view without_blanks(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 Bytes without_end(const KindPlan& kind, Bytes line) {
   Bytes text = line.first(line.size() - 1);
   if (kind.end == '\n' && !text.empty() && text.back() == '\r') text = text.first(text.size() - 1);
@@ -96,6 +96,11 @@ void split(char separator, Bytes body, TextFields& into) {
 }
 
 std::optional<double> number_of(std::string_view text, Type type) {
+  if (type == Type::nmea) {
+    const auto exact = nmea::parse_decimal(text);
+    return exact ? std::optional(exact->value()) : std::nullopt;
+  }
+  text = without_blanks(text);
   switch (type) {
     case Type::hex:
       return number_in_hex(text);

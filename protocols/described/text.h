@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxTextFields = 128;
 [[nodiscard]] Bytes body_of(const KindPlan& kind, Bytes line);
 [[nodiscard]] std::size_t count_fields(const KindPlan& kind, Bytes body);
 
-/// The fields of a body; views into its bytes, blanks around each left out.
+/// The fields of a body; views into its bytes.
 struct TextFields {
   std::array<std::string_view, kMaxTextFields> fields;
   std::size_t count = 0;
@@ -32,8 +32,12 @@ struct TextFields {
 };
 void split(char separator, Bytes body, TextFields& into);
 
+/// The text without the blanks and tabs around it.
+[[nodiscard]] std::string_view without_blanks(std::string_view text);
+
 /// The whole of a field as a number of this type: decimal with sign, point and exponent; hexadecimal with or
-/// without 0x; degrees and minutes, `4807.038`, in degrees. nullopt: it is none.
+/// without 0x; degrees and minutes, `4807.038`, in degrees. Blanks around it do not count, but for the type nmea.
+/// nullopt: it is none.
 [[nodiscard]] std::optional<double> number_of(std::string_view text, Type type);
 
 }  // namespace navcal::protocols::described

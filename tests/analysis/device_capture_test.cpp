@@ -129,6 +129,7 @@ TEST(DevicesNew, FindsALengthThatTheFramesState) {
   protocols::described::FrameKind kind;
   kind.id = protocols::FrameId("V");
   kind.start = "\xC3\x3C";
+  kind.constants = {{2, "\x80"}};
   kind.length = {0, 3, protocols::described::Type::u8, protocols::described::ByteOrder::little, 1, 6, 300};
   kind.checksum = {protocols::described::Sum::crc16_xmodem, 2,  -2, -2,
                    protocols::described::ByteOrder::little, '*'};

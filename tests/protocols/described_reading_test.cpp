@@ -186,6 +186,14 @@ TEST(DescribedReading, DegreesAndMinutesWithTheirSign) {
   EXPECT_FALSE(possible);
 }
 
+TEST(DescribedReading, NmeaHasNeitherBlanksNorExponents) {
+  EXPECT_EQ(number_of("+2.50", Type::nmea), 2.5);
+  EXPECT_FALSE(number_of("2.5 ", Type::nmea));
+  EXPECT_FALSE(number_of("1e3", Type::nmea));
+  EXPECT_EQ(number_of(" 2.5 ", Type::decimal), 2.5);
+  EXPECT_EQ(number_of("1e3", Type::decimal), 1000);
+}
+
 TEST(DescribedReading, Hexadecimal) {
   EXPECT_EQ(number_of("ff", Type::hex), 255);
   EXPECT_EQ(number_of("0xFF", Type::hex), 255);
