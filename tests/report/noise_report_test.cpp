@@ -17,23 +17,27 @@ using analysis::RecordedChannel;
 RecordedChannel made_channel(std::size_t row, std::vector<double> values,
                              const std::vector<analysis::Interval>& quiet) {
   const auto& of = analysis::noise_channels()[row];
-  RecordedChannel channel{
-      "imu", std::string(of.name), std::string(of.unit), &of, analysis::test::series_of(std::move(values), 0.05),
-      {}};
+  RecordedChannel channel{"imu",
+                          std::string(of.name),
+                          std::string(of.unit),
+                          &of,
+                          analysis::noise_test::series_of(std::move(values), 0.05),
+                          {}};
   channel.noise = analysis::channel_noise(channel.series, quiet);
   return channel;
 }
 
 /// Rows 8 to 10 of the table are rates.
 analysis::NoiseReport made_report() {
-  analysis::test::MadeNoise noise(1);
+  analysis::noise_test::MadeNoise noise(1);
   analysis::NoiseReport report;
   report.file = "a <b> & \"c\".cap";
   report.duration_s = 200;
   report.quiet = {{0, 80}, {120, 200}};
   report.channels.push_back(made_channel(8, noise.white(4000, 0.1), report.quiet));
   report.channels.push_back(made_channel(
-      9, analysis::test::sum(noise.white(4000, 0.1), analysis::test::sine(4000, 0.2, 0.25)), report.quiet));
+      9, analysis::noise_test::sum(noise.white(4000, 0.1), analysis::noise_test::sine(4000, 0.2, 0.25)),
+      report.quiet));
   report.channels.push_back(made_channel(10, std::vector<double>(4000, 2.5), report.quiet));
   report.channels.push_back(made_channel(11, noise.walk(4000, 0.1), report.quiet));
   return report;

@@ -33,7 +33,7 @@ TEST(AllanFit, WhiteNoiseIsWithinItsErrorInNineteenOfTwenty) {
   Tally white;
   int flicker = 0, walk = 0;
   for (unsigned seed = 0; seed < kTrials; ++seed) {
-    const auto fit = fit_of(test::MadeNoise(seed).white(2000, 0.1));
+    const auto fit = fit_of(noise_test::MadeNoise(seed).white(2000, 0.1));
     white.add(fit.white, 0.1 * std::sqrt(kPeriod_s));
     flicker += fit.flicker.value ? 1 : 0;
     walk += fit.walk.value ? 1 : 0;
@@ -52,8 +52,9 @@ TEST(AllanFit, ARandomWalkBesideWhiteNoiseIsFoundWithItsError) {
   const double walk = 0.02;  // unit / sqrt(s)
   Tally white, found;
   for (unsigned seed = 0; seed < kTrials; ++seed) {
-    test::MadeNoise noise(seed);
-    const auto fit = fit_of(test::sum(noise.white(20000, 0.1), noise.walk(20000, walk * std::sqrt(kPeriod_s))));
+    noise_test::MadeNoise noise(seed);
+    const auto fit =
+        fit_of(noise_test::sum(noise.white(20000, 0.1), noise.walk(20000, walk * std::sqrt(kPeriod_s))));
     white.add(fit.white, 0.1 * std::sqrt(kPeriod_s));
     found.add(fit.walk, walk);
   }
@@ -64,7 +65,7 @@ TEST(AllanFit, ARandomWalkBesideWhiteNoiseIsFoundWithItsError) {
 }
 
 TEST(AllanFit, ARandomWalkAloneLeavesNoWhiteNoise) {
-  const auto fit = fit_of(test::MadeNoise(3).walk(5000, 1));
+  const auto fit = fit_of(noise_test::MadeNoise(3).walk(5000, 1));
   EXPECT_FALSE(fit.white.value);
   ASSERT_TRUE(fit.walk.value);
   EXPECT_NEAR(*fit.walk.value, 1 / std::sqrt(kPeriod_s), 4 * *fit.walk.error);
@@ -75,8 +76,8 @@ TEST(AllanFit, FlickerNoiseIsBiasInstability) {
   double mean = 0;
   int found = 0;
   for (unsigned seed = 0; seed < kTrials; ++seed) {
-    test::MadeNoise noise(seed);
-    const auto fit = fit_of(test::sum(noise.white(20000, 0.1), noise.flicker(20000, 0.02)));
+    noise_test::MadeNoise noise(seed);
+    const auto fit = fit_of(noise_test::sum(noise.white(20000, 0.1), noise.flicker(20000, 0.02)));
     if (!fit.flicker.value) continue;
     ++found;
     mean += *fit.flicker.value;
@@ -86,7 +87,7 @@ TEST(AllanFit, FlickerNoiseIsBiasInstability) {
 }
 
 TEST(AllanFit, WhatIsNotSeenHasALimitAndALength) {
-  const auto fit = fit_of(test::MadeNoise(7).white(3000, 0.1));
+  const auto fit = fit_of(noise_test::MadeNoise(7).white(3000, 0.1));
   EXPECT_FALSE(fit.flicker.value);
   ASSERT_TRUE(fit.flicker.limit && fit.flicker.needs_s);
   EXPECT_LT(*fit.flicker.limit, 0.02);
@@ -96,9 +97,9 @@ TEST(AllanFit, WhatIsNotSeenHasALimitAndALength) {
   int found = 0;
   const auto length = static_cast<std::size_t>(*fit.walk.needs_s / kPeriod_s);
   for (unsigned seed = 0; seed < 40; ++seed) {
-    test::MadeNoise noise(seed);
+    noise_test::MadeNoise noise(seed);
     const auto walk = noise.walk(length, *fit.walk.limit * std::sqrt(kPeriod_s));
-    found += fit_of(test::sum(noise.white(length, 0.1), walk)).walk.value ? 1 : 0;
+    found += fit_of(noise_test::sum(noise.white(length, 0.1), walk)).walk.value ? 1 : 0;
   }
   EXPECT_GE(found, 12);
 }
@@ -112,8 +113,8 @@ TEST(AllanFit, AFewReadingsNeedMore) {
 }
 
 TEST(AllanFit, AKnownLineIsNotTakenForNoise) {
-  test::MadeNoise noise(4);
-  const auto readings = test::sum(noise.white(20000, 0.1), test::sine(20000, 0.5, 0.24));
+  noise_test::MadeNoise noise(4);
+  const auto readings = noise_test::sum(noise.white(20000, 0.1), noise_test::sine(20000, 0.5, 0.24));
   const auto fit = fit_of(readings, {{0.24 / kPeriod_s, 0.5}});
   ASSERT_TRUE(fit.white.value);
   EXPECT_NEAR(*fit.white.value, 0.1 * std::sqrt(kPeriod_s), 0.1 * std::sqrt(kPeriod_s) * 0.03);

@@ -29,9 +29,9 @@ double allan_by_definition(const Pieces& pieces, std::size_t m) {
 }
 
 TEST(AllanDeviation, IsThatOfTheDefinition) {
-  test::MadeNoise noise(1);
+  noise_test::MadeNoise noise(1);
   for (const std::size_t count : {2UL, 3UL, 17UL, 300UL}) {
-    Pieces pieces{test::sum(noise.white(count, 0.3), noise.walk(count, 0.05))};
+    Pieces pieces{noise_test::sum(noise.white(count, 0.3), noise.walk(count, 0.05))};
     for (auto& value : pieces[0]) value += 1000;
     if (count == 300) pieces.push_back(noise.white(77, 1));
     const auto points = allan_deviation(pieces, 0.02);
@@ -83,11 +83,11 @@ TEST(AllanDeviation, DegreesOfFreedomAreThoseOfManyRecordings) {
   constexpr std::size_t kReadings = 256;
   for (const std::size_t factor : {1UL, 4UL, 32UL}) {
     expect_freedom(NoiseKind::white, factor,
-                   [](unsigned seed) { return test::MadeNoise(seed).white(kReadings, 2); });
+                   [](unsigned seed) { return noise_test::MadeNoise(seed).white(kReadings, 2); });
     expect_freedom(NoiseKind::flicker, factor,
-                   [](unsigned seed) { return test::MadeNoise(seed).flicker(kReadings, 2); });
+                   [](unsigned seed) { return noise_test::MadeNoise(seed).flicker(kReadings, 2); });
     expect_freedom(NoiseKind::random_walk, factor,
-                   [](unsigned seed) { return test::MadeNoise(seed).walk(kReadings, 2); });
+                   [](unsigned seed) { return noise_test::MadeNoise(seed).walk(kReadings, 2); });
   }
 }
 
@@ -96,7 +96,7 @@ TEST(AllanDeviation, TheIntervalHoldsTheTruthIn95Percent) {
   int held[3] = {0, 0, 0};
   const std::size_t factors[3] = {1, 8, 64};
   for (unsigned seed = 0; seed < kTrials; ++seed) {
-    const auto points = allan_deviation({test::MadeNoise(seed).white(500, 1)}, 1);
+    const auto points = allan_deviation({noise_test::MadeNoise(seed).white(500, 1)}, 1);
     for (int i = 0; i < 3; ++i) {
       for (const auto& point : points) {
         const double truth = 1 / std::sqrt(static_cast<double>(point.factor));
@@ -112,7 +112,7 @@ TEST(AllanDeviation, TheIntervalHoldsTheTruthIn95Percent) {
 }
 
 TEST(AllanDeviation, NoIntervalReachesOverAGap) {
-  test::MadeNoise noise(5);
+  noise_test::MadeNoise noise(5);
   auto before = noise.white(200, 1), after = noise.white(200, 1);
   const auto apart = allan_deviation({before, after}, 1);
   for (double& value : after) value += 1000;

@@ -10,7 +10,7 @@
 #include "analysis/noise/series.h"
 
 // Noise with known parameters.
-namespace navcal::analysis::test {
+namespace navcal::analysis::noise_test {
 
 class MadeNoise {
  public:
@@ -78,4 +78,4 @@ inline Series series_of(std::vector<double> values, double period_s, double begi
   return series;
 }
 
-}  // namespace navcal::analysis::test
+}  // namespace navcal::analysis::noise_test

@@ -25,7 +25,7 @@ RecordedChannel recorded(std::string port, std::string_view name, std::vector<do
                           std::string(name),
                           std::string(row(name)->unit),
                           row(name),
-                          test::series_of(std::move(values), 0.05),
+                          noise_test::series_of(std::move(values), 0.05),
                           {}};
   channel.noise = channel_noise(channel.series, {{0, 1e9}});
   return channel;
@@ -47,7 +47,7 @@ NoiseReport report_of(std::vector<RecordedChannel> channels) {
 }
 
 TEST(NoiseSettings, TheFileIsReadAndHoldsWhatWasFound) {
-  test::MadeNoise noise(1);
+  noise_test::MadeNoise noise(1);
   const auto report = report_of({recorded("imu", "rate_x", noise.white(20000, 0.04)),
                                  recorded("imu", "rate_z", noise.white(20000, 0.06)),
                                  recorded("imu", "depth", std::vector<double>(500, 1.0))});
@@ -68,7 +68,7 @@ TEST(NoiseSettings, TheFileIsReadAndHoldsWhatWasFound) {
 }
 
 TEST(NoiseSettings, EveryKeyOfATableRowIsOneOfTheConfiguration) {
-  test::MadeNoise noise(2);
+  noise_test::MadeNoise noise(2);
   std::vector<RecordedChannel> channels;
   for (const auto& channel : noise_channels()) {
     if (!channel.setting.empty()) channels.push_back(recorded("imu", channel.name, noise.white(5000, 0.5)));
@@ -90,7 +90,7 @@ TEST(NoiseSettings, EveryKeyOfATableRowIsOneOfTheConfiguration) {
 }
 
 TEST(NoiseSettings, ThePortOfTheRoleCounts) {
-  test::MadeNoise noise(3);
+  noise_test::MadeNoise noise(3);
   const auto report = report_of(
       {recorded("a", "rate_z", noise.white(5000, 0.1)), recorded("b", "rate_z", noise.white(5000, 0.3))});
   auto settings = settings_with({"a", "b"});
@@ -101,8 +101,8 @@ TEST(NoiseSettings, ThePortOfTheRoleCounts) {
 }
 
 TEST(NoiseSettings, WhatIsOutsideTheRangeOfAKeyIsLeft) {
-  const auto report = report_of({recorded("imu", "rate_z", test::MadeNoise(4).white(5000, 50)),
-                                 recorded("imu", "depth", test::MadeNoise(4).white(5000, 0.5))});
+  const auto report = report_of({recorded("imu", "rate_z", noise_test::MadeNoise(4).white(5000, 50)),
+                                 recorded("imu", "depth", noise_test::MadeNoise(4).white(5000, 0.5))});
   const std::string toml = noise_configuration(report, settings_with({"imu"}));
   EXPECT_NE(toml.find("outside the range"), std::string::npos);
   EXPECT_EQ(config::parse(toml, "written").instruments.imu.gyro_noise_rad_s,

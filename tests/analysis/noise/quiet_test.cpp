@@ -17,9 +17,9 @@ MotionChannel gyro(const Series& series) { return {"imu.rate_z", "deg/s", &serie
 /// Noise with the motion added between two times.
 template <class Motion>
 Series moved(double duration_s, double std, double from_s, double to_s, Motion motion, double filter = 0) {
-  test::MadeNoise noise(11);
+  noise_test::MadeNoise noise(11);
   const auto count = static_cast<std::size_t>(duration_s / kQuietPeriod_s);
-  Series series = test::series_of(noise.filtered(count, std, filter), kQuietPeriod_s);
+  Series series = noise_test::series_of(noise.filtered(count, std, filter), kQuietPeriod_s);
   for (std::size_t i = 0; i < count; ++i) {
     if (series.time_s[i] >= from_s && series.time_s[i] < to_s) series.values[i] += motion(series.time_s[i]);
   }
@@ -71,7 +71,7 @@ TEST(QuietParts, AnotherChannelCanShowTheMotion) {
 }
 
 TEST(QuietParts, AVibrationInAPartEndsIt) {
-  test::MadeNoise more(4);
+  noise_test::MadeNoise more(4);
   const Series series = moved(300, 0.1, 200, 300, [&](double) { return more.white(1, 0.5)[0]; });
   const auto parts = quiet_parts({gyro(series)}, 300);
   ASSERT_EQ(parts.intervals.size(), 1U);
@@ -79,7 +79,7 @@ TEST(QuietParts, AVibrationInAPartEndsIt) {
 }
 
 TEST(QuietParts, AMeanBeyondItsLimitIsMotion) {
-  const Series shaft = test::series_of(std::vector<double>(1000, 700.0), 0.1);
+  const Series shaft = noise_test::series_of(std::vector<double>(1000, 700.0), 0.1);
   const auto parts = quiet_parts({{"motor.rpm", "rpm", &shaft, 1, 1}}, 100);
   EXPECT_TRUE(parts.intervals.empty());
   ASSERT_TRUE(parts.quietest);
@@ -96,8 +96,8 @@ TEST(QuietParts, ShortRecordingsAndNoChannelsHaveNone) {
 }
 
 TEST(QuietParts, ASlowChannelIsJudgedByItsReadings) {
-  test::MadeNoise noise(1);
-  Series compass = test::series_of(noise.white(600, 0.3), 1);
+  noise_test::MadeNoise noise(1);
+  Series compass = noise_test::series_of(noise.white(600, 0.3), 1);
   const auto parts = quiet_parts({{"compass.heading", "deg", &compass, 0.2, {}}}, 600);
   double length_s = 0;
   for (const auto& interval : parts.intervals) length_s += interval.length_s();

@@ -16,7 +16,7 @@ TEST(ReadingNoise, OfWhiteNoiseIsWithinItsErrorInNineteenOfTwenty) {
   constexpr int kTrials = 1000;
   int within = 0, correlated = 0;
   for (unsigned seed = 0; seed < kTrials; ++seed) {
-    const auto noise = reading_noise({test::MadeNoise(seed).white(400, 2)}, 1, {});
+    const auto noise = reading_noise({noise_test::MadeNoise(seed).white(400, 2)}, 1, {});
     ASSERT_TRUE(noise);
     within += std::abs(noise->std - 2) < 1.96 * noise->std_error ? 1 : 0;
     correlated += noise->correlated ? 1 : 0;
@@ -28,7 +28,7 @@ TEST(ReadingNoise, OfWhiteNoiseIsWithinItsErrorInNineteenOfTwenty) {
 
 TEST(ReadingNoise, AFilterShowsItsTimeConstant) {
   for (const double a : {0.3, 0.6, 0.8}) {
-    const auto noise = reading_noise({test::MadeNoise(1).filtered(20000, 2, a)}, 0.1, {});
+    const auto noise = reading_noise({noise_test::MadeNoise(1).filtered(20000, 2, a)}, 0.1, {});
     ASSERT_TRUE(noise);
     EXPECT_TRUE(noise->correlated) << a;
     EXPECT_FALSE(noise->drifts);
@@ -39,7 +39,7 @@ TEST(ReadingNoise, AFilterShowsItsTimeConstant) {
 }
 
 TEST(ReadingNoise, ADriftIsNoFilter) {
-  const auto noise = reading_noise({test::MadeNoise(1).walk(2000, 1)}, 0.1, {});
+  const auto noise = reading_noise({noise_test::MadeNoise(1).walk(2000, 1)}, 0.1, {});
   ASSERT_TRUE(noise);
   EXPECT_TRUE(noise->drifts);
   EXPECT_FALSE(noise->correlated);
@@ -54,7 +54,7 @@ TEST(ReadingNoise, NothingFromTooFewOrEqualReadings) {
 TEST(Resolution, TheStepIsFoundWhereverItsMultiplesLie) {
   for (const double step : {0.1, 0.01, 1.0, 360.0 / 65536, 0.0625 / 187.5}) {
     for (const double std_steps : {0.4, 3.0, 200.0}) {
-      auto values = test::rounded(test::MadeNoise(1).white(3000, std_steps * step), step);
+      auto values = noise_test::rounded(noise_test::MadeNoise(1).white(3000, std_steps * step), step);
       for (double& value : values) value = (value + 7 * step) * 1.7453 / 1.7453;
       const auto found = resolution_of(values);
       ASSERT_TRUE(found) << step << " " << std_steps;
@@ -69,7 +69,7 @@ TEST(Resolution, LevelsThatAreFarApartHaveACommonDivisor) {
 }
 
 TEST(Resolution, OfSinglePrecisionToo) {
-  auto values = test::rounded(test::MadeNoise(2).white(500, 1), 0.1);
+  auto values = noise_test::rounded(noise_test::MadeNoise(2).white(500, 1), 0.1);
   for (double& value : values) value = static_cast<double>(static_cast<float>(value + 120));
   EXPECT_NEAR(resolution_of(values).value_or(0), 0.1, 1e-5);
 }
@@ -77,7 +77,7 @@ TEST(Resolution, OfSinglePrecisionToo) {
 TEST(Resolution, NoneOfContinuousReadingsNorOfOneValue) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     for (const std::size_t count : {3UL, 10UL, 5000UL})
-      EXPECT_FALSE(resolution_of(test::MadeNoise(seed).white(count, 1))) << seed << " " << count;
+      EXPECT_FALSE(resolution_of(noise_test::MadeNoise(seed).white(count, 1))) << seed << " " << count;
   }
   EXPECT_FALSE(resolution_of({}));
   EXPECT_FALSE(resolution_of({5.0, 5.0}));
@@ -86,10 +86,10 @@ TEST(Resolution, NoneOfContinuousReadingsNorOfOneValue) {
 TEST(ChannelNoise, RoundingIsToldApart) {
   const double step = 0.1;
   for (const double std : {0.06, 0.1, 0.3}) {
-    test::MadeNoise made(3);
+    noise_test::MadeNoise made(3);
     auto values = made.white(20000, std);
     for (double& value : values) value += 0.037;
-    const auto noise = channel_noise(test::series_of(test::rounded(values, step), 0.1), {{0, 1e9}});
+    const auto noise = channel_noise(noise_test::series_of(noise_test::rounded(values, step), 0.1), {{0, 1e9}});
     ASSERT_TRUE(noise.resolution && noise.unrounded);
     EXPECT_NEAR(*noise.resolution, step, 1e-9);
     EXPECT_NEAR(*noise.unrounded, std, 3 * *noise.unrounded_error + 0.02 * std) << std;
@@ -98,16 +98,16 @@ TEST(ChannelNoise, RoundingIsToldApart) {
 }
 
 TEST(ChannelNoise, NoiseFarBelowTheStepIsNotStated) {
-  auto values = test::MadeNoise(3).white(5000, 0.02);
+  auto values = noise_test::MadeNoise(3).white(5000, 0.02);
   for (double& value : values) value += 0.05;
-  const auto noise = channel_noise(test::series_of(test::rounded(values, 0.1), 0.1), {{0, 1e9}});
+  const auto noise = channel_noise(noise_test::series_of(noise_test::rounded(values, 0.1), 0.1), {{0, 1e9}});
   ASSERT_TRUE(noise.reading);
   EXPECT_FALSE(noise.unrounded);
   EXPECT_FALSE(noise.to_reckon());
 }
 
 TEST(ChannelNoise, AConstantChannelIsCalledConstant) {
-  const auto noise = channel_noise(test::series_of(std::vector<double>(500, 21.0), 0.1), {{0, 1e9}});
+  const auto noise = channel_noise(noise_test::series_of(std::vector<double>(500, 21.0), 0.1), {{0, 1e9}});
   EXPECT_TRUE(noise.constant);
   EXPECT_FALSE(noise.reading);
   EXPECT_TRUE(noise.allan.empty());
@@ -116,16 +116,16 @@ TEST(ChannelNoise, AConstantChannelIsCalledConstant) {
 TEST(ChannelNoise, CorrelatedReadingsHaveTheirEffectiveNoise) {
   const double a = 0.7;
   const auto noise =
-      channel_noise(test::series_of(test::MadeNoise(8).filtered(50000, 0.2, a), 0.0625), {{0, 1e9}});
+      channel_noise(noise_test::series_of(noise_test::MadeNoise(8).filtered(50000, 0.2, a), 0.0625), {{0, 1e9}});
   ASSERT_TRUE(noise.reading && noise.reading->correlated && noise.effective);
   EXPECT_NEAR(*noise.effective, 0.2 * std::sqrt((1 + a) / (1 - a)), 3 * *noise.effective_error);
   EXPECT_EQ(noise.to_reckon(), noise.effective);
 }
 
 TEST(ChannelNoise, TwoStretchesAndAGapGiveTheNoiseOfBoth) {
-  test::MadeNoise made(9);
-  Series series = test::series_of(made.white(4000, 0.1), 0.02);
-  const Series later = test::series_of(made.white(4000, 0.1), 0.02, 300);
+  noise_test::MadeNoise made(9);
+  Series series = noise_test::series_of(made.white(4000, 0.1), 0.02);
+  const Series later = noise_test::series_of(made.white(4000, 0.1), 0.02, 300);
   series.time_s.insert(series.time_s.end(), later.time_s.begin(), later.time_s.end());
   for (const double value : later.values) series.values.push_back(value + 50);
   const auto noise = channel_noise(series, {{0, 1e9}});
@@ -140,8 +140,8 @@ TEST(ChannelNoise, TwoStretchesAndAGapGiveTheNoiseOfBoth) {
 
 TEST(ChannelNoise, NothingFromNoReadings) {
   EXPECT_EQ(channel_noise({}, {{0, 10}}).readings, 0U);
-  EXPECT_EQ(channel_noise(test::series_of({1, 2, 3}, 1), {}).readings, 0U);
-  const auto three = channel_noise(test::series_of({1, 2.5, 3}, 1), {{0, 10}});
+  EXPECT_EQ(channel_noise(noise_test::series_of({1, 2, 3}, 1), {}).readings, 0U);
+  const auto three = channel_noise(noise_test::series_of({1, 2.5, 3}, 1), {{0, 10}});
   EXPECT_EQ(three.readings, 3U);
   EXPECT_FALSE(three.to_reckon());
   // Times that do not advance.
