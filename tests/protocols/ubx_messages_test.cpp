@@ -71,7 +71,7 @@ TEST(UbxMessages, TheNanosecondMayBeNegative) {
   pvt.date.month = 13;
   EXPECT_FALSE(pvt.utc_ns());
   // Years that nanoseconds in 64 bits do not reach, and those before there were satellites.
-  for (const std::uint16_t year : {53, 1979, 2262, 9999}) {
+  for (const std::uint16_t year : std::initializer_list<std::uint16_t>{53, 1979, 2262, 9999}) {
     pvt.date = {year, 6, 1};
     EXPECT_FALSE(pvt.utc_ns()) << year;
   }
