@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -125,14 +126,20 @@ void add_decode(CLI::App& app) {
   auto arguments = std::make_shared<DecodeArguments>();
   CLI::App* const command =
       app.add_subcommand("decode", "Decode the frames of a raw byte stream, and summarise it");
-  std::vector<std::string> names;
+  std::vector<std::string> names, listed;
   names.reserve(protocols::kDeviceCount);
-  for (const auto& device : protocols::kDeviceTypes) names.emplace_back(device.name);
+  for (const auto& device : protocols::kDeviceTypes) {
+    names.emplace_back(device.name);
+    // Described devices have an option of their own.
+    if (device.protocol != Protocol::described) listed.emplace_back(device.name);
+  }
 
   command
       ->add_option("--protocol", arguments->protocol,
-                   "Protocol of the device; with --port the default is the one in the recording")
-      ->check(CLI::IsMember(names));
+                   fmt::format("Protocol of the device: {}; with --port the default is the one in the recording",
+                               fmt::join(listed, ", ")))
+      ->check(CLI::IsMember(names))
+      ->option_text("NAME");
   command
       ->add_option("--device", arguments->device,
                    "File that describes the device; with --port the default is the description in the log")

@@ -131,7 +131,8 @@ void add_devices(CLI::App& app) {
   auto* const devices = app.add_subcommand("devices", "Devices of your own, described by a file");
   devices->require_subcommand(1);
   devices->footer(
-      "A description says how the bytes of a device are to be read, without a change to the programs.");
+      "A description says how the bytes of a device are to be read, without a change to the programs.\n\n"
+      "Example: navcal devices check imu.toml imu.bin");
   add_check(*devices);
   add_new(*devices);
 }

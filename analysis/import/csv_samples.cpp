@@ -54,7 +54,7 @@ bool is_heading(std::string_view key) { return key == "heading_rad" || key == "c
 
 }  // namespace
 
-CsvSamples::CsvSamples(const config::CsvMap& map) : map_(map) {
+CsvSamples::CsvSamples(const config::CsvMap& map) {
   const auto place_of = [&](CsvMeaning meaning, int instance) -> std::optional<std::size_t> {
     for (std::size_t i = 0; i < map.columns.size(); ++i) {
       if (map.columns[i].meaning == meaning && map.columns[i].instance == instance) return i;

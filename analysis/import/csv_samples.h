@@ -33,7 +33,6 @@ class CsvSamples {
     std::string quantity, unit;  ///< of a sensor
   };
 
-  const config::CsvMap& map_;
   std::vector<Group> groups_;
 };
 

@@ -22,6 +22,12 @@ double pairs_at(const Pieces& pieces, std::size_t lag) {
   return pairs;
 }
 
+std::size_t longest_of(const Pieces& pieces) {
+  std::size_t longest = 1;
+  for (const auto& piece : pieces) longest = std::max(longest, piece.size());
+  return longest;
+}
+
 double without_lines(double gamma, std::size_t lag, double period_s, const std::vector<SpectralLine>& lines) {
   for (const SpectralLine& line : lines) {
     const double phase = 2 * std::numbers::pi * line.frequency_Hz * static_cast<double>(lag) * period_s;
@@ -55,8 +61,11 @@ std::optional<ReadingNoise> reading_noise(const Pieces& pieces, double period_s,
   noise.drifts = significant && noise.lag1 > kDrift && four / two - 1 > kDrift * kDrift;
   noise.correlated = significant && !noise.drifts && std::abs(noise.lag1) > kLeastCorrelation;
   std::size_t level_lag = 1;
-  if (noise.correlated && noise.lag1 > 0) {
-    level_lag = static_cast<std::size_t>(std::ceil(std::log(kForgotten) / std::log(noise.lag1)));
+  if (noise.correlated && noise.lag1 >= 1) {
+    level_lag = longest_of(pieces);  // it does not level off within the readings
+  } else if (noise.correlated && noise.lag1 > 0) {
+    const double level = std::ceil(std::log(kForgotten) / std::log(noise.lag1));
+    level_lag = static_cast<std::size_t>(std::min(level, static_cast<double>(longest_of(pieces))));
     noise.time_constant_s = -period_s / std::log(noise.lag1);
   } else if (noise.correlated) {
     level_lag = 2;

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { read } from "mat-for-js";
 
 const [folder, path] = process.argv.slice(2);
-const TEXTS = ["device", "fix", "error", "calibration", "position", "source", "severity", "name", "port", "message", "json"];
+const TEXTS = ["device", "fix", "error", "calibration", "position", "source", "severity", "name", "port", "message", "json", "speed_source", "frame", "quantity", "unit"];
 const CLOCKS = ["time_s", "arrival_s", "monotonic_s", "offset_s", "at_s"];
 let values = 0;
 

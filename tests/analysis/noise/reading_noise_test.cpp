@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "analysis/noise/channel_noise.h"
 #include "analysis/noise/resolution.h"
@@ -24,6 +26,16 @@ TEST(ReadingNoise, OfWhiteNoiseIsWithinItsErrorInNineteenOfTwenty) {
   EXPECT_GE(within, 0.929 * kTrials);
   EXPECT_LE(within, 0.971 * kTrials);
   EXPECT_LE(correlated, 2);
+}
+
+TEST(ReadingNoise, ASwingWhoseReadingsAllFollowTheOneBeforeEnds) {
+  // Its correlation is one, so that no lag would ever be long enough.
+  std::vector<double> swing;
+  for (int i = 0; i < 300; ++i) swing.push_back(std::sin(i * std::numbers::pi / 3));
+  const auto noise = reading_noise({swing}, 0.1, {});
+  ASSERT_TRUE(noise);
+  EXPECT_TRUE(std::isfinite(noise->std));
+  EXPECT_FALSE(noise->time_constant_s);
 }
 
 TEST(ReadingNoise, AFilterShowsItsTimeConstant) {
