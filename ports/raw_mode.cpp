@@ -9,11 +9,15 @@ namespace navcal::ports {
 namespace {
 
 constexpr std::array kSpeeds{
-    std::pair{300, speed_t{B300}},       std::pair{600, speed_t{B600}},       std::pair{1200, speed_t{B1200}},
-    std::pair{2400, speed_t{B2400}},     std::pair{4800, speed_t{B4800}},     std::pair{9600, speed_t{B9600}},
-    std::pair{19200, speed_t{B19200}},   std::pair{38400, speed_t{B38400}},   std::pair{57600, speed_t{B57600}},
-    std::pair{115200, speed_t{B115200}}, std::pair{230400, speed_t{B230400}}, std::pair{460800, speed_t{B460800}},
-    std::pair{921600, speed_t{B921600}},
+    std::pair{300, speed_t{B300}},         std::pair{600, speed_t{B600}},
+    std::pair{1200, speed_t{B1200}},       std::pair{2400, speed_t{B2400}},
+    std::pair{4800, speed_t{B4800}},       std::pair{9600, speed_t{B9600}},
+    std::pair{19200, speed_t{B19200}},     std::pair{38400, speed_t{B38400}},
+    std::pair{57600, speed_t{B57600}},     std::pair{115200, speed_t{B115200}},
+    std::pair{230400, speed_t{B230400}},   std::pair{460800, speed_t{B460800}},
+    std::pair{921600, speed_t{B921600}},   std::pair{1000000, speed_t{B1000000}},
+    std::pair{1500000, speed_t{B1500000}}, std::pair{2000000, speed_t{B2000000}},
+    std::pair{3000000, speed_t{B3000000}}, std::pair{4000000, speed_t{B4000000}},
 };
 
 }  // namespace
