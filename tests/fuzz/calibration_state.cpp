@@ -19,7 +19,7 @@ std::string saved_state() {
     rate.time_s = t;
     rate.rate_rad_s.z() = 0.2;
     rate.yaw_rate_b_rad_s = 0.21;
-    rate.specific_force_m_s2.z() = -9.81 + 1e-4 * k;
+    rate.specific_force_m_s2 = Eigen::Vector3d(0, 0, -9.81 + 1e-4 * k);
     suite.put(rate);
     if (k % 2 == 1) continue;
     CompassReading compass;

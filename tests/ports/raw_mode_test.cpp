@@ -7,7 +7,8 @@ namespace navcal::ports {
 namespace {
 
 TEST(RawMode, SpeedsOfTheDevicesHaveConstantsBothWays) {
-  for (const int baud : {300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600, 1000000, 4000000}) {
+  for (const int baud :
+       {300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600, 1000000, 4000000}) {
     const auto speed = speed_constant(baud);
     ASSERT_TRUE(speed) << baud;
     EXPECT_EQ(baud_of(*speed), baud);
