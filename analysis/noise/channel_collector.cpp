@@ -18,11 +18,7 @@ void ChannelCollector::on_sample(const instruments::Sample& sample) {
   if (!begin_ns_) begin_ns_ = sample.stamp.validity_ns;
   const double time_s = base::seconds(sample.stamp.validity_ns - *begin_ns_);
   end_s_ = std::max(end_s_, time_s);
-  // Without a mapping UTC can lie at the end of what 64 bits hold.
-  std::int64_t begin_utc_ns = 0;
-  const std::int64_t since_begin_ns = sample.stamp.validity_ns - *begin_ns_;
-  if (!__builtin_sub_overflow(sample.stamp.validity_utc_ns, since_begin_ns, &begin_utc_ns))
-    begin_utc_ns_ = begin_utc_ns;
+  begin_utc_ns_ = sample.stamp.validity_utc_ns - (sample.stamp.validity_ns - *begin_ns_);
   ChannelOrigin origin;
   if (const auto* gps = std::get_if<instruments::GpsSample>(&sample.value); gps != nullptr) {
     if (!is_settled(sample.port, *gps, time_s)) return;
