@@ -89,9 +89,10 @@ TEST_F(CollectedChannels, AMissionSensorHasItsOwnNameAndUnit) {
 
 TEST_F(CollectedChannels, NumbersThatAreNoneAreLeftOut) {
   instruments::AltimeterSample reading;
+  double time_s = 0;
   for (const double value : {1.0, std::numeric_limits<double>::quiet_NaN(), HUGE_VAL, 2.0}) {
     reading.altitude_m = value;
-    take(value, reading);
+    take(++time_s, reading);
   }
   EXPECT_EQ(channels().at("altitude").series.values, (std::vector<double>{1, 2}));
 }
