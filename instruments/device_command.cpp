@@ -30,7 +30,7 @@ struct Step {
   std::int64_t wait_ns = 0;  ///< until the next step, or longest wait for the answer
 };
 
-/// What is sent, step by step. The last step asks and is repeated.
+/// The bytes to send, step by step. The last step asks and is repeated.
 struct Script {
   std::vector<Step> steps;
   int attempts = 1;

@@ -34,7 +34,7 @@ class MipSensor final : public Instrument {
                                          std::optional<std::int64_t> device_time_ns) const;
 
   bool sensor_paces_ = false;  ///< rates or forces have come in set 80
-  /// Of set 80, since the filter gave a heading.
+  /// Packets of set 80 since the filter gave a heading.
   int packets_since_heading_ = kHeadingLost;
   std::optional<Tilt> filter_tilt_;
   std::optional<std::int64_t> increments_ns_;  ///< device time of the newest increments

@@ -26,7 +26,8 @@ std::optional<std::int64_t> age_ns(const water_linked::Velocity& velocity) {
 /// A tilt serves so many velocities; the instrument sends as many lines of either kind.
 constexpr int kTiltServes = 10;
 
-/// Of the axis with the largest variance; else the figure of merit. nullopt when both are zero, as in old lines.
+/// Standard error of the axis with the largest variance; else the figure of merit. nullopt when both are zero, as
+/// in old lines.
 std::optional<double> stated_std_m_s(const water_linked::Velocity& velocity) {
   double variance_m2_s2 = 0;
   if (const auto& covariance = velocity.covariance_m2_s2)

@@ -75,7 +75,7 @@ class Navigator {
   [[nodiscard]] const HeldVelocity* held_velocity() const;
   [[nodiscard]] Eigen::Vector3d measured_m_s(const HeldVelocity& held) const;
   [[nodiscard]] bool direction_known(const HeldVelocity& held) const;
-  /// Of an instrument at that place, by the turning of the vehicle, in this frame.
+  /// Velocity of an instrument at that place, by the turning of the vehicle, in this frame.
   [[nodiscard]] Eigen::Vector3d arm_velocity_m_s(const Pose& pose, const Eigen::Vector3d& position_m,
                                                  VelocityFrame frame) const;
   template <class VelocityReading>

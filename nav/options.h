@@ -31,7 +31,7 @@ struct ReckoningOptions {
   double unknown_speed_m_s = 1.5;        ///< how fast it may go when nothing tells how fast it goes
 };
 
-/// Of a DVL.
+/// Errors of a DVL.
 struct VelocityOptions {
   double scale_error = 0.005;                         ///< relative, the same all along; one standard deviation
   double alignment_error_rad = 0.008726646259971648;  ///< of its axes about the vehicle's z axis; one std

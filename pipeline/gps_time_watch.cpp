@@ -15,7 +15,7 @@ constexpr double kJump_s = 0.9;       // of what is stated against what is obser
 constexpr int kJumpsToBelieve = 4;    // in a row
 constexpr double kEarly_s = 0.1;
 constexpr double kBoundSigmas = 3;
-/// By which the epoch of a receiver may lie beside the second. A u-blox receiver keeps its clock within half a
+/// The epoch of a receiver may lie beside the second by this much. A u-blox receiver keeps its clock within half a
 /// millisecond and states the exact time.
 constexpr std::int64_t kBeside_ns = 2'000'000;
 

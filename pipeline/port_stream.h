@@ -57,7 +57,7 @@ class PortStream : private instruments::Receiver {
   // Sink of the frame being read; set only during a call.
   Sink* sink_ = nullptr;
   ArrivalTrack::Frame place_;
-  // Of the frame being read, once one of its samples paces: the others of the same frame have the same time.
+  // Time of the frame being read, once one of its samples paces: the others of the same frame have it, too.
   std::optional<instruments::TimeEstimate> paced_;
   bool repeated_ = false;
 };

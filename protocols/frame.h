@@ -13,7 +13,7 @@ namespace navcal::protocols {
 using Bytes = std::span<const std::uint8_t>;
 
 /// The name of a kind of frame as people write it: "Ea", "WORD", "GPGGA", "PTNTHTM"; at most sixteen characters.
-/// Of fixed size, so that it copies and compares without memory of its own.
+/// Its size is fixed, so that it copies and compares without memory of its own.
 class FrameId {
  public:
   constexpr FrameId() = default;
