@@ -46,6 +46,14 @@ class Receiver {
   virtual void on_measurement(const Measurement& measurement) = 0;
 };
 
+/// Hands over a value of which nothing else is known. `paces` as in Measurement.
+inline void hand_over(const Value& value, Receiver& receiver, bool paces = true) {
+  Measurement measurement;
+  measurement.value = value;
+  measurement.paces = paces;
+  receiver.on_measurement(measurement);
+}
+
 /// One device: converts frames to SI units by configuration. Its state is only what spans frames (epochs, leap
 /// seconds). No clock.
 class Instrument {

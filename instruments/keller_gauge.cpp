@@ -19,9 +19,7 @@ Instrument::Verdict KellerGauge::read(const protocols::Frame& frame, Receiver& r
     return Verdict::out_of_range;
   DepthSample sample;
   sample.pressure_Pa = pressure_Pa;
-  Measurement measurement;
-  measurement.value = sample;
-  receiver.on_measurement(measurement);
+  hand_over(sample, receiver);
   return Verdict::used;
 }
 

@@ -14,15 +14,12 @@ namespace {
 namespace nmea = protocols::nmea;
 using Verdict = Instrument::Verdict;
 
-Verdict hand_over(const Value& value, bool paces, Receiver& receiver) {
-  Measurement measurement;
-  measurement.value = value;
-  measurement.paces = paces;
-  receiver.on_measurement(measurement);
+Verdict give(const Value& value, bool paces, Receiver& receiver) {
+  hand_over(value, receiver, paces);
   return Verdict::used;
 }
 
-void hand_over(const GpsSample& sample, Receiver& receiver) {
+void give_epoch(const GpsSample& sample, Receiver& receiver) {
   Measurement measurement;
   measurement.value = sample;
   measurement.stated_utc_ns = sample.time_utc_ns;
@@ -36,7 +33,7 @@ Verdict read_rot(const nmea::Sentence& sentence, Receiver& receiver) {
   if (!rot->valid || !rot->rate_deg_min) return Verdict::ignored;
   CompassSample sample;
   sample.turn_rate_rad_s = rot->rate_deg_min->value() * base::kRadiansPerDegree / 60;
-  return hand_over(sample, false, receiver);
+  return give(sample, false, receiver);
 }
 
 constexpr double kMaxVoltage_V = 1000;
@@ -76,16 +73,16 @@ Verdict read_xdr(const nmea::Sentence& sentence, Receiver& receiver) {
     if (transducer.name == "ROLL") sample.roll_rad = angle_rad;
   }
   const bool has_power = power.voltage_V || power.current_A;
-  if (has_power) hand_over(power, false, receiver);
+  if (has_power) give(power, false, receiver);
   if (!sample.pitch_rad && !sample.roll_rad) return has_power ? Verdict::used : Verdict::ignored;
-  return hand_over(sample, false, receiver);
+  return give(sample, false, receiver);
 }
 
 Verdict read_depth(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) {
   const auto depth = nmea::decode_depth(sentence, type);
   if (!depth) return Verdict::out_of_range;
   if (!depth->depth_m) return Verdict::ignored;
-  return hand_over(AltimeterSample{*depth->depth_m, {}}, true, receiver);
+  return give(AltimeterSample{*depth->depth_m, {}}, true, receiver);
 }
 
 }  // namespace
@@ -115,7 +112,7 @@ Verdict NmeaDevice::read(const protocols::Frame& frame, Receiver& receiver) {
       const auto gsv = nmea::decode_gsv(sentence);
       if (!gsv) return Verdict::out_of_range;
       const auto sky = sky_.add(sentence.address(), *gsv);
-      return sky ? hand_over(*sky, false, receiver) : Verdict::used;
+      return sky ? give(*sky, false, receiver) : Verdict::used;
     }
     default:
       return read_position(sentence, type, receiver);
@@ -128,8 +125,8 @@ Verdict NmeaDevice::read_position(const nmea::Sentence& sentence, nmea::Type typ
   }
   const auto outcome = epoch_.add(sentence, type);
   if (!outcome.in_range) return Verdict::out_of_range;
-  if (outcome.closed) hand_over(*outcome.closed, receiver);
-  if (outcome.sample) hand_over(*outcome.sample, receiver);
+  if (outcome.closed) give_epoch(*outcome.closed, receiver);
+  if (outcome.sample) give_epoch(*outcome.sample, receiver);
   return Verdict::used;
 }
 
@@ -140,7 +137,7 @@ Verdict NmeaDevice::read_heading(const nmea::Sentence& sentence, nmea::Type type
   CompassSample sample;
   sample.heading_rad = heading->heading_deg->value() * base::kRadiansPerDegree;
   sample.heading_is_true = heading->is_true;
-  return hand_over(sample, true, receiver);
+  return give(sample, true, receiver);
 }
 
 Verdict NmeaDevice::read_ptnthtm(const nmea::Sentence& sentence, Receiver& receiver) const {
@@ -154,7 +151,7 @@ Verdict NmeaDevice::read_ptnthtm(const nmea::Sentence& sentence, Receiver& recei
   sample.pitch_rad = angle(tnt->pitch, compass_.tilt_unit);
   sample.roll_rad = angle(tnt->roll, compass_.tilt_unit);
   sample.dip_rad = angle(tnt->dip, compass_.tilt_unit);
-  return hand_over(sample, true, receiver);
+  return give(sample, true, receiver);
 }
 
 }  // namespace navcal::instruments

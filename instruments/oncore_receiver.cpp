@@ -92,10 +92,7 @@ void OncoreReceiver::read_visible(const oncore::VisibleSatellites& visible, Rece
       satellite.used = channel->mode == kUsedForPosition;
     }
   }
-  Measurement measurement;
-  measurement.value = sky;
-  measurement.paces = false;
-  receiver.on_measurement(measurement);
+  hand_over(sky, receiver, false);
 }
 
 }  // namespace navcal::instruments

@@ -33,9 +33,7 @@ Instrument::Verdict ParoscientificGauge::read(const protocols::Frame& frame, Rec
   if (!is_possible_pressure(pressure_Pa)) return Verdict::out_of_range;
   DepthSample sample;
   sample.pressure_Pa = pressure_Pa;
-  Measurement measurement;
-  measurement.value = sample;
-  receiver.on_measurement(measurement);
+  hand_over(sample, receiver);
   return Verdict::used;
 }
 

@@ -71,13 +71,6 @@ std::optional<Pd0Velocity> vehicle_velocity(const BeamValues& sent, const Pd0Pos
   }
 }
 
-void hand_over_aside(const Value& value, Receiver& receiver) {
-  Measurement measurement;
-  measurement.value = value;
-  measurement.paces = false;
-  receiver.on_measurement(measurement);
-}
-
 /// False when an angle cannot be.
 bool read_attitude(const pd0::Ensemble& ensemble, Receiver& receiver) {
   const pd0::FixedLeader& fixed = *ensemble.fixed;
@@ -96,7 +89,7 @@ bool read_attitude(const pd0::Ensemble& ensemble, Receiver& receiver) {
     sample.roll_rad = variable.roll_deg * base::kRadiansPerDegree;
     sample.pitch_rad = euler_pitch_rad(variable.pitch_deg * base::kRadiansPerDegree, *sample.roll_rad);
   }
-  hand_over_aside(sample, receiver);
+  hand_over(sample, receiver, false);
   return true;
 }
 
@@ -108,7 +101,7 @@ void read_pressure(const pd0::Ensemble& ensemble, Receiver& receiver) {
   } else {
     sample.depth_m = ensemble.variable->depth_m;
   }
-  hand_over_aside(sample, receiver);
+  hand_over(sample, receiver, false);
 }
 
 }  // namespace
@@ -150,9 +143,7 @@ Instrument::Verdict Pd0Log::read(const protocols::Frame& frame, Receiver& receiv
   sample.sound_speed_m_s = ensemble.variable->speed_of_sound_m_s;
   can_be = clear_of_impossible(sample) && can_be;
 
-  Measurement measurement;
-  measurement.value = sample;
-  receiver.on_measurement(measurement);
+  hand_over(sample, receiver);
   return can_be ? Verdict::used : Verdict::out_of_range;
 }
 

@@ -46,10 +46,7 @@ Instrument::Verdict Pd6Log::read_attitude(protocols::Bytes line, Receiver& recei
   sample.heading_rad = base::as_heading(attitude->heading_deg * base::kRadiansPerDegree);
   sample.pitch_rad = attitude->pitch_deg * base::kRadiansPerDegree;
   sample.roll_rad = attitude->roll_deg * base::kRadiansPerDegree;
-  Measurement measurement;
-  measurement.value = sample;
-  measurement.paces = false;
-  receiver.on_measurement(measurement);
+  hand_over(sample, receiver, false);
   return Verdict::used;
 }
 
@@ -90,9 +87,7 @@ Instrument::Verdict Pd6Log::close(protocols::Bytes line, Receiver& receiver) {
   sample.temperature_C = ping.temperature_C;
   sample.sound_speed_m_s = ping.sound_speed_m_s;
   const bool can_be = clear_of_impossible(sample);
-  Measurement measurement;
-  measurement.value = sample;
-  receiver.on_measurement(measurement);
+  hand_over(sample, receiver);
   return can_be ? Verdict::used : Verdict::out_of_range;
 }
 

@@ -196,6 +196,10 @@ void StartUpUbx::next_port(std::int64_t now_ns) {
   attempts_ = 0;
   due_ns_ = now_ns;
   if (step_ < values_.size()) return;
+  rest(now_ns);
+}
+
+void StartUpUbx::rest(std::int64_t now_ns) {
   ++fruitless_;
   phase_ = Phase::resting;
   due_ns_ = now_ns + kUbxRest_ns;
@@ -217,9 +221,7 @@ std::optional<std::vector<std::uint8_t>> StartUpUbx::next(std::int64_t now_ns) {
         next_port(now_ns);
         return phase_ == Phase::setting ? send(now_ns) : std::nullopt;
       }
-      ++fruitless_;
-      phase_ = Phase::resting;
-      due_ns_ = now_ns + kUbxRest_ns;
+      rest(now_ns);
       return std::nullopt;
     case Phase::resting:
     case Phase::running:

@@ -51,6 +51,8 @@ class StartUpUbx final : public StartUp {
   void on_answer(bool accepted, std::int64_t now_ns);
   void go_on(std::int64_t now_ns);
   void next_port(std::int64_t now_ns);
+  /// Nothing helped: all is repeated after a while.
+  void rest(std::int64_t now_ns);
   [[nodiscard]] const Step* current() const;
   std::optional<std::vector<std::uint8_t>> send(std::int64_t now_ns);
 

@@ -32,9 +32,7 @@ Instrument::Verdict Tcm2Compass::read(const protocols::Frame& frame, Receiver& r
   } else {
     return Verdict::ignored;
   }
-  Measurement measurement;
-  measurement.value = sample;
-  receiver.on_measurement(measurement);
+  hand_over(sample, receiver);
   return Verdict::used;
 }
 

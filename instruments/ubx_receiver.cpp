@@ -112,10 +112,7 @@ Instrument::Verdict UbxReceiver::read(const protocols::Frame& frame, Receiver& r
     case ubx::kNavSat: {
       const auto sat = ubx::decode_nav_sat(frame.bytes);
       if (!sat) return Verdict::out_of_range;
-      Measurement measurement;
-      measurement.value = sky_of(*sat);
-      measurement.paces = false;
-      receiver.on_measurement(measurement);
+      hand_over(sky_of(*sat), receiver, false);
       return Verdict::used;
     }
     default:
