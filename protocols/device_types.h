@@ -26,6 +26,19 @@ struct Delivery {
   bool water_velocity = false;
 };
 
+/// For devices of which anything can come.
+inline constexpr Delivery kEverything{.heading = true,
+                                      .field = true,
+                                      .rates = true,
+                                      .acceleration = true,
+                                      .depth = true,
+                                      .position = true,
+                                      .velocity = true,
+                                      .shaft = true,
+                                      .altitude = true,
+                                      .bottom_velocity = true,
+                                      .water_velocity = true};
+
 /// The tables of options that a port of this device has: [port.NAME.units], [port.NAME.channels], [port.NAME.fix].
 struct OptionTables {
   bool units = false;
@@ -163,17 +176,7 @@ constexpr DeviceType device_row(Protocol protocol) {
       return {.name = "samples",
               .baud = 4'000'000,
               .latency_std_s = 0.010,
-              .delivers = {.heading = true,
-                           .field = true,
-                           .rates = true,
-                           .acceleration = true,
-                           .depth = true,
-                           .position = true,
-                           .velocity = true,
-                           .shaft = true,
-                           .altitude = true,
-                           .bottom_velocity = true,
-                           .water_velocity = true},
+              .delivers = kEverything,
               .delivers_always = false};
     case Protocol::paroscientific:
       // As delivered it integrates for 0.67 s and sends the mean.
@@ -191,17 +194,7 @@ constexpr DeviceType device_row(Protocol protocol) {
       return {.name = "described",
               .baud = 9600,
               .latency_std_s = 0.050,
-              .delivers = {.heading = true,
-                           .field = true,
-                           .rates = true,
-                           .acceleration = true,
-                           .depth = true,
-                           .position = true,
-                           .velocity = true,
-                           .shaft = true,
-                           .altitude = true,
-                           .bottom_velocity = true,
-                           .water_velocity = true},
+              .delivers = kEverything,
               .delivers_always = false};
   }
   return {};

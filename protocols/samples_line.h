@@ -71,7 +71,7 @@ class Fields {
   /// A list of three, each a number or null.
   [[nodiscard]] std::array<std::optional<double>, 3> three(std::string_view key, Bounds bounds);
   [[nodiscard]] std::optional<bool> boolean(std::string_view key);
-  /// With its escapes resolved, in UTF-8.
+  /// The text with its escapes resolved, in UTF-8.
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   /// Seconds in plain decimals, not negative, below 9e9; digits beyond the ninth decimal are dropped.
   [[nodiscard]] std::optional<std::int64_t> nanoseconds(std::string_view key);
@@ -99,7 +99,7 @@ class LineWriter {
   LineWriter& number(std::string_view key, double value);
   LineWriter& number(std::string_view key, const std::optional<double>& value);
   LineWriter& vector(std::string_view key, const std::array<double, 3>& values);
-  /// What is no UTF-8 becomes U+FFFD.
+  /// Bytes that are no UTF-8 become U+FFFD.
   LineWriter& text(std::string_view key, std::string_view value);
   LineWriter& boolean(std::string_view key, bool value);
   /// The whole line with its end. The writer is empty afterwards.

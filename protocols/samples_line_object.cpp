@@ -88,7 +88,7 @@ class Cursor {
     rest_.remove_prefix(length + 1);
     return inside;
   }
-  /// Of the escape at `i`, with its backslash; 0 when it is none.
+  /// Length of the escape at `i`, with its backslash; 0 when it is none.
   [[nodiscard]] std::size_t escape_length(std::size_t i) const {
     if (i + 1 >= rest_.size()) return 0;
     if (std::string_view("\"\\/bfnrt").find(rest_[i + 1]) != std::string_view::npos) return 2;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_topics.h"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -21,130 +22,53 @@ constexpr std::array kEvent{Field{"time", number, "s"}, Field{"monotonic", numbe
 
 constexpr std::array kSomeJson{Field{"time", number, "s"}};
 
-constexpr std::array kCompass{Field{"time", number, "s"},
-                              Field{"time_std", number, "s"},
-                              Field{"arrival", number, "s"},
-                              Field{"device", text},
-                              Field{"heading_rad"},
-                              Field{"heading_calibrated_rad"},
-                              Field{"heading_is_true", boolean},
-                              Field{"pitch_rad"},
-                              Field{"roll_rad"},
-                              Field{"field_body_uT", vector3},
-                              Field{"dip_rad"},
-                              Field{"turn_rate_rad_s"},
-                              Field{"temperature_C"},
-                              Field{"error", text},
-                              Field{"tilt_by_accelerometers", boolean},
-                              Field{"heading_std_rad"},
-                              Field{"tilt_std_rad"},
-                              Field{"field_std_uT"},
-                              Field{"calibration", text}};
+/// The members that all samples have, around those of their own.
+template <std::size_t N>
+constexpr std::array<Field, N + 5> sample_fields(const Field (&own)[N]) {
+  std::array<Field, N + 5> fields{Field{"time", number, "s"}, Field{"time_std", number, "s"},
+                                  Field{"arrival", number, "s"}, Field{"device", text}};
+  std::copy(own, own + N, fields.begin() + 4);
+  fields.back() = Field{"calibration", text};
+  return fields;
+}
 
-constexpr std::array kImu{Field{"time", number, "s"},
-                          Field{"time_std", number, "s"},
-                          Field{"arrival", number, "s"},
-                          Field{"device", text},
-                          Field{"rate_rad_s", vector3},
-                          Field{"yaw_rate_b_rad_s"},
-                          Field{"yaw_rate_calibrated_rad_s"},
-                          Field{"yaw_rate_b_calibrated_rad_s"},
-                          Field{"specific_force_m_s2", vector3},
-                          Field{"depth_m"},
-                          Field{"sequence"},
-                          Field{"leak_forward", boolean},
-                          Field{"leak_aft", boolean},
-                          Field{"low_supply", boolean},
-                          Field{"over_range", boolean},
-                          Field{"temperature_C"},
-                          Field{"rate_std_rad_s"},
-                          Field{"specific_force_std_m_s2"},
-                          Field{"depth_std_m"},
-                          Field{"calibration", text}};
+constexpr auto kCompass = sample_fields(
+    {Field{"heading_rad"}, Field{"heading_calibrated_rad"}, Field{"heading_is_true", boolean}, Field{"pitch_rad"},
+     Field{"roll_rad"}, Field{"field_body_uT", vector3}, Field{"dip_rad"}, Field{"turn_rate_rad_s"},
+     Field{"temperature_C"}, Field{"error", text}, Field{"tilt_by_accelerometers", boolean},
+     Field{"heading_std_rad"}, Field{"tilt_std_rad"}, Field{"field_std_uT"}});
 
-constexpr std::array kGps{Field{"time", number, "s"},
-                          Field{"time_std", number, "s"},
-                          Field{"arrival", number, "s"},
-                          Field{"device", text},
-                          Field{"lat", number, "deg"},
-                          Field{"lon", number, "deg"},
-                          Field{"speed_m_s"},
-                          Field{"course_rad"},
-                          Field{"fix", text},
-                          Field{"height_m"},
-                          Field{"height_msl_m"},
-                          Field{"climb_m_s"},
-                          Field{"dop"},
-                          Field{"visible"},
-                          Field{"tracked"},
-                          Field{"time_corrected", boolean},
-                          Field{"leap_known", boolean},
-                          Field{"position_std_m"},
-                          Field{"height_std_m"},
-                          Field{"velocity_std_m_s"},
-                          Field{"calibration", text}};
+constexpr auto kImu =
+    sample_fields({Field{"rate_rad_s", vector3}, Field{"yaw_rate_b_rad_s"}, Field{"yaw_rate_calibrated_rad_s"},
+                   Field{"yaw_rate_b_calibrated_rad_s"}, Field{"specific_force_m_s2", vector3}, Field{"depth_m"},
+                   Field{"sequence"}, Field{"leak_forward", boolean}, Field{"leak_aft", boolean},
+                   Field{"low_supply", boolean}, Field{"over_range", boolean}, Field{"temperature_C"},
+                   Field{"rate_std_rad_s"}, Field{"specific_force_std_m_s2"}, Field{"depth_std_m"}});
 
-constexpr std::array kMotor{Field{"time", number, "s"},
-                            Field{"time_std", number, "s"},
-                            Field{"arrival", number, "s"},
-                            Field{"device", text},
-                            Field{"rpm"},
-                            Field{"rpm_commanded"},
-                            Field{"fins_rad", vector3},
-                            Field{"current_A"},
-                            Field{"sequence"},
-                            Field{"fins_std_rad"},
-                            Field{"current_std_A"},
-                            Field{"calibration", text}};
+constexpr auto kGps = sample_fields(
+    {Field{"lat", number, "deg"}, Field{"lon", number, "deg"}, Field{"speed_m_s"}, Field{"course_rad"},
+     Field{"fix", text}, Field{"height_m"}, Field{"height_msl_m"}, Field{"climb_m_s"}, Field{"dop"},
+     Field{"visible"}, Field{"tracked"}, Field{"time_corrected", boolean}, Field{"leap_known", boolean},
+     Field{"position_std_m"}, Field{"height_std_m"}, Field{"velocity_std_m_s"}});
 
-constexpr std::array kAltimeter{Field{"time", number, "s"},    Field{"time_std", number, "s"},
-                                Field{"arrival", number, "s"}, Field{"device", text},
-                                Field{"altitude_m"},           Field{"altitude_std_m"},
-                                Field{"calibration", text}};
+constexpr auto kMotor =
+    sample_fields({Field{"rpm"}, Field{"rpm_commanded"}, Field{"fins_rad", vector3}, Field{"current_A"},
+                   Field{"sequence"}, Field{"fins_std_rad"}, Field{"current_std_A"}});
 
-constexpr std::array kPower{Field{"time", number, "s"},
-                            Field{"time_std", number, "s"},
-                            Field{"arrival", number, "s"},
-                            Field{"device", text},
-                            Field{"voltage_V"},
-                            Field{"current_A"},
-                            Field{"calibration", text}};
+constexpr auto kAltimeter = sample_fields({Field{"altitude_m"}, Field{"altitude_std_m"}});
 
-constexpr std::array kDvl{Field{"time", number, "s"},
-                          Field{"time_std", number, "s"},
-                          Field{"arrival", number, "s"},
-                          Field{"device", text},
-                          Field{"frame", text},
-                          Field{"bottom_velocity_m_s", vector3},
-                          Field{"bottom_velocity_std_m_s"},
-                          Field{"water_velocity_m_s", vector3},
-                          Field{"water_velocity_std_m_s"},
-                          Field{"altitude_m"},
-                          Field{"altitude_std_m"},
-                          Field{"temperature_C"},
-                          Field{"sound_speed_m_s"},
-                          Field{"calibration", text}};
+constexpr auto kPower = sample_fields({Field{"voltage_V"}, Field{"current_A"}});
 
-constexpr std::array kDepth{Field{"time", number, "s"},
-                            Field{"time_std", number, "s"},
-                            Field{"arrival", number, "s"},
-                            Field{"device", text},
-                            Field{"depth_m"},
-                            Field{"depth_std_m"},
-                            Field{"pressure_Pa"},
-                            Field{"pressure_std_Pa"},
-                            Field{"temperature_C"},
-                            Field{"calibration", text}};
+constexpr auto kDvl =
+    sample_fields({Field{"frame", text}, Field{"bottom_velocity_m_s", vector3}, Field{"bottom_velocity_std_m_s"},
+                   Field{"water_velocity_m_s", vector3}, Field{"water_velocity_std_m_s"}, Field{"altitude_m"},
+                   Field{"altitude_std_m"}, Field{"temperature_C"}, Field{"sound_speed_m_s"}});
 
-constexpr std::array kSensor{Field{"time", number, "s"},
-                             Field{"time_std", number, "s"},
-                             Field{"arrival", number, "s"},
-                             Field{"device", text},
-                             Field{"quantity", text},
-                             Field{"unit", text},
-                             Field{"value"},
-                             Field{"value_std"},
-                             Field{"calibration", text}};
+constexpr auto kDepth = sample_fields({Field{"depth_m"}, Field{"depth_std_m"}, Field{"pressure_Pa"},
+                                       Field{"pressure_std_Pa"}, Field{"temperature_C"}});
+
+constexpr auto kSensor =
+    sample_fields({Field{"quantity", text}, Field{"unit", text}, Field{"value"}, Field{"value_std"}});
 
 constexpr std::array kBattery{Field{"time", number, "s"},
                               Field{"time_std", number, "s"},
@@ -161,46 +85,41 @@ constexpr std::array kBattery{Field{"time", number, "s"},
                               Field{"range_left_m"},
                               Field{"low", boolean}};
 
-constexpr std::array kNav{Field{"time", number, "s"},
-                          Field{"time_std", number, "s"},
-                          Field{"arrival", number, "s"},
-                          Field{"device", text},
-                          Field{"position", text},
-                          Field{"lat", number, "deg"},
-                          Field{"lon", number, "deg"},
-                          Field{"north_std_m"},
-                          Field{"east_std_m"},
-                          Field{"since_fix_s"},
-                          Field{"since_fix_m"},
-                          Field{"depth_m"},
-                          Field{"heading_rad"},
-                          Field{"heading_std_rad"},
-                          Field{"pitch_rad"},
-                          Field{"roll_rad"},
-                          Field{"speed_m_s"},
-                          Field{"speed_source", text},
-                          Field{"bottom_lock", boolean},
-                          Field{"dvl_outliers"},
-                          Field{"velocity_m_s", vector3},
-                          Field{"set_north_m_s"},
-                          Field{"set_east_m_s"},
-                          Field{"altitude_m"},
-                          Field{"altitude_std_m"},
-                          Field{"water_depth_m"},
-                          Field{"outage_s"},
-                          Field{"outage_m"},
-                          Field{"outage_error_m"},
-                          Field{"outage_std_m"},
-                          Field{"outage_error_uncalibrated_m"},
-                          Field{"submerged_s"},
-                          Field{"deepest_m"},
-                          Field{"ttff_s"},
-                          Field{"fix_visible"},
-                          Field{"fix_tracked"},
-                          Field{"fix_dop"},
-                          Field{"predicted_error_m"},
-                          Field{"surface_within_s"},
-                          Field{"calibration", text}};
+constexpr auto kNav = sample_fields({Field{"position", text},
+                                     Field{"lat", number, "deg"},
+                                     Field{"lon", number, "deg"},
+                                     Field{"north_std_m"},
+                                     Field{"east_std_m"},
+                                     Field{"since_fix_s"},
+                                     Field{"since_fix_m"},
+                                     Field{"depth_m"},
+                                     Field{"heading_rad"},
+                                     Field{"heading_std_rad"},
+                                     Field{"pitch_rad"},
+                                     Field{"roll_rad"},
+                                     Field{"speed_m_s"},
+                                     Field{"speed_source", text},
+                                     Field{"bottom_lock", boolean},
+                                     Field{"dvl_outliers"},
+                                     Field{"velocity_m_s", vector3},
+                                     Field{"set_north_m_s"},
+                                     Field{"set_east_m_s"},
+                                     Field{"altitude_m"},
+                                     Field{"altitude_std_m"},
+                                     Field{"water_depth_m"},
+                                     Field{"outage_s"},
+                                     Field{"outage_m"},
+                                     Field{"outage_error_m"},
+                                     Field{"outage_std_m"},
+                                     Field{"outage_error_uncalibrated_m"},
+                                     Field{"submerged_s"},
+                                     Field{"deepest_m"},
+                                     Field{"ttff_s"},
+                                     Field{"fix_visible"},
+                                     Field{"fix_tracked"},
+                                     Field{"fix_dop"},
+                                     Field{"predicted_error_m"},
+                                     Field{"surface_within_s"}});
 
 constexpr std::array kCommandFields{Field{"time", number, "s"},   Field{"monotonic", number, "s"},
                                     Field{"device", text},        Field{"outcome", text},
