@@ -97,7 +97,7 @@ class PniProcess : public testing::Test {
     return json::parse(control_->line().value());
   }
   json reported() { return json::parse(watcher_->line_with("\"pni\":"))["pni"]; }
-  /// What is reported once its state contains `words`, or at last.
+  /// The report whose state first contains `words`; else the last one.
   json reported_with(PniAtLine& compass, const std::string& words) {
     json pni = reported();
     for (int i = 0; i < 300 && pni["state"].get<std::string>().find(words) == std::string::npos; ++i) {

@@ -100,7 +100,7 @@ TEST(DeviceClock, AFrameThatDoesNotPaceHasItsOwnTime) {
   for (int i = 0; i < 2000; ++i) {
     clock.update(device.frame_at(i * 10 * kMillisecond));
     if (i % 5 != 0) continue;
-    // Of the tick before: the device's filter is slower than its sensors.
+    // Its time is that of the tick before: the device's filter is slower than its sensors.
     FrameObservation other = device.frame_at((i - 1) * 10 * kMillisecond);
     other.observed_ns += 12 * kMillisecond;
     other.paces = false;

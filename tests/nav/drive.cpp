@@ -40,7 +40,7 @@ void sample(std::vector<Arrived>& out, double duration_s, Timing timing, bool la
     make(t_ns, [&](const Reading& reading) { out.push_back({t_ns + (late ? timing.latency_ns : 0), reading}); });
 }
 
-/// Of the place of the instrument: over the bottom, or through the water.
+/// Velocity of the place of the instrument: over the bottom, or through the water.
 Eigen::Vector3d velocity_there_m_s(const sim::State& state, const DvlOptions& dvl,
                                    const Eigen::Vector2d& current_m_s) {
   const Eigen::Matrix3d world_from_body =

@@ -38,6 +38,13 @@ struct Statement {
   }
 };
 
+/// The mean of 60 times chi-square with two degrees over two has a standard deviation of 0.13.
+void expect_as_stated(const Statement& statement, double least = 0.4) {
+  EXPECT_GT(statement.mean(), least) << "stated too large";
+  EXPECT_LT(statement.mean(), 1.4) << "stated too small";
+  EXPECT_LT(statement.worst, 9);
+}
+
 /// A vehicle as well known as the options say, and how it drives.
 struct Drawn {
   sim::PathMotion way;
@@ -90,12 +97,7 @@ TEST(DvlErrors, AreAsLargeAsIsStatedWithBottomLockAndWithout) {
   locked.print("70 s with bottom lock");
   lost.print("60 s later without");
   found.print("50 s later with it again");
-  // The mean of 60 times chi-square with two degrees over two has a standard deviation of 0.13.
-  for (const Statement* statement : {&locked, &lost, &found}) {
-    EXPECT_GT(statement->mean(), 0.4) << "stated too large";
-    EXPECT_LT(statement->mean(), 1.4) << "stated too small";
-    EXPECT_LT(statement->worst, 9);
-  }
+  for (const Statement* statement : {&locked, &lost, &found}) expect_as_stated(*statement);
 }
 
 TEST(DvlErrors, AreAsLargeAsIsStatedWithAWellKnownHeading) {
@@ -110,9 +112,7 @@ TEST(DvlErrors, AreAsLargeAsIsStatedWithAWellKnownHeading) {
     locked.add(navigator, drawn.way, drawn.drive.current_m_s);
   }
   locked.print("180 s with bottom lock and a heading good to 0.2 degrees");
-  EXPECT_GT(locked.mean(), 0.4);
-  EXPECT_LT(locked.mean(), 1.4);
-  EXPECT_LT(locked.worst, 9);
+  expect_as_stated(locked);
 }
 
 TEST(DvlErrors, AreAsLargeAsIsStatedWhileThereAreFixes) {
@@ -128,9 +128,7 @@ TEST(DvlErrors, AreAsLargeAsIsStatedWhileThereAreFixes) {
     fixed.add(navigator, drawn.way, drawn.drive.current_m_s);
   }
   fixed.print("150 s with bottom lock and fixes");
-  EXPECT_GT(fixed.mean(), 0.4);
-  EXPECT_LT(fixed.mean(), 1.4);
-  EXPECT_LT(fixed.worst, 9);
+  expect_as_stated(fixed);
 }
 
 TEST(DvlErrors, AreAsLargeAsIsStatedThroughTheWater) {
@@ -147,9 +145,7 @@ TEST(DvlErrors, AreAsLargeAsIsStatedThroughTheWater) {
     water.add(navigator, drawn.way, drawn.drive.current_m_s);
   }
   water.print("90 s through the water");
-  EXPECT_GT(water.mean(), 0.3);
-  EXPECT_LT(water.mean(), 1.4);
-  EXPECT_LT(water.worst, 9);
+  expect_as_stated(water, 0.3);
 }
 
 TEST(DvlErrors, TheErrorForeseenIsTheOneThatComes) {

@@ -25,7 +25,7 @@ class CollectedChannels : public ::testing::Test {
     sample.value = value;
     collector_.on_sample(sample);
   }
-  /// By name of the channel.
+  /// The recorded channels by their names.
   std::map<std::string, RecordedChannel> channels() {
     config::Settings settings;
     settings.ports.emplace_back().name = "port";
