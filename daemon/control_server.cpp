@@ -11,8 +11,8 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 
+#include "base/line_reader.h"
 #include "control/order_rate.h"
-#include "daemon/line_reader.h"
 #include "ports/no_throw.h"
 #include "ports/port.h"
 
@@ -76,7 +76,7 @@ asio::awaitable<void> ControlServer::accept_clients() {
 
 asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::uint64_t client) {
   std::array<char, 1024> chunk{};
-  LineReader lines(kMaxControlLength);
+  base::LineReader lines(kMaxControlLength);
   control::OrderRate rate(kMaxLines_Hz);
   asio::steady_timer pause(acceptor_.get_executor());
   for (;;) {

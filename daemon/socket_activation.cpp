@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 
-#include "daemon/service_manager.h"
+#include "base/service_manager.h"
 #include "daemon/start_error.h"
 
 namespace navcal::daemon {
@@ -12,12 +12,12 @@ namespace asio = boost::asio;
 
 ActivatedSockets take_activated_sockets(const asio::any_io_executor& executor) {
   ActivatedSockets sockets;
-  const int count = take_handed_over();
-  for (int fd = kFirstHandedOver; fd < kFirstHandedOver + count; ++fd) {
-    const bool v4 = is_listening(fd, AF_INET);
-    if ((v4 || is_listening(fd, AF_INET6)) && !sockets.status) {
+  const int count = base::take_handed_over();
+  for (int fd = base::kFirstHandedOver; fd < base::kFirstHandedOver + count; ++fd) {
+    const bool v4 = base::is_listening(fd, AF_INET);
+    if ((v4 || base::is_listening(fd, AF_INET6)) && !sockets.status) {
       sockets.status.emplace(executor, v4 ? asio::ip::tcp::v4() : asio::ip::tcp::v6(), fd);
-    } else if (is_listening(fd, AF_UNIX) && !sockets.control) {
+    } else if (base::is_listening(fd, AF_UNIX) && !sockets.control) {
       sockets.control.emplace(executor, asio::local::stream_protocol(), fd);
     } else {
       throw StartError(fmt::format(

@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <exception>
 
+#include "base/line_reader.h"
 #include "daemon/gpsd_replies.h"
-#include "daemon/line_reader.h"
 #include "ports/no_throw.h"
 #include "ports/port.h"
 
@@ -56,7 +56,7 @@ asio::awaitable<void> StatusClient::session() {
 
 asio::awaitable<void> StatusClient::read_requests() {
   std::array<char, 1024> chunk{};
-  LineReader lines(kMaxRequestLength);
+  base::LineReader lines(kMaxRequestLength);
   for (;;) {
     const auto [error, n] = co_await socket_.async_read_some(asio::buffer(chunk), ports::kNoThrow);
     if (error) co_return;

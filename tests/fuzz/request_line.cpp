@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "daemon/line_reader.h"
+#include "base/line_reader.h"
 #include "daemon/request.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::size_t step = 1 + data[0] % 64;
   std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
-  LineReader reader(256);
+  navcal::base::LineReader reader(256);
   bool accepted = true;
   const auto take = [](std::string_view line) {
     for (const Request& request : parse_requests(line)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "daemon/service_manager.h"
+#include "base/service_manager.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace navcal::daemon {
+namespace navcal::base {
 namespace {
 
 /// Sets a variable for the time of a test.
@@ -135,4 +135,4 @@ TEST(ServiceManager, TellsListeningSocketsFromOthers) {
 }
 
 }  // namespace
-}  // namespace navcal::daemon
+}  // namespace navcal::base

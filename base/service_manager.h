@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string_view>
 
-namespace navcal::daemon {
+namespace navcal::base {
 
 /// The protocols between systemd and its services, as sd_notify(3), sd_watchdog_enabled(3) and sd_listen_fds(3)
 /// describe them. By hand and not by libsystemd, with which come five libraries more and a megabyte of memory, an
@@ -31,4 +31,4 @@ void notify_manager(std::string_view state, IfBusy if_busy = IfBusy::drop);
 /// True for a listening stream socket of this family (AF_INET ...).
 [[nodiscard]] bool is_listening(int descriptor, int family);
 
-}  // namespace navcal::daemon
+}  // namespace navcal::base

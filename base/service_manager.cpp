@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "daemon/service_manager.h"
+#include "base/service_manager.h"
 
 #include <fcntl.h>
 #include <sys/socket.h>
@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace navcal::daemon {
+namespace navcal::base {
 namespace {
 
 std::optional<std::uint64_t> number_in(const char* variable) {
@@ -79,4 +79,4 @@ bool is_listening(int descriptor, int family) {
          option_is(descriptor, SO_ACCEPTCONN, 1);
 }
 
-}  // namespace navcal::daemon
+}  // namespace navcal::base

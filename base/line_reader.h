@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace navcal::daemon {
+namespace navcal::base {
 
 /// Cuts a stream of text into lines without ever holding more than `max_length` of it. A line longer than that
 /// makes the reader refuse everything from then on.
@@ -51,4 +51,4 @@ class LineReader {
   bool refused_ = false;
 };
 
-}  // namespace navcal::daemon
+}  // namespace navcal::base
