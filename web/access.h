@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace navcal::web {
+
+/// Who may do what: looking is free to everybody who reaches the port, changing needs the token.
+class Access {
+ public:
+  /// `token` empty: nobody may change anything. `host_names`: further names under which the server is reached.
+  explicit Access(std::string token = {}, std::vector<std::string> host_names = {});
+
+  /// Why a request with this Authorization header may not change the vehicle; nullopt when it may. Compares in
+  /// constant time.
+  [[nodiscard]] std::optional<std::string> refusal(std::string_view authorization) const;
+  [[nodiscard]] bool can_change() const { return !token_.empty(); }
+
+  /// False for a Host header under which this server is not reached. A page of another site that makes its own
+  /// name point to this machine (DNS rebinding) is kept out by that. IP addresses, names without a dot, localhost,
+  /// names in .local and the names given are taken.
+  [[nodiscard]] bool knows_host(std::string_view host) const;
+  /// True when a browser sends the request for a page of this server: Origin is absent (no browser) or names
+  /// `host`.
+  [[nodiscard]] static bool is_own_origin(std::string_view origin, std::string_view host);
+
+ private:
+  std::string token_;
+  std::vector<std::string> host_names_;
+};
+
+/// The first line of a token file, without the blanks around it. Throws std::runtime_error, with the file's name,
+/// when it cannot be read, when the token is shorter than 16 characters, or when others than its owner and group
+/// may read it.
+[[nodiscard]] std::string read_token(const std::filesystem::path& file);
+
+}  // namespace navcal::web

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/hub.h"
+
+#include <algorithm>
+
+namespace navcal::web {
+namespace {
+
+/// Copies the pointers: a subscriber may add or remove others while it is called.
+template <class Map>
+std::vector<Subscriber*> pointers(const Map& subscribers) {
+  std::vector<Subscriber*> found;
+  found.reserve(subscribers.size());
+  for (const auto& [subscriber, demand] : subscribers) found.push_back(subscriber);
+  return found;
+}
+
+/// Bound of what is kept: more devices than this do not fit a vehicle, but a broken peer may name them.
+constexpr std::size_t kMaxKept = 1024;
+
+}  // namespace
+
+void Hub::publish(const Record& record) {
+  ++published_;
+  const std::pair key{std::string(record.topic), std::string(record.device)};
+  if (newest_.size() < kMaxKept || newest_.contains(key)) {
+    Kept& kept = newest_[key];
+    kept.utc_ns = record.utc_ns;
+    kept.message.assign(record.message);
+  }
+  for (Subscriber* subscriber : pointers(subscribers_)) {
+    if (subscribers_.contains(subscriber)) subscriber->on_record(record);
+  }
+}
+
+void Hub::set_link(Link link) {
+  link_ = std::move(link);
+  for (Subscriber* subscriber : pointers(subscribers_)) {
+    if (subscribers_.contains(subscriber)) subscriber->on_link(link_);
+  }
+}
+
+void Hub::set_topics(std::vector<Topic> topics) {
+  topics_ = std::move(topics);
+  for (Subscriber* subscriber : pointers(subscribers_)) {
+    if (subscribers_.contains(subscriber)) subscriber->on_topics();
+  }
+}
+
+void Hub::forget() { newest_.clear(); }
+
+void Hub::add(Subscriber& subscriber, Demand demand) {
+  subscribers_[&subscriber] = std::move(demand);
+  tell_demand();
+}
+
+void Hub::change(Subscriber& subscriber, Demand demand) {
+  const auto found = subscribers_.find(&subscriber);
+  if (found == subscribers_.end()) return;
+  found->second = std::move(demand);
+  tell_demand();
+}
+
+void Hub::remove(Subscriber& subscriber) {
+  if (subscribers_.erase(&subscriber) > 0) tell_demand();
+}
+
+void Hub::tell_demand() {
+  if (on_demand_) on_demand_(demand());
+}
+
+Demand Hub::demand() const {
+  Demand all;
+  for (const auto& [subscriber, one] : subscribers_) {
+    all.all_topics = all.all_topics || one.all_topics;
+    all.topics.insert(one.topics.begin(), one.topics.end());
+    if (!one.rate_Hz) {
+      all.rate_Hz.reset();
+    } else if (all.rate_Hz) {
+      all.rate_Hz = std::max(*all.rate_Hz, *one.rate_Hz);
+    }
+  }
+  return all;
+}
+
+void Hub::repeat_newest(Subscriber& subscriber) const {
+  for (const auto& [key, kept] : newest_) {
+    subscriber.on_record({key.first, key.second, kept.utc_ns, kept.message});
+  }
+}
+
+}  // namespace navcal::web

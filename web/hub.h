@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "web/record.h"
+
+namespace navcal::web {
+
+/// State of the connection from which records come.
+struct Link {
+  bool connected = false;
+  std::string problem;  ///< why there is none, in words; empty while connected
+};
+
+/// One consumer of records. Its functions must not wait and must not destroy the subscriber.
+class Subscriber {
+ public:
+  virtual ~Subscriber() = default;
+  virtual void on_record(const Record& record) = 0;
+  virtual void on_link(const Link& /*link*/) {}
+  /// The topics are known, or have changed.
+  virtual void on_topics() {}
+};
+
+/// Topics that a subscriber needs, and how often.
+struct Demand {
+  bool all_topics = false;
+  std::set<std::string, std::less<>> topics;
+  /// Most records a second for each topic and device; nullopt: every record.
+  std::optional<double> rate_Hz = 0;
+};
+
+/// Hands each record to all subscribers, and keeps the newest record of each topic and device for those who come
+/// later. One thread; no ports.
+class Hub {
+ public:
+  /// Called when what all subscribers need together has changed.
+  using OnDemand = std::function<void(const Demand&)>;
+
+  void publish(const Record& record);
+  void set_link(Link link);
+  void set_topics(std::vector<Topic> topics);
+  /// Forgets the newest records: another recording, or another place in it.
+  void forget();
+
+  void add(Subscriber& subscriber, Demand demand);
+  void change(Subscriber& subscriber, Demand demand);
+  void remove(Subscriber& subscriber);
+
+  [[nodiscard]] const Link& link() const { return link_; }
+  [[nodiscard]] const std::vector<Topic>& topics() const { return topics_; }
+  [[nodiscard]] Demand demand() const;
+  void on_demand(OnDemand on_demand) { on_demand_ = std::move(on_demand); }
+  /// Hands the newest record of each topic and device to `subscriber`.
+  void repeat_newest(Subscriber& subscriber) const;
+  [[nodiscard]] std::uint64_t published() const { return published_; }
+
+ private:
+  struct Kept {
+    std::optional<std::int64_t> utc_ns;
+    std::string message;
+  };
+  void tell_demand();
+
+  std::map<Subscriber*, Demand> subscribers_;
+  std::map<std::pair<std::string, std::string>, Kept> newest_;
+  std::vector<Topic> topics_;
+  Link link_{false, "not connected yet"};
+  OnDemand on_demand_;
+  std::uint64_t published_ = 0;
+};
+
+}  // namespace navcal::web

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/service_manager.h"
+#include "share/manual.h"
+#include "web/access.h"
+#include "web/control_peer.h"
+#include "web/hub.h"
+#include "web/listener.h"
+#include "web/live_source.h"
+#include "web/server.h"
+#include "web/site.h"
+
+namespace {
+
+namespace asio = boost::asio;
+namespace web = navcal::web;
+
+enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2 };
+
+struct Options {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8765;
+  std::string status = "127.0.0.1:2947";
+  std::string control = "/run/navcal/control";
+  std::string token_file;
+  std::vector<std::string> host_names;
+};
+
+/// The exit status when the command line has said it all: help, version, or a mistake.
+std::optional<int> parse(int argc, char** argv, Options& options) {
+  CLI::App app{"navcal-web: shows a running navcald in the browser, and serves it to other programs",
+               "navcal-web"};
+  app.set_version_flag("--version", "navcal-web " NAVCAL_VERSION);
+  app.add_option("--port", options.port, "TCP port to listen at")->capture_default_str();
+  app.add_option("--address", options.address, "IP address to listen at; 0.0.0.0 or :: serves the whole network")
+      ->capture_default_str();
+  app.add_option("--status", options.status, "status socket of navcald, HOST:PORT")->capture_default_str();
+  app.add_option("--control", options.control, "control socket of navcald")->capture_default_str();
+  app.add_option("--token-file", options.token_file,
+                 "file with the token that changes of the vehicle need; without it everything is read-only");
+  app.add_option("--host-name", options.host_names,
+                 "name under which browsers reach this server, if it has a dot and does not end in .local; "
+                 "may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
+  navcal::share::add_manual(app);
+  try {
+    app.parse(argc, argv);
+    if (options.status.rfind(':') == std::string::npos) throw CLI::ValidationError("--status", "wants HOST:PORT");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kStopped : kUsage;
+  }
+  return std::nullopt;
+}
+
+web::LiveSource::Settings status_socket(const std::string& text) {
+  const auto colon = text.rfind(':');
+  std::string host = text.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  return {host.empty() ? "127.0.0.1" : host, text.substr(colon + 1)};
+}
+
+void run(const Options& options) {
+  // One thread runs everything: no locks are needed.
+  asio::io_context context(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
+  asio::signal_set signals(context, SIGTERM, SIGINT);
+  const web::Access access(options.token_file.empty() ? "" : web::read_token(options.token_file),
+                           options.host_names);
+  web::Hub hub;
+  web::Site site;
+  const auto source =
+      std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
+  site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
+  const auto server = std::make_shared<web::Server>(
+      web::listen(context.get_executor(), options.address, options.port), site, access);
+  signals.async_wait([&](boost::system::error_code error, int) {
+    if (error) return;
+    navcal::base::notify_manager("STOPPING=1", navcal::base::IfBusy::wait);
+    source->stop();
+    server->stop();
+    // What clients have not taken by now is not waited for.
+    context.stop();
+  });
+  source->start();
+  server->start();
+  std::printf("navcal-web: http://%s:%u/\n", options.address.c_str(), static_cast<unsigned>(server->port()));
+  std::fflush(stdout);
+  navcal::base::notify_manager("READY=1", navcal::base::IfBusy::wait);
+  context.run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  if (const auto status = parse(argc, argv, options)) return *status;
+  try {
+    run(options);
+    return kStopped;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "navcal-web: cannot start: %s\n", error.what());
+    return kCannotStart;
+  }
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/server.h"
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "ports/no_throw.h"
+#include "web/web_socket_session.h"
+
+namespace navcal::web {
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using ports::kNoThrow;
+namespace {
+
+constexpr auto kAcceptPause = std::chrono::milliseconds(200);
+
+std::string_view text(beast::string_view view) { return {view.data(), view.size()}; }
+
+/// Null when the error is only the end of a connection.
+std::optional<Response> answer_to_broken(const boost::system::error_code& error) {
+  if (error == http::error::end_of_stream || error == beast::error::timeout) return std::nullopt;
+  if (error == http::error::header_limit)
+    return refuse(http::status::request_header_fields_too_large, "the request's header is too large");
+  if (error == http::error::body_limit) return refuse(http::status::payload_too_large, "the request is too large");
+  if (error.category() == make_error_code(http::error::bad_method).category())
+    return refuse(http::status::bad_request, "that is no HTTP/1.1: " + error.message());
+  return std::nullopt;
+}
+
+}  // namespace
+
+Server::Server(asio::ip::tcp::acceptor acceptor, const Site& site, const Access& access, ServerLimits limits)
+    : acceptor_(std::move(acceptor)), site_(site), access_(access), limits_(limits) {}
+
+std::uint16_t Server::port() const {
+  boost::system::error_code closed;
+  return acceptor_.local_endpoint(closed).port();
+}
+
+void Server::start() {
+  asio::co_spawn(
+      acceptor_.get_executor(), [self = shared_from_this()] { return self->accept_clients(); }, asio::detached);
+}
+
+void Server::stop() {
+  boost::system::error_code ignored;
+  acceptor_.close(ignored);
+  for (const auto& session : std::set(web_sockets_)) session->close("navcal-web stops");
+}
+
+asio::awaitable<void> Server::accept_clients() {
+  while (acceptor_.is_open()) {
+    auto [error, socket] = co_await acceptor_.async_accept(kNoThrow);
+    if (!acceptor_.is_open()) co_return;
+    if (error) {
+      // Out of descriptors, most likely: others have to go first.
+      asio::steady_timer pause(acceptor_.get_executor(), kAcceptPause);
+      co_await pause.async_wait(kNoThrow);
+      continue;
+    }
+    if (open_ >= limits_.connections) {
+      ++counters_.connections_refused;
+      continue;
+    }
+    ++counters_.connections;
+    ++open_;
+    boost::system::error_code ignored;
+    socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+    asio::co_spawn(
+        acceptor_.get_executor(),
+        [self = shared_from_this(), stream = Stream(std::move(socket))]() mutable {
+          return self->serve(std::move(stream));
+        },
+        [self = shared_from_this()](const std::exception_ptr&) { --self->open_; });
+  }
+}
+
+asio::awaitable<void> Server::serve(Stream stream) {
+  beast::flat_buffer buffer;
+  bool keep_alive = true;
+  while (keep_alive) {
+    http::request_parser<http::string_body> parser;
+    parser.header_limit(static_cast<std::uint32_t>(limits_.header_bytes));
+    parser.body_limit(limits_.body_bytes);
+    stream.expires_after(limits_.request);
+    const auto [error, n] = co_await http::async_read(stream, buffer, parser, kNoThrow);
+    if (error == http::error::end_of_stream) break;
+    Response response;
+    if (error) {
+      ++counters_.requests_broken;
+      auto broken = answer_to_broken(error);
+      if (!broken) break;
+      response = std::move(*broken);
+      keep_alive = false;
+    } else {
+      ++counters_.requests;
+      Request request = parser.release();
+      if (beast::websocket::is_upgrade(request)) {
+        std::string subprotocol;
+        std::optional<Response> refusal;
+        const WebSocketEndpoint* endpoint = endpoint_for(request, subprotocol, refusal);
+        if (endpoint != nullptr) {
+          co_await upgrade(std::move(stream), std::move(request), *endpoint, std::move(subprotocol));
+          co_return;
+        }
+        response = std::move(*refusal);
+        keep_alive = false;
+      } else {
+        keep_alive = request.keep_alive();
+        response = co_await answer(request);
+      }
+      if (response.result_int() >= 400) ++counters_.requests_refused;
+      if (request.method() == http::verb::head) response.body().clear();
+    }
+    response.keep_alive(keep_alive);
+    stream.expires_after(limits_.request);
+    const auto [write_error, written] = co_await http::async_write(stream, response, kNoThrow);
+    if (write_error) break;
+  }
+  boost::system::error_code ignored;
+  stream.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+}
+
+asio::awaitable<Response> Server::answer(const Request& request) {
+  if (!access_.knows_host(text(request[http::field::host])))
+    co_return refuse(http::status::misdirected_request,
+                     "this server is not known by that name; --host-name adds one");
+  bool path_exists = false;
+  const std::string_view path = path_of(text(request.target()));
+  const Handler* handler = site_.handler(text(request.method_string()), path, path_exists);
+  if (handler == nullptr && path_exists)
+    co_return refuse(http::status::method_not_allowed, "not with this method");
+  if (handler == nullptr) co_return refuse(http::status::not_found, "there is no " + std::string(path));
+  // Named, because g++ 12 destroys temporaries of an awaited expression twice.
+  asio::awaitable<Response> work = (*handler)(request);
+  Response response = co_await std::move(work);
+  co_return response;
+}
+
+const WebSocketEndpoint* Server::endpoint_for(const Request& request, std::string& subprotocol,
+                                              std::optional<Response>& refusal) const {
+  const std::string_view host = text(request[http::field::host]);
+  if (!access_.knows_host(host)) {
+    refusal =
+        refuse(http::status::misdirected_request, "this server is not known by that name; --host-name adds one");
+    return nullptr;
+  }
+  const WebSocketEndpoint* endpoint = site_.endpoint(
+      path_of(text(request.target())), text(request[http::field::sec_websocket_protocol]), subprotocol);
+  if (endpoint == nullptr) {
+    refusal = refuse(http::status::not_found, "no WebSocket is served there with these subprotocols");
+    return nullptr;
+  }
+  if (endpoint->own_pages_only && !Access::is_own_origin(text(request[http::field::origin]), host)) {
+    refusal = refuse(http::status::forbidden, "a page of another site may not connect here");
+    return nullptr;
+  }
+  return endpoint;
+}
+
+asio::awaitable<void> Server::upgrade(Stream stream, Request request, const WebSocketEndpoint& endpoint,
+                                      std::string subprotocol) {
+  const auto session = std::make_shared<WebSocketSession>(std::move(stream), limits_, counters_);
+  web_sockets_.insert(session);
+  asio::awaitable<void> work = session->serve(std::move(request), endpoint, std::move(subprotocol));
+  co_await std::move(work);
+  web_sockets_.erase(session);
+}
+
+}  // namespace navcal::web
