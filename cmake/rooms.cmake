@@ -24,9 +24,9 @@ set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
 set(NAVCAL_MAY_INCLUDE_validation base config record sim analysis validation/reference)
 set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim gap analysis validation)
 set(NAVCAL_MAY_INCLUDE_share)
-set(NAVCAL_MAY_INCLUDE_web base ports share)
+set(NAVCAL_MAY_INCLUDE_web base record ports share)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports link share)
-set(NAVCAL_MAY_INCLUDE_cli base protocols config devices pipeline record ports link autopilot sim gap analysis validation report share)
+set(NAVCAL_MAY_INCLUDE_cli base protocols config devices pipeline record ports link autopilot sim gap analysis validation report share web)
 
 # The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.
 # What lies there may include all of them only from a .cpp. Folders that are not named (calib/thesis) are free.

@@ -91,6 +91,7 @@ std::unique_ptr<Peer> PageFeed::make_viewer(const std::shared_ptr<PageFeed>& fee
 void PageFeed::join(Viewer& viewer) {
   welcome(viewer);
   viewers_.insert(&viewer);
+  if (settings_.player != nullptr) settings_.player->viewer_came();
   if (viewers_.size() > 1) return;
   hub_.change(*this, demand_at(kWatchedRate_Hz));
   schedule();

@@ -13,6 +13,8 @@ class Player {
   /// A JSON object with one of `play` (true, false), `seek` (seconds from the beginning) and `speed` (factor of
   /// the recorded speed). Anything else is ignored.
   virtual void command(std::string_view json) = 0;
+  /// Somebody watches: a recording does not begin before.
+  virtual void viewer_came() = 0;
   /// Appends the state as a JSON object: `file`, `playing`, `speed`, `position_s`, `duration_s`, `begin` (UTC, s).
   virtual void append_state(std::string& out) const = 0;
 };

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "analysis/import/import_log.h"
+#include "analysis/log_import.h"
+#include "cli/commands.h"
+#include "cli/log_run.h"
+#include "record/recording.h"
+#include "web/viewer.h"
+
+extern char** environ;
+
+namespace navcal::cli {
+namespace {
+
+struct ViewArguments {
+  std::string file;
+  std::uint16_t port = 0;
+  double speed = 1;
+  bool no_open = false;
+};
+
+/// A folder for the log of a recording that is none. It goes with everything in it.
+class ViewFolder {
+ public:
+  ViewFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "navcal-view-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::system_category(), name);
+    path_ = name;
+  }
+  ~ViewFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ViewFolder(const ViewFolder&) = delete;
+  ViewFolder& operator=(const ViewFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A log of a capture, or of a log of another system.
+std::filesystem::path log_of(const std::string& file, const std::filesystem::path& folder) {
+  const std::filesystem::path log = folder / "recording.mcap";
+  std::vector<std::string> remarks;
+  const bool is_foreign = run_log_job([&](const record::Progress&) { return analysis::is_foreign_log(file, {}); });
+  if (is_foreign) {
+    remarks = run_log_job([&](const record::Progress& progress) {
+                return analysis::import_log(file, log, {}, progress);
+              }).remarks;
+  } else {
+    remarks = run_log_job(
+        [&](const record::Progress& progress) { return analysis::import_capture(file, log, progress); });
+  }
+  for (const auto& remark : remarks) fmt::print(stderr, "navcal view: {}\n", remark);
+  return log;
+}
+
+/// Opens the page where there is a display. Without xdg-open nothing happens: the address was printed.
+void open_browser(const std::string& address) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  std::string program = "xdg-open", argument = address;
+  char* const command[] = {program.data(), argument.data(), nullptr};
+  // What the browser prints is nothing to the reader of this program's output.
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", 1, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  pid_t child = 0;
+  // A child that ends is not waited for.
+  ::signal(SIGCHLD, SIG_IGN);
+  if (::posix_spawnp(&child, command[0], &actions, nullptr, command, environ) != 0)
+    fmt::print(stderr, "navcal view: there is no xdg-open; open the address by hand\n");
+  ::posix_spawn_file_actions_destroy(&actions);
+}
+
+void view(const ViewArguments& arguments) {
+  std::optional<ViewFolder> folder;
+  web::ViewerSettings settings;
+  const bool is_log = run_log_job([&](const record::Progress&) { return record::is_log(arguments.file); });
+  if (!is_log) folder.emplace();
+  settings.log = is_log ? std::filesystem::path(arguments.file) : log_of(arguments.file, folder->path());
+  settings.name = std::filesystem::path(arguments.file).filename().string();
+  settings.version = NAVCAL_VERSION;
+  settings.port = arguments.port;
+  settings.speed = arguments.speed;
+  analysis::Progress progress("view");
+  settings.progress = [&](double done) { progress.show(done); };
+  settings.remark = [](const std::string& remark) { fmt::print(stderr, "navcal view: {}\n", remark); };
+  settings.ready = [&](const std::string& address) {
+    std::printf("navcal view: %s\n", address.c_str());
+    std::fflush(stdout);
+    if (!arguments.no_open) open_browser(address);
+  };
+  web::view_recording(settings);
+}
+
+}  // namespace
+
+void add_view(CLI::App& app) {
+  auto* const command = app.add_subcommand("view", "show a recording in the browser");
+  const auto arguments = std::make_shared<ViewArguments>();
+  command
+      ->add_option("FILE", arguments->file,
+                   "log (.mcap), capture (.cap), or a log of another system that `navcal log import` knows")
+      ->required();
+  command->add_option("--port", arguments->port, "TCP port of the loopback address; 0: one that is free")
+      ->capture_default_str();
+  command
+      ->add_option("--speed", arguments->speed, "factor of the speed over the recorded one; the page changes it")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  command->add_flag("--no-open", arguments->no_open, "print the address and open no browser");
+  command->footer(
+      "The page of navcal-web with a time bar; only this machine reaches it. It plays from when the page is "
+      "open,\n"
+      "until Ctrl-C. What is not a log becomes one in a temporary folder first.\n\n"
+      "Example: navcal view dive.mcap --speed 10");
+  command->callback([arguments] {
+    try {
+      view(*arguments);
+    } catch (const record::BadRecording& error) {
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
+    }
+  });
+}
+
+}  // namespace navcal::cli
