@@ -44,6 +44,7 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
           sockets.control ? std::filesystem::path() : settings_.control.socket,
           [this](const ControlRequest& request, const ControlOrigin& origin) { return answer(request, origin); },
           [this](std::uint64_t client) { control_client_gone(client); }),
+      records_(settings_, server_),
       log_(settings_, started_ns_, first_mapping()),
       calibrations_(settings_, pipeline_, log_, server_),
       battery_(settings_),
@@ -55,6 +56,7 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
       state_timer_(executor, [this] { ring_state(); }),
       deadline_timer_(executor, [this] { advance(); }),
       tick_timer_(executor, [this] { tick(); }) {
+  log_.tell(records_);
   PortOwner& owner = *this;
   for (std::uint16_t port = 0; port < Daemon::device_count(); ++port) {
     sessions_.push_back(std::make_unique<PortSession>(executor, port, settings_.ports[port], owner));

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "daemon/json_text.h"
+#include "record/log/log_topics.h"
 
 namespace navcal::daemon {
 namespace {
@@ -78,7 +79,23 @@ void append_watch(std::string& out, const WatchPolicy& policy) {
     out += separator == "," ? "]" : ",\"classes\":[]";
   }
   append_rates(out, policy.intervals_ns);
+  if (policy.topics != RecordTopics::all()) {
+    out += ",\"topics\":[";
+    append_quoted_list(out, policy.topics.names());
+    out += ']';
+  }
   out += "}\n";
+}
+
+void append_records(std::string& out) {
+  std::string_view separator = R"({"class":"RECORDS","topics":[)";
+  for (const record::Topic& topic : record::json_topics()) {
+    if (!RecordTopics::all().has(topic.id)) continue;
+    fmt::format_to(std::back_inserter(out), FMT_STRING(R"({}{{"topic":"{}","schema_name":"{}","schema":{}}})"),
+                   separator, topic.name, topic.schema_name, record::json_schema(topic));
+    separator = ",";
+  }
+  out += "]}\n";
 }
 
 void append_error(std::string& out, std::string_view message) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/record_topics.h"
 #include "daemon/report_class.h"
 
 namespace navcal::daemon {
@@ -31,16 +32,19 @@ struct DeviceState {
 void append_version(std::string& out);
 /// The object alone, without newline.
 void append_device_object(std::string& out, const DeviceState& device);
-/// Active policy; classes and rates only where a client chose them. "nmea":false and "raw":0 state that NMEA
-/// and raw pass-through are not offered.
+/// Active policy; classes, rates and topics only where a client chose them. "nmea":false and "raw":0 state that
+/// NMEA and raw pass-through are not offered.
 struct WatchPolicy {
   bool enable = false;
   bool json = false;
   std::optional<std::string_view> device;
   ReportClasses classes = ReportClasses::usual();
   ReportIntervals intervals_ns{};
+  RecordTopics topics = RecordTopics::all();
 };
 void append_watch(std::string& out, const WatchPolicy& policy);
+/// RECORDS: the topics that RECORD has, with the names and JSON schemas of the log's.
+void append_records(std::string& out);
 void append_error(std::string& out, std::string_view message);
 
 }  // namespace navcal::daemon

@@ -71,40 +71,48 @@ void LogWriter::raw(std::uint16_t port, record::Direction direction, std::int64_
 }
 
 void LogWriter::sample(const instruments::Sample& sample) {
+  if (feed_ != nullptr) feed_->sample(sample);
   if (!has(config::LogGroup::samples)) return;
   append([&](std::string& out) { encoder_.sample(out, sample); });
 }
 
 void LogWriter::navigation(const pipeline::NavigationSample& sample) {
+  if (feed_ != nullptr) feed_->navigation(sample);
   if (!has(config::LogGroup::navigation)) return;
   append([&](std::string& out) { encoder_.navigation(out, sample); });
 }
 
 void LogWriter::battery(const pipeline::BatterySample& sample) {
+  if (feed_ != nullptr) feed_->battery(sample);
   append([&](std::string& out) { encoder_.battery(out, sample); });
 }
 
 void LogWriter::mapping(std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
+  if (feed_ != nullptr) feed_->mapping(now_ns, mapping);
   mapping_ = mapping;
   append([&](std::string& out) { encoder_.mapping(out, now_ns, mapping); });
 }
 
 void LogWriter::event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
                       std::string_view message) {
+  if (feed_ != nullptr) feed_->event(now_ns, severity, name, port, message);
   append([&](std::string& out) { encoder_.event(out, now_ns, severity, name, port, message); });
 }
 
 void LogWriter::health(std::int64_t now_ns, std::string_view json) {
+  if (feed_ != nullptr) feed_->health(now_ns, json);
   if (!has(config::LogGroup::health)) return;
   append([&](std::string& out) { encoder_.health(out, now_ns, json); });
 }
 
 void LogWriter::calib(std::int64_t now_ns, std::string_view json) {
+  if (feed_ != nullptr) feed_->calib(now_ns, json);
   append([&](std::string& out) { encoder_.calib(out, now_ns, json); });
 }
 
 void LogWriter::calib_report(std::int64_t now_ns, std::string_view json) {
-  if (has(config::LogGroup::calibration)) calib(now_ns, json);
+  if (feed_ != nullptr) feed_->calib(now_ns, json);
+  if (has(config::LogGroup::calibration)) append([&](std::string& out) { encoder_.calib(out, now_ns, json); });
 }
 
 void LogWriter::leave_out(std::vector<std::string> choice) {
@@ -133,6 +141,7 @@ void LogWriter::start(std::int64_t now_ns) {
 }
 
 void LogWriter::command(std::int64_t now_ns, std::string_view device, const control::OrderRecord& record) {
+  if (feed_ != nullptr) feed_->command(now_ns, device, record);
   if (!has(config::LogGroup::commands)) return;
   append([&](std::string& out) { encoder_.command(out, now_ns, device, record); });
 }
@@ -150,11 +159,12 @@ void LogWriter::tick(std::int64_t now_ns) {
 
   const std::uint64_t dropped = disk_->state().dropped;
   if (dropped == told_dropped_) return;
-  const bool told = disk_->append([&](std::string& out) {
-    encoder_.event(out, now_ns, "error", "log.dropped", "",
-                   fmt::format("{} records lost: the disk did not keep up and the queue of {} MB was full",
-                               dropped - told_dropped_, settings_.queue_bytes / 1'000'000));
-  });
+  const std::string words =
+      fmt::format("{} records lost: the disk did not keep up and the queue of {} MB was full",
+                  dropped - told_dropped_, settings_.queue_bytes / 1'000'000);
+  const bool told =
+      disk_->append([&](std::string& out) { encoder_.event(out, now_ns, "error", "log.dropped", "", words); });
+  if (told && feed_ != nullptr) feed_->event(now_ns, "error", "log.dropped", "", words);
   // Without room this event is lost as well, and the next one reports the total.
   if (told) told_dropped_ = dropped;
 }

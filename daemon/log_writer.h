@@ -13,6 +13,7 @@
 #include "config/log_choice.h"
 #include "config/settings.h"
 #include "daemon/disk_thread.h"
+#include "daemon/record_feed.h"
 #include "instruments/samples.h"
 #include "pipeline/navigation.h"
 #include "pipeline/utc_mapping.h"
@@ -24,11 +25,18 @@ namespace navcal::daemon {
 [[nodiscard]] std::string words_for_choice(const std::vector<std::string>& leave_out);
 
 /// Front end of the log for the I/O thread: encodes records into the disk thread's buffer, decides when a new
-/// file begins, and reports lost records. It does nothing when the log is switched off.
+/// file begins, and reports lost records. It writes nothing when the log is switched off. A RecordFeed gets every
+/// JSON message, also those that are not logged.
 class LogWriter {
  public:
   /// Takes the log folder and begins the first file. Throws StartError saying what is wrong with the folder.
   LogWriter(const config::Settings& settings, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
+
+  /// `feed` must live as long as this object.
+  void tell(RecordFeed& feed) {
+    feed_ = &feed;
+    feed_->set_mapping(mapping_);
+  }
 
   void raw(std::uint16_t port, record::Direction direction, std::int64_t time_ns, protocols::Bytes bytes);
   void sample(const instruments::Sample& sample);
@@ -80,6 +88,7 @@ class LogWriter {
   void append(Encode&& encode);
 
   config::LogSettings settings_;
+  RecordFeed* feed_ = nullptr;
   record::LogEncoder encoder_;
   std::unique_ptr<DiskThread> disk_;
   pipeline::UtcMapping mapping_;

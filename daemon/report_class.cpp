@@ -5,8 +5,8 @@ namespace navcal::daemon {
 namespace {
 
 constexpr std::array<std::string_view, kReportClasses> kReportClassNames{
-    "TPV",   "SKY",    "ATT",   "MOTOR", "ALTIMETER", "NAV", "HEALTH", "TIME",  "LOG",
-    "CALIB", "DEVICE", "STATE", "POWER", "BATTERY",   "DVL", "DEPTH",  "SENSOR"};
+    "TPV",   "SKY",    "ATT",   "MOTOR", "ALTIMETER", "NAV", "HEALTH", "TIME",   "LOG",
+    "CALIB", "DEVICE", "STATE", "POWER", "BATTERY",   "DVL", "DEPTH",  "SENSOR", "RECORD"};
 
 }  // namespace
 
@@ -30,8 +30,10 @@ std::string known_report_classes() {
 
 ReportClasses ReportClasses::usual() {
   ReportClasses classes;
-  for (std::size_t i = 0; i < kReportClasses; ++i) classes.add(static_cast<ReportClass>(i));
-  classes.bits_ &= ~(1U << static_cast<unsigned>(ReportClass::state));
+  for (std::size_t i = 0; i < kReportClasses; ++i) {
+    const auto report = static_cast<ReportClass>(i);
+    if (report != ReportClass::state && report != ReportClass::record) classes.add(report);
+  }
   return classes;
 }
 

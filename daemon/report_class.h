@@ -28,9 +28,10 @@ enum class ReportClass : std::uint8_t {
   battery,
   dvl,
   depth,
-  sensor
+  sensor,
+  record
 };
-inline constexpr std::size_t kReportClasses = 17;
+inline constexpr std::size_t kReportClasses = 18;
 
 /// "TPV", "SKY", ...
 [[nodiscard]] std::string_view name_of(ReportClass report);
@@ -41,7 +42,7 @@ inline constexpr std::size_t kReportClasses = 17;
 /// A set of them.
 class ReportClasses {
  public:
-  /// All classes but STATE: the default of a client that does not choose.
+  /// All classes but STATE and RECORD: the default of a client that does not choose.
   [[nodiscard]] static ReportClasses usual();
 
   void add(ReportClass report) { bits_ |= 1U << static_cast<unsigned>(report); }

@@ -103,6 +103,22 @@ std::string take_classes(const Json& object, std::optional<ReportClasses>& value
   return {};
 }
 
+/// ["/compass","/imu"]; null: all. Likewise.
+std::string take_topics(const Json& object, std::optional<RecordTopics>& value) {
+  const auto found = object.find("topics");
+  if (found == object.end()) return {};
+  if (found->is_null()) value = RecordTopics::all();
+  if (found->is_null()) return {};
+  if (!found->is_array()) return "Invalid WATCH: topics is a list of topics, or null";
+  RecordTopics topics;
+  for (const Json& name : *found) {
+    if (!name.is_string() || !topics.add(name.get<std::string>()))
+      return fmt::format("Invalid WATCH: a topic that is not known; known are {}", RecordTopics::all().text());
+  }
+  value = topics;
+  return {};
+}
+
 /// {"STATE":10}; null: no limits. Likewise.
 std::string take_intervals(const Json& object, std::optional<ReportIntervals>& value) {
   const auto found = object.find("rate_Hz");
@@ -130,6 +146,7 @@ Request watch(const Json& object) {
   if (!take(object, "device", change.device)) return not_understood("Invalid WATCH: device is a string");
   if (auto problem = take_classes(object, change.classes); !problem.empty()) return not_understood(problem);
   if (auto problem = take_intervals(object, change.intervals_ns); !problem.empty()) return not_understood(problem);
+  if (auto problem = take_topics(object, change.topics); !problem.empty()) return not_understood(problem);
   change.enable = enable.value_or(true);
   Request request;
   request.kind = Request::Kind::watch;
@@ -155,9 +172,9 @@ Request parse(std::string_view command) {
   Request request;
   if (equals == std::string_view::npos) {
     using Kind = Request::Kind;
-    for (const auto& [kind, text] :
-         {std::pair{Kind::version, "VERSION"}, std::pair{Kind::devices, "DEVICES"},
-          std::pair{Kind::device, "DEVICE"}, std::pair{Kind::watch, "WATCH"}, std::pair{Kind::poll, "POLL"}}) {
+    for (const auto& [kind, text] : {std::pair{Kind::version, "VERSION"}, std::pair{Kind::devices, "DEVICES"},
+                                     std::pair{Kind::device, "DEVICE"}, std::pair{Kind::watch, "WATCH"},
+                                     std::pair{Kind::poll, "POLL"}, std::pair{Kind::records, "RECORDS"}}) {
       if (name == text) request.kind = kind;
     }
     return request.kind == Kind::not_understood ? unrecognised(command) : request;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/record_topics.h"
 #include "daemon/report_class.h"
 
 namespace navcal::daemon {
@@ -25,11 +26,12 @@ struct WatchChange {
   std::optional<std::string> device;
   std::optional<ReportClasses> classes;
   std::optional<ReportIntervals> intervals_ns;
+  std::optional<RecordTopics> topics;
 };
 
 /// One command of gpsd's protocol.
 struct Request {
-  enum class Kind { version, devices, device, watch, poll, not_understood };
+  enum class Kind { version, devices, device, watch, poll, records, not_understood };
   Kind kind = Kind::not_understood;
   std::optional<WatchChange> watch;   ///< absent for a bare ?WATCH;, which only asks
   std::optional<std::string> device;  ///< ?DEVICE={"path":...}

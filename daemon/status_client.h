@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "daemon/client_queue.h"
+#include "daemon/record_topics.h"
 #include "daemon/report_class.h"
 #include "daemon/report_pacer.h"
 #include "daemon/request.h"
@@ -39,6 +40,7 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
     std::optional<std::uint16_t> port;  ///< one device only
     ReportClasses classes = ReportClasses::usual();
     ReportIntervals intervals_ns{};
+    RecordTopics topics = RecordTopics::all();
     std::int64_t state_due_ns = 0;  ///< of the next STATE at a rate
   };
 
@@ -54,6 +56,10 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   }
   [[nodiscard]] bool watches(ReportClass report, std::uint16_t port) const {
     return watches(report) && policy_.port.value_or(port) == port;
+  }
+  [[nodiscard]] bool watches(const RecordKey& key) const {
+    return watches(ReportClass::record, key.port.value_or(policy_.port.value_or(0))) &&
+           policy_.topics.has(key.topic);
   }
   /// True when the client's chosen rate allows another report of this class and slot (a device, a part) now.
   [[nodiscard]] bool is_due(ReportClass report, std::uint16_t slot) const;

@@ -82,6 +82,9 @@ void StatusServer::on_request(StatusClient& client, const Request& request) {
     case Request::Kind::poll:
       source_.append_poll(answer_);
       break;
+    case Request::Kind::records:
+      append_records(answer_);
+      break;
     case Request::Kind::not_understood:
       append_error(answer_, request.message);
       break;
@@ -119,6 +122,7 @@ void StatusServer::change_watch(StatusClient& client, const WatchChange& change)
   policy.enable = change.enable;
   policy.json = change.json.value_or(policy.json);
   policy.classes = change.classes.value_or(policy.classes);
+  policy.topics = change.topics.value_or(policy.topics);
   if (change.intervals_ns) {
     policy.intervals_ns = *change.intervals_ns;
     policy.state_due_ns = 0;  // the first one comes at once
@@ -142,7 +146,7 @@ void StatusServer::append_policy(StatusClient& client) {
   const auto& policy = client.policy();
   std::optional<std::string_view> device;
   if (policy.port) device = source_.device_name(*policy.port);
-  append_watch(answer_, {policy.enable, policy.json, device, policy.classes, policy.intervals_ns});
+  append_watch(answer_, {policy.enable, policy.json, device, policy.classes, policy.intervals_ns, policy.topics});
 }
 
 bool StatusServer::watched(ReportClass report, std::uint16_t port) const {
@@ -165,6 +169,19 @@ void StatusServer::publish(ReportClass report, std::uint16_t port, std::string_v
 void StatusServer::publish(ReportClass report, std::string_view line, std::uint16_t slot) {
   for (const auto& client : clients_) {
     if (client->watches(report) && client->take_turn(report, slot)) client->send(line);
+  }
+}
+
+bool StatusServer::watched(const RecordKey& key) const {
+  return std::any_of(clients_.begin(), clients_.end(), [&](const auto& client) {
+    return client->watches(key) && (!key.at_a_rate || client->is_due(ReportClass::record, key.slot()));
+  });
+}
+
+void StatusServer::publish(const RecordKey& key, std::string_view line) {
+  for (const auto& client : clients_) {
+    if (!client->watches(key)) continue;
+    if (!key.at_a_rate || client->take_turn(ReportClass::record, key.slot())) client->send(line);
   }
 }
 

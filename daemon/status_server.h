@@ -48,6 +48,9 @@ class StatusServer : private ClientOwner {
   void publish(ReportClass report, std::uint16_t port, std::string_view line);
   /// One whole line to everybody who watches the class; `slot` numbers lines that belong together.
   void publish(ReportClass report, std::string_view line, std::uint16_t slot = 0);
+  /// The same for RECORD.
+  [[nodiscard]] bool watched(const RecordKey& key) const;
+  void publish(const RecordKey& key, std::string_view line);
   /// STATE at a rate: when the next one is due to any client, monotonic; INT64_MAX: to none. The grid is the same
   /// for all clients of one rate.
   [[nodiscard]] std::int64_t next_state_ns() const;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/log/log_encoder.h"
 
-#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
+#include <utility>
 #include <vector>
 
 #include "record/json/battery_json.h"
@@ -16,30 +15,12 @@
 #include "record/json/navigation_json.h"
 #include "record/json/sample_json.h"
 #include "record/log/checksum.h"
+#include "record/log/log_payload.h"
 #include "record/log/log_topics.h"
 #include "record/log/mcap_format.h"
 #include "record/log/mcap_summary.h"
 
 namespace navcal::record {
-namespace {
-
-std::uint16_t topic_of(const instruments::Sample& sample) {
-  struct Visitor {
-    std::uint16_t operator()(const instruments::CompassSample&) const { return topic::kCompass; }
-    std::uint16_t operator()(const instruments::ImuSample&) const { return topic::kImu; }
-    std::uint16_t operator()(const instruments::GpsSample&) const { return topic::kGps; }
-    std::uint16_t operator()(const instruments::SkySample&) const { return 0; }
-    std::uint16_t operator()(const instruments::MotorSample&) const { return topic::kMotor; }
-    std::uint16_t operator()(const instruments::AltimeterSample&) const { return topic::kAltimeter; }
-    std::uint16_t operator()(const instruments::PowerSample&) const { return topic::kPower; }
-    std::uint16_t operator()(const instruments::DvlSample&) const { return topic::kDvl; }
-    std::uint16_t operator()(const instruments::DepthSample&) const { return topic::kDepth; }
-    std::uint16_t operator()(const instruments::ScalarSample&) const { return topic::kSensor; }
-  };
-  return std::visit(Visitor{}, sample.value);
-}
-
-}  // namespace
 
 struct LogEncoder::State {
   std::vector<config::PortSettings> ports;
@@ -78,19 +59,13 @@ struct LogEncoder::State {
     summary.add_message(channel, at);
   }
 
-  /// `append(out)` writes one JSON object; the sum takes the place of its closing brace.
+  /// `append(out)` writes one JSON object.
   template <class Append>
-  void json_message(std::string& out, std::uint16_t channel, std::int64_t time_ns, std::int64_t publish_ns,
-                    Append append) {
+  void json_message(std::string& out, const MessageHead& head, Append&& append) {
     const Appending counted(*this, out);
     const RecordScope record(out, Opcode::message);
-    append_message_head(out, channel, time_ns, publish_ns);
-    const std::size_t begin = out.size();
-    append(out);
-    assert(out.size() > begin + 2 && out.back() == '}');
-    out.pop_back();
-    const std::uint32_t crc = crc32c(std::string_view(out).substr(begin));
-    fmt::format_to(std::back_inserter(out), FMT_COMPILE(R"(,"crc":"{:08x}"}})"), crc);
+    append_message_head(out, head.topic, head.time_ns, head.validity_ns);
+    append_payload(out, std::forward<Append>(append));
   }
 
   void append_metadata(std::string& out) {
@@ -175,7 +150,7 @@ void LogEncoder::begin(std::string& out, std::int64_t now_ns, const pipeline::Ut
   std::string head;
   s.append_definitions(head);
   out += head;
-  s.json_message(out, topic::kConfig, now_ns, now_ns, [&](std::string& text) {
+  s.json_message(out, {topic::kConfig, now_ns, now_ns}, [&](std::string& text) {
     JsonObject json(text, "CONFIG");
     json.seconds("time", mapping.to_utc(now_ns));
     json.seconds("monotonic", now_ns);
@@ -198,47 +173,45 @@ void LogEncoder::raw(std::string& out, std::uint16_t port, Direction direction, 
 }
 
 void LogEncoder::sample(std::string& out, const instruments::Sample& sample) {
-  const std::uint16_t channel = topic_of(sample);
-  if (channel == 0) return;  // satellites in view: the raw bytes have them
-  state_->json_message(out, channel, sample.stamp.arrival_ns, sample.stamp.validity_ns,
+  const MessageHead head = head_of(sample);
+  if (head.topic == 0) return;
+  state_->json_message(out, head,
                        [&](std::string& text) { append_json(text, sample, state_->ports[sample.port].name); });
 }
 
 void LogEncoder::navigation(std::string& out, const pipeline::NavigationSample& sample) {
-  state_->json_message(out, topic::kNav, sample.stamp.arrival_ns, sample.stamp.validity_ns,
-                       [&](std::string& text) { append_json(text, sample); });
+  state_->json_message(out, head_of(sample), [&](std::string& text) { append_json(text, sample); });
 }
 
 void LogEncoder::battery(std::string& out, const pipeline::BatterySample& sample) {
-  state_->json_message(out, topic::kBattery, sample.stamp.arrival_ns, sample.stamp.validity_ns,
+  state_->json_message(out, head_of(sample),
                        [&](std::string& text) { append_json(text, sample, state_->ports[sample.port].name); });
 }
 
 void LogEncoder::mapping(std::string& out, std::int64_t now_ns, const pipeline::UtcMapping& mapping) {
   state_->mapping = mapping;
-  state_->json_message(out, topic::kTime, now_ns, now_ns,
+  state_->json_message(out, {topic::kTime, now_ns, now_ns},
                        [&](std::string& text) { append_json(text, now_ns, mapping); });
 }
 
 void LogEncoder::event(std::string& out, std::int64_t now_ns, std::string_view severity, std::string_view name,
                        std::string_view port, std::string_view message) {
-  state_->json_message(out, topic::kEvent, now_ns, now_ns, [&](std::string& text) {
+  state_->json_message(out, {topic::kEvent, now_ns, now_ns}, [&](std::string& text) {
     append_event_json(text, state_->mapping, now_ns, severity, name, port, message);
   });
 }
 
 void LogEncoder::health(std::string& out, std::int64_t now_ns, std::string_view json) {
-  state_->json_message(out, topic::kHealth, now_ns, now_ns, [&](std::string& text) { text += json; });
+  state_->json_message(out, {topic::kHealth, now_ns, now_ns}, [&](std::string& text) { text += json; });
 }
 
 void LogEncoder::calib(std::string& out, std::int64_t now_ns, std::string_view json) {
-  state_->json_message(out, topic::kCalib, now_ns, now_ns, [&](std::string& text) { text += json; });
+  state_->json_message(out, {topic::kCalib, now_ns, now_ns}, [&](std::string& text) { text += json; });
 }
 
 void LogEncoder::command(std::string& out, std::int64_t now_ns, std::string_view device,
                          const control::OrderRecord& record) {
-  const std::int64_t publish_ns = record.sent_ns.value_or(record.asked_ns.value_or(now_ns));
-  state_->json_message(out, topic::kCommand, now_ns, publish_ns,
+  state_->json_message(out, head_of(record, now_ns),
                        [&](std::string& text) { append_json(text, state_->mapping, now_ns, device, record); });
 }
 

@@ -66,11 +66,14 @@ class FakeLine {
 /// A navcald of its own with one NMEA port on a fake line; its folder goes with it.
 class DaemonProcess {
  public:
-  /// `standard_error`: where its diagnostics go, if not to a file in its folder.
-  explicit DaemonProcess(std::vector<std::string> more = {}, const std::string& standard_error = {}) {
+  /// `standard_error`: where its diagnostics go, if not to a file in its folder. `ports`: more of the
+  /// configuration.
+  explicit DaemonProcess(std::vector<std::string> more = {}, const std::string& standard_error = {},
+                         std::string_view ports = {}) {
     const std::string folder = folder_.path();
     std::ofstream(config()) << "[port.compass]\nprotocol = \"nmea\"\npath = \"" << line.path()
-                            << "\"\nbaud = 9600\n";
+                            << "\"\nbaud = 9600\n"
+                            << ports;
     port_ = test::free_port();
     arguments_ = {NAVCALD,
                   "--config",

@@ -100,6 +100,7 @@ TEST(GpsdClients, LibgpsPassesOverWhatItDoesNotKnow) {
        R"({"class":"HEALTH","alarms":[{"alarm":"leak_aft","device":"imu"}],"ports":[{"device":"imu"}]})",
        R"({"class":"TIME","source":"gps","bound":null})", R"({"class":"LOG","state":"writing"})",
        R"({"class":"CALIB","calibrators":[]})",
+       R"({"class":"RECORD","topic":"/imu","device":"imu","time":1.5,"message":{"class":"IMU","rate_rad_s":[0,null,1]}})",
        R"({"class":"MOTOR","device":"motor","rpm":100,"fins_rad":[0,null,1]})",
        R"({"class":"TPV","device":"gps","mode":3,"lat":1.0,"lon":2.0,"time_corrected":true,"leap_known":false})"}) {
     auto data = std::make_unique<gps_data_t>();

@@ -57,6 +57,23 @@ TEST(Request, WatchChangesOnlyWhatItMentions) {
   EXPECT_FALSE(requests[1].watch) << "a bare ?WATCH; only asks";
 }
 
+TEST(Request, TopicsOfRecordsAreChosenByName) {
+  const auto topics = [](std::string_view text) { return parse_requests(text).at(0).watch->topics; };
+  RecordTopics expected;
+  EXPECT_TRUE(expected.add("/imu") && expected.add("/compass"));
+  EXPECT_EQ(topics(R"(?WATCH={"topics":["/compass","/imu"]};)"), expected);
+  EXPECT_EQ(topics(R"(?WATCH={"topics":[]};)"), RecordTopics());
+  EXPECT_EQ(topics(R"(?WATCH={"topics":null};)"), RecordTopics::all());
+  EXPECT_FALSE(topics(R"(?WATCH={"json":true};)"));
+  for (const char* wrong :
+       {R"(["/raw/gps"])", R"(["/config"])", R"(["compass"])", "[1]", "[null]", R"("/imu")", "{}"}) {
+    const Request request = parse_requests(std::string("?WATCH={\"topics\":") + wrong + "};").at(0);
+    EXPECT_EQ(request.kind, Kind::not_understood) << wrong;
+    EXPECT_NE(request.message.find("topic"), std::string::npos) << request.message;
+  }
+  EXPECT_EQ(kinds("?RECORDS;"), std::vector<Kind>{Kind::records});
+}
+
 TEST(Request, WrongTypesAndBrokenJsonAreNamed) {
   EXPECT_EQ(parse_requests(R"(?WATCH={"enable":1};)").at(0).message, "Invalid WATCH: enable is true or false");
   EXPECT_EQ(parse_requests(R"(?WATCH={"enable":tru};)").at(0).message, "Invalid WATCH: not a JSON object");

@@ -12,6 +12,7 @@
 #include "daemon/gpsd_replies.h"
 #include "daemon/listeners.h"
 #include "daemon/start_error.h"
+#include "record/log/log_topics.h"
 #include "tests/daemon/tcp_client.h"
 
 namespace navcal::daemon {
@@ -185,6 +186,57 @@ TEST_F(StatusServerTest, TheWatchAnswerSaysWhatWasChosenAndNothingMoreToOthers) 
   EXPECT_NE(client.line_with("ERROR").find("known are TPV, SKY"), std::string::npos);
   client.send(R"(?WATCH={"classes":null};)");
   EXPECT_FALSE(json::parse(client.line_with("\"WATCH\"")).contains("classes"));
+}
+
+TEST_F(StatusServerTest, RecordsGoOnlyToThoseWhoAskForThem) {
+  const RecordKey compass{record::topic::kCompass, 0, true}, event{record::topic::kEvent, std::nullopt, false};
+  const auto watched = [&](const RecordKey& key) { return on_loop([&] { return server_.watched(key); }); };
+  const auto record = [&](const RecordKey& key, const std::string& line) {
+    on_loop([&] { server_.publish(key, line + "\n"); });
+  };
+  const auto usual = watcher();
+  EXPECT_FALSE(watched(compass)) << "whoever does not ask costs nothing";
+  const auto all = watcher(R"(,"classes":["RECORD"])");
+  const auto gps_only = watcher(R"(,"classes":["RECORD"],"device":"gps")");
+  EXPECT_TRUE(watched(compass));
+  record(compass, "{\"n\":1}");
+  record(event, "{\"n\":2}");
+  publish(0, "{\"from\":\"att\"}\n");
+  EXPECT_EQ(all->line(), "{\"n\":1}");
+  EXPECT_EQ(all->line(), "{\"n\":2}");
+  EXPECT_EQ(gps_only->line(), "{\"n\":2}") << "what is of no device goes to everybody";
+  EXPECT_EQ(usual->line(), "{\"from\":\"att\"}");
+  all->send(R"(?WATCH={"topics":["/event"]};)");
+  EXPECT_EQ(json::parse(all->line_with("\"WATCH\""))["topics"], json::parse(R"(["/event"])"));
+  EXPECT_FALSE(watched(compass)) << "nobody has chosen this topic and this device";
+  EXPECT_TRUE(watched(event));
+}
+
+TEST_F(StatusServerTest, ARateOfRecordsCountsForEachTopicAndDeviceAndNeverDropsAnEvent) {
+  const auto slow = watcher(R"(,"classes":["RECORD"],"rate_Hz":{"RECORD":0.01})");
+  const RecordKey keys[] = {
+      {record::topic::kCompass, 0, true},           {record::topic::kCompass, 0, true},
+      {record::topic::kCompass, 1, true},           {record::topic::kGps, 1, true},
+      {record::topic::kEvent, std::nullopt, false}, {record::topic::kEvent, std::nullopt, false}};
+  int n = 0;
+  for (const RecordKey& key : keys) on_loop([&] { server_.publish(key, std::to_string(n++) + "\n"); });
+  for (const char* expected : {"0", "2", "3", "4", "5"}) EXPECT_EQ(slow->line(), expected);
+  EXPECT_FALSE(on_loop([&] { return server_.watched(keys[0]); }));
+}
+
+TEST_F(StatusServerTest, RecordsTellTopicsAndSchemasAsTheLogHasThem) {
+  Client client(server_.port());
+  client.send("?RECORDS;");
+  const std::string line = client.line_with("\"RECORDS\"");
+  const json records = json::parse(line);
+  ASSERT_EQ(records["topics"].size(), record::json_topics().size() - 1) << "all but /config";
+  for (const record::Topic& topic : record::json_topics()) {
+    if (topic.name == "/config") continue;
+    EXPECT_NE(line.find("{\"topic\":\"" + std::string(topic.name) + "\",\"schema_name\":\"" +
+                        std::string(topic.schema_name) + "\",\"schema\":" + record::json_schema(topic) + "}"),
+              std::string::npos)
+        << topic.name;
+  }
 }
 
 TEST_F(StatusServerTest, AnUnknownDeviceIsAnError) {
