@@ -47,7 +47,12 @@ void Hub::set_topics(std::vector<Topic> topics) {
   }
 }
 
-void Hub::forget() { newest_.clear(); }
+void Hub::forget() {
+  newest_.clear();
+  for (Subscriber* subscriber : pointers(subscribers_)) {
+    if (subscribers_.contains(subscriber)) subscriber->on_forget();
+  }
+}
 
 void Hub::add(Subscriber& subscriber, Demand demand) {
   subscribers_[&subscriber] = std::move(demand);

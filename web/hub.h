@@ -29,6 +29,8 @@ class Subscriber {
   virtual void on_link(const Link& /*link*/) {}
   /// The topics are known, or have changed.
   virtual void on_topics() {}
+  /// What was handed over before belongs to another recording, or to another place in it.
+  virtual void on_forget() {}
 };
 
 /// Topics that a subscriber needs, and how often.

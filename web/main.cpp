@@ -16,6 +16,7 @@
 #include "web/hub.h"
 #include "web/listener.h"
 #include "web/live_source.h"
+#include "web/page.h"
 #include "web/server.h"
 #include "web/site.h"
 
@@ -32,6 +33,7 @@ struct Options {
   std::string status = "127.0.0.1:2947";
   std::string control = "/run/navcal/control";
   std::string token_file;
+  std::string track;
   std::vector<std::string> host_names;
 };
 
@@ -52,6 +54,9 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
                  "may be repeated")
       ->take_all()
       ->allow_extra_args(false);
+  app.add_option("--track", options.track,
+                 "simulated track for the page: CSV with columns x and y, or lat and lon")
+      ->check(CLI::ExistingFile);
   app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
   navcal::share::add_manual(app);
   try {
@@ -82,6 +87,8 @@ void run(const Options& options) {
   const auto source =
       std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
   site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
+  web::PageFeed::Settings page_settings{.version = NAVCAL_VERSION, .can_change = access.can_change()};
+  const auto page = web::add_page(site, context.get_executor(), hub, std::move(page_settings), options.track);
   const auto server = std::make_shared<web::Server>(
       web::listen(context.get_executor(), options.address, options.port), site, access);
   signals.async_wait([&](boost::system::error_code error, int) {
