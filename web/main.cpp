@@ -76,8 +76,9 @@ web::LiveSource::Settings status_socket(const std::string& text) {
 }
 
 void run(const Options& options) {
-  // One thread runs everything: no locks are needed.
-  asio::io_context context(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
+  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without locks
+  // every resolution fails.
+  asio::io_context context(1);
   asio::signal_set signals(context, SIGTERM, SIGINT);
   const web::Access access(options.token_file.empty() ? "" : web::read_token(options.token_file),
                            options.host_names);

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/live_source.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/read.hpp>
+#include <thread>
+
+#include "tests/support/free_port.h"
+#include "tests/support/process.h"
+#include "tests/web/web_server.h"
+
+namespace navcal::web {
+namespace {
+
+/// navcald's status socket, served by the test.
+class FakeStatus {
+ public:
+  explicit FakeStatus(std::uint16_t port)
+      : acceptor_(context_, {boost::asio::ip::make_address("127.0.0.1"), port}), socket_(context_) {}
+  void accept() { socket_ = acceptor_.accept(); }
+  void send(std::string_view text) { boost::asio::write(socket_, boost::asio::buffer(text)); }
+  /// The next line that the source sends.
+  std::string line() {
+    std::string got;
+    char c = 0;
+    boost::system::error_code closed;
+    while (boost::asio::read(socket_, boost::asio::buffer(&c, 1), closed) == 1) {
+      if (c == '\n') return got;
+      got += c;
+    }
+    return "(closed)";
+  }
+  void hang_up() { socket_.close(); }
+
+ private:
+  boost::asio::io_context context_;
+  boost::asio::ip::tcp::acceptor acceptor_;
+  boost::asio::ip::tcp::socket socket_;
+};
+
+struct Collected : Subscriber {
+  void on_record(const Record& record) override { messages.emplace_back(record.message); }
+  std::vector<std::string> messages;
+};
+
+class LiveSourceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    source_ = std::make_shared<LiveSource>(context_.get_executor(),
+                                           LiveSource::Settings{"127.0.0.1", std::to_string(port_)}, hub_);
+    hub_.add(collected_, {false, {"/imu"}, 20.0});
+    source_->start();
+    thread_ = std::thread([this] { context_.run(); });
+  }
+  template <class Work>
+  auto in_loop(Work work) {
+    std::packaged_task<decltype(work())()> task(std::move(work));
+    auto result = task.get_future();
+    boost::asio::post(context_, [&task] { task(); });
+    return result.get();
+  }
+  void TearDown() override {
+    in_loop([&] {
+      source_->stop();
+      return 0;
+    });
+    thread_.join();
+  }
+  template <class Condition>
+  bool becomes(Condition condition) {
+    return navcal::test::eventually([&] { return in_loop(condition); });
+  }
+
+  const std::uint16_t port_ = navcal::test::free_port();
+  boost::asio::io_context context_;
+  Hub hub_;
+  Collected collected_;
+  std::shared_ptr<LiveSource> source_;
+  std::thread thread_;
+};
+
+TEST_F(LiveSourceTest, AsksForWhatIsNeededAndAgainAfterARestartOfNavcald) {
+  for (int round = 0; round < 2; ++round) {
+    FakeStatus status(port_);
+    status.accept();
+    EXPECT_EQ(status.line(), "?RECORDS;");
+    EXPECT_EQ(
+        status.line(),
+        R"(?WATCH={"enable":true,"json":true,"classes":["RECORD"],"topics":["/imu"],"rate_Hz":{"RECORD":20.0}};)");
+    EXPECT_TRUE(becomes([&] { return hub_.link().connected; }));
+    status.hang_up();
+    EXPECT_TRUE(becomes([&] { return !hub_.link().connected; }));
+    EXPECT_TRUE(in_loop([&] { return !hub_.link().problem.empty(); }));
+  }
+}
+
+TEST_F(LiveSourceTest, AChangedDemandIsAskedForOnce) {
+  FakeStatus status(port_);
+  status.accept();
+  status.line();
+  status.line();
+  EXPECT_TRUE(becomes([&] { return hub_.link().connected; }));
+  Collected bridge;
+  in_loop([&] {
+    hub_.add(bridge, {true, {}, std::nullopt});
+    hub_.change(bridge, {true, {}, std::nullopt});
+    return 0;
+  });
+  EXPECT_EQ(status.line(),
+            R"(?WATCH={"enable":true,"json":true,"classes":["RECORD"],"topics":null,"rate_Hz":null};)");
+  in_loop([&] {
+    hub_.remove(bridge);
+    return 0;
+  });
+  EXPECT_NE(status.line().find(R"(["/imu"])"), std::string::npos);
+}
+
+TEST_F(LiveSourceTest, RecordsTopicsAndLossesAreTakenAndGarbageIsCounted) {
+  FakeStatus status(port_);
+  status.accept();
+  status.send("{\"class\":\"VERSION\"}\r\nno JSON\n");
+  status.send(
+      R"({"class":"RECORDS","topics":[{"topic":"/imu","schema_name":"navcal.Imu","schema":{"type":"object"}}]})"
+      "\n");
+  status.send(R"({"class":"RECORD","topic":"/imu","device":"imu","time":5.5,"message":{"a":1}})"
+              "\n");
+  status.send(R"({"class":"RECORD","topic":"/health","device":null,"time":5.5,"message":{"dropped":7}})"
+              "\n");
+  EXPECT_TRUE(becomes([&] { return collected_.messages.size() == 2; }));
+  EXPECT_TRUE(in_loop([&] {
+    return hub_.topics().size() == 1 && hub_.topics()[0].schema == R"({"type":"object"})" &&
+           collected_.messages[0] == R"({"a":1})" && source_->counters().missed == 7 &&
+           source_->counters().not_understood == 1;
+  }));
+}
+
+TEST_F(LiveSourceTest, APeerThatSendsNoLinesIsLeft) {
+  FakeStatus status(port_);
+  status.accept();
+  std::thread sender([&] {
+    try {
+      for (int i = 0; i < 40; ++i) status.send(std::string(100'000, 'x'));
+    } catch (const boost::system::system_error&) {
+      // The source hung up, as it should.
+    }
+  });
+  EXPECT_TRUE(becomes([&] { return hub_.link().problem.find("no lines") != std::string::npos; }));
+  sender.join();
+}
+
+}  // namespace
+}  // namespace navcal::web
