@@ -16,7 +16,7 @@
 namespace navcal::web {
 
 void view_recording(const ViewerSettings& settings) {
-  boost::asio::io_context context(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
+  boost::asio::io_context context(1);
   // From here on a signal no longer ends the program: what the caller has made for this has to be removed.
   boost::asio::signal_set signals(context, SIGINT, SIGTERM);
   RecordedLog log(settings.log, settings.progress);
