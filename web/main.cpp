@@ -13,6 +13,7 @@
 #include "share/manual.h"
 #include "web/access.h"
 #include "web/control_peer.h"
+#include "web/foxglove/peer.h"
 #include "web/hub.h"
 #include "web/listener.h"
 #include "web/live_source.h"
@@ -88,6 +89,7 @@ void run(const Options& options) {
   const auto source =
       std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
   site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
+  site.add(web::foxglove::endpoint(hub, NAVCAL_VERSION));
   web::PageFeed::Settings page_settings{.version = NAVCAL_VERSION, .can_change = access.can_change()};
   const auto page = web::add_page(site, context.get_executor(), hub, std::move(page_settings), options.track);
   const auto server = std::make_shared<web::Server>(
