@@ -13,6 +13,7 @@
 #include "share/manual.h"
 #include "web/access.h"
 #include "web/control_peer.h"
+#include "web/foxglove/peer.h"
 #include "web/hub.h"
 #include "web/listener.h"
 #include "web/live_source.h"
@@ -76,17 +77,19 @@ web::LiveSource::Settings status_socket(const std::string& text) {
 }
 
 void run(const Options& options) {
-  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without locks
-  // every resolution fails.
-  asio::io_context context(1);
-  asio::signal_set signals(context, SIGTERM, SIGINT);
+  // Clients that are still connected at the end go with the context, and use these three when they go.
   const web::Access access(options.token_file.empty() ? "" : web::read_token(options.token_file),
                            options.host_names);
   web::Hub hub;
   web::Site site;
+  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without locks
+  // every resolution fails.
+  asio::io_context context(1);
+  asio::signal_set signals(context, SIGTERM, SIGINT);
   const auto source =
       std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
   site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
+  site.add(web::foxglove::endpoint(hub, NAVCAL_VERSION));
   web::PageFeed::Settings page_settings{.version = NAVCAL_VERSION, .can_change = access.can_change()};
   const auto page = web::add_page(site, context.get_executor(), hub, std::move(page_settings), options.track);
   const auto server = std::make_shared<web::Server>(
