@@ -52,9 +52,7 @@ class PageFeed::Viewer final : public Peer {
   }
   void on_drained() override {
     const auto feed = feed_.lock();
-    if (missed_ == 0 || !feed) return;
-    link_.send_text(fmt::format(R"({{"kind":"dropped","frames":{}}})", missed_));
-    feed->welcome(*this);
+    if (missed_ > 0 && feed) feed->welcome(*this);
   }
 
   /// False when the frame was dropped.
@@ -65,6 +63,7 @@ class PageFeed::Viewer final : public Peer {
     return false;
   }
   void begin_anew(Payload snapshot) {
+    if (missed_ > 0) link_.send_text(fmt::format(R"({{"kind":"dropped","frames":{}}})", missed_));
     missed_ = 0;
     snapshot_bytes_ = snapshot.bytes->size();
     if (!link_.send(std::move(snapshot))) ++missed_;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "record/log/mcap_format.h"
 #include "record/recording.h"
 #include "tests/record/sample_log.h"
 #include "tests/support/temporary_folder.h"
@@ -71,7 +72,7 @@ TEST_F(RecordedSourceTest, EveryMessageOnceAndInOrder) {
     if (heard.topics[i] != "/imu") continue;
     EXPECT_EQ(heard.devices[i], "imu");
     ASSERT_TRUE(heard.times_ns[i]);
-    if (last_ns) EXPECT_GT(*heard.times_ns[i], *last_ns);
+    EXPECT_GT(*heard.times_ns[i], last_ns.value_or(0));
     last_ns = heard.times_ns[i];
   }
 }

@@ -75,17 +75,25 @@ function drawAges() {
   }
 }
 
+function drawClock() {
+  const utc = clock(store.utc, true);
+  write($('now'), utc ? `${utc} UTC` : 'UTC unknown');
+}
+
+const panels = [drawClock, () => system.draw(), () => numbers.draw(), () => calibration.draw(), () => events.draw(), () => player.draw()];
+
 function draw() {
   requestAnimationFrame(draw);
   if (!isDirty) return;
   isDirty = false;
-  const utc = clock(store.utc, true);
-  write($('now'), utc ? `${utc} UTC` : 'UTC unknown');
-  numbers.draw();
-  system.draw();
-  calibration.draw();
-  events.draw();
-  player.draw();
+  // What one panel cannot show must not keep the others from showing.
+  for (const draw_ of panels) {
+    try {
+      draw_();
+    } catch (error) {
+      console.error(error);
+    }
+  }
   if (performance.now() - mapDrawn < 200) return dirty();
   mapDrawn = performance.now();
   map.draw();

@@ -7,10 +7,21 @@ const LABELS = ['Calibrator', 'Verdict', 'Coverage', 'Held-out error', 'Estimate
 const GRADES = {in_force: 'good', shadow: '', refused: 'warn'};
 const UNITS = [['_deg_s', '\u00b0/s'], ['_deg', '\u00b0'], ['_uT_per_A', '\u00b5T/A'], ['_uT', '\u00b5T'], ['_m_s', 'm/s'], ['_rad_s', 'rad/s'], ['_s', 's']];
 
-function quantity(name, value, std) {
+function split(name) {
   const [suffix, unit] = UNITS.find(([ending]) => name.endsWith(ending)) ?? ['', ''];
-  const bare = words(name.slice(0, name.length - suffix.length));
-  return `${bare}\u00a0${value == null ? 'not known' : number(value, unit, 3, std).replaceAll(' ', '\u00a0')}`;
+  return [words(name.slice(0, name.length - suffix.length)), unit];
+}
+
+// The matrix of the magnetometer is left out: nobody reads it. It is in the log.
+function estimateText(one) {
+  const names = Object.keys(one.estimate ?? {}).filter((name) => !name.startsWith('matrix_'));
+  const known = names.filter((name) => one.estimate[name] != null).map((name) => {
+    const [bare, unit] = split(name);
+    return `${bare} ${number(one.estimate[name], unit, 3, one.std?.[name])}`.replaceAll(' ', '\u00a0');
+  });
+  const unknown = names.filter((name) => one.estimate[name] == null).map((name) => split(name)[0]);
+  if (unknown.length > 0) known.push(`not known: ${unknown.join(', ')}`);
+  return known.join(', ') || 'none yet';
 }
 
 function heldOut(one) {
@@ -42,6 +53,7 @@ export class Calibration {
       const cells = LABELS.map((label) => make('td', {'data-label': label}, make('span')));
       const button = (label, command) => make('button', {type: 'button', 'aria-label': `${label}: ${words(one.calibrator)}`, onclick: () => this.#do(command, row.one)}, label);
       row = {cells, buttons: [button('Accept', 'accept'), button('Roll back', 'rollback'), button('Start anew', 'start')]};
+      cells[5].className = 'actions';
       cells[5].firstChild.append(...row.buttons);
       row.reason = make('span', {class: 'note'});
       row.state = make('span');
@@ -53,9 +65,9 @@ export class Calibration {
     if (row.one === one) return;
     row.one = one;
     const text = [words(one.calibrator), null, number(one.coverage == null ? null : one.coverage * 100, '%', 0) ?? 'absent', heldOut(one),
-      Object.keys(one.estimate ?? {}).filter((name) => !name.startsWith('matrix_')).map((name) => quantity(name, one.estimate[name], one.std?.[name])).join(', ') || 'none yet'];
+      estimateText(one)];
     text.forEach((words_, i) => words_ != null && write(row.cells[i].firstChild, words_));
-    write(row.state, `${words(one.verdict)}${one.held ? ', held by the operator' : ''}; judged ${words(one.judgement)}`);
+    write(row.state, `${words(one.verdict)}${one.held ? ', held by the operator' : ''}${one.judgement === one.verdict ? '' : `; judged ${words(one.judgement)}`}`);
     attribute(row.state, 'class', GRADES[one.verdict] ?? '');
     write(row.reason, [one.reason, one.manoeuvre].filter(Boolean).join('; '));
   }

@@ -47,7 +47,7 @@ export class Values {
     if (!row) {
       row = {text: make('span'), note: make('small')};
       row.value = make('dd', {'data-name': name}, row.text, row.note);
-      this.list.append(make('dt', {}, name), row.value);
+      this.list.append(make('div', {}, make('dt', {}, name), row.value));
       this.rows.set(name, row);
     }
     write(row.text, value ?? 'absent');

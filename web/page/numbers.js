@@ -43,6 +43,7 @@ export class Numbers {
     this.rose.heading(heading?.rad, heading?.std);
     const deg = bearing(degrees(heading?.rad));
     write($('heading-value'), deg == null ? 'absent' : number(deg, '\u00b0', 1, heading.std == null ? null : degrees(heading.std)));
+    write($('heading-north'), heading?.isTrue == null ? '' : heading.isTrue ? 'true north' : 'magnetic north');
     const m = heading?.record.topic === '/compass' ? heading.record.message : null;
     list.set('from', heading?.from ?? null, heading ? (m?.calibration ? `calibration ${m.calibration}` : 'no calibration in force') : 'no compass delivers a heading');
     list.set('device says', m ? angle(m.heading_rad) : null, m ? (m.heading_is_true === true ? 'true north' : 'magnetic north') : 'no record of a compass');

@@ -20,6 +20,9 @@ const PLOTS = [
   {title: 'Fins, \u00b0', names: ['fin 1', 'fin 2', 'fin 3'], topics: {'/motor': (m) => (m.fins_rad ?? [null, null, null]).map(degrees)}},
 ];
 
+const utc = (time) => (time == null ? '' : new Date(time * 1000).toISOString().slice(11, 19));
+const shown = (value) => (value == null ? '\u2013' : value.toFixed(2).replace('-', '\u2212'));
+
 class Plot {
   constructor(description, parent) {
     this.description = description;
@@ -63,13 +66,13 @@ class Plot {
     const {title, names, flip} = this.description;
     const axis = {stroke: style('--muted'), grid: {stroke: style('--grid'), width: 1}, ticks: {stroke: style('--grid')}, font: '11px system-ui, sans-serif'};
     this.chart = new uPlot({
-      title, width: Math.max(200, this.parent.clientWidth), height: 130, tzDate: (time) => uPlot.tzDate(new Date(time * 1000), 'UTC'),
+      title, width: Math.max(200, this.parent.clientWidth), height: 140, tzDate: (time) => uPlot.tzDate(new Date(time * 1000), 'UTC'),
       cursor: {sync: {key: 'navcal'}, drag: {x: false, y: false}}, legend: {live: true},
       scales: {x: {time: true, auto: false}, y: {dir: flip ? -1 : 1, range: (_, low, high) => widened(low, high)}},
-      axes: [{...axis, space: 60}, {...axis, size: 44}],
-      series: [{value: (_, time) => (time == null ? '' : new Date(time * 1000).toISOString().slice(11, 19))},
+      axes: [{...axis, space: 70, size: 24, values: (_, times) => times.map(utc)}, {...axis, size: 46, space: 22}],
+      series: [{label: 'UTC', value: (chart, time) => utc(time ?? chart.data[0].at(-1))},
         ...names.map((label, i) => ({label, stroke: style(COLORS[i]), width: 2, dash: DASHES[i], points: {show: false},
-          value: (_, value) => (value == null ? '' : value.toFixed(2))}))],
+          value: (chart, value, series, row) => shown(row == null ? chart.data[series].findLast((one) => one != null) : value)}))],
     }, this.data, this.box);
     this.box.firstChild.setAttribute('role', 'img');
     this.box.firstChild.setAttribute('aria-label', `Plot over time: ${title}: ${names.join(', ')}`);

@@ -78,6 +78,8 @@ export class Store extends EventTarget {
   #record(topic, device, message, age, isOld) {
     const key = `${topic} ${device} ${message.part ?? ''}${topic === '/sensor' ? message.quantity : ''}`;
     const now = performance.now();
+    // HEALTH has its time as text.
+    if (typeof message.time === 'string') message.time = Date.parse(message.time) / 1000;
     const before = this.records.get(key) ?? this.previous.get(key);
     const record = {topic, device, message, at: now - age * 1000, interval: before?.interval ?? null, before};
     if (before) {

@@ -43,6 +43,9 @@ export class System {
   #alarms(health) {
     const alarms = health.flatMap((one) => one.alarms ?? []);
     const text = alarms.map((alarm) => `${words(alarm.alarm).toUpperCase()}${alarm.device ? ` (${alarm.device})` : ''}`);
+    const known = health.length > 0;
+    write($('alarm-state'), !known ? 'alarms unknown' : text.length === 0 ? 'no alarm' : `${text.length} ALARM${text.length > 1 ? 'S' : ''}`);
+    attribute($('alarm-state'), 'class', `chip ${!known ? '' : text.length === 0 ? 'good' : 'bad'}`);
     const key = text.join('\n');
     if (key === this.alarmsShown) return;
     this.alarmsShown = key;

@@ -197,9 +197,9 @@ export class TrackMap {
       const isLast = i === points.length - 1;
       to.beginPath();
       to.ellipse(...at(points[i]), east * this.scale, north * this.scale, 0, 0, 2 * Math.PI);
-      to.globalAlpha = isLast ? 0.25 : 0.07;
-      to.fill();
-      to.globalAlpha = isLast ? 1 : 0.3;
+      to.globalAlpha = 0.2;
+      if (isLast) to.fill();
+      to.globalAlpha = isLast ? 1 : 0.25;
       to.lineWidth = isLast ? 1.5 : 1;
       to.stroke();
       to.globalAlpha = 1;
