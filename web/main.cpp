@@ -82,8 +82,8 @@ void run(const Options& options) {
                            options.host_names);
   web::Hub hub;
   web::Site site;
-  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without locks
-  // every resolution fails.
+  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without
+  // locks every resolution fails.
   asio::io_context context(1);
   asio::signal_set signals(context, SIGTERM, SIGINT);
   const auto source =
