@@ -1,39 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/calib/thesis_paths.h"
+#include "calib/thesis/measured_path.h"
 
 #include <cmath>
-#include <numbers>
 
-#include "sim/path.h"
+#include "base/angles.h"
 
-namespace navcal::calib::test {
-namespace {
-
-constexpr double kTurn_rad = 2 * std::numbers::pi;
-
-double wrapped(double angle_rad) { return angle_rad - kTurn_rad * std::floor(angle_rad / kTurn_rad); }
-
-}  // namespace
-
-std::vector<TruePoint> load_true_path(const std::string& name) {
-  std::vector<TruePoint> path;
-  for (const auto& row : sim::load_path(NAVCAL_SOURCE_DIR "/fixtures/paths/" + name + ".csv")) {
-    TruePoint point;
-    point.time_s = row.t_s;
-    point.position_m = {row.position_m[0], row.position_m[1]};
-    point.roll_rad = row.euler_rad[0];
-    point.pitch_rad = row.euler_rad[1];
-    // Unwrapped whatever the reader made of it.
-    const double before = path.empty() ? row.euler_rad[2] : path.back().heading_rad;
-    point.heading_rad = before + std::remainder(row.euler_rad[2] - before, kTurn_rad);
-    point.velocity_body_m_s = {row.velocity_body_m_s[0], row.velocity_body_m_s[1], row.velocity_body_m_s[2]};
-    point.rate_rad_s = {row.rate_rad_s[0], row.rate_rad_s[1], row.rate_rad_s[2]};
-    path.push_back(point);
-  }
-  return path;
-}
-
-Deviation thesis_deviation() { return Deviation{0, 5, -5, 2, 2} * (std::numbers::pi / 180); }
+namespace navcal::calib::thesis {
+Deviation thesis_deviation() { return Deviation{0, 5, -5, 2, 2} * base::kRadiansPerDegree; }
 
 double deviation_rad(const Deviation& c, double psi) {
   return c[0] + c[1] * std::sin(psi) + c[2] * std::cos(psi) + c[3] * std::sin(2 * psi) + c[4] * std::cos(2 * psi);
@@ -70,8 +43,8 @@ std::vector<Measured> measure(const std::vector<TruePoint>& path, const Deviatio
   for (const TruePoint& point : path) {
     Measured m;
     m.time_s = point.time_s;
-    m.heading_rad =
-        wrapped(measured_heading_rad(deviation, point.heading_rad) + noise.heading_rad * normal(random));
+    m.heading_rad = base::positive_angle(measured_heading_rad(deviation, point.heading_rad) +
+                                         noise.heading_rad * normal(random));
     m.roll_rad = point.roll_rad + noise.tilt_rad * normal(random);
     m.pitch_rad = point.pitch_rad + noise.tilt_rad * normal(random);
     m.rate_rad_s = point.rate_rad_s;
@@ -82,4 +55,4 @@ std::vector<Measured> measure(const std::vector<TruePoint>& path, const Deviatio
   return measured;
 }
 
-}  // namespace navcal::calib::test
+}  // namespace navcal::calib::thesis

@@ -4,14 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "calib/readings.h"
 
-/// The reference paths (fixtures/paths/) as the thesis's vehicle would have measured them. THESIS numbers: Mach
-/// 2003.
-namespace navcal::calib::test {
+/// A path as the thesis's vehicle would have measured it. Equation and figure numbers: Mach 2003.
+namespace navcal::calib::thesis {
 
 /// One row of a path, what is true.
 struct TruePoint {
@@ -23,8 +21,11 @@ struct TruePoint {
   Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
 };
 
-/// `name`: "path1" ... "path8" (501 rows, 10 Hz), "path_long600" (600 s).
-[[nodiscard]] std::vector<TruePoint> load_true_path(const std::string& name);
+/// Time between two samples of the thesis's loop.
+inline constexpr double kPeriod_s = 0.1;
+
+/// Number of headings 0:0.01:2 pi, with which the thesis goes round the circle: the last gap is 0.0032.
+inline constexpr int kCirclePoints = 629;
 
 /// Standard deviations per sample; the thesis's own (figures 3.5, 3.10, 4.6, 4.12).
 struct Noise {
@@ -65,4 +66,4 @@ using Random = std::mt19937_64;
 [[nodiscard]] std::vector<Measured> measure(const std::vector<TruePoint>& path, const Deviation& deviation,
                                             const Noise& noise, Random& random);
 
-}  // namespace navcal::calib::test
+}  // namespace navcal::calib::thesis
