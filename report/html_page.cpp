@@ -45,6 +45,8 @@ figure { margin:0; padding:14px 16px 10px; background:var(--card); border:1px so
 .figures figure:last-child:nth-child(odd):not(:first-child) { grid-column:1/-1; }
 .wide { display:grid; grid-template-columns:minmax(0, 1fr); gap:18px; }
 .panels { display:grid; grid-template-columns:repeat(auto-fit, minmax(min(100%, 330px), 1fr)); gap:10px 14px; }
+.panels.pair { grid-template-columns:repeat(auto-fit, minmax(min(100%, 480px), 1fr)); }
+.scroll + .wide { margin-top:18px; }
 .panels h4 { margin:4px 0 0; font-size:13px; font-weight:600; color:var(--soft); text-align:center; }
 .index { margin:4px 0; line-height:1.9; } .index b { display:inline-block; min-width:5em; }
 .index a { margin-right:4px; }

@@ -27,7 +27,10 @@ double size_percent(const ThesisEstimate& row, double error) { return std::abs(p
 
 std::string shown_cell(const ThesisCell& cell, const ThesisColumn& column) {
   if (!cell.number) return cell.text.empty() ? "-" : cell.text;
-  return fmt::format("{:.{}f}", *cell.number, column.decimals);
+  const std::string text = fmt::format("{:.{}f}", *cell.number, column.decimals);
+  // No negative zero.
+  const bool zero = text.find_first_of("123456789") == std::string::npos && text.front() == '-';
+  return zero ? text.substr(1) : text;
 }
 
 ThesisTablePart thesis_estimates(std::string key, std::string title, const std::vector<ThesisEstimate>& rows,

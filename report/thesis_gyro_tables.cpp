@@ -48,7 +48,7 @@ struct ConvergenceRow {
 
 ThesisCell time_cell(const std::optional<double>& time_s) {
   if (time_s) return {time_s, {}};
-  return {std::nullopt, "not within 50 s"};
+  return {std::nullopt, "not reached"};
 }
 
 ThesisTable convergence_table(const analysis::ThesisResults& results) {

@@ -16,7 +16,8 @@
 namespace navcal::report {
 namespace {
 
-constexpr SvgPlot::Size kPanelSize{380, 260};
+/// Three pictures side by side, or one or two.
+constexpr SvgPlot::Size kThird{380, 260}, kHalf{540, 310};
 constexpr std::size_t kMostPoints = 320;  // of a curve; the picture has no more pixels
 
 bool in_chapter(const std::string& id, char chapter) { return id.size() > 1 && id[0] == chapter && id[1] == '.'; }
@@ -43,19 +44,19 @@ Range range_over(const ThesisPanel& panel, std::vector<double> ThesisCurve::*axi
   return whole_range_of(values);
 }
 
-std::string panel_svg(const ThesisPanel& panel) {
+std::string panel_svg(const ThesisPanel& panel, SvgPlot::Size size) {
   Range x = range_over(panel, &ThesisCurve::x);
   Range y = panel.y_range.value_or(range_over(panel, &ThesisCurve::y));
   if (panel.equal_axes) {
     // The frame is wider than high; a metre is as long on both axes.
-    constexpr double kWidth = kPanelSize.width - SvgPlot::kLeft - SvgPlot::kRight;
-    constexpr double kHeight = kPanelSize.height - SvgPlot::kTop - SvgPlot::kBottom;
-    const double unit = std::max(x.length() / kWidth, y.length() / kHeight);
+    const double width = size.width - SvgPlot::kLeft - SvgPlot::kRight;
+    const double height = size.height - SvgPlot::kTop - SvgPlot::kBottom;
+    const double unit = std::max(x.length() / width, y.length() / height);
     const double x_middle = (x.least + x.most) / 2, y_middle = (y.least + y.most) / 2;
-    x = {x_middle - unit * kWidth / 2, x_middle + unit * kWidth / 2};
-    y = {y_middle - unit * kHeight / 2, y_middle + unit * kHeight / 2};
+    x = {x_middle - unit * width / 2, x_middle + unit * width / 2};
+    y = {y_middle - unit * height / 2, y_middle + unit * height / 2};
   }
-  SvgPlot plot(panel.title, {panel.x_label, x}, {panel.y_label, y}, kPanelSize);
+  SvgPlot plot(panel.title, {panel.x_label, x}, {panel.y_label, y}, size);
   for (const ThesisCurve& curve : panel.curves) {
     if (curve.dots)
       plot.points(curve.ink, curve.name, points_of(curve));
@@ -66,11 +67,15 @@ std::string panel_svg(const ThesisPanel& panel) {
 }
 
 Figure page_figure(const ThesisFigure& figure) {
-  std::string html = figure.panels.empty() ? "" : "<div class=\"panels\">\n";
+  if (figure.panels.empty())
+    return {"Figure " + figure.id + ": " + figure.title, {}, figure.caption, figure_id(figure)};
+  const bool thirds = figure.panels.size() % 3 == 0;
+  std::string html = thirds ? "<div class=\"panels\">\n" : "<div class=\"panels pair\">\n";
   char letter = 'a';
   for (const ThesisPanel& panel : figure.panels)
-    html += fmt::format("<div><h4>({}) {}</h4>\n{}</div>\n", letter++, escaped(panel.title), panel_svg(panel));
-  if (!figure.panels.empty()) html += "</div>\n";
+    html += fmt::format("<div><h4>({}) {}</h4>\n{}</div>\n", letter++, escaped(panel.title),
+                        panel_svg(panel, thirds ? kThird : kHalf));
+  html += "</div>\n";
   return {"Figure " + figure.id + ": " + figure.title, html, figure.caption, figure_id(figure)};
 }
 

@@ -33,18 +33,22 @@ ThesisFinding gyro_finding(const analysis::ThesisResults& results) {
                               method.least, method.most, ours.least, ours.most)};
 }
 
+/// Number of paths on which a time is known.
+template <class Get>
+long paths_settled(const analysis::ThesisResults& results, Get get) {
+  return std::count_if(results.gyro.begin(), results.gyro.end(),
+                       [&](const analysis::ThesisGyro& path) { return get(path).has_value(); });
+}
+
 ThesisFinding identifier_finding(const analysis::ThesisResults& results) {
-  const auto settled = std::count_if(results.gyro.begin(), results.gyro.end(),
-                                     [](const auto& path) { return path.adaptive_settled_s.has_value(); });
-  Spread ours;
-  for (const auto& path : results.gyro) {
-    if (path.navcal_settled_s) ours.add(*path.navcal_settled_s);
-  }
-  return {
-      "identifier",
-      fmt::format("The adaptive identifier comes within 5 % on {} of 8 paths; navcal's recursive filter on all "
-                  "paths where it is shown to, after {:.1f} to {:.1f} s (table of convergence).",
-                  settled, ours.least, ours.most)};
+  using Gyro = analysis::ThesisGyro;
+  return {"identifier",
+          fmt::format("The adaptive identifier comes to within 5 % on {} of 8 paths, with noise on {}; navcal's "
+                      "recursive filter on {}, with noise on {} (table of convergence).",
+                      paths_settled(results, [](const Gyro& path) { return path.adaptive_settled_s; }),
+                      paths_settled(results, [](const Gyro& path) { return path.adaptive_noisy_settled_s; }),
+                      paths_settled(results, [](const Gyro& path) { return path.navcal_settled_s; }),
+                      paths_settled(results, [](const Gyro& path) { return path.navcal_noisy_settled_s; }))};
 }
 
 ThesisFinding compass_finding(const analysis::ThesisResults& results) {

@@ -62,7 +62,7 @@ struct ThesisRateErrors {
 struct ThesisTurnTrace {
   int path = 0;
   bool noisy = false;
-  std::vector<double> time_s, north_m, east_m, heading_rad;
+  std::vector<double> time_s, north_m, east_m, heading_rad, roll_deg;
   std::vector<double> rate_rad_s, measured_rate_rad_s;  ///< true heading rate; gyro
   ThesisRateErrors least_squares, adaptive, navcal;
   std::vector<double> adaptive_state_error_rad;  ///< psi - xhat of the identifier

@@ -24,6 +24,7 @@ void add_motion(ThesisTurnTrace& trace, const ThesisPath& path, const std::vecto
     trace.north_m.push_back(path[k].position_m.x());
     trace.east_m.push_back(path[k].position_m.y());
     trace.heading_rad.push_back(path[k].heading_rad);
+    trace.roll_deg.push_back(path[k].roll_rad * base::kDegreesPerRadian);
     trace.rate_rad_s.push_back(heading_rate(path[k]));
     trace.measured_rate_rad_s.push_back(readings[k].rate_rad_s.z());
   }
