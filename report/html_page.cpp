@@ -51,7 +51,7 @@ figure { margin:0; padding:14px 16px 10px; background:var(--card); border:1px so
 .index { margin:4px 0; line-height:1.9; } .index b { display:inline-block; min-width:5em; }
 .index a { margin-right:4px; }
 a { color:var(--after); }
-section > h3 { font-size:15px; margin:22px 0 8px; }
+section h3 { font-size:15px; margin:22px 0 8px; }
 figure h3 { margin:0 0 8px; font-size:15px; }
 figcaption { color:var(--soft); font-size:13px; margin-top:6px; }
 svg { max-width:100%; height:auto; display:block; margin:0 auto; font-size:12px; fill:var(--soft); }
