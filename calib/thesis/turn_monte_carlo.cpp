@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/calibration/turn_monte_carlo.h"
+#include "calib/thesis/turn_monte_carlo.h"
 
 #include <cmath>
 
-namespace navcal::bench {
+namespace navcal::calib::thesis {
 
-TurnStatistics monte_carlo(TurnProblem problem, const std::vector<calib::test::TruePoint>& path, int runs,
-                           unsigned seed) {
-  const calib::test::Noise noise;
+TurnStatistics monte_carlo(TurnProblem problem, const std::vector<TruePoint>& path, int runs, std::uint64_t seed) {
+  const Noise noise;
   const std::vector<int> coefficients = sought(problem);
-  const calib::TurnCoefficients truth = true_coefficients(problem);
-  calib::test::Random random(seed);
+  const TurnCoefficients truth = true_coefficients(problem);
+  Random random(seed);
   TurnStatistics statistics;
   statistics.bound = cramer_rao(problem, path, noise);
   statistics.rms = statistics.covered = Eigen::VectorXd::Zero(statistics.bound.size());
   for (int run = 0; run < runs; ++run) {
-    const calib::TurnFilter filter = filtered(problem, measure(problem, path, noise, random));
-    const calib::TurnCoefficients error = filter.estimate() - truth;
-    const calib::TurnCovariance covariance = filter.covariance();
+    const TurnFilter filter = filtered(problem, measure(problem, path, noise, random));
+    const TurnCoefficients error = filter.estimate() - truth;
+    const TurnCovariance covariance = filter.covariance();
     for (Eigen::Index i = 0; i < statistics.rms.size(); ++i) {
       const int c = coefficients[static_cast<std::size_t>(i)];
       statistics.rms[i] += error[c] * error[c] / runs;
@@ -32,4 +31,4 @@ TurnStatistics monte_carlo(TurnProblem problem, const std::vector<calib::test::T
   return statistics;
 }
 
-}  // namespace navcal::bench
+}  // namespace navcal::calib::thesis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/calibration/turn_problem.h"
+#include "calib/thesis/turn_problem.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -7,20 +7,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/calib/turn/filtered_turns.h"
+#include "calib/gps/gps_coefficients.h"
+#include "calib/thesis/filtered_turns.h"
 
-namespace navcal::bench {
-
-using namespace calib;
-using namespace calib::test;
+namespace navcal::calib::thesis {
 
 namespace {
-
-constexpr double kPeriod_s = 0.1;
-
-Eigen::Vector4d harmonics(double psi) {
-  return {std::sin(psi), std::cos(psi), std::sin(2 * psi), std::cos(2 * psi)};
-}
 
 Deviation deviation_of(TurnProblem problem) {
   return problem == TurnProblem::gyro ? Deviation(Deviation::Zero()) : thesis_deviation();
@@ -60,11 +52,11 @@ TurnCoefficients true_coefficients(TurnProblem problem) {
 
 std::vector<Measured> measure(TurnProblem problem, const std::vector<TruePoint>& path, const Noise& noise,
                               Random& random) {
-  return calib::test::measure(path, deviation_of(problem), noise, random);
+  return thesis::measure(path, deviation_of(problem), noise, random);
 }
 
 TurnFilter filtered(TurnProblem problem, std::span<const Measured> readings) {
-  return calib::test::filtered(readings, prior_of(problem));
+  return filtered(readings, prior_of(problem));
 }
 
 Eigen::VectorXd cramer_rao(TurnProblem problem, const std::vector<TruePoint>& path, const Noise& noise) {
@@ -86,7 +78,7 @@ Eigen::VectorXd cramer_rao(TurnProblem problem, const std::vector<TruePoint>& pa
     }
     const double psi_m = measured_heading_rad(deviation, path[static_cast<std::size_t>(i)].heading_rad);
     TurnCoefficients row;
-    row << S1, S2, harmonics(psi_m);
+    row << S1, S2, deviation_harmonics(psi_m).tail<4>();
     regressors(i, 0) = 1;
     for (std::size_t c = 0; c < columns.size(); ++c) {
       regressors(i, 1 + static_cast<Eigen::Index>(c)) = row[columns[c]];
@@ -109,7 +101,8 @@ CurveError curve_error(const Eigen::Vector4d& error) {
   double square = 0;
   constexpr int kPoints = 720;
   for (int i = 0; i < kPoints; ++i) {
-    const double e = error.dot(harmonics(2 * std::numbers::pi * i / kPoints)) * 180 / std::numbers::pi;
+    const double e =
+        error.dot(deviation_harmonics(2 * std::numbers::pi * i / kPoints).tail<4>()) * 180 / std::numbers::pi;
     found.largest_deg = std::max(found.largest_deg, std::abs(e));
     square += e * e;
   }
@@ -117,4 +110,4 @@ CurveError curve_error(const Eigen::Vector4d& error) {
   return found;
 }
 
-}  // namespace navcal::bench
+}  // namespace navcal::calib::thesis

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "calib/thesis/measured_path.h"
 #include "calib/turn/turn_filter.h"
-#include "tests/calib/thesis_paths.h"
 
 /// The three problems of turns on one of the reference paths: what our filter finds, and what could be found.
-namespace navcal::bench {
+namespace navcal::calib::thesis {
 
 enum class TurnProblem {
   gyro,     ///< the compass has no error (THESIS 11.1)
@@ -19,14 +19,12 @@ enum class TurnProblem {
 /// Coefficients that a problem estimates, as indices of TurnCoefficient.
 [[nodiscard]] std::vector<int> sought(TurnProblem problem);
 /// True coefficients on the reference paths.
-[[nodiscard]] calib::TurnCoefficients true_coefficients(TurnProblem problem);
+[[nodiscard]] TurnCoefficients true_coefficients(TurnProblem problem);
 /// Readings of the problem's compass and gyro along a path.
-[[nodiscard]] std::vector<calib::test::Measured> measure(TurnProblem problem,
-                                                         const std::vector<calib::test::TruePoint>& path,
-                                                         const calib::test::Noise& noise,
-                                                         calib::test::Random& random);
+[[nodiscard]] std::vector<Measured> measure(TurnProblem problem, const std::vector<TruePoint>& path,
+                                            const Noise& noise, Random& random);
 /// Our filter after the readings; its configured noise is the thesis's.
-[[nodiscard]] calib::TurnFilter filtered(TurnProblem problem, std::span<const calib::test::Measured> readings);
+[[nodiscard]] TurnFilter filtered(TurnProblem problem, std::span<const Measured> readings);
 
 /// Cramer-Rao bound on the standard deviation of the coefficients sought, in their order.
 ///
@@ -35,8 +33,8 @@ enum class TurnProblem {
 /// covariance V = diag(sigma_psi^2 (1 - E')^2) + scale^2 sigma_g^2 W, where W is that of the trapezoid sums of
 /// white noise; the bound is the inverse of X'V^-1 X, less the row and column of psi0. Noise of the tilt is left
 /// out.
-[[nodiscard]] Eigen::VectorXd cramer_rao(TurnProblem problem, const std::vector<calib::test::TruePoint>& path,
-                                         const calib::test::Noise& noise);
+[[nodiscard]] Eigen::VectorXd cramer_rao(TurnProblem problem, const std::vector<TruePoint>& path,
+                                         const Noise& noise);
 
 /// Error of a deviation curve over the whole circle, degrees.
 struct CurveError {
@@ -45,4 +43,4 @@ struct CurveError {
 };
 [[nodiscard]] CurveError curve_error(const Eigen::Vector4d& error_of_B_to_E_rad);
 
-}  // namespace navcal::bench
+}  // namespace navcal::calib::thesis

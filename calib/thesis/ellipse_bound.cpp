@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/calibration/magnetometer_bound.h"
+#include "calib/thesis/ellipse_bound.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
-namespace navcal::bench {
+#include "base/angles.h"
 
-using namespace calib;
-using namespace calib::test;
+namespace navcal::calib::thesis {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kPeriod_s = 0.1;
 
 double rms_heading_deg(const EllipseShape& shape, const EllipseShape::Matrix& covariance) {
   constexpr int kHeadings = 360;
   const Eigen::Matrix2d inverse = shape.axes_uT.inverse();
   double sum = 0;
   for (int i = 0; i < kHeadings; ++i) {
-    const double heading = i * kDegree;
+    const double heading = i * base::kRadiansPerDegree;
     const Eigen::Vector2d across(-std::sin(heading), -std::cos(heading));
     const EllipseShape::Vector row = EllipseShape::slope(heading).transpose() * (inverse * across);
     sum += row.dot(covariance * row) / kHeadings;
   }
-  return std::sqrt(sum) / kDegree;
+  return std::sqrt(sum) / base::kRadiansPerDegree;
 }
 
 /// d field / d heading.
@@ -99,4 +96,4 @@ double gyro_bound_deg(const std::vector<TruePoint>& path, const EllipseShape& tr
   return rms_heading_deg(truth, covariance);
 }
 
-}  // namespace navcal::bench
+}  // namespace navcal::calib::thesis

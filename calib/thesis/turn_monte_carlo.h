@@ -2,10 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
-#include "bench/calibration/turn_problem.h"
+#include "calib/thesis/turn_problem.h"
 
-namespace navcal::bench {
+namespace navcal::calib::thesis {
 
 /// Results of our filter on one path in many runs with the thesis's noise; vectors in the order of sought().
 struct TurnStatistics {
@@ -19,7 +20,7 @@ struct TurnStatistics {
 };
 
 /// The same runs for the same seed.
-[[nodiscard]] TurnStatistics monte_carlo(TurnProblem problem, const std::vector<calib::test::TruePoint>& path,
-                                         int runs, unsigned seed);
+[[nodiscard]] TurnStatistics monte_carlo(TurnProblem problem, const std::vector<TruePoint>& path, int runs,
+                                         std::uint64_t seed);
 
-}  // namespace navcal::bench
+}  // namespace navcal::calib::thesis
