@@ -18,6 +18,7 @@
 #include "web/listener.h"
 #include "web/live_source.h"
 #include "web/page.h"
+#include "web/outlets/outlets.h"
 #include "web/server.h"
 #include "web/site.h"
 
@@ -36,6 +37,7 @@ struct Options {
   std::string token_file;
   std::string track;
   std::vector<std::string> host_names;
+  web::OutletOptions outlets{NAVCAL_VERSION};
 };
 
 /// The exit status when the command line has said it all: help, version, or a mistake.
@@ -88,15 +90,18 @@ void run(const Options& options) {
   asio::signal_set signals(context, SIGTERM, SIGINT);
   const auto source =
       std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
+  web::Outlets outlets(context.get_executor(), options.outlets, hub, site);
   site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
   site.add(web::foxglove::endpoint(hub, NAVCAL_VERSION));
   web::PageFeed::Settings page_settings{.version = NAVCAL_VERSION, .can_change = access.can_change()};
   const auto page = web::add_page(site, context.get_executor(), hub, std::move(page_settings), options.track);
   const auto server = std::make_shared<web::Server>(
       web::listen(context.get_executor(), options.address, options.port), site, access);
+  outlets.watch(server->counters(), source->counters());
   signals.async_wait([&](boost::system::error_code error, int) {
     if (error) return;
     navcal::base::notify_manager("STOPPING=1", navcal::base::IfBusy::wait);
+    outlets.stop();
     source->stop();
     server->stop();
     // What clients have not taken by now is not waited for.

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace navcal::web {
+
+/// What the command line says of the outlets.
+struct OutletOptions {
+  std::string version;
+};
+
+}  // namespace navcal::web
