@@ -17,8 +17,9 @@
 #include "web/hub.h"
 #include "web/listener.h"
 #include "web/live_source.h"
-#include "web/page.h"
+#include "web/outlets/command_line.h"
 #include "web/outlets/outlets.h"
+#include "web/page.h"
 #include "web/server.h"
 #include "web/site.h"
 
@@ -60,6 +61,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--track", options.track,
                  "simulated track for the page: CSV with columns x and y, or lat and lon")
       ->check(CLI::ExistingFile);
+  web::add_outlet_options(app, options.outlets);
   app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
   navcal::share::add_manual(app);
   try {
@@ -84,8 +86,8 @@ void run(const Options& options) {
                            options.host_names);
   web::Hub hub;
   web::Site site;
-  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without locks
-  // every resolution fails.
+  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without
+  // locks every resolution fails.
   asio::io_context context(1);
   asio::signal_set signals(context, SIGTERM, SIGINT);
   const auto source =
