@@ -16,17 +16,17 @@ constexpr int kMostOutput = 32;
 /// SERVOn_FUNCTION of ArduPilot (SRV_Channel.h); empty: the output is disabled.
 std::string ardupilot_function(int number) {
   constexpr std::array<std::pair<int, std::string_view>, 12> kFunctions{{{1, "pass through"},
-                                                                     {4, "aileron"},
-                                                                     {19, "elevator"},
-                                                                     {21, "rudder"},
-                                                                     {70, "throttle"},
-                                                                     {73, "throttle left"},
-                                                                     {74, "throttle right"},
-                                                                     {77, "elevon left"},
-                                                                     {78, "elevon right"},
-                                                                     {79, "V-tail left"},
-                                                                     {80, "V-tail right"},
-                                                                     {26, "ground steering"}}};
+                                                                         {4, "aileron"},
+                                                                         {19, "elevator"},
+                                                                         {21, "rudder"},
+                                                                         {70, "throttle"},
+                                                                         {73, "throttle left"},
+                                                                         {74, "throttle right"},
+                                                                         {77, "elevon left"},
+                                                                         {78, "elevon right"},
+                                                                         {79, "V-tail left"},
+                                                                         {80, "V-tail right"},
+                                                                         {26, "ground steering"}}};
   constexpr int kMotor1 = 33, kMotor8 = 40, kMotor9 = 82, kMotor12 = 85;
   if (number <= 0) return {};
   if (number >= kMotor1 && number <= kMotor8) return fmt::format("motor {}", number - kMotor1 + 1);

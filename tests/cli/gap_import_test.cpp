@@ -122,8 +122,8 @@ TEST_F(GapImport, ARecordingThatWentThroughCsvHasTheAnswerOfTheOriginal) {
   std::ofstream(at("effects.toml")) << "[thrust_scale]\nscale = 0.16\n";
   std::ofstream(at("map.toml")) << map();
   for (const std::string name : {"a", "b"}) {
-    run(fmt::format("simulate --mission identification --seconds 250 --seed {} --effects {} -o {}", name == "a" ? 3 : 4,
-                    at("effects.toml"), at(name + ".cap")));
+    run(fmt::format("simulate --mission identification --seconds 250 --seed {} --effects {} -o {}",
+                    name == "a" ? 3 : 4, at("effects.toml"), at(name + ".cap")));
     run(fmt::format("log import -o {} {}", at(name + ".mcap"), at(name + ".cap")));
     run(fmt::format("log export --csv {} {}", at(name), at(name + ".mcap")));
     join(name, name + ".csv");
