@@ -41,9 +41,9 @@ class Plot {
     const time = record.message.time;
     if (!values || time == null || values.every((value) => value == null)) return;
     if (source && source !== record) return;
+    if (time < (this.data[0].at(-1) ?? -Infinity) - GAP_S) this.clear();
     const times = this.data[0];
     const last = times.at(-1) ?? -Infinity;
-    if (time < last - GAP_S) this.clear();
     // Another topic's value of nearly the same time stands in the same row.
     if (time - last < SPACING_S) {
       values.forEach((value, i) => {
