@@ -41,9 +41,9 @@ class LineReader {
     return !refused_;
   }
 
-  /// Beginning of a line that is not complete yet. Call forget() after using it as it is.
+  /// Beginning of a line that is not complete yet. Call forget() after using `length` characters of it.
   [[nodiscard]] std::string_view held() const { return held_; }
-  void forget() { held_.clear(); }
+  void forget(std::size_t length) { held_.erase(0, length); }
 
  private:
   std::size_t max_length_;

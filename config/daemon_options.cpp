@@ -113,6 +113,14 @@ std::vector<Option<Settings>> make_daemon_options() {
            .low = 0.1,
            .high = 3600},
           [](auto& s) -> auto& { return s.status.health_interval_s; }),
+      real<Settings>(
+          {.table = "status",
+           .key = "nmea_heading_std_deg",
+           .description = "Largest standard error of the heading with which the NMEA sentence HDT is sent.",
+           .unit = kDegrees,
+           .low = 0.01,
+           .high = 180},
+          [](auto& s) -> auto& { return s.status.nmea_heading_std_rad; }),
 
       text<Settings>(
           {.table = "control",

@@ -49,6 +49,7 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
       calibrations_(settings_, pipeline_, log_, server_),
       battery_(settings_),
       publisher_(settings_, server_),
+      nmea_(settings_, pipeline_, server_),
       notifier_(executor),
       motor_port_(daemon::motor_port(settings_)),
       power_(executor, settings_, sessions_, *this),
@@ -123,12 +124,7 @@ void Daemon::rotate_log() {
 void Daemon::on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) {
   log_.raw(port, record::Direction::received, arrival_ns, bytes);
   pipeline_.bytes(port, arrival_ns, bytes, *this);
-  // Behind the pipeline, so that the estimate has the word in it.
-  if (word_came_) {
-    word_came_ = false;
-    const std::int64_t now_ns = ports::monotonic_ns();
-    server_.publish_state(state_report(now_ns), now_ns, true);
-  }
+  publish_words();  // behind the pipeline, so that the estimate has the word in it
   deadline_timer_.arm(pipeline_.next_deadline_ns());
 }
 
@@ -145,7 +141,8 @@ void Daemon::on_sample(const instruments::Sample& sample) {
   sessions_[sample.port]->published(ports::monotonic_ns() - sample.stamp.arrival_ns);
   log_.sample(sample);
   state_.take(sample);
-  word_came_ = word_came_ || (server_.wants_state_of_words() && state_.is_serving_compass(sample));
+  nmea_.sample(sample);
+  note_word(sample);
   if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value);
       motor != nullptr && motor_ && sample.port == motor_port_)
     motor_->status(sample.stamp, *motor);
@@ -153,6 +150,25 @@ void Daemon::on_sample(const instruments::Sample& sample) {
     update_alarms(sample, *imu);
     if (imu->yaw_rate_calibrated_rad_s) turn_compasses(*imu->yaw_rate_calibrated_rad_s, sample.stamp.arrival_ns);
   }
+}
+
+void Daemon::note_word(const instruments::Sample& sample) {
+  const bool wants_nmea = nmea_.wants_vehicle(sample.port);
+  if ((!wants_nmea && !server_.wants_state_of_words()) || !state_.is_serving_compass(sample)) return;
+  word_came_ = true;
+  if (!wants_nmea) return;
+  word_ = std::get<instruments::CompassSample>(sample.value);
+  word_port_ = sample.port;
+}
+
+void Daemon::publish_words() {
+  if (!word_came_) return;
+  word_came_ = false;
+  const std::int64_t now_ns = ports::monotonic_ns();
+  if (server_.wants_state_of_words()) server_.publish_state(state_report(now_ns), now_ns, true);
+  if (!word_) return;
+  nmea_.vehicle(word_port_, &*word_, state_.at(now_ns));
+  word_.reset();
 }
 
 void Daemon::on_mapping(const pipeline::UtcMapping& mapping) {
@@ -182,6 +198,9 @@ void Daemon::on_earth_field(const pipeline::EarthField& field) { publisher_.set_
 
 void Daemon::on_navigation(const pipeline::NavigationSample& sample) {
   publisher_.navigation(sample);
+  nmea_.navigation(sample);
+  if (!pipeline_.sources()[config::Role::heading] && nmea_.wants_vehicle(std::nullopt))
+    nmea_.vehicle(std::nullopt, nullptr, state_.at(ports::monotonic_ns()));
   log_.navigation(sample);
   for (const auto& told : pipeline::events_of(sample))
     event(sample.stamp.arrival_ns, told.severity, told.name, "", told.message);

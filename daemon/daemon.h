@@ -18,6 +18,7 @@
 #include "daemon/lazy_timer.h"
 #include "daemon/log_writer.h"
 #include "daemon/motor_control.h"
+#include "daemon/nmea_feed.h"
 #include "daemon/notifier.h"
 #include "daemon/port_session.h"
 #include "daemon/power_control.h"
@@ -136,6 +137,9 @@ class Daemon : private pipeline::Sink,
   void update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu);
   /// Tells the motor of leaks that were raised or are over.
   void react_to_leaks(const std::vector<Alarms::Change>& changes, std::int64_t now_ns);
+  /// What is due on a word of the compass that serves.
+  void note_word(const instruments::Sample& sample);
+  void publish_words();
   void advance();
   void tick();
   void watch_system_clock();
@@ -157,6 +161,7 @@ class Daemon : private pipeline::Sink,
   Calibrations calibrations_;
   BatteryKeeper battery_;
   Publisher publisher_;
+  NmeaFeed nmea_;
   Notifier notifier_;
   Alarms alarms_;
   std::vector<std::unique_ptr<PortSession>> sessions_;
@@ -169,7 +174,9 @@ class Daemon : private pipeline::Sink,
       remote_reader_;  ///< one thread, for answers to operators that need the disk
   StateCollector state_;
   std::string state_report_;
-  bool word_came_ = false;  ///< within these bytes, from the compass that serves
+  bool word_came_ = false;                          ///< within these bytes, from the compass that serves
+  std::optional<instruments::CompassSample> word_;  ///< the last of them that NMEA sentences are due for
+  std::uint16_t word_port_ = 0;
   LazyTimer state_timer_;
   LazyTimer deadline_timer_;
   LazyTimer tick_timer_;

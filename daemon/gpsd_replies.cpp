@@ -61,9 +61,9 @@ void append_device_object(std::string& out, const DeviceState& device) {
 void append_watch(std::string& out, const WatchPolicy& policy) {
   fmt::format_to(
       std::back_inserter(out),
-      FMT_STRING(R"({{"class":"WATCH","enable":{},"json":{},"nmea":false,"raw":0,"scaled":false,"timing":false,)"
+      FMT_STRING(R"({{"class":"WATCH","enable":{},"json":{},"nmea":{},"raw":0,"scaled":false,"timing":false,)"
                  R"("split24":false,"pps":false)"),
-      boolean(policy.enable), boolean(policy.json));
+      boolean(policy.enable), boolean(policy.json), boolean(policy.nmea));
   if (policy.device) {
     out += ",\"device\":";
     append_quoted(out, *policy.device);
@@ -79,6 +79,10 @@ void append_watch(std::string& out, const WatchPolicy& policy) {
     out += separator == "," ? "]" : ",\"classes\":[]";
   }
   append_rates(out, policy.intervals_ns);
+  if (policy.nmea_interval_ns != kNmeaInterval_ns) {
+    out += ",\"nmea_rate_Hz\":";
+    append_shortest(out, 1e9 / static_cast<double>(policy.nmea_interval_ns), 3);
+  }
   if (policy.topics != RecordTopics::all()) {
     out += ",\"topics\":[";
     append_quoted_list(out, policy.topics.names());

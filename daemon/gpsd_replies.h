@@ -8,6 +8,7 @@
 
 #include "daemon/record_topics.h"
 #include "daemon/report_class.h"
+#include "daemon/request.h"
 
 namespace navcal::daemon {
 
@@ -37,10 +38,12 @@ void append_device_object(std::string& out, const DeviceState& device);
 struct WatchPolicy {
   bool enable = false;
   bool json = false;
+  bool nmea = false;
   std::optional<std::string_view> device;
   ReportClasses classes = ReportClasses::usual();
   ReportIntervals intervals_ns{};
   RecordTopics topics = RecordTopics::all();
+  std::int64_t nmea_interval_ns = kNmeaInterval_ns;
 };
 void append_watch(std::string& out, const WatchPolicy& policy);
 /// RECORDS: the topics that RECORD has, with the names and JSON schemas of the log's.

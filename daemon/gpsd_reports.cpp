@@ -50,6 +50,13 @@ void time(std::string& out, std::int64_t utc_ns, int decimals) {
   append_utc(out, utc_ns, decimals);
 }
 
+/// Standard error of the time of validity.
+void time_std(std::string& out, std::string_view name, const instruments::Stamp& stamp) {
+  if (stamp.std_ns <= 0) return;
+  key(out, name);
+  append_shortest(out, static_cast<double>(stamp.std_ns) * 1e-9, 9);
+}
+
 struct GpsdFix {
   int mode;    ///< 1 no fix, 2 2D, 3 3D
   int status;  ///< 0: nothing to add; 5 dead reckoning, 7 surveyed position
@@ -78,6 +85,19 @@ constexpr GpsdFix gpsd_fix(Fix fix) {
 
 double length(const instruments::Vector3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+/// gpsd's error estimates of a receiver's position, one standard deviation each, where the device or the
+/// configuration states them.
+void position_errors(std::string& out, const instruments::GpsSample& gps) {
+  fixed(out, "epx", gps.position_std_m, 3);
+  fixed(out, "epy", gps.position_std_m, 3);
+  if (gps.position_std_m) fixed(out, "eph", *gps.position_std_m * std::numbers::sqrt2, 3);
+  fixed(out, "epv", gps.height_std_m, 3);
+  if (!gps.speed_m_s || !gps.velocity_std_m_s) return;
+  fixed(out, "eps", gps.velocity_std_m_s, 3);
+  if (*gps.speed_m_s > kStandstill_m_s)
+    fixed(out, "epd", std::atan2(*gps.velocity_std_m_s, *gps.speed_m_s), 3, base::kDegreesPerRadian);
+}
+
 /// Degrees from true north.
 double true_heading_deg(double heading_rad, double declination_rad) {
   const double heading_deg = heading_rad * base::kDegreesPerRadian;
@@ -104,6 +124,7 @@ void append_tpv(std::string& out, const instruments::GpsSample& gps, const instr
     time(out, *gps.time_utc_ns, *gps.time_utc_ns % base::kMillisecond_ns == 0 ? 3 : 9);
   } else if (source.utc_known) {
     time(out, stamp.validity_utc_ns, 3);
+    time_std(out, "ept", stamp);
   }
   if (fix.mode >= 2) {
     fixed(out, "lat", gps.latitude_rad, 9, base::kDegreesPerRadian);
@@ -114,6 +135,7 @@ void append_tpv(std::string& out, const instruments::GpsSample& gps, const instr
     fixed(out, "track", gps.course_rad, 4, base::kDegreesPerRadian);
     fixed(out, "speed", gps.speed_m_s, 3);
     fixed(out, "climb", gps.climb_m_s, 3);
+    position_errors(out, gps);
   }
   if (gps.time_corrected) out += ",\"time_corrected\":true";
   if (!gps.leap_known) out += ",\"leap_known\":false";
@@ -125,7 +147,10 @@ void append_tpv(std::string& out, const pipeline::NavigationSample& sample, bool
   begin(out, "TPV", pipeline::kNavigationDevice);
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"mode\":{},\"status\":{}"), kReckoned.mode,
                  kReckoned.status);
-  if (utc_known) time(out, sample.stamp.validity_utc_ns, 3);
+  if (utc_known) {
+    time(out, sample.stamp.validity_utc_ns, 3);
+    time_std(out, "ept", sample.stamp);
+  }
   fixed(out, "lat", sample.latitude_rad, 9, base::kDegreesPerRadian);
   fixed(out, "lon", sample.longitude_rad, 9, base::kDegreesPerRadian);
   const auto& std_m = estimate.position_std_m;
@@ -185,7 +210,10 @@ std::optional<double> dip_of(const instruments::CompassSample& compass) {
 void append_att(std::string& out, const instruments::CompassSample& compass, const pipeline::EarthField& field,
                 const instruments::Stamp& stamp, ReportSource source) {
   begin(out, "ATT", source.device);
-  if (source.utc_known) time(out, stamp.validity_utc_ns, 6);
+  if (source.utc_known) {
+    time(out, stamp.validity_utc_ns, 6);
+    time_std(out, "time_std", stamp);
+  }
   const auto& heading_rad = compass.heading_calibrated_rad ? compass.heading_calibrated_rad : compass.heading_rad;
   if (heading_rad && std::isfinite(*heading_rad)) {
     const double heading_deg = true_heading_deg(*heading_rad, compass.heading_is_true ? 0 : field.declination_rad);
@@ -198,6 +226,9 @@ void append_att(std::string& out, const instruments::CompassSample& compass, con
     fixed(out, "heading_device", compass.heading_rad, 4, base::kDegreesPerRadian);
   fixed(out, "pitch", compass.pitch_rad, 4, base::kDegreesPerRadian);
   fixed(out, "roll", compass.roll_rad, 4, base::kDegreesPerRadian);
+  if (heading_rad) fixed(out, "heading_std", compass.heading_std_rad, 4, base::kDegreesPerRadian);
+  if (compass.pitch_rad) fixed(out, "pitch_std", compass.tilt_std_rad, 4, base::kDegreesPerRadian);
+  if (compass.roll_rad) fixed(out, "roll_std", compass.tilt_std_rad, 4, base::kDegreesPerRadian);
   fixed(out, "dip", dip_of(compass), 3, base::kDegreesPerRadian);
   if (compass.field_body_uT) {
     const auto& measured = *compass.field_body_uT;
@@ -217,7 +248,10 @@ void append_att(std::string& out, const instruments::CompassSample& compass, con
 void append_att(std::string& out, const instruments::ImuSample& imu, const instruments::Stamp& stamp,
                 ReportSource source) {
   begin(out, "ATT", source.device);
-  if (source.utc_known) time(out, stamp.validity_utc_ns, 6);
+  if (source.utc_known) {
+    time(out, stamp.validity_utc_ns, 6);
+    time_std(out, "time_std", stamp);
+  }
   if (const auto& force = imu.specific_force_m_s2) {
     fixed(out, "acc_len", length(*force), 4);
     fixed(out, "acc_x", (*force)[0], 4);
@@ -233,6 +267,9 @@ void append_att(std::string& out, const instruments::ImuSample& imu, const instr
   fixed(out, "gyro_z_calibrated", imu.yaw_rate_calibrated_rad_s, 4, base::kDegreesPerRadian);
   fixed(out, "gyro_b_z_calibrated", imu.yaw_rate_b_calibrated_rad_s, 4, base::kDegreesPerRadian);
   fixed(out, "depth", imu.depth_m, 4);
+  if (imu.rate_rad_s) fixed(out, "gyro_std", imu.rate_std_rad_s, 4, base::kDegreesPerRadian);
+  if (imu.specific_force_m_s2) fixed(out, "acc_std", imu.specific_force_std_m_s2, 4);
+  if (imu.depth_m) fixed(out, "depth_std", imu.depth_std_m, 4);
   calibration(out, source);
   out += kEnd;
 }

@@ -21,7 +21,8 @@ struct ReportSource {
   instruments::CalibrationName calibration{};  ///< in force when the sample was made
 };
 
-/// TPV: time is the second that the message states. Position only when the receiver calls it a fix.
+/// TPV: time is the second that the message states. Position and its standard errors only when the receiver calls
+/// it a fix.
 void append_tpv(std::string& out, const instruments::GpsSample& gps, const instruments::Stamp& stamp,
                 ReportSource source);
 

@@ -2,8 +2,10 @@
 #include "daemon/health.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "base/angles.h"
@@ -53,6 +55,7 @@ void append_latency(std::string& out, const LatencyHistogram& latency) {
   while (used > 0 && buckets[used - 1] == 0) --used;
   fmt::format_to(std::back_inserter(out), FMT_STRING(",\"latency_log2_us\":[{}]"),
                  fmt::join(buckets.begin(), buckets.begin() + static_cast<std::ptrdiff_t>(used), ","));
+  number(out, "latency_sum_s", static_cast<double>(latency.sum_ns()) * 1e-9, 6);
 }
 
 void append_port(std::string& out, const PortSession& port, const pipeline::PortStatistics& statistics) {
@@ -111,6 +114,41 @@ void append_sources(std::string& out, const Health& health) {
   out += '}';
 }
 
+/// What a monitor counts besides: of the process, the clock and the battery.
+void append_figures(std::string& out, const Health& health) {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+  };
+  out += ",\"process\":{\"version\":\"" NAVCAL_VERSION "\"";
+  if (health.utc_ns) {
+    out += ",\"started\":";
+    append_utc(out, *health.utc_ns - std::llround(health.uptime_s * 1e9), 3);
+  }
+  number(out, "cpu_s", seconds(usage.ru_utime) + seconds(usage.ru_stime), 3);
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"most_resident_kB\":{}}}"), usage.ru_maxrss);
+  const auto& mapping = health.pipeline->mapping();
+  out += ",\"utc\":{\"source\":";
+  append_quoted(out, pipeline::name_of(mapping.source));
+  const bool bounded = mapping.bound_ns != pipeline::UtcMapping::kUnknownBound;
+  out += ",\"bound_s\":";
+  bounded ? append_shortest(out, static_cast<double>(mapping.bound_ns) * 1e-9, 9)
+          : static_cast<void>(out += "null");
+  out += '}';
+  const auto battery = health.pipeline->battery();
+  if (!battery) return;
+  out += ",\"battery\":{\"low\":";
+  out += battery->low ? "true" : "false";
+  if (battery->voltage_V) number(out, "voltage_V", *battery->voltage_V, 3);
+  if (battery->current_A) number(out, "current_A", *battery->current_A, 3);
+  if (battery->charge) {
+    number(out, "charge_Ah", battery->charge->charge_Ah, 4);
+    number(out, "charge_std_Ah", battery->charge->std_Ah, 4);
+  }
+  out += '}';
+}
+
 std::string beginning(const Health& health, std::size_t first, std::size_t last, std::size_t lines) {
   std::string out = "{\"class\":\"HEALTH\"";
   append_alarms(out, health);
@@ -124,6 +162,7 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
                    lines);
   }
   append_sources(out, health);
+  if (first == 0) append_figures(out, health);
   if (first == 0 && !health.motor.empty()) out += ",\"motor\":" + health.motor;
   if (first == 0 && !health.remote.empty()) out += ",\"remote\":" + health.remote;
   out += ",\"ports\":[";

@@ -17,11 +17,14 @@ class LatencyHistogram {
     const auto us = static_cast<std::uint64_t>(latency_ns > 0 ? latency_ns : 0) / 1000;
     const auto bucket = static_cast<std::size_t>(std::bit_width(us));
     ++buckets_[bucket < kBuckets ? bucket : kBuckets - 1];
+    sum_ns_ += latency_ns > 0 ? latency_ns : 0;
   }
   [[nodiscard]] const std::array<std::uint64_t, kBuckets>& buckets() const { return buckets_; }
+  [[nodiscard]] std::int64_t sum_ns() const { return sum_ns_; }
 
  private:
   std::array<std::uint64_t, kBuckets> buckets_{};
+  std::int64_t sum_ns_ = 0;
 };
 
 }  // namespace navcal::daemon

@@ -47,17 +47,26 @@ class Nesting {
   bool escaped_ = false;
 };
 
+/// Length of the command at the beginning of `text`, with the semicolon or the closing brace that ends it; 0 when
+/// it is not complete.
+std::size_t command_length(std::string_view text) {
+  Nesting nesting;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == ';' && nesting.outside()) return i + 1;
+    const bool inside = !nesting.outside();
+    nesting.see(text[i]);
+    if (inside && text[i] == '}' && nesting.outside()) return i + 1;
+  }
+  return 0;
+}
+
 /// Takes the next command, without its semicolon, off `line`.
 std::string_view take_command(std::string_view& line) {
-  Nesting nesting;
-  std::size_t end = 0;
-  for (; end < line.size(); ++end) {
-    if (line[end] == ';' && nesting.outside()) break;
-    nesting.see(line[end]);
-  }
-  const std::string_view command = trim(line.substr(0, end));
-  line.remove_prefix(end < line.size() ? end + 1 : end);
-  return command;
+  const std::size_t length = command_length(line);
+  std::string_view command = line.substr(0, length == 0 ? line.size() : length);
+  line.remove_prefix(command.size());
+  if (length > 0 && command.back() == ';') command.remove_suffix(1);
+  return trim(command);
 }
 
 Request not_understood(std::string message) {
@@ -103,6 +112,20 @@ std::string take_classes(const Json& object, std::optional<ReportClasses>& value
   return {};
 }
 
+/// 2; null: the usual one. Likewise.
+std::string take_nmea_rate(const Json& object, std::optional<std::int64_t>& value) {
+  const auto found = object.find("nmea_rate_Hz");
+  if (found == object.end()) return {};
+  if (found->is_null()) value = kNmeaInterval_ns;
+  if (found->is_null()) return {};
+  const double rate_Hz = found->is_number() ? found->get<double>() : 0;
+  if (!(rate_Hz >= kMinReportRate_Hz && rate_Hz <= kMaxReportRate_Hz))
+    return fmt::format("Invalid WATCH: nmea_rate_Hz is {} to {} Hz, or null", kMinReportRate_Hz,
+                       kMaxReportRate_Hz);
+  value = std::llround(1e9 / rate_Hz);
+  return {};
+}
+
 /// ["/compass","/imu"]; null: all. Likewise.
 std::string take_topics(const Json& object, std::optional<RecordTopics>& value) {
   const auto found = object.find("topics");
@@ -143,9 +166,12 @@ Request watch(const Json& object) {
   std::optional<bool> enable;
   if (!take(object, "enable", enable)) return not_understood("Invalid WATCH: enable is true or false");
   if (!take(object, "json", change.json)) return not_understood("Invalid WATCH: json is true or false");
+  if (!take(object, "nmea", change.nmea)) return not_understood("Invalid WATCH: nmea is true or false");
   if (!take(object, "device", change.device)) return not_understood("Invalid WATCH: device is a string");
   if (auto problem = take_classes(object, change.classes); !problem.empty()) return not_understood(problem);
   if (auto problem = take_intervals(object, change.intervals_ns); !problem.empty()) return not_understood(problem);
+  if (auto problem = take_nmea_rate(object, change.nmea_interval_ns); !problem.empty())
+    return not_understood(problem);
   if (auto problem = take_topics(object, change.topics); !problem.empty()) return not_understood(problem);
   change.enable = enable.value_or(true);
   Request request;
@@ -196,12 +222,10 @@ std::vector<Request> parse_requests(std::string_view line) {
   return requests;
 }
 
-bool is_whole_request(std::string_view text) {
-  const std::string_view trimmed = trim(text);
-  if (trimmed.empty() || (trimmed.back() != ';' && trimmed.back() != '}')) return false;
-  Nesting nesting;
-  for (const char c : trimmed) nesting.see(c);
-  return nesting.outside();
+std::size_t complete_length(std::string_view text) {
+  std::size_t complete = 0;
+  while (const std::size_t length = command_length(text.substr(complete))) complete += length;
+  return complete;
 }
 
 }  // namespace navcal::daemon

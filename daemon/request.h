@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,11 +19,15 @@ inline constexpr std::size_t kMaxRequestLength = 4096;
 /// Bounds of the rates in ?WATCH.
 inline constexpr double kMinReportRate_Hz = 0.01;
 inline constexpr double kMaxReportRate_Hz = 100;
+/// Shortest time between two NMEA sentences of one kind and device, unless a client chooses.
+inline constexpr std::int64_t kNmeaInterval_ns = 100'000'000;
 
 /// Changes requested by ?WATCH={...}. A field that is absent stays as it is.
 struct WatchChange {
   bool enable = true;
   std::optional<bool> json;
+  std::optional<bool> nmea;
+  std::optional<std::int64_t> nmea_interval_ns;
   std::optional<std::string> device;
   std::optional<ReportClasses> classes;
   std::optional<ReportIntervals> intervals_ns;
@@ -38,10 +43,12 @@ struct Request {
   std::string message;                ///< for not_understood: why, for people
 };
 
-/// The commands of one line, in order: "?WATCH={...};?POLL;". The last semicolon may be missing.
+/// The commands of one line, in order: "?WATCH={...};?POLL;". A command ends with its semicolon, with the brace
+/// that closes its object, or with the line.
 [[nodiscard]] std::vector<Request> parse_requests(std::string_view line);
 
-/// Clients may leave the newline out, too: true when `text` cannot be the beginning of a longer command.
-[[nodiscard]] bool is_whole_request(std::string_view text);
+/// Clients leave out the newline, some the semicolon, too. Length of the commands at the beginning of `text` that
+/// are complete, whatever follows.
+[[nodiscard]] std::size_t complete_length(std::string_view text);
 
 }  // namespace navcal::daemon

@@ -64,9 +64,9 @@ asio::awaitable<void> StatusClient::read_requests() {
       co_await refuse("Request line too long");
       co_return;
     }
-    if (is_whole_request(lines.held())) {
-      take_line(lines.held());
-      lines.forget();
+    if (const std::size_t complete = complete_length(lines.held())) {
+      take_line(lines.held().substr(0, complete));
+      lines.forget(complete);
     }
   }
 }
@@ -99,6 +99,14 @@ bool StatusClient::is_due(ReportClass report, std::uint16_t slot) const {
 bool StatusClient::take_turn(ReportClass report, std::uint16_t slot) {
   const std::int64_t interval = interval_ns(report);
   return interval == 0 || pacer_.take(report, slot, interval, ports::monotonic_ns());
+}
+
+bool StatusClient::is_due(const NmeaKey& key) const {
+  return nmea_pacer_.is_due(key.like, key.port, policy_.nmea_interval_ns, ports::monotonic_ns());
+}
+
+bool StatusClient::take_turn(const NmeaKey& key) {
+  return nmea_pacer_.take(key.like, key.port, policy_.nmea_interval_ns, ports::monotonic_ns());
 }
 
 void StatusClient::take_line(std::string_view line) {

@@ -19,6 +19,13 @@ namespace navcal::daemon {
 
 class StatusClient;
 
+/// What NMEA sentences are about.
+struct NmeaKey {
+  ReportClass like{};      ///< report that tells the same in JSON
+  std::uint16_t port = 0;  ///< number of the device
+  bool serves = true;      ///< false: only for clients that have selected this device
+};
+
 /// Owner of the clients, which answers their requests.
 class ClientOwner {
  public:
@@ -37,6 +44,8 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   struct Policy {
     bool enable = false;
     bool json = false;
+    bool nmea = false;
+    std::int64_t nmea_interval_ns = kNmeaInterval_ns;
     std::optional<std::uint16_t> port;  ///< one device only
     ReportClasses classes = ReportClasses::usual();
     ReportIntervals intervals_ns{};
@@ -61,17 +70,25 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
     return watches(ReportClass::record, key.port.value_or(policy_.port.value_or(0))) &&
            policy_.topics.has(key.topic);
   }
+  [[nodiscard]] bool watches(const NmeaKey& key) const {
+    return policy_.enable && policy_.nmea && (policy_.port ? *policy_.port == key.port : key.serves);
+  }
   /// True when the client's chosen rate allows another report of this class and slot (a device, a part) now.
   [[nodiscard]] bool is_due(ReportClass report, std::uint16_t slot) const;
   /// Same as is_due(), and counts the report.
   [[nodiscard]] bool take_turn(ReportClass report, std::uint16_t slot);
+  [[nodiscard]] bool is_due(const NmeaKey& key) const;
+  [[nodiscard]] bool take_turn(const NmeaKey& key);
   /// Shortest time between two reports; 0: no limit.
   [[nodiscard]] std::int64_t interval_ns(ReportClass report) const {
     return policy_.intervals_ns.at(static_cast<std::size_t>(report));
   }
   [[nodiscard]] Policy& policy() { return policy_; }
   /// Restarts the pacing after a change of rates: earlier reports do not count.
-  void begin_pacing() { pacer_.forget(); }
+  void begin_pacing() {
+    pacer_.forget();
+    nmea_pacer_.forget();
+  }
   [[nodiscard]] std::uint64_t dropped() const { return queue_.dropped(); }
   [[nodiscard]] std::size_t queued_bytes() const { return queue_.size(); }
 
@@ -89,6 +106,7 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   ClientOwner& owner_;
   Policy policy_;
   ReportPacer pacer_;
+  ReportPacer nmea_pacer_;
   std::uint64_t told_dropped_ = 0;
   bool waiting_ = false;
 };

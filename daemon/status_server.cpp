@@ -121,8 +121,11 @@ void StatusServer::change_watch(StatusClient& client, const WatchChange& change)
   }
   policy.enable = change.enable;
   policy.json = change.json.value_or(policy.json);
+  policy.nmea = change.nmea.value_or(policy.nmea);
   policy.classes = change.classes.value_or(policy.classes);
   policy.topics = change.topics.value_or(policy.topics);
+  policy.nmea_interval_ns = change.nmea_interval_ns.value_or(policy.nmea_interval_ns);
+  if (change.nmea_interval_ns) client.begin_pacing();
   if (change.intervals_ns) {
     policy.intervals_ns = *change.intervals_ns;
     policy.state_due_ns = 0;  // the first one comes at once
@@ -146,7 +149,8 @@ void StatusServer::append_policy(StatusClient& client) {
   const auto& policy = client.policy();
   std::optional<std::string_view> device;
   if (policy.port) device = source_.device_name(*policy.port);
-  append_watch(answer_, {policy.enable, policy.json, device, policy.classes, policy.intervals_ns, policy.topics});
+  append_watch(answer_, {policy.enable, policy.json, policy.nmea, device, policy.classes, policy.intervals_ns,
+                         policy.topics, policy.nmea_interval_ns});
 }
 
 bool StatusServer::watched(ReportClass report, std::uint16_t port) const {
@@ -182,6 +186,17 @@ void StatusServer::publish(const RecordKey& key, std::string_view line) {
   for (const auto& client : clients_) {
     if (!client->watches(key)) continue;
     if (!key.at_a_rate || client->take_turn(ReportClass::record, key.slot())) client->send(line);
+  }
+}
+
+bool StatusServer::watched(const NmeaKey& key) const {
+  return std::any_of(clients_.begin(), clients_.end(),
+                     [&](const auto& client) { return client->watches(key) && client->is_due(key); });
+}
+
+void StatusServer::publish(const NmeaKey& key, std::string_view sentences) {
+  for (const auto& client : clients_) {
+    if (client->watches(key) && client->take_turn(key)) client->send(sentences);
   }
 }
 

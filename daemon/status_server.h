@@ -51,6 +51,9 @@ class StatusServer : private ClientOwner {
   /// The same for RECORD.
   [[nodiscard]] bool watched(const RecordKey& key) const;
   void publish(const RecordKey& key, std::string_view line);
+  /// The same for NMEA sentences, which may be several lines.
+  [[nodiscard]] bool watched(const NmeaKey& key) const;
+  void publish(const NmeaKey& key, std::string_view sentences);
   /// STATE at a rate: when the next one is due to any client, monotonic; INT64_MAX: to none. The grid is the same
   /// for all clients of one rate.
   [[nodiscard]] std::int64_t next_state_ns() const;

@@ -43,6 +43,15 @@ h1, h3, p, .fact span, .detail { overflow-wrap:anywhere; }
 .figures { display:grid; grid-template-columns:repeat(auto-fit, minmax(min(100%, 480px), 1fr)); gap:18px; }
 figure { margin:0; padding:14px 16px 10px; background:var(--card); border:1px solid var(--line); border-radius:8px; }
 .figures figure:last-child:nth-child(odd):not(:first-child) { grid-column:1/-1; }
+.wide { display:grid; grid-template-columns:minmax(0, 1fr); gap:18px; }
+.panels { display:grid; grid-template-columns:repeat(auto-fit, minmax(min(100%, 330px), 1fr)); gap:10px 14px; }
+.panels.pair { grid-template-columns:repeat(auto-fit, minmax(min(100%, 480px), 1fr)); }
+.scroll + .wide { margin-top:18px; }
+.panels h4 { margin:4px 0 0; font-size:13px; font-weight:600; color:var(--soft); text-align:center; }
+.index { margin:4px 0; line-height:1.9; } .index b { display:inline-block; min-width:5em; }
+.index a { margin-right:4px; }
+a { color:var(--after); }
+section h3 { font-size:15px; margin:22px 0 8px; }
 figure h3 { margin:0 0 8px; font-size:15px; }
 figcaption { color:var(--soft); font-size:13px; margin-top:6px; }
 svg { max-width:100%; height:auto; display:block; margin:0 auto; font-size:12px; fill:var(--soft); }
@@ -116,6 +125,10 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+std::string id_attribute(std::string_view id) {
+  return id.empty() ? std::string() : " id=\"" + escaped(id) + "\"";
+}
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
@@ -164,6 +177,16 @@ void HtmlPage::section(std::string_view title) {
   html_ += "<section>\n<h2>" + escaped(title) + "</h2>\n";
 }
 
+void HtmlPage::index(std::string_view title, const std::vector<Link>& links) {
+  html_ += "<nav class=\"index\"><b>" + escaped(title) + "</b>";
+  for (const Link& link : links) html_ += " <a href=\"#" + escaped(link.id) + "\">" + escaped(link.text) + "</a>";
+  html_ += "</nav>\n";
+}
+
+void HtmlPage::heading(std::string_view title, std::string_view id) {
+  html_ += "<h3" + id_attribute(id) + ">" + escaped(title) + "</h3>\n";
+}
+
 void HtmlPage::paragraph(std::string_view text) { html_ += "<p>" + escaped(text) + "</p>\n"; }
 
 void HtmlPage::fact(std::string_view kind, std::string_view word, std::string_view sentence) {
@@ -173,11 +196,19 @@ void HtmlPage::fact(std::string_view kind, std::string_view word, std::string_vi
 
 void HtmlPage::figures(const std::vector<Figure>& figures) {
   html_ += "<div class=\"figures\">\n";
-  for (const Figure& figure : figures) {
-    html_ += "<figure>\n<h3>" + escaped(figure.title) + "</h3>\n" + figure.html + "<figcaption>" +
-             escaped(figure.caption) + "</figcaption>\n</figure>\n";
-  }
+  for (const Figure& figure : figures) append(figure);
   html_ += "</div>\n";
+}
+
+void HtmlPage::wide_figures(const std::vector<Figure>& figures) {
+  html_ += "<div class=\"wide\">\n";
+  for (const Figure& figure : figures) append(figure);
+  html_ += "</div>\n";
+}
+
+void HtmlPage::append(const Figure& figure) {
+  html_ += "<figure" + id_attribute(figure.id) + ">\n<h3>" + escaped(figure.title) + "</h3>\n" + figure.html +
+           "<figcaption>" + escaped(figure.caption) + "</figcaption>\n</figure>\n";
 }
 
 void HtmlPage::folded_figures(std::string_view title, const std::vector<Figure>& hidden) {

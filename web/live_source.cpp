@@ -35,6 +35,13 @@ std::string watch_request(const Demand& demand) {
   return "?WATCH=" + policy.dump() + ";\n";
 }
 
+/// Empty when `object` has no such text.
+std::string text_in(const nlohmann::ordered_json& object, const char* name) {
+  if (!object.is_object()) return {};
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 }  // namespace
 
 LiveSource::LiveSource(const asio::any_io_executor& executor, Settings settings, Hub& hub)
@@ -165,14 +172,16 @@ void LiveSource::take(std::string_view line) {
 
 /// Topics come in one line or several, of which each adds to those before it.
 void LiveSource::take_topics(std::string_view line) {
-  const auto answer = nlohmann::json::parse(line, nullptr, false);
+  // Ordered, because a schema is handed on as the log has it.
+  const auto answer = nlohmann::ordered_json::parse(line, nullptr, false);
   if (!answer.is_object() || !answer.contains("topics") || !answer["topics"].is_array()) {
     ++counters_.not_understood;
     return;
   }
   for (const auto& entry : answer["topics"]) {
-    if (!entry.is_object() || !entry.contains("schema")) continue;
-    Topic topic{entry.value("topic", ""), entry.value("schema_name", ""), entry["schema"].dump()};
+    const std::string name = text_in(entry, "topic");
+    if (name.empty() || !entry.contains("schema")) continue;
+    Topic topic{name, text_in(entry, "schema_name"), entry["schema"].dump()};
     const auto same = [&](const Topic& other) { return other.name == topic.name; };
     if (std::none_of(topics_.begin(), topics_.end(), same)) topics_.push_back(std::move(topic));
   }
@@ -182,7 +191,9 @@ void LiveSource::take_topics(std::string_view line) {
 /// navcald counts what it dropped for this client in the HEALTH that it sends once the client has caught up.
 void LiveSource::take_health(std::string_view message) {
   const auto health = nlohmann::json::parse(message, nullptr, false);
-  if (health.is_object()) counters_.missed = health.value("dropped", counters_.missed);
+  if (!health.is_object() || !health.contains("dropped")) return;
+  const auto& dropped = health["dropped"];
+  if (dropped.is_number_unsigned()) counters_.missed = dropped.get<std::uint64_t>();
 }
 
 }  // namespace navcal::web

@@ -13,9 +13,12 @@
 #include "share/manual.h"
 #include "web/access.h"
 #include "web/control_peer.h"
+#include "web/foxglove/peer.h"
 #include "web/hub.h"
 #include "web/listener.h"
 #include "web/live_source.h"
+#include "web/outlets/command_line.h"
+#include "web/outlets/outlets.h"
 #include "web/page.h"
 #include "web/server.h"
 #include "web/site.h"
@@ -35,6 +38,7 @@ struct Options {
   std::string token_file;
   std::string track;
   std::vector<std::string> host_names;
+  web::OutletOptions outlets{NAVCAL_VERSION};
 };
 
 /// The exit status when the command line has said it all: help, version, or a mistake.
@@ -57,6 +61,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--track", options.track,
                  "simulated track for the page: CSV with columns x and y, or lat and lon")
       ->check(CLI::ExistingFile);
+  web::add_outlet_options(app, options.outlets);
   app.footer("Example: navcal-web --address 0.0.0.0 --token-file /etc/navcal/token, then http://VEHICLE:8765/");
   navcal::share::add_manual(app);
   try {
@@ -76,24 +81,29 @@ web::LiveSource::Settings status_socket(const std::string& text) {
 }
 
 void run(const Options& options) {
-  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without locks
-  // every resolution fails.
-  asio::io_context context(1);
-  asio::signal_set signals(context, SIGTERM, SIGINT);
+  // Clients that are still connected at the end go with the context, and use these three when they go.
   const web::Access access(options.token_file.empty() ? "" : web::read_token(options.token_file),
                            options.host_names);
   web::Hub hub;
   web::Site site;
+  // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without
+  // locks every resolution fails.
+  asio::io_context context(1);
+  asio::signal_set signals(context, SIGTERM, SIGINT);
   const auto source =
       std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
+  web::Outlets outlets(context.get_executor(), options.outlets, hub, site);
   site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
+  site.add(web::foxglove::endpoint(hub, NAVCAL_VERSION));
   web::PageFeed::Settings page_settings{.version = NAVCAL_VERSION, .can_change = access.can_change()};
   const auto page = web::add_page(site, context.get_executor(), hub, std::move(page_settings), options.track);
   const auto server = std::make_shared<web::Server>(
       web::listen(context.get_executor(), options.address, options.port), site, access);
+  outlets.watch(server->counters(), source->counters());
   signals.async_wait([&](boost::system::error_code error, int) {
     if (error) return;
     navcal::base::notify_manager("STOPPING=1", navcal::base::IfBusy::wait);
+    outlets.stop();
     source->stop();
     server->stop();
     // What clients have not taken by now is not waited for.

@@ -5,14 +5,16 @@
 #include <cstdio>
 #include <numbers>
 
-#include "bench/calibration/turn_monte_carlo.h"
 #include "bench/calibration/turn_tables.h"
+#include "calib/thesis/turn_monte_carlo.h"
 #include "calib/turn/turn_integrator.h"
+#include "tests/calib/thesis_paths.h"
 
 namespace navcal::bench {
 
 using namespace calib;
-using namespace calib::test;
+using namespace calib::thesis;
+using calib::test::load_true_path;
 
 namespace {
 

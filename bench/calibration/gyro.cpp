@@ -5,13 +5,15 @@
 #include <cstdio>
 #include <string>
 
-#include "bench/calibration/thesis_runs.h"
-#include "bench/calibration/turn_monte_carlo.h"
 #include "bench/calibration/turn_tables.h"
+#include "calib/thesis/algorithm_runs.h"
+#include "calib/thesis/turn_monte_carlo.h"
+#include "tests/calib/thesis_paths.h"
 
 namespace navcal::bench {
 
-using namespace calib::test;
+using namespace calib::thesis;
+using calib::test::load_true_path;
 
 namespace {
 

@@ -6,12 +6,14 @@
 #include <numbers>
 #include <string>
 
-#include "bench/calibration/turn_monte_carlo.h"
 #include "bench/calibration/turn_tables.h"
+#include "calib/thesis/turn_monte_carlo.h"
+#include "tests/calib/thesis_paths.h"
 
 namespace navcal::bench {
 
-using namespace calib::test;
+using namespace calib::thesis;
+using calib::test::load_true_path;
 
 namespace {
 

@@ -9,16 +9,18 @@
 #include <numbers>
 #include <vector>
 
-#include "bench/calibration/magnetometer_bound.h"
 #include "calib/magnetometer/ellipse_estimator.h"
 #include "calib/magnetometer/ellipse_gyro.h"
 #include "calib/thesis/circle_moments.h"
-#include "tests/calib/magnetometer_paths.h"
+#include "calib/thesis/distorted_field.h"
+#include "calib/thesis/ellipse_bound.h"
+#include "tests/calib/thesis_paths.h"
 
 namespace navcal::bench {
 
 using namespace calib;
-using namespace calib::test;
+using namespace calib::thesis;
+using calib::test::load_true_path;
 
 namespace {
 

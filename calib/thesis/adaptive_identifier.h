@@ -17,6 +17,8 @@ class AdaptiveIdentifier {
   void update(double heading_rad, double roll_rad, double pitch_rad, double measured_rate_rad_s);
   /// (abar, bbar).
   [[nodiscard]] Eigen::Vector2d estimate() const { return estimate_; }
+  /// xhat; nothing before the first reading.
+  [[nodiscard]] std::optional<double> heading_rad() const { return heading_rad_; }
 
  private:
   static constexpr double kGain = -0.75;               ///< K, 1/s

@@ -20,7 +20,7 @@ bool json_crc_holds(std::string_view data) {
 }
 
 bool raw_crc_holds(std::string_view data) {
-  if (data.size() < kRawHead + kRawTail || data.front() > 1 || data.front() < 0) return false;
+  if (data.size() < kRawHead + kRawTail || static_cast<unsigned char>(data.front()) > 1) return false;
   const std::size_t summed = data.size() - kRawTail;
   return read_le<std::uint32_t>(data, summed) == crc32c(data.substr(0, summed));
 }

@@ -5,35 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "calib/magnetometer/ellipse_shape.h"
 #include "calib/magnetometer/magnetometer_estimate.h"
-#include "calib/turn/turn_step.h"
+#include "calib/thesis/distorted_field.h"
 #include "tests/calib/thesis_paths.h"
 
 /// The magnetometer distortions of the thesis carried on its paths (THESIS 11.4), and motions in the Earth's field
 /// of the reference vehicle, for what a magnetometer sees on them.
 namespace navcal::calib::test {
 
-/// Figures 4.11 and 4.12: a circle of 20 uT, shifted, flattened by an eccentricity along an axis.
-[[nodiscard]] EllipseShape figure_4_11();
-[[nodiscard]] EllipseShape figure_4_12();
-
-struct FieldReading {
-  Eigen::Vector3d field_body_uT = Eigen::Vector3d::Zero();
-  double roll_rad = 0, pitch_rad = 0;
-  TurnStep turn;  ///< by the thesis's gyro
-};
-
-/// The level field of `shape` along a path, with noise; the gyro is the thesis's (2.11).
-[[nodiscard]] std::vector<FieldReading> level_field_on(const std::vector<TruePoint>& path,
-                                                       const EllipseShape& shape, const Noise& noise,
-                                                       Random& random);
-
-/// Largest and root-mean-square error of the headings that `found` makes of a field without noise, all round.
-struct HeadingError {
-  double largest_deg = 0, rms_deg = 0;
-};
-[[nodiscard]] HeadingError heading_error(const FieldCorrection& found, const EllipseShape& truth);
+using thesis::FieldReading, thesis::figure_4_11, thesis::figure_4_12, thesis::heading_error;
+using thesis::HeadingError, thesis::level_field_on;
 
 struct Attitude {
   double heading_rad = 0, roll_rad = 0, pitch_rad = 0;

@@ -114,6 +114,12 @@ TEST(DaemonProcess, APortThatIsNotThereIsSaidAndNothingElseSuffers) {
   EXPECT_EQ(health["ports"][0]["state"], "away");
   EXPECT_FALSE(health["ports"][0]["reason"].get<std::string>().empty());
   EXPECT_EQ(health["log"]["state"], "writing");
+  EXPECT_EQ(health["ports"][0]["latency_sum_s"], 0);
+  EXPECT_GT(health["process"]["cpu_s"].get<double>(), 0);
+  EXPECT_GT(health["process"]["most_resident_kB"].get<int>(), 1000);
+  EXPECT_TRUE(health["process"]["version"].is_string());
+  EXPECT_TRUE(health["utc"]["source"].is_string());
+  EXPECT_TRUE(health["utc"].contains("bound_s"));
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
 }
 

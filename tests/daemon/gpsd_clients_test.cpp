@@ -4,47 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <thread>
 
 #include "tests/daemon/daemon_process.h"
+#include "tests/daemon/talking_line.h"
 
 namespace navcal::daemon {
 namespace {
-
-/// A compass and a receiver that speak on one line, ten times a second, until the test is over.
-class Talking {
- public:
-  explicit Talking(const FakeLine& line)
-      : thread_([this, &line] {
-          for (int i = 0; !over_; i = (i + 1) % 60) {
-            char second[16];
-            std::snprintf(second, sizeof second, "%02d", i);
-            line.sentence("GPRMC,1200" + std::string(second) +
-                          ".00,A,5742.7698,N,01201.3554,E,1.31,10.0,211126,,,A");
-            line.sentence("GPGGA,1200" + std::string(second) +
-                          ".00,5742.7698,N,01201.3554,E,1,08,1.01,49.4,M,37.0,M,,");
-            line.sentence("GPGSA,A,3,05,07,09,13,18,21,27,30,,,,,1.94,1.01,1.66");
-            line.sentence("GPGSV,1,1,02,05,43,174,44,07,58,213,46");
-            line.sentence("PTNTHTM,123.4,N,1.5,N,-2.5,N,60.0,2454");
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-          }
-        }) {}
-  ~Talking() {
-    over_ = true;
-    thread_.join();
-  }
-  Talking(const Talking&) = delete;
-  Talking& operator=(const Talking&) = delete;
-
- private:
-  std::atomic<bool> over_{false};
-  std::thread thread_;
-};
 
 /// Output of a command.
 std::string output_of(const std::string& command) {
@@ -62,10 +31,10 @@ bool installed(const char* program) {
 TEST(GpsdClients, LibgpsReadsEveryReport) {
   DaemonProcess daemon({"--set", "environment.model=false"});
   daemon.wait_until_ready();
-  const Talking talking(daemon.line);
+  const TalkingLine talking(daemon.line);
   auto data = std::make_unique<gps_data_t>();
   ASSERT_EQ(gps_open("127.0.0.1", std::to_string(daemon.port()).c_str(), data.get()), 0);
-  gps_stream(data.get(), WATCH_ENABLE | WATCH_JSON, nullptr);
+  gps_stream(data.get(), WATCH_ENABLE | WATCH_JSON | WATCH_NMEA, nullptr);
   bool attitude = false, position = false, sky = false;
   for (int i = 0; i < 400 && !(attitude && position && sky); ++i) {
     ASSERT_TRUE(gps_waiting(data.get(), 20'000'000));
@@ -96,7 +65,7 @@ TEST(GpsdClients, LibgpsPassesOverWhatItDoesNotKnow) {
   for (
       const char* line :
       {R"({"class":"ATT","device":"imu","gyro_x":1.5,"gyro_z":3.25,"gyro_b_z":3.0,"acc_z":-9.8,"depth":4.5})",
-       R"({"class":"ATT","device":"compass","heading":1.0,"error":"001","depth":4.5})",
+       R"({"class":"ATT","device":"compass","time_std":0.002,"heading":1.0,"heading_std":0.5,"pitch_std":0.2,"roll_std":0.2,"error":"001","depth":4.5})",
        R"({"class":"HEALTH","alarms":[{"alarm":"leak_aft","device":"imu"}],"ports":[{"device":"imu"}]})",
        R"({"class":"TIME","source":"gps","bound":null})", R"({"class":"LOG","state":"writing"})",
        R"({"class":"CALIB","calibrators":[]})",
@@ -116,7 +85,7 @@ TEST(GpsdClients, GpspipeShowsPositionAndAttitude) {
   if (!installed("gpspipe")) GTEST_SKIP() << "gpspipe is not installed";
   DaemonProcess daemon({"--set", "environment.model=false"});
   daemon.wait_until_ready();
-  const Talking talking(daemon.line);
+  const TalkingLine talking(daemon.line);
   const std::string out = output_of("timeout 60 gpspipe -w -n 60 127.0.0.1:" + std::to_string(daemon.port()));
   EXPECT_NE(out.find("\"class\":\"TPV\""), std::string::npos) << out;
   EXPECT_NE(out.find("\"class\":\"SKY\""), std::string::npos);
@@ -127,7 +96,7 @@ TEST(GpsdClients, CgpsShowsTheFix) {
   if (!installed("cgps") || !installed("script")) GTEST_SKIP() << "cgps or script is not installed";
   DaemonProcess daemon({"--set", "environment.model=false"});
   daemon.wait_until_ready();
-  const Talking talking(daemon.line);
+  const TalkingLine talking(daemon.line);
   const std::string screen =
       output_of("TERM=xterm timeout 5 script -qc 'stty rows 40 cols 100; cgps -s 127.0.0.1:" +
                 std::to_string(daemon.port()) + "' /dev/null </dev/null");

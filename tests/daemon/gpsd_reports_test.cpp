@@ -167,6 +167,40 @@ TEST(GpsdReports, AbsentQuantitiesAreAbsent) {
   EXPECT_FALSE(json::parse(out).contains("time")) << "no mapping to UTC: no time";
 }
 
+TEST(GpsdReports, StandardErrorsAreSaidWhereTheyAreKnown) {
+  GpsSample gps = fix_3d();
+  EXPECT_FALSE(json::parse(tpv(gps)).contains("epx"));
+  gps.position_std_m = 3;
+  gps.height_std_m = 5;
+  gps.velocity_std_m_s = 0.1;
+  gps.speed_m_s = 0.1;
+  const json position = json::parse(tpv(gps));
+  EXPECT_EQ(position["epx"], 3);
+  EXPECT_EQ(position["epy"], 3);
+  EXPECT_NEAR(position["eph"].get<double>(), 3 * std::sqrt(2), 1e-3);
+  EXPECT_EQ(position["epv"], 5);
+  EXPECT_EQ(position["eps"], 0.1);
+  EXPECT_NEAR(position["epd"].get<double>(), 45, 1e-3);
+  gps.speed_m_s = 0;
+  EXPECT_FALSE(json::parse(tpv(gps)).contains("epd")) << "without speed there is no course";
+  gps.fix = Fix::none;
+  EXPECT_FALSE(json::parse(tpv(gps)).contains("epx"));
+
+  CompassSample compass;
+  compass.heading_std_rad = compass.tilt_std_rad = 1 * kRadians;
+  EXPECT_FALSE(json::parse(att(compass)).contains("heading_std")) << "of what is not there";
+  compass.heading_rad = compass.roll_rad = 0.1;
+  const json attitude = json::parse(att(compass));
+  EXPECT_EQ(attitude["heading_std"], 1);
+  EXPECT_EQ(attitude["roll_std"], 1);
+  EXPECT_FALSE(attitude.contains("pitch_std"));
+  Stamp stamp;
+  stamp.std_ns = 2'000'000;
+  std::string out;
+  append_att(out, compass, {}, stamp, {"compass", true});
+  EXPECT_EQ(json::parse(out)["time_std"], 0.002);
+}
+
 TEST(GpsdReports, CompassTimeHasMicroseconds) {
   EXPECT_EQ(json::parse(att(CompassSample{}))["time"], "2026-03-01T00:00:00.123456Z");
 }

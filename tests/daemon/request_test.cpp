@@ -105,13 +105,38 @@ TEST(Request, DeeplyNestedJsonIsRefusedCalmly) {
   EXPECT_EQ(parse_requests(deep)[0].kind, Kind::not_understood);
 }
 
-TEST(Request, WholeIsWhatCannotGoOn) {
-  EXPECT_TRUE(is_whole_request("?POLL;"));
-  EXPECT_TRUE(is_whole_request(R"(?WATCH={"enable":true})"));
-  EXPECT_FALSE(is_whole_request("?POLL"));
-  EXPECT_FALSE(is_whole_request(R"(?WATCH={"device":"a;)"));
-  EXPECT_FALSE(is_whole_request(R"(?WATCH={"device":"a}")"));
-  EXPECT_FALSE(is_whole_request(""));
+TEST(Request, ACommandIsCompleteWithItsSemicolonOrTheBraceThatClosesItsObject) {
+  const auto complete = [](std::string_view text) { return text.substr(0, complete_length(text)); };
+  EXPECT_EQ(complete("?POLL;"), "?POLL;");
+  EXPECT_EQ(complete("?POLL;?VERS"), "?POLL;");
+  EXPECT_EQ(complete(R"(?WATCH={"class":"WATCH", "nmea":true})"), R"(?WATCH={"class":"WATCH", "nmea":true})");
+  EXPECT_EQ(complete(R"(?WATCH={"rate_Hz":{"ATT":1}}?DEVICE={"path)"), R"(?WATCH={"rate_Hz":{"ATT":1}})");
+  for (const char* beginning : {"?POLL", R"(?WATCH={"device":"a;)", R"(?WATCH={"device":"a}")",
+                                R"(?WATCH={"rate_Hz":{"ATT":1})", R"(?WATCH={"device":"\"})", "}", ""}) {
+    EXPECT_EQ(complete(beginning), "") << beginning;
+  }
+  const std::vector<Kind> both{Kind::watch, Kind::poll};
+  EXPECT_EQ(kinds(R"(?WATCH={"nmea":true}?POLL;)"), both);
+  EXPECT_EQ(kinds(R"(?WATCH={"nmea":true} ; ?POLL)"), both);
+}
+
+TEST(Request, WatchTakesWhatTheReadersOfNmeaSend) {
+  const auto open_cpn = parse_requests(R"(?WATCH={"class":"WATCH", "nmea":true})").at(0).watch;
+  EXPECT_TRUE(open_cpn->enable);
+  EXPECT_EQ(open_cpn->nmea, true);
+  EXPECT_FALSE(open_cpn->json);
+  const auto signal_k = parse_requests(R"(?WATCH={"class":"WATCH","nmea":true,"json":false})").at(0).watch;
+  EXPECT_TRUE(signal_k->enable);
+  EXPECT_EQ(signal_k->nmea, true);
+  EXPECT_EQ(signal_k->json, false);
+  const auto interval = [](std::string_view text) { return parse_requests(text).at(0).watch->nmea_interval_ns; };
+  EXPECT_EQ(interval(R"(?WATCH={"nmea_rate_Hz":2};)"), 500'000'000);
+  EXPECT_EQ(interval(R"(?WATCH={"nmea_rate_Hz":null};)"), kNmeaInterval_ns);
+  EXPECT_FALSE(interval(R"(?WATCH={"nmea":true};)"));
+  for (const char* wrong : {R"({"nmea":1})", R"({"nmea_rate_Hz":0})", R"({"nmea_rate_Hz":"2"})"}) {
+    const Request request = parse_requests(std::string("?WATCH=") + wrong).at(0);
+    EXPECT_NE(request.message.find("Invalid WATCH: nmea"), std::string::npos) << request.message;
+  }
 }
 
 TEST(Request, GarbageNeverDoesMoreThanBeRefused) {

@@ -26,9 +26,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     accepted = reader.feed(text.substr(0, step), take);
     text.remove_prefix(std::min(step, text.size()));
     if (reader.held().size() > 256) std::abort();
-    if (is_whole_request(reader.held())) {
-      take(reader.held());
-      reader.forget();
+    if (const std::size_t complete = complete_length(reader.held())) {
+      take(reader.held().substr(0, complete));
+      reader.forget(complete);
+      if (complete_length(reader.held()) != 0) std::abort();
     }
   }
   return 0;

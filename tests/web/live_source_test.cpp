@@ -135,6 +135,25 @@ TEST_F(LiveSourceTest, RecordsTopicsAndLossesAreTakenAndGarbageIsCounted) {
   }));
 }
 
+TEST_F(LiveSourceTest, SchemasKeepTheOrderOfTheirMembersAndWrongTypesDoNoHarm) {
+  FakeStatus status(port_);
+  status.accept();
+  const std::string schema = R"({"title":"z","type":"object","properties":{"b":{"type":"number"},"a":{}}})";
+  status.send(
+      R"({"class":"RECORDS","topics":[{"topic":7,"schema":{}},{"topic":"","schema":{}},3,{"topic":"/none"},)"
+      R"({"topic":"/imu","schema_name":5,"schema":)" +
+      schema + "}]}\n");
+  status.send(R"({"class":"RECORD","topic":"/health","device":null,"time":5.5,"message":{"dropped":"many"}})"
+              "\n");
+  status.send(R"({"class":"RECORD","topic":"/imu","device":"imu","time":5.5,"message":{"a":1}})"
+              "\n");
+  EXPECT_TRUE(becomes([&] { return collected_.messages.size() == 2; }));
+  EXPECT_TRUE(in_loop([&] {
+    return hub_.topics().size() == 1 && hub_.topics()[0].schema == schema &&
+           hub_.topics()[0].schema_name.empty() && source_->counters().missed == 0;
+  }));
+}
+
 TEST_F(LiveSourceTest, APeerThatSendsNoLinesIsLeft) {
   FakeStatus status(port_);
   status.accept();

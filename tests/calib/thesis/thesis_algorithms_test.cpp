@@ -20,7 +20,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPeriod_s = 0.1;
 double factor(const TruePoint& p) { return std::cos(p.roll_rad) / std::cos(p.pitch_rad); }
 double measured_rate(const TruePoint& p) { return (p.rate_rad_s.z() - kTrueBias_rad_s) / kTrueScale; }
 std::string name(int path) { return "path" + std::to_string(path + 1); }

@@ -3,12 +3,14 @@
 
 #include <cmath>
 
-#include "tests/calib/turn/filtered_turns.h"
+#include "calib/thesis/filtered_turns.h"
+#include "tests/calib/thesis_paths.h"
 
 namespace navcal::calib {
 namespace {
 
 using namespace test;
+using thesis::filtered;
 
 TEST(TurnCoverage, WithoutNoiseTheGoalsOfTheGyroOnEveryPath) {
   for (int p = 1; p <= 8; ++p) {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "analysis/output.h"
+#include "analysis/progress.h"
+#include "analysis/thesis/thesis_run.h"
+#include "cli/commands.h"
+#include "cli/result_file.h"
+#include "report/thesis_page.h"
+
+namespace navcal::cli {
+namespace {
+
+struct ThesisCommandOptions {
+  analysis::ThesisRequest request;
+  std::string page, json;
+};
+
+void expect_thesis_outputs(const ThesisCommandOptions& options) {
+  if (options.page.empty() && options.json.empty())
+    throw analysis::Failure(analysis::Exit::usage,
+                            "thesis: nothing to write; give --report FILE.html or --json FILE");
+  for (const std::string& file : {options.page, options.json}) {
+    if (!file.empty() && file != "-") expect_folder_of(file);
+  }
+  std::vector<std::filesystem::path> inputs;
+  for (int number = 1; number <= analysis::kThesisPaths; ++number)
+    inputs.push_back(options.request.folder / ("path" + std::to_string(number) + ".csv"));
+  expect_no_overwriting(inputs, {options.page, options.json});
+}
+
+void write_thesis_json(const std::string& file, const std::string& json) {
+  if (file != "-") return write_result(file, json);
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(json);
+  output.flush();
+}
+
+void recompute_thesis(ThesisCommandOptions options) {
+  if (options.request.folder.empty()) options.request.folder = analysis::thesis_folder();
+  expect_thesis_outputs(options);
+  const auto results = [&] {
+    analysis::Progress progress("thesis", analysis::Progress::Answer::at_the_end);
+    return analysis::thesis_results(options.request,
+                                    [&](std::string_view what, double done) { progress.show(what, done); });
+  }();
+  try {
+    if (!options.page.empty()) write_result(options.page, report::thesis_page(results));
+    if (!options.json.empty()) write_thesis_json(options.json, report::thesis_json(results));
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+}  // namespace
+
+void add_thesis(CLI::App& app) {
+  const auto options = std::make_shared<ThesisCommandOptions>();
+  auto* const command = app.add_subcommand(
+      "thesis", "tables and figures of the thesis of 2003 recomputed: thesis, navcal, Cramer-Rao bound");
+  command->add_option("--report", options->page, "page to write, with pictures; needs no other file")
+      ->option_text("FILE.html");
+  command->add_option("--json", options->json, "the same numbers as one JSON object; - is standard output")
+      ->option_text("FILE|-");
+  command->add_option("--runs", options->request.runs, "runs with noise for each path and method")
+      ->check(CLI::Range(2, 100'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->request.seed, "seed of the noise; the same seed gives the same numbers")
+      ->capture_default_str();
+  command
+      ->add_option("--paths", options->request.folder,
+                   "folder with path1.csv to path8.csv at 10 Hz; default: the installed paths")
+      ->option_text("DIR");
+  command->footer(
+      "docs/thesis.md describes the page and the JSON keys. At least one of --report and --json must be given.\n\n"
+      "Example: navcal thesis --report thesis.html --json thesis.json");
+  command->callback([options] { recompute_thesis(*options); });
+}
+
+}  // namespace navcal::cli

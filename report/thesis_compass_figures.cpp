@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/angles.h"
+#include "report/thesis_figures.h"
+
+namespace navcal::report {
+namespace {
+
+using Ink = SvgPlot::Ink;
+using analysis::ThesisCompassTrace;
+
+constexpr const char* kCircleLabel = "heading, degrees";
+
+struct CompassFigure {
+  const char* id;
+  int path;
+  bool noisy;
+  const char* caption;
+};
+constexpr std::array kCompassFigures{
+    CompassFigure{
+        "4.2", 2, false,
+        "All headings are visited, so least squares finds the curve to about a degree, which is as good as "
+        "the thesis's metric can show: with the true coefficients it reads 1.04 degrees."},
+    CompassFigure{
+        "4.3", 4, false,
+        "Half the circle is not visited, and there the curve is extrapolated. Figure and table of the thesis "
+        "disagree: the axis of its figure 4.3(d) reaches from -6 to 3 degrees, but its coefficients of table "
+        "4.1 give -3.30 to 1.33 degrees. They come from different runs."},
+    CompassFigure{
+        "4.4", 7, false,
+        "Six turns in a tight circle with 6 degrees of roll: the neglected pitch rate turns the heading away "
+        "by 25 degrees, and C and E take it up. navcal uses the exact kinematics."},
+    CompassFigure{"4.5", 8, false,
+                  "One slow, even turn: the best path of the thesis, at the floor of its metric. Figure and table "
+                  "disagree slightly: axis of 4.5(d) +-0.8 degrees, table 4.1 gives -0.85 to 0.90 degrees."},
+    CompassFigure{"4.6", 8, true,
+                  "Path 8 with the noise of figure 3.5. Both errors are shown with the self-consistent deviation "
+                  "psi = psi_m - E(psi_m), which has no floor."}};
+
+ThesisFigure compass_figure(const CompassFigure& figure, const ThesisCompassTrace& trace) {
+  ThesisPanel error{"Error of the calibrated heading", kCircleLabel, "degrees", {}};
+  if (!figure.noisy)
+    error.curves.push_back(
+        {"true coefficients, metric of the thesis", Ink::fit, trace.circle_deg, trace.perfect_error_deg});
+  error.curves.push_back({"least squares", Ink::second, trace.circle_deg, trace.thesis_error_deg});
+  error.curves.push_back({"navcal", Ink::first, trace.circle_deg, trace.navcal_error_deg});
+  const std::string noise = figure.noisy ? ", with noise" : "";
+  return {figure.id,
+          "Compass by least squares, path " + std::to_string(figure.path) + noise,
+          figure.caption,
+          {thesis_track_panel(trace),
+           {"Heading",
+            "seconds",
+            "degrees",
+            {{"compass", Ink::second, trace.time_s, trace.measured_deg},
+             {"true", Ink::fit, trace.time_s, trace.heading_deg}}},
+           {"Deviation E",
+            kCircleLabel,
+            "degrees",
+            {{"injected", Ink::fit, trace.circle_deg, trace.injected_deg},
+             {"least squares", Ink::second, trace.circle_deg, trace.thesis_deg},
+             {"navcal", Ink::first, trace.circle_deg, trace.navcal_deg}}},
+           std::move(error)}};
+}
+
+/// Figure 4.1: the injected deviation and its two parts, with the eight points of a classical swing.
+ThesisFigure deviation_figure() {
+  ThesisCurve hard{"hard iron, B and C", Ink::first, {}, {}}, soft{"soft iron, D and E", Ink::third, {}, {}};
+  ThesisCurve sum{"both", Ink::second, {}, {}}, swing{"swing", Ink::fit, {}, {}, true};
+  calib::thesis::Deviation only_hard = calib::thesis::thesis_deviation(), only_soft = only_hard;
+  only_hard.tail<2>().setZero();
+  only_soft.segment<2>(1).setZero();
+  for (int heading_deg = 0; heading_deg <= 360; ++heading_deg) {
+    const double heading_rad = heading_deg * base::kRadiansPerDegree;
+    const double of_hard = calib::thesis::deviation_rad(only_hard, heading_rad) * base::kDegreesPerRadian;
+    const double of_soft = calib::thesis::deviation_rad(only_soft, heading_rad) * base::kDegreesPerRadian;
+    for (ThesisCurve* curve : {&hard, &soft, &sum}) curve->x.push_back(heading_deg);
+    hard.y.push_back(of_hard);
+    soft.y.push_back(of_soft);
+    sum.y.push_back(of_hard + of_soft);
+    if (heading_deg % 45 != 0) continue;
+    swing.x.push_back(heading_deg);
+    swing.y.push_back(of_hard + of_soft);
+  }
+  return {
+      "4.1",
+      "Deviation of the compass",
+      "E of equation (2.7) with the injected B = 5, C = -5, D = 2, E = 2 degrees, and the eight headings at which "
+      "a classical swing measures it. What the thesis draws in this figure is not on record; this is our drawing "
+      "of the deviation that all figures of this chapter are about.",
+      {{"Deviation E",
+        "measured heading, degrees",
+        "degrees",
+        {std::move(hard), std::move(soft), std::move(sum), std::move(swing)}}}};
+}
+
+}  // namespace
+
+std::vector<ThesisFigure> thesis_compass_figures(const analysis::ThesisResults& results) {
+  std::vector<ThesisFigure> figures{deviation_figure()};
+  for (const CompassFigure& figure : kCompassFigures)
+    figures.push_back(compass_figure(figure, thesis_trace_of(results.compass_traces, figure.path, figure.noisy)));
+  return figures;
+}
+
+}  // namespace navcal::report

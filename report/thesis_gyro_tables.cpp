@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+
+#include "calib/thesis/printed_tables.h"
+#include "report/thesis_tables.h"
+
+namespace navcal::report {
+namespace {
+
+using analysis::ThesisGyro;
+using calib::thesis::PrintedGyro;
+
+constexpr double kGyroTruth[2] = {calib::thesis::kTrueScale, calib::thesis::kTrueBias_rad_s};
+
+/// Scale (0) or bias (1) of every path.
+std::vector<ThesisEstimate> gyro_rows(const analysis::ThesisResults& results, bool adaptive, int coefficient) {
+  std::vector<ThesisEstimate> rows;
+  for (std::size_t i = 0; i < results.gyro.size(); ++i) {
+    const ThesisGyro& ours = results.gyro.at(i);
+    const PrintedGyro& printed = adaptive ? calib::thesis::kTable3_2.at(i) : calib::thesis::kTable3_1.at(i);
+    ThesisEstimate row;
+    row.path = static_cast<int>(i) + 1;
+    row.truth = kGyroTruth[coefficient];
+    row.percent_of = std::abs(row.truth);
+    row.printed = coefficient == 0 ? printed.scale : printed.bias_rad_s;
+    row.printed_percent = coefficient == 0 ? printed.scale_percent : printed.bias_percent;
+    row.recomputed = (adaptive ? ours.adaptive : ours.least_squares)[coefficient];
+    row.method_rms = (adaptive ? ours.adaptive_rms : ours.least_squares_rms)[coefficient];
+    row.navcal = ours.navcal[coefficient];
+    row.navcal_rms = ours.navcal_rms[coefficient];
+    row.bound = ours.bound[coefficient];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<ThesisTablePart> gyro_parts(const analysis::ThesisResults& results, bool adaptive) {
+  return {
+      thesis_estimates("scale", "Scale abar, true value 1.1111", gyro_rows(results, adaptive, 0), 4),
+      thesis_estimates("bias_rad_s", "Bias bbar, true value -0.1111 rad/s", gyro_rows(results, adaptive, 1), 4)};
+}
+
+struct ConvergenceRow {
+  int path;
+  const ThesisGyro* gyro;
+};
+
+ThesisCell time_cell(const std::optional<double>& time_s) {
+  if (time_s) return {time_s, {}};
+  return {std::nullopt, "not reached"};
+}
+
+ThesisTable convergence_table(const analysis::ThesisResults& results) {
+  using Row = ConvergenceRow;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < results.gyro.size(); ++i)
+    rows.push_back({static_cast<int>(i) + 1, &results.gyro.at(i)});
+  const auto error = [](const Eigen::Vector2d& estimate, int i) {
+    return ThesisCell{100 * (estimate[i] - kGyroTruth[i]) / std::abs(kGyroTruth[i]), {}};
+  };
+  const std::vector<ThesisColumnOf<Row>> columns{
+      {{"path", "path", 0},
+       [](const Row& r) {
+         return ThesisCell{r.path, {}};
+       }},
+      {{"identifier_settled_s", "identifier within 5 %, s", 1},
+       [](const Row& r) { return time_cell(r.gyro->adaptive_settled_s); }},
+      {{"noise_identifier_settled_s", "with noise, s", 1},
+       [](const Row& r) { return time_cell(r.gyro->adaptive_noisy_settled_s); }},
+      {{"identifier_scale_percent", "identifier at the end: abar, %", 2},
+       [&](const Row& r) { return error(r.gyro->adaptive, 0); }},
+      {{"identifier_bias_percent", "bbar, %", 2}, [&](const Row& r) { return error(r.gyro->adaptive, 1); }},
+      {{"navcal_settled_s", "navcal within 5 %, s", 1},
+       [](const Row& r) { return time_cell(r.gyro->navcal_settled_s); }},
+      {{"noise_navcal_settled_s", "with noise, s", 1},
+       [](const Row& r) { return time_cell(r.gyro->navcal_noisy_settled_s); }},
+      {{"navcal_scale_percent", "navcal at the end: abar, %", 4},
+       [&](const Row& r) { return error(r.gyro->navcal, 0); }},
+      {{"navcal_bias_percent", "bbar, %", 4}, [&](const Row& r) { return error(r.gyro->navcal, 1); }}};
+  return {
+      "convergence",
+      "Convergence of the adaptive identifier",
+      "Seconds after which both estimates stay within 5 % of the true values, without noise and in one run with "
+      "noise, and the errors at the end of the path without noise. The identifier has the constants K = -0.75 and "
+      "Lambda = diag(2, 0.2). navcal's filter is recursive, too: it updates its estimate with every reading.",
+      {thesis_part("paths", "", rows, columns)}};
+}
+
+}  // namespace
+
+std::vector<ThesisTable> thesis_gyro_tables(const analysis::ThesisResults& results) {
+  return {
+      {"3.1", "Gyro by least squares",
+       "Percentages are 100 (estimate - true) / |true|, as in the thesis: a positive one of the bias means less "
+       "negative. The compass has no error but noise.",
+       gyro_parts(results, false)},
+      {"3.2", "Gyro by the adaptive identifier",
+       "Percentages as in table 3.1. The columns of navcal repeat those of table 3.1, because one recursive "
+       "filter takes the place of both methods.",
+       gyro_parts(results, true)},
+      convergence_table(results)};
+}
+
+}  // namespace navcal::report

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "report/thesis_figures.h"
+
+namespace navcal::report {
+namespace {
+
+using Ink = SvgPlot::Ink;
+using analysis::ThesisTurnTrace;
+using calib::thesis::kTrueBias_rad_s;
+using calib::thesis::kTrueScale;
+
+constexpr const char* kSeconds = "seconds";
+
+/// A figure of chapter 3 that shows a path.
+struct TurnFigure {
+  const char* id;
+  int path;
+  bool noisy;
+  const char* caption;
+};
+constexpr std::array kLeastSquaresFigures{
+    TurnFigure{"3.1", 2, false,
+               "The vehicle turns both ways through all headings, so the thesis's rate error stays within 0.004 "
+               "rad/s. What is left comes from the roll, whose effect on the rate is neglected, and from forward "
+               "Euler. The "
+               "spikes of navcal stand where the rate changes within one sample."},
+    TurnFigure{"3.2", 3, false,
+               "A zigzag over 220 degrees is enough for the gyro, because the rate changes its sign. The thesis's "
+               "heading error stays within -0.03 and 0.04 rad."},
+    TurnFigure{"3.3", 4, false,
+               "Half a circle is enough for the gyro, too: it needs different rates, not all headings."},
+    TurnFigure{
+        "3.4", 7, false,
+        "The rate is constant after the spin-up. Scale and bias then compensate each other: the heading fits, "
+        "but the rate is wrong wherever the vehicle does not turn at this rate (axis of the thesis: -0.035 to "
+        "-0.005 rad/s)."},
+    TurnFigure{
+        "3.5", 3, true,
+        "Path 3 with noise: 0.001 rad in roll and pitch, 0.004 rad in the compass, 0.005 rad/s in the gyro. "
+        "The noise of the single readings hides the error of the calibration (axis of the thesis: 0.02 "
+        "rad/s)."}};
+constexpr std::array kIdentifierFigures{
+    TurnFigure{
+        "3.6", 2, false,
+        "The estimates oscillate with the turns and come near the true values only at the end. On our path the "
+        "bias is "
+        "9 % off, on that of the thesis 2 %, so our heading error is larger. Axis of the thesis: heading error "
+        "-0.1 to 0.25 rad."},
+    TurnFigure{"3.7", 3, false,
+               "The zigzag excites both estimates, and the identifier does as well as least squares. Axis of the "
+               "thesis: heading error -0.06 to 0.08 rad."},
+    TurnFigure{
+        "3.8", 4, false,
+        "The zigzag over half the circle: what is left is a scale that is too small. Axis of the thesis: heading "
+        "error 0 to 0.2 rad."},
+    TurnFigure{
+        "3.9", 7, false,
+        "At a constant rate only abar omega_m + bbar is identified. The calibrated rate is right in the turn and "
+        "wrong during the spin-up, and the heading keeps that error. Axis of the thesis: heading error -0.7 to 0 "
+        "rad."},
+    TurnFigure{
+        "3.10", 3, true,
+        "Path 3 with the noise of figure 3.5. The noise of the single readings is larger than the error of the "
+        "calibration."}};
+
+ThesisPanel rate_panel(const ThesisTurnTrace& trace) {
+  return {"Heading rate",
+          kSeconds,
+          "rad/s",
+          {{"gyro", Ink::second, trace.time_s, trace.measured_rate_rad_s},
+           {"true", Ink::fit, trace.time_s, trace.rate_rad_s}}};
+}
+
+ThesisPanel rate_error_panel(const ThesisTurnTrace& trace, const char* method,
+                             const analysis::ThesisRateErrors& errors) {
+  return {"Error of the calibrated rate",
+          kSeconds,
+          "rad/s",
+          {{method, Ink::second, trace.time_s, errors.rate_rad_s},
+           {"navcal", Ink::first, trace.time_s, trace.navcal.rate_rad_s}}};
+}
+
+ThesisPanel heading_error_panel(const ThesisTurnTrace& trace, const char* method,
+                                const analysis::ThesisRateErrors& errors) {
+  return {"Error of the integrated heading",
+          kSeconds,
+          "rad",
+          {{method, Ink::second, trace.time_s, errors.heading_rad},
+           {"navcal", Ink::first, trace.time_s, trace.navcal.heading_rad}}};
+}
+
+std::string title_of(const char* method, const TurnFigure& figure) {
+  return std::string(method) + ", path " + std::to_string(figure.path) + (figure.noisy ? ", with noise" : "");
+}
+
+ThesisFigure least_squares_figure(const TurnFigure& figure, const ThesisTurnTrace& trace) {
+  return {figure.id,
+          title_of("Gyro by least squares", figure),
+          figure.caption,
+          {thesis_track_panel(trace),
+           {"Heading", kSeconds, "rad", {{"true", Ink::fit, trace.time_s, trace.heading_rad}}},
+           rate_panel(trace),
+           {"Roll", kSeconds, "degrees", {{"true", Ink::fit, trace.time_s, trace.roll_deg}}},
+           rate_error_panel(trace, "least squares", trace.least_squares),
+           heading_error_panel(trace, "least squares", trace.least_squares)}};
+}
+
+/// A level line at the true value.
+ThesisCurve true_value(const ThesisTurnTrace& trace, double value) {
+  return {"true", Ink::fit, {trace.time_s.front(), trace.time_s.back()}, {value, value}};
+}
+
+/// Range of the identifier's values and the true one; the filter's first estimates may be far off.
+Range estimate_range(const std::vector<double>& identifier, double truth) {
+  std::vector<double> values = identifier;
+  values.push_back(truth);
+  return whole_range_of(values);
+}
+
+ThesisPanel scale_panel(const ThesisTurnTrace& trace) {
+  return {"Scale abar",
+          kSeconds,
+          "",
+          {true_value(trace, kTrueScale),
+           {"navcal", Ink::first, trace.time_s, trace.navcal_scale},
+           {"identifier", Ink::second, trace.time_s, trace.adaptive_scale}},
+          false,
+          estimate_range(trace.adaptive_scale, kTrueScale)};
+}
+
+ThesisPanel bias_panel(const ThesisTurnTrace& trace) {
+  return {"Bias bbar",
+          kSeconds,
+          "rad/s",
+          {true_value(trace, kTrueBias_rad_s),
+           {"navcal", Ink::first, trace.time_s, trace.navcal_bias_rad_s},
+           {"identifier", Ink::second, trace.time_s, trace.adaptive_bias_rad_s}},
+          false,
+          estimate_range(trace.adaptive_bias_rad_s, kTrueBias_rad_s)};
+}
+
+ThesisPanel state_error_panel(const ThesisTurnTrace& trace) {
+  return {"Error of the identifier's heading",
+          kSeconds,
+          "rad",
+          {{"identifier", Ink::second, trace.time_s, trace.adaptive_state_error_rad}}};
+}
+
+ThesisFigure identifier_figure(const TurnFigure& figure, const ThesisTurnTrace& trace) {
+  return {figure.id,
+          title_of("Adaptive identifier", figure),
+          figure.caption,
+          {scale_panel(trace), bias_panel(trace), rate_panel(trace), state_error_panel(trace),
+           rate_error_panel(trace, "identifier", trace.adaptive),
+           heading_error_panel(trace, "identifier", trace.adaptive)}};
+}
+
+/// abar omega_m + bbar = omega at the last rate of a path, from one scale to another.
+ThesisCurve identified_line(const ThesisTurnTrace& trace, double least, double most) {
+  const double measured = trace.measured_rate_rad_s.back();
+  const double true_rate = kTrueScale * measured + kTrueBias_rad_s;
+  return {"all that a constant rate tells",
+          Ink::fit,
+          {least, most},
+          {true_rate - least * measured, true_rate - most * measured}};
+}
+
+/// Both estimates against each other on the paths of constant rate.
+ThesisPanel plane_panel(const analysis::ThesisResults& results) {
+  constexpr std::array kConstantRate{1, 7, 8};
+  constexpr std::array kInks{Ink::first, Ink::second, Ink::third};
+  ThesisPanel plane{"Both estimates, paths of constant rate", "scale abar", "bias bbar, rad/s", {}};
+  for (std::size_t i = 0; i < kConstantRate.size(); ++i) {
+    const ThesisTurnTrace& trace = thesis_trace_of(results.turn_traces, kConstantRate.at(i), false);
+    ThesisCurve line = identified_line(trace, -0.8, kTrueScale);
+    if (i > 0) line.name.clear();
+    plane.curves.push_back(std::move(line));
+    plane.curves.push_back({"path " + std::to_string(kConstantRate.at(i)), kInks.at(i), trace.adaptive_scale,
+                            trace.adaptive_bias_rad_s});
+  }
+  plane.curves.push_back({"true", Ink::fit, {kTrueScale}, {kTrueBias_rad_s}, true});
+  return plane;
+}
+
+ThesisFigure convergence_figure(const analysis::ThesisResults& results) {
+  const ThesisTurnTrace& trace = thesis_trace_of(results.turn_traces, 7, false);
+  return {
+      "3.11",
+      "Convergence of the adaptive identifier, path 7",
+      "The heading error goes to zero within twenty seconds, as the proof says, but the estimates come to rest at "
+      "wrong values. The last picture shows why: from (1, 1) they move to the line of all pairs that give the one "
+      "rate of the path, and stay there. Limits of the thesis: abar down to -0.7, heading error about 1 rad.",
+      {state_error_panel(trace), scale_panel(trace), bias_panel(trace), plane_panel(results)}};
+}
+
+}  // namespace
+
+std::vector<ThesisFigure> thesis_turn_figures(const analysis::ThesisResults& results) {
+  std::vector<ThesisFigure> figures;
+  for (const TurnFigure& figure : kLeastSquaresFigures)
+    figures.push_back(
+        least_squares_figure(figure, thesis_trace_of(results.turn_traces, figure.path, figure.noisy)));
+  for (const TurnFigure& figure : kIdentifierFigures)
+    figures.push_back(identifier_figure(figure, thesis_trace_of(results.turn_traces, figure.path, figure.noisy)));
+  figures.push_back(convergence_figure(results));
+  return figures;
+}
+
+}  // namespace navcal::report

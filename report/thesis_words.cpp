@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/thesis_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/thesis/printed_tables.h"
+
+namespace navcal::report {
+namespace {
+
+/// Least and largest of several numbers.
+struct Spread {
+  double least = INFINITY, most = -INFINITY;
+  void add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+};
+
+ThesisFinding gyro_finding(const analysis::ThesisResults& results) {
+  Spread method, ours;
+  for (const auto& path : results.gyro) {
+    for (const Eigen::Index i : {0, 1}) {
+      method.add(path.least_squares_rms[i] / path.bound[i]);
+      ours.add(path.navcal_rms[i] / path.bound[i]);
+    }
+  }
+  return {"gyro", fmt::format("With noise, least squares of the thesis errs by {:.1f} to {:.0f} times the bound, "
+                              "navcal by {:.2f} to {:.2f} times (tables 3.1, 3.2).",
+                              method.least, method.most, ours.least, ours.most)};
+}
+
+/// Number of paths on which a time is known.
+template <class Get>
+long paths_settled(const analysis::ThesisResults& results, Get get) {
+  return std::count_if(results.gyro.begin(), results.gyro.end(),
+                       [&](const analysis::ThesisGyro& path) { return get(path).has_value(); });
+}
+
+ThesisFinding identifier_finding(const analysis::ThesisResults& results) {
+  using Gyro = analysis::ThesisGyro;
+  return {"identifier",
+          fmt::format("The adaptive identifier comes to within 5 % on {} of 8 paths, with noise on {}; navcal's "
+                      "recursive filter on {}, with noise on {} (table of convergence).",
+                      paths_settled(results, [](const Gyro& path) { return path.adaptive_settled_s; }),
+                      paths_settled(results, [](const Gyro& path) { return path.adaptive_noisy_settled_s; }),
+                      paths_settled(results, [](const Gyro& path) { return path.navcal_settled_s; }),
+                      paths_settled(results, [](const Gyro& path) { return path.navcal_noisy_settled_s; }))};
+}
+
+ThesisFinding compass_finding(const analysis::ThesisResults& results) {
+  Spread printed, method, ours;
+  for (std::size_t i = 0; i < results.compass.size(); ++i) {
+    printed.add(calib::thesis::kTable4_1.at(i).largest_deg);
+    method.add(results.compass.at(i).least_squares_noisy.largest_deg);
+    ours.add(results.compass.at(i).navcal_noisy.largest_deg);
+  }
+  return {
+      "compass",
+      fmt::format("Largest error of heading: {:.1f} to {:.1f} degrees in table 4.1; with noise {:.1f} to {:.1f} "
+                  "by its method and {:.2f} to {:.2f} by navcal.",
+                  printed.least, printed.most, method.least, method.most, ours.least, ours.most)};
+}
+
+ThesisFinding metric_finding(const analysis::ThesisResults& results) {
+  const auto& perfect = results.perfect_error;
+  return {"metric",
+          fmt::format("The metric of table 4.1 has a floor: with the true coefficients it reads mean {:.4f}, "
+                      "largest {:.4f}, standard deviation {:.4f} degrees. Paths 2 and 8 are at this floor.",
+                      perfect.mean_deg, perfect.largest_deg, perfect.std_deg)};
+}
+
+ThesisFinding field_finding(const analysis::ThesisResults& results) {
+  Spread method, ours;
+  for (const auto& figure : results.field_paths) {
+    for (const auto& path : figure) {
+      method.add(path.thesis_noisy_deg);
+      ours.add(path.navcal_noisy_deg);
+    }
+  }
+  return {"field", fmt::format("On the eight paths the magnetometer method of the thesis errs by {:.1f} to {:.0f} "
+                               "degrees, navcal's ellipse by {:.2f} to {:.2f} degrees.",
+                               method.least, method.most, ours.least, ours.most)};
+}
+
+}  // namespace
+
+std::vector<ThesisFinding> thesis_findings(const analysis::ThesisResults& results) {
+  return {gyro_finding(results), identifier_finding(results), compass_finding(results), metric_finding(results),
+          field_finding(results)};
+}
+
+std::vector<std::vector<std::string>> thesis_errata() {
+  return {
+      {"section 3.2",
+       "The printed constants are garbled. K = -0.75 and Lambda = diag(2, 0.2) reproduce table 3.2; K = "
+       "-2 and Lambda = diag(0.75, 0.2) do not."},
+      {"chapters 3, 4",
+       "The sample period is not printed. Only 0.1 s with forward Euler reproduces the numbers of "
+       "paths 7 and 8."},
+      {"table 4.1",
+       "Deviation was injected at the true heading, although (2.8) has it at the measured one. Hence the "
+       "floor of its metric."},
+      {"tables 3.1, 4.1",
+       "Percentages are of |true| in tables 3.1 and 3.2, and of the signed true value in table 4.1: "
+       "C of path 1 is above the truth, and its percentage is negative."},
+      {"text on table 3.1",
+       "The text calls paths 1, 7 and 8 the worst. That is so for bbar; the worst abar is that of "
+       "path 5."},
+      {"figures 4.3(d), 4.5(d)",
+       "Their axes do not agree with table 4.1. Figures and table come from different runs."},
+      {"figures 4.8 to 4.11",
+       "The residual of 0.08 degrees is called imprecise computing. It comes from the uneven "
+       "sampling 0:0.01:2 pi."},
+      {"(2.1), (2.2)", "The sign does not fit the axes of figure 1.3; with them psi = atan2(-yh, xh)."},
+      {"(2.10)",
+       "Roll is neglected, which drops a term as large as the one that is kept: the rate comes out as r "
+       "cos^2(roll)."},
+      {"(2.11)", "The unit rad/s/volt of a is wrong: a has no unit."},
+      {"(3.4), (4.6)",
+       "All rows hang on the first compass reading, and their noise is a random walk. Ordinary least "
+       "squares is inefficient there."},
+      {"(3.15)", "The factor cos(roll)/cos(pitch) of (3.16) is missing in the gradient."},
+      {"(4.14), (4.17)",
+       "A plain arc tangent cannot tell the major axis from the minor one, and two single maxima carry "
+       "the noise of two samples."},
+  };
+}
+
+}  // namespace navcal::report

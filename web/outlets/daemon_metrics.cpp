@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/outlets/daemon_metrics.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "base/angles.h"
+#include "web/outlets/json_members.h"
+#include "web/outlets/port_metrics.h"
+
+namespace navcal::web {
+namespace {
+
+using nlohmann::json;
+using enum Exposition::Type;
+
+/// A member of a message that is a metric by itself.
+struct DaemonMember {
+  const char* key;
+  const char* name;
+  Exposition::Type type;
+  const char* help;
+  double factor = 1;
+};
+
+template <std::size_t N>
+void append_members(Exposition& out, const json& object, const std::array<DaemonMember, N>& members) {
+  for (const DaemonMember& member : members)
+    out.single(member.name, member.type, member.help, scaled(number_in(object, member.key), member.factor));
+}
+
+constexpr std::array kHealthMembers{
+    DaemonMember{"uptime_s", "navcald_uptime_seconds", gauge, "Time since navcald was started."},
+    DaemonMember{"clients", "navcald_status_clients", gauge, "Clients of the status socket."},
+    DaemonMember{"client_queue_bytes", "navcald_status_client_queue_bytes", gauge,
+                 "Bytes that wait for clients of the status socket."},
+    DaemonMember{"client_dropped", "navcald_status_client_dropped_reports_total", counter,
+                 "Reports that slow clients of the status socket missed."}};
+
+constexpr std::array kLogMembers{
+    DaemonMember{"bytes", "navcald_log_file_bytes", gauge, "Size of the log file that is being written."},
+    DaemonMember{"synced", "navcald_log_synced_bytes", gauge, "Bytes of it that are safe from a loss of power."},
+    DaemonMember{"queued", "navcald_log_queued_bytes", gauge, "Bytes that wait for the disk."},
+    DaemonMember{"lost", "navcald_log_lost_records_total", counter, "Records that were lost for want of room."}};
+constexpr std::array kLogStates{"writing", "full", "failing", "stopped", "off"};
+
+constexpr std::array kMotorMembers{
+    DaemonMember{"orders", "navcald_motor_orders_total", counter, "Orders to the motor card that were taken."},
+    DaemonMember{"refused", "navcald_motor_refused_orders_total", counter, "Orders that were refused."},
+    DaemonMember{"sent", "navcald_motor_sent_lines_total", counter, "Lines sent to the motor card."},
+    DaemonMember{"echoed", "navcald_motor_echoed_lines_total", counter, "Lines that a status showed."},
+    DaemonMember{"not_echoed", "navcald_motor_not_echoed_lines_total", counter, "Lines that no status showed."},
+    DaemonMember{"superseded", "navcald_motor_superseded_lines_total", counter,
+                 "Lines of which a later one was shown first."},
+    DaemonMember{"echo_s", "navcald_motor_echo_seconds", gauge,
+                 "Time from the last line to the status that showed it."}};
+
+constexpr std::array kRemoteMembers{
+    DaemonMember{"sessions", "navcald_remote_sessions_total", counter, "Sessions of the remote link."},
+    DaemonMember{"frames", "navcald_remote_frames_total", counter, "Frames of the remote link."},
+    DaemonMember{"bad_checksum", "navcald_remote_bad_checksums_total", counter, "Frames with a wrong checksum."},
+    DaemonMember{"refused", "navcald_remote_refused_frames_total", counter, "Frames that were refused."},
+    DaemonMember{"repeated", "navcald_remote_repeated_frames_total", counter, "Frames that came twice."},
+    DaemonMember{"sent_bytes", "navcald_remote_sent_bytes_total", counter, "Bytes sent over the remote link."},
+    DaemonMember{"loss", "navcald_remote_loss_ratio", gauge,
+                 "Share of the operator's last frames that was lost."}};
+constexpr std::array kOperatorStates{"none", "alive", "dead"};
+
+constexpr std::array kClockSources{"none", "file", "system", "system-synchronised", "gps"};
+
+constexpr std::array kNavigationMembers{
+    DaemonMember{"time", "navcald_navigation_timestamp_seconds", gauge,
+                 "UTC at which the estimate holds; absent while it is unknown."},
+    DaemonMember{"time_std", "navcald_navigation_timestamp_std_seconds", gauge,
+                 "Standard error of navcald_navigation_timestamp_seconds."},
+    DaemonMember{"depth_m", "navcald_depth_meters", gauge, "Depth below the surface."},
+    DaemonMember{"heading_rad", "navcald_heading_radians", gauge, "Heading."},
+    DaemonMember{"heading_std_rad", "navcald_heading_std_radians", gauge, "Standard error of the heading."},
+    DaemonMember{"pitch_rad", "navcald_pitch_radians", gauge, "Pitch, bow up."},
+    DaemonMember{"roll_rad", "navcald_roll_radians", gauge, "Roll, starboard down."},
+    DaemonMember{"speed_m_s", "navcald_speed_meters_per_second", gauge, "Speed ahead through the water."},
+    DaemonMember{"north_std_m", "navcald_position_north_std_meters", gauge,
+                 "Standard error of the position, north."},
+    DaemonMember{"east_std_m", "navcald_position_east_std_meters", gauge, "Standard error of the position, east."},
+    DaemonMember{"since_fix_s", "navcald_since_fix_seconds", gauge, "Time since the last fix."},
+    DaemonMember{"since_fix_m", "navcald_since_fix_meters", gauge, "Way since the last fix."},
+    DaemonMember{"altitude_m", "navcald_altitude_meters", gauge, "Height above the sea floor."},
+    DaemonMember{"altitude_std_m", "navcald_altitude_std_meters", gauge, "Standard error of the height."},
+    DaemonMember{"water_depth_m", "navcald_water_depth_meters", gauge, "Depth of the water."},
+    DaemonMember{"predicted_error_m", "navcald_predicted_error_meters", gauge,
+                 "95 % radius of the position at the first fix if the vehicle surfaced now."},
+    DaemonMember{"surface_within_s", "navcald_surface_within_seconds", gauge,
+                 "Time left to surface within navigation.max_error_m."}};
+
+constexpr double kCoulombsPerAh = 3600, kJoulesPerWh = 3600, kRatioPerPercent = 0.01;
+constexpr std::array kBatteryMembers{
+    DaemonMember{"voltage_V", "navcald_battery_volts", gauge, "Voltage of the battery."},
+    DaemonMember{"current_A", "navcald_battery_amperes", gauge, "Current out of the battery."},
+    DaemonMember{"charge_Ah", "navcald_battery_charge_coulombs", gauge, "Charge that is left.", kCoulombsPerAh},
+    DaemonMember{"charge_std_Ah", "navcald_battery_charge_std_coulombs", gauge,
+                 "Standard error of navcald_battery_charge_coulombs.", kCoulombsPerAh},
+    DaemonMember{"charge_percent", "navcald_battery_charge_ratio", gauge, "Charge that is left, of the capacity.",
+                 kRatioPerPercent},
+    DaemonMember{"energy_Wh", "navcald_battery_energy_joules", gauge, "Energy that is left.", kJoulesPerWh},
+    DaemonMember{"time_left_s", "navcald_battery_time_left_seconds", gauge, "Time left at the mean load."},
+    DaemonMember{"range_left_m", "navcald_battery_range_left_meters", gauge, "Way left at the mean speed."}};
+
+constexpr std::array kCalibratorMembers{
+    DaemonMember{"coverage", "navcald_calibrator_coverage_ratio", gauge, "Share of the headings that was seen."},
+    DaemonMember{"samples", "navcald_calibrator_samples", gauge, "Readings behind the estimate."},
+    DaemonMember{"held_out_before_deg", "navcald_calibrator_held_out_before_radians", gauge,
+                 "Root-mean-square error of the heading on held-out readings, without the estimate.",
+                 base::kRadiansPerDegree},
+    DaemonMember{"held_out_after_deg", "navcald_calibrator_held_out_after_radians", gauge,
+                 "Root-mean-square error of the heading on held-out readings, with the estimate.",
+                 base::kRadiansPerDegree}};
+constexpr std::array kVerdicts{"refused", "shadow", "in_force"};
+
+/// 1 for the value that `state` has of `known`, 0 for the others; no line while it is not told.
+template <std::size_t N>
+void append_state(Exposition& out, const char* name, const char* help, const char* label, const std::string& state,
+                  const std::array<const char*, N>& known) {
+  out.metric(name, gauge, help);
+  if (state.empty()) return;
+  for (const char* one : known) out.sample({{label, one}}, state == one ? 1.0 : 0.0);
+}
+
+void append_alarms(Exposition& out, const json& health) {
+  const json& alarms = member_of(health, "alarms");
+  if (!alarms.is_array()) return;
+  out.single("navcald_alarms", gauge, "Alarms that stand.", static_cast<double>(alarms.size()));
+  out.metric("navcald_alarm", gauge, "1 for each alarm that stands; no line for others.");
+  for (const json& alarm : alarms) {
+    if (alarm.is_object())
+      out.sample({{"alarm", text_in(alarm, "alarm")}, {"device", text_in(alarm, "device")}}, 1.0);
+  }
+}
+
+}  // namespace
+
+void append_health(Exposition& out, const std::vector<json>& parts) {
+  if (parts.empty()) return;
+  const json& health = parts.front();
+  append_members(out, health, kHealthMembers);
+  append_alarms(out, health);
+  append_ports(out, parts);
+  const json& log = member_of(health, "log");
+  append_state(out, "navcald_log_state", "1 for the state in which the log is, 0 for others.", "state",
+               text_in(log, "state"), kLogStates);
+  append_members(out, log, kLogMembers);
+  const json& motor = member_of(health, "motor");
+  append_members(out, motor, kMotorMembers);
+  if (motor.is_object())
+    out.single("navcald_motor_held", gauge, "1 while somebody holds the motor.",
+               text_in(motor, "holder").empty() ? 0.0 : 1.0);
+  const json& remote = member_of(health, "remote");
+  append_members(out, remote, kRemoteMembers);
+  append_state(out, "navcald_remote_operator", "1 for the state of the operator, 0 for others.", "state",
+               text_in(remote, "operator"), kOperatorStates);
+}
+
+void append_clock(Exposition& out, const json& time) {
+  append_state(out, "navcald_clock_source", "1 for where UTC comes from, 0 for others.", "source",
+               text_in(time, "source"), kClockSources);
+  out.single("navcald_clock_bound_seconds", gauge, "UTC is known to within this.", number_in(time, "bound"));
+}
+
+void append_navigation(Exposition& out, const json& nav) {
+  append_members(out, nav, kNavigationMembers);
+  append_state(out, "navcald_position_state", "1 for how the position is known, 0 for others.", "state",
+               text_in(nav, "position"), std::array{"none", "fixes", "reckoned"});
+  out.single("navcald_bottom_lock", gauge, "1 while a Doppler log measures over the bottom.",
+             flag_in(nav, "bottom_lock"));
+}
+
+void append_batteries(Exposition& out, const std::vector<json>& batteries) {
+  for (const DaemonMember& member : kBatteryMembers) {
+    out.metric(member.name, member.type, member.help);
+    for (const json& battery : batteries)
+      out.sample({{"device", text_in(battery, "device")}}, scaled(number_in(battery, member.key), member.factor));
+  }
+  out.metric("navcald_battery_low", gauge, "1 while the alarm of the battery stands.");
+  for (const json& battery : batteries)
+    out.sample({{"device", text_in(battery, "device")}}, flag_in(battery, "low"));
+}
+
+void append_calibration(Exposition& out, const std::vector<json>& parts) {
+  std::vector<const json*> calibrators;
+  for (const json& part : parts) {
+    for (const json& one : member_of(part, "calibrators")) {
+      if (one.is_object()) calibrators.push_back(&one);
+    }
+  }
+  out.metric("navcald_calibrator_verdict", gauge, "1 for the verdict on the newest estimate, 0 for others.");
+  for (const json* one : calibrators) {
+    const std::string verdict = text_in(*one, "verdict"), name = text_in(*one, "calibrator");
+    if (verdict.empty()) continue;
+    for (const char* known : kVerdicts)
+      out.sample({{"calibrator", name}, {"verdict", known}}, verdict == known ? 1.0 : 0.0);
+  }
+  for (const DaemonMember& member : kCalibratorMembers) {
+    out.metric(member.name, member.type, member.help);
+    for (const json* one : calibrators)
+      out.sample({{"calibrator", text_in(*one, "calibrator")}},
+                 scaled(number_in(*one, member.key), member.factor));
+  }
+}
+
+}  // namespace navcal::web

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "web/outlets/exposition.h"
+
+namespace navcal::web {
+
+/// What messages of the log say, as metrics of navcald (docs/wires.md). Members that are absent or null give no
+/// line; objects of another shape give fewer lines, never an error.
+
+/// `parts`: the lines of one HEALTH.
+void append_health(Exposition& out, const std::vector<nlohmann::json>& parts);
+void append_clock(Exposition& out, const nlohmann::json& time);
+void append_navigation(Exposition& out, const nlohmann::json& nav);
+/// One message of each device.
+void append_batteries(Exposition& out, const std::vector<nlohmann::json>& batteries);
+/// `parts`: the lines of one CALIB.
+void append_calibration(Exposition& out, const std::vector<nlohmann::json>& parts);
+
+}  // namespace navcal::web

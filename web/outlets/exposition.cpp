@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/outlets/exposition.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace navcal::web {
+namespace {
+
+std::string_view name_of(Exposition::Type type) {
+  switch (type) {
+    case Exposition::Type::counter:
+      return "counter";
+    case Exposition::Type::gauge:
+      return "gauge";
+    case Exposition::Type::histogram:
+      return "histogram";
+  }
+  return "untyped";
+}
+
+void append_escaped(std::string& out, std::string_view text, bool quotes) {
+  for (const char c : text) {
+    if (c == '\\') {
+      out += R"(\\)";
+    } else if (c == '\n') {
+      out += R"(\n)";
+    } else if (c == '"' && quotes) {
+      out += R"(\")";
+    } else {
+      out += c;
+    }
+  }
+}
+
+/// The text with U+FFFD in place of what is no UTF-8: Prometheus refuses a whole page for one such byte.
+std::string valid_utf8(std::string_view text) {
+  const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return nlohmann::json::parse(quoted).get<std::string>();
+}
+
+}  // namespace
+
+void Exposition::metric(std::string_view name, Type type, std::string_view help) {
+  name_ = name;
+  head_ = fmt::format("# HELP {} ", name);
+  append_escaped(head_, help, false);
+  head_ += fmt::format("\n# TYPE {} {}\n", name, name_of(type));
+}
+
+void Exposition::sample(const Labels& labels, std::optional<double> value) {
+  if (value && std::isfinite(*value)) line("", labels, std::nullopt, *value);
+}
+
+void Exposition::histogram(const Labels& labels, std::span<const double> upper_bounds,
+                           std::span<const std::uint64_t> counts) {
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
+    total += i < counts.size() ? counts[i] : 0;
+    line("_bucket", labels, Label{"le", fmt::format("{}", upper_bounds[i])}, static_cast<double>(total));
+  }
+  for (std::size_t i = upper_bounds.size(); i < counts.size(); ++i) total += counts[i];
+  line("_bucket", labels, Label{"le", "+Inf"}, static_cast<double>(total));
+  line("_count", labels, std::nullopt, static_cast<double>(total));
+}
+
+void Exposition::line(std::string_view suffix, const Labels& labels, std::optional<Label> last, double value) {
+  text_ += std::exchange(head_, {});
+  text_ += name_;
+  text_ += suffix;
+  char separator = '{';
+  const auto append = [&](const Label& label) {
+    fmt::format_to(std::back_inserter(text_), "{}{}=\"", separator, label.first);
+    append_escaped(text_, valid_utf8(label.second), true);
+    text_ += '"';
+    separator = ',';
+  };
+  for (const Label& label : labels) append(label);
+  if (last) append(*last);
+  if (separator == ',') text_ += '}';
+  fmt::format_to(std::back_inserter(text_), " {}\n", value);
+}
+
+}  // namespace navcal::web

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace navcal::web {
+
+/// Writer of Prometheus' text format, version 0.0.4. A metric without a sample leaves no line at all: an absent
+/// value must not look like a zero.
+class Exposition {
+ public:
+  enum class Type : std::uint8_t { counter, gauge, histogram };
+  using Label = std::pair<std::string_view, std::string_view>;
+  using Labels = std::vector<Label>;
+
+  static constexpr std::string_view kContentType = "text/plain; version=0.0.4; charset=utf-8";
+
+  /// Begins a metric, whose samples follow. `name` is a legal name; `help` is escaped.
+  void metric(std::string_view name, Type type, std::string_view help);
+  /// One sample of the metric begun last. Values of labels are escaped, and invalid UTF-8 in them is replaced.
+  /// Nullopt and what is not finite: no line.
+  void sample(const Labels& labels, std::optional<double> value);
+  /// A histogram: `counts` holds how many lie below each of `upper_bounds`, and in the last element those above
+  /// all of them. The sum of the values is not known, and its line is left out.
+  void histogram(const Labels& labels, std::span<const double> upper_bounds,
+                 std::span<const std::uint64_t> counts);
+
+  /// A metric of one sample.
+  void single(std::string_view name, Type type, std::string_view help, std::optional<double> value) {
+    metric(name, type, help);
+    sample({}, value);
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void line(std::string_view suffix, const Labels& labels, std::optional<Label> last, double value);
+
+  std::string name_;
+  std::string head_;  ///< HELP and TYPE, until the first sample
+  std::string text_;
+};
+
+}  // namespace navcal::web

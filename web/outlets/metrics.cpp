@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/outlets/metrics.h"
+
+#include <vector>
+
+#include "web/outlets/daemon_metrics.h"
+#include "web/outlets/json_members.h"
+#include "web/outlets/process_metrics.h"
+
+namespace navcal::web {
+namespace {
+
+using enum Exposition::Type;
+
+/// More than any vehicle has; a broken peer may name any number.
+constexpr std::size_t kMaxBatteries = 16, kMaxSeverities = 8;
+
+}  // namespace
+
+Metrics::Metrics(Hub& hub) : hub_(hub) {
+  hub_.add(*this, {false, {"/health", "/time", "/nav", "/battery", "/calib", "/event"}, 1});
+}
+
+Metrics::~Metrics() { hub_.remove(*this); }
+
+void Metrics::on_record(const Record& record) {
+  const bool wanted = record.topic == "/health" || record.topic == "/time" || record.topic == "/nav" ||
+                      record.topic == "/battery" || record.topic == "/calib" || record.topic == "/event";
+  if (!wanted) return;
+  auto message = nlohmann::json::parse(record.message, nullptr, false);
+  if (!message.is_object()) return;
+  if (record.topic == "/health") {
+    health_.take(std::move(message));
+  } else if (record.topic == "/time") {
+    time_ = std::move(message);
+  } else if (record.topic == "/nav") {
+    navigation_ = std::move(message);
+  } else if (record.topic == "/battery") {
+    const std::string device(record.device);
+    if (batteries_.size() < kMaxBatteries || batteries_.contains(device)) batteries_[device] = std::move(message);
+  } else if (record.topic == "/calib") {
+    // Changes of the calibration are on the same topic.
+    if (text_in(message, "class") == "CALIB") calibration_.take(std::move(message));
+  } else {
+    const std::string severity = text_in(message, "severity");
+    if (events_.size() < kMaxSeverities || events_.contains(severity)) ++events_[severity];
+  }
+}
+
+void Metrics::on_link(const Link& link) {
+  if (link.connected) return;
+  health_.forget();
+  calibration_.forget();
+  time_ = nullptr;
+  navigation_ = nullptr;
+  batteries_.clear();
+}
+
+void Metrics::append_daemon(Exposition& out) const {
+  out.single("navcald_up", gauge, "1 while navcal-web is connected to navcald.",
+             hub_.link().connected ? 1.0 : 0.0);
+  append_health(out, health_.parts());
+  append_clock(out, time_);
+  append_navigation(out, navigation_);
+  std::vector<nlohmann::json> batteries;
+  for (const auto& [device, battery] : batteries_) batteries.push_back(battery);
+  append_batteries(out, batteries);
+  append_calibration(out, calibration_.parts());
+  out.metric("navcald_events_total", counter, "Events of navcald that navcal-web has seen.");
+  for (const auto& [severity, count] : events_) out.sample({{"severity", severity}}, static_cast<double>(count));
+}
+
+void Metrics::append_program(Exposition& out) const {
+  const auto count = [&out](const char* name, const char* help, std::uint64_t value) {
+    out.single(name, counter, help, static_cast<double>(value));
+  };
+  count("navcal_web_records_total", "Records taken from navcald.", hub_.published());
+  if (source_ != nullptr) {
+    count("navcal_web_status_connections_total", "Connections to navcald.", source_->connections);
+    count("navcal_web_status_lines_total", "Lines taken from navcald.", source_->lines);
+    count("navcal_web_status_not_understood_lines_total", "Lines that are not navcald's.",
+          source_->not_understood);
+    out.single("navcal_web_status_missed_reports", gauge,
+               "Reports that this connection to navcald missed, because navcal-web was too slow.",
+               static_cast<double>(source_->missed));
+  }
+  if (server_ != nullptr) {
+    count("navcal_web_connections_total", "Connections accepted.", server_->connections);
+    count("navcal_web_refused_connections_total", "Connections beyond the bound.", server_->connections_refused);
+    count("navcal_web_requests_total", "HTTP requests.", server_->requests);
+    count("navcal_web_refused_requests_total", "HTTP requests answered with 400 and above.",
+          server_->requests_refused);
+    count("navcal_web_broken_requests_total", "No HTTP, too large, or not complete in time.",
+          server_->requests_broken);
+    count("navcal_web_websockets_total", "WebSocket clients since the start.", server_->web_sockets);
+    out.single("navcal_web_websockets", gauge, "WebSocket clients now.",
+               static_cast<double>(server_->web_sockets_open));
+    count("navcal_web_sent_messages_total", "WebSocket messages sent.", server_->messages_sent);
+    count("navcal_web_dropped_messages_total", "WebSocket messages dropped, because the client did not read.",
+          server_->messages_dropped);
+    count("navcal_web_sent_bytes_total", "Bytes of WebSocket messages sent.", server_->bytes_sent);
+  }
+  append_process(out);
+}
+
+std::string Metrics::page() const {
+  Exposition out;
+  append_daemon(out);
+  append_program(out);
+  return out.text();
+}
+
+Handler Metrics::handler() const {
+  return [this](const Request&) -> boost::asio::awaitable<Response> {
+    co_return respond(boost::beast::http::status::ok, Exposition::kContentType, page());
+  };
+}
+
+}  // namespace navcal::web

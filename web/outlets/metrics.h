@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "web/http.h"
+#include "web/hub.h"
+#include "web/live_source.h"
+#include "web/outlets/exposition.h"
+#include "web/outlets/latest_parts.h"
+#include "web/server.h"
+
+namespace navcal::web {
+
+/// State of navcald and of this program for Prometheus. While there is no connection to navcald, only
+/// `navcald_up 0` is told about it.
+class Metrics final : public Subscriber {
+ public:
+  explicit Metrics(Hub& hub);
+  ~Metrics() override;
+  Metrics(const Metrics&) = delete;
+  Metrics& operator=(const Metrics&) = delete;
+
+  /// From now on these are told, too. They must live as long as this object is asked.
+  void watch(const ServerCounters& server, const LiveSource::Counters& source) {
+    server_ = &server;
+    source_ = &source;
+  }
+
+  /// The whole page in Prometheus' text format.
+  [[nodiscard]] std::string page() const;
+  [[nodiscard]] Handler handler() const;
+
+  void on_record(const Record& record) override;
+  void on_link(const Link& link) override;
+
+ private:
+  void append_daemon(Exposition& out) const;
+  void append_program(Exposition& out) const;
+
+  Hub& hub_;
+  const ServerCounters* server_ = nullptr;
+  const LiveSource::Counters* source_ = nullptr;
+  LatestParts health_, calibration_;
+  nlohmann::json time_, navigation_;
+  std::map<std::string, nlohmann::json, std::less<>> batteries_;  ///< by device
+  std::map<std::string, std::uint64_t, std::less<>> events_;      ///< by severity
+};
+
+}  // namespace navcal::web

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web/outlets/signalk_model.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include "base/angles.h"
+#include "web/outlets/json_members.h"
+
+namespace navcal::web {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kCoulombsInAh = 3600, kJoulesInWh = 3600;
+constexpr std::string_view kStandardError = ".standardError";
+
+struct PathMeta {
+  std::string_view path;
+  std::string_view units;
+  std::string_view description;
+};
+
+constexpr std::array kPathMetas{
+    PathMeta{"navigation.position", "deg", "Position, WGS 84; with fixes or by dead reckoning"},
+    PathMeta{"navigation.position.standardError", "m", "Standard errors of the position: north, east"},
+    PathMeta{"navigation.headingTrue", "rad", "Heading from true north"},
+    PathMeta{"navigation.headingTrue.standardError", "rad", "Standard error of the heading"},
+    PathMeta{"navigation.headingMagnetic", "rad", "Heading from magnetic north, deviation removed"},
+    PathMeta{"navigation.headingMagnetic.standardError", "rad", "Standard error of one reading of the compass"},
+    PathMeta{"navigation.headingCompass", "rad", "Heading as the compass said it"},
+    PathMeta{"navigation.magneticDeviation", "rad", "Deviation of the compass, by the calibration in force"},
+    PathMeta{"navigation.magneticVariation", "rad", "Declination of the Earth's field, positive east"},
+    PathMeta{"navigation.attitude", "rad", "Roll (starboard down), pitch (bow up), yaw (as the heading)"},
+    PathMeta{"navigation.rateOfTurn", "rad/s", "Rate of turn, positive to starboard"},
+    PathMeta{"navigation.rateOfTurn.standardError", "rad/s", "Standard error of one reading of the gyro"},
+    PathMeta{"navigation.speedThroughWater", "m/s", "Speed ahead through the water"},
+    PathMeta{"navigation.speedOverGround", "m/s", "Horizontal speed over ground"},
+    PathMeta{"navigation.courseOverGroundTrue", "rad", "Course over ground from true north"},
+    PathMeta{"environment.current", "", "Set of the water: setTrue in rad, drift in m/s"},
+    PathMeta{"environment.depth.surfaceToTransducer", "m", "Depth of the vehicle below the surface"},
+    PathMeta{"environment.depth.belowTransducer", "m", "Height of the vehicle above the sea floor"},
+    PathMeta{"environment.depth.belowTransducer.standardError", "m", "Standard error of the height"},
+    PathMeta{"environment.depth.belowSurface", "m", "Depth of the water"},
+};
+constexpr std::array kBatteryMetas{
+    PathMeta{"voltage", "V", "Voltage of the battery"},
+    PathMeta{"current", "A", "Current of the battery, positive while it is charged"},
+    PathMeta{"capacity.stateOfCharge", "ratio", "Charge that is left, of the capacity"},
+    PathMeta{"capacity.remaining", "J", "Energy that is left"},
+    PathMeta{"capacity.remainingCharge", "C", "Charge that is left"},
+    PathMeta{"capacity.remainingCharge.standardError", "C", "Standard error of the charge that is left"},
+    PathMeta{"capacity.timeRemaining", "s", "Time left at the mean load"},
+};
+constexpr std::string_view kBatteries = "electrical.batteries.";
+
+/// A number, or null.
+json signalk_number(std::optional<double> value) { return value ? json(*value) : json(nullptr); }
+
+/// All members, or null when one of them is not known.
+json signalk_object(std::initializer_list<std::pair<const char*, std::optional<double>>> members) {
+  json object = json::object();
+  for (const auto& [key, value] : members) {
+    if (!value) return nullptr;
+    object[key] = *value;
+  }
+  return object;
+}
+
+std::optional<double> element_of(const json& object, const char* key, std::size_t index) {
+  const json& list = member_of(object, key);
+  if (!list.is_array() || list.size() <= index || !list[index].is_number()) return std::nullopt;
+  return list[index].get<double>();
+}
+
+/// A key of Signal K has letters and digits only.
+std::string signalk_instance(std::string_view device) {
+  std::string instance;
+  std::copy_if(device.begin(), device.end(), std::back_inserter(instance),
+               [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
+  return instance.empty() ? "0" : instance;
+}
+
+std::vector<SignalKValue> signalk_battery(const json& battery, std::string_view device) {
+  const std::string head = std::string(kBatteries) + signalk_instance(device) + '.';
+  const auto number = [&](const char* key, double factor) {
+    return signalk_number(scaled(number_in(battery, key), factor));
+  };
+  return {
+      {head + "voltage", number("voltage_V", 1)},
+      {head + "current", number("current_A", -1)},
+      {head + "capacity.stateOfCharge", number("charge_percent", 0.01)},
+      {head + "capacity.remaining", number("energy_Wh", kJoulesInWh)},
+      {head + "capacity.remainingCharge", number("charge_Ah", kCoulombsInAh)},
+      {head + "capacity.remainingCharge" + std::string(kStandardError), number("charge_std_Ah", kCoulombsInAh)},
+      {head + "capacity.timeRemaining", number("time_left_s", 1)}};
+}
+
+std::vector<SignalKValue> signalk_rates(const json& imu) {
+  auto rate = number_in(imu, "yaw_rate_calibrated_rad_s");
+  if (!rate) rate = element_of(imu, "rate_rad_s", 2);
+  const auto std_rad_s = rate ? number_in(imu, "rate_std_rad_s") : std::nullopt;
+  return {{"navigation.rateOfTurn", signalk_number(rate)},
+          {"navigation.rateOfTurn.standardError", signalk_number(std_rad_s)}};
+}
+
+}  // namespace
+
+json signalk_meta(std::string_view path) {
+  const auto meta_in = [](const auto& metas, std::string_view name) -> json {
+    for (const PathMeta& meta : metas) {
+      if (meta.path != name) continue;
+      json found{{"description", meta.description}};
+      if (!meta.units.empty()) found["units"] = meta.units;
+      return found;
+    }
+    return nullptr;
+  };
+  if (!path.starts_with(kBatteries)) return meta_in(kPathMetas, path);
+  const auto instance_end = path.find('.', kBatteries.size());
+  return instance_end == std::string_view::npos ? json(nullptr)
+                                                : meta_in(kBatteryMetas, path.substr(instance_end + 1));
+}
+
+std::string signalk_timestamp(std::int64_t utc_ns) {
+  constexpr std::int64_t kNanoseconds = 1'000'000'000, kNanosecondsInMs = 1'000'000;
+  const auto second = static_cast<std::time_t>(utc_ns / kNanoseconds);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(second), utc_ns % kNanoseconds / kNanosecondsInMs);
+}
+
+SignalKUpdate SignalKModel::take(const Record& record) {
+  SignalKUpdate update{std::string(record.device), record.utc_ns, {}};
+  if (std::find(std::begin(kTopics), std::end(kTopics), record.topic) == std::end(kTopics)) return update;
+  const auto message = json::parse(record.message, nullptr, false);
+  if (!message.is_object()) return update;
+  Values values;
+  if (record.topic == "/health") {
+    take_health(message);
+    values.push_back({"navigation.magneticVariation", signalk_number(declination_rad_)});
+  } else if (record.topic == "/nav") {
+    values = navigation(message);
+  } else if (record.topic == "/compass" && serves("heading", record.device)) {
+    values = compass(message);
+  } else if (record.topic == "/imu" && serves("rates", record.device)) {
+    values = signalk_rates(message);
+  } else if (record.topic == "/battery") {
+    values = signalk_battery(message, record.device);
+  }
+  for (SignalKValue& one : values) {
+    const bool was_known = newest_.contains(one.path);
+    if (one.value.is_null()) {
+      if (!was_known) continue;
+      newest_.erase(one.path);
+    } else {
+      newest_[one.path] = {update.device, update.utc_ns, one.value};
+    }
+    update.values.push_back(std::move(one));
+  }
+  return update;
+}
+
+SignalKUpdate SignalKModel::forget() {
+  SignalKUpdate update;
+  for (const auto& [path, kept] : newest_) update.values.push_back({path, nullptr});
+  newest_.clear();
+  sources_.clear();
+  declination_rad_.reset();
+  return update;
+}
+
+std::vector<SignalKUpdate> SignalKModel::newest() const {
+  std::vector<SignalKUpdate> updates;
+  for (const auto& [path, kept] : newest_) {
+    const auto same = std::find_if(updates.begin(), updates.end(), [&kept = kept](const SignalKUpdate& update) {
+      return update.device == kept.device && update.utc_ns == kept.utc_ns;
+    });
+    SignalKUpdate& update =
+        same != updates.end() ? *same : updates.emplace_back(SignalKUpdate{kept.device, kept.utc_ns, {}});
+    update.values.push_back({path, kept.value});
+  }
+  return updates;
+}
+
+void SignalKModel::take_health(const json& health) {
+  const json& field = member_of(health, "earth_field");
+  const bool is_known = text_in(field, "declination_source") != "none";
+  declination_rad_ =
+      is_known ? scaled(number_in(field, "declination"), base::kRadiansPerDegree) : std::optional<double>();
+  const json& sources = member_of(health, "sources");
+  if (!sources.is_object()) return;
+  sources_.clear();
+  for (const auto& [role, device] : sources.items()) {
+    if (device.is_string()) sources_[role] = device.get<std::string>();
+  }
+}
+
+/// Every device serves a role of which nothing is said.
+bool SignalKModel::serves(std::string_view role, std::string_view device) const {
+  const auto found = sources_.find(role);
+  return found == sources_.end() || found->second == device;
+}
+
+SignalKModel::Values SignalKModel::navigation(const json& nav) const {
+  // Without a declination the estimator's heading is magnetic.
+  const auto true_heading = declination_rad_ ? number_in(nav, "heading_rad") : std::nullopt;
+  const auto heading_std = true_heading ? number_in(nav, "heading_std_rad") : std::nullopt;
+  const auto north = element_of(nav, "velocity_m_s", 0), east = element_of(nav, "velocity_m_s", 1);
+  const auto set_north = number_in(nav, "set_north_m_s"), set_east = number_in(nav, "set_east_m_s");
+  const auto speed = [](auto n, auto e) { return n && e ? std::optional(std::hypot(*n, *e)) : std::nullopt; };
+  const auto course = [](auto n, auto e) {
+    return n && e ? std::optional(base::positive_angle(std::atan2(*e, *n))) : std::nullopt;
+  };
+  const json position =
+      signalk_object({{"latitude", number_in(nav, "lat")}, {"longitude", number_in(nav, "lon")}});
+  return {{"navigation.position", position},
+          {"navigation.position.standardError", position.is_null()
+                                                    ? position
+                                                    : signalk_object({{"north", number_in(nav, "north_std_m")},
+                                                                      {"east", number_in(nav, "east_std_m")}})},
+          {"navigation.headingTrue", signalk_number(true_heading)},
+          {"navigation.headingTrue.standardError", signalk_number(heading_std)},
+          {"navigation.attitude", signalk_object({{"roll", number_in(nav, "roll_rad")},
+                                                  {"pitch", number_in(nav, "pitch_rad")},
+                                                  {"yaw", number_in(nav, "heading_rad")}})},
+          {"navigation.speedThroughWater", signalk_number(number_in(nav, "speed_m_s"))},
+          {"navigation.speedOverGround", signalk_number(speed(north, east))},
+          {"navigation.courseOverGroundTrue", signalk_number(course(north, east))},
+          {"environment.current",
+           signalk_object({{"drift", speed(set_north, set_east)}, {"setTrue", course(set_north, set_east)}})},
+          {"environment.depth.surfaceToTransducer", signalk_number(number_in(nav, "depth_m"))},
+          {"environment.depth.belowTransducer", signalk_number(number_in(nav, "altitude_m"))},
+          {"environment.depth.belowTransducer.standardError", signalk_number(number_in(nav, "altitude_std_m"))},
+          {"environment.depth.belowSurface", signalk_number(number_in(nav, "water_depth_m"))}};
+}
+
+SignalKModel::Values SignalKModel::compass(const json& compass) const {
+  const auto said = number_in(compass, "heading_rad"), calibrated = number_in(compass, "heading_calibrated_rad");
+  // A device that says true headings has its own declination in them: it says nothing magnetic.
+  if (!said || flag_in(compass, "heading_is_true") != 0.0) return {};
+  const double magnetic = base::positive_angle(calibrated.value_or(*said));
+  const auto deviation = calibrated ? std::optional(base::wrapped(*calibrated - *said)) : std::nullopt;
+  return {{"navigation.headingMagnetic", magnetic},
+          {"navigation.headingMagnetic.standardError", signalk_number(number_in(compass, "heading_std_rad"))},
+          {"navigation.headingCompass", base::positive_angle(*said)},
+          {"navigation.magneticDeviation", signalk_number(deviation)}};
+}
+
+}  // namespace navcal::web
