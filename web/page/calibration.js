@@ -44,6 +44,7 @@ export class Calibration {
     const heading = first?.heading;
     const rms = heading?.after_rms_deg != null ? ` Heading, held out: ${number(heading.before_rms_deg, '\u00b0', 2)} without, ${number(heading.after_rms_deg, '\u00b0', 2)} with all estimates, ${number(heading.in_force_rms_deg, '\u00b0', 2) ?? 'absent'} with what is in force.` : '';
     write($('calibration-note'), first ? `In force: ${first.name === 'none' ? 'none' : first.name}.${rms}` : 'absent: no report of the calibrators (CALIB) came');
+    $('calibration-table').hidden = !first;
     for (const one of reports.flatMap((report) => report.calibrators ?? [])) this.#row(one);
   }
 

@@ -41,6 +41,15 @@ export class Values {
     this.rows = new Map();
   }
 
+  // Takes away all rows but that of `name`.
+  clear(name) {
+    for (const [other, row] of this.rows) {
+      if (other === name) continue;
+      row.value.parentElement.remove();
+      this.rows.delete(other);
+    }
+  }
+
   // `value` null: absent, and `note` is the reason; otherwise `note` stands below the value.
   set(name, value, note = '', grade = '') {
     let row = this.rows.get(name);

@@ -22,6 +22,7 @@ export class Events {
     });
     const enable = () => {
       const why = vehicle.refusal();
+      $('mark').hidden = store.about.recording;
       $('mark-send').disabled = $('mark-text').disabled = why !== '';
       write($('mark-answer'), why);
     };

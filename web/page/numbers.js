@@ -43,7 +43,7 @@ export class Numbers {
     this.rose.heading(heading?.rad, heading?.std);
     const deg = bearing(degrees(heading?.rad));
     write($('heading-value'), deg == null ? 'absent' : number(deg, '\u00b0', 1, heading.std == null ? null : degrees(heading.std)));
-    write($('heading-north'), heading?.isTrue == null ? '' : heading.isTrue ? 'true north' : 'magnetic north');
+    write($('heading-north'), heading?.isTrue == null ? '' : heading.isTrue ? 'true' : 'magnetic');
     const m = heading?.record.topic === '/compass' ? heading.record.message : null;
     list.set('from', heading?.from ?? null, heading ? (m?.calibration ? `calibration ${m.calibration}` : 'no calibration in force') : 'no compass delivers a heading');
     list.set('device says', m ? angle(m.heading_rad) : null, m ? (m.heading_is_true === true ? 'true north' : 'magnetic north') : 'no record of a compass');
@@ -133,12 +133,15 @@ export class Numbers {
     const list = this.lists['battery-values'];
     const m = this.store.record('/battery')?.message;
     const power = this.store.record('/power')?.message;
-    const none = power ? 'the charge is not counted ([battery])' : 'no gauge of a battery delivers';
-    list.set('voltage', number(m?.voltage_V ?? power?.voltage_V, 'V', 2), m || power ? '' : none);
-    list.set('current', number(m?.current_A ?? power?.current_A, 'A', 2), m?.current_measured === false ? 'computed, not measured' : m || power ? '' : none);
-    const percent = number(m?.charge_percent, '%', 0);
-    list.set('charge', m?.charge_Ah == null ? null : number(m.charge_Ah, 'Ah', 2, m.charge_std_Ah), m?.charge_Ah == null ? (m ? 'not known yet: battery.full or battery.set tells it' : none) : percent ?? '', m?.low ? 'bad' : '');
-    list.set('time left', duration(m?.time_left_s), m?.time_left_s == null ? (m ? 'not known yet' : none) : '');
-    list.set('range left', number(m?.range_left_m, 'm', 0), m?.range_left_m == null ? (m ? 'not known yet' : none) : '');
+    if (!m && !power) {
+      list.clear('charge');
+      return list.set('charge', null, 'no gauge of a battery delivers, and its charge is not counted');
+    }
+    const none = m ? 'not known yet' : 'the charge is not counted ([battery])';
+    list.set('charge', m?.charge_Ah == null ? null : number(m.charge_Ah, 'Ah', 2, m.charge_std_Ah), m?.charge_Ah == null ? (m ? 'not known yet: battery.full or battery.set tells it' : none) : number(m.charge_percent, '%', 0) ?? '', m?.low ? 'bad' : '');
+    list.set('voltage', number(m?.voltage_V ?? power?.voltage_V, 'V', 2), '');
+    list.set('current', number(m?.current_A ?? power?.current_A, 'A', 2), m?.current_measured === false ? 'computed, not measured' : '');
+    list.set('time left', duration(m?.time_left_s), m?.time_left_s == null ? none : '');
+    list.set('range left', number(m?.range_left_m, 'm', 0), m?.range_left_m == null ? none : '');
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth, speed, shaft and fins over time (uPlot). Times are those of the records. In a column, null is a gap of the
 // line; undefined is only a row that belongs to another topic.
-import {$, make, style} from './dom.js';
+import {$, make, style, svg, write} from './dom.js';
 import {degrees} from './format.js';
 
 const SPACING_S = 0.2;
@@ -29,6 +29,10 @@ class Plot {
     this.box = make('div');
     this.parent = parent;
     parent.append(this.box);
+    this.time = make('li', {class: 'number'});
+    this.values = description.names.map(() => make('b', {class: 'number'}));
+    const line = (i) => svg('svg', {viewBox: '0 0 32 16', 'aria-hidden': 'true'}, svg('line', {x1: 0, x2: 32, y1: 8, y2: 8, stroke: `var(${COLORS[i]})`, 'stroke-width': 3, 'stroke-dasharray': DASHES[i].map((length) => 2 * length).join(' ')}));
+    this.legend = make('ul', {class: 'legend'}, ...description.names.map((name, i) => make('li', {}, line(i), `${name} `, this.values[i])), this.time);
     this.clear();
   }
 
@@ -41,9 +45,9 @@ class Plot {
     const time = record.message.time;
     if (!values || time == null || values.every((value) => value == null)) return;
     if (source && source !== record) return;
+    if (time < (this.data[0].at(-1) ?? -Infinity) - GAP_S) this.clear();
     const times = this.data[0];
     const last = times.at(-1) ?? -Infinity;
-    if (time < last - GAP_S) this.clear();
     // Another topic's value of nearly the same time stands in the same row.
     if (time - last < SPACING_S) {
       values.forEach((value, i) => {
@@ -67,13 +71,13 @@ class Plot {
     const axis = {stroke: style('--muted'), grid: {stroke: style('--grid'), width: 1}, ticks: {stroke: style('--grid')}, font: '11px system-ui, sans-serif'};
     this.chart = new uPlot({
       title, width: Math.max(200, this.parent.clientWidth), height: 140, tzDate: (time) => uPlot.tzDate(new Date(time * 1000), 'UTC'),
-      cursor: {sync: {key: 'navcal'}, drag: {x: false, y: false}}, legend: {live: true},
+      cursor: {sync: {key: 'navcal'}, drag: {x: false, y: false}}, legend: {show: false}, hooks: {setCursor: [() => this.#tell()]},
       scales: {x: {time: true, auto: false}, y: {dir: flip ? -1 : 1, range: (_, low, high) => widened(low, high)}},
       axes: [{...axis, space: 70, size: 24, values: (_, times) => times.map(utc)}, {...axis, size: 46, space: 22}],
-      series: [{label: 'UTC', value: (chart, time) => utc(time ?? chart.data[0].at(-1))},
-        ...names.map((label, i) => ({label, stroke: style(COLORS[i]), width: 2, dash: DASHES[i], points: {show: false},
-          value: (chart, value, series, row) => shown(row == null ? chart.data[series].findLast((one) => one != null) : value)}))],
+      series: [{}, ...names.map((label, i) => ({label, stroke: style(COLORS[i]), width: 2, dash: DASHES[i], points: {show: false}}))],
     }, this.data, this.box);
+    this.legend.remove();
+    this.box.append(this.legend);
     this.box.firstChild.setAttribute('role', 'img');
     this.box.firstChild.setAttribute('aria-label', `Plot over time: ${title}: ${names.join(', ')}`);
   }
@@ -83,6 +87,15 @@ class Plot {
     if (!this.chart || end == null) return;
     this.chart.setData(this.data, false);
     this.chart.setScale('x', {min: end - span, max: end});
+    this.#tell();
+  }
+
+  // The values at the cursor, otherwise the newest.
+  #tell() {
+    const row = this.chart.cursor.idx;
+    const value = (column) => (row == null ? column.findLast((one) => one != null) : column[row]);
+    write(this.time, row == null ? '' : `at ${utc(this.data[0][row])}`);
+    this.values.forEach((span, i) => write(span, shown(value(this.data[i + 1]))));
   }
 }
 

@@ -56,6 +56,7 @@ export class System {
 
   #ports(ports, isKnown) {
     write($('ports-note'), isKnown ? (ports.length === 0 ? 'absent: no ports are configured' : '') : 'absent: no report of the ports (HEALTH) came; logs of captures have none');
+    $('ports-table').hidden = ports.length === 0;
     for (const port of ports) this.#row(port);
     const names = new Set(ports.map((port) => port.device));
     for (const [name, row] of this.rows) {

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page in Debian's Chromium, on a real navcald with emulated instruments, and on a recording.
+//   node check.mjs BUILD_FOLDER FOLDER
+import assert from "node:assert/strict";
+import { chmodSync, mkdirSync, readdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { Vehicle, eventually, freePort } from "../foxglove/vehicle.mjs";
+import { Page, reachedByTab, startBrowser } from "./browser.mjs";
+import { startProxy } from "./proxy.mjs";
+
+const [build, folder] = process.argv.slice(2);
+const TOKEN = "a token of the page's test";
+const HEADING_RAD = 1;
+
+/** A vehicle that goes straight on with a known heading, its instruments exact. */
+class StraightVehicle extends Vehicle {
+  async startInstruments() {
+    const path = join(folder, "straight.csv");
+    const rows = Array.from({ length: 601 }, (_, i) => [i / 10, (Math.cos(HEADING_RAD) * i) / 10, (Math.sin(HEADING_RAD) * i) / 10, 2, 0, 0, HEADING_RAD, 1, 0, 0, 0, 0, 0, 780, 0, 0, 0].join(","));
+    writeFileSync(path, `t,x,y,z,phi,theta,psi,u,v,w,p,q,r,rpm,fin1,fin2,fin3\n${rows.join("\n")}\n`);
+    this.instruments = this.start("cli/navcal", "emulate", "--dir", join(folder, "ports"), "--path", path, "--no-noise", "--field", "19,0,44");
+    await eventually(() => this.instruments.output.includes("ready"), "emulated instruments");
+  }
+  async startWeb(token = true) {
+    this.webPort ??= await freePort();
+    const file = join(folder, "token");
+    writeFileSync(file, TOKEN);
+    chmodSync(file, 0o600);
+    this.web = this.start("web/navcal-web", "--port", String(this.webPort), "--status", `127.0.0.1:${this.statusPort}`, "--control", join(folder, "control"), ...(token ? ["--token-file", file] : []));
+    await eventually(() => this.web.output.includes("http://"), "navcal-web");
+    return `http://127.0.0.1:${this.webPort}/`;
+  }
+}
+
+const vehicle = new StraightVehicle(build, folder);
+const step = (words) => console.log(`- ${words}`);
+
+async function showsTheVehicle(page) {
+  step("the heading shown is the emulated one");
+  await page.until("#link-state", /^live$/);
+  const heading = parseFloat(await page.until("#heading-value", /\d/));
+  assert.ok(Math.abs(heading - (HEADING_RAD * 180) / Math.PI) < 1, `heading ${heading}`);
+  const depth = parseFloat(await page.until(page.value("depth"), /\d/));
+  assert.ok(Math.abs(depth - 2) < 0.2, `depth ${depth}`);
+  step("each panel has content, and what is absent says why");
+  assert.match(await page.until(page.value("shaft"), /\d/), /780\u202frpm/);
+  assert.equal(await page.text(page.value("charge")), "absent");
+  assert.match(await page.text('dd[data-name="charge"]'), /no gauge/);
+  for (const port of ["compass", "imu", "gps", "motor"]) await page.until(`tr[data-port="${port}"]`, /running.*\d\u202f\/s/s);
+  for (const calibrator of ["gyro", "compass", "magnetometer"]) await page.until(`tr[data-calibrator="${calibrator}"]`, /refused|shadow|in force/);
+  assert.ok((await page.page.locator("#event-list li").count()) > 2);
+  await page.page.locator("#plot-area canvas").nth(3).waitFor();
+  assert.match(await page.page.locator("#rose").getAttribute("aria-label"), /Heading 57 degrees/);
+}
+
+async function looksRight(page, name) {
+  step("light, dark and chosen colours");
+  const ground = () => page.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  await page.page.emulateMedia({ colorScheme: "light" });
+  const light = await ground();
+  await page.page.screenshot({ path: join(folder, `${name}-light.png`), fullPage: true });
+  await page.page.emulateMedia({ colorScheme: "dark" });
+  const dark = await ground();
+  assert.notEqual(dark, light);
+  await page.page.screenshot({ path: join(folder, `${name}-dark.png`), fullPage: true });
+  await page.page.click("#theme");
+  assert.equal(await ground(), light);
+  await page.page.click("#theme");
+  await page.page.click("#theme");
+  assert.equal(await ground(), dark);
+  step("no horizontal scrolling from 320 px on");
+  for (const width of [320, 375, 768, 1024, 1920]) {
+    await page.page.setViewportSize({ width, height: 900 });
+    await page.page.waitForTimeout(200);
+    const [whole, visible] = await page.page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
+    assert.ok(whole <= visible, `${whole} px in a window of ${width}`);
+    if (width === 320) await page.page.screenshot({ path: join(folder, `${name}-phone.png`), fullPage: true });
+  }
+  await page.page.setViewportSize({ width: 1440, height: 1000 });
+}
+
+async function keyboardReachesAll(page) {
+  step("the keyboard reaches everything that can be done");
+  await reachedByTab(page.page);
+  const missed = await page.page.evaluate(() => [...document.querySelectorAll("button, input, select, [tabindex='0'], a[href]")].filter((element) => element.checkVisibility() && !element.disabled && !element.dataset.reached).map((element) => element.outerHTML.slice(0, 120)));
+  assert.deepEqual(missed, []);
+  const unnamed = await page.page.evaluate(() => [...document.querySelectorAll("button, input, select, canvas, svg[role]")].filter((element) => element.checkVisibility() && !(element.labels?.length || element.getAttribute("aria-label") || element.getAttribute("aria-labelledby") || element.textContent.trim())).map((element) => element.outerHTML.slice(0, 120)));
+  assert.deepEqual(unnamed, [], "controls without a name");
+}
+
+async function changesNeedTheToken(page) {
+  step("without the token nothing can be changed");
+  const accept = page.page.locator('tr[data-calibrator="magnetometer"] button', { hasText: "Accept" });
+  assert.ok(await accept.isDisabled());
+  assert.ok(await page.page.locator("#stop").isDisabled());
+  await page.page.fill("#token", "a wrong token of enough letters");
+  await page.page.keyboard.press("Enter");
+  await page.until("#control-state", /wrong token/);
+  assert.ok(await accept.isDisabled());
+  step("with it: marks, calibrations");
+  await page.page.fill("#token", TOKEN);
+  await page.page.keyboard.press("Enter");
+  await page.page.locator("#stop:enabled").waitFor();
+  await page.page.fill("#mark-text", "the page's mark \u00fc <b>");
+  await page.page.keyboard.press("Enter");
+  await page.until("#event-list", /the page's mark \u00fc <b>/);
+  const magnetometer = (words) => page.page.locator('tr[data-calibrator="magnetometer"] button', { hasText: words }).click();
+  await magnetometer("Start anew");
+  await page.page.click('#ask button[value="no"]');
+  await magnetometer("Start anew");
+  await page.page.click('#ask button[value="yes"]');
+  await page.until("#calibration-answer", /magnetometer: done/);
+  await page.until("#event-list", /calibration/);
+  await magnetometer("Accept");
+  await page.page.click('#ask button[value="no"]');
+  await page.until("#calibration-answer", /magnetometer: (?!done)/);
+  await magnetometer("Roll back");
+  await page.until("#calibration-answer", /magnetometer: (?!done)/);
+}
+
+async function drives(page) {
+  step("remote control: orders while the lease is held, and a stop");
+  const take = async () => {
+    await page.page.bringToFront();
+    await page.page.click("#take");
+    await page.until("#control-state", /You are in charge.*In charge: navcal-web/);
+  };
+  await take();
+  await page.page.fill("#order-shaft", "300");
+  await page.until("#control-state", /sent: shaft 300/);
+  await page.until(`dd[data-name="shaft"]`, /ordered 300/);
+  await page.page.keyboard.press("Escape");
+  await page.until("#control-state", /^Nobody is in charge.*shaft 0.*safe state/);
+  await take();
+  await page.page.click("#stop");
+  await page.until("#control-state", /^Nobody is in charge/);
+  await take();
+  await page.page.evaluate(() => window.dispatchEvent(new Event("blur")));
+  await page.until("#control-state", /^Nobody is in charge/);
+  await take();
+  step("closing the page ends the lease");
+  await page.page.reload();
+  await page.until("#control-state", /Nobody is in charge/);
+  // The token is kept for the tab.
+  await page.page.locator("#stop:enabled").waitFor();
+}
+
+async function comesBack(page) {
+  step("after a restart of navcald");
+  await vehicle.stop(vehicle.daemon);
+  await page.until("#link-lost", /NO CONNECTION TO NAVCALD/);
+  assert.ok(await page.page.locator("#link-lost").isVisible());
+  await vehicle.startDaemon();
+  await page.until("#link-state", /^live$/);
+  await page.page.locator("#link-lost").waitFor({ state: "hidden" });
+  await page.until("#heading-value", /^57|^58|^56/);
+  step("after a restart of navcal-web");
+  await vehicle.stop(vehicle.web);
+  await page.until("#link-lost", /LINK LOST/);
+  assert.ok(await page.page.evaluate(() => document.body.classList.contains("lost")));
+  await vehicle.startWeb();
+  await page.until("#link-state", /^live$/);
+  await page.page.locator("#link-lost").waitFor({ state: "hidden" });
+  step("stale values are marked");
+  vehicle.stop(vehicle.instruments);
+  await page.until("#heading h2 .age", /stale/);
+  await vehicle.startInstruments();
+  await page.until("#heading h2 .age", /^$/);
+}
+
+async function worksBehindProxies(context, url) {
+  step("without WebSockets it polls, and says so");
+  const page = await context.newPage();
+  await page.addInitScript(() => {
+    window.WebSocket = class extends EventTarget {
+      constructor() { super(); setTimeout(() => this.onclose?.({ reason: "" }), 1); }
+      close() {}
+    };
+  });
+  const polling = new Page();
+  polling.page = page;
+  await page.goto(url);
+  await polling.until("#link-state", /polling/);
+  await polling.until("#heading-value", /^5[678]/);
+  await page.close();
+  step("in a frame, under a path");
+  const proxy = await startProxy(vehicle.webPort);
+  const outer = await Page.open(context, `http://127.0.0.1:${proxy.port}/`);
+  const frame = outer.page.frameLocator("iframe");
+  await frame.locator("#link-state", { hasText: /^live$/ }).waitFor();
+  await frame.locator("#heading-value", { hasText: /^5[678]/ }).waitFor();
+  onlyAsksFor(outer, `127.0.0.1:${proxy.port}`);
+  await outer.page.close();
+  proxy.end();
+}
+
+function onlyAsksFor(page, host) {
+  const foreign = page.requests.filter((url) => !/^(data|blob):/.test(url) && new URL(url).host !== host);
+  assert.deepEqual(foreign, []);
+  assert.ok(page.requests.some((url) => url.startsWith("ws:")), "no WebSocket was seen");
+  assert.deepEqual(page.errors, []);
+}
+
+async function isReadOnlyWithoutAToken(context) {
+  step("a server without a token says that it may only be looked at");
+  await vehicle.stop(vehicle.web);
+  const url = await vehicle.startWeb(false);
+  const page = await Page.open(context, url);
+  await page.until("#control-state", /may only be looked at/);
+  assert.ok(!(await page.page.locator("#stop").isVisible()));
+  await page.page.close();
+}
+
+async function playsRecordings(context) {
+  step("navcal view plays a capture, and leaves nothing behind");
+  const capture = join(folder, "dive.cap");
+  const temporary = join(folder, "temporary");
+  mkdirSync(temporary);
+  assert.equal(await vehicle.start("cli/navcal", "simulate", "--mission", "calibration_swing", "-o", capture).ended, 0);
+  process.env.TMPDIR = temporary;
+  const view = vehicle.start("cli/navcal", "view", capture, "--no-open", "--speed", "5");
+  const url = (await eventually(() => view.output.match(/http:\S+/), "navcal view"))[0];
+  assert.equal(readdirSync(temporary).length, 1);
+  const page = await Page.open(context, url);
+  await page.until("#link-state", /^recording$/);
+  await page.until("#mode", /dive\.cap/);
+  await page.until("#heading-value", /\d/);
+  const position = () => page.page.locator("#seek").evaluate((bar) => Number(bar.value));
+  const before = await position();
+  await page.until("#play", /Pause/);
+  while ((await position()) <= before + 1) await page.page.waitForTimeout(50);
+  await page.page.click("#play");
+  await page.until("#play", /Play/);
+  const stopped = await position();
+  await page.page.waitForTimeout(300);
+  assert.equal(await position(), stopped);
+  await page.page.locator("#seek").fill("5");
+  while (Math.abs((await position()) - 5) > 0.2) await page.page.waitForTimeout(50);
+  await page.until("#play-time", /^0:00:05/);
+  await page.page.locator("#speed").selectOption("100");
+  await page.page.click("#play");
+  await page.until("#play", /Play/);  // the end
+  await page.until("#event-list", /mark/);
+  await page.page.screenshot({ path: join(folder, "recording.png"), fullPage: true });
+  assert.match(await page.text("#control-state"), /recording cannot be changed/);
+  onlyAsksFor(page, new URL(url).host);
+  await page.page.close();
+  view.child.kill("SIGINT");
+  assert.equal(await view.ended, 0, view.output);
+  assert.deepEqual(readdirSync(temporary), []);
+  step("a wrong file is named, with status 3");
+  const wrong = join(folder, "wrong.mcap");
+  writeFileSync(wrong, "this is no recording\n");
+  const refused = vehicle.start("cli/navcal", "view", wrong, "--no-open");
+  assert.equal(await refused.ended, 3, refused.output);
+  assert.match(refused.output, /wrong\.mcap/);
+  assert.deepEqual(readdirSync(temporary), []);
+}
+
+let context;
+try {
+  await vehicle.startInstruments();
+  await vehicle.startDaemon();
+  const url = await vehicle.startWeb();
+  context = await startBrowser(folder);
+  const page = await Page.open(context, url);
+  await showsTheVehicle(page);
+  await looksRight(page, "live");
+  await keyboardReachesAll(page);
+  await changesNeedTheToken(page);
+  await keyboardReachesAll(page);
+  await drives(page);
+  await comesBack(page);
+  onlyAsksFor(page, new URL(url).host);
+  await worksBehindProxies(context, url);
+  await page.page.close();
+  await isReadOnlyWithoutAToken(context);
+  await playsRecordings(context);
+  console.log("the page does what it should");
+} catch (error) {
+  console.error(vehicle.diagnostics());
+  console.error(error);
+  process.exitCode = 1;
+} finally {
+  await context?.close();
+  vehicle.end();
+}
