@@ -5,11 +5,15 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 
 namespace navcal::autopilot {
 namespace {
 
 constexpr double kNothing = 1e-6;
+/// Couplings of less than this part, as by the torque of a propeller, are not mentioned.
+constexpr double kHardly = 0.02;
 
 /// Degrees of freedom that are commanded neither alone nor never, by groups that one missing direction couples.
 std::vector<std::string> coupled_words(const Eigen::MatrixXd& missing, const std::array<Command, 6>& commands) {
@@ -22,7 +26,7 @@ std::vector<std::string> coupled_words(const Eigen::MatrixXd& missing, const std
     std::vector<std::string> group;
     for (Eigen::Index j = i; j < 6; ++j) {
       const auto other = static_cast<std::size_t>(j);
-      if (commands[other] != Command::with_others || std::abs(projection(i, j)) < kNothing) continue;
+      if (commands[other] != Command::with_others || std::abs(projection(i, j)) < kHardly * kHardly) continue;
       is_said[other] = true;
       group.emplace_back(kDegreesOfFreedom[other]);
     }
@@ -52,7 +56,8 @@ Controllability controllability(const Allocator& allocator, const Wrench& veloci
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double outside = missing.row(i).norm();
     Command& command = result.commands[static_cast<std::size_t>(i)];
-    command = outside < kNothing ? Command::alone : outside > 1 - kNothing ? Command::no : Command::with_others;
+    const double inside = std::sqrt(std::max(0.0, 1 - outside * outside));
+    command = outside < kHardly ? Command::alone : inside < kHardly ? Command::no : Command::with_others;
     if (command == Command::no)
       result.missing.push_back(
           fmt::format("{} cannot be commanded", kDegreesOfFreedom[static_cast<std::size_t>(i)]));

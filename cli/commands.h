@@ -25,6 +25,7 @@ void add_ports(CLI::App& app);
 void add_remote(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_simulate(CLI::App& app);
+void add_vehicle(CLI::App& app);
 void add_watch(CLI::App& app);
 
 /// All of them (written by cli/command_table.cmake).
