@@ -12,7 +12,7 @@ constexpr Bounds kLayoutPlace{-50, 50, "m"};
 constexpr Bounds kCoefficient{-1e6, 1e6};
 
 void read_inertia(LayoutTable& table, LayoutBody& body) {
-  constexpr Bounds kMoment{-1e7, 1e7, "kg m2"};
+  constexpr Bounds kMoment{-1e10, 1e10, "kg m2"};
   const Node* node = table.reader().find("inertia_kg_m2");
   const auto* given = node != nullptr ? std::get_if<std::vector<double>>(&node->value) : nullptr;
   table.numbers("inertia_kg_m2", body.inertia_kg_m2.data(), given != nullptr && given->size() == 6 ? 6 : 3,
@@ -76,7 +76,7 @@ void read_body(LayoutTable& table, LayoutBody& body, double density_kg_m3) {
   read_inertia(table, body);
   table.numbers("size_m", body.size_m, {0, 50, "m"});
   double volume_m3 = 0;
-  table.number("buoyancy_N", body.buoyancy_N, {0, 1e7, "N"});
+  table.number("buoyancy_N", body.buoyancy_N, {0, 2e7, "N"});
   table.number("volume_m3", volume_m3, {0, 1000, "m3"});
   bool is_neutral = false;
   if (const Node* node = table.reader().find("neutral")) {

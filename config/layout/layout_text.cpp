@@ -15,7 +15,9 @@ namespace {
 /// Degrees that convert back to the same radians, where there are any.
 double exact_degrees(double rad) {
   const double near = rad * base::kDegreesPerRadian;
-  for (const double degrees : {near, std::nextafter(near, 1e9), std::nextafter(near, -1e9)}) {
+  constexpr double kDigits = 1e6;
+  for (const double degrees :
+       {std::round(near * kDigits) / kDigits, near, std::nextafter(near, 1e9), std::nextafter(near, -1e9)}) {
     if (degrees * base::kRadiansPerDegree == rad) return degrees;
   }
   return near;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "config/layout/layout_file.h"
+#include "sim/layout/added_mass.h"
 #include "sim/layout/assessment/assessment.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
@@ -69,20 +70,42 @@ TEST(ShippedLayouts, TheReferenceVehicleHasItsCheckValues) {
 }
 
 TEST(ShippedLayouts, RemusHasThePublishedSpeedAndRoll) {
-  // Prestero 2001: 1.54 m/s at 1500 rpm; a steady roll of -5.3 degrees by the propeller's reaction.
-  const Assessment found = assess(shipped("remus-100"));
+  // Prestero 2001: 1.54 m/s at 1500 rpm, where a roll of -5.3 degrees balances the propeller's reaction.
+  const config::Layout layout = shipped("remus-100");
+  const Assessment found = assess(layout);
   ASSERT_FALSE(found.ahead.empty());
-  EXPECT_NEAR(found.ahead.back().speed_m_s.value_or(0), 1.54, 0.02);
-  LayoutVehicle vehicle(shipped("remus-100"));
-  config::Layout neutral = shipped("remus-100");
-  neutral.body.buoyancy_N = neutral.weight_N();
-  LayoutVehicle level(neutral);
-  LayoutRun run(level, {});
-  ActuatorValues commands = run.positions();
-  commands.thrusters = {1500};
-  run.advance(commands, 120);
-  EXPECT_NEAR(run.body().velocity[0], 1.54, 0.03);
-  EXPECT_NEAR(run.body().euler_rad[0] * kShippedDegrees, -5.3, 0.4);
+  EXPECT_NEAR(found.ahead.back().speed_m_s.value_or(0), 1.54, 0.01);
+  const LayoutVehicle vehicle(layout);
+  ActuatorValues full = ActuatorValues::neutral(layout);
+  full.thrusters = {1500};
+  Vector6 velocity = Vector6::Zero();
+  velocity[0] = 1.54;
+  const LayoutVehicle::Held held = vehicle.hold(full);
+  const double reaction_Nm = vehicle.force(velocity, Eigen::Vector3d::UnitZ(), held)[3];
+  EXPECT_NEAR(std::asin(reaction_Nm / (layout.weight_N() * 0.0196)) * kShippedDegrees, -5.3, 0.05);
+}
+
+TEST(ShippedLayouts, RemusHasThePublishedCoefficients) {
+  // Hull, fins and added mass together, over u: Prestero 2001, appendix. The rigid body's own terms are left out.
+  const config::Layout layout = shipped("remus-100");
+  const LayoutVehicle vehicle(layout);
+  LayoutVehicle::Held held = vehicle.hold(ActuatorValues::neutral(layout));
+  held.mass = added_mass(layout);
+  held.restoring = {0, Eigen::Vector3d::Zero()};
+  const double u = 1.5, step = 1e-7;
+  const auto coefficient = [&](Eigen::Index force, Eigen::Index by) {
+    Vector6 plus = Vector6::Zero(), minus = Vector6::Zero();
+    plus[0] = minus[0] = u;
+    plus[by] = step;
+    minus[by] = -step;
+    const Eigen::Vector3d down = Eigen::Vector3d::UnitZ();
+    return (vehicle.force(plus, down, held) - vehicle.force(minus, down, held))[force] / (2 * step * u);
+  };
+  const std::vector<std::tuple<Eigen::Index, Eigen::Index, double>> published{
+      {2, 2, -28.6}, {4, 2, 24.0},  {2, 4, -5.22}, {4, 4, -2.0},
+      {1, 1, -28.6}, {5, 1, -24.0}, {1, 5, 5.22},  {5, 5, -2.0}};
+  for (const auto& [force, by, value] : published)
+    EXPECT_NEAR(coefficient(force, by), value, 0.01 * std::abs(value)) << force << " by " << by;
 }
 
 TEST(ShippedLayouts, TheGliderGlidesAsPublished) {
