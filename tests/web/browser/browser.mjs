@@ -45,20 +45,20 @@ export class Page {
   }
 }
 
-/** What Tab reaches, in its order, until it comes round. */
-export async function reachedByTab(page) {
-  await page.evaluate(() => document.activeElement?.blur());
-  const reached = [];
+/** Marks what Tab reaches, until it comes round. */
+export async function reachByTab(page) {
+  await page.evaluate(() => document.querySelectorAll("[data-reached]").forEach((element) => delete element.dataset.reached));
   for (let i = 0; i < 400; ++i) {
     await page.keyboard.press("Tab");
-    const name = await page.evaluate(() => {
+    const isKnown = await page.evaluate(() => {
       const element = document.activeElement;
-      if (!element || element === document.body) return null;
+      // Between the last element and the first is the window itself.
+      if (!element || element === document.body) return false;
+      const isKnown = element.dataset.reached === "yes";
       element.dataset.reached = "yes";
-      return element.id || element.getAttribute("aria-label") || element.textContent.trim() || element.tagName;
+      return isKnown;
     });
-    if (name == null || (reached.length > 2 && name === reached[0])) break;
-    reached.push(name);
+    if (isKnown) return;
   }
-  return reached;
+  throw new Error("Tab does not come round");
 }
