@@ -74,7 +74,7 @@ with Stand() as stand:
 
     begin, count = time.monotonic(), len(early.of("auv/1/compass/compass"))
     wait_for("five more of the compass", lambda: len(early.of("auv/1/compass/compass")) >= count + 5)
-    assert time.monotonic() - begin > 3.4, "more than one a second"
+    assert time.monotonic() - begin > 2, "not limited: the compass speaks twenty times a second"
     navcald.say("/event", None, event("dive 3"))
     navcald.say("/event", None, event("dive 4"))
     wait_for("both events", lambda: len(early.of("auv/1/event")) == 2)
