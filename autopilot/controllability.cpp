@@ -52,16 +52,16 @@ Controllability controllability(const Allocator& allocator, const Wrench& veloci
     if (values[i] > kNothing * values[0] && values[0] > 0) ++result.rank;
   }
   if (result.rank > 0) result.condition = values[0] / values[result.rank - 1];
+  std::vector<std::string> never;
   const Eigen::MatrixXd missing = svd.matrixU().rightCols(6 - result.rank);
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double outside = missing.row(i).norm();
     Command& command = result.commands[static_cast<std::size_t>(i)];
     const double inside = std::sqrt(std::max(0.0, 1 - outside * outside));
     command = outside < kHardly ? Command::alone : inside < kHardly ? Command::no : Command::with_others;
-    if (command == Command::no)
-      result.missing.push_back(
-          fmt::format("{} cannot be commanded", kDegreesOfFreedom[static_cast<std::size_t>(i)]));
+    if (command == Command::no) never.emplace_back(kDegreesOfFreedom[static_cast<std::size_t>(i)]);
   }
+  if (!never.empty()) result.missing.push_back(fmt::format("{} cannot be commanded", fmt::join(never, ", ")));
   for (std::string& words : coupled_words(missing, result.commands)) result.missing.push_back(std::move(words));
   return result;
 }

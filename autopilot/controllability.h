@@ -22,7 +22,7 @@ struct Controllability {
   double condition = 0;  ///< largest over smallest singular value that is not zero
   std::array<double, 6> singular_values{};
   std::array<Command, 6> commands{};
-  std::vector<std::string> missing;  ///< in words: "sway cannot be commanded", "roll and yaw only together"
+  std::vector<std::string> missing;  ///< in words: "sway, heave cannot be commanded", "roll and yaw only together"
 };
 
 /// At this velocity: surfaces give nothing at rest.

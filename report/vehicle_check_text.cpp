@@ -67,8 +67,12 @@ std::string vehicle_check_text(const config::Layout& layout, const sim::Assessme
     out += speeds_text("ahead", found.ahead);
     out += speeds_text("downwards", found.downwards);
     for (const sim::SteadyMotion& motion : found.motions) out += motion_text(motion);
-    out += allocation_text("actuators at rest", found.at_rest);
-    out += allocation_text(fmt::format("at {:.2g} m/s", found.under_way_m_s), found.under_way);
+    if (layout.thrusters.empty() && layout.surfaces.empty()) {
+      out += "allocation           no thrusters and no surfaces\n";
+    } else {
+      out += allocation_text("allocation at rest", found.at_rest);
+      out += allocation_text(fmt::format("at {:.2g} m/s", found.under_way_m_s), found.under_way);
+    }
   } else {
     out += fmt::format("cannot be simulated: {}\n", found.cannot_simulate);
   }

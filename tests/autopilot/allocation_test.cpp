@@ -204,7 +204,7 @@ TEST(Controllability, SaysWhatCannotBeCommanded) {
   Wrench ahead = Wrench::Zero();
   const Controllability at_rest = controllability(Allocator(finned()), ahead);
   EXPECT_EQ(at_rest.rank, 1);
-  EXPECT_EQ(at_rest.missing.size(), 5U);
+  EXPECT_EQ(at_rest.missing, std::vector<std::string>{"sway, heave, roll, pitch, yaw cannot be commanded"});
   ahead[0] = 1;
   const Controllability under_way = controllability(Allocator(finned()), ahead);
   EXPECT_EQ(under_way.rank, 4);
@@ -217,7 +217,7 @@ TEST(Controllability, SaysWhatCannotBeCommanded) {
 TEST(Controllability, ALayoutWithoutActuatorsCommandsNothing) {
   const Controllability nothing = controllability(Allocator(config::Layout{}), Wrench::Zero());
   EXPECT_EQ(nothing.rank, 0);
-  EXPECT_EQ(nothing.missing.size(), 6U);
+  EXPECT_EQ(nothing.missing.size(), 1U);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ void check_thrust(const config::Layout& layout, const Assessment& found, std::ve
 }
 
 void check_motions(const std::vector<SteadyMotion>& motions, std::vector<Oddity>& odd) {
-  constexpr double kSpin_rad_s = 30 * base::kRadiansPerDegree, kStray_rad_s = 1 * base::kRadiansPerDegree;
+  constexpr double kSpin_rad_s = 20 * base::kRadiansPerDegree, kStray_rad_s = 1 * base::kRadiansPerDegree;
   constexpr double kTilt_rad = 10 * base::kRadiansPerDegree;
   for (const SteadyMotion& motion : motions) {
     const bool is_straight = motion.what.starts_with("straight");

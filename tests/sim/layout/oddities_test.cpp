@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is odd about a layout is named with its key.
+// Oddities of a layout are named with their keys.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -60,6 +60,12 @@ TEST(LayoutOddities, AreFoundInTheMotion) {
         l.thrusters[0].KT = {0.3};
       },
       "damping", "no terminal speed");
+  expect_odd(
+      [](auto& l) {
+        l.body.gravity_centre_m[2] = 1e-4;
+        l.thrusters[0].torque_share = 1;
+      },
+      "thruster", "it spins");
   expect_odd([](auto& l) { l.thrusters.push_back(l.thrusters[0]); }, "thruster", "singular: 5 actuators, rank 4");
   expect_odd([](auto& l) { l.thrusters.clear(), l.surfaces.clear(); }, "thruster", "no actuators");
 }
