@@ -66,11 +66,12 @@ TEST_P(TimeErrors, ArePositiveForEverySample) {
   EXPECT_GT(most, 0U) << "the stream gives samples";
 }
 
-INSTANTIATE_TEST_SUITE_P(AllDevices, TimeErrors, testing::ValuesIn(protocols::kDeviceTypes), [](const auto& device) {
-  std::string name(device.param.name);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(AllDevices, TimeErrors, testing::ValuesIn(protocols::kDeviceTypes),
+                         [](const auto& device) {
+                           std::string name(device.param.name);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(TimeErrorsOfDescribedDevices, ArePositive) {
   config::PortSettings port = config::default_port("own", Protocol::described, 9600);
