@@ -66,6 +66,12 @@ constexpr std::array kRemoteMembers{
                  "Share of the operator's last frames that was lost."}};
 constexpr std::array kOperatorStates{"none", "alive", "dead"};
 
+constexpr double kBytesPerKB = 1024;  // of getrusage(2)
+constexpr std::array kProcessMembers{
+    DaemonMember{"cpu_s", "navcald_cpu_seconds_total", counter, "CPU time of navcald."},
+    DaemonMember{"most_resident_kB", "navcald_most_resident_memory_bytes", gauge, "Largest memory of navcald.",
+                 kBytesPerKB}};
+
 constexpr std::array kClockSources{"none", "file", "system", "system-synchronised", "gps"};
 
 constexpr std::array kNavigationMembers{
@@ -142,6 +148,11 @@ void append_health(Exposition& out, const std::vector<json>& parts) {
   if (parts.empty()) return;
   const json& health = parts.front();
   append_members(out, health, kHealthMembers);
+  const json& process = member_of(health, "process");
+  append_members(out, process, kProcessMembers);
+  out.metric("navcald_info", gauge, "Version of navcald.");
+  if (const std::string version = text_in(process, "version"); !version.empty())
+    out.sample({{"version", version}}, 1.0);
   append_alarms(out, health);
   append_ports(out, parts);
   const json& log = member_of(health, "log");
@@ -159,10 +170,14 @@ void append_health(Exposition& out, const std::vector<json>& parts) {
                text_in(remote, "operator"), kOperatorStates);
 }
 
-void append_clock(Exposition& out, const json& time) {
+void append_clock(Exposition& out, const json& time, const std::vector<json>& health_parts) {
+  // HEALTH says it every second, and /time with all digits when it changes.
+  const json& health = health_parts.empty() ? json() : member_of(health_parts.front(), "utc");
+  const json& utc = time.is_object() ? time : health;
   append_state(out, "navcald_clock_source", "1 for where UTC comes from, 0 for others.", "source",
-               text_in(time, "source"), kClockSources);
-  out.single("navcald_clock_bound_seconds", gauge, "UTC is known to within this.", number_in(time, "bound"));
+               text_in(utc, "source"), kClockSources);
+  out.single("navcald_clock_bound_seconds", gauge, "UTC is known to within this.",
+             number_in(utc, time.is_object() ? "bound" : "bound_s"));
 }
 
 void append_navigation(Exposition& out, const json& nav) {

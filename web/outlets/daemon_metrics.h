@@ -13,7 +13,8 @@ namespace navcal::web {
 
 /// `parts`: the lines of one HEALTH.
 void append_health(Exposition& out, const std::vector<nlohmann::json>& parts);
-void append_clock(Exposition& out, const nlohmann::json& time);
+/// `time`: the newest message of /time, null while there was none; HEALTH then tells of the clock.
+void append_clock(Exposition& out, const nlohmann::json& time, const std::vector<nlohmann::json>& health_parts);
 void append_navigation(Exposition& out, const nlohmann::json& nav);
 /// One message of each device.
 void append_batteries(Exposition& out, const std::vector<nlohmann::json>& batteries);

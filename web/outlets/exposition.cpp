@@ -56,7 +56,7 @@ void Exposition::sample(const Labels& labels, std::optional<double> value) {
 }
 
 void Exposition::histogram(const Labels& labels, std::span<const double> upper_bounds,
-                           std::span<const std::uint64_t> counts) {
+                           std::span<const std::uint64_t> counts, std::optional<double> sum) {
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
     total += i < counts.size() ? counts[i] : 0;
@@ -64,6 +64,7 @@ void Exposition::histogram(const Labels& labels, std::span<const double> upper_b
   }
   for (std::size_t i = upper_bounds.size(); i < counts.size(); ++i) total += counts[i];
   line("_bucket", labels, Label{"le", "+Inf"}, static_cast<double>(total));
+  if (sum && std::isfinite(*sum)) line("_sum", labels, std::nullopt, *sum);
   line("_count", labels, std::nullopt, static_cast<double>(total));
 }
 

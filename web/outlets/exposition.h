@@ -27,9 +27,9 @@ class Exposition {
   /// Nullopt and what is not finite: no line.
   void sample(const Labels& labels, std::optional<double> value);
   /// A histogram: `counts` holds how many lie below each of `upper_bounds`, and in the last element those above
-  /// all of them. The sum of the values is not known, and its line is left out.
-  void histogram(const Labels& labels, std::span<const double> upper_bounds,
-                 std::span<const std::uint64_t> counts);
+  /// all of them. `sum` of the values: without it that line is left out.
+  void histogram(const Labels& labels, std::span<const double> upper_bounds, std::span<const std::uint64_t> counts,
+                 std::optional<double> sum);
 
   /// A metric of one sample.
   void single(std::string_view name, Type type, std::string_view help, std::optional<double> value) {

@@ -62,7 +62,7 @@ void Metrics::append_daemon(Exposition& out) const {
   out.single("navcald_up", gauge, "1 while navcal-web is connected to navcald.",
              hub_.link().connected ? 1.0 : 0.0);
   append_health(out, health_.parts());
-  append_clock(out, time_);
+  append_clock(out, time_, health_.parts());
   append_navigation(out, navigation_);
   std::vector<nlohmann::json> batteries;
   for (const auto& [device, battery] : batteries_) batteries.push_back(battery);

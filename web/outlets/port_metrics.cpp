@@ -87,7 +87,7 @@ void append_port_latencies(Exposition& out, const Ports& ports) {
     if (!list.is_array()) continue;
     std::vector<std::uint64_t> counts;
     for (const json& count : list) counts.push_back(count.is_number_unsigned() ? count.get<std::uint64_t>() : 0);
-    out.histogram({{"device", text_in(*port, "device")}}, kBounds_s, counts);
+    out.histogram({{"device", text_in(*port, "device")}}, kBounds_s, counts, number_in(*port, "latency_sum_s"));
   }
 }
 

@@ -60,17 +60,18 @@ TEST(Exposition, HistogramsAreCumulativeAndEndWithAllOfThem) {
   out.metric("h", histogram, "H.");
   const std::array bounds{0.5, 1.0, 2.0};
   const std::array<std::uint64_t, 5> counts{1, 0, 4, 2, 3};
-  out.histogram({{"d", "x"}}, bounds, counts);
-  EXPECT_EQ(out.text(),
-            "# HELP h H.\n# TYPE h histogram\nh_bucket{d=\"x\",le=\"0.5\"} 1\nh_bucket{d=\"x\",le=\"1\"} 1\n"
-            "h_bucket{d=\"x\",le=\"2\"} 5\nh_bucket{d=\"x\",le=\"+Inf\"} 10\nh_count{d=\"x\"} 10\n");
+  out.histogram({{"d", "x"}}, bounds, counts, 7.5);
+  EXPECT_EQ(
+      out.text(),
+      "# HELP h H.\n# TYPE h histogram\nh_bucket{d=\"x\",le=\"0.5\"} 1\nh_bucket{d=\"x\",le=\"1\"} 1\n"
+      "h_bucket{d=\"x\",le=\"2\"} 5\nh_bucket{d=\"x\",le=\"+Inf\"} 10\nh_sum{d=\"x\"} 7.5\nh_count{d=\"x\"} 10\n");
 }
 
 TEST(Exposition, AHistogramThatWasCutShortKeepsItsBuckets) {
   Exposition out;
   out.metric("h", histogram, "H.");
   const std::array bounds{1.0, 2.0};
-  out.histogram({}, bounds, {});
+  out.histogram({}, bounds, {}, std::nullopt);
   EXPECT_NE(out.text().find("h_bucket{le=\"2\"} 0\nh_bucket{le=\"+Inf\"} 0\nh_count 0\n"), std::string::npos)
       << out.text();
 }

@@ -99,6 +99,21 @@ TEST_F(MetricsTest, WhatDependsOnTheConnectionGoesWithIt) {
     EXPECT_EQ(metrics_.page().find(stale), std::string::npos) << stale;
 }
 
+TEST_F(MetricsTest, TheClockIsKnownFromHealthBeforeAnyTime) {
+  say("/health", "",
+      R"({"utc":{"source":"gps","bound_s":0.06},"process":{"version":"1.2","cpu_s":3,"most_resident_kB":2}})");
+  EXPECT_TRUE(has("navcald_clock_source{source=\"gps\"} 1"));
+  EXPECT_TRUE(has("navcald_clock_bound_seconds 0.06"));
+  EXPECT_TRUE(has("navcald_info{version=\"1.2\"} 1"));
+  EXPECT_TRUE(has("navcald_cpu_seconds_total 3"));
+  EXPECT_TRUE(has("navcald_most_resident_memory_bytes 2048"));
+  say("/time", "", R"({"source":"system","bound":null})");
+  EXPECT_TRUE(has("navcald_clock_source{source=\"gps\"} 0"));
+  EXPECT_EQ(metrics_.page().find("navcald_clock_bound"), std::string::npos);
+  say("/health", "", R"({"utc":{"source":"none","bound_s":null}})");
+  EXPECT_TRUE(has("navcald_clock_source{source=\"system\"} 1")) << "/time is the log's own word";
+}
+
 TEST_F(MetricsTest, CountersOfTheServerAreTold) {
   ServerCounters server;
   LiveSource::Counters source;

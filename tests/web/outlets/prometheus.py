@@ -78,6 +78,7 @@ with Stand() as stand:
         'navcald_port_latency_seconds_bucket{device="compass",le="0.000128"}': 41,
         'navcald_port_latency_seconds_bucket{device="compass",le="+Inf"}': 1230,
         'navcald_port_latency_seconds_count{device="compass"}': 1230,
+        'navcald_port_latency_seconds_sum{device="compass"}': 0.25,
         'navcald_log_state{state="writing"}': 1, "navcald_log_file_bytes": 5000, "navcald_log_lost_records_total": 0,
         "navcald_status_clients": 2, "navcald_status_client_dropped_reports_total": 7,
         'navcald_clock_source{source="gps"}': 1, "navcald_clock_bound_seconds": 0.02,

@@ -77,6 +77,10 @@ with Stand() as stand:
     assert value('navcald_log_state{state="off"}') == 1
     assert value('navcald_port_bad_checksums_total{device="gps"}') == 0
     wait_for("its latencies", lambda: (value('navcald_port_latency_seconds_count{device="gps"}') or 0) >= 2)
+    assert value('navcald_port_latency_seconds_sum{device="gps"}') > 0
+    assert sum(value(f'navcald_clock_source{{source="{one}"}}') for one in (
+        "none", "file", "system", "system-synchronised", "gps")) == 1, page()
+    assert value("navcald_cpu_seconds_total") > 0 and value("navcald_most_resident_memory_bytes") > 1e6
     assert value("navcald_uptime_seconds") > 0 and value("navcald_status_clients") >= 1
     assert value("navcal_web_status_not_understood_lines_total") == 0, "a line of navcald that nobody knows"
     for absent in ("navcald_depth_meters", "navcald_heading_radians", "navcald_altitude_meters"):

@@ -66,7 +66,7 @@ def health(**changes):
     running = {"device": "compass", "protocol": "tcm2", "state": "running", "reason": "", "path": "/dev/ttyUSB0",
                "low_latency": "on", "opened": 1, "bytes": 123456, "frames": 1234, "samples": 1230, "bad": 3, "skipped": 21,
                "held": 0, "out_of_range": 1, "gaps": 2, "lost": 4, "repeated": 0, "clock": clock,
-               "latency_log2_us": [0, 0, 0, 0, 0, 0, 1, 40, 900, 280, 9]}
+               "latency_log2_us": [0, 0, 0, 0, 0, 0, 1, 40, 900, 280, 9], "latency_sum_s": 0.25}
     away = {**running, "device": "imu", "state": "away", "reason": "there is no /dev/imu", "bytes": 0, "frames": 0,
             "samples": 0, "bad": 0, "latency_log2_us": []}
     message = {"class": "HEALTH", "alarms": [{"alarm": "leak_aft", "device": "imu"}], "time": utc(), "uptime_s": 321.5,
