@@ -143,9 +143,9 @@ void check_directions(const config::Layout& layout, std::vector<Oddity>& odd) {
     check_unit(fmt::format("surface[{}].chord", i + 1), surface.chord);
     const double cosine = vector_of(surface.normal).normalized().dot(vector_of(surface.chord).normalized());
     if (std::abs(cosine) > 0.02)
-      odd.push_back(
-          {fmt::format("surface[{}].normal", i + 1),
-           fmt::format("normal and chord are {:.1f} degrees apart, not 90", std::acos(cosine) * 180 / std::numbers::pi)});
+      odd.push_back({fmt::format("surface[{}].normal", i + 1),
+                     fmt::format("normal and chord are {:.1f} degrees apart, not 90",
+                                 std::acos(cosine) * 180 / std::numbers::pi)});
   }
 }
 

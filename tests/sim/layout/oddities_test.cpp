@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is odd about a layout is named with its key.
+// Oddities of a layout are named with their keys.
 #include <gtest/gtest.h>
 
 #include <functional>
