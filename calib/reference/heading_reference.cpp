@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -32,20 +33,17 @@ void HeadingReference::Block::add(const Block& other) {
 }
 
 HeadingReference::Block& HeadingReference::block_at(double time_s) {
-  const bool is_new = count_ == 0 || time_s >= blocks_[count_ - 1].begin_s + block_s_;
-  if (is_new && count_ == kMostBlocks) {
+  const bool is_new = blocks_.empty() || time_s >= blocks_.back().begin_s + block_s_;
+  if (is_new && blocks_.size() == kMostBlocks) {
     for (std::size_t i = 0; i < kMostBlocks / 2; ++i) {
       blocks_[i] = blocks_[2 * i];
       blocks_[i].add(blocks_[2 * i + 1]);
     }
-    count_ = kMostBlocks / 2;
+    blocks_.resize(kMostBlocks / 2);
     block_s_ *= 2;
   }
-  if (is_new) {
-    blocks_[count_] = {};
-    blocks_[count_++].begin_s = time_s;
-  }
-  return blocks_[count_ - 1];
+  if (is_new) blocks_.emplace_back().begin_s = time_s;
+  return blocks_.back();
 }
 
 void HeadingReference::update(const HeadingPair& pair) {
@@ -68,19 +66,19 @@ void HeadingReference::update(const HeadingPair& pair) {
 HeadingReference::Matrix HeadingReference::score_covariance(const Vector& x) const {
   std::array<Vector, kMostBlocks> scores;
   Vector square = Vector::Zero(), product = Vector::Zero();
-  for (std::size_t i = 0; i < count_; ++i) {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
     scores[i] = blocks_[i].right - blocks_[i].information * x;
     square += scores[i].cwiseAbs2();
     if (i > 0) product += scores[i].cwiseProduct(scores[i - 1]);
   }
-  const auto blocks = static_cast<double>(count_);
+  const auto blocks = static_cast<double>(blocks_.size());
   Vector memory;
   for (int i = 0; i < kUnknowns; ++i) {
     const double found = square[i] > 0 ? product[i] / square[i] : 0;
     memory[i] = std::clamp((blocks * found + 1) / (blocks - 4), 0.0, kMostMemory);
   }
   Matrix sum = Matrix::Zero();
-  for (std::size_t i = 1; i < count_; ++i) {
+  for (std::size_t i = 1; i < blocks_.size(); ++i) {
     const Vector innovation = scores[i] - memory.cwiseProduct(scores[i - 1]);
     sum += innovation * innovation.transpose();
   }
@@ -91,7 +89,7 @@ HeadingReference::Matrix HeadingReference::score_covariance(const Vector& x) con
 std::optional<HeadingReference::Estimate> HeadingReference::estimate(double declination_rad) const {
   if (pairs_ < parameters_.least_pairs) return std::nullopt;
   Block all;
-  for (std::size_t i = 0; i < count_; ++i) all.add(blocks_[i]);
+  for (const Block& block : blocks_) all.add(block);
   const auto pairs = static_cast<double>(pairs_);
   constexpr double kLeastTime_s2 = 1e-8;
   Vector prior = Vector::Constant(1 / (parameters_.deviation_std_rad * parameters_.deviation_std_rad));
@@ -105,7 +103,7 @@ std::optional<HeadingReference::Estimate> HeadingReference::estimate(double decl
   const double square = all.square - 2 * x.dot(all.right) + x.dot(all.information * x);
   const Matrix model = inverse * std::max(1.0, square / pairs);
   Estimate estimate;
-  const auto blocks = static_cast<double>(count_);
+  const auto blocks = static_cast<double>(blocks_.size());
   estimate.covariance = model * std::max(1.0, kModelBlocks / blocks);
   if (blocks > kModelBlocks) {
     Matrix scores = score_covariance(x) * (blocks / (blocks - kUnknowns));
@@ -144,7 +142,7 @@ Judgement HeadingReference::judgement(double declination_rad) const {
   const double removed_rad = std::sqrt(x[0] * x[0] + x.segment<4>(1).squaredNorm() / 2);
   const double least_rad2 = found->covariance.diagonal().head<5>().minCoeff();
   judgement.condition = found->worst_std_rad / std::sqrt(std::max(least_rad2, 1e-300));
-  if (count_ < kLeastBlocks && block_s_ == kFirstBlock_s) {
+  if (blocks_.size() < kLeastBlocks && block_s_ == kFirstBlock_s) {
     judgement.reason = "the reference was in sight for less than " +
                        std::to_string(std::lround(kFirstBlock_s * kLeastBlocks)) +
                        " s, too short to know how long its errors last";
@@ -164,10 +162,10 @@ Judgement HeadingReference::judgement(double declination_rad) const {
 
 void HeadingReference::archive(Archive& archive) {
   archive.tag("heading_reference 1");
-  archive(blocks_, count_, block_s_, about_rad_, pairs_, time_variance_s2_, rose_);
-  if (count_ > kMostBlocks) {
+  archive(blocks_, block_s_, about_rad_, pairs_, time_variance_s2_, rose_);
+  if (blocks_.size() > kMostBlocks) {
     archive.fail();
-    count_ = 0;
+    blocks_.clear();
   }
 }
 

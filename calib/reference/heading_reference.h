@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "calib/archive.h"
 #include "calib/judgement.h"
@@ -76,8 +76,7 @@ class HeadingReference {
   [[nodiscard]] Matrix score_covariance(const Vector& x) const;
 
   Parameters parameters_;
-  std::array<Block, kMostBlocks> blocks_{};
-  std::size_t count_ = 0;
+  std::vector<Block> blocks_;  ///< empty without a reference, so that nobody else pays for it
   double block_s_ = kFirstBlock_s;
   double about_rad_ = 0;  ///< difference from which the others are counted, so that no seam matters
   std::uint64_t pairs_ = 0;

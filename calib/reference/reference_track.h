@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "calib/archive.h"
 #include "calib/readings.h"
@@ -31,7 +31,8 @@ struct HeadingPair {
 };
 
 /// Pairs each reference with the heading at its time, linear between the two readings around it. References wait
-/// for the headings, which come later. O(1) for each reading; memory is taken once.
+/// for the headings, which come later. O(1) for each reading; memory is taken with
+/// the first reference.
 class ReferenceTrack {
  public:
   /// References closer together than this are left out: they say nothing new.
@@ -44,6 +45,7 @@ class ReferenceTrack {
                          reference.std_rad > 0 && std::isfinite(reference.std_rad);
     if (!is_good || (newest_s_ && reference.time_s < *newest_s_ + kLeastInterval_s)) return;
     newest_s_ = reference.time_s;
+    if (waiting_.empty()) waiting_.resize(kMostWaiting);
     if (count_ == waiting_.size()) pop();
     waiting_[(first_ + count_++) % waiting_.size()] = reference;
   }
@@ -66,7 +68,12 @@ class ReferenceTrack {
   }
   void archive(Archive& archive) {
     archive(waiting_, first_, count_, newest_s_, before_);
-    if (first_ >= waiting_.size() || count_ > waiting_.size()) first_ = count_ = 0;
+    if (waiting_.size() > kMostWaiting || count_ > waiting_.size() || (count_ > 0 && first_ >= waiting_.size()))
+      archive.fail();
+    if (!archive.ok()) {
+      waiting_.clear();
+      first_ = count_ = 0;
+    }
   }
 
  private:
@@ -77,7 +84,8 @@ class ReferenceTrack {
     --count_;
   }
 
-  std::array<ReferenceReading, 256> waiting_{};  ///< a ring
+  static constexpr std::size_t kMostWaiting = 256;
+  std::vector<ReferenceReading> waiting_;  ///< a ring; empty before the first reference
   std::size_t first_ = 0, count_ = 0;
   std::optional<double> newest_s_;
   std::optional<TimedHeading> before_;
