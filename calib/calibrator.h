@@ -49,7 +49,7 @@ enum class Corrects : std::uint8_t {
 
 /// Instruments that exist, or that a calibrator takes.
 struct Instruments {
-  bool compass = false, rate = false, ground = false, motor = false;
+  bool compass = false, rate = false, ground = false, motor = false, reference = false;
 };
 
 /// One number, a vector or a matrix of a correction, by name. The name ends with the unit, as in Quantity.
@@ -67,6 +67,13 @@ struct CorrectionPlace {
 };
 [[nodiscard]] bool has_added(const Correction& correction, Calibrator calibrator);
 void copy_added(Correction& to, const Correction& from, Calibrator calibrator);
+
+/// Heading on which the value of a calibrator without a member in Correction acts.
+enum class AppliesTo : std::uint8_t {
+  corrected,  ///< what all before it in the table have made of the heading
+  measured,   ///< the heading that the compass states, in place of what others have made of it; not for field
+  field,      ///< the heading of the calibrated field, where there is one
+};
 
 /// The row of a calibrator in the table: everything about it that does not depend on readings.
 struct CalibratorRow {
@@ -91,8 +98,11 @@ struct CalibratorRow {
   /// The value of a calibrator with a member of its own. Only called when there is one.
   std::vector<NamedNumbers> (*values)(const Correction& correction) = nullptr;
   /// Its correction applied to a heading, rad: only for a value in Correction::added. The result is the better
-  /// magnetic heading, before A. Null: its value does not change headings.
+  /// magnetic heading, before A unless it gives_offset. Null: its value does not change headings.
   double (*apply)(std::span<const double> value, const CompassReading& reading, double heading_rad) = nullptr;
+  AppliesTo applies_to = AppliesTo::corrected;
+  /// The value contains A, as its first number: that of other calibrators is not taken off then.
+  bool gives_offset = false;
   std::unique_ptr<CalibratorUnit> (*make)(const SuiteOptions& options, SharedEstimators& shared) = nullptr;
 };
 

@@ -112,9 +112,34 @@ CompassReading without_motor_field(const Correction& correction, const CompassRe
   return without;
 }
 
+namespace {
+
+/// Applies the added values to a heading. Returns the A that is left to be taken off; nullopt: none.
+std::optional<double> add_values(const Correction& correction, const CompassReading& reading, bool by_field,
+                                 std::optional<double>& heading) {
+  std::optional<double> offset_rad = correction.offset_rad();
+  bool has_offset = false;
+  for (const AddedValues::Value& value : correction.added.all()) {
+    const CalibratorRow& row = row_of(value.calibrator);
+    if (row.apply == nullptr) continue;
+    const auto before = row.applies_to == AppliesTo::measured || !heading ? reading.heading_rad : heading;
+    const bool is_of_other =
+        row.applies_to != AppliesTo::corrected && (row.applies_to == AppliesTo::field) != by_field;
+    // A is the same for both headings of a compass, the harmonics are not.
+    if (is_of_other && row.gives_offset) offset_rad = value.numbers.front();
+    if (is_of_other || !before) continue;
+    heading = row.apply(value.numbers, reading, *before);
+    has_offset = has_offset || row.gives_offset;
+  }
+  return has_offset ? std::nullopt : offset_rad;
+}
+
+}  // namespace
+
 std::optional<double> corrected_heading(const Correction& correction, const CompassReading& reading) {
   std::optional<double> heading;
-  if (correction.magnetometer && reading.field_body_uT && reading.pitch_rad && reading.roll_rad) {
+  const bool by_field = correction.magnetometer && reading.field_body_uT && reading.pitch_rad && reading.roll_rad;
+  if (by_field) {
     heading = levelled_heading((*correction.magnetometer)(*reading.field_body_uT), *reading.roll_rad,
                                *reading.pitch_rad);
   } else if (!reading.heading_rad) {
@@ -128,13 +153,8 @@ std::optional<double> corrected_heading(const Correction& correction, const Comp
   } else if (correction.motor_current) {
     heading = reading.heading_rad;
   }
-  for (const AddedValues::Value& value : correction.added.all()) {
-    const auto apply = row_of(value.calibrator).apply;
-    const auto before = heading ? heading : reading.heading_rad;
-    if (apply != nullptr && before) heading = apply(value.numbers, reading, *before);
-  }
-  if (const auto offset_rad = correction.offset_rad())
-    heading = heading.value_or(*reading.heading_rad) - *offset_rad;
+  const auto offset_rad = add_values(correction, reading, by_field, heading);
+  if (offset_rad) heading = heading.value_or(*reading.heading_rad) - *offset_rad;
   if (!heading) return std::nullopt;
   return base::positive_angle(*heading);
 }

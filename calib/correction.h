@@ -103,7 +103,8 @@ void copy_value(Correction& to, const Correction& from, Calibrator calibrator);
 
 /// Magnetic heading of a reading after all that applies to it, 0..2 pi: from the calibrated and levelled field
 /// where there is one; else by the deviation; never by both. Then by each added value. Nothing applies, or nothing
-/// to apply it to: nullopt.
+/// to apply it to: nullopt. A is that of a heading reference where there is one (CalibratorRow::gives_offset),
+/// else offset_rad().
 [[nodiscard]] std::optional<double> corrected_heading(const Correction& correction, const CompassReading& reading);
 
 /// The same, and where nothing applies the heading as the device says it.

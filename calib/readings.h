@@ -47,4 +47,16 @@ struct MotorReading {
   std::optional<double> current_A{};  ///< nullopt: the card does not say
 };
 
+/// A true heading by an external reference, independent of the compass.
+struct ReferenceReading {
+  double time_s = 0;
+  double time_std_s = 0;
+  double heading_rad = 0;  ///< clockwise from true north
+  double std_rad = 0;      ///< its standard error; positive
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(time_s, time_std_s, heading_rad, std_rad);
+  }
+};
+
 }  // namespace navcal::calib

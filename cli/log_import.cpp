@@ -61,13 +61,15 @@ void add_log_import(CLI::App& log) {
   for (const auto& format : analysis::import_formats())
     known += fmt::format("{}{}", known.empty() ? "" : ", ", format.name);
   in->add_option("--format", arguments->options.format, "read the file as this: " + known)->option_text("NAME");
-  in->add_option("--map", arguments->options.map, "meaning of the columns of a CSV file")
+  in->add_option("--map", arguments->options.map,
+                 "meaning of the columns of a CSV file, or of the outputs of another log: shaft and fins")
       ->option_text("FILE.toml");
   in->add_flag("--json", arguments->json, "one JSON object instead of a table, for a log of another system");
   in->footer(
-      "docs/import.md describes the formats, and the map of a CSV file.\n\n"
+      "docs/import.md describes the formats, and the map of columns and outputs.\n\n"
       "Example: navcal log import -o survey.mcap survey.cap\n"
-      "         navcal log import -o dive.mcap 00000042.BIN");
+      "         navcal log import -o dive.mcap 00000042.BIN\n"
+      "         navcal log import --map vehicle.toml -o dive.mcap 00000042.BIN");
   in->callback([arguments] { import_file(*arguments); });
 }
 

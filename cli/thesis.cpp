@@ -72,6 +72,7 @@ void add_thesis(CLI::App& app) {
       ->check(CLI::Range(2, 100'000))
       ->capture_default_str();
   command->add_option("--seed", options->request.seed, "seed of the noise; the same seed gives the same numbers")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
       ->add_option("--paths", options->request.folder,

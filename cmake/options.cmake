@@ -24,7 +24,8 @@ add_compile_options(-ffunction-sections -fdata-sections)
 add_link_options(-Wl,--gc-sections -Wl,--as-needed)
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
-# The same results on every machine: no fused multiply-add behind our back, no -march=native.
+# Machines are to agree: no fused multiply-add behind our back, no -march=native. (The C library and Eigen have their own on
+# arm64; docs/install.md has what differs.)
 add_compile_options(-ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 sees a mismatch of new and delete in every coroutine frame at -O1 and under sanitizers.

@@ -30,7 +30,7 @@ set(NAVCAL_MAY_INCLUDE_cli base protocols config devices pipeline record ports l
 
 # The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.
 # What lies there may include all of them only from a .cpp. Folders that are not named (calib/thesis) are free.
-set(NAVCAL_ORDER_calib turn magnetometer gps delay swing suite)
+set(NAVCAL_ORDER_calib turn magnetometer gps delay swing reference suite)
 set(NAVCAL_ORDER_gap data actuators replay inference nulls verdict)
 
 # navcal_include_rooms(TARGET ROOM): gives a target the headers of a room, and of what that room may include with what their

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <numbers>
+#include <cmath>
 
+#include "config/column_reader.h"
 #include "config/complaints.h"
 #include "config/suggestion.h"
 #include "protocols/utc.h"
@@ -15,143 +15,23 @@
 namespace navcal::config {
 namespace {
 
-enum class Measure : std::uint8_t {
-  angle,
-  degrees,
-  field,
-  rate,
-  force,
-  length,
-  speed,
-  pressure,
-  turns,
-  voltage,
-  current,
-  anything
-};
-
-struct MeaningRow {
-  std::string_view name;
-  Measure measure;
-};
-
-constexpr std::array<MeaningRow, 36> kMeanings{{
-    {"heading", Measure::angle},
-    {"pitch", Measure::angle},
-    {"roll", Measure::angle},
-    {"field_x", Measure::field},
-    {"field_y", Measure::field},
-    {"field_z", Measure::field},
-    {"rate_x", Measure::rate},
-    {"rate_y", Measure::rate},
-    {"rate_z", Measure::rate},
-    {"force_x", Measure::force},
-    {"force_y", Measure::force},
-    {"force_z", Measure::force},
-    {"lat", Measure::degrees},
-    {"lon", Measure::degrees},
-    {"height", Measure::length},
-    {"height_msl", Measure::length},
-    {"speed", Measure::speed},
-    {"course", Measure::angle},
-    {"climb", Measure::speed},
-    {"depth", Measure::length},
-    {"pressure", Measure::pressure},
-    {"altitude", Measure::length},
-    {"bottom_velocity_x", Measure::speed},
-    {"bottom_velocity_y", Measure::speed},
-    {"bottom_velocity_z", Measure::speed},
-    {"water_velocity_x", Measure::speed},
-    {"water_velocity_y", Measure::speed},
-    {"water_velocity_z", Measure::speed},
-    {"rpm", Measure::turns},
-    {"rpm_commanded", Measure::turns},
-    {"fin_1", Measure::angle},
-    {"fin_2", Measure::angle},
-    {"fin_3", Measure::angle},
-    {"voltage", Measure::voltage},
-    {"current", Measure::current},
-    {"sensor", Measure::anything},
-}};
-
-struct UnitRow {
-  std::string_view name;
-  Measure measure;
-  double factor;
-};
-
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kStandardGravity_m_s2 = 9.80665;
-constexpr double kKnot_m_s = 1852.0 / 3600;
-/// The first unit of each measure is navcal's own, and counts where a column states none.
-constexpr std::array kUnits{UnitRow{"rad", Measure::angle, 1},
-                            UnitRow{"deg", Measure::angle, kDegree},
-                            UnitRow{"deg", Measure::degrees, 1},
-                            UnitRow{"rad", Measure::degrees, 1 / kDegree},
-                            UnitRow{"deg*1e7", Measure::degrees, 1e-7},
-                            UnitRow{"uT", Measure::field, 1},
-                            UnitRow{"nT", Measure::field, 1e-3},
-                            UnitRow{"T", Measure::field, 1e6},
-                            UnitRow{"G", Measure::field, 100},
-                            UnitRow{"mG", Measure::field, 0.1},
-                            UnitRow{"rad/s", Measure::rate, 1},
-                            UnitRow{"deg/s", Measure::rate, kDegree},
-                            UnitRow{"m/s2", Measure::force, 1},
-                            UnitRow{"g", Measure::force, kStandardGravity_m_s2},
-                            UnitRow{"mg", Measure::force, kStandardGravity_m_s2 * 1e-3},
-                            UnitRow{"m", Measure::length, 1},
-                            UnitRow{"cm", Measure::length, 1e-2},
-                            UnitRow{"mm", Measure::length, 1e-3},
-                            UnitRow{"ft", Measure::length, 0.3048},
-                            UnitRow{"m/s", Measure::speed, 1},
-                            UnitRow{"cm/s", Measure::speed, 1e-2},
-                            UnitRow{"mm/s", Measure::speed, 1e-3},
-                            UnitRow{"kn", Measure::speed, kKnot_m_s},
-                            UnitRow{"km/h", Measure::speed, 1 / 3.6},
-                            UnitRow{"Pa", Measure::pressure, 1},
-                            UnitRow{"hPa", Measure::pressure, 100},
-                            UnitRow{"mbar", Measure::pressure, 100},
-                            UnitRow{"kPa", Measure::pressure, 1e3},
-                            UnitRow{"bar", Measure::pressure, 1e5},
-                            UnitRow{"dbar", Measure::pressure, 1e4},
-                            UnitRow{"rpm", Measure::turns, 1},
-                            UnitRow{"rps", Measure::turns, 60},
-                            UnitRow{"V", Measure::voltage, 1},
-                            UnitRow{"mV", Measure::voltage, 1e-3},
-                            UnitRow{"A", Measure::current, 1},
-                            UnitRow{"mA", Measure::current, 1e-3}};
-
 constexpr std::array<std::string_view, 9> kTimes{"unix_s", "unix_ms", "unix_us", "unix_ns", "s",
                                                  "ms",     "us",      "ns",      "iso8601"};
-
-std::vector<std::string> units_of(Measure measure) {
-  std::vector<std::string> names;
-  for (const UnitRow& unit : kUnits) {
-    if (unit.measure == measure) names.emplace_back(unit.name);
-  }
-  return names;
-}
 
 template <class T>
 const T* value_as(const Entry& entry) {
   return std::get_if<T>(&entry.value);
 }
 
-std::optional<double> number_of(const Entry& entry) {
-  if (const auto* real = value_as<double>(entry)) return *real;
-  if (const auto* whole = value_as<std::int64_t>(entry)) return static_cast<double>(*whole);
-  return std::nullopt;
-}
-
 /// Reads the entries of a map one after the other.
 class MapReader {
  public:
-  explicit MapReader(std::vector<Problem>& problems) : problems_(problems) {}
+  explicit MapReader(std::vector<Problem>& problems) : problems_(problems), columns_(problems) {}
 
   void take(const Entry& entry) {
     const std::string& head = entry.keys.front();
     if (head == "time") return take_time(entry);
-    if (head == "column") return take_column(entry);
+    if (head == "column") return columns_.take(entry);
     if (entry.keys.size() > 1 || value_as<Table>(entry) != nullptr)
       return complain(entry, "unknown table; known: time, column");
     take_layout(entry);
@@ -159,21 +39,11 @@ class MapReader {
 
   CsvMap finish() {
     if (map_.time_columns.empty()) problems_.push_back({1, "time.column", "is missing"});
-    if (columns_.empty()) problems_.push_back({1, "column", "a map has a [column.NAME] or more"});
-    for (auto& [name, given] : columns_) finish_column(name, given);
+    map_.columns = columns_.finish();
     return std::move(map_);
   }
 
  private:
-  struct Given {
-    Entry table;
-    CsvColumn column;
-    bool has_meaning = false;
-    std::optional<Entry> unit;
-    double scale = 1;
-    double offset = 0;
-  };
-
   void take_layout(const Entry& entry) {
     const std::string& key = entry.keys.front();
     const auto* text = value_as<std::string>(entry);
@@ -234,76 +104,13 @@ class MapReader {
     }
   }
 
-  void take_column(const Entry& entry) {
-    if (entry.keys.size() == 1) return;
-    Given& given = columns_[entry.keys[1]];
-    if (entry.keys.size() == 2) {
-      given.table = entry;
-      return;
-    }
-    const std::string& key = entry.keys[2];
-    const auto* text = value_as<std::string>(entry);
-    const auto number = number_of(entry);
-    if (key == "meaning") {
-      const auto found = std::find_if(kMeanings.begin(), kMeanings.end(),
-                                      [&](const MeaningRow& row) { return text != nullptr && row.name == *text; });
-      if (found == kMeanings.end())
-        return complain(entry, fmt::format("one of {} is expected", fmt::join(csv_meanings(), ", ")));
-      given.column.meaning = static_cast<CsvMeaning>(found - kMeanings.begin());
-      given.has_meaning = true;
-    } else if (key == "unit" && text != nullptr) {
-      given.unit = entry;
-    } else if (key == "quantity" && text != nullptr) {
-      given.column.quantity = *text;
-    } else if (key == "scale" && number && *number != 0) {
-      given.scale = *number;
-    } else if (key == "offset" && number) {
-      given.offset = *number;
-    } else if (key == "instance" && value_as<std::int64_t>(entry) != nullptr && *number >= 1 && *number <= 9) {
-      given.column.instance = static_cast<int>(*number) - 1;
-    } else {
-      const std::vector<std::string> known{"meaning", "unit", "quantity", "scale", "offset", "instance"};
-      const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
-      complain(entry, is_known ? "cannot be " + words_for(entry.value) : "unknown key" + suggestion(key, known));
-    }
-  }
-
-  void finish_column(const std::string& name, Given& given) {
-    if (given.table.keys.empty()) given.table.keys = {"column", name};
-    if (!given.has_meaning) return complain(given.table, "meaning is missing");
-    const Measure measure = kMeanings[static_cast<std::size_t>(given.column.meaning)].measure;
-    CsvColumn column = given.column;
-    column.name = name;
-    double factor = 1;
-    if (measure == Measure::anything) {
-      if (column.quantity.empty()) column.quantity = name;
-      if (given.unit) column.unit = std::get<std::string>(given.unit->value);
-      // A sample keeps this much of them (instruments/samples.h).
-      constexpr std::size_t kLongestQuantity = 24, kLongestUnit = 16;
-      if (column.quantity.size() > kLongestQuantity || column.unit.size() > kLongestUnit)
-        return complain(given.table, fmt::format("quantity has at most {} bytes, unit at most {}",
-                                                 kLongestQuantity, kLongestUnit));
-    } else if (given.unit) {
-      const auto& wanted = std::get<std::string>(given.unit->value);
-      const auto found = std::find_if(kUnits.begin(), kUnits.end(), [&](const UnitRow& unit) {
-        return unit.measure == measure && unit.name == wanted;
-      });
-      if (found == kUnits.end())
-        return complain(*given.unit, fmt::format("one of {} is expected", fmt::join(units_of(measure), ", ")));
-      factor = found->factor;
-    }
-    column.factor = given.scale * factor;
-    column.offset = given.offset * factor;
-    map_.columns.push_back(std::move(column));
-  }
-
   void complain(const Entry& entry, std::string message) {
     problems_.push_back({entry.line, entry.name(), std::move(message)});
   }
 
   std::vector<Problem>& problems_;
   CsvMap map_;
-  std::map<std::string, Given> columns_;
+  ColumnReader columns_;
 };
 
 std::optional<int> digits(std::string_view text, std::size_t first, std::size_t count) {
@@ -342,10 +149,19 @@ std::optional<std::int64_t> zone_ns(std::string_view text) {
 
 }  // namespace
 
-std::vector<std::string> csv_meanings() {
-  std::vector<std::string> names;
-  for (const MeaningRow& row : kMeanings) names.emplace_back(row.name);
-  return names;
+double CsvColumn::value(double number) const {
+  if (curve.empty()) return number * factor + offset;
+  if (number <= curve.front().from) return curve.front().to;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const CurvePoint &before = curve[i - 1], &after = curve[i];
+    if (number <= after.from)
+      return std::lerp(before.to, after.to, (number - before.from) / (after.from - before.from));
+  }
+  return curve.back().to;
+}
+
+bool CsvColumn::is_beyond(double number) const {
+  return !curve.empty() && (number < curve.front().from || number > curve.back().from);
 }
 
 std::optional<std::int64_t> parse_iso_time(std::string_view text) {
@@ -371,6 +187,33 @@ CsvMap parse_csv_map(std::string_view toml, std::string_view name) {
   CsvMap map = reader.finish();
   refuse(std::move(problems), name);
   return map;
+}
+
+ChannelMap parse_channel_map(std::string_view toml, std::string_view name) {
+  std::vector<Problem> problems;
+  const auto entries = read_document(toml, problems);
+  if (!problems.empty()) refuse(problems, name);
+  ColumnReader reader(problems);
+  for (const Entry& entry : entries) {
+    if (entry.keys.front() == "column") {
+      reader.take(entry);
+    } else {
+      problems.push_back(
+          {entry.line, entry.name(), "only tables [column.NAME] are known: the log says the rest itself"});
+    }
+  }
+  ChannelMap map{std::string(name), reader.finish()};
+  for (const CsvColumn& channel : map.channels) {
+    if (is_motor_meaning(channel.meaning)) continue;
+    problems.push_back({channel.line, "column." + channel.name + ".meaning",
+                        fmt::format("one of {} is expected", fmt::join(motor_meanings(), ", "))});
+  }
+  refuse(std::move(problems), name);
+  return map;
+}
+
+ChannelMap load_channel_map(const std::filesystem::path& file) {
+  return parse_channel_map(content_of(file), file.string());
 }
 
 CsvMap load_csv_map(const std::filesystem::path& file) { return parse_csv_map(content_of(file), file.string()); }

@@ -8,48 +8,17 @@
 #include <string_view>
 #include <vector>
 
+#include "config/column_meaning.h"
+
 namespace navcal::config {
 
-/// What a column of a CSV file can mean. The values are in the order of the names that a map uses.
-enum class CsvMeaning : std::uint8_t {
-  heading,
-  pitch,
-  roll,
-  field_x,
-  field_y,
-  field_z,
-  rate_x,
-  rate_y,
-  rate_z,
-  force_x,
-  force_y,
-  force_z,
-  lat,
-  lon,
-  height,
-  height_msl,
-  speed,
-  course,
-  climb,
-  depth,
-  pressure,
-  altitude,
-  bottom_velocity_x,
-  bottom_velocity_y,
-  bottom_velocity_z,
-  water_velocity_x,
-  water_velocity_y,
-  water_velocity_z,
-  rpm,
-  rpm_commanded,
-  fin_1,
-  fin_2,
-  fin_3,
-  voltage,
-  current,
-  sensor,
+/// A corner of a curve.
+struct CurvePoint {
+  double from = 0;  ///< number in the file
+  double to = 0;    ///< value in navcal's unit
 };
 
+/// A column of a CSV file, or a channel of another log ("RCOU.C1").
 struct CsvColumn {
   std::string name;  ///< as the header line has it; "1", "2", ... where there is none
   CsvMeaning meaning = CsvMeaning::sensor;
@@ -58,6 +27,14 @@ struct CsvColumn {
   int instance = 0;      ///< 0 for the first instrument of its kind
   std::string quantity;  ///< of a sensor
   std::string unit;      ///< of a sensor, as the file states it
+  /// Instead of factor and offset: straight lines between these, `from` increasing. Empty, or two and more.
+  std::vector<CurvePoint> curve;
+  unsigned line = 0;  ///< of its table in the map
+
+  /// Value in navcal's unit. Beyond a curve it is that of the curve's end.
+  [[nodiscard]] double value(double number) const;
+  /// Whether a curve is there that does not reach so far.
+  [[nodiscard]] bool is_beyond(double number) const;
 };
 
 enum class CsvTime : std::uint8_t {
@@ -90,8 +67,15 @@ struct CsvMap {
 [[nodiscard]] CsvMap parse_csv_map(std::string_view toml, std::string_view name);
 [[nodiscard]] CsvMap load_csv_map(const std::filesystem::path& file);
 
-/// The names of CsvMeaning, such as "heading".
-[[nodiscard]] std::vector<std::string> csv_meanings();
+/// Meaning of the channels of a log that describes itself, such as DataFlash.
+struct ChannelMap {
+  std::string file;  ///< for messages
+  std::vector<CsvColumn> channels;
+};
+
+/// A map that has tables [column.NAME] only, of shaft and fins. Throws Error as above.
+[[nodiscard]] ChannelMap parse_channel_map(std::string_view toml, std::string_view name);
+[[nodiscard]] ChannelMap load_channel_map(const std::filesystem::path& file);
 
 /// "2024-05-01T12:00:00.25Z", with `+02:00` instead of Z, or neither (then UTC); a blank may stand for T.
 [[nodiscard]] std::optional<std::int64_t> parse_iso_time(std::string_view text);

@@ -20,6 +20,8 @@ constexpr std::array<std::string_view, kRoles.size()> kDescriptions{
     "Port of the echo sounder that gives the height above the sea floor. Empty: the first that delivers.",
     "Port of the Doppler log that gives the velocity over the bottom. Empty: the first that delivers.",
     "Port of the Doppler log that gives the velocity through the water. Empty: as for bottom_velocity.",
+    "Port that gives a true heading which the compass is calibrated against: a receiver with two antennas, a gyro "
+    "compass, a survey. Empty: none.",
 };
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace navcal::config {
 
 std::string_view name_of(Role role) {
   constexpr std::array<std::string_view, kRoles.size()> kNames{
-      "heading",  "field", "rates",    "acceleration",    "depth",         "position",
-      "velocity", "shaft", "altitude", "bottom_velocity", "water_velocity"};
+      "heading",  "field", "rates",    "acceleration",    "depth",          "position",
+      "velocity", "shaft", "altitude", "bottom_velocity", "water_velocity", "heading_reference"};
   return kNames.at(static_cast<std::size_t>(role));
 }
 
@@ -19,6 +19,7 @@ namespace {
 bool delivers_role(const protocols::Delivery& delivers, Role role) {
   switch (role) {
     case Role::heading:
+    case Role::heading_reference:
       return delivers.heading;
     case Role::field:
       return delivers.field;
@@ -76,6 +77,7 @@ Role leader_of(Role role) {
     case Role::shaft:
     case Role::altitude:
     case Role::bottom_velocity:
+    case Role::heading_reference:
       break;
   }
   return role;

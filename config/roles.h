@@ -21,12 +21,14 @@ enum class Role : std::uint8_t {
   velocity,  ///< over ground, by a receiver
   shaft,
   altitude,
-  bottom_velocity,  ///< over the bottom, by a Doppler log
-  water_velocity    ///< through the water, likewise
+  bottom_velocity,   ///< over the bottom, by a Doppler log
+  water_velocity,    ///< through the water, likewise
+  heading_reference  ///< true heading that the compass is calibrated against; of a port that the operator names
 };
-inline constexpr std::array kRoles{Role::heading,  Role::field,           Role::rates,         Role::acceleration,
-                                   Role::depth,    Role::position,        Role::velocity,      Role::shaft,
-                                   Role::altitude, Role::bottom_velocity, Role::water_velocity};
+inline constexpr std::array kRoles{Role::heading,         Role::field,          Role::rates,
+                                   Role::acceleration,    Role::depth,          Role::position,
+                                   Role::velocity,        Role::shaft,          Role::altitude,
+                                   Role::bottom_velocity, Role::water_velocity, Role::heading_reference};
 
 /// As in the table [roles] of the configuration: "heading", "field", ..., "bottom_velocity".
 [[nodiscard]] std::string_view name_of(Role role);

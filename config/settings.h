@@ -101,7 +101,7 @@ struct StatusSettings {
   std::uint32_t client_queue_bytes = 128'000;
   std::uint32_t max_clients = 256;
   double health_interval_s = 1.0;
-  double nmea_heading_std_rad = 0.05235987755982989;  ///< largest standard error of a heading in HDT: 3 degrees
+  double nmea_heading_std_rad = 0.05235987755982988;  ///< largest standard error of a heading in HDT: 3 degrees
 
   bool operator==(const StatusSettings&) const = default;
 };

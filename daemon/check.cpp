@@ -43,9 +43,9 @@ void append_sources(std::string& out, const config::Settings& settings) {
     const std::string_view name = config::name_of(role);
     const std::string own = names_of(settings, pipeline::candidates(settings, role));
     if (own.empty()) {
-      // Without an echo sounder or a Doppler log nothing else is missing.
-      const bool is_extra =
-          role == Role::altitude || role == Role::bottom_velocity || role == Role::water_velocity;
+      // Without an echo sounder, a Doppler log or a reference nothing else is missing.
+      const bool is_extra = role == Role::altitude || role == Role::bottom_velocity ||
+                            role == Role::water_velocity || role == Role::heading_reference;
       if (!is_extra) missing.emplace_back(name);
     } else if (own == ports) {
       groups.back().insert(groups.back().rfind(" by "), fmt::format(" and {}", name));
@@ -66,7 +66,8 @@ void append_calibration(std::string& out, const config::Settings& settings) {
     return;
   }
   std::vector<std::string> learnt;
-  for (const Role role : {pipeline::compass_role(settings), Role::rates, Role::position, Role::shaft}) {
+  for (const Role role :
+       {pipeline::compass_role(settings), Role::rates, Role::position, Role::shaft, Role::heading_reference}) {
     std::string name = names_of(settings, pipeline::learnable(settings, role));
     const bool is_new = std::find(learnt.begin(), learnt.end(), name) == learnt.end();
     if (!name.empty() && is_new) learnt.push_back(std::move(name));

@@ -71,6 +71,10 @@ FrameClock::FrameClock(double rate_Hz, double latency_std_s)
       timing_(rate_Hz > 0 ? Timing::searching : Timing::arrival),
       model_(rate_Hz > 0 ? nominal_s_ : 1.0) {}
 
+std::int64_t FrameClock::arrival_std_ns() const {
+  return ns(std::hypot(nominal_s_ > 0 ? kUnknownStd_s : kArrivalStd_s, latency_std_s_));
+}
+
 FrameClock::Outcome FrameClock::by_device(const FrameObservation& frame) {
   if (!device_) device_.emplace(nominal_s_);
   DeviceClock::Outcome outcome = device_->update(frame);

@@ -35,6 +35,8 @@ class FrameClock {
   [[nodiscard]] std::uint64_t lost() const { return lost_ + (device_ ? device_->lost() : 0); }
   [[nodiscard]] std::uint64_t repeated() const { return repeated_ + (device_ ? device_->repeated() : 0); }
   [[nodiscard]] ClockState state() const;
+  /// Standard deviation of a time that follows from the arrival alone, with the uncertainty of the latency.
+  [[nodiscard]] std::int64_t arrival_std_ns() const;
 
  private:
   Outcome by_device(const FrameObservation& frame);

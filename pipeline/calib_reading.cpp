@@ -27,6 +27,14 @@ calib::CompassReading calib_reading(const instruments::CompassSample& compass, c
   return reading;
 }
 
+std::optional<calib::ReferenceReading> reference_reading(const instruments::CompassSample& compass,
+                                                         const instruments::Stamp& stamp, double time_s) {
+  if (!compass.heading_is_true || !compass.heading_rad || !(compass.heading_std_rad.value_or(0) > 0))
+    return std::nullopt;
+  return calib::ReferenceReading{time_s, 1e-9 * static_cast<double>(stamp.std_ns), *compass.heading_rad,
+                                 *compass.heading_std_rad};
+}
+
 std::optional<calib::RateReading> calib_reading(const instruments::ImuSample& imu, const instruments::Stamp& stamp,
                                                 double time_s) {
   if (!imu.rate_rad_s) return std::nullopt;

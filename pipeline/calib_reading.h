@@ -17,4 +17,9 @@ namespace navcal::pipeline {
 [[nodiscard]] std::optional<calib::RateReading> calib_reading(const instruments::ImuSample& imu,
                                                               const instruments::Stamp& stamp, double time_s);
 
+/// A true heading as a reference; nullopt without one, or without its standard error.
+[[nodiscard]] std::optional<calib::ReferenceReading> reference_reading(const instruments::CompassSample& compass,
+                                                                       const instruments::Stamp& stamp,
+                                                                       double time_s);
+
 }  // namespace navcal::pipeline

@@ -10,11 +10,11 @@
 
 namespace navcal::pipeline {
 
-/// The ports that serve heading, rates, position and shaft speed.
+/// The ports that serve heading, rates, position, shaft speed and the reference of the heading.
 struct CalibratedPorts {
-  std::optional<std::uint16_t> compass, imu, gps, motor;
+  std::optional<std::uint16_t> compass, imu, gps, motor, reference;
   [[nodiscard]] calib::Instruments instruments() const {
-    return {compass.has_value(), imu.has_value(), gps.has_value(), motor.has_value()};
+    return {compass.has_value(), imu.has_value(), gps.has_value(), motor.has_value(), reference.has_value()};
   }
 };
 /// Before anything has come: the best of each kind by the configuration (Sources).

@@ -69,6 +69,10 @@ void CalibrationStage::learn(const instruments::Sample& original, Sink& sink) {
 }
 
 void CalibrationStage::learn_from(const instruments::Sample& sample, const instruments::CompassSample& compass) {
+  if (sample.port == ports_.reference) {
+    if (const auto reference = reference_reading(compass, sample.stamp, seconds(sample.stamp.validity_ns)))
+      suite_.put(*reference);
+  }
   // NMEA's lines of tilt or rate of turn alone are no readings of a heading.
   if (!compass.heading_rad && !compass.field_body_uT && !compass.error) return;
   if (sample.port == ports_.compass)
@@ -177,9 +181,15 @@ void CalibrationStage::begin_run() {
 }
 
 void CalibrationStage::archive(calib::Archive& archive) {
-  archive.tag("calibration_stage 3");
+  const bool has_reference =
+      archive.tag_either("calibration_stage 3", "calibration_stage 4", ports_.reference.has_value());
   archive(suite_, newest_ns_, origin_ns_, origin_latitude_rad_, origin_longitude_rad_, motor_current_A_,
           motor_current_ns_, field_place_, ports_.compass, ports_.imu, ports_.gps, ports_.motor);
+  if (has_reference) {
+    archive(ports_.reference);
+  } else {
+    ports_.reference.reset();
+  }
 }
 
 }  // namespace navcal::pipeline

@@ -19,6 +19,9 @@ constexpr std::int64_t kSilenceMargin_ns = 250'000'000;
 constexpr std::int64_t kAhead_ns = base::kSecond_ns;
 constexpr std::int64_t kMostBound_ns = 3600 * base::kSecond_ns;
 
+// A stamp that would be better than the resolution of its time is not stated.
+constexpr std::int64_t kLeastStd_ns = 1;
+
 }  // namespace
 
 PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, const StandardErrors& errors,
@@ -75,6 +78,7 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   sample.port = port_;
   sample.stamp.arrival_ns = place_.arrival_ns;
   sample.stamp.validity_ns = observed_ns;
+  sample.stamp.std_ns = clock_.arrival_std_ns();
   if (!measurement.paces && repeated_) return;
   if (!measurement.paces && paced_) {
     sample.stamp.validity_ns = paced_->time_ns;
@@ -99,6 +103,7 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
     ++statistics_.out_of_range;
     return;
   }
+  sample.stamp.std_ns = std::max(sample.stamp.std_ns, kLeastStd_ns);
   const auto stated_utc_ns = measurement.by_sender ? measurement.by_sender->utc_ns : measurement.stated_utc_ns;
   sample.stamp.arrival_utc_ns = mapping_.to_utc(sample.stamp.arrival_ns);
   sample.stamp.validity_utc_ns = stated_utc_ns ? *stated_utc_ns : mapping_.to_utc(sample.stamp.validity_ns);
@@ -110,7 +115,9 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
 }
 
 bool PortStream::place(const instruments::SenderTime& time, instruments::Stamp& stamp) const {
-  stamp.std_ns = time.std_ns.value_or(latency_std_ns_);
+  // No sender knows a time exactly: a stated error of 0 says nothing.
+  const std::int64_t stated_ns = time.std_ns.value_or(0);
+  if (stated_ns > 0 || latency_std_ns_ > 0) stamp.std_ns = stated_ns > 0 ? stated_ns : latency_std_ns_;
   // Without a mapping the sender's UTC says nothing of our clock.
   if (!time.utc_ns || mapping_.source == UtcMapping::Source::none) return true;
   stamp.validity_ns = *time.utc_ns - mapping_.offset_ns;

@@ -21,6 +21,7 @@ constexpr double kLarger = 1.2;
 RoleSet roles_of(const instruments::CompassSample& compass) {
   RoleSet roles;
   if (compass.heading_rad) roles.add(Role::heading);
+  if (compass.heading_rad && compass.heading_is_true) roles.add(Role::heading_reference);
   if (compass.field_body_uT) {
     roles.add(Role::field);
     roles.add(Role::heading);  // which follows from the field and the tilt
@@ -105,7 +106,10 @@ RoleSet roles_of(const instruments::Sample& sample) {
 std::vector<std::uint16_t> candidates(const config::Settings& settings, Role role) {
   std::vector<std::uint16_t> ports;
   for (std::size_t i = 0; i < settings.ports.size(); ++i) {
-    if (config::can_deliver(settings.ports[i], role)) ports.push_back(static_cast<std::uint16_t>(i));
+    const auto port = static_cast<std::uint16_t>(i);
+    // No device is a reference by itself: most true headings are those of a magnetometer.
+    const bool may_serve = role != Role::heading_reference || is_chosen(settings, port, role);
+    if (may_serve && config::can_deliver(settings.ports[i], role)) ports.push_back(port);
   }
   std::stable_sort(ports.begin(), ports.end(), [&](std::uint16_t a, std::uint16_t b) {
     return rank(settings, a, role) < rank(settings, b, role);
@@ -130,7 +134,8 @@ Role compass_role(const config::Settings& settings) {
 
 CalibratedPorts calibrated_ports(const config::Settings& settings) {
   const RolePorts first = Sources(settings).serving();
-  return {first[compass_role(settings)], first[Role::rates], first[Role::position], first[Role::shaft]};
+  return {first[compass_role(settings)], first[Role::rates], first[Role::position], first[Role::shaft],
+          first[Role::heading_reference]};
 }
 
 Sources::Sources(const config::Settings& settings) : compass_role_(pipeline::compass_role(settings)) {
@@ -241,7 +246,7 @@ CalibratedPorts Sources::learnt() const {
     const Service& it = service(role);
     return it.learnt && !it.candidates.empty() ? std::optional(it.candidates[*it.learnt].port) : std::nullopt;
   };
-  return {of(compass_role_), of(Role::rates), of(Role::position), of(Role::shaft)};
+  return {of(compass_role_), of(Role::rates), of(Role::position), of(Role::shaft), of(Role::heading_reference)};
 }
 
 void Sources::go_on_with(const CalibratedPorts& learnt) {
@@ -255,6 +260,7 @@ void Sources::go_on_with(const CalibratedPorts& learnt) {
   set(Role::rates, learnt.imu);
   set(Role::position, learnt.gps);
   set(Role::shaft, learnt.motor);
+  set(Role::heading_reference, learnt.reference);
 }
 
 }  // namespace navcal::pipeline

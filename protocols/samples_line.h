@@ -99,6 +99,8 @@ class LineWriter {
   LineWriter& number(std::string_view key, double value);
   LineWriter& number(std::string_view key, const std::optional<double>& value);
   LineWriter& vector(std::string_view key, const std::array<double, 3>& values);
+  /// A list in which an absent value, and one that is not finite, is null.
+  LineWriter& three(std::string_view key, const std::array<std::optional<double>, 3>& values);
   /// Bytes that are no UTF-8 become U+FFFD.
   LineWriter& text(std::string_view key, std::string_view value);
   LineWriter& boolean(std::string_view key, bool value);

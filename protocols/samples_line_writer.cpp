@@ -99,6 +99,20 @@ LineWriter& LineWriter::vector(std::string_view key, const std::array<double, 3>
   return *this;
 }
 
+LineWriter& LineWriter::three(std::string_view key, const std::array<std::optional<double>, 3>& values) {
+  begin(key);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    line_ += i == 0 ? '[' : ',';
+    if (values[i] && std::isfinite(*values[i])) {
+      append_shortest(line_, *values[i]);
+    } else {
+      line_ += "null";
+    }
+  }
+  line_ += ']';
+  return *this;
+}
+
 LineWriter& LineWriter::text(std::string_view key, std::string_view value) {
   begin(key);
   line_ += '"';

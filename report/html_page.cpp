@@ -69,6 +69,7 @@ svg text.halo { fill:var(--ink); stroke:var(--card); stroke-width:3px; paint-ord
 .line.before, .dots.before { stroke:var(--before); }
 .line.after, .dots.after, .line.first, .dots.first { stroke:var(--after); }
 .line.fit, .dots.fit { stroke:var(--fit); }
+.dots.second { stroke:var(--second); } .dots.third { stroke:var(--third); } .dots.fourth { stroke:var(--fourth); }
 .line.second { stroke:var(--second); } .line.third { stroke:var(--third); } .line.fourth { stroke:var(--fourth); }
 .area.before, .area.second { fill:var(--second); } .area.after, .area.first { fill:var(--after); }
 .area.fit { fill:var(--fit); } .area.third { fill:var(--third); } .area.fourth { fill:var(--fourth); }

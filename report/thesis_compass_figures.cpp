@@ -70,7 +70,7 @@ ThesisFigure compass_figure(const CompassFigure& figure, const ThesisCompassTrac
 /// Figure 4.1: the injected deviation and its two parts, with the eight points of a classical swing.
 ThesisFigure deviation_figure() {
   ThesisCurve hard{"hard iron, B and C", Ink::first, {}, {}}, soft{"soft iron, D and E", Ink::third, {}, {}};
-  ThesisCurve sum{"both", Ink::second, {}, {}}, swing{"swing", Ink::fit, {}, {}, true};
+  ThesisCurve sum{"both", Ink::second, {}, {}}, swing{"swing on eight headings", Ink::fit, {}, {}};
   calib::thesis::Deviation only_hard = calib::thesis::thesis_deviation(), only_soft = only_hard;
   only_hard.tail<2>().setZero();
   only_soft.segment<2>(1).setZero();
@@ -86,16 +86,16 @@ ThesisFigure deviation_figure() {
     swing.x.push_back(heading_deg);
     swing.y.push_back(of_hard + of_soft);
   }
-  return {
-      "4.1",
-      "Deviation of the compass",
-      "E of equation (2.7) with the injected B = 5, C = -5, D = 2, E = 2 degrees, and the eight headings at which "
-      "a classical swing measures it. What the thesis draws in this figure is not on record; this is our drawing "
-      "of the deviation that all figures of this chapter are about.",
-      {{"Deviation E",
-        "measured heading, degrees",
-        "degrees",
-        {std::move(hard), std::move(soft), std::move(sum), std::move(swing)}}}};
+  return {"4.1",
+          "Deviation of the compass",
+          "E of equation (2.7) with the injected B = 5, C = -5, D = 2, E = 2 degrees, and what a classical swing "
+          "on eight headings makes of it, linear between them. What the thesis draws in this figure is not on "
+          "record; this is our drawing "
+          "of the deviation that all figures of this chapter are about.",
+          {{"Deviation E",
+            "measured heading, degrees",
+            "degrees",
+            {std::move(hard), std::move(soft), std::move(sum), std::move(swing)}}}};
 }
 
 }  // namespace

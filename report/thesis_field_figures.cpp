@@ -72,6 +72,9 @@ ThesisFigure ellipse_figure() {
   const calib::EllipseShape shape = calib::thesis::distorted_circle(distortion);
   const double axis_rad = distortion.axis_deg * base::kRadiansPerDegree;
   const Eigen::Vector2d half = calib::thesis::kCircle_uT * Eigen::Vector2d(std::cos(axis_rad), std::sin(axis_rad));
+  const double minor = std::sqrt(1 - distortion.eccentricity * distortion.eccentricity);
+  const Eigen::Vector2d across = minor * Eigen::Vector2d(-half.y(), half.x());
+  const Eigen::Vector2d left = shape.centre_uT - across, right = shape.centre_uT + across;
   const Eigen::Vector2d begin = shape.centre_uT - half, end = shape.centre_uT + half;
   return {
       "4.7",
@@ -85,7 +88,7 @@ ThesisFigure ellipse_figure() {
         {ellipse_curve("measured", Ink::second, shape),
          ellipse_curve("calibrated", Ink::first, calib::thesis::distorted_circle({})),
          {"major axis", Ink::fit, {begin.y(), end.y()}, {begin.x(), end.x()}},
-         {"centre", Ink::third, {shape.centre_uT.y()}, {shape.centre_uT.x()}, true}},
+         {"minor axis", Ink::third, {left.y(), right.y()}, {left.x(), right.x()}}},
         true}}};
 }
 

@@ -47,6 +47,8 @@ Range range_over(const ThesisPanel& panel, std::vector<double> ThesisCurve::*axi
 std::string panel_svg(const ThesisPanel& panel, SvgPlot::Size size) {
   Range x = range_over(panel, &ThesisCurve::x);
   Range y = panel.y_range.value_or(range_over(panel, &ThesisCurve::y));
+  // Rounding errors of computing are no curve.
+  if (y.length() < 1e-9) y = {-1, 1};
   if (panel.equal_axes) {
     // The frame is wider than high; a metre is as long on both axes.
     const double width = size.width - SvgPlot::kLeft - SvgPlot::kRight;

@@ -38,7 +38,7 @@ struct Options {
   std::string token_file;
   std::string track;
   std::vector<std::string> host_names;
-  web::OutletOptions outlets{NAVCAL_VERSION};
+  web::OutletOptions outlets{.version = NAVCAL_VERSION};
 };
 
 /// The exit status when the command line has said it all: help, version, or a mistake.
@@ -67,6 +67,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   try {
     app.parse(argc, argv);
     if (options.status.rfind(':') == std::string::npos) throw CLI::ValidationError("--status", "wants HOST:PORT");
+    web::check_outlet_options(options.outlets, options.status);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kStopped : kUsage;
   }

@@ -121,6 +121,7 @@ class CsvFile {
   std::size_t width_ = 0;
   std::string text_;
   std::vector<std::optional<double>> values_;
+  std::vector<std::uint64_t> beyond_;  ///< values of each column beyond its curve
 };
 
 bool CsvFile::next_line() {
@@ -166,6 +167,7 @@ void CsvFile::read_header() {
   for (const std::size_t place : places_) width_ = std::max(width_, place + 1);
   if (map_.header > 0) width_ = names_.size();
   values_.resize(places_.size());
+  beyond_.resize(places_.size());
 }
 
 std::optional<double> CsvFile::number(std::string_view cell) {
@@ -211,7 +213,8 @@ void CsvFile::take_row(bool is_last) {
     const std::string_view cell = cells_[places_[i]];
     const auto raw = number(cell);
     if (!raw && !cell.empty()) sink_.left(fmt::format("{} (no number)", map_.columns[i].name));
-    values_[i] = raw ? std::optional(*raw * map_.columns[i].factor + map_.columns[i].offset) : std::nullopt;
+    values_[i] = raw ? std::optional(map_.columns[i].value(*raw)) : std::nullopt;
+    if (raw && map_.columns[i].is_beyond(*raw)) ++beyond_[i];
   }
   samples_.emit(*time, values_, sink_);
 }
@@ -224,6 +227,13 @@ ImportFindings CsvFile::read() {
   while (next_line()) {
     take_row(at_ == file_.size());
     if (at_ - told >= kProgressBytes) sink_.progress(told = at_);
+  }
+  for (std::size_t i = 0; i < beyond_.size(); ++i) {
+    if (beyond_[i] == 0) continue;
+    const config::CsvColumn& column = map_.columns[i];
+    findings_.remarks.push_back(fmt::format("{}: {} values lie beyond {} to {}, and count as its ends",
+                                            column.name, beyond_[i], column.curve.front().from,
+                                            column.curve.back().from));
   }
   return std::move(findings_);
 }

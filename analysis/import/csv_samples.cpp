@@ -20,16 +20,19 @@ struct Target {
   std::string_view class_name;
   PortKind port;
   std::string_view key;
-  int components = 1;  ///< 3: this is the x of a vector
+  CsvSamples::Shape shape = CsvSamples::Shape::number;  ///< others: this is the first of three meanings in a row
 };
 
 constexpr std::array kTargets{
     Target{CsvMeaning::heading, "COMPASS", PortKind::compass, "heading_rad"},
     Target{CsvMeaning::pitch, "COMPASS", PortKind::compass, "pitch_rad"},
     Target{CsvMeaning::roll, "COMPASS", PortKind::compass, "roll_rad"},
-    Target{CsvMeaning::field_x, "COMPASS", PortKind::compass, "field_body_uT", 3},
-    Target{CsvMeaning::rate_x, "IMU", PortKind::imu, "rate_rad_s", 3},
-    Target{CsvMeaning::force_x, "IMU", PortKind::imu, "specific_force_m_s2", 3},
+    Target{CsvMeaning::compass_temperature, "COMPASS", PortKind::compass, "temperature_C"},
+    Target{CsvMeaning::field_x, "COMPASS", PortKind::compass, "field_body_uT", CsvSamples::Shape::vector},
+    Target{CsvMeaning::rate_x, "IMU", PortKind::imu, "rate_rad_s", CsvSamples::Shape::vector},
+    Target{CsvMeaning::rate_yaw_b, "IMU", PortKind::imu, "yaw_rate_b_rad_s"},
+    Target{CsvMeaning::imu_depth, "IMU", PortKind::imu, "depth_m"},
+    Target{CsvMeaning::force_x, "IMU", PortKind::imu, "specific_force_m_s2", CsvSamples::Shape::vector},
     Target{CsvMeaning::lat, "GPS", PortKind::gps, "lat"},
     Target{CsvMeaning::lon, "GPS", PortKind::gps, "lon"},
     Target{CsvMeaning::height, "GPS", PortKind::gps, "height_m"},
@@ -40,11 +43,12 @@ constexpr std::array kTargets{
     Target{CsvMeaning::depth, "DEPTH", PortKind::depth, "depth_m"},
     Target{CsvMeaning::pressure, "DEPTH", PortKind::depth, "pressure_Pa"},
     Target{CsvMeaning::altitude, "ALTIMETER", PortKind::altimeter, "altitude_m"},
-    Target{CsvMeaning::bottom_velocity_x, "DVL", PortKind::dvl, "bottom_velocity_m_s", 3},
-    Target{CsvMeaning::water_velocity_x, "DVL", PortKind::dvl, "water_velocity_m_s", 3},
+    Target{CsvMeaning::bottom_velocity_x, "DVL", PortKind::dvl, "bottom_velocity_m_s", CsvSamples::Shape::vector},
+    Target{CsvMeaning::water_velocity_x, "DVL", PortKind::dvl, "water_velocity_m_s", CsvSamples::Shape::vector},
     Target{CsvMeaning::rpm, "MOTOR", PortKind::motor, "rpm"},
     Target{CsvMeaning::rpm_commanded, "MOTOR", PortKind::motor, "rpm_commanded"},
-    Target{CsvMeaning::fin_1, "MOTOR", PortKind::motor, "fins_rad", 3},
+    Target{CsvMeaning::fin_1, "MOTOR", PortKind::motor, "fins_rad", CsvSamples::Shape::three},
+    Target{CsvMeaning::motor_current, "MOTOR", PortKind::motor, "current_A"},
     Target{CsvMeaning::voltage, "POWER", PortKind::battery, "voltage_V"},
     Target{CsvMeaning::current, "POWER", PortKind::battery, "current_A"},
 };
@@ -54,6 +58,16 @@ bool is_heading(std::string_view key) { return key == "heading_rad" || key == "c
 
 }  // namespace
 
+CsvSamples::Group& CsvSamples::group_of(std::string_view class_name, std::string_view port) {
+  const auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
+    return group.port == port && group.class_name == class_name;
+  });
+  if (found != groups_.end()) return *found;
+  groups_.push_back(
+      {std::string(class_name), std::string(port), fmt::format("{} {}", class_name, port), {}, {}, {}});
+  return groups_.back();
+}
+
 CsvSamples::CsvSamples(const config::CsvMap& map) {
   const auto place_of = [&](CsvMeaning meaning, int instance) -> std::optional<std::size_t> {
     for (std::size_t i = 0; i < map.columns.size(); ++i) {
@@ -61,27 +75,19 @@ CsvSamples::CsvSamples(const config::CsvMap& map) {
     }
     return std::nullopt;
   };
+  constexpr int kInstances = 9;
   for (const Target& target : kTargets) {
-    for (std::size_t i = 0; i < map.columns.size(); ++i) {
-      const auto& column = map.columns[i];
-      if (column.meaning != target.meaning) continue;
-      const std::string port(port_name(target.port, column.instance));
-      auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) {
-        return g.port == port && g.class_name == target.class_name;
-      });
-      if (group == groups_.end()) {
-        groups_.push_back(
-            {std::string(target.class_name), port, fmt::format("{} {}", target.class_name, port), {}, {}, {}});
-        group = groups_.end() - 1;
+    for (int instance = 0; instance < kInstances; ++instance) {
+      Member member{target.shape, {}, std::string(target.key)};
+      const std::size_t count = target.shape == Shape::number ? 1 : member.columns.size();
+      std::size_t found = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        member.columns[i] =
+            place_of(static_cast<CsvMeaning>(static_cast<std::size_t>(target.meaning) + i), instance);
+        if (member.columns[i]) ++found;
       }
-      Member member{i, {}, {}, std::string(target.key)};
-      if (target.components == 3) {
-        const auto next = [&](int n) { return static_cast<CsvMeaning>(static_cast<int>(target.meaning) + n); };
-        member.second = place_of(next(1), column.instance);
-        member.third = place_of(next(2), column.instance);
-        if (!member.second || !member.third) continue;
-      }
-      group->members.push_back(std::move(member));
+      if (found == 0 || (target.shape == Shape::vector && found < count)) continue;
+      group_of(target.class_name, port_name(target.port, instance)).members.push_back(std::move(member));
     }
   }
   for (std::size_t i = 0; i < map.columns.size(); ++i) {
@@ -90,10 +96,32 @@ CsvSamples::CsvSamples(const config::CsvMap& map) {
     groups_.push_back({"SENSOR",
                        std::string(port_name(PortKind::sensors, column.instance)),
                        fmt::format("SENSOR {}", column.quantity),
-                       {{i, {}, {}, "value"}},
+                       {{Shape::number, {i}, "value"}},
                        column.quantity,
                        column.unit});
   }
+}
+
+bool CsvSamples::write(const Member& member, const std::vector<std::optional<double>>& values, LineWriter& line) {
+  std::array<std::optional<double>, 3> three;
+  for (std::size_t i = 0; i < three.size(); ++i) {
+    if (member.columns[i]) three[i] = values[*member.columns[i]];
+  }
+  switch (member.shape) {
+    case Shape::number:
+      if (!three[0]) return false;
+      line.number(member.key, is_heading(member.key) ? base::as_heading(*three[0]) : *three[0]);
+      return true;
+    case Shape::vector:
+      if (!three[0] || !three[1] || !three[2]) return false;
+      line.vector(member.key, {*three[0], *three[1], *three[2]});
+      return true;
+    case Shape::three:
+      if (!three[0] && !three[1] && !three[2]) return false;
+      line.three(member.key, three);
+      return true;
+  }
+  return false;
 }
 
 void CsvSamples::emit(std::int64_t time_ns, const std::vector<std::optional<double>>& values,
@@ -104,15 +132,7 @@ void CsvSamples::emit(std::int64_t time_ns, const std::vector<std::optional<doub
     if (group.class_name == "DVL") line.text("frame", "body");
     bool has_any = false;
     for (const Member& member : group.members) {
-      const auto& value = values[member.first];
-      if (!value) continue;
-      if (member.second) {
-        if (!values[*member.second] || !values[*member.third]) continue;
-        line.vector(member.key, {*value, *values[*member.second], *values[*member.third]});
-      } else {
-        line.number(member.key, is_heading(member.key) ? base::as_heading(*value) : *value);
-      }
-      has_any = true;
+      if (write(member, values, line)) has_any = true;
     }
     // A position is a fix, although the file says nothing of its quality.
     if (has_any && group.class_name == "GPS") line.text("fix", "3d");

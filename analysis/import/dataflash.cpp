@@ -10,6 +10,7 @@
 #include "analysis/import/dataflash_plan.h"
 #include "analysis/import/gps_week.h"
 #include "analysis/import/port_name.h"
+#include "analysis/import/servo_parameters.h"
 #include "base/angles.h"
 
 namespace navcal::analysis {
@@ -26,7 +27,8 @@ constexpr int kNoInstance = -1;
 /// Reads the records of one file, from front to back.
 class DataFlashFile {
  public:
-  DataFlashFile(std::string_view file, ImportSink& sink) : file_(file), sink_(sink) {}
+  DataFlashFile(std::string_view file, ImportSink& sink, MotorChannels& channels)
+      : file_(file), sink_(sink), channels_(channels) {}
   ImportFindings read();
 
  private:
@@ -34,6 +36,11 @@ class DataFlashFile {
   [[nodiscard]] std::size_t length_here() const;
   void take(std::uint8_t type, std::string_view record);
   void take_known(const Plan& plan, std::uint8_t type, std::string_view record);
+  /// Shaft and fins that the map makes of a record; false: none.
+  bool take_channels(const Plan& plan, std::uint8_t type, std::string_view record);
+  [[nodiscard]] bool has_instances(std::uint8_t type) const {
+    return table_[type].find("I") != nullptr || table_[type].find("Instance") != nullptr;
+  }
   const std::string& label(std::uint8_t type, int instance, bool has_instances);
 
   void take_imu(const Plan& plan, std::string_view record, ImportedSample sample);
@@ -55,6 +62,8 @@ class DataFlashFile {
 
   std::string_view file_;
   ImportSink& sink_;
+  MotorChannels& channels_;
+  ServoParameters servos_;
   ImportFindings findings_;
   std::size_t at_ = 0;
   Table table_;
@@ -92,6 +101,7 @@ ImportFindings DataFlashFile::read() {
     }
     if (at_ - told >= kProgressBytes) sink_.progress(told = at_);
   }
+  if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
   return std::move(findings_);
 }
 
@@ -101,6 +111,8 @@ void DataFlashFile::take(std::uint8_t type, std::string_view record) {
   if (plan.version() != table_.version()) plan = Plan(table_, table_[type]);
   const std::string& name = label(type, 0, false);
   if (plan.kind() == Kind::parameter || plan.kind() == Kind::text) take_text(plan, record);
+  const bool is_mapped = take_channels(plan, type, record);
+  if (is_mapped && plan.kind() == Kind::other) return;
   if (!plan.why_not().empty() && plan.kind() != Kind::other) {
     sink_.left(fmt::format("{} ({})", name, plan.why_not()));
   } else if (plan.kind() == Kind::other || plan.kind() == Kind::parameter || plan.kind() == Kind::text) {
@@ -113,8 +125,7 @@ void DataFlashFile::take(std::uint8_t type, std::string_view record) {
 void DataFlashFile::take_known(const Plan& plan, std::uint8_t type, std::string_view record) {
   const int instance = plan.instance(record);
   const auto time_ns = plan.time_ns(record);
-  const std::string& name =
-      label(type, instance, table_[type].find("I") != nullptr || table_[type].find("Instance") != nullptr);
+  const std::string& name = label(type, instance, has_instances(type));
   if (!time_ns) return sink_.left(fmt::format("{} (impossible time)", name));
   ImportedSample sample{name, {}, *time_ns};
   switch (plan.kind()) {
@@ -142,6 +153,18 @@ void DataFlashFile::take_known(const Plan& plan, std::uint8_t type, std::string_
       sample.port = port_name(PortKind::motor, instance);
       return take_outputs(plan, record, sample);
   }
+}
+
+bool DataFlashFile::take_channels(const Plan& plan, std::uint8_t type, std::string_view record) {
+  const std::string& name = label(type, plan.instance(record), has_instances(type));
+  if (!channels_.has(name)) return false;
+  const auto time_ns = plan.time_ns(record);
+  if (!time_ns) return false;
+  const auto read = [&](std::string_view member) -> std::optional<double> {
+    const dataflash::Column* const column = table_[type].find(member);
+    return column == nullptr ? std::nullopt : table_.value(*column, record);
+  };
+  return channels_.emit(name, read, {name, {}, *time_ns}, sink_);
 }
 
 const std::string& DataFlashFile::label(std::uint8_t type, int instance, bool has_instances) {
@@ -220,24 +243,28 @@ void DataFlashFile::take_battery(const Plan& plan, std::string_view record, Impo
   sink_.sample(sample, line);
 }
 
-// What a pulse moves is known to the vehicle's builder only: it stays a pulse.
+// What a pulse moves is known to the vehicle's builder only: without a map it stays a pulse.
 void DataFlashFile::take_outputs(const Plan& plan, std::string_view record, ImportedSample sample) {
   for (const dataflash::Column* channel : plan.channels()) {
     const auto pulse_us = table_.value(*channel, record);
     if (!pulse_us || *pulse_us == 0) continue;  // an output that is not used
+    if (channels_.has(sample.message, channel->name)) continue;
     LineWriter line("SENSOR");
     line.text("quantity", fmt::format("output{}", channel->name.substr(1))).text("unit", "us");
     line.number("value", *pulse_us);
     sink_.sample(sample, line);
     sample.continues = true;
   }
-  if (!sample.continues) sink_.left(fmt::format("{} (no output in use)", sample.message));
+  if (!sample.continues && !channels_.has(sample.message))
+    sink_.left(fmt::format("{} (no output in use)", sample.message));
 }
 
 void DataFlashFile::take_text(const Plan& plan, std::string_view record) {
   if (plan.kind() == Kind::text && plan.text(record, 0).starts_with("ArduSub")) is_submarine_ = true;
-  if (plan.kind() == Kind::parameter && plan.text(record, 0) == "BARO_PRIMARY")
-    primary_baro_ = std::llround(field(plan, record, 1).value_or(0));
+  if (plan.kind() != Kind::parameter) return;
+  const auto value = field(plan, record, 1);
+  if (plan.text(record, 0) == "BARO_PRIMARY") primary_baro_ = std::llround(value.value_or(0));
+  if (value) servos_.take(plan.text(record, 0), *value);
 }
 
 }  // namespace
@@ -248,6 +275,13 @@ bool is_dataflash(std::string_view head) {
          head.substr(5, 3) == "FMT";
 }
 
-ImportFindings read_dataflash(std::string_view file, ImportSink& sink) { return DataFlashFile(file, sink).read(); }
+ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels) {
+  return DataFlashFile(file, sink, channels).read();
+}
+
+ImportFindings read_dataflash(std::string_view file, ImportSink& sink) {
+  MotorChannels none;
+  return read_dataflash(file, sink, none);
+}
 
 }  // namespace navcal::analysis

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "analysis/import/import_sink.h"
+#include "analysis/import/motor_channels.h"
 
 namespace navcal::analysis {
 
@@ -12,7 +13,9 @@ namespace navcal::analysis {
 
 /// ArduPilot's DataFlash log (.bin), version of the self-describing records A3 95. Taken are IMU, MAG, BARO, GPS
 /// (with the errors of GPA), ATT, BAT and RCOU; columns, units and multipliers by FMT, FMTU, UNIT and MULT.
-/// ArduPilot's body axes are those of navcal: forward, starboard, down. docs/import.md has the table.
+/// ArduPilot's body axes are those of navcal: forward, starboard, down. `channels` become
+/// shaft and fins. docs/import.md has the table.
+[[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels);
 [[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink);
 
 }  // namespace navcal::analysis

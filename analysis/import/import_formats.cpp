@@ -7,6 +7,7 @@
 #include "analysis/import/csv_log.h"
 #include "analysis/import/dataflash.h"
 #include "analysis/import/mavlink_log.h"
+#include "analysis/import/motor_channels.h"
 #include "analysis/import/ros_bag.h"
 #include "analysis/import/slocum.h"
 #include "analysis/import/ulog.h"
@@ -15,9 +16,22 @@
 namespace navcal::analysis {
 namespace {
 
+/// A log without channels that a map could name.
 template <ImportFindings (*Read)(std::string_view, ImportSink&)>
-ImportFindings read_plain(std::string_view file, const ImportOptions& /*options*/, ImportSink& sink) {
+ImportFindings read_plain(std::string_view file, const ImportOptions& options, ImportSink& sink) {
+  if (!options.map.empty())
+    throw record::BadRecording("this format has no channels that a map (--map) could name");
   return Read(file, sink);
+}
+
+template <ImportFindings (*Read)(std::string_view, ImportSink&, MotorChannels&)>
+ImportFindings read_with_channels(std::string_view file, const ImportOptions& options, ImportSink& sink) {
+  MotorChannels channels;
+  if (!options.map.empty()) channels = MotorChannels(config::load_channel_map(options.map));
+  ImportFindings findings = Read(file, sink, channels);
+  channels.expect_all_found();
+  for (std::string& remark : channels.remarks()) findings.remarks.push_back(std::move(remark));
+  return findings;
 }
 
 ImportFindings read_mapped(std::string_view file, const ImportOptions& options, ImportSink& sink) {
@@ -25,14 +39,14 @@ ImportFindings read_mapped(std::string_view file, const ImportOptions& options, 
   return read_csv(file, config::load_csv_map(options.map), sink);
 }
 
-/// A CSV file is whatever a map is given for.
+/// A file of no other format for which a map is given.
 bool is_never(std::string_view /*head*/) { return false; }
 
 constexpr std::array kFormats{
-    ImportFormat{"dataflash", "ArduPilot DataFlash log (.bin)", is_dataflash, read_plain<read_dataflash>},
-    ImportFormat{"ulog", "PX4 ULog (.ulg)", is_ulog, read_plain<read_ulog>},
-    ImportFormat{"ros2", "ROS 2 bag in MCAP (.mcap)", is_ros_bag, read_plain<read_ros_bag>},
-    ImportFormat{"tlog", "MAVLink telemetry log (.tlog)", is_mavlink_log, read_plain<read_mavlink_log>},
+    ImportFormat{"dataflash", "ArduPilot DataFlash log (.bin)", is_dataflash, read_with_channels<read_dataflash>},
+    ImportFormat{"ulog", "PX4 ULog (.ulg)", is_ulog, read_with_channels<read_ulog>},
+    ImportFormat{"ros2", "ROS 2 bag in MCAP (.mcap)", is_ros_bag, read_with_channels<read_ros_bag>},
+    ImportFormat{"tlog", "MAVLink telemetry log (.tlog)", is_mavlink_log, read_with_channels<read_mavlink_log>},
     ImportFormat{"slocum", "Slocum glider data (.dbd, .sbd, .tbd)", is_slocum, read_plain<read_slocum>},
     ImportFormat{kCsvFormat, "CSV file with a map of its columns", is_never, read_mapped},
 };

@@ -11,7 +11,8 @@ namespace navcal::analysis {
 
 struct ImportOptions {
   std::string format;  ///< name of a format; empty: the content says it
-  std::string map;     ///< file that gives the columns of a CSV file their meaning; empty: none
+  std::string
+      map;  ///< file that gives columns of a CSV file, or channels of another log, their meaning; empty: none
 };
 
 /// A kind of log of another system.

@@ -165,10 +165,10 @@ class Writing final : public ImportPass {
 
 const ImportFormat& format_of(const std::filesystem::path& input, std::string_view bytes,
                               const ImportOptions& options) {
-  const bool is_mapped = options.format.empty() && !options.map.empty();
-  const ImportFormat* const format = is_mapped                ? import_format_named(kCsvFormat)
-                                     : options.format.empty() ? import_format_of(bytes.substr(0, kHead_bytes))
-                                                              : import_format_named(options.format);
+  const ImportFormat* format = options.format.empty() ? import_format_of(bytes.substr(0, kHead_bytes))
+                                                      : import_format_named(options.format);
+  if (format == nullptr && options.format.empty() && !options.map.empty())
+    format = import_format_named(kCsvFormat);
   if (format != nullptr) return *format;
   std::string names;
   for (const ImportFormat& known : import_formats())

@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "analysis/import/mavlink_frame.h"
 #include "analysis/import/port_name.h"
+#include "analysis/import/servo_parameters.h"
 #include "analysis/import/wire_reader.h"
 #include "base/angles.h"
 
@@ -50,7 +52,8 @@ class Payload {
 
 class MavlinkFile {
  public:
-  MavlinkFile(std::string_view file, ImportSink& sink) : file_(file), sink_(sink) {}
+  MavlinkFile(std::string_view file, ImportSink& sink, MotorChannels& channels)
+      : file_(file), sink_(sink), channels_(channels) {}
   ImportFindings read();
 
  private:
@@ -58,10 +61,13 @@ class MavlinkFile {
   void take_known(const Frame& frame, ImportedSample sample);
   void take_imu(const Payload& payload, std::size_t first, int instance, ImportedSample sample);
   void take_gps(const Payload& payload, bool has_errors, ImportedSample sample);
+  void take_parameter(const Payload& payload);
   void take_servos(const Payload& payload, ImportedSample sample);
 
   std::string_view file_;
   ImportSink& sink_;
+  MotorChannels& channels_;
+  ServoParameters servos_;
   ImportFindings findings_;
   std::optional<std::uint8_t> vehicle_;
 };
@@ -92,11 +98,14 @@ ImportFindings MavlinkFile::read() {
     at += kTime_bytes + found.frame.length;
     if (at - told >= kProgressBytes) sink_.progress(told = at);
   }
+  if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
   return std::move(findings_);
 }
 
 void MavlinkFile::take(const Frame& frame, std::int64_t time_ns) {
   if (frame.message == nullptr) return sink_.left(fmt::format("message {}", frame.id));
+  constexpr std::uint32_t kParameter = 22;
+  if (frame.id == kParameter) take_parameter(Payload(frame.payload));
   constexpr std::array<std::uint32_t, 12> kTaken{1, 24, 26, 27, 29, 30, 36, 116, 129, 137, 143, 2};
   if (std::find(kTaken.begin(), kTaken.end(), frame.id) == kTaken.end()) return sink_.left(frame.message->name);
   if (!vehicle_) vehicle_ = frame.system;
@@ -202,21 +211,46 @@ void MavlinkFile::take_gps(const Payload& payload, bool has_errors, ImportedSamp
   sink_.sample(sample, line);
 }
 
+// PARAM_VALUE: the number, and a name of at most 16 characters.
+void MavlinkFile::take_parameter(const Payload& payload) {
+  constexpr std::size_t kName = 8, kName_bytes = 16;
+  std::string name;
+  for (std::size_t i = 0; i < kName_bytes; ++i) {
+    const char c = static_cast<char>(payload.at<std::int8_t>(kName + i));
+    if (c == '\0') break;
+    name += c;
+  }
+  servos_.take(name, payload.at<float>(0));
+}
+
+// Outputs 1 to 8 lie at 4, the port (of eight outputs each) at 20; of version 2 outputs 9 to 16 follow.
 void MavlinkFile::take_servos(const Payload& payload, ImportedSample sample) {
-  constexpr std::size_t kServos = 8;
+  constexpr std::size_t kServos = 8, kFirst = 4, kPort = 20, kMore = 21;
   sample.port = port_name(PortKind::motor, 0);
-  const auto bank = static_cast<std::size_t>(payload.at<std::uint8_t>(20));
+  const auto bank = static_cast<std::size_t>(payload.at<std::uint8_t>(kPort));
+  std::array<double, 2 * kServos> pulses_us{};
   for (std::size_t i = 0; i < kServos; ++i) {
-    const double pulse_us = payload.at<std::uint16_t>(4 + 2 * i);
-    if (pulse_us == 0) continue;
+    pulses_us[i] = payload.at<std::uint16_t>(kFirst + 2 * i);
+    pulses_us[kServos + i] = bank == 0 ? payload.at<std::uint16_t>(kMore + 2 * i) : 0;
+  }
+  const auto name_of = [&](std::size_t i) { return fmt::format("servo{}_raw", bank * kServos + i + 1); };
+  const auto read = [&](std::string_view member) -> std::optional<double> {
+    for (std::size_t i = 0; i < pulses_us.size(); ++i) {
+      if (pulses_us[i] != 0 && name_of(i) == member) return pulses_us[i];
+    }
+    return std::nullopt;
+  };
+  const bool is_mapped = channels_.emit(sample.message, read, sample, sink_);
+  for (std::size_t i = 0; i < pulses_us.size(); ++i) {
+    if (pulses_us[i] == 0 || channels_.has(sample.message, name_of(i))) continue;
     LineWriter line("SENSOR");
     line.text("quantity", fmt::format("output{}", bank * kServos + i + 1))
         .text("unit", "us")
-        .number("value", pulse_us);
+        .number("value", pulses_us[i]);
     sink_.sample(sample, line);
     sample.continues = true;
   }
-  if (!sample.continues) sink_.left("SERVO_OUTPUT_RAW (no output in use)");
+  if (!sample.continues && !is_mapped) sink_.left("SERVO_OUTPUT_RAW (no output in use)");
 }
 
 }  // namespace
@@ -229,6 +263,13 @@ bool is_mavlink_log(std::string_view head) {
   return found.verdict == mavlink::Verdict::frame;
 }
 
-ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink) { return MavlinkFile(file, sink).read(); }
+ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels) {
+  return MavlinkFile(file, sink, channels).read();
+}
+
+ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink) {
+  MotorChannels none;
+  return read_mavlink_log(file, sink, none);
+}
 
 }  // namespace navcal::analysis

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "analysis/import/ros_commands.h"
 #include "analysis/import/ros_messages.h"
 #include "analysis/import/wire_reader.h"
 #include "record/log/mcap_format.h"
@@ -45,12 +46,14 @@ class RecordReader {
 struct BagChannel {
   ros::Topic topic;
   const ros::MessageType* type = nullptr;
-  std::string left_as;  ///< why its messages are not taken
+  std::string command_type;  ///< of messages with commands; empty: others
+  std::string left_as;       ///< why its messages are not taken
 };
 
 class RosBag {
  public:
-  RosBag(std::string_view file, ImportSink& sink) : file_(file), sink_(sink) {}
+  RosBag(std::string_view file, ImportSink& sink, MotorChannels& channels)
+      : file_(file), sink_(sink), motor_channels_(channels) {}
 
   ImportFindings read() {
     findings_.times_are_utc = true;
@@ -130,6 +133,7 @@ class RosBag {
     const std::string type = schema == schemas_.end() ? "no type" : schema->second;
     channel.type = encoding == "cdr" ? ros::message_type(type) : nullptr;
     channel.left_as = fmt::format("{} ({}{})", channel.topic.name, type, encoding == "cdr" ? "" : ", not in CDR");
+    if (encoding == "cdr" && ros::has_commands(type)) channel.command_type = type;
     if (channel.type != nullptr) channel.topic.instance = instances_[channel.type->kind]++;
     channels_.emplace(id, std::move(channel));
   }
@@ -142,15 +146,41 @@ class RosBag {
     (void)reader.number<std::uint64_t>();
     if (channel == channels_.end()) return sink_.left("message without a channel");
     const BagChannel& of = channel->second;
-    if (of.type == nullptr) return sink_.left(of.left_as);
     constexpr std::uint64_t kLast_ns = 9'000'000'000'000'000'000;
+    if (!of.command_type.empty() && log_time_ns < kLast_ns)
+      return take_commands(of, reader.rest(), static_cast<std::int64_t>(log_time_ns));
+    if (of.type == nullptr) return sink_.left(of.left_as);
     const bool is_good = log_time_ns < kLast_ns &&
                          of.type->decode(reader.rest(), of.topic, static_cast<std::int64_t>(log_time_ns), sink_);
     if (!is_good) sink_.left(fmt::format("{} (not a whole message of its type)", of.topic.name));
   }
 
+  void take_commands(const BagChannel& of, std::string_view cdr, std::int64_t log_time_ns) {
+    const auto found = ros::decode_commands(of.command_type, cdr);
+    if (!found) return sink_.left(fmt::format("{} (not a whole message of its type)", of.topic.name));
+    ImportedSample sample = ros::sample_of(of.topic, PortKind::motor, log_time_ns, found->stamp_ns);
+    const auto read = [&](std::string_view member) -> std::optional<double> {
+      for (const auto& [name, value] : found->values) {
+        if (name == member) return value;
+      }
+      return std::nullopt;
+    };
+    const bool is_mapped = motor_channels_.emit(of.topic.name, read, sample, sink_);
+    std::size_t number = 0;
+    for (const auto& [name, value] : found->values) {
+      ++number;
+      if (!found->are_pulses || value == 0 || motor_channels_.has(of.topic.name, name)) continue;
+      protocols::samples_line::LineWriter line("SENSOR");
+      line.text("quantity", fmt::format("output{}", number)).text("unit", "us").number("value", value);
+      sink_.sample(sample, line);
+      sample.continues = true;
+    }
+    if (!is_mapped && !sample.continues) sink_.left(of.left_as);
+  }
+
   std::string_view file_;
   ImportSink& sink_;
+  MotorChannels& motor_channels_;
   ImportFindings findings_;
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, BagChannel> channels_;
@@ -168,9 +198,14 @@ bool is_ros_bag(std::string_view head) {
   return reader.text() != record::kProfile;
 }
 
-ImportFindings read_ros_bag(std::string_view file, ImportSink& sink) {
+ImportFindings read_ros_bag(std::string_view file, ImportSink& sink, MotorChannels& channels) {
   if (!file.starts_with(kMcapMagic)) return {.cut_at = 0};
-  return RosBag(file, sink).read();
+  return RosBag(file, sink, channels).read();
+}
+
+ImportFindings read_ros_bag(std::string_view file, ImportSink& sink) {
+  MotorChannels none;
+  return read_ros_bag(file, sink, none);
 }
 
 }  // namespace navcal::analysis

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <numbers>
 
+#include "analysis/import/cdr_reader.h"
 #include "base/angles.h"
 
 namespace navcal::analysis::ros {
@@ -18,55 +17,6 @@ using protocols::samples_line::LineWriter;
 using Numbers3 = std::array<double, 3>;
 using Numbers9 = std::array<double, 9>;
 
-/// Reads CDR (DDS-XTYPES, plain version 1) from front to back. What lies beyond the end reads as zero.
-class CdrReader {
- public:
-  explicit CdrReader(std::string_view message) : body_(message.substr(std::min<std::size_t>(message.size(), 4))) {
-    constexpr std::size_t kHead = 4;
-    is_good_ = message.size() >= kHead && message[0] == 0 && (message[1] == 0 || message[1] == 1);
-    is_swapped_ = message.size() >= kHead && message[1] == 0;
-  }
-  [[nodiscard]] bool is_good() const { return is_good_; }
-
-  template <class T>
-  T take() {
-    at_ = (at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T);
-    std::array<char, sizeof(T)> bytes{};
-    if (at_ + sizeof(T) > body_.size()) {
-      is_good_ = false;
-    } else {
-      std::copy_n(body_.data() + at_, sizeof(T), bytes.begin());
-    }
-    at_ += sizeof(T);
-    if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<T>(bytes);
-  }
-  template <std::size_t N>
-  std::array<double, N> take_doubles() {
-    std::array<double, N> values{};
-    for (double& value : values) value = take<double>();
-    return values;
-  }
-  void skip_text() {
-    const auto length = take<std::uint32_t>();
-    if (length > body_.size()) is_good_ = false;
-    at_ += is_good_ ? length : 0;
-  }
-  /// std_msgs/Header: the stamp; its frame is passed over.
-  std::int64_t take_header() {
-    const std::int64_t seconds = take<std::int32_t>();
-    const std::int64_t ns = take<std::uint32_t>();
-    skip_text();
-    return seconds * 1'000'000'000 + ns;
-  }
-
- private:
-  std::string_view body_;
-  std::size_t at_ = 0;
-  bool is_good_ = false;
-  bool is_swapped_ = false;
-};
-
 /// Forward, left, up to forward, starboard, down.
 Numbers3 turned(const Numbers3& flu) { return {flu[0], -flu[1], -flu[2]}; }
 
@@ -74,13 +24,6 @@ Numbers3 turned(const Numbers3& flu) { return {flu[0], -flu[1], -flu[2]}; }
 std::optional<double> std_of(double variance_x, double variance_y) {
   if (!(variance_x > 0) || !(variance_y > 0)) return std::nullopt;
   return std::sqrt((variance_x + variance_y) / 2);
-}
-
-ImportedSample sample_of(const Topic& topic, PortKind kind, std::int64_t log_time_ns, std::int64_t stamp_ns) {
-  constexpr std::int64_t kHour_ns = 3'600'000'000'000;
-  ImportedSample sample{topic.name, port_name(kind, topic.instance), log_time_ns};
-  if (stamp_ns > 0 && std::abs(stamp_ns - log_time_ns) < kHour_ns) sample.utc_ns = stamp_ns;
-  return sample;
 }
 
 /// Heading, pitch and roll of a body (forward, left, up) in the world (east, north, up).
@@ -238,6 +181,13 @@ constexpr std::array kTypes{
     MessageType{"geometry_msgs/msg/TwistWithCovarianceStamped", PortKind::dvl, decode_twist}};
 
 }  // namespace
+
+ImportedSample sample_of(const Topic& topic, PortKind kind, std::int64_t log_time_ns, std::int64_t stamp_ns) {
+  constexpr std::int64_t kHour_ns = 3'600'000'000'000;
+  ImportedSample sample{topic.name, port_name(kind, topic.instance), log_time_ns};
+  if (stamp_ns > 0 && std::abs(stamp_ns - log_time_ns) < kHour_ns) sample.utc_ns = stamp_ns;
+  return sample;
+}
 
 const MessageType* message_type(std::string_view name) {
   const auto found =

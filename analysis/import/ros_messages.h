@@ -25,6 +25,10 @@ struct MessageType {
   Decoder decode;
 };
 
+/// Sample of a message; the stamp of its header is its time where it lies within an hour of the log's.
+[[nodiscard]] ImportedSample sample_of(const Topic& topic, PortKind kind, std::int64_t log_time_ns,
+                                       std::int64_t stamp_ns);
+
 /// nullptr for a type that is not taken.
 [[nodiscard]] const MessageType* message_type(std::string_view name);
 

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "analysis/import/port_name.h"
+#include "analysis/import/servo_parameters.h"
 #include "analysis/import/ulog_format.h"
 #include "analysis/import/wire_reader.h"
 #include "base/angles.h"
@@ -110,18 +112,44 @@ void take_battery(const UlogMessage& message, const ImportedSample& sample, Impo
   sink.sample(sample, line);
 }
 
-// Outputs have the unit of their driver: a pulse, a share of the full throttle.
-void take_outputs(const UlogMessage& message, ImportedSample sample, ImportSink& sink) {
-  const auto used = static_cast<std::size_t>(message.number("noutputs").value_or(0));
+/// A list of commands, each a sensor of its own. A number that is not finite is an output that is not used.
+struct UlogCommands {
+  std::string_view message, member, quantity;
+};
+constexpr std::array kUlogCommands{UlogCommands{"actuator_outputs", "output", "output"},
+                                   UlogCommands{"actuator_motors", "control", "motor"},
+                                   UlogCommands{"actuator_servos", "control", "servo"}};
+
+// Commands have the unit of their driver: a pulse, a share of the full throttle.
+void take_commands(const UlogCommands& commands, const UlogMessage& message, ImportedSample sample,
+                   ImportSink& sink, const MotorChannels& channels) {
+  constexpr double kMostOutputs = 64;
+  const auto used = static_cast<std::size_t>(message.number("noutputs").value_or(kMostOutputs));
   for (std::size_t i = 0; i < used; ++i) {
-    const auto output = message.number("output", i);
+    const auto output = message.number(commands.member, i);
     if (!output) break;
+    if (!std::isfinite(*output)) continue;
+    if (channels.has(sample.message, fmt::format("{}[{}]", commands.member, i))) continue;
     LineWriter line("SENSOR");
-    line.text("quantity", fmt::format("output{}", i + 1)).text("unit", "").number("value", *output);
+    line.text("quantity", fmt::format("{}{}", commands.quantity, i + 1)).text("unit", "").number("value", *output);
     sink.sample(sample, line);
     sample.continues = true;
   }
-  if (!sample.continues) sink.left("actuator_outputs (no output in use)");
+  if (!sample.continues && !channels.has(sample.message))
+    sink.left(fmt::format("{} (no output in use)", sample.message));
+}
+
+/// Number of a member, of a list with its index: "control[0]".
+std::optional<double> member_of(const UlogMessage& message, std::string_view member) {
+  std::size_t index = 0;
+  if (const std::size_t bracket = member.find('['); bracket != std::string_view::npos) {
+    const std::string_view digits = member.substr(bracket + 1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    const auto used = static_cast<std::size_t>(end - digits.data());
+    if (error != std::errc{} || digits.substr(used) != "]") return std::nullopt;
+    member = member.substr(0, bracket);
+  }
+  return message.number(member, index);
 }
 
 struct UlogTarget {
@@ -142,12 +170,12 @@ constexpr std::array kUlogTargets{
     UlogTarget{"vehicle_gps_position", PortKind::gps, take_receiver},
     UlogTarget{"sensor_gps", PortKind::gps, take_receiver},
     UlogTarget{"vehicle_attitude", PortKind::attitude, taken_by<take_attitude>},
-    UlogTarget{"battery_status", PortKind::battery, taken_by<take_battery>},
-    UlogTarget{"actuator_outputs", PortKind::motor, take_outputs}};
+    UlogTarget{"battery_status", PortKind::battery, taken_by<take_battery>}};
 
 class UlogFile {
  public:
-  UlogFile(std::string_view file, ImportSink& sink) : file_(file), sink_(sink) {}
+  UlogFile(std::string_view file, ImportSink& sink, MotorChannels& channels)
+      : file_(file), sink_(sink), channels_(channels) {}
   ImportFindings read();
 
  private:
@@ -155,6 +183,7 @@ class UlogFile {
     std::string name, label;
     int instance = 0;
     const UlogTarget* target = nullptr;
+    const UlogCommands* commands = nullptr;
   };
 
   [[nodiscard]] static bool is_type(char type) {
@@ -163,9 +192,12 @@ class UlogFile {
   void take(char type, std::string_view content);
   void subscribe(std::string_view content);
   void take_data(std::string_view content);
+  void take_parameter(std::string_view content);
 
   std::string_view file_;
   ImportSink& sink_;
+  MotorChannels& channels_;
+  ServoParameters servos_;
   ImportFindings findings_;
   ulog::UlogFormats formats_;
   std::map<std::uint16_t, Subscription> subscriptions_;
@@ -194,6 +226,7 @@ ImportFindings UlogFile::read() {
   }
   if (dropouts_ > 0)
     findings_.remarks.push_back(fmt::format("{} dropouts of the logger, {} ms in all", dropouts_, dropped_ms_));
+  if (std::string words = servos_.words(); !words.empty()) findings_.remarks.push_back(std::move(words));
   return std::move(findings_);
 }
 
@@ -201,10 +234,22 @@ void UlogFile::take(char type, std::string_view content) {
   if (type == 'F') formats_.learn(content);
   if (type == 'A') subscribe(content);
   if (type == 'D') take_data(content);
+  if (type == 'P') take_parameter(content);
   if (type == 'O') {
     ++dropouts_;
     dropped_ms_ += little_endian_at<std::uint16_t>(content, 0);
   }
+}
+
+/// Length of the key, the key with its type ("float PWM_MAIN_MIN1"), and the value.
+void UlogFile::take_parameter(std::string_view content) {
+  const std::size_t length = content.empty() ? 0 : static_cast<std::uint8_t>(content[0]);
+  if (content.size() < 1 + length + sizeof(float)) return;
+  const std::string_view key = content.substr(1, length), value = content.substr(1 + length);
+  constexpr std::string_view kFloat = "float ", kInteger = "int32_t ";
+  if (key.starts_with(kFloat)) servos_.take(key.substr(kFloat.size()), little_endian_at<float>(value, 0));
+  if (key.starts_with(kInteger))
+    servos_.take(key.substr(kInteger.size()), little_endian_at<std::int32_t>(value, 0));
 }
 
 void UlogFile::subscribe(std::string_view content) {
@@ -219,6 +264,9 @@ void UlogFile::subscribe(std::string_view content) {
   const auto target = std::find_if(kUlogTargets.begin(), kUlogTargets.end(),
                                    [&](const UlogTarget& t) { return t.message == subscription.name; });
   if (target != kUlogTargets.end()) subscription.target = &*target;
+  const auto commands = std::find_if(kUlogCommands.begin(), kUlogCommands.end(),
+                                     [&](const UlogCommands& of) { return of.message == subscription.name; });
+  if (commands != kUlogCommands.end()) subscription.commands = &*commands;
   subscriptions_[little_endian_at<std::uint16_t>(content, 1)] = std::move(subscription);
 }
 
@@ -226,7 +274,9 @@ void UlogFile::take_data(std::string_view content) {
   const auto found = subscriptions_.find(little_endian_at<std::uint16_t>(content, 0));
   if (found == subscriptions_.end() || content.size() < 2) return sink_.left("data without a subscription");
   const Subscription& subscription = found->second;
-  if (subscription.target == nullptr) return sink_.left(subscription.label);
+  const bool is_mapped = channels_.has(subscription.label);
+  if (subscription.target == nullptr && subscription.commands == nullptr && !is_mapped)
+    return sink_.left(subscription.label);
   const UlogFormat* const format = formats_.find(subscription.name);
   if (format == nullptr) return sink_.left(fmt::format("{} (no format)", subscription.label));
   const UlogMessage message{*format, content.substr(2)};
@@ -234,21 +284,34 @@ void UlogFile::take_data(std::string_view content) {
   const auto time_us = sampled && *sampled > 0 ? sampled : format->unsigned_number(message.bytes, "timestamp");
   constexpr std::uint64_t kMost_us = 4'000'000'000'000'000;
   if (!time_us || *time_us > kMost_us) return sink_.left(fmt::format("{} (no time)", subscription.label));
-  if (subscription.target->kind == PortKind::gps) {
+  const PortKind kind = subscription.target != nullptr ? subscription.target->kind : PortKind::motor;
+  const ImportedSample sample{subscription.label, port_name(kind, subscription.instance),
+                              static_cast<std::int64_t>(*time_us) * 1000};
+  if (is_mapped)
+    channels_.emit(
+        subscription.label, [&](std::string_view member) { return member_of(message, member); }, sample, sink_);
+  if (subscription.commands != nullptr)
+    return take_commands(*subscription.commands, message, sample, sink_, channels_);
+  if (subscription.target == nullptr) return;
+  if (kind == PortKind::gps) {
     if (receiver_.empty()) receiver_ = subscription.target->message;
     if (receiver_ != subscription.target->message)
       return sink_.left(fmt::format("{} (the same as {})", subscription.label, receiver_));
   }
-  subscription.target->take(message,
-                            {subscription.label, port_name(subscription.target->kind, subscription.instance),
-                             static_cast<std::int64_t>(*time_us) * 1000},
-                            sink_);
+  subscription.target->take(message, sample, sink_);
 }
 
 }  // namespace
 
 bool is_ulog(std::string_view head) { return head.size() >= kUlogHeader && head.starts_with(kUlogMagic); }
 
-ImportFindings read_ulog(std::string_view file, ImportSink& sink) { return UlogFile(file, sink).read(); }
+ImportFindings read_ulog(std::string_view file, ImportSink& sink, MotorChannels& channels) {
+  return UlogFile(file, sink, channels).read();
+}
+
+ImportFindings read_ulog(std::string_view file, ImportSink& sink) {
+  MotorChannels none;
+  return read_ulog(file, sink, none);
+}
 
 }  // namespace navcal::analysis

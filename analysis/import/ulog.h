@@ -4,14 +4,17 @@
 #include <string_view>
 
 #include "analysis/import/import_sink.h"
+#include "analysis/import/motor_channels.h"
 
 namespace navcal::analysis {
 
 [[nodiscard]] bool is_ulog(std::string_view head);
 
 /// PX4's ULog (.ulg), by the definitions of its own messages. Times are microseconds since boot; UTC follows from
-/// the receiver. PX4's body axes are those of navcal: forward, starboard, down. docs/import.md has the table of
+/// the receiver. PX4's body axes are those of navcal: forward, starboard, down. `channels` become
+/// shaft and fins. docs/import.md has the table of
 /// messages.
+[[nodiscard]] ImportFindings read_ulog(std::string_view file, ImportSink& sink, MotorChannels& channels);
 [[nodiscard]] ImportFindings read_ulog(std::string_view file, ImportSink& sink);
 
 }  // namespace navcal::analysis

@@ -17,7 +17,9 @@
   ROW(misalignment)             \
   ROW(compass_delay)            \
   ROW(course_delay)             \
-  ROW(motor_current)
+  ROW(motor_current)            \
+  ROW(reference_compass)        \
+  ROW(reference_field)
 
 namespace navcal::calib {
 

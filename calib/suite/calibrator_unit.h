@@ -61,6 +61,8 @@ class CalibratorUnit {
   virtual void update_compass(const CompassReading& /*reading*/) {}
   virtual void update_rate(const RateReading& /*reading*/) {}
   virtual void update_motor(const MotorReading& /*reading*/) {}
+  /// True headings of the external reference; they come before the headings of their time in update_learnt().
+  virtual void update_reference(const ReferenceReading& /*reading*/) {}
   /// No more readings come from the instruments; the inputs below may still follow.
   virtual void finish() {}
 

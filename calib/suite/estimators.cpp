@@ -80,6 +80,10 @@ void Estimators::update(const RateReading& reading) {
 
 void Estimators::update(const GroundReading& reading, const Correction& in_force) { wait(reading, in_force); }
 
+void Estimators::update(const ReferenceReading& reading) {
+  for (const auto& unit : units_) unit->update_reference(reading);
+}
+
 std::optional<TurnedReading> Estimators::next(const Correction& in_force) {
   for (;;) {
     if (!turn_) turn_ = turns_.next(finishing_);

@@ -30,6 +30,7 @@ class Estimators {
   void update(const RateReading& reading);
   void update(const GroundReading& reading, const Correction& in_force);
   void update(const MotorReading& reading, const Correction& in_force);
+  void update(const ReferenceReading& reading);
   /// The next reading of the compass whose turn is known, or that will have none; it has been through all
   /// estimators. To be called until there is none.
   std::optional<TurnedReading> next(const Correction& in_force);

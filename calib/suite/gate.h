@@ -66,6 +66,10 @@ class Gate {
   /// Announces a pause of unknown length and another clock, as after a restart of the program.
   void restart();
 
+  /// A time of the callers on the gate's own scale; nullopt while a new one is about to begin.
+  [[nodiscard]] std::optional<double> on_own_scale(double time_s) const {
+    return restart_pending_ ? std::nullopt : std::optional(time_s + offset_s_);
+  }
   [[nodiscard]] const GateCounts& counts() const { return counts_; }
   void archive(Archive& archive);
 

@@ -18,7 +18,11 @@ Suite::Suite(const SuiteOptions& options, Instruments instruments)
       instruments_(instruments),
       gate_(options.gate),
       estimators_(options),
-      flags_(calibrators().size()) {}
+      flags_(calibrators().size()) {
+  for (const Calibrator calibrator : calibrators()) {
+    if (index_of(calibrator) < kNamedCalibrators || has_instruments(calibrator)) judged_.push_back(calibrator);
+  }
+}
 
 void Suite::set_local_field(const LocalField& field) {
   options_.local_field = field;
@@ -28,6 +32,15 @@ void Suite::set_local_field(const LocalField& field) {
 void Suite::put(const Reading& reading) {
   gate_.put(reading);
   while (const auto clean = gate_.take()) process(*clean);
+}
+
+void Suite::put(const ReferenceReading& reading) {
+  const auto time_s = gate_.on_own_scale(reading.time_s);
+  if (!time_s) return;
+  ReferenceReading timed = reading;
+  timed.time_s = *time_s;
+  estimators_.update(timed);
+  adopt_what_is_better();
 }
 
 void Suite::finish() {
@@ -58,8 +71,7 @@ void Suite::take_turned() {
 }
 
 void Suite::judge(const TurnedReading& turned) {
-  if (readings_ % kJudgeEvery == 0)
-    refresh_accepted(calibrators()[readings_ / kJudgeEvery % calibrators().size()]);
+  if (readings_ % kJudgeEvery == 0) refresh_accepted(judged_[readings_ / kJudgeEvery % judged_.size()]);
   ++readings_;
   if (field_.update(turned.reading, in_force_.correction(), accepted_)) adopt_what_is_better();
   if (!turned.turn) return;
@@ -165,10 +177,10 @@ std::string Suite::start(Calibrator calibrator) {
 bool Suite::has_instruments(Calibrator calibrator) const {
   const CalibratorRow& row = row_of(calibrator);
   const Instruments& needed = row.needs;
-  const auto& [compass, rate, ground, motor] = instruments_;
+  const auto& [compass, rate, ground, motor, reference] = instruments_;
   if (row.needs_advance && !(options_.advance_m > 0)) return false;
   return (compass || !needed.compass) && (rate || !needed.rate) && (ground || !needed.ground) &&
-         (motor || !needed.motor);
+         (motor || !needed.motor) && (reference || !needed.reference);
 }
 
 std::string Suite::silent_instrument(Calibrator calibrator) const {

@@ -28,6 +28,8 @@ class Suite {
   Suite(const SuiteOptions& options, Instruments instruments);
 
   void put(const Reading& reading);
+  /// A true heading by an external reference; it does not wait in the gate.
+  void put(const ReferenceReading& reading);
   /// Called when no more readings come: all that wait are used, and iterative fits run to their end.
   void finish();
   /// Readings go on after a pause of unknown length, on another clock.
@@ -89,6 +91,8 @@ class Suite {
   Correction accepted_;  ///< as of not long ago: one calibrator is judged after the other, for it takes time
   std::uint64_t readings_ = 0;
   std::vector<Flags> flags_;  ///< by calibrator
+  /// Calibrators that are judged in turn: all that are named, and of the others those that have their instruments.
+  std::vector<Calibrator> judged_;
   HeadingHistogram rose_{};
   std::uint32_t told_steps_ = 0;
 };

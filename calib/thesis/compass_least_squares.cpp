@@ -2,16 +2,10 @@
 #include "calib/thesis/compass_least_squares.h"
 
 #include <Eigen/LU>
-#include <cmath>
+
+#include "calib/thesis/measured_path.h"
 
 namespace navcal::calib::thesis {
-namespace {
-
-Eigen::Vector4d harmonics(double heading_rad) {
-  return {std::sin(heading_rad), std::cos(heading_rad), std::sin(2 * heading_rad), std::cos(2 * heading_rad)};
-}
-
-}  // namespace
 
 void CompassLeastSquares::update(double measured_heading_rad, double heading_rate_rad_s) {
   if (first_heading_rad_) {

@@ -6,7 +6,12 @@
 #include "base/angles.h"
 
 namespace navcal::calib::thesis {
+
 Deviation thesis_deviation() { return Deviation{0, 5, -5, 2, 2} * base::kRadiansPerDegree; }
+
+Eigen::Vector4d harmonics(double heading_rad) {
+  return {std::sin(heading_rad), std::cos(heading_rad), std::sin(2 * heading_rad), std::cos(2 * heading_rad)};
+}
 
 double deviation_rad(const Deviation& c, double psi) {
   return c[0] + c[1] * std::sin(psi) + c[2] * std::cos(psi) + c[3] * std::sin(2 * psi) + c[4] * std::cos(2 * psi);

@@ -44,6 +44,8 @@ inline constexpr double kTrueBias_rad_s = -0.1 / 0.9;
 /// A, B, C, D, E in radians (2.7): A = 0, B = 5, C = -5, D = 2, E = 2 degrees.
 using Deviation = Eigen::Matrix<double, 5, 1>;
 [[nodiscard]] Deviation thesis_deviation();
+/// sin, cos, sin 2, cos 2: what B..E are the coefficients of.
+[[nodiscard]] Eigen::Vector4d harmonics(double heading_rad);
 /// E(psi_m) of (2.7).
 [[nodiscard]] double deviation_rad(const Deviation& coefficients, double measured_heading_rad);
 /// psi_m with psi = psi_m - E(psi_m): self-consistent injection (I2 of section 11.2).

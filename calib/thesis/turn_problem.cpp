@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "calib/gps/gps_coefficients.h"
 #include "calib/thesis/filtered_turns.h"
 
 namespace navcal::calib::thesis {
@@ -78,7 +77,7 @@ Eigen::VectorXd cramer_rao(TurnProblem problem, const std::vector<TruePoint>& pa
     }
     const double psi_m = measured_heading_rad(deviation, path[static_cast<std::size_t>(i)].heading_rad);
     TurnCoefficients row;
-    row << S1, S2, deviation_harmonics(psi_m).tail<4>();
+    row << S1, S2, harmonics(psi_m);
     regressors(i, 0) = 1;
     for (std::size_t c = 0; c < columns.size(); ++c) {
       regressors(i, 1 + static_cast<Eigen::Index>(c)) = row[columns[c]];
@@ -101,8 +100,7 @@ CurveError curve_error(const Eigen::Vector4d& error) {
   double square = 0;
   constexpr int kPoints = 720;
   for (int i = 0; i < kPoints; ++i) {
-    const double e =
-        error.dot(deviation_harmonics(2 * std::numbers::pi * i / kPoints).tail<4>()) * 180 / std::numbers::pi;
+    const double e = error.dot(harmonics(2 * std::numbers::pi * i / kPoints)) * 180 / std::numbers::pi;
     found.largest_deg = std::max(found.largest_deg, std::abs(e));
     square += e * e;
   }

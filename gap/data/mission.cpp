@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include "base/angles.h"
 #include "base/local_plane.h"
@@ -55,6 +57,15 @@ Vector3 fins_rad(const protocols::motor_card::Command& command) {
   return fins_rad;
 }
 
+/// Names what an incomplete sample lacks; the shortest list of all incomplete samples counts.
+void set_lacks(std::string& lacks, std::initializer_list<std::pair<bool, std::string_view>> parts) {
+  std::string words;
+  for (const auto& [has, what] : parts) {
+    if (!has) words.append(words.empty() ? "" : ", ").append(what);
+  }
+  if (lacks.empty() || words.size() < lacks.size()) lacks = words;
+}
+
 }  // namespace
 
 std::vector<double> Mission::fix_times_s() const {
@@ -64,12 +75,22 @@ std::vector<double> Mission::fix_times_s() const {
 }
 
 std::string Mission::shortcoming() const {
-  if (card.empty()) return "no inertial card in the recording: nothing carries the motion from sample to sample";
-  if (compass.empty()) return "no compass with field and tilt in the recording: heading is not known";
-  if (motor.empty() && !motor_lacks.empty()) {
-    return fmt::format("the motor card reports no {}: what the vehicle was told to do is not known", motor_lacks);
-  }
-  if (motor.empty()) return "no motor card in the recording: what the vehicle was told to do is not known";
+  std::string reasons;
+  const auto add = [&](std::string_view none, const std::string& missing, std::string_view instrument,
+                       std::string_view consequence) {
+    if (!reasons.empty()) reasons += "; ";
+    reasons += missing.empty() ? fmt::format("{}: {}", none, consequence)
+                               : fmt::format("the {} reports no {}: {}", instrument, missing, consequence);
+  };
+  if (card.empty())
+    add("no inertial card in the recording", lacks.card, "inertial unit",
+        "nothing carries the motion from sample to sample");
+  if (compass.empty())
+    add("no compass with field and tilt in the recording", lacks.compass, "compass", "heading is not known");
+  if (motor.empty())
+    add("no motor card in the recording", lacks.motor, "motor card",
+        "what the vehicle was told to do is not known");
+  if (!reasons.empty()) return reasons;
   if (duration_s < kShortest_s) {
     return fmt::format("the recording lasts {:.1f} s; at least {:.0f} s are needed", duration_s, kShortest_s);
   }
@@ -88,14 +109,26 @@ void MissionGatherer::on_sample(const instruments::Sample& sample) {
 void MissionGatherer::add(const instruments::CompassSample& sample, std::int64_t time_ns) {
   const instruments::CompassError error(sample.error);
   if (error.distortion) ++mission_.distorted;
-  if (!sample.field_body_uT || !sample.roll_rad || !sample.pitch_rad || error.unknown) return;
+  if (error.unknown) return;
+  if (!sample.field_body_uT || !sample.roll_rad || !sample.pitch_rad) {
+    set_lacks(mission_.lacks.compass, {{sample.field_body_uT.has_value(), "field"},
+                                       {sample.roll_rad.has_value(), "roll"},
+                                       {sample.pitch_rad.has_value(), "pitch"}});
+    return;
+  }
   mission_.compass.push_back(
       {0, sample.heading_rad, *sample.roll_rad, *sample.pitch_rad, *sample.field_body_uT, sample.temperature_C});
   times_ns_[compass].push_back(time_ns);
 }
 
 void MissionGatherer::add(const instruments::ImuSample& sample, std::int64_t time_ns) {
-  if (!sample.rate_rad_s || !sample.yaw_rate_b_rad_s || !sample.specific_force_m_s2 || !sample.depth_m) return;
+  if (!sample.rate_rad_s || !sample.yaw_rate_b_rad_s || !sample.specific_force_m_s2 || !sample.depth_m) {
+    set_lacks(mission_.lacks.card, {{sample.rate_rad_s.has_value(), "rates"},
+                                    {sample.yaw_rate_b_rad_s.has_value(), "yaw rate of a second gyro"},
+                                    {sample.specific_force_m_s2.has_value(), "specific force"},
+                                    {sample.depth_m.has_value(), "depth in the same sample"}});
+    return;
+  }
   const auto& [roll, pitch, yaw] = *sample.rate_rad_s;
   mission_.card.push_back(
       {0, {roll, yaw, pitch, *sample.yaw_rate_b_rad_s}, *sample.specific_force_m_s2, *sample.depth_m});
@@ -127,15 +160,9 @@ void MissionGatherer::add(const instruments::MotorSample& sample, std::int64_t t
   const bool has_fins = std::all_of(sample.fins_rad.begin(), sample.fins_rad.end(),
                                     [](const auto& fin_rad) { return fin_rad.has_value(); });
   if (!sample.rpm || !sample.current_A || !has_fins) {
-    // Shown only where no status is complete, so the first one is as good as any.
-    std::string& lacks = mission_.motor_lacks;
-    if (!lacks.empty()) return;
-    const auto add_lack = [&](bool has, std::string_view what) {
-      if (!has) lacks.append(lacks.empty() ? "" : ", ").append(what);
-    };
-    add_lack(sample.rpm.has_value(), "shaft speed (rpm)");
-    add_lack(sample.current_A.has_value(), "current");
-    add_lack(has_fins, "fin angles");
+    set_lacks(mission_.lacks.motor, {{sample.rpm.has_value(), "shaft speed (rpm)"},
+                                     {sample.current_A.has_value(), "current"},
+                                     {has_fins, "fin angles"}});
     return;
   }
   MotorReading reading{0, *sample.rpm, {}, *sample.current_A};

@@ -55,9 +55,12 @@ struct Mission {
   std::vector<CardReading> card;
   std::vector<FixReading> fixes;
   std::vector<MotorReading> motor;
-  /// Fields missing from the motor card's statuses, such as "shaft speed (rpm)". It counts only where no status
-  /// is complete. Empty: none is missing, or there is no card.
-  std::string motor_lacks;
+  /// Quantities that no sample of an instrument was complete for, such as "shaft speed (rpm)". They count only
+  /// where not a single sample is complete. Empty: none is missing, or there is no such sample.
+  struct Lacks {
+    std::string compass, card, motor;
+  };
+  Lacks lacks;
   /// Times of new commands to the motor card. Empty: not recorded.
   std::vector<double> order_times_s;
   /// Fins that each of them commanded: what the vehicle was told, not what it did. Empty: not recorded.
@@ -70,7 +73,8 @@ struct Mission {
   devices::InstrumentModel instruments;
 
   [[nodiscard]] std::vector<double> fix_times_s() const;
-  /// Reason why the mission cannot be diagnosed ("no inertial card: ..."); empty: it can.
+  /// All reasons why the mission cannot be diagnosed ("no inertial card in the recording: ...; ..."); empty: it
+  /// can.
   [[nodiscard]] std::string shortcoming() const;
 };
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/import/mavlink_frame.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/record/temporary_folder.h"
 #include "tests/support/temporary_folder.h"
@@ -85,6 +86,39 @@ TEST_F(LogImport, WhatCannotBeReadIsSaidAndNothingIsWritten) {
             3);
   EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap"));
   EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap.part"));
+}
+
+/// A telemetry log with one frame of version 1: SERVO_OUTPUT_RAW with 1500 and 1900 us.
+std::string telemetry_of_pulses() {
+  constexpr unsigned char kFrame[] = {0x00, 0x06, 0x0A, 0x24, 0x18, 0x1E, 0x40, 0x00, 0xFE, 21,   0x05,
+                                      0x01, 0x01, 36,   5,    0,    0,    0,    0xDC, 0x05, 0x6C, 0x07};
+  std::string log(reinterpret_cast<const char*>(kFrame), sizeof kFrame);
+  log.append(6 * 2 + 1, '\0');
+  const auto sum = analysis::mavlink::checksum(std::string_view(log).substr(9), 222);
+  log += static_cast<char>(sum & 0xFF);
+  log += static_cast<char>(sum >> 8);
+  return log;
+}
+
+TEST_F(LogImport, AMapMakesShaftAndFinsOfOutputsAndItsMistakesAreNamed) {
+  const auto tlog = write("a.tlog", telemetry_of_pulses()).string();
+  const std::string map =
+      "[column.\"SERVO_OUTPUT_RAW.servo1_raw\"]\nmeaning = \"rpm_commanded\"\nfrom = [1100, 1900]\nto = [-1200, "
+      "1200]\n[column.\"SERVO_OUTPUT_RAW.servo2_raw\"]\nmeaning = \"fin_1\"\nfrom = [1100, 1900]\nto = [-20, "
+      "20]\nunit = \"deg\"\n";
+  const auto good = run({"import", "--map", write("a.toml", map).string(), "-o", to("a.mcap"), tlog});
+  ASSERT_EQ(good.status, 0) << good.message;
+  EXPECT_NE(good.output.find("SERVO_OUTPUT_RAW by the map"), std::string::npos) << good.output;
+  ASSERT_EQ(run({"export", "--csv", to("csv"), to("a.mcap")}).status, 0);
+  const std::string motor = navcal::test::read_file(to("csv") + "/motor.csv");
+  EXPECT_NE(motor.find(",motor,,0,0.3490658503988659,,,"), std::string::npos) << motor;
+  std::string wrong = map;
+  wrong.replace(wrong.find("servo2"), 6, "servo7");
+  const auto absent = run({"import", "--map", write("b.toml", wrong).string(), "-o", to("b.mcap"), tlog});
+  EXPECT_EQ(absent.status, 3);
+  EXPECT_EQ(absent.message,
+            to("b.toml") + ":5: column.SERVO_OUTPUT_RAW.servo7_raw: the log has no value of this channel");
+  EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap"));
 }
 
 }  // namespace

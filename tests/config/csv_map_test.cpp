@@ -57,5 +57,61 @@ TEST(CsvMap, TimesOfIso8601) {
   }
 }
 
+TEST(CsvMap, ACurveIsStraightBetweenItsCornersAndEndsThere) {
+  const CsvMap map = parse_csv_map(
+      "[time]\ncolumn = \"t\"\n[column.c]\nmeaning = \"fin_1\"\nunit = \"deg\"\n"
+      "from = [1100, 1475, 1525, 1900]\nto = [-20, 0, 0, 20]\n[column.d]\nmeaning = \"compass_temperature\"\n"
+      "unit = \"K\"\n",
+      "map.toml");
+  constexpr double kDegree = 3.14159265358979 / 180;
+  const CsvColumn& fin = map.columns.at(0);
+  EXPECT_NEAR(fin.value(1100), -20 * kDegree, 1e-12);
+  EXPECT_NEAR(fin.value(1287.5), -10 * kDegree, 1e-12);
+  EXPECT_EQ(fin.value(1480), 0) << "a dead band";
+  EXPECT_NEAR(fin.value(1712.5), 10 * kDegree, 1e-12);
+  EXPECT_NEAR(fin.value(2100), 20 * kDegree, 1e-12);
+  EXPECT_TRUE(fin.is_beyond(1099));
+  EXPECT_FALSE(fin.is_beyond(1100));
+  EXPECT_FALSE(fin.is_beyond(1900));
+  EXPECT_NEAR(map.columns.at(1).value(300), 26.85, 1e-9);
+  EXPECT_FALSE(map.columns.at(1).is_beyond(1e9)) << "it has no curve";
+}
+
+TEST(CsvMap, ACurveThatCannotBeDrawnIsNamedByLineAndKey) {
+  const auto problem_of = [](const std::string& keys) {
+    return map_problems("[time]\ncolumn = \"t\"\n[column.c]\nmeaning = \"rpm\"\n" + keys);
+  };
+  EXPECT_EQ(problem_of("from = [1, 1]\nto = [0, 5]\n"),
+            "map.toml:5: column.c.from: two numbers or more are expected, each larger than the one before");
+  EXPECT_EQ(problem_of("from = [1, 2, 3]\nto = [0, 5]\n"),
+            "map.toml:6: column.c.to: as many numbers as \"from\" has are expected: 3");
+  EXPECT_EQ(problem_of("from = [1, 2]\n"), "map.toml:3: column.c: \"from\" needs \"to\"");
+  EXPECT_EQ(problem_of("scale = 2\nfrom = [1, 2]\nto = [0, 5]\n"),
+            "map.toml:5: column.c.scale: \"from\" and \"to\" take the place of scale and offset");
+  EXPECT_NE(problem_of("from = 5\nto = [0, 5]\n").find("map.toml:5: column.c.from: cannot be"), std::string::npos);
+}
+
+TEST(ChannelMap, HasShaftAndFinsOnly) {
+  const ChannelMap map = parse_channel_map(
+      "[column.\"RCOU.C1\"]\nmeaning = \"rpm_commanded\"\nfrom = [1100, 1900]\nto = [-20, 20]\nunit = \"rps\"\n",
+      "map.toml");
+  ASSERT_EQ(map.channels.size(), 1U);
+  EXPECT_EQ(map.channels[0].name, "RCOU.C1");
+  EXPECT_EQ(map.channels[0].line, 1U);
+  EXPECT_DOUBLE_EQ(map.channels[0].value(1900), 1200) << "in rpm";
+  try {
+    (void)parse_channel_map("header = 1\n[time]\ncolumn = \"t\"\n[column.\"IMU.GyrX\"]\nmeaning = \"rate_x\"\n",
+                            "map.toml");
+    FAIL() << "it was read";
+  } catch (const Error& error) {
+    const std::string problems = error.what();
+    EXPECT_NE(problems.find("map.toml:1: header: only tables [column.NAME] are known"), std::string::npos);
+    EXPECT_NE(problems.find("map.toml:3: time.column: only tables"), std::string::npos) << problems;
+    EXPECT_NE(problems.find("map.toml:4: column.IMU.GyrX.meaning: one of rpm, rpm_commanded, fin_1"),
+              std::string::npos)
+        << problems;
+  }
+}
+
 }  // namespace
 }  // namespace navcal::config

@@ -239,6 +239,30 @@ TEST_F(StatusServerTest, RecordsTellTopicsAndSchemasAsTheLogHasThem) {
   }
 }
 
+TEST_F(StatusServerTest, SentencesGoToThoseWhoAskForNmeaAndToOthersNot) {
+  const NmeaKey serving{ReportClass::tpv, 1, true}, spare{ReportClass::tpv, 0, false};
+  const auto watched = [&](const NmeaKey& key) { return on_loop([&] { return server_.watched(key); }); };
+  const auto json_only = watcher();
+  EXPECT_FALSE(watched(serving)) << "whoever does not ask costs nothing";
+  Client nmea(server_.port());
+  nmea.send(R"(?WATCH={"class":"WATCH", "nmea":true})");
+  const json policy = json::parse(nmea.line_with("\"WATCH\""));
+  EXPECT_EQ(policy["nmea"], true);
+  EXPECT_EQ(policy["json"], false);
+  const auto spare_only = watcher(R"(,"nmea":true,"device":"compass","classes":[])");
+  EXPECT_TRUE(watched(serving));
+  on_loop([&] { server_.publish(serving, "$A\r\n$B\r\n"); });
+  EXPECT_FALSE(watched(serving)) << "its next turn is in a tenth of a second";
+  on_loop([&] { server_.publish(spare, "$C\r\n"); });
+  publish(0, "{\"from\":\"att\"}\n");
+  EXPECT_EQ(nmea.line(), "$A\r");
+  EXPECT_EQ(nmea.line(), "$B\r");
+  EXPECT_EQ(spare_only->line(), "$C\r") << "it has selected the device that does not serve";
+  EXPECT_EQ(json_only->line(), "{\"from\":\"att\"}");
+  nmea.send("?VERSION;");
+  EXPECT_NE(nmea.line().value().find("VERSION"), std::string::npos) << "neither the other device nor JSON";
+}
+
 TEST_F(StatusServerTest, AnUnknownDeviceIsAnError) {
   Client client(server_.port());
   client.send("?WATCH={\"enable\":true,\"device\":\"sonar\"};\n");

@@ -12,7 +12,7 @@ using namespace navcal::calib;
 
 /// State of a suite that has seen some turns.
 std::string saved_state() {
-  Suite suite({}, {true, true, true, true});
+  Suite suite({}, {true, true, true, true, true});
   for (int k = 0; k < 2000; ++k) {
     const double t = 0.05 * k, heading = 0.2 * t;
     RateReading rate;
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::memcpy(state.data() + at, &value, std::min(sizeof value, state.size() - at));
   }
   if (source.take<std::uint8_t>() == 0) state.resize(source.take<std::uint32_t>() % state.size());
-  Suite suite({}, {true, true, true, true});
+  Suite suite({}, {true, true, true, true, true});
   Archive archive{std::string_view(state)};
   archive(suite);
   if (!archive.ok()) return 0;

@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: Apache-2.0
 navcal_fuzz(fuzz_effects SOURCES effects.cpp USES navcal::sim)
+navcal_fuzz(fuzz_layout SOURCES layout.cpp USES navcal::sim)

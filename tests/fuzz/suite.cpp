@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace navcal::calib;
   fuzz::Source source({data, size});
-  Suite suite({}, {true, true, true, true});
+  Suite suite({}, {true, true, true, true, true});
   double time_s = 0;
   while (!source.empty()) suite.put(fuzz::take_reading(source, time_s));
   suite.finish();

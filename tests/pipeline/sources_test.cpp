@@ -222,7 +222,7 @@ TEST(Sources, OnlyWhatHasDeliveredIsSaidToDeliver) {
 TEST(Sources, CalibratorsGoOnWithTheInstrumentsTheyHad) {
   const auto settings = with({Protocol::nmea, Protocol::nmea});
   Sources sources(settings);
-  sources.go_on_with({.compass = 1, .imu = {}, .gps = 7, .motor = {}});
+  sources.go_on_with({.compass = 1, .imu = {}, .gps = 7, .motor = {}, .reference = {}});
   sources.begin_run();
   for (int second = 0; second < 10; ++second) (void)take(sources, heading(0, second));
   EXPECT_EQ(sources.learnt().compass, 1);

@@ -15,17 +15,17 @@ constexpr std::size_t kMaxChannels = 1024;
 struct DerivedChannel {
   const char* topic;
   const char* schema_name;
-  std::string (*schema)();
+  std::string schema;
   std::vector<std::string> sources;
   std::optional<std::string> Derived::*member;
 };
 
 const std::vector<DerivedChannel>& derived_channels() {
   static const std::vector<DerivedChannel> channels{
-      {"/foxglove/location", "foxglove.LocationFix", location_fix_schema, {"/gps", "/nav"}, &Derived::location},
-      {"/foxglove/pose", "foxglove.PoseInFrame", pose_in_frame_schema, {"/nav"}, &Derived::pose},
-      {"/foxglove/tf", "foxglove.FrameTransform", frame_transform_schema, {"/nav"}, &Derived::transform},
-      {"/foxglove/log", "foxglove.Log", log_schema, {"/event"}, &Derived::log},
+      {"/foxglove/location", "foxglove.LocationFix", location_fix_schema(), {"/gps", "/nav"}, &Derived::location},
+      {"/foxglove/pose", "foxglove.PoseInFrame", pose_in_frame_schema(), {"/nav"}, &Derived::pose},
+      {"/foxglove/tf", "foxglove.FrameTransform", frame_transform_schema(), {"/nav"}, &Derived::transform},
+      {"/foxglove/log", "foxglove.Log", log_schema(), {"/event"}, &Derived::log},
   };
   return channels;
 }
@@ -44,7 +44,7 @@ std::vector<const Channel*> Channels::available(const std::vector<Topic>& topics
       return std::find(derived.sources.begin(), derived.sources.end(), topic.name) != derived.sources.end();
     });
     if (has_source)
-      add(known({0, derived.sources, derived.member, {}}, derived.topic, derived.schema_name, derived.schema()));
+      add(known({0, derived.sources, derived.member, {}}, derived.topic, derived.schema_name, derived.schema));
   }
   return found;
 }

@@ -3,8 +3,10 @@
 
 #include <vector>
 
+#include "web/outlets/chrony.h"
 #include "web/outlets/daemon_metrics.h"
 #include "web/outlets/json_members.h"
+#include "web/outlets/mqtt_connection.h"
 #include "web/outlets/process_metrics.h"
 
 namespace navcal::web {
@@ -103,10 +105,29 @@ void Metrics::append_program(Exposition& out) const {
   append_process(out);
 }
 
+void Metrics::append_outlets(Exposition& out) const {
+  if (mqtt_ != nullptr) {
+    out.single("navcal_web_mqtt_connected", gauge, "1 while there is a connection to the MQTT broker.",
+               mqtt_->connected ? 1.0 : 0.0);
+    out.single("navcal_web_mqtt_published_messages_total", counter, "Messages that the MQTT broker got.",
+               static_cast<double>(mqtt_->published));
+    out.single("navcal_web_mqtt_dropped_messages_total", counter,
+               "Messages dropped, because there was no MQTT broker or it was too slow.",
+               static_cast<double>(mqtt_->dropped));
+  }
+  if (chrony_ != nullptr) {
+    out.single("navcal_web_chrony_samples_total", counter, "Samples that chronyd got.",
+               static_cast<double>(chrony_->samples));
+    out.single("navcal_web_chrony_failed_samples_total", counter, "Samples that nobody took.",
+               static_cast<double>(chrony_->not_sent));
+  }
+}
+
 std::string Metrics::page() const {
   Exposition out;
   append_daemon(out);
   append_program(out);
+  append_outlets(out);
   return out.text();
 }
 

@@ -15,6 +15,9 @@
 
 namespace navcal::web {
 
+struct ChronyCounters;
+struct MqttCounters;
+
 /// State of navcald and of this program for Prometheus. While there is no connection to navcald, only
 /// `navcald_up 0` is told about it.
 class Metrics final : public Subscriber {
@@ -30,6 +33,9 @@ class Metrics final : public Subscriber {
     source_ = &source;
   }
 
+  void watch(const MqttCounters& mqtt) { mqtt_ = &mqtt; }
+  void watch(const ChronyCounters& chrony) { chrony_ = &chrony; }
+
   /// The whole page in Prometheus' text format.
   [[nodiscard]] std::string page() const;
   [[nodiscard]] Handler handler() const;
@@ -40,10 +46,13 @@ class Metrics final : public Subscriber {
  private:
   void append_daemon(Exposition& out) const;
   void append_program(Exposition& out) const;
+  void append_outlets(Exposition& out) const;
 
   Hub& hub_;
   const ServerCounters* server_ = nullptr;
   const LiveSource::Counters* source_ = nullptr;
+  const MqttCounters* mqtt_ = nullptr;
+  const ChronyCounters* chrony_ = nullptr;
   LatestParts health_, calibration_;
   nlohmann::json time_, navigation_;
   std::map<std::string, nlohmann::json, std::less<>> batteries_;  ///< by device

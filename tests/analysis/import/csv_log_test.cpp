@@ -137,5 +137,44 @@ TEST(Csv, NoCutAndNoDamageBringsItDown) {
                          [&](const std::string& file, ImportSink& sink) { return read_csv(file, map, sink); });
 }
 
+TEST(Csv, MotorColumnsAreThoseOfAMotorCardAndOneFinCounts) {
+  RecordingSink sink;
+  const auto findings = read("0,1900,1500,2.5,0.5,0.25\n0.1,2000,,,,\n", R"(
+header = 0
+[time]
+column = "1"
+format = "s"
+[column.2]
+meaning = "rpm_commanded"
+from = [1100, 1900]
+to = [-20, 20]
+unit = "rps"
+[column.3]
+meaning = "fin_2"
+from = [1000, 2000]
+to = [-25, 25]
+unit = "deg"
+[column.4]
+meaning = "motor_current"
+[column.5]
+meaning = "imu_depth"
+[column.6]
+meaning = "rate_yaw_b"
+unit = "deg/s"
+)",
+                             sink);
+  const auto motor = sink.of_port("motor");
+  ASSERT_EQ(motor.size(), 2U);
+  EXPECT_EQ(motor[0].line["rpm_commanded"], 1200);
+  EXPECT_EQ(motor[0].line["fins_rad"].dump(), "[null,0,null]");
+  EXPECT_EQ(motor[0].line["current_A"], 2.5);
+  EXPECT_FALSE(motor[1].line.contains("fins_rad"));
+  EXPECT_EQ(sink.of_port("imu").at(0).line["depth_m"], 0.5);
+  EXPECT_NEAR(sink.of_port("imu").at(0).line["yaw_rate_b_rad_s"].get<double>(), 0.25 * 3.14159265358979 / 180,
+              1e-12);
+  ASSERT_EQ(findings.remarks.size(), 1U);
+  EXPECT_EQ(findings.remarks[0], "2: 1 values lie beyond 1100 to 1900, and count as its ends");
+}
+
 }  // namespace
 }  // namespace navcal::analysis

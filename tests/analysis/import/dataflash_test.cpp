@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/import/gps_week.h"
+#include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/recording_sink.h"
 #include "tests/protocols/shared_capture.h"
 
@@ -258,6 +259,39 @@ TEST(DataFlash, CaptureOfASubmarine) {
   EXPECT_EQ(sink.of_port("motor").size(), 237U * 8);
   EXPECT_EQ(sink.left_counts["XKF1"], 237);
   expect_vector(sink.of_port("compass")[0].line["field_body_uT"], -14, 6.3, 90);
+}
+
+TEST(DataFlash, MappedOutputsMoveShaftAndFinsAndTheOthersStayPulses) {
+  DataFlashWriter log;
+  log.format(18, 3 + 8 + 16 + 4, "PARM", "QNf", "TimeUS,Name,Value");
+  for (const auto& [name, value] : {std::pair{"SERVO1_FUNCTION", 70.0F}, std::pair{"SERVO3_FUNCTION", 21.0F}}) {
+    log.head(18);
+    append_number(log.out, std::uint64_t{1});
+    log.text(name, 16);
+    append_number(log.out, value);
+  }
+  const std::string plain = log.out + small_log();
+  auto channels = testing::pulses_of("RCOU.C1", "RCOU.C3");
+  RecordingSink sink;
+  const auto findings = read_dataflash(plain, sink, channels);
+  ASSERT_EQ(findings.remarks.size(), 1U);
+  EXPECT_EQ(findings.remarks[0], "outputs by the parameters of the vehicle: 1 throttle, 3 rudder");
+  const auto motor = sink.of_port("motor");
+  ASSERT_EQ(motor.size(), 1U) << "both outputs in use are mapped";
+  EXPECT_EQ(motor[0].line["class"], "MOTOR");
+  EXPECT_EQ(motor[0].line["rpm_commanded"], 0);
+  EXPECT_NEAR(motor[0].line["fins_rad"][0].get<double>(), 20 * 3.14159265358979 / 180, 1e-12);
+  EXPECT_EQ(motor[0].time_ns, 1'500'000'000);
+  // Any column serves, of messages with instances by their number, and of messages that are not taken.
+  auto others = MotorChannels(config::parse_channel_map(
+      "[column.\"BAT[0].Curr\"]\nmeaning = \"motor_current\"\n[column.\"RCOU.C1\"]\nmeaning = \"rpm\"\n", "map"));
+  RecordingSink more;
+  (void)read_dataflash(small_log(), more, others);
+  ASSERT_EQ(more.of_port("motor").size(), 3U);
+  EXPECT_EQ(more.of_port("motor")[0].line["current_A"], 2.25);
+  EXPECT_EQ(more.of_port("motor")[1].line["rpm"], 1500);
+  EXPECT_EQ(more.of_port("motor")[2].line["quantity"], "output3");
+  EXPECT_EQ(more.of_port("battery").size(), 1U);
 }
 
 }  // namespace

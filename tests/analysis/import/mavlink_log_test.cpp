@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/import/mavlink_frame.h"
+#include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/recording_sink.h"
 
 namespace navcal::analysis {
@@ -126,6 +127,35 @@ TEST(MavlinkLog, AFrameWithADamagedByteIsPassedOver) {
 TEST(MavlinkLog, NoCutAndNoDamageBringsItDown) {
   testing::expect_robust(small_tlog(true),
                          [](const std::string& file, ImportSink& sink) { return read_mavlink_log(file, sink); });
+}
+
+TEST(MavlinkLog, MappedOutputsMoveShaftAndFins) {
+  for (const bool is_second : {false, true}) {
+    auto channels = testing::pulses_of("SERVO_OUTPUT_RAW.servo1_raw", "SERVO_OUTPUT_RAW.servo3_raw");
+    RecordingSink sink;
+    std::string name = "SERVO3_FUNCTION";
+    name.resize(16);
+    std::string parameter = payload_of(21.0F, std::uint16_t{9}, std::uint16_t{3}) + name + '\x09';
+    const auto findings = read_mavlink_log(
+        small_tlog(is_second) + entry(kStart_us + 8500, 22, parameter, 220, is_second), sink, channels);
+    EXPECT_EQ(findings.remarks.back(), "outputs by the parameters of the vehicle: 3 rudder");
+    const auto motor = sink.of_port("motor");
+    ASSERT_EQ(motor.size(), 1U);
+    EXPECT_EQ(motor[0].message, "SERVO_OUTPUT_RAW by the map");
+    EXPECT_EQ(motor[0].line["rpm_commanded"], 0);
+    EXPECT_NEAR(motor[0].line["fins_rad"][0].get<double>(), 20 * 3.14159265358979 / 180, 1e-12);
+  }
+}
+
+TEST(MavlinkLog, OutputsBehindTheEighthAreThoseOfVersion2) {
+  std::string payload = payload_of(std::uint32_t{5});
+  for (int i = 0; i < 8; ++i) append_number(payload, std::uint16_t{0});
+  payload += '\0';
+  append_number(payload, std::uint16_t{1234});
+  RecordingSink sink;
+  (void)read_mavlink_log(small_tlog(true) + entry(kStart_us + 9000, 36, payload, 222, true), sink);
+  EXPECT_EQ(sink.of_port("motor").back().line["quantity"], "output9");
+  EXPECT_EQ(sink.of_port("motor").back().line["value"], 1234);
 }
 
 }  // namespace

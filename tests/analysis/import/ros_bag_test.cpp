@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "record/log/mcap_format.h"
+#include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/recording_sink.h"
 
 namespace navcal::analysis {
@@ -213,6 +214,79 @@ TEST(RosBag, ALogOfNavcalIsNone) {
 TEST(RosBag, NoCutAndNoDamageBringsItDown) {
   testing::expect_robust(
       small_bag(), [](const std::string& file, ImportSink& sink) { return read_ros_bag(file, sink); }, 3);
+}
+
+/// Commands of a vehicle in the four forms in which ROS has them.
+std::string bag_of_commands() {
+  BagWriter bag;
+  bag.topic(bag.out, 1, "/rc/out", "mavros_msgs/msg/RCOut");
+  bag.topic(bag.out, 2, "/shaft", "std_msgs/msg/Float64");
+  bag.topic(bag.out, 3, "/fins", "std_msgs/msg/Float32MultiArray");
+  bag.topic(bag.out, 4, "/joints", "sensor_msgs/msg/JointState");
+  Cdr outputs;
+  outputs.header().put(std::uint32_t{3});
+  for (const std::uint16_t pulse_us : std::array<std::uint16_t, 3>{1500, 0, 1900}) outputs.put(pulse_us);
+  BagWriter::message(bag.out, 1, outputs.out);
+  BagWriter::message(bag.out, 2, Cdr().put(13.0).out);
+  Cdr array;
+  array.put(std::uint32_t{1}).put(std::uint32_t{5});
+  array.out += std::string("fins\0", 5);
+  array.put(std::uint32_t{2}).put(std::uint32_t{2}).put(std::uint32_t{0}).put(std::uint32_t{2});
+  array.put(0.125F).put(-0.25F);
+  BagWriter::message(bag.out, 3, array.out);
+  Cdr joints;
+  joints.header().put(std::uint32_t{2});
+  for (const char* const name : {"rudder", "thruster"}) {
+    joints.put(static_cast<std::uint32_t>(std::strlen(name) + 1));
+    joints.out += name;
+    joints.out += '\0';
+  }
+  joints.put(std::uint32_t{2}).put(0.375).put(0.0).put(std::uint32_t{2}).put(0.0).put(80.0).put(std::uint32_t{0});
+  BagWriter::message(bag.out, 4, joints.out);
+  return bag.finished();
+}
+
+MotorChannels map_of_commands() {
+  return MotorChannels(config::parse_channel_map(
+      "[column.\"/rc/out.channels[2]\"]\nmeaning = \"fin_3\"\nfrom = [1100, 1900]\nto = [-0.5, 0.5]\n"
+      "[column.\"/shaft.data\"]\nmeaning = \"rpm_commanded\"\nunit = \"rps\"\n"
+      "[column.\"/fins.data[1]\"]\nmeaning = \"fin_2\"\n"
+      "[column.\"/joints.rudder/position\"]\nmeaning = \"fin_1\"\n"
+      "[column.\"/joints.thruster/velocity\"]\nmeaning = \"rpm\"\nscale = 9.5\n",
+      "map.toml"));
+}
+
+TEST(RosBag, CommandsOfFourTypesMoveShaftAndFins) {
+  auto channels = map_of_commands();
+  RecordingSink sink;
+  (void)read_ros_bag(bag_of_commands(), sink, channels);
+  EXPECT_NO_THROW(channels.expect_all_found());
+  const auto motor = sink.of_port("motor");
+  ASSERT_EQ(motor.size(), 5U);
+  EXPECT_NEAR(motor[0].line["fins_rad"][2].get<double>(), 0.5, 1e-12);
+  EXPECT_EQ(motor[0].utc_ns, 1'700'000'000'000'000'007) << "the stamp of its header";
+  EXPECT_EQ(motor[1].line["quantity"], "output1");
+  EXPECT_EQ(motor[1].line["value"], 1500);
+  EXPECT_EQ(motor[2].line["rpm_commanded"], 780);
+  EXPECT_FALSE(motor[2].utc_ns) << "a message without a header";
+  EXPECT_NEAR(motor[3].line["fins_rad"][1].get<double>(), -0.25, 1e-7);
+  EXPECT_EQ(motor[4].line["rpm"], 760);
+  EXPECT_EQ(motor[4].line["fins_rad"][0], 0.375);
+}
+
+TEST(RosBag, CommandsWithoutAMapAreLeftButForPulses) {
+  RecordingSink sink;
+  (void)read_ros_bag(bag_of_commands(), sink);
+  EXPECT_EQ(sink.samples.size(), 2U) << "outputs 1 and 3";
+  EXPECT_EQ(sink.left_counts["/shaft (std_msgs/msg/Float64)"], 1);
+  EXPECT_EQ(sink.left_counts["/joints (sensor_msgs/msg/JointState)"], 1);
+}
+
+TEST(RosBag, DamagedCommandsBringNothingDown) {
+  testing::expect_robust(bag_of_commands(), [](const std::string& file, ImportSink& sink) {
+    auto channels = map_of_commands();
+    return read_ros_bag(file, sink, channels);
+  });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/recording_sink.h"
 
 namespace navcal::analysis {
@@ -139,6 +140,41 @@ TEST(Ulog, AFormatThatContainsItselfIsNoFormat) {
 TEST(Ulog, NoCutAndNoDamageBringsItDown) {
   testing::expect_robust(small_ulog(),
                          [](const std::string& file, ImportSink& sink) { return read_ulog(file, sink); });
+}
+
+TEST(Ulog, CommandsAreSensorsUnlessTheMapNamesThem) {
+  UlogWriter log;
+  log.message('F', "actuator_outputs:uint64_t timestamp;uint32_t noutputs;float[4] output;");
+  log.message('F', "actuator_motors:uint64_t timestamp;uint64_t timestamp_sample;float[3] control;");
+  log.message('F', "actuator_servos:uint64_t timestamp;uint64_t timestamp_sample;float[2] control;");
+  log.message('P', std::string(1, '\x16') + "int32_t PWM_MAIN_FUNC1" + std::string("\x65\0\0\0", 4));
+  log.subscribe(0, 0, "actuator_outputs");
+  log.subscribe(1, 0, "actuator_motors");
+  log.subscribe(2, 0, "actuator_servos");
+  log.data(0, 2'000'000, std::uint32_t{2}, 1500.0F, 1900.0F, 0.0F, 0.0F);
+  log.data(1, 2'100'000, std::uint64_t{2'090'000}, 0.5F, NAN, NAN);
+  log.data(2, 2'200'000, std::uint64_t{0}, -0.25F, 1.0F);
+  RecordingSink plain;
+  const auto findings = read_ulog(log.out, plain);
+  ASSERT_EQ(findings.remarks.size(), 1U);
+  EXPECT_EQ(findings.remarks[0], "outputs by the parameters of the vehicle: 1 motor 1");
+  ASSERT_EQ(plain.samples.size(), 5U);
+  EXPECT_EQ(plain.samples[2].line["quantity"], "motor1");
+  EXPECT_EQ(plain.samples[2].time_ns, 2'090'000'000);
+  EXPECT_EQ(plain.samples[4].line["quantity"], "servo2");
+  EXPECT_EQ(plain.samples[4].line["value"], 1);
+  auto channels = MotorChannels(config::parse_channel_map(
+      "[column.\"actuator_motors.control[0]\"]\nmeaning = \"rpm_commanded\"\nscale = 1200\n"
+      "[column.\"actuator_servos.control[1]\"]\nmeaning = \"fin_3\"\nunit = \"deg\"\nscale = 25\n",
+      "map.toml"));
+  RecordingSink sink;
+  (void)read_ulog(log.out, sink, channels);
+  ASSERT_EQ(sink.samples.size(), 5U);
+  EXPECT_EQ(sink.samples[2].line["rpm_commanded"], 600);
+  EXPECT_EQ(sink.samples[3].line["fins_rad"][2].get<double>(), 25 * 3.141592653589793 / 180);
+  EXPECT_TRUE(sink.samples[3].line["fins_rad"][0].is_null());
+  EXPECT_EQ(sink.samples[4].line["quantity"], "servo1");
+  EXPECT_NO_THROW(channels.expect_all_found());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-constexpr Instruments kAll{true, true, true, true};
+constexpr Instruments kAll{true, true, true, true, true};
 
 std::string saved_unit(CalibratorUnit& unit) {
   Archive archive;
@@ -75,6 +75,9 @@ TEST(CalibratorTable, EachValueIsCopiedAloneAndSaysItsNumbers) {
   full.misalignment_rad = 0.1;
   full.compass_delay_s = full.course_delay_s = 0.2;
   full.motor_current = MotorCurrentCorrection{};
+  const std::array<double, 5> deviation{1, 2, 3, 4, 5};
+  for (const Calibrator calibrator : calibrators().subspan(kNamedCalibrators))
+    full.added.set(calibrator, deviation);
   for (const Calibrator calibrator : calibrators()) {
     Correction one;
     EXPECT_TRUE(values_of(one, calibrator).empty());

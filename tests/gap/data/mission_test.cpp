@@ -167,5 +167,26 @@ TEST(Mission, SaysWhatItLacks) {
   EXPECT_NE(Mission{}.shortcoming(), "");
 }
 
+TEST(Mission, TellsAllThatIsMissingAtOnce) {
+  MissionGatherer gatherer;
+  instruments::Sample sample;
+  instruments::ImuSample imu;
+  imu.rate_rad_s = {0, 0, 0};
+  sample.value = imu;
+  gatherer.on_sample(sample);
+  imu.specific_force_m_s2 = {0, 0, -9.81};
+  sample.value = imu;
+  gatherer.on_sample(sample);
+  instruments::CompassSample compass;
+  compass.heading_rad = 1;
+  sample.value = compass;
+  gatherer.on_sample(sample);
+  EXPECT_EQ(
+      gatherer.take(0, {}).shortcoming(),
+      "the inertial unit reports no yaw rate of a second gyro, depth in the same sample: nothing carries the "
+      "motion from sample to sample; the compass reports no field, roll, pitch: heading is not known; no motor "
+      "card in the recording: what the vehicle was told to do is not known");
+}
+
 }  // namespace
 }  // namespace navcal::gap

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "config/layout.h"
+#include "sim/layout/assessment/assessment.h"
+
+namespace navcal::report {
+
+/// What navcal vehicle check shows: lines of text, or one JSON object. Unknown numbers are null.
+[[nodiscard]] std::string vehicle_check_text(const config::Layout& layout, const sim::Assessment& found);
+[[nodiscard]] std::string vehicle_check_json(const config::Layout& layout, const sim::Assessment& found);
+
+}  // namespace navcal::report

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/layout/damping.h"
+
+#include <cmath>
+
+#include "sim/layout/flow_axes.h"
+#include "sim/layout/vector_of.h"
+
+namespace navcal::sim {
+namespace {
+
+std::optional<Matrix6> unless_zero(const config::LayoutMatrix& rows) {
+  const Matrix6 matrix = matrix_of(rows);
+  return matrix.isZero(0) ? std::nullopt : std::optional(matrix);
+}
+
+}  // namespace
+
+HullDamping::HullDamping(const config::Layout& layout)
+    : linear_(unless_zero(layout.damping.linear)),
+      quadratic_(unless_zero(layout.damping.quadratic)),
+      lift_(unless_zero(layout.damping.lift)),
+      axial_kg_m_(0.5 * layout.water_density_kg_m3 * layout.damping.axial_coefficient *
+                  layout.damping.axial_area_m2),
+      body_lift_kg_m_(0.5 * layout.water_density_kg_m3 * layout.damping.body_lift_area_m2 *
+                      layout.damping.body_lift_slope_per_rad),
+      body_lift_at_m_(layout.damping.body_lift_at_m),
+      strips_(layout.damping.strips, layout.damping.cross_flow_coefficient, layout.water_density_kg_m3),
+      flow_axes_(layout.damping.flow_axes) {}
+
+Vector6 HullDamping::operator()(const Vector6& velocity) const {
+  const double surge = std::abs(velocity[0]);
+  const double Y = -body_lift_kg_m_ * surge * velocity[1];
+  const double Z = -body_lift_kg_m_ * surge * velocity[2];
+  Vector6 force;
+  force << -axial_kg_m_ * surge * velocity[0], Y, Z, 0, -body_lift_at_m_ * Z, body_lift_at_m_ * Y;
+  if (linear_) force -= *linear_ * velocity;
+  if (quadratic_) force -= *quadratic_ * velocity.cwiseAbs().cwiseProduct(velocity);
+  if (lift_) force -= surge * (*lift_ * velocity);
+  strips_.add(velocity, force);
+  if (flow_axes_) force += flow_axes_force(*flow_axes_, velocity);
+  return force;
+}
+
+}  // namespace navcal::sim

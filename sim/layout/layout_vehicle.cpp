@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/layout/layout_vehicle.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <utility>
+
+#include "sim/layout/added_mass.h"
+#include "sim/layout/rigid_body.h"
+#include "sim/vehicle/vehicle.h"
+
+namespace navcal::sim {
+
+LayoutVehicle::LayoutVehicle(config::Layout layout)
+    : layout_(std::move(layout)),
+      added_mass_(added_mass(layout_)),
+      mass_(rigid_body_mass(layout_, std::vector<double>(layout_.moving_masses.size())) + added_mass_),
+      mass_inverse_(mass_.inverse()),
+      hull_(layout_) {
+  for (const auto& thruster : layout_.thrusters) thrusters_.emplace_back(thruster, layout_.water_density_kg_m3);
+  for (const auto& surface : layout_.surfaces) surfaces_.emplace_back(surface, layout_.water_density_kg_m3);
+}
+
+LayoutVehicle::Held LayoutVehicle::hold(const ActuatorValues& actuators) const {
+  Held held{mass_, mass_inverse_, restoring_of(layout_, actuators.ballasts_N, actuators.masses_m), actuators};
+  if (!layout_.moving_masses.empty()) {
+    held.mass = rigid_body_mass(layout_, actuators.masses_m) + added_mass_;
+    held.mass_inverse = held.mass.inverse();
+  }
+  return held;
+}
+
+Vector6 LayoutVehicle::force(const Vector6& velocity, const Eigen::Vector3d& down, const Held& held) const {
+  Vector6 force = hull_(velocity) + held.restoring(down);
+  for (std::size_t i = 0; i < surfaces_.size(); ++i)
+    surfaces_[i].add(velocity, held.actuators.surfaces_rad[i], force);
+  for (std::size_t i = 0; i < thrusters_.size(); ++i)
+    thrusters_[i].add(velocity, held.actuators.thrusters[i], force);
+  const Eigen::Vector3d v = velocity.head<3>(), omega = velocity.tail<3>();
+  const Vector6 momentum = held.mass * velocity;
+  force.head<3>() -= omega.cross(momentum.head<3>());
+  force.tail<3>() -= omega.cross(momentum.tail<3>()) + v.cross(momentum.head<3>());
+  return force;
+}
+
+LayoutVehicle::Change LayoutVehicle::change(const Body& body, const Held& held) const {
+  const double cf = std::cos(body.euler_rad[0]), sf = std::sin(body.euler_rad[0]);
+  const double ct = std::cos(body.euler_rad[1]), st = std::sin(body.euler_rad[1]);
+  const double cp = std::cos(body.euler_rad[2]), sp = std::sin(body.euler_rad[2]);
+  const Eigen::Vector3d v = body.velocity.head<3>();
+  const Eigen::Vector3d omega = body.velocity.tail<3>();
+  Change change;
+  change.velocity = held.mass_inverse * force(body.velocity, {-st, ct * sf, ct * cf}, held);
+  // R = Rz(yaw) Ry(pitch) Rx(roll), applied from the right.
+  const double y = cf * v.y() - sf * v.z(), z = sf * v.y() + cf * v.z();
+  const double x = ct * v.x() + st * z;
+  change.position_m_s = {cp * x - sp * y, sp * x + cp * y, ct * z - st * v.x()};
+  const double yaw_rate = (sf * omega.y() + cf * omega.z()) / ct;
+  change.euler_rad_s = {omega.x() + st * yaw_rate, cf * omega.y() - sf * omega.z(), yaw_rate};
+  return change;
+}
+
+LayoutVehicle::Step LayoutVehicle::step(const Body& body, const ActuatorValues& actuators, double step_s) const {
+  const Held held = hold(actuators);
+  const Change k1 = change(body, held);
+  const Change k2 = change(moved(body, k1, step_s / 2), held);
+  const Change k3 = change(moved(body, k2, step_s / 2), held);
+  const Change k4 = change(moved(body, k3, step_s), held);
+  const Change mean{(k1.position_m_s + 2 * k2.position_m_s + 2 * k3.position_m_s + k4.position_m_s) / 6,
+                    (k1.euler_rad_s + 2 * k2.euler_rad_s + 2 * k3.euler_rad_s + k4.euler_rad_s) / 6,
+                    (k1.velocity + 2 * k2.velocity + 2 * k3.velocity + k4.velocity) / 6};
+  return {moved(body, mean, step_s), k1.velocity};
+}
+
+LayoutRun::LayoutRun(const LayoutVehicle& vehicle, const Body& body)
+    : LayoutRun(vehicle, body, ActuatorValues::neutral(vehicle.layout())) {}
+
+LayoutRun::LayoutRun(const LayoutVehicle& vehicle, const Body& body, ActuatorValues positions)
+    : vehicle_(vehicle), body_(body), positions_(std::move(positions)) {}
+
+void LayoutRun::advance(const ActuatorValues& commands, double seconds) {
+  constexpr double kStep_s = 0.01;
+  const long steps = std::lround(seconds / kStep_s);
+  for (long i = 0; i < steps; ++i) {
+    ActuatorValues next = follow(vehicle_.layout(), positions_, commands, kStep_s);
+    body_ = vehicle_.step(body_, mean_of(positions_, next), kStep_s).body;
+    positions_ = std::move(next);
+    time_s_ += kStep_s;
+    check_stable(body_, time_s_);
+  }
+}
+
+}  // namespace navcal::sim

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "config/layout.h"
+#include "sim/layout/actuators.h"
+#include "sim/layout/damping.h"
+#include "sim/layout/restoring.h"
+#include "sim/layout/surface_force.h"
+#include "sim/layout/thruster_force.h"
+#include "sim/vehicle/body.h"
+
+namespace navcal::sim {
+
+/// The vehicle of a layout in six degrees of freedom (Fossen 2011, equations 7.240 and 7.241), nu = (u, v, w, p,
+/// q, r) in body axes about the layout's origin, eta = position and Euler angles in north, east, down:
+///   M nu' + C(nu) nu = tau(nu, eta, actuators),   eta' = J(eta) nu,   M = M_RB + M_A.
+/// C is that of the whole M, so the Munk moment is in it: with p_1 = (M nu)_linear and p_2 = (M nu)_angular,
+/// C nu = (omega x p_1, omega x p_2 + v x p_1), which does no work. tau: hull, surfaces, thrusters, weight and
+/// buoyancy. M follows the moving masses; the momentum that they carry while they move is neglected.
+class LayoutVehicle {
+ public:
+  explicit LayoutVehicle(config::Layout layout);
+
+  /// Mass matrix and restoring forces with ballasts and moving masses where they are: what a step holds.
+  struct Held {
+    Matrix6 mass, mass_inverse;
+    Restoring restoring;
+    ActuatorValues actuators;
+  };
+  [[nodiscard]] Held hold(const ActuatorValues& actuators) const;
+
+  struct Step {
+    Body body;             ///< at its end
+    Vector6 acceleration;  ///< nu' at its beginning
+  };
+  /// One step of the classical Runge-Kutta method of fourth order with actuators that are held.
+  [[nodiscard]] Step step(const Body& body, const ActuatorValues& actuators, double step_s) const;
+
+  /// tau - C nu about the origin, N and Nm, at this body velocity with `down` in body axes.
+  [[nodiscard]] Vector6 force(const Vector6& velocity, const Eigen::Vector3d& down, const Held& held) const;
+
+  [[nodiscard]] const config::Layout& layout() const { return layout_; }
+
+ private:
+  struct Change {
+    Eigen::Vector3d position_m_s, euler_rad_s;
+    Vector6 velocity;
+  };
+  [[nodiscard]] Change change(const Body& body, const Held& held) const;
+  [[nodiscard]] static Body moved(const Body& body, const Change& by, double time_s) {
+    return {body.position_m + time_s * by.position_m_s, body.euler_rad + time_s * by.euler_rad_s,
+            body.velocity + time_s * by.velocity};
+  }
+
+  config::Layout layout_;
+  Matrix6 added_mass_;
+  Matrix6 mass_, mass_inverse_;  ///< with moving masses at zero
+  HullDamping hull_;
+  std::vector<ThrusterForce> thrusters_;
+  std::vector<SurfaceForce> surfaces_;
+};
+
+/// Follows commands: actuators with their lags and rates, whose mean over a step the vehicle feels.
+class LayoutRun {
+ public:
+  LayoutRun(const LayoutVehicle& vehicle, const Body& body);
+  LayoutRun(const LayoutVehicle& vehicle, const Body& body, ActuatorValues positions);
+
+  /// Takes steps of 0.01 s to the nearest whole number of them. Throws UnstableVehicle (sim/vehicle/vehicle.h).
+  void advance(const ActuatorValues& commands, double seconds);
+  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const ActuatorValues& positions() const { return positions_; }
+  [[nodiscard]] double time_s() const { return time_s_; }
+
+ private:
+  const LayoutVehicle& vehicle_;
+  Body body_;
+  ActuatorValues positions_;
+  double time_s_ = 0;
+};
+
+}  // namespace navcal::sim

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "config/layout.h"
+#include "sim/vehicle/body.h"
+
+namespace navcal::sim {
+
+/// A fin or wing at r with unit normal n and unit chord c meets V = v + omega x r:
+///   alpha = delta - atan2(V.n, max(|V.c|, 0.001 m/s)), held within +-stall;
+///   p = 1/2 rho A ((V.c)^2 + (V.n)^2);   force p a alpha n - p (CDi alpha^2 + CD0 sign(V.c)) c at r.
+class SurfaceForce {
+ public:
+  SurfaceForce(const config::LayoutSurface& surface, double density_kg_m3);
+
+  void add(const Vector6& velocity, double angle_rad, Vector6& force) const;
+
+ private:
+  double pressure_kg_m_;  ///< 1/2 rho A
+  double slope_, induced_, drag_, stall_rad_;
+  Vector6 of_normal_, of_chord_;  ///< force about the origin of a unit force along each
+};
+
+}  // namespace navcal::sim
