@@ -17,7 +17,8 @@ export function number(value, unit, usual = 1, std = null) {
   const decimals = std == null ? usual : Math.min(decimalsFor(std, usual), usual + 1);
   const space = unit === '\u00b0' || unit === '' ? '' : '\u202f';
   const error = std == null ? '' : ` \u00b1 ${std.toFixed(decimals)}`;
-  return thinMinus(value.toFixed(decimals)) + error + space + unit;
+  const text = value.toFixed(decimals);
+  return thinMinus(Number(text) === 0 ? text.replace('-', '') : text) + error + space + unit;
 }
 
 export function angle(rad, usual = 1, stdRad = null) {

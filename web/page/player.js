@@ -34,6 +34,9 @@ export class Player {
     const play = this.store.play;
     $('player').hidden = !this.store.about.recording || !play;
     if (!play) return;
+    // At a great speed frames lie many seconds apart; the server has the track in full.
+    if (this.wasPlaying && !play.playing) fetch('live.json', {cache: 'no-store'}).then((answer) => answer.json()).then((snapshot) => this.store.takeTracks(snapshot), console.error);
+    this.wasPlaying = play.playing;
     attribute(this.seek, 'max', play.duration_s.toFixed(1));
     if (!this.isHeld) this.seek.value = play.position_s;
     write($('play'), play.playing ? 'Pause' : 'Play');

@@ -6,6 +6,7 @@ import {degrees} from './format.js';
 
 const SPACING_S = 0.2;
 const GAP_S = 10;
+const GAP_OF_PLAYING_S = 1; // of real time: frames of a recording that is played fast lie further apart
 const MAX_ROWS = 9000;
 const REDRAW_MS = 250;
 
@@ -40,12 +41,12 @@ class Plot {
     this.data = [[], ...this.description.names.map(() => [])];
   }
 
-  take(record, source) {
+  take(record, source, gap) {
     const values = this.description.topics[record.topic]?.(record.message);
     const time = record.message.time;
     if (!values || time == null || values.every((value) => value == null)) return;
     if (source && source !== record) return;
-    if (time < (this.data[0].at(-1) ?? -Infinity) - GAP_S) this.clear();
+    if (time < (this.data[0].at(-1) ?? -Infinity) - gap) this.clear();
     const times = this.data[0];
     const last = times.at(-1) ?? -Infinity;
     // Another topic's value of nearly the same time stands in the same row.
@@ -55,7 +56,7 @@ class Plot {
       });
       return;
     }
-    if (time - last > GAP_S && times.length > 0) this.#push(last + SPACING_S, values.map(() => null));
+    if (time - last > gap && times.length > 0) this.#push(last + SPACING_S, values.map(() => null));
     this.#push(time, values);
     if (times.length > MAX_ROWS) for (const column of this.data) column.splice(0, 1000);
   }
@@ -129,7 +130,8 @@ export class Plots {
   take(record) {
     const role = {'/motor': 'shaft', '/imu': 'depth', '/depth': 'depth'}[record.topic];
     const source = role ? this.store.best(record.topic, role) : null;
-    for (const plot of this.plots) plot.take(record, source);
+    const gap = Math.max(GAP_S, GAP_OF_PLAYING_S * (this.store.play?.speed ?? 0));
+    for (const plot of this.plots) plot.take(record, source, gap);
   }
 
   build() {

@@ -88,7 +88,7 @@ export function drawDeviation(calibrator) {
   const top = most > 2 ? Math.floor(most) : Math.floor(most * 10) / 10;
   root.replaceChildren(
     ...[top, 0, -top].flatMap((value) => [svg('line', {x1: 36, x2: 312, y1: y(value), y2: y(value), stroke: 'var(--grid)'}), label(`${value}\u00b0`, 32, y(value) + 3, 'end')]),
-    ...[0, 90, 180, 270, 360].map((deg) => label(`${deg}\u00b0`, x(deg), 112, 'middle')),
+    ...[0, 90, 180, 270, 360].map((deg) => label(`${deg}\u00b0`, x(deg), 112, deg === 360 ? 'end' : 'middle')),
     svg('polygon', {points: [...path(([, v, s]) => v + s), ...path(([, v, s]) => v - s).reverse()].join(' '), fill: 'var(--accent)', 'fill-opacity': 0.25}),
     svg('polyline', {points: path(([, v]) => v).join(' '), fill: 'none', stroke: 'var(--accent)', 'stroke-width': 2}));
   const list = NAMES.map((name, i) => `${name}\u202f${values[i] == null ? 'not known' : number(values[i], '\u00b0', 2, stds[i] || null)}`);

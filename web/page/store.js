@@ -62,11 +62,15 @@ export class Store extends EventTarget {
     this.utc = null;
     this.events = [];
     for (const event of frame.events) this.#event(event);
-    for (const [name, points] of [['track', frame.track], ['fixes', frame.fixes]]) {
-      this[name].clear();
-      for (const point of points) this[name].add(point);
-    }
+    this.takeTracks(frame);
     this.dispatchEvent(new Event('begin'));
+  }
+
+  takeTracks(snapshot) {
+    for (const name of ['track', 'fixes']) {
+      this[name].clear();
+      for (const point of snapshot[name]) this[name].add(point);
+    }
   }
 
   #event(message) {

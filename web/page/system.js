@@ -96,7 +96,7 @@ export class System {
     const list = this.values;
     const time = this.store.record('/time')?.message;
     const sources = {none: 'UTC is not known', file: 'from the recording', system: 'system clock, not synchronised', 'system-synchronised': 'system clock, synchronised', gps: 'GPS'};
-    list.set('UTC from', time ? sources[time.source] ?? time.source : null, time ? (time.bound == null ? 'error bound not known' : `to within ${seconds(time.bound)}`) : 'no record of the mapping to UTC', time?.source === 'none' ? 'warn' : '');
+    list.set('UTC from', time ? sources[time.source] ?? time.source : null, time ? (time.bound == null ? 'error bound not known' : `to within ${seconds(time.bound)}`) : 'navcald tells changes only, and none came since the server started', time?.source === 'none' ? 'warn' : '');
     const log = health?.log;
     const noHealth = 'no HEALTH came';
     list.set('log', log ? words(log.enabled === false ? 'off' : log.state) : null, log ? [log.reason, log.file?.split('/').pop()].filter(Boolean).join('; ') : noHealth, !log ? '' : log.state === 'writing' ? 'good' : 'warn');

@@ -238,7 +238,10 @@ async function playsRecordings(context) {
   await page.until("#play-time", /^0:00:05/);
   await page.page.locator("#speed").selectOption("100");
   await page.page.click("#play");
-  await page.until("#play", /Play/);  // the end
+  const end = await page.page.locator("#seek").getAttribute("max");
+  while ((await position()) < Number(end) - 0.2) await page.page.waitForTimeout(50);
+  await page.until("#play", /Play/);
+  await page.page.locator("#plot-area canvas").nth(3).waitFor();
   await page.until("#event-list", /mark/);
   await page.page.screenshot({ path: join(folder, "recording.png"), fullPage: true });
   assert.match(await page.text("#control-state"), /recording cannot be changed/);
