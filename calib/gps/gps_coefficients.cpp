@@ -34,10 +34,10 @@ GpsCoefficients::GpsCoefficients(const Unknowns& unknowns, double declination_ra
   double power = 1, power_slope = 0;  // slip^j / j! and its derivative
   for (int j = 0; j < GpsSummary::kSlipTerms; ++j) {
     const int first = j * kModes;
-    value.segment<kModes>(first) = unknowns[kScale] * power * mode;
-    slope.block<kModes, 5>(first, kOffset) = unknowns[kScale] * power * mode_slope;
-    slope.block<kModes, 1>(first, kScale) = power * mode;
-    slope.block<kModes, 1>(first, kSlip) = unknowns[kScale] * power_slope * mode;
+    value.segment<kModes>(first) = unknowns[kSpeedScale] * power * mode;
+    slope.block<kModes, 5>(first, kOffset) = unknowns[kSpeedScale] * power * mode_slope;
+    slope.block<kModes, 1>(first, kSpeedScale) = power * mode;
+    slope.block<kModes, 1>(first, kSlip) = unknowns[kSpeedScale] * power_slope * mode;
     power_slope = power;
     power *= slip_s / (j + 1);
   }

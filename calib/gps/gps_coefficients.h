@@ -12,7 +12,7 @@ namespace navcal::calib {
 /// GpsSummary, with the derivatives by each unknown.
 struct GpsCoefficients {
   static constexpr int kUnknowns = 9;
-  enum Unknown : int { kOffset = 0, kScale = 5, kSlip = 6, kNorth = 7, kEast = 8 };
+  enum Unknown : int { kOffset = 0, kSpeedScale = 5, kSlip = 6, kNorth = 7, kEast = 8 };
   using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
   using Jacobian = Eigen::Matrix<GpsSummary::Complex, GpsSummary::kTerms, kUnknowns>;
 

@@ -20,7 +20,7 @@ constexpr double kStepDone = 1e-12;
 
 Unknowns prior_mean(const GpsCompass::Parameters& parameters) {
   Unknowns mean = Unknowns::Zero();
-  mean[GpsCoefficients::kScale] = 1;
+  mean[GpsCoefficients::kSpeedScale] = 1;
   mean[GpsCoefficients::kSlip] = parameters.slip_s;
   return mean;
 }
