@@ -13,12 +13,15 @@
 #include "bench/xor_reference.h"
 #include "protocols/checked_line.h"
 #include "protocols/imu_card.h"
+#include "protocols/keller.h"
 #include "protocols/mip.h"
 #include "protocols/motor_card.h"
 #include "protocols/nmea.h"
 #include "protocols/oncore.h"
+#include "protocols/paroscientific.h"
 #include "protocols/pd0.h"
 #include "protocols/pd6.h"
+#include "protocols/samples_line.h"
 #include "protocols/tcm2.h"
 #include "protocols/trax.h"
 #include "protocols/ubx_navigation.h"
@@ -176,6 +179,26 @@ Buffer vectornav_stream() {
   });
 }
 
+Buffer keller_stream() {
+  return stream_of([](unsigned i) {
+    return protocols::keller::encode(protocols::keller::Reading{250, 1 + static_cast<float>(i % 1000) * 1e-3F, 0});
+  });
+}
+
+Buffer paroscientific_stream() {
+  return stream_of([](unsigned i) {
+    return protocols::paroscientific::encode_line({}, std::to_string(14 + i % 100) + ".71503");
+  });
+}
+
+Buffer samples_stream() {
+  return stream_of([](unsigned i) {
+    return R"({"class":"IMU","time":1700000000.)" + std::to_string(100'000'000 + i) +
+           R"(,"rate_rad_s":[0.1,-0.2,0.03],"specific_force_m_s2":[0,0,-9.81]})"
+           "\n";
+  });
+}
+
 template <protocols::Scanner S>
 std::uint64_t framed_bytes_of(Bytes stream) {
   protocols::StreamParser<S> parser;
@@ -240,5 +263,8 @@ int main(int argc, char** argv) {
   bench::add<protocols::water_linked::Scanner>("water_linked", bench::water_linked_stream());
   bench::add<protocols::trax::Scanner>("trax", bench::trax_stream());
   bench::add<protocols::vectornav::Scanner>("vectornav", bench::vectornav_stream());
+  bench::add<protocols::keller::Scanner>("keller", bench::keller_stream());
+  bench::add<protocols::paroscientific::Scanner>("paroscientific", bench::paroscientific_stream());
+  bench::add<protocols::samples_line::Scanner>("samples", bench::samples_stream());
   benchmark::RunSpecifiedBenchmarks();
 }
