@@ -31,7 +31,8 @@ TEST(Record, DeviceAndTimeMayBeUnknown) {
 }
 
 TEST(Record, LineEndsAreNotPartOfTheMessage) {
-  const auto record = read_record(kLine + "\r\n");
+  const std::string line = kLine + "\r\n";
+  const auto record = read_record(line);
   ASSERT_TRUE(record);
   EXPECT_TRUE(record->message.ends_with("\"}"));
 }
