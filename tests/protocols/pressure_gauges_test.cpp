@@ -57,6 +57,19 @@ TEST(Paroscientific, UnitsOfTheManual) {
 
 TEST(Keller, TheChecksumIsThatOfModbus) { EXPECT_EQ(crc16_modbus(bytes_of("123456789")), 0x4B37); }
 
+TEST(Keller, TheChecksumOfEveryLengthIsThatOfBitByBit) {
+  std::vector<std::uint8_t> bytes;
+  for (unsigned length = 0; length < 40; ++length) {
+    unsigned crc = 0xFFFF;
+    for (const std::uint8_t byte : bytes) {
+      crc ^= byte;
+      for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1 ^ 0xA001U : crc >> 1;
+    }
+    EXPECT_EQ(crc16_modbus(bytes), crc) << length;
+    bytes.push_back(static_cast<std::uint8_t>(length * 151 + 7));
+  }
+}
+
 // The checksums of the requests were calculated apart from the program.
 TEST(Keller, RequestsAndAnswers) {
   EXPECT_EQ(keller::read_request(250, 1), (Buffer{0xFA, 0x49, 0x01, 0xA1, 0xA7}));
