@@ -139,7 +139,8 @@ TEST(ShippedLayouts, TheVectoredRovsCommandWhatTheyShould) {
 TEST(ShippedLayouts, TheMicroAuvTurnsInRollPitchAndYaw) {
   const Assessment found = assess(shipped("micro-auv"));
   EXPECT_EQ(found.at_rest.rank, 4);
-  for (const std::size_t i : {0UL, 3UL, 4UL, 5UL}) EXPECT_EQ(found.at_rest.commands[i], autopilot::Command::alone) << i;
+  for (const std::size_t i : {0UL, 3UL, 4UL, 5UL})
+    EXPECT_EQ(found.at_rest.commands[i], autopilot::Command::alone) << i;
 }
 
 }  // namespace
