@@ -22,11 +22,6 @@ constexpr std::array<UnitOfCommand, 3> kUnits{{{"rpm", CommandUnit::rpm, {-60000
                                                {"percent", CommandUnit::percent, {-100, 100, "%"}, -100, 100},
                                                {"us", CommandUnit::microseconds, {800, 2200, "us"}, 1100, 1900}}};
 
-void name_of(LayoutTable& table, std::string& name) {
-  if (auto given = table.reader().text("name")) name = std::move(*given);
-  table.reader().require("name", "a name of its own, such as \"port\"");
-}
-
 const UnitOfCommand& unit_of(LayoutTable& table) {
   const auto given = table.reader().choice("command", {"rpm", "percent", "us"});
   table.reader().require("command", "unit of the command: rpm, percent or us");
@@ -75,18 +70,22 @@ bool is_taken(const std::string& name, const Layout& layout) {
          std::any_of(layout.moving_masses.begin(), layout.moving_masses.end(), has_name);
 }
 
-void refuse_name_taken(LayoutTable& table, const std::string& name, const Layout& layout) {
+/// Reads the name of an actuator over the one that it has; complains about one that another actuator has.
+void read_name(LayoutTable& table, std::string& name, const Layout& layout) {
+  if (auto given = table.reader().text("name")) name = std::move(*given);
   if (!name.empty() && is_taken(name, layout))
     table.reader().complain("name", fmt::format("\"{}\" is already the name of another actuator", name));
 }
+
+void require_name(LayoutTable& table) { table.reader().require("name", "a name of its own, such as \"port\""); }
 
 }  // namespace
 
 void read_thruster(const Node& node, Layout& layout, std::vector<Problem>& problems) {
   LayoutTable table(node, layout, problems);
   LayoutThruster thruster;
-  name_of(table, thruster.name);
-  refuse_name_taken(table, thruster.name, layout);
+  read_name(table, thruster.name, layout);
+  require_name(table);
   table.numbers("place_m", thruster.place_m, kActuatorPlace);
   table.direction("direction", thruster.direction);
   table.reader().require("place_m", "[x, y, z] of the propeller's centre (m)");
@@ -114,8 +113,8 @@ void read_thruster(const Node& node, Layout& layout, std::vector<Problem>& probl
 void read_surface(const Node& node, Layout& layout, std::vector<Problem>& problems) {
   LayoutTable table(node, layout, problems);
   LayoutSurface surface;
-  name_of(table, surface.name);
-  refuse_name_taken(table, surface.name, layout);
+  read_name(table, surface.name, layout);
+  require_name(table);
   table.numbers("place_m", surface.place_m, kActuatorPlace);
   table.direction("normal", surface.normal);
   table.direction("chord", surface.chord);
@@ -138,8 +137,7 @@ void read_ballast(const Node& node, Layout& layout, std::vector<Problem>& proble
   LayoutTable table(node, layout, problems);
   LayoutBallast ballast;
   ballast.name = "ballast";
-  if (auto given = table.reader().text("name")) ballast.name = std::move(*given);
-  refuse_name_taken(table, ballast.name, layout);
+  read_name(table, ballast.name, layout);
   table.numbers("place_m", ballast.place_m, kActuatorPlace);
   table.limits("range_N", ballast.low_N, ballast.high_N, {-1e6, 1e6, "N"});
   table.number("rate_N_s", ballast.rate_N_s, {1e-6, 1e5, "N/s"});
@@ -153,8 +151,7 @@ void read_moving_mass(const Node& node, Layout& layout, std::vector<Problem>& pr
   LayoutTable table(node, layout, problems);
   LayoutMovingMass mass;
   mass.name = "moving_mass";
-  if (auto given = table.reader().text("name")) mass.name = std::move(*given);
-  refuse_name_taken(table, mass.name, layout);
+  read_name(table, mass.name, layout);
   table.number("mass_kg", mass.mass_kg, {0.001, 1e6, "kg"});
   table.numbers("place_m", mass.place_m, kActuatorPlace);
   table.direction("axis", mass.axis);

@@ -4,12 +4,11 @@ import os
 import socket
 import subprocess
 import sys
-import time
+
+import activated
 
 navcald, work = sys.argv[1:3]
-with socket.socket() as probe:
-    probe.bind(("127.0.0.1", 0))
-    port = probe.getsockname()[1]
+port = activated.free_port()
 control = os.path.join(work, "control")
 master, slave = os.openpty()
 config = os.path.join(work, "navcald.toml")
@@ -19,15 +18,7 @@ with open(config, "w", encoding="ascii") as file:
 daemon = subprocess.Popen(
     ["systemd-socket-activate", "-l", f"127.0.0.1:{port}", "-l", control, "unshare", "--net", navcald, "--config", config])
 try:
-    deadline = time.monotonic() + 60
-    while True:
-        try:
-            client = socket.create_connection(("127.0.0.1", port), timeout=60)
-            break
-        except ConnectionRefusedError:
-            if time.monotonic() > deadline or daemon.poll() is not None:
-                sys.exit("nobody listens")
-            time.sleep(0.05)
+    client = activated.first_client(port, daemon)
     greeting = client.makefile().readline()
     print(greeting.strip())
     if '"class":"VERSION"' not in greeting:

@@ -6,7 +6,8 @@ import socket
 import subprocess
 import sys
 import tempfile
-import time
+
+import activated
 
 program, options_file = sys.argv[1:3]
 options = []
@@ -14,9 +15,7 @@ for line in open(options_file, encoding="ascii"):
     if line.startswith("OPTIONS="):
         options = shlex.split(shlex.split(line.strip())[0].removeprefix("OPTIONS="))
 
-with socket.socket() as probe:
-    probe.bind(("127.0.0.1", 0))
-    port = probe.getsockname()[1]
+port = activated.free_port()
 with tempfile.TemporaryDirectory() as folder:
     manager = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
     manager.bind(os.path.join(folder, "notify"))
@@ -24,15 +23,7 @@ with tempfile.TemporaryDirectory() as folder:
     web = subprocess.Popen(["systemd-socket-activate", "-l", f"127.0.0.1:{port}",
                             "-E", f"NOTIFY_SOCKET={folder}/notify", program, "--status", "127.0.0.1:1", *options])
     try:
-        deadline = time.monotonic() + 60
-        while True:
-            try:
-                client = socket.create_connection(("127.0.0.1", port), timeout=60)
-                break
-            except ConnectionRefusedError:
-                if time.monotonic() > deadline or web.poll() is not None:
-                    sys.exit("nobody listens")
-                time.sleep(0.05)
+        client = activated.first_client(port, web)
         client.sendall(b"GET /nothing HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
         answer = client.makefile().read()
         if not answer.startswith("HTTP/1.1 404"):

@@ -13,7 +13,8 @@ namespace {
 
 using DerivedJson = nlohmann::ordered_json;
 
-/// Beyond this distance the tangent plane is off by more than 1 %, and the origin moves to the new place.
+/// Largest distance from the origin. Further away the tangent plane is off by more than 1 %, so the origin moves
+/// there.
 constexpr double kMaxDistance_m = 50'000;
 /// Colours that people with any colour vision tell apart (Okabe and Ito): orange for fixes, blue for what is
 /// reckoned.

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Of the specification that this server follows.
+/// Version of the specification that this server follows.
 constexpr std::string_view kSignalKVersion = "1.7.0";
 constexpr double kSignalKRate_Hz = 10;
 
@@ -58,7 +58,7 @@ void SignalKPeer::offer(const std::vector<SignalKUpdate>& updates) {
   for (const SignalKUpdate& update : updates) {
     json values = json::array(), metas = json::array();
     for (const SignalKValue& one : update.values) {
-      // What is not known any more is told at once.
+      // A value that is lost is told at once, whatever the period of the subscription.
       if (one.value.is_null() ? !subscriptions_.is_wanted(one.path) : !subscriptions_.is_due(one.path, now))
         continue;
       values.push_back({{"path", one.path}, {"value", one.value}});
