@@ -55,10 +55,7 @@ class LiveSourceTest : public testing::Test {
   }
   template <class Work>
   auto in_loop(Work work) {
-    std::packaged_task<decltype(work())()> task(std::move(work));
-    auto result = task.get_future();
-    boost::asio::post(context_, [&task] { task(); });
-    return result.get();
+    return test::run_in_loop(context_, std::move(work));
   }
   void TearDown() override {
     in_loop([&] {

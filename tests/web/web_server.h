@@ -23,6 +23,15 @@
 
 namespace navcal::web::test {
 
+/// Runs `work` in the thread that runs the context, and waits for its result.
+template <class Work>
+auto run_in_loop(boost::asio::io_context& context, Work work) {
+  std::packaged_task<decltype(work())()> task(std::move(work));
+  auto result = task.get_future();
+  boost::asio::post(context, [&task] { task(); });
+  return result.get();
+}
+
 /// A server on a free port of the loopback address, its loop in a thread of its own.
 class WebServer {
  public:
@@ -54,10 +63,7 @@ class WebServer {
   /// Runs `work` in the thread of the loop and waits for its result.
   template <class Work>
   auto in_loop(Work work) {
-    std::packaged_task<decltype(work())()> task(std::move(work));
-    auto result = task.get_future();
-    boost::asio::post(context_, [&task] { task(); });
-    return result.get();
+    return run_in_loop(context_, std::move(work));
   }
   [[nodiscard]] ServerCounters counters() {
     return in_loop([this] { return server_->counters(); });
