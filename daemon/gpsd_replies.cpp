@@ -27,6 +27,22 @@ void append_rates(std::string& out, const ReportIntervals& intervals_ns) {
   if (separator == ",") out += '}';
 }
 
+void append_topic_rates(std::string& out, const RecordIntervals& intervals_ns) {
+  const auto chosen = intervals_ns.chosen();
+  if (chosen.empty()) return;
+  std::string_view separator = ",\"topic_rate_Hz\":{";
+  for (const auto& [topic, interval_ns] : chosen) {
+    fmt::format_to(std::back_inserter(out), FMT_STRING("{}\"{}\":"), separator, topic);
+    if (interval_ns == 0) {
+      out += "null";
+    } else {
+      append_shortest(out, 1e9 / static_cast<double>(interval_ns), 3);
+    }
+    separator = ",";
+  }
+  out += '}';
+}
+
 }  // namespace
 
 void append_version(std::string& out) {
@@ -88,6 +104,7 @@ void append_watch(std::string& out, const WatchPolicy& policy) {
     append_quoted_list(out, policy.topics.names());
     out += ']';
   }
+  append_topic_rates(out, policy.topic_intervals_ns);
   out += "}\n";
 }
 

@@ -43,6 +43,7 @@ struct WatchPolicy {
   ReportClasses classes = ReportClasses::usual();
   ReportIntervals intervals_ns{};
   RecordTopics topics = RecordTopics::all();
+  RecordIntervals topic_intervals_ns{};
   std::int64_t nmea_interval_ns = kNmeaInterval_ns;
 };
 void append_watch(std::string& out, const WatchPolicy& policy);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace navcal::daemon {
@@ -26,6 +28,21 @@ class RecordTopics {
 
  private:
   std::uint32_t bits_ = 0;
+};
+
+/// Shortest times between two records of a topic and device that a client chose for single topics.
+class RecordIntervals {
+ public:
+  /// False when RECORD has no such topic. 0: no limit.
+  [[nodiscard]] bool set(std::string_view name, std::int64_t interval_ns);
+  /// Absent where nothing was chosen for this topic: the interval of the class applies.
+  [[nodiscard]] std::optional<std::int64_t> of(std::uint16_t topic) const;
+  /// Names and intervals of the chosen topics, in the order of their numbers.
+  [[nodiscard]] std::vector<std::pair<std::string, std::int64_t>> chosen() const;
+  bool operator==(const RecordIntervals&) const = default;
+
+ private:
+  std::array<std::optional<std::int64_t>, 32> intervals_ns_{};  ///< by the topic's number
 };
 
 /// What a RECORD is about.

@@ -142,6 +142,24 @@ std::string take_topics(const Json& object, std::optional<RecordTopics>& value) 
   return {};
 }
 
+/// {"/imu":5,"/gps":null}: null is every record; null in place of the object: none is chosen. Likewise.
+std::string take_topic_rates(const Json& object, std::optional<RecordIntervals>& value) {
+  const auto found = object.find("topic_rate_Hz");
+  if (found == object.end()) return {};
+  if (!found->is_null() && !found->is_object()) return "Invalid WATCH: topic_rate_Hz is an object, or null";
+  RecordIntervals intervals_ns;
+  for (const auto& [name, rate] : found->items()) {
+    const double rate_Hz = rate.is_number() ? rate.get<double>() : 0;
+    if (!rate.is_null() && !(rate_Hz >= kMinReportRate_Hz && rate_Hz <= kMaxReportRate_Hz))
+      return fmt::format("Invalid WATCH: the rate of a topic is {} to {} Hz, or null", kMinReportRate_Hz,
+                         kMaxReportRate_Hz);
+    if (!intervals_ns.set(name, rate.is_null() ? 0 : std::llround(1e9 / rate_Hz)))
+      return fmt::format("Invalid WATCH: a topic that is not known; known are {}", RecordTopics::all().text());
+  }
+  value = intervals_ns;
+  return {};
+}
+
 /// {"STATE":10}; null: no limits. Likewise.
 std::string take_intervals(const Json& object, std::optional<ReportIntervals>& value) {
   const auto found = object.find("rate_Hz");
@@ -173,6 +191,8 @@ Request watch(const Json& object) {
   if (auto problem = take_nmea_rate(object, change.nmea_interval_ns); !problem.empty())
     return not_understood(problem);
   if (auto problem = take_topics(object, change.topics); !problem.empty()) return not_understood(problem);
+  if (auto problem = take_topic_rates(object, change.topic_intervals_ns); !problem.empty())
+    return not_understood(problem);
   change.enable = enable.value_or(true);
   Request request;
   request.kind = Request::Kind::watch;

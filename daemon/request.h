@@ -32,6 +32,7 @@ struct WatchChange {
   std::optional<ReportClasses> classes;
   std::optional<ReportIntervals> intervals_ns;
   std::optional<RecordTopics> topics;
+  std::optional<RecordIntervals> topic_intervals_ns;
 };
 
 /// One command of gpsd's protocol.

@@ -101,6 +101,20 @@ bool StatusClient::take_turn(ReportClass report, std::uint16_t slot) {
   return interval == 0 || pacer_.take(report, slot, interval, ports::monotonic_ns());
 }
 
+std::int64_t StatusClient::interval_ns(const RecordKey& key) const {
+  return key.at_a_rate ? policy_.topic_intervals_ns.of(key.topic).value_or(interval_ns(ReportClass::record)) : 0;
+}
+
+bool StatusClient::is_due(const RecordKey& key) const {
+  const std::int64_t interval = interval_ns(key);
+  return interval == 0 || pacer_.is_due(ReportClass::record, key.slot(), interval, ports::monotonic_ns());
+}
+
+bool StatusClient::take_turn(const RecordKey& key) {
+  const std::int64_t interval = interval_ns(key);
+  return interval == 0 || pacer_.take(ReportClass::record, key.slot(), interval, ports::monotonic_ns());
+}
+
 bool StatusClient::is_due(const NmeaKey& key) const {
   return nmea_pacer_.is_due(key.like, key.port, policy_.nmea_interval_ns, ports::monotonic_ns());
 }

@@ -50,6 +50,7 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
     ReportClasses classes = ReportClasses::usual();
     ReportIntervals intervals_ns{};
     RecordTopics topics = RecordTopics::all();
+    RecordIntervals topic_intervals_ns;
     std::int64_t state_due_ns = 0;  ///< of the next STATE at a rate
   };
 
@@ -77,6 +78,8 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   [[nodiscard]] bool is_due(ReportClass report, std::uint16_t slot) const;
   /// Same as is_due(), and counts the report.
   [[nodiscard]] bool take_turn(ReportClass report, std::uint16_t slot);
+  [[nodiscard]] bool is_due(const RecordKey& key) const;
+  [[nodiscard]] bool take_turn(const RecordKey& key);
   [[nodiscard]] bool is_due(const NmeaKey& key) const;
   [[nodiscard]] bool take_turn(const NmeaKey& key);
   /// Shortest time between two reports; 0: no limit.
@@ -93,6 +96,7 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   [[nodiscard]] std::size_t queued_bytes() const { return queue_.size(); }
 
  private:
+  [[nodiscard]] std::int64_t interval_ns(const RecordKey& key) const;
   boost::asio::awaitable<void> session();
   boost::asio::awaitable<void> read_requests();
   boost::asio::awaitable<void> refuse(std::string_view reason);

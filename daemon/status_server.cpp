@@ -126,6 +126,10 @@ void StatusServer::change_watch(StatusClient& client, const WatchChange& change)
   policy.topics = change.topics.value_or(policy.topics);
   policy.nmea_interval_ns = change.nmea_interval_ns.value_or(policy.nmea_interval_ns);
   if (change.nmea_interval_ns) client.begin_pacing();
+  if (change.topic_intervals_ns) {
+    policy.topic_intervals_ns = *change.topic_intervals_ns;
+    client.begin_pacing();
+  }
   if (change.intervals_ns) {
     policy.intervals_ns = *change.intervals_ns;
     policy.state_due_ns = 0;  // the first one comes at once
@@ -150,7 +154,7 @@ void StatusServer::append_policy(StatusClient& client) {
   std::optional<std::string_view> device;
   if (policy.port) device = source_.device_name(*policy.port);
   append_watch(answer_, {policy.enable, policy.json, policy.nmea, device, policy.classes, policy.intervals_ns,
-                         policy.topics, policy.nmea_interval_ns});
+                         policy.topics, policy.topic_intervals_ns, policy.nmea_interval_ns});
 }
 
 bool StatusServer::watched(ReportClass report, std::uint16_t port) const {
@@ -177,15 +181,14 @@ void StatusServer::publish(ReportClass report, std::string_view line, std::uint1
 }
 
 bool StatusServer::watched(const RecordKey& key) const {
-  return std::any_of(clients_.begin(), clients_.end(), [&](const auto& client) {
-    return client->watches(key) && (!key.at_a_rate || client->is_due(ReportClass::record, key.slot()));
-  });
+  return std::any_of(clients_.begin(), clients_.end(),
+                     [&](const auto& client) { return client->watches(key) && client->is_due(key); });
 }
 
 void StatusServer::publish(const RecordKey& key, std::string_view line) {
   for (const auto& client : clients_) {
     if (!client->watches(key)) continue;
-    if (!key.at_a_rate || client->take_turn(ReportClass::record, key.slot())) client->send(line);
+    if (client->take_turn(key)) client->send(line);
   }
 }
 

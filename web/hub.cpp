@@ -18,6 +18,11 @@ std::vector<Subscriber*> pointers(const Map& subscribers) {
 /// Bound of what is kept: more devices than this do not fit a vehicle, but a broken peer may name them.
 constexpr std::size_t kMaxKept = 1024;
 
+/// Nullopt is the highest.
+std::optional<double> higher_rate(std::optional<double> a, std::optional<double> b) {
+  return a && b ? std::optional(std::max(*a, *b)) : std::nullopt;
+}
+
 }  // namespace
 
 void Hub::publish(const Record& record) {
@@ -79,11 +84,17 @@ Demand Hub::demand() const {
   for (const auto& [subscriber, one] : subscribers_) {
     all.all_topics = all.all_topics || one.all_topics;
     all.topics.insert(one.topics.begin(), one.topics.end());
-    if (!one.rate_Hz) {
-      all.rate_Hz.reset();
-    } else if (all.rate_Hz) {
-      all.rate_Hz = std::max(*all.rate_Hz, *one.rate_Hz);
+  }
+  // Topics that nobody names are needed by those who need all topics. Where nobody does, there are none.
+  for (const auto& [subscriber, one] : subscribers_) {
+    if (one.all_topics || !all.all_topics) all.rate_Hz = higher_rate(all.rate_Hz, one.rate_Hz);
+  }
+  for (const std::string& topic : all.topics) {
+    std::optional<double> rate_Hz = 0;
+    for (const auto& [subscriber, one] : subscribers_) {
+      if (one.all_topics || one.topics.contains(topic)) rate_Hz = higher_rate(rate_Hz, one.rate_Hz);
     }
+    if (rate_Hz != all.rate_Hz) all.topic_rate_Hz.emplace(topic, rate_Hz);
   }
   return all;
 }

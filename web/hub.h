@@ -39,6 +39,8 @@ struct Demand {
   std::set<std::string, std::less<>> topics;
   /// Most records a second for each topic and device; nullopt: every record.
   std::optional<double> rate_Hz = 0;
+  /// The same for single topics that need another rate.
+  std::map<std::string, std::optional<double>, std::less<>> topic_rate_Hz{};
 };
 
 /// Hands each record to all subscribers, and keeps the newest record of each topic and device for those who come
@@ -60,6 +62,7 @@ class Hub {
 
   [[nodiscard]] const Link& link() const { return link_; }
   [[nodiscard]] const std::vector<Topic>& topics() const { return topics_; }
+  /// What all subscribers need together: each topic at the highest rate that one of them needs.
   [[nodiscard]] Demand demand() const;
   void on_demand(OnDemand on_demand) { on_demand_ = std::move(on_demand); }
   /// Hands the newest record of each topic and device to `subscriber`.

@@ -32,6 +32,10 @@ std::string watch_request(const Demand& demand) {
   policy["topics"] = demand.all_topics ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(demand.topics);
   policy["rate_Hz"] = demand.rate_Hz && *demand.rate_Hz > 0 ? nlohmann::ordered_json{{"RECORD", *demand.rate_Hz}}
                                                             : nlohmann::ordered_json(nullptr);
+  auto& topic_rates = policy["topic_rate_Hz"] = nullptr;
+  for (const auto& [topic, rate_Hz] : demand.topic_rate_Hz) {
+    topic_rates[topic] = rate_Hz ? nlohmann::ordered_json(*rate_Hz) : nlohmann::ordered_json(nullptr);
+  }
   return "?WATCH=" + policy.dump() + ";\n";
 }
 

@@ -57,6 +57,22 @@ TEST(Request, WatchChangesOnlyWhatItMentions) {
   EXPECT_FALSE(requests[1].watch) << "a bare ?WATCH; only asks";
 }
 
+TEST(Request, ATopicOfRecordsMayHaveARateOfItsOwn) {
+  const auto chosen = [](std::string_view text) {
+    return parse_requests(text).at(0).watch->topic_intervals_ns.value().chosen();
+  };
+  using Chosen = std::vector<std::pair<std::string, std::int64_t>>;
+  EXPECT_EQ(chosen(R"(?WATCH={"topic_rate_Hz":{"/imu":5}};)"), (Chosen{{"/imu", 200'000'000}}));
+  EXPECT_EQ(chosen(R"(?WATCH={"topic_rate_Hz":{"/imu":null}};)"), (Chosen{{"/imu", 0}}));
+  EXPECT_EQ(chosen(R"(?WATCH={"topic_rate_Hz":null};)"), Chosen{});
+  for (const char* wrong : {R"({"/raw/gps":1})", R"({"/config":1})", R"({"imu":1})", R"({"/imu":0})",
+                            R"({"/imu":1e9})", R"({"/imu":"5"})", R"("/imu")", "[1]"}) {
+    const Request request = parse_requests(std::string("?WATCH={\"topic_rate_Hz\":") + wrong + "};").at(0);
+    EXPECT_EQ(request.kind, Kind::not_understood) << wrong;
+    EXPECT_NE(request.message.find("topic"), std::string::npos) << request.message;
+  }
+}
+
 TEST(Request, TopicsOfRecordsAreChosenByName) {
   const auto topics = [](std::string_view text) { return parse_requests(text).at(0).watch->topics; };
   RecordTopics expected;

@@ -212,6 +212,21 @@ TEST_F(StatusServerTest, RecordsGoOnlyToThoseWhoAskForThem) {
   EXPECT_TRUE(watched(event));
 }
 
+TEST_F(StatusServerTest, ATopicWithARateOfItsOwnLeavesTheRateOfOthers) {
+  const auto client =
+      watcher(R"(,"classes":["RECORD"],"rate_Hz":{"RECORD":0.01},"topic_rate_Hz":{"/compass":null,"/gps":0.02})");
+  const RecordKey keys[] = {{record::topic::kCompass, 0, true}, {record::topic::kImu, 1, true},
+                            {record::topic::kGps, 2, true},     {record::topic::kCompass, 0, true},
+                            {record::topic::kImu, 1, true},     {record::topic::kGps, 2, true},
+                            {record::topic::kCompass, 0, true}};
+  int n = 0;
+  for (const RecordKey& key : keys) on_loop([&] { server_.publish(key, std::to_string(n++) + "\n"); });
+  for (const char* expected : {"0", "1", "2", "3", "6"}) EXPECT_EQ(client->line(), expected);
+  client->send("?WATCH;");
+  EXPECT_EQ(json::parse(client->line_with("\"WATCH\""))["topic_rate_Hz"],
+            json::parse(R"({"/compass":null,"/gps":0.02})"));
+}
+
 TEST_F(StatusServerTest, ARateOfRecordsCountsForEachTopicAndDeviceAndNeverDropsAnEvent) {
   const auto slow = watcher(R"(,"classes":["RECORD"],"rate_Hz":{"RECORD":0.01})");
   const RecordKey keys[] = {

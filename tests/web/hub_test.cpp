@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,29 @@ TEST(Hub, DemandIsWhatAllSubscribersNeedTogether) {
   hub.add(bridge, demand_of({"/imu"}, std::nullopt));
   EXPECT_FALSE(told.back().rate_Hz) << "one who needs every record decides";
   EXPECT_EQ(told.back().topics, (std::set<std::string, std::less<>>{"/imu", "/nav"}));
+  using Rates = std::map<std::string, std::optional<double>, std::less<>>;
+  EXPECT_EQ(told.back().topic_rate_Hz, (Rates{{"/nav", 20.0}})) << "its need does not raise the rate of others";
   hub.change(bridge, demand_of({"/imu"}, 1.0));
   EXPECT_EQ(told.back().rate_Hz, 20.0);
+  EXPECT_EQ(told.back().topic_rate_Hz, (Rates{{"/imu", 1.0}}));
   hub.remove(page);
   hub.remove(bridge);
   EXPECT_TRUE(told.back().topics.empty());
   EXPECT_FALSE(told.back().all_topics);
+}
+
+TEST(Hub, OneWhoNeedsEveryRecordOfATopicDoesNotRaiseTheRateOfAllOthers) {
+  Hub hub;
+  Listener page, bridge;
+  hub.add(page, {true, {}, 1.0});
+  hub.add(bridge, demand_of({"/imu"}, std::nullopt));
+  const Demand demand = hub.demand();
+  EXPECT_TRUE(demand.all_topics);
+  EXPECT_EQ(demand.rate_Hz, 1.0);
+  ASSERT_TRUE(demand.topic_rate_Hz.contains("/imu"));
+  EXPECT_FALSE(demand.topic_rate_Hz.at("/imu"));
+  hub.change(bridge, demand_of({"/imu"}, 0.5));
+  EXPECT_TRUE(hub.demand().topic_rate_Hz.empty()) << "the page needs more of it";
 }
 
 TEST(Hub, ASubscriberMayGoWhileItIsCalled) {

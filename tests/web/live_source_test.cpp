@@ -84,7 +84,7 @@ TEST_F(LiveSourceTest, AsksForWhatIsNeededAndAgainAfterARestartOfNavcald) {
     EXPECT_EQ(status.line(), "?RECORDS;");
     EXPECT_EQ(
         status.line(),
-        R"(?WATCH={"enable":true,"json":true,"classes":["RECORD"],"topics":["/imu"],"rate_Hz":{"RECORD":20.0}};)");
+        R"(?WATCH={"enable":true,"json":true,"classes":["RECORD"],"topics":["/imu"],"rate_Hz":{"RECORD":20.0},"topic_rate_Hz":null};)");
     EXPECT_TRUE(becomes([&] { return hub_.link().connected; }));
     status.hang_up();
     EXPECT_TRUE(becomes([&] { return !hub_.link().connected; }));
@@ -104,8 +104,9 @@ TEST_F(LiveSourceTest, AChangedDemandIsAskedForOnce) {
     hub_.change(bridge, {true, {}, std::nullopt});
     return 0;
   });
-  EXPECT_EQ(status.line(),
-            R"(?WATCH={"enable":true,"json":true,"classes":["RECORD"],"topics":null,"rate_Hz":null};)");
+  EXPECT_EQ(
+      status.line(),
+      R"(?WATCH={"enable":true,"json":true,"classes":["RECORD"],"topics":null,"rate_Hz":null,"topic_rate_Hz":null};)");
   in_loop([&] {
     hub_.remove(bridge);
     return 0;
