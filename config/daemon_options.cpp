@@ -16,6 +16,22 @@ namespace {
 std::vector<Option<Settings>> make_daemon_options() {
   std::vector<Option<Settings>> options{
       text<Settings>(
+          {.table = "vehicle",
+           .key = "id",
+           .description = "Identifies the vehicle for its whole life, even on another computer, such as a hull "
+                          "number; empty: not given.",
+           .text_rule = "at most 64 of letters, digits, _, - and .",
+           .text_holds = is_identifier_or_nothing},
+          [](auto& s) -> auto& { return s.vehicle.id; }),
+      text<Settings>(
+          {.table = "vehicle",
+           .key = "name",
+           .description = "The vehicle's name for people, such as the one on its hull; empty: the id.",
+           .text_rule = "at most 64 bytes without control characters",
+           .text_holds = is_short_or_nothing},
+          [](auto& s) -> auto& { return s.vehicle.name; }),
+
+      text<Settings>(
           {.table = "log",
            .key = "directory",
            .description = "Folder of the log files; created if it is missing.",

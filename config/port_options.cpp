@@ -77,6 +77,14 @@ std::vector<Option<P>> make_port_options() {
            .text_holds = [](std::string_view text) { return parse_network_address(text).has_value(); }},
           [](auto& p) -> auto& { return p.address; }),
       text<P>(
+          {.key = "serial_number",
+           .description =
+               "Serial number of the device itself, as on its plate, so that it is known again on another "
+               "port or vehicle; empty: not given.",
+           .text_rule = "at most 64 bytes without control characters",
+           .text_holds = is_short_or_nothing},
+          [](auto& p) -> auto& { return p.serial_number; }),
+      text<P>(
           {.key = "device",
            .description =
                "File that describes the device (docs/devices.md); a relative path begins where this file "

@@ -177,6 +177,7 @@ void Reader::check_ports() {
       same("udev_name", port.udev_name, other.udev_name);
       same("usb_serial", port.usb_serial, other.usb_serial);
       same("address", port.address, other.address);
+      if (port.protocol == other.protocol) same("serial_number", port.serial_number, other.serial_number);
     }
   }
 }

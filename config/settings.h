@@ -58,10 +58,11 @@ struct PortSettings {
   std::string name;
   protocols::Protocol protocol = protocols::Protocol::nmea;
   // Exactly one of the four says where it is; empty when not given.
-  std::string path;        ///< /dev/ttyUSB0, a pseudo-terminal, a link
-  std::string udev_name;   ///< a link that udev keeps, e.g. /dev/navcal/compass or serial/by-id/...
-  std::string usb_serial;  ///< serial number of the USB adapter
-  std::string address;     ///< in the network (network_address.h)
+  std::string path;           ///< /dev/ttyUSB0, a pseudo-terminal, a link
+  std::string udev_name;      ///< a link that udev keeps, e.g. /dev/navcal/compass or serial/by-id/...
+  std::string usb_serial;     ///< serial number of the USB adapter
+  std::string address;        ///< in the network (network_address.h)
+  std::string serial_number;  ///< of the device itself, as on its plate; empty: not given
   int baud = 9600;
   bool start_up = true;      ///< hold the device's start-up dialogue
   bool aid = false;          ///< give a receiver position and time (docs/surfacing.md)
@@ -80,6 +81,14 @@ struct PortSettings {
   std::optional<protocols::described::Description> described;  ///< the text as it was read, adjusted
 
   bool operator==(const PortSettings&) const = default;
+};
+
+/// Which vehicle this is; logs, status and pages name it.
+struct IdentitySettings {
+  std::string id;    ///< stays for the vehicle's life; empty: not given
+  std::string name;  ///< for people; empty: the id
+
+  bool operator==(const IdentitySettings&) const = default;
 };
 
 struct LogSettings {
@@ -249,6 +258,7 @@ struct RemoteSettings {
 };
 
 struct Settings {
+  IdentitySettings vehicle;
   LogSettings log;
   StatusSettings status;
   ControlSettings control;

@@ -11,7 +11,8 @@ struct Description {
   std::string_view words;
 };
 
-constexpr std::array<Description, 17> kTableDescriptions{{
+constexpr std::array<Description, 18> kTableDescriptions{{
+    {"vehicle", "Which vehicle this is. Logs, status reports and pages name it."},
     {"log", "The log: raw bytes, samples, health and events, as MCAP files."},
     {"status", "The status socket: gpsd's protocol over TCP, read-only."},
     {"control",

@@ -11,6 +11,11 @@
 #include <string>
 
 namespace navcal::config {
+namespace {
+
+constexpr std::size_t kMaxIdentity = 64;
+
+}  // namespace
 
 bool is_printable(std::string_view text) {
   return !text.empty() && std::none_of(text.begin(), text.end(),
@@ -69,5 +74,16 @@ bool is_gpio_chip(std::string_view text) {
 }
 
 bool is_port_name_or_nothing(std::string_view text) { return text.empty() || is_port_name(text); }
+
+bool is_identifier_or_nothing(std::string_view text) {
+  return text.size() <= kMaxIdentity && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                  c == '-' || c == '.';
+         });
+}
+
+bool is_short_or_nothing(std::string_view text) {
+  return text.empty() || (text.size() <= kMaxIdentity && is_printable(text));
+}
 
 }  // namespace navcal::config

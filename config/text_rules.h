@@ -23,5 +23,9 @@ namespace navcal::config {
 /// "gpiochip0", or its path in /dev.
 [[nodiscard]] bool is_gpio_chip(std::string_view text);
 [[nodiscard]] bool is_port_name_or_nothing(std::string_view text);
+/// At most 64 of letters, digits, '_', '-' and '.'.
+[[nodiscard]] bool is_identifier_or_nothing(std::string_view text);
+/// At most 64 bytes of printable text.
+[[nodiscard]] bool is_short_or_nothing(std::string_view text);
 
 }  // namespace navcal::config

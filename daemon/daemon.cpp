@@ -321,6 +321,7 @@ std::vector<std::string> Daemon::health(std::int64_t now_ns) const {
   health.alarms = alarms_.standing();
   if (motor_) health.motor = motor_->health(now_ns);
   if (remote_) health.remote = remote_->health();
+  health.vehicle = identity_;
   health.ports = sessions_;
   health.pipeline = &pipeline_;
   health.log_enabled = log_.enabled();

@@ -150,6 +150,7 @@ class Daemon : private pipeline::Sink,
 
   const boost::asio::any_io_executor executor_;
   const config::Settings settings_;
+  const std::string identity_ = vehicle_identity(settings_);
   const std::int64_t started_ns_;
   const std::int64_t tick_ns_;
   pipeline::Pipeline pipeline_;

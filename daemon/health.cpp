@@ -9,7 +9,9 @@
 #include <iterator>
 
 #include "base/angles.h"
+#include "config/load.h"
 #include "daemon/json_text.h"
+#include "record/log/log_encoder.h"
 
 namespace navcal::daemon {
 namespace {
@@ -62,6 +64,7 @@ void append_port(std::string& out, const PortSession& port, const pipeline::Port
   out += "{\"device\":";
   append_quoted(out, port.settings().name);
   text(out, "protocol", protocols::name_of(port.settings().protocol));
+  if (!port.settings().serial_number.empty()) text(out, "serial_number", port.settings().serial_number);
   text(out, "state", name_of(port.state()));
   text(out, "reason", port.reason());
   if (const auto& open = port.open_port()) {
@@ -156,6 +159,7 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
     out += ",\"time\":";
     append_utc(out, *health.utc_ns, 3);
   }
+  if (!health.vehicle.empty()) out += ",\"vehicle\":" + health.vehicle;
   number(out, "uptime_s", health.uptime_s, 3);
   if (lines > 1) {
     fmt::format_to(std::back_inserter(out), FMT_STRING(",\"part\":{},\"parts\":{}"), first / kPortsPerHealth + 1,
@@ -180,6 +184,13 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
 }
 
 }  // namespace
+
+std::string vehicle_identity(const config::Settings& settings) {
+  std::string out = "{\"config_crc32c\":\"" + record::config_sum(config::to_toml(settings)) + '"';
+  if (!settings.vehicle.id.empty()) text(out, "id", settings.vehicle.id);
+  if (!settings.vehicle.name.empty()) text(out, "name", settings.vehicle.name);
+  return out + '}';
+}
 
 std::vector<std::string> health_beginnings(const Health& health) {
   std::vector<std::string> lines;

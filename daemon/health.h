@@ -20,8 +20,9 @@ struct Health {
   std::optional<std::int64_t> utc_ns;
   double uptime_s = 0;
   std::span<const Alarms::Standing> alarms;
-  std::string motor;   ///< MotorControl's, an object of JSON; empty where no orders are taken
-  std::string remote;  ///< RemoteLink's, an object of JSON; empty where there is none
+  std::string vehicle;  ///< vehicle_identity()
+  std::string motor;    ///< MotorControl's, an object of JSON; empty where no orders are taken
+  std::string remote;   ///< RemoteLink's, an object of JSON; empty where there is none
   std::span<const std::unique_ptr<PortSession>> ports;
   const pipeline::Pipeline* pipeline = nullptr;
   bool log_enabled = true;
@@ -33,6 +34,9 @@ struct Health {
 
 /// Number of ports in one line: libgps reads lines of up to 10 kB, so more ports make more lines.
 inline constexpr std::size_t kPortsPerHealth = 8;
+
+/// Id and name where they are given, and the sum of the configuration in force: an object of JSON.
+[[nodiscard]] std::string vehicle_identity(const config::Settings& settings);
 
 /// HEALTH lines without their end, to which the status server adds each client's own count: `,"dropped":0}`.
 [[nodiscard]] std::vector<std::string> health_beginnings(const Health& health);

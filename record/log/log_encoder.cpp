@@ -24,6 +24,7 @@ namespace navcal::record {
 
 struct LogEncoder::State {
   std::vector<config::PortSettings> ports;
+  config::IdentitySettings vehicle;
   std::string config_toml;
   McapSummary summary;
   std::vector<std::uint32_t> sequences;  // by channel
@@ -78,6 +79,16 @@ struct LogEncoder::State {
       append_mcap_string(map, "1");
       append_mcap_string(map, kLogOffsetKey);
       append_mcap_string(map, fmt::format_int(log_offset_ns).str());
+      append_mcap_string(map, "config_crc32c");
+      append_mcap_string(map, config_sum(config_toml));
+      if (!vehicle.id.empty()) {
+        append_mcap_string(map, "vehicle_id");
+        append_mcap_string(map, vehicle.id);
+      }
+      if (!vehicle.name.empty()) {
+        append_mcap_string(map, "vehicle_name");
+        append_mcap_string(map, vehicle.name);
+      }
       append_mcap_string(out, map);
     }
     summary.add_metadata(begin, out.size() - begin, kProfile);
@@ -115,6 +126,10 @@ struct LogEncoder::State {
     append_mcap_string(metadata, fmt::format_int(ports[port].baud).str());
     append_mcap_string(metadata, "protocol");
     append_mcap_string(metadata, protocols::name_of(ports[port].protocol));
+    if (!ports[port].serial_number.empty()) {
+      append_mcap_string(metadata, "serial_number");
+      append_mcap_string(metadata, ports[port].serial_number);
+    }
     append_channel(out, static_cast<std::uint16_t>(topic::kFirstRaw + port), 0,
                    std::string(topic::kRawPrefix) + ports[port].name, kRawEncoding, metadata);
   }
@@ -131,9 +146,12 @@ struct LogEncoder::State {
   }
 };
 
+std::string config_sum(std::string_view config_toml) { return fmt::format("{:08x}", crc32c(config_toml)); }
+
 LogEncoder::LogEncoder(const config::Settings& settings, std::string config_toml)
     : state_(std::make_unique<State>()) {
   state_->ports = settings.ports;
+  state_->vehicle = settings.vehicle;
   state_->config_toml = std::move(config_toml);
 }
 

@@ -16,6 +16,10 @@
 
 namespace navcal::record {
 
+/// CRC-32C over a configuration as config::to_toml() writes it, eight hexadecimal digits: equal configurations
+/// have equal sums.
+[[nodiscard]] std::string config_sum(std::string_view config_toml);
+
 enum class Direction : std::uint8_t { received = 0, sent = 1 };
 
 /// Turns what happens into MCAP records (docs/log-format.md). Pure: appends bytes to a buffer, opens no file,

@@ -138,6 +138,7 @@ bool LogReader::define(const Record& record) {
     while (fields.complete() && map.complete() && !map.at_end()) {
       const std::string_view key = map.string();
       const std::string_view value = map.string();
+      metadata_.insert_or_assign(std::string(key), std::string(value));
       if (key == kLogOffsetKey) log_offset_ns_ = integer_or_zero(value);
     }
     if (!fields.complete() || !map.complete()) return false;

@@ -56,6 +56,8 @@ class LogReader {
   [[nodiscard]] const Findings& findings() const { return findings_; }
   [[nodiscard]] const std::map<std::uint16_t, LogChannel>& channels() const { return channels_; }
   [[nodiscard]] const McapSummary& summary() const { return summary_; }
+  /// Of the file: of its metadata record (docs/log-format.md).
+  [[nodiscard]] const std::map<std::string, std::string, std::less<>>& metadata() const { return metadata_; }
   /// Remarks for the user; if there are very many, the first ones and a count.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   /// log_time less monotonic time.
@@ -86,6 +88,7 @@ class LogReader {
   std::size_t pass_ = 0;  ///< length of the record handed out last
   bool ended_ = false;
   std::map<std::uint16_t, LogChannel> channels_;
+  std::map<std::string, std::string, std::less<>> metadata_;
   McapSummary summary_;
   std::int64_t log_offset_ns_ = 0;
   std::uint64_t definition_bytes_ = 0;

@@ -29,12 +29,13 @@ double number_within(const OptionInfo& option, Random& random) {
 std::string some_text(const OptionInfo& option, Random& random) {
   if (option.key == "address") return random() % 2 == 0 ? "0.0.0.0" : "::1";
   if (option.table == "remote" && option.key == "listen") return random() % 2 == 0 ? "" : "[::1]:2950";
+  if (option.key == "id") return random() % 2 == 0 ? "" : "AUV-2.b_9";
   if (option.key == "rollover_pivot")
     return fmt::format("{}-{:02}-{:02}", 1981 + random() % 90, 1 + random() % 12, 1 + random() % 28);
   constexpr std::string_view kPieces[] = {
       "a", "Z", "0", "/", " ", "\"", "\\", "'", "#", "=", ".", "\xc3\xa9", "\xf0\x9f\x90\x9f", "[", "}"};
   std::string text = "/";
-  for (auto n = random() % 20; n > 0; --n) text += kPieces[random() % std::size(kPieces)];
+  for (auto n = random() % 14; n > 0; --n) text += kPieces[random() % std::size(kPieces)];
   return text;
 }
 

@@ -9,6 +9,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "config/load.h"
+#include "record/byte_source.h"
+#include "record/log/log_encoder.h"
+#include "record/log/log_reader.h"
 #include "record/recording.h"
 
 namespace navcal::daemon {
@@ -148,6 +152,31 @@ TEST(DaemonProcess, AFixMakesHeadingsTrueAndHealthSaysWhoServesWhat) {
   EXPECT_EQ(health["earth_field"]["declination_source"], "model");
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
   EXPECT_NE(daemon.diagnostics().find("earth_field: declination"), std::string::npos) << daemon.diagnostics();
+}
+
+TEST(DaemonProcess, HealthAndLogSayWhichVehicleThisIs) {
+  DaemonProcess daemon({"--set", "vehicle.id=auv-7", "--set", "vehicle.name=Tümmler", "--set",
+                        "port.compass.serial_number=40-113"});
+  const auto client = watcher(daemon);
+  const json health = json::parse(client->line_with("HEALTH"));
+  EXPECT_EQ(health["vehicle"]["id"], "auv-7");
+  EXPECT_EQ(health["vehicle"]["name"], "Tümmler");
+  EXPECT_EQ(health["ports"][0]["serial_number"], "40-113");
+  ASSERT_EQ(daemon.stop(SIGTERM), 0) << daemon.diagnostics();
+  record::LogReader log(record::open_file(daemon.logs()[0]), "log");
+  while (const auto message = log.next()) {
+    if (log.channels().at(message->channel).topic != "/config") continue;
+    const std::string toml = json::parse(message->data)["toml"];
+    EXPECT_EQ(health["vehicle"]["config_crc32c"], record::config_sum(toml));
+    EXPECT_EQ(config::parse(toml, "log").vehicle.name, "Tümmler");
+  }
+  EXPECT_EQ(log.metadata().at("vehicle_id"), "auv-7");
+  EXPECT_EQ(log.metadata().at("vehicle_name"), "Tümmler");
+  EXPECT_EQ(log.metadata().at("config_crc32c"), health["vehicle"]["config_crc32c"]);
+  const auto raw = std::find_if(log.channels().begin(), log.channels().end(),
+                                [](const auto& channel) { return channel.second.raw; });
+  ASSERT_NE(raw, log.channels().end());
+  EXPECT_EQ(raw->second.metadata.at("serial_number"), "40-113");
 }
 
 TEST(DaemonProcess, CheckRefusesRolesThatNobodyCanFill) {

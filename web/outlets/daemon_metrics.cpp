@@ -153,6 +153,14 @@ void append_health(Exposition& out, const std::vector<json>& parts) {
   out.metric("navcald_info", gauge, "Version of navcald.");
   if (const std::string version = text_in(process, "version"); !version.empty())
     out.sample({{"version", version}}, 1.0);
+  out.metric("navcald_vehicle_info", gauge, "Id and name of the vehicle, and the sum of its configuration.");
+  const json& vehicle = member_of(health, "vehicle");
+  if (vehicle.is_object()) {
+    out.sample({{"id", text_in(vehicle, "id")},
+                {"name", text_in(vehicle, "name")},
+                {"config_crc32c", text_in(vehicle, "config_crc32c")}},
+               1.0);
+  }
   append_alarms(out, health);
   append_ports(out, parts);
   const json& log = member_of(health, "log");

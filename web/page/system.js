@@ -35,11 +35,22 @@ export class System {
 
   draw() {
     const health = this.store.all('/health').map((record) => record.message);
-    this.#alarms(health);
+    const alarms = this.#alarms(health);
+    this.#title(health[0]?.vehicle, alarms);
     this.#ports(health.flatMap((one) => one.ports ?? []), health.length > 0);
     this.#service(health[0]);
   }
 
+  // Several vehicles may be open in as many tabs: the title tells which one this is, and whether it needs attention.
+  #title(vehicle, alarms) {
+    const name = vehicle?.name || vehicle?.id;
+    write($('vehicle'), name ?? 'navcal');
+    const title = name ? `${name} \u2013 navcal` : 'navcal';
+    const shown = alarms > 0 ? `\u26a0 ALARM \u2013 ${title}` : title;
+    if (document.title !== shown) document.title = shown;
+  }
+
+  // Number of alarms.
   #alarms(health) {
     const alarms = health.flatMap((one) => one.alarms ?? []);
     const text = alarms.map((alarm) => `${words(alarm.alarm).toUpperCase()}${alarm.device ? ` (${alarm.device})` : ''}`);
@@ -47,11 +58,11 @@ export class System {
     write($('alarm-state'), !known ? 'alarms unknown' : text.length === 0 ? 'no alarm' : `${text.length} ALARM${text.length > 1 ? 'S' : ''}`);
     attribute($('alarm-state'), 'class', `chip ${!known ? '' : text.length === 0 ? 'good' : 'bad'}`);
     const key = text.join('\n');
-    if (key === this.alarmsShown) return;
+    if (key === this.alarmsShown) return text.length;
     this.alarmsShown = key;
     $('alarms').hidden = text.length === 0;
     $('alarms').replaceChildren(...(text.length === 0 ? [] : [make('span', {}, `\u26a0 ALARM: ${text.join(', ')}`)]));
-    document.title = text.length > 0 ? '\u26a0 ALARM \u2013 navcal' : 'navcal';
+    return text.length;
   }
 
   #ports(ports, isKnown) {
@@ -101,6 +112,8 @@ export class System {
     const noHealth = 'no HEALTH came';
     list.set('log', log ? words(log.enabled === false ? 'off' : log.state) : null, log ? [log.reason, log.file?.split('/').pop()].filter(Boolean).join('; ') : noHealth, !log ? '' : log.state === 'writing' ? 'good' : 'warn');
     list.set('log size', log?.bytes == null ? null : bytes(log.bytes), log?.bytes == null ? noHealth : `${bytes(log.synced ?? 0)} safe on the disk, ${log.queued ?? 0} bytes wait${log.lost > 0 ? `, ${log.lost} records LOST` : ''}`, log?.lost > 0 ? 'bad' : '');
+    const vehicle = health?.vehicle;
+    if (vehicle) list.set('vehicle', vehicle.name || vehicle.id || 'not named', `${vehicle.name && vehicle.id ? `id ${vehicle.id}; ` : ''}configuration ${vehicle.config_crc32c}`);
     list.set('navcald runs', duration(health?.uptime_s), health ? '' : noHealth);
     list.set('clients of navcald', health?.clients == null ? null : String(health.clients), health ? (health.client_dropped > 0 ? `${health.client_dropped} reports dropped for slow ones` : '') : noHealth);
     const field = health?.earth_field;

@@ -105,8 +105,12 @@ TEST_F(MetricsTest, TheClockIsKnownFromHealthBeforeAnyTime) {
   EXPECT_TRUE(has("navcald_clock_source{source=\"gps\"} 1"));
   EXPECT_TRUE(has("navcald_clock_bound_seconds 0.06"));
   EXPECT_TRUE(has("navcald_info{version=\"1.2\"} 1"));
+  EXPECT_EQ(metrics_.page().find("navcald_vehicle_info{"), std::string::npos)
+      << "an older navcald does not say it";
   EXPECT_TRUE(has("navcald_cpu_seconds_total 3"));
   EXPECT_TRUE(has("navcald_most_resident_memory_bytes 2048"));
+  say("/health", "", R"({"vehicle":{"config_crc32c":"0a1b2c3d","id":"auv-7"}})");
+  EXPECT_TRUE(has("navcald_vehicle_info{id=\"auv-7\",name=\"\",config_crc32c=\"0a1b2c3d\"} 1"));
   say("/time", "", R"({"source":"system","bound":null})");
   EXPECT_TRUE(has("navcald_clock_source{source=\"gps\"} 0"));
   EXPECT_EQ(metrics_.page().find("navcald_clock_bound"), std::string::npos);
