@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "analysis/simulate_arguments.h"
+#include "sim/recording.h"
 #include "sim/state.h"
 #include "sim/vehicle/influences.h"
 
@@ -12,6 +13,7 @@ namespace navcal::analysis {
 struct SimulatedRun {
   std::unique_ptr<sim::Motion> motion;
   double duration_s = 0;
+  sim::CommandPort commands = sim::CommandPort::motor_card;
 };
 
 /// How the vehicle moves, and for how long. `influencer` must outlive the motion. Throws Failure.

@@ -32,7 +32,7 @@ void run(const analysis::SimulateArguments& arguments) {
   const analysis::SimulatedRun run = analysis::simulate_motion(arguments, effects);
   std::optional<analysis::SimulateHistory> history;
   if (!arguments.report.empty())
-    history.emplace(sim::recording_ports(arguments.instruments), arguments.begin_ns, run.duration_s);
+    history.emplace(sim::recording_ports(arguments.instruments, run.commands), arguments.begin_ns, run.duration_s);
   analysis::write_simulation(arguments, run, effects, history ? &*history : nullptr);
   if (history) {
     write_result(arguments.report, report::simulate_page(*history, arguments, run, effects));

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <variant>
+
+#include "analysis/failure.h"
+#include "config/layout.h"
+#include "config/vehicle.h"
+#include "sim/layout/layout_motion.h"
+
+namespace navcal::analysis {
+
+/// A vehicle of one propeller and three fins, or one of any shape.
+using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
+
+/// The vehicle of a file, or the reference vehicle without one. A file with one of the tables body, added_mass,
+/// thruster, surface, ballast and moving_mass is a layout. Throws config::Error.
+[[nodiscard]] ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file);
+
+/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws config::Error, and
+/// Failure where the layout cannot be simulated, or cannot do what the mission needs.
+[[nodiscard]] std::unique_ptr<sim::LayoutMotion> layout_on_mission(const config::Layout& layout,
+                                                                   const std::filesystem::path& file,
+                                                                   const std::string& mission,
+                                                                   const sim::MotionOptions& options);
+
+/// Throws Failure where a layout has no equations of motion, or more actuators than a recording has outputs.
+void expect_simulable(const config::Layout& layout, const std::filesystem::path& file);
+
+}  // namespace navcal::analysis
