@@ -39,18 +39,27 @@ ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file) {
   return config::parse_vehicle(toml, file.native());
 }
 
-void expect_simulable(const config::Layout& layout, const std::filesystem::path& file) {
-  const std::string why = sim::assessment::reason_not_to_simulate(layout);
-  if (!why.empty())
-    throw Failure(Exit::bad_input, fmt::format("{}: cannot be simulated: {}", file.string(), why));
-  const std::size_t outputs = sim::outputs_of(layout);
-  if (outputs > sim::kMostOutputs)
-    throw Failure(Exit::bad_input, fmt::format("{}: {} actuators; a recording has {} outputs", file.string(), outputs,
-                                               sim::kMostOutputs));
+std::optional<config::Layout> layout_in(const std::filesystem::path& file) {
+  try {
+    ChosenVehicle vehicle = load_chosen_vehicle(file);
+    auto* const layout = std::get_if<config::Layout>(&vehicle);
+    return layout != nullptr ? std::optional(std::move(*layout)) : std::nullopt;
+  } catch (const config::Error& error) {
+    throw Failure(Exit::bad_input, error.what());
+  }
 }
 
-std::unique_ptr<sim::LayoutMotion> layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
-                                                     const std::string& mission,
+void expect_simulable(const config::Layout& layout, const std::filesystem::path& file) {
+  const std::string why = sim::assessment::reason_not_to_simulate(layout);
+  if (!why.empty()) throw Failure(Exit::bad_input, fmt::format("{}: cannot be simulated: {}", file.string(), why));
+  const std::size_t outputs = sim::outputs_of(layout);
+  if (outputs > sim::kMostOutputs)
+    throw Failure(Exit::bad_input, fmt::format("{}: {} actuators; a recording has {} outputs", file.string(),
+                                               outputs, sim::kMostOutputs));
+}
+
+std::unique_ptr<sim::LayoutMotion> layout_on_mission(const config::Layout& layout,
+                                                     const std::filesystem::path& file, const std::string& mission,
                                                      const sim::MotionOptions& options) {
   expect_simulable(layout, file);
   try {

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <variant>
 
 #include "analysis/failure.h"
@@ -19,8 +21,11 @@ using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
 /// thruster, surface, ballast and moving_mass is a layout. Throws config::Error.
 [[nodiscard]] ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file);
 
-/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws config::Error, and
-/// Failure where the layout cannot be simulated, or cannot do what the mission needs.
+/// The layout of a file; nullopt where the file is none, or there is no file. Throws Failure.
+[[nodiscard]] std::optional<config::Layout> layout_in(const std::filesystem::path& file);
+
+/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws
+/// config::Error, and Failure where the layout cannot be simulated, or cannot do what the mission needs.
 [[nodiscard]] std::unique_ptr<sim::LayoutMotion> layout_on_mission(const config::Layout& layout,
                                                                    const std::filesystem::path& file,
                                                                    const std::string& mission,

@@ -8,6 +8,7 @@
 #include "analysis/chosen_vehicle.h"
 #include "analysis/failure.h"
 #include "config/mission_file.h"
+#include "config/vehicle_file.h"
 #include "sim/motion_in_field.h"
 #include "sim/path.h"
 #include "sim/vehicle/drive_helm.h"
@@ -26,9 +27,10 @@ SimulatedRun along_path(const SimulateArguments& arguments) {
 SimulatedRun with_layout(const config::Layout& layout, const SimulateArguments& arguments,
                          const sim::MotionOptions& options) {
   if (!arguments.drive.empty())
-    throw Failure(Exit::usage, fmt::format("{} is a layout, and --drive moves one propeller and three fins: a layout "
-                                           "takes --mission",
-                                           arguments.vehicle.string()));
+    throw Failure(Exit::usage,
+                  fmt::format("{} is a layout, and --drive moves one propeller and three fins: a layout "
+                              "takes --mission",
+                              arguments.vehicle.string()));
   auto motion = layout_on_mission(layout, arguments.vehicle, arguments.mission, options);
   const double duration_s = arguments.seconds ? *arguments.seconds : motion->duration_s();
   return {std::move(motion), duration_s, sim::CommandPort::outputs};
@@ -51,9 +53,10 @@ SimulatedRun under_way(const SimulateArguments& arguments, sim::VehicleInfluence
   sim::MotionOptions options;
   options.start_ns = arguments.begin_ns;
   options.influencer = &influencer;
-  const ChosenVehicle vehicle = load_chosen_vehicle(arguments.vehicle);
-  if (const auto* layout = std::get_if<config::Layout>(&vehicle)) return with_layout(*layout, arguments, options);
-  return with_three_fins(std::get<config::VehicleSettings>(vehicle), arguments, options);
+  if (arguments.layout) return with_layout(*arguments.layout, arguments, options);
+  const auto vehicle =
+      arguments.vehicle.empty() ? config::VehicleSettings{} : config::load_vehicle(arguments.vehicle);
+  return with_three_fins(vehicle, arguments, options);
 }
 
 }  // namespace

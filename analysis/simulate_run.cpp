@@ -24,7 +24,7 @@ namespace {
 constexpr std::int64_t kTruthStep_ns = 10'000'000;
 
 void write_recording(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
-                      SimulateHistory* history) {
+                     SimulateHistory* history) {
   const base::Interruptible interruptible;
   Progress progress("simulate");
   record::WholeFile capture(arguments.capture);

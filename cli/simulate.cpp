@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/chosen_vehicle.h"
 #include "analysis/simulate_effects.h"
 #include "analysis/simulate_motion.h"
 #include "analysis/simulate_run.h"
@@ -17,6 +18,7 @@
 #include "devices/instrument_model.h"
 #include "report/simulate_page.h"
 #include "sim/effects/choice.h"
+#include "sim/layout/effects/layout_effects.h"
 #include "sim/recording.h"
 
 namespace navcal::cli {
@@ -50,6 +52,8 @@ devices::InstrumentModel configured_instruments(const std::filesystem::path& fil
 void simulate(SimulateCommandOptions& options) {
   if (options.list_effects) {
     std::fputs(sim::effects_text().c_str(), stdout);
+    fmt::print("\nWith a layout (--vehicle LAYOUT.toml) those on the vehicle are these, and water_current:\n\n{}",
+               sim::layout_effects_text());
     return;
   }
   auto& arguments = options.arguments;
@@ -66,6 +70,7 @@ void simulate(SimulateCommandOptions& options) {
   arguments.begin_ns = arguments.where.day_ns().value_or(analysis::kSimulatedBegin_ns);
   arguments.place = analysis::simulated_place(arguments.where, arguments.begin_ns);
   if (!arguments.config.empty()) arguments.instruments = configured_instruments(arguments.config);
+  arguments.layout = analysis::layout_in(arguments.vehicle);
   run(arguments);
 }
 

@@ -86,8 +86,8 @@ struct LayoutDamping {
   bool operator==(const LayoutDamping&) const = default;
 };
 
-/// What an actuator makes of a command before its limits and dead band: neutral + scale (command - neutral) + offset.
-/// A sound one has 1 and 0, a reversed one -1, a dead one 0.
+/// What an actuator makes of a command before its limits and dead band: neutral + scale (command - neutral) +
+/// offset. A sound one has 1 and 0, a reversed one -1, a dead one 0.
 struct LayoutHeard {
   double scale = 1;
   double offset = 0;  ///< in the unit of the command; rad of a surface

@@ -44,7 +44,8 @@ config::PortSettings recording_port(std::string name, protocols::Protocol protoc
 
 }  // namespace
 
-std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments, CommandPort commands) {
+std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments,
+                                                  CommandPort commands) {
   using protocols::Protocol;
   std::vector<config::PortSettings> ports{recording_port("compass", Protocol::tcm2, instruments.compass.timing),
                                           recording_port("imu", Protocol::imu_card, instruments.imu.timing),

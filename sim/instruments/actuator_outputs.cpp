@@ -20,7 +20,8 @@ constexpr std::int64_t kOutputsLatency_ns = 5'000'000;
 constexpr std::size_t kFieldsOfALine = 8;
 constexpr double kLow_us = 500, kHigh_us = 2500;
 
-constexpr std::string_view kDescription = R"(# Commands to the actuators of a simulated layout (navcal simulate --vehicle LAYOUT.toml), ten times a second:
+constexpr std::string_view kDescription =
+    R"(# Commands to the actuators of a simulated layout (navcal simulate --vehicle LAYOUT.toml), ten times a second:
 #   $PNCAO,1500,1620,1500,1500,,,,*52
 # outputs 1 to 8 as pulses in us, thrusters first, then surfaces, ballasts and moving masses (docs/simulator.md). Outputs
 # that the vehicle does not have are empty; $PNCAP has 9 to 16 where there are more than 8.

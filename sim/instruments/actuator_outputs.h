@@ -18,8 +18,9 @@ namespace navcal::sim {
 /// Greatest number of outputs that the lines have.
 inline constexpr std::size_t kMostOutputs = 16;
 
-/// The text of share/devices/actuator-outputs.toml, which describes the lines $PNCAO with outputs 1 to 8, and $PNCAP with
-/// 9 to 16, in whole us. A field is empty where there is no such output: "$PNCAO,1500,1620,1500,1500,,,,*52".
+/// The text of share/devices/actuator-outputs.toml, which describes the lines $PNCAO with outputs 1 to 8, and
+/// $PNCAP with 9 to 16, in whole us. A field is empty where there is no such output:
+/// "$PNCAO,1500,1620,1500,1500,,,,*52".
 [[nodiscard]] std::string_view outputs_description();
 
 /// Port settings of the device that sends these lines, with its description.
@@ -31,8 +32,8 @@ class ActuatorOutputs final : public Device {
   static constexpr int kBaud = 115200;
   static constexpr double kLatency_s = 0.005;
 
-  /// A vehicle that obeys: called with the outputs of each line that comes (of kMostOutputs; nullopt where the line has
-  /// none), and with 1500 us on all when power comes.
+  /// A vehicle that obeys: called with the outputs of each line that comes (of kMostOutputs; nullopt where the
+  /// line has none), and with 1500 us on all when power comes.
   using Obey = std::function<void(std::int64_t t_ns, const std::vector<std::optional<double>>& pulses_us)>;
   explicit ActuatorOutputs(const Motion& motion, Obey obey = {}) : motion_(motion), obey_(std::move(obey)) {}
 

@@ -42,8 +42,8 @@ ActuatorValues follow(const config::Layout& layout, const ActuatorValues& positi
   ActuatorValues next = positions;
   for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
     const config::LayoutThruster& thruster = layout.thrusters[i];
-    const double target = autopilot::effective_command(
-        thruster, thruster.heard.of(commands.thrusters[i], thruster.neutral()));
+    const double target =
+        autopilot::effective_command(thruster, thruster.heard.of(commands.thrusters[i], thruster.neutral()));
     next.thrusters[i] = with_lag(positions.thrusters[i], target, thruster.lag_s, step_s);
   }
   for (std::size_t i = 0; i < layout.surfaces.size(); ++i) {
@@ -55,14 +55,13 @@ ActuatorValues follow(const config::Layout& layout, const ActuatorValues& positi
   }
   for (std::size_t i = 0; i < layout.ballasts.size(); ++i) {
     const config::LayoutBallast& ballast = layout.ballasts[i];
-    next.ballasts_N[i] = at_rate(positions.ballasts_N[i], ballast.heard.of(commands.ballasts_N[i], 0), ballast.low_N,
-                                 ballast.high_N, ballast.rate_N_s * step_s);
+    next.ballasts_N[i] = at_rate(positions.ballasts_N[i], ballast.heard.of(commands.ballasts_N[i], 0),
+                                 ballast.low_N, ballast.high_N, ballast.rate_N_s * step_s);
   }
   for (std::size_t i = 0; i < layout.moving_masses.size(); ++i) {
     const config::LayoutMovingMass& mass = layout.moving_masses[i];
-    next.masses_m[i] =
-        at_rate(positions.masses_m[i], mass.heard.of(commands.masses_m[i], 0), mass.low_m, mass.high_m,
-                mass.rate_m_s * step_s);
+    next.masses_m[i] = at_rate(positions.masses_m[i], mass.heard.of(commands.masses_m[i], 0), mass.low_m,
+                               mass.high_m, mass.rate_m_s * step_s);
   }
   return next;
 }

@@ -14,8 +14,8 @@ class UnfitLayout : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Source of the commands to a layout's actuators, and of the beginning of the run. Called once a step, in order of
-/// time.
+/// Source of the commands to a layout's actuators, and of the beginning of the run. Called once a step, in order
+/// of time.
 class LayoutHelm {
  public:
   virtual ~LayoutHelm() = default;

@@ -13,23 +13,25 @@
 
 namespace navcal::sim {
 
-/// The vehicle of a layout under way, as SimulatedMotion is that of one propeller and three fins. Besides the forces
-/// of LayoutVehicle, the hull floats: what is above the water has no buoyancy, clamp(1/2 - z/H, 0, 1) of it, with
-/// depth z of the origin and height H of the vehicle (body.size_m, or the cube root of what it displaces).
-/// The shaft, the fins and the motor current of its states are zero: it has outputs instead.
-/// Not for several threads at once.
+/// The vehicle of a layout under way, as SimulatedMotion is that of one propeller and three fins. Besides the
+/// forces of LayoutVehicle, the hull floats: what is above the water has no buoyancy, clamp(1/2 - z/H, 0, 1) of
+/// it, with depth z of the origin and height H of the vehicle (body.size_m, or the cube root of what it
+/// displaces). The shaft, the fins and the motor current of its states are zero: it has outputs instead. Not for
+/// several threads at once.
 class LayoutMotion final : public Motion {
  public:
   /// Interval at which outputs are told.
   static constexpr std::int64_t kOutputs_ns = 100'000'000;
 
-  /// Throws UnstableVehicle. `options.influencer` may change the layout; the helm takes pulses for the nominal one.
+  /// Throws UnstableVehicle. `options.influencer` may change the layout; the helm takes pulses for the nominal
+  /// one.
   LayoutMotion(config::Layout layout, std::unique_ptr<LayoutHelm> helm, const MotionOptions& options);
 
   /// State at t_ns; before the run, that of its beginning. Throws UnstableVehicle, UnfitLayout.
   [[nodiscard]] State at(std::int64_t t_ns) const override;
   void take_outputs(std::int64_t t_ns, std::vector<OutputOrder>& out) const override;
-  /// Duration of the orders, seconds from the start, which the call simulates. Throws UnstableVehicle, UnfitLayout.
+  /// Duration of the orders, seconds from the start, which the call simulates. Throws UnstableVehicle,
+  /// UnfitLayout.
   [[nodiscard]] double duration_s() const;
   /// Positions of the actuators after the newest step.
   [[nodiscard]] const ActuatorValues& positions() const { return positions_; }

@@ -17,8 +17,9 @@ struct Influences {
   std::array<double, 2> current_m_s{};  ///< north, east: moves the position only
 };
 
-/// Interface of effects that change the vehicle: one propeller and three fins by influence() and link_fins(), a layout
-/// by influence(), of which only the current counts, and change_layout(). Called once a step, in order of time.
+/// Interface of effects that change the vehicle: one propeller and three fins by influence() and link_fins(), a
+/// layout by influence(), of which only the current counts, and change_layout(). Called once a step, in order of
+/// time.
 class VehicleInfluencer {
  public:
   virtual ~VehicleInfluencer() = default;

@@ -53,7 +53,7 @@ class SimulatedMotion final : public Motion {
   mutable Actuators actuators_;
   mutable std::optional<Eigen::Vector3d> linked_rad_;  ///< the fins themselves, behind their linkage
   mutable StepHistory states_;
-  mutable std::deque<Order> orders_;                   ///< not yet taken
+  mutable std::deque<Order> orders_;  ///< not yet taken
   mutable std::optional<double> ended_s_;
 };
 

@@ -13,7 +13,8 @@ namespace navcal::sim {
 inline constexpr std::int64_t kMotionStep_ns = 10'000'000;
 inline constexpr double kMotionStep_s = 1e-9 * kMotionStep_ns;
 
-/// States at the beginnings of steps of kMotionStep_ns, the newest of them; states between steps in a straight line.
+/// States at the beginnings of steps of kMotionStep_ns, the newest of them; states between steps in a straight
+/// line.
 class StepHistory {
  public:
   /// `history_s`: time for which states are kept.
@@ -22,7 +23,8 @@ class StepHistory {
   void push(const State& state) {
     states_.push_back(state);
     ++steps_;
-    if (static_cast<double>(states_.size()) * kMotionStep_s > history_s_ && states_.size() > 2) states_.pop_front();
+    if (static_cast<double>(states_.size()) * kMotionStep_s > history_s_ && states_.size() > 2)
+      states_.pop_front();
   }
   /// Number of steps that must have been pushed for a state so long after the beginning.
   [[nodiscard]] static std::int64_t steps_for(std::int64_t elapsed_ns) {

@@ -9,8 +9,8 @@ namespace navcal::sim {
 /// Control of one degree of freedom by a cascade: position to rate to acceleration.
 ///   rate wanted = rate demanded + clamp(w/2 e, +-rate limit),   e = position demanded - position
 ///   acceleration = 2 w (rate wanted - rate) + integral of w^3/10 e
-/// w is the natural frequency of the loop, critically damped. The integral is for what stands against the vehicle all
-/// the time: it grows only while the rate is not limited, and not beyond half of what can be had.
+/// w is the natural frequency of the loop, critically damped. The integral is for what stands against the vehicle
+/// all the time: it grows only while the rate is not limited, and not beyond half of what can be had.
 class AxisControl {
  public:
   AxisControl() = default;
@@ -29,7 +29,8 @@ class AxisControl {
     const double by_error = w_rad_s_ / 2 * demand.error;
     if (std::abs(by_error) < demand.rate_limit) {
       const double most = 0.5 * demand.greatest;
-      integral_ = std::clamp(integral_ + w_rad_s_ * w_rad_s_ * w_rad_s_ / 10 * demand.error * period_s, -most, most);
+      integral_ =
+          std::clamp(integral_ + w_rad_s_ * w_rad_s_ * w_rad_s_ / 10 * demand.error * period_s, -most, most);
     }
     const double rate = demand.rate_demanded + std::clamp(by_error, -demand.rate_limit, demand.rate_limit);
     return {rate, 2 * w_rad_s_ * (rate - demand.rate) + integral_};

@@ -26,12 +26,13 @@ struct ControlPlan {
 };
 
 /// Degrees of freedom that are taken in the order surge, yaw, heave or pitch, roll, sway, as long as they can be
-/// commanded independently of those before them. The row of a degree of freedom in the allocation matrix, scaled as
-/// Allocator::row_scales(), must keep 30 % of its length when the rows before are projected out.
-/// greatest_m_s: the highest speed at which 70 % of the thrust balances the drag, and which a vehicle without command
-/// of pitch or roll bears within 12 degrees of trim.
-/// Throws UnfitLayout where the mission needs a degree of freedom that the layout does not command, or where what the
-/// autopilot leaves alone is unstable.
+/// commanded independently of those before them. The row of a degree of freedom in the allocation matrix, scaled
+/// as Allocator::row_scales(), must keep 30 % of its length when the rows before are projected out. greatest_m_s:
+/// the highest speed at which 95 % of the thrust balances the drag (50 % of thrusters that turn the vehicle as
+/// well), and at which the moment that turns it across its way grows slower than the loops act. Where pitch or
+/// roll is not commanded, the vehicle on a level course must turn back from 12 degrees of it to either side.
+/// Throws UnfitLayout where the mission needs a degree of freedom that the layout does not command, or where what
+/// the autopilot leaves alone is unstable.
 [[nodiscard]] ControlPlan plan_control(const LayoutVehicle& vehicle, const autopilot::Allocator& allocator,
                                        const config::Mission& mission);
 

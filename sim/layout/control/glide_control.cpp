@@ -34,13 +34,13 @@ void GlideControl::command(double depth_demanded_m, const Body& body, double per
   const double light = range_N > 0 ? std::clamp(net_weight_N_ / range_N - part, -1.0, 1.0) : 0;
   for (std::size_t i = 0; i < layout_.ballasts.size(); ++i) {
     const config::LayoutBallast& ballast = layout_.ballasts[i];
-    commands.ballasts_N[i] =
-        (ballast.high_N + ballast.low_N) / 2 + light * (ballast.high_N - ballast.low_N) / 2;
+    commands.ballasts_N[i] = (ballast.high_N + ballast.low_N) / 2 + light * (ballast.high_N - ballast.low_N) / 2;
   }
   const double pitch_rad = -kGlide_rad * part;
   const double pitch_error_rad = pitch_rad - body.euler_rad.y();
   constexpr double kIntegral_per_s = 0.02, kMost_rad = 10 * base::kRadiansPerDegree;
-  pitch_integral_ = std::clamp(pitch_integral_ + kIntegral_per_s * pitch_error_rad * period_s, -kMost_rad, kMost_rad);
+  pitch_integral_ =
+      std::clamp(pitch_integral_ + kIntegral_per_s * pitch_error_rad * period_s, -kMost_rad, kMost_rad);
   double moment_m_kg = 0;
   for (const config::LayoutMovingMass& mass : layout_.moving_masses)
     moment_m_kg += mass.mass_kg * std::abs(vector_of(mass.axis).normalized().x());

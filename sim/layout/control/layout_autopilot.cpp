@@ -13,6 +13,7 @@ namespace {
 constexpr double kPeriod_s = 0.1;
 constexpr double kRudder_rad = 25 * base::kRadiansPerDegree;  ///< the whole moment
 constexpr double kGreatestPitch_rad = 25 * base::kRadiansPerDegree;
+constexpr double kAttitude = 10;  ///< weight of moments over forces where not all can be had
 constexpr double kFastestTurn_rad_s = 0.7;
 
 Eigen::VectorXd most_of(const autopilot::Allocator::Limits& limits) {
@@ -64,15 +65,15 @@ double LayoutAutopilot::speed_demanded(const autopilot::Demand& demand) const {
   return std::clamp(demand.speed_m_s.value_or(kAdvance_m * demand.shaft_rps), 0.0, plan_.greatest_m_s);
 }
 
-double LayoutAutopilot::pitch_for_depth(double too_deep_m, double surge_m_s, double demanded_m_s, double period_s) {
+double LayoutAutopilot::pitch_for_depth(double too_deep_m, double surge_m_s, double demanded_m_s,
+                                        double period_s) {
   constexpr double kSlowest_m_s = 0.1, kSmallPart = 0.25;
   const double per_s = axes_[4].w_rad_s() / 6;
   const double speed_m_s = std::max({surge_m_s, demanded_m_s / 2, kSlowest_m_s});
   const double by_error = per_s / speed_m_s * too_deep_m;
   if (std::abs(by_error) < kSmallPart * kGreatestPitch_rad) {
     constexpr double kMost_rad = kGreatestPitch_rad / 2;
-    depth_integral_rad_ =
-        std::clamp(depth_integral_rad_ + per_s / 6 * by_error * period_s, -kMost_rad, kMost_rad);
+    depth_integral_rad_ = std::clamp(depth_integral_rad_ + per_s / 6 * by_error * period_s, -kMost_rad, kMost_rad);
   }
   return std::clamp(by_error + depth_integral_rad_, -kGreatestPitch_rad, kGreatestPitch_rad);
 }
@@ -85,9 +86,9 @@ Vector6 LayoutAutopilot::accelerations(const autopilot::Demand& demand, const Bo
   const double speed_m_s = speed_demanded(demand);
   const double error_m_s = speed_m_s - nu[0];
   const double per_s = std::min(0.5, axes_[0].w_rad_s());
-  if (std::abs(per_s * error_m_s) < 0.25 * greatest[0])
-    speed_integral_ = std::clamp(speed_integral_ + per_s * per_s / 10 * error_m_s * period_s, -greatest[0] / 2,
-                                 greatest[0] / 2);
+  if (!is_thrust_limited_)
+    speed_integral_ =
+        std::clamp(speed_integral_ + per_s * per_s / 10 * error_m_s * period_s, -greatest[0] / 2, greatest[0] / 2);
   acceleration[0] = per_s * error_m_s + speed_integral_;
   acceleration[1] = -2 * axes_[1].w_rad_s() * nu[1];
   const double too_deep_m = body.position_m.z() - demand.depth_m;
@@ -114,14 +115,30 @@ Vector6 LayoutAutopilot::accelerations(const autopilot::Demand& demand, const Bo
   return acceleration;
 }
 
+Vector6 LayoutAutopilot::feed_forward(const Attitude& wanted, const Body& body) const {
+  const Eigen::Vector3d down(-std::sin(wanted.pitch_rad), 0, std::cos(wanted.pitch_rad));
+  const Vector6& nu = body.velocity;
+  Vector6 force = -vehicle_.force(wanted.velocity, down, neutral_);
+  Vector6 straight = Vector6::Zero();
+  straight[0] = nu[0];
+  straight[5] = wanted.velocity[5];
+  const Vector6 of_straight = vehicle_.force(straight, down, neutral_);
+  Vector6 drifting = straight;
+  drifting[1] = nu[1];
+  drifting[2] = nu[2];
+  const Vector6 of_drift = vehicle_.force(drifting, down, neutral_) - of_straight;
+  force.tail<3>() = -of_straight.tail<3>();
+  if (of_drift[4] * nu[2] * nu[0] > 0) force[4] -= of_drift[4];
+  if (of_drift[5] * nu[1] * nu[0] < 0) force[5] -= of_drift[5];
+  return force;
+}
+
 ActuatorValues LayoutAutopilot::commands(const autopilot::Demand& demand, const Body& body, double period_s) {
   const Eigen::MatrixXd B = allocator_.matrix(body.velocity);
   attainable_ = B.cwiseAbs() * most_of(allocator_.limits(body.velocity));
   Attitude wanted;
   const Vector6 acceleration = accelerations(demand, body, period_s, wanted);
-  const Eigen::Vector3d down(-std::sin(wanted.pitch_rad), 0, std::cos(wanted.pitch_rad));
-  Vector6 wrench = neutral_.mass.diagonal().cwiseProduct(acceleration) -
-                   vehicle_.force(wanted.velocity, down, neutral_);
+  Vector6 wrench = neutral_.mass.diagonal().cwiseProduct(acceleration) + feed_forward(wanted, body);
   if (demand.rudder_rad) wrench[5] = *demand.rudder_rad / kRudder_rad * attainable_[5];
   if (demand.elevator_rad) wrench[4] = *demand.elevator_rad / kRudder_rad * attainable_[4];
   ActuatorValues commands = ActuatorValues::neutral(vehicle_.layout());
@@ -134,9 +151,11 @@ void LayoutAutopilot::allocate(const autopilot::Demand& demand, const Body& body
                                ActuatorValues& commands) {
   autopilot::AllocationRequest request;
   request.wanted = wrench.cwiseMax(-attainable_).cwiseMin(attainable_);
+  is_thrust_limited_ = std::abs(wrench[0]) >= attainable_[0];
   request.velocity = body.velocity;
   request.saturation = autopilot::Saturation::least_squares;
-  for (std::size_t i = 0; i < 6; ++i) request.weights[static_cast<Eigen::Index>(i)] = plan_.commanded[i] ? 1 : 0;
+  for (std::size_t i = 0; i < 6; ++i)
+    request.weights[static_cast<Eigen::Index>(i)] = plan_.commanded[i] ? (i < 3 ? 1 : kAttitude) : 0;
   autopilot::Allocation allocation = allocator_.allocate(request);
   commands.thrusters = std::move(allocation.thruster_commands);
   commands.surfaces_rad = std::move(allocation.surfaces_rad);

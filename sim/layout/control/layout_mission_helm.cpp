@@ -54,8 +54,8 @@ void LayoutMissionHelm::expect_progress() const {
   const auto& metres = steps_.mission().steps[step].metres;
   if (!metres || steps_.way_m() > kLeast_m_s * steps_.since_s()) return;
   throw UnfitLayout(fmt::format("{}: {} of the mission does not end: {:.2f} of {:g} m in {:.0f} s",
-                                vehicle_.layout().name, step_words(steps_.mission(), step), steps_.way_m(), *metres,
-                                steps_.since_s()));
+                                vehicle_.layout().name, step_words(steps_.mission(), step), steps_.way_m(),
+                                *metres, steps_.since_s()));
 }
 
 }  // namespace navcal::sim

@@ -59,8 +59,8 @@ MissionNeeds needs_of(const config::Mission& mission) {
     note(needs.surge, needs_surge(step));
     note(needs.yaw, turns(step, mission.start.heading_rad));
     const bool is_doublet = step.kind == StepKind::doublet;
-    note(needs.pitch, (is_doublet && step.on == config::Surface::elevator) ||
-                          (step.elevator_rad && *step.elevator_rad != 0));
+    note(needs.pitch,
+         (is_doublet && step.on == config::Surface::elevator) || (step.elevator_rad && *step.elevator_rad != 0));
     const std::array fins{step.fin1_rad, step.fin2_rad, step.fin3_rad};
     for (std::size_t fin = 0; fin < 3; ++fin) {
       const auto on = static_cast<config::Surface>(static_cast<std::size_t>(config::Surface::fin1) + fin);

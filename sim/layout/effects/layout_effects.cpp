@@ -58,8 +58,8 @@ constexpr std::array kLayoutEffects{
     LayoutEffectDescription{"fin_offset", "d += o", kLayoutAngle, surface, LayoutScale::one, "straight legs"},
     LayoutEffectDescription{"gravity_shift", "r_G += s", kLayoutPlaceShift, vehicle, LayoutScale::length_m,
                             "lie still, then roll and pitch", 3},
-    LayoutEffectDescription{"mass_offset", "place of the mass += s", kLayoutWay, moving_mass, LayoutScale::length_m,
-                            "glide at several angles"},
+    LayoutEffectDescription{"mass_offset", "place of the mass += s", kLayoutWay, moving_mass,
+                            LayoutScale::length_m, "glide at several angles"},
     LayoutEffectDescription{"mass_scale", "place of the mass *= 1 + k", kLayoutGain, moving_mass, LayoutScale::one,
                             "glide at several angles"},
     LayoutEffectDescription{"thrust_scale", "thrust *= 1 + k", kLayoutScaleOf, thruster, LayoutScale::one,
@@ -145,23 +145,27 @@ Change change_named(std::string_view name) {
     std::string_view name;
     Change change;
   };
-  using config::Layout;
   using change::Values;
+  using config::Layout;
   static constexpr std::array<Named, kLayoutEffects.size()> kChanges{{
       {"actuator_dead", [](Layout& l, const Owner& o, Values v) { change::dead(heard_of(l, o), v); }},
       {"actuator_reversed", [](Layout& l, const Owner& o, Values v) { change::reversed(heard_of(l, o), v); }},
       {"added_mass", [](Layout& l, const Owner& o, Values v) { change::added_mass(l, o.index, v); }},
-      {"ballast_offset", [](Layout& l, const Owner& o, Values v) { change::ballast_offset(l.ballasts[o.index], v); }},
-      {"ballast_scale", [](Layout& l, const Owner& o, Values v) { change::ballast_scale(l.ballasts[o.index], v); }},
+      {"ballast_offset",
+       [](Layout& l, const Owner& o, Values v) { change::ballast_offset(l.ballasts[o.index], v); }},
+      {"ballast_scale",
+       [](Layout& l, const Owner& o, Values v) { change::ballast_scale(l.ballasts[o.index], v); }},
       {"buoyancy", [](Layout& l, const Owner&, Values v) { change::buoyancy(l, v); }},
       {"buoyancy_shift", [](Layout& l, const Owner&, Values v) { change::buoyancy_shift(l, v); }},
       {"damping", [](Layout& l, const Owner& o, Values v) { change::damping(l, o.index, v); }},
-      {"fin_dead_band", [](Layout& l, const Owner& o, Values v) { change::fin_dead_band(l.surfaces[o.index], v); }},
+      {"fin_dead_band",
+       [](Layout& l, const Owner& o, Values v) { change::fin_dead_band(l.surfaces[o.index], v); }},
       {"fin_gain", [](Layout& l, const Owner& o, Values v) { change::fin_gain(l.surfaces[o.index], v); }},
       {"fin_lag", [](Layout& l, const Owner& o, Values v) { change::fin_lag(l.surfaces[o.index], v); }},
       {"fin_offset", [](Layout& l, const Owner& o, Values v) { change::fin_offset(l.surfaces[o.index], v); }},
       {"gravity_shift", [](Layout& l, const Owner&, Values v) { change::gravity_shift(l, v); }},
-      {"mass_offset", [](Layout& l, const Owner& o, Values v) { change::mass_offset(l.moving_masses[o.index], v); }},
+      {"mass_offset",
+       [](Layout& l, const Owner& o, Values v) { change::mass_offset(l.moving_masses[o.index], v); }},
       {"mass_scale", [](Layout& l, const Owner& o, Values v) { change::mass_scale(l.moving_masses[o.index], v); }},
       {"thrust_scale", [](Layout& l, const Owner& o, Values v) { change::thrust_scale(l.thrusters[o.index], v); }},
       {"thruster_dead_band",
@@ -254,7 +258,8 @@ std::vector<EffectParameter> parameters_for(const config::Layout& layout, const 
 
 config::Layout changed_layout(config::Layout layout, const LayoutEffect& effect) {
   const Change change = change_named(effect.about->name);
-  for (const Owner& owner : named_owners(layout, effect.about->part, effect.of)) change(layout, owner, effect.values);
+  for (const Owner& owner : named_owners(layout, effect.about->part, effect.of))
+    change(layout, owner, effect.values);
   return layout;
 }
 

@@ -11,8 +11,8 @@
 #include "config/layout.h"
 #include "sim/effects/description.h"
 
-// Departures of a vehicle from its layout. Each is a pure function from a layout and a size to a changed layout, so that
-// the simulator and a diagnosis use the same code, and a file can be written of the result.
+// Departures of a vehicle from its layout. Each is a pure function from a layout and a size to a changed layout,
+// so that the simulator and a diagnosis use the same code, and a file can be written of the result.
 namespace navcal::sim {
 
 /// What an effect belongs to.
@@ -59,9 +59,10 @@ struct LayoutEffect {
 /// nullptr when none has this name.
 [[nodiscard]] const LayoutEffectDescription* find_layout_effect(std::string_view name);
 
-/// What an effect can belong to in this layout: "thruster.1", "thruster.2"; empty for the whole vehicle, or when the
-/// layout has no such part.
-[[nodiscard]] std::vector<std::string> owners_of(const config::Layout& layout, const LayoutEffectDescription& about);
+/// What an effect can belong to in this layout: "thruster.1", "thruster.2"; empty for the whole vehicle, or when
+/// the layout has no such part.
+[[nodiscard]] std::vector<std::string> owners_of(const config::Layout& layout,
+                                                 const LayoutEffectDescription& about);
 
 /// Why an effect cannot belong to `of`, with what it can belong to; nullopt: it can.
 [[nodiscard]] std::optional<std::string> owner_refusal(const config::Layout& layout,
