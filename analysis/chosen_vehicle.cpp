@@ -58,13 +58,13 @@ void expect_simulable(const config::Layout& layout, const std::filesystem::path&
                                                outputs, sim::kMostOutputs));
 }
 
-std::unique_ptr<sim::LayoutMotion> layout_on_mission(const config::Layout& layout,
-                                                     const std::filesystem::path& file, const std::string& mission,
-                                                     const sim::MotionOptions& options) {
+LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
+                                  const std::string& mission, const sim::MotionOptions& options) {
   expect_simulable(layout, file);
   try {
     auto helm = std::make_unique<sim::LayoutMissionHelm>(layout, config::load_mission(mission));
-    return std::make_unique<sim::LayoutMotion>(layout, std::move(helm), options);
+    std::string remark = helm->remark();
+    return {std::make_unique<sim::LayoutMotion>(layout, std::move(helm), options), std::move(remark)};
   } catch (const sim::UnfitLayout& error) {
     throw Failure(Exit::bad_input, fmt::format("{}: {}", file.string(), error.what()));
   }

@@ -24,12 +24,15 @@ using ChosenVehicle = std::variant<config::VehicleSettings, config::Layout>;
 /// The layout of a file; nullopt where the file is none, or there is no file. Throws Failure.
 [[nodiscard]] std::optional<config::Layout> layout_in(const std::filesystem::path& file);
 
-/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws
-/// config::Error, and Failure where the layout cannot be simulated, or cannot do what the mission needs.
-[[nodiscard]] std::unique_ptr<sim::LayoutMotion> layout_on_mission(const config::Layout& layout,
-                                                                   const std::filesystem::path& file,
-                                                                   const std::string& mission,
-                                                                   const sim::MotionOptions& options);
+struct LayoutOnMission {
+  std::unique_ptr<sim::LayoutMotion> motion;
+  std::string remark;  ///< what is less than the mission asks for; empty: nothing
+};
+
+/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws config::Error, and
+/// Failure where the layout cannot be simulated, or cannot do what the mission needs.
+[[nodiscard]] LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
+                                                const std::string& mission, const sim::MotionOptions& options);
 
 /// Throws Failure where a layout has no equations of motion, or more actuators than a recording has outputs.
 void expect_simulable(const config::Layout& layout, const std::filesystem::path& file);

@@ -21,7 +21,7 @@ namespace {
 SimulatedRun along_path(const SimulateArguments& arguments) {
   auto path = std::make_unique<sim::PathMotion>(sim::load_path(arguments.path), arguments.begin_ns);
   const double duration_s = arguments.seconds.value_or(path->duration_s());
-  return {std::move(path), duration_s};
+  return {std::move(path), duration_s, sim::CommandPort::motor_card, {}};
 }
 
 SimulatedRun with_layout(const config::Layout& layout, const SimulateArguments& arguments,
@@ -31,9 +31,9 @@ SimulatedRun with_layout(const config::Layout& layout, const SimulateArguments& 
                   fmt::format("{} is a layout, and --drive moves one propeller and three fins: a layout "
                               "takes --mission",
                               arguments.vehicle.string()));
-  auto motion = layout_on_mission(layout, arguments.vehicle, arguments.mission, options);
-  const double duration_s = arguments.seconds ? *arguments.seconds : motion->duration_s();
-  return {std::move(motion), duration_s, sim::CommandPort::outputs};
+  LayoutOnMission run = layout_on_mission(layout, arguments.vehicle, arguments.mission, options);
+  const double duration_s = arguments.seconds ? *arguments.seconds : run.motion->duration_s();
+  return {std::move(run.motion), duration_s, sim::CommandPort::outputs, std::move(run.remark)};
 }
 
 SimulatedRun with_three_fins(const config::VehicleSettings& vehicle, const SimulateArguments& arguments,
@@ -46,7 +46,7 @@ SimulatedRun with_three_fins(const config::VehicleSettings& vehicle, const Simul
   }
   auto motion = std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), options);
   const double duration_s = arguments.seconds ? *arguments.seconds : motion->duration_s();
-  return {std::move(motion), duration_s};
+  return {std::move(motion), duration_s, sim::CommandPort::motor_card, {}};
 }
 
 SimulatedRun under_way(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "analysis/simulate_arguments.h"
 #include "sim/recording.h"
@@ -14,6 +15,7 @@ struct SimulatedRun {
   std::unique_ptr<sim::Motion> motion;
   double duration_s = 0;
   sim::CommandPort commands = sim::CommandPort::motor_card;
+  std::string remark{};  ///< what is less than was asked for; empty: nothing
 };
 
 /// How the vehicle moves, and for how long. `influencer` must outlive the motion. Throws Failure.

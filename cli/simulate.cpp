@@ -32,6 +32,7 @@ struct SimulateCommandOptions {
 void run(const analysis::SimulateArguments& arguments) {
   sim::EffectSet effects = analysis::simulate_effects(arguments);
   const analysis::SimulatedRun run = analysis::simulate_motion(arguments, effects);
+  if (!run.remark.empty()) fmt::print(stderr, "navcal simulate: {}\n", run.remark);
   std::optional<analysis::SimulateHistory> history;
   if (!arguments.report.empty())
     history.emplace(sim::recording_ports(arguments.instruments, run.commands), arguments.begin_ns, run.duration_s);
@@ -94,7 +95,9 @@ void add_simulate(CLI::App& app) {
   command->add_option("--mission", arguments.mission, "autopiloted mission: a shipped one, or a file")
       ->option_text("NAME|FILE")
       ->group(motion);
-  command->add_option("--vehicle", arguments.vehicle, "the vehicle, if it is not the reference vehicle")
+  command
+      ->add_option("--vehicle", arguments.vehicle,
+                   "the vehicle, if it is not the reference vehicle: a vehicle file, or a layout (navcal vehicle)")
       ->option_text("FILE.toml");
   command
       ->add_option("--config", arguments.config,
@@ -105,8 +108,9 @@ void add_simulate(CLI::App& app) {
   command
       ->add_option(
           "--effect", arguments.effects,
-          "departure from the nominal model, in typical strengths; its direction comes from the seed; repeatable")
-      ->option_text("NAME=STRENGTH");
+          "departure from the nominal model, in typical strengths; its direction comes from the seed; repeatable.\n"
+          "Of a part of a layout: thrust_scale@thruster.2=1")
+      ->option_text("NAME[@OF]=STRENGTH");
   command
       ->add_option(
           "--effects", arguments.effects_file,

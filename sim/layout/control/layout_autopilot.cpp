@@ -42,6 +42,11 @@ double turn_rate(const Body& body) {
 
 }  // namespace
 
+double speed_of_shaft(double shaft_rps) {
+  static const double kAdvance_m = steady_advance_m({});
+  return kAdvance_m * shaft_rps;
+}
+
 LayoutAutopilot::LayoutAutopilot(const LayoutVehicle& vehicle, const autopilot::Allocator& allocator,
                                  const ControlPlan& plan)
     : vehicle_(vehicle),
@@ -61,8 +66,7 @@ LayoutAutopilot::LayoutAutopilot(const LayoutVehicle& vehicle, const autopilot::
 }
 
 double LayoutAutopilot::speed_demanded(const autopilot::Demand& demand) const {
-  static const double kAdvance_m = steady_advance_m({});
-  return std::clamp(demand.speed_m_s.value_or(kAdvance_m * demand.shaft_rps), 0.0, plan_.greatest_m_s);
+  return std::clamp(demand.speed_m_s.value_or(speed_of_shaft(demand.shaft_rps)), 0.0, plan_.greatest_m_s);
 }
 
 double LayoutAutopilot::pitch_for_depth(double too_deep_m, double surge_m_s, double demanded_m_s,

@@ -12,6 +12,9 @@
 
 namespace navcal::sim {
 
+/// The speed that a shaft speed counts as: 0.0872 m a revolution, as of the reference vehicle.
+[[nodiscard]] double speed_of_shaft(double shaft_rps);
+
 /// Demanded motion to the commands of any layout, by its nominal model; it uses the true state.
 ///   tau = feed-forward + M_ii a_i in each commanded degree of freedom, and 0 in the others, which count nothing
 ///   feed-forward: what the model needs at the demanded speeds and attitude, -force(nu demanded) with actuators

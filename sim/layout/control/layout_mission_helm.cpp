@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "sim/layout/control/mission_needs.h"
@@ -45,6 +46,19 @@ const std::vector<double>& LayoutMissionHelm::next(double /*time_s*/, double ste
   }
   until_orders_s_ -= step_s;
   return pulses_us_;
+}
+
+std::string LayoutMissionHelm::remark() const {
+  const config::Mission& mission = steps_.mission();
+  double fastest_m_s = speed_of_shaft(mission.start.shaft_rps);
+  for (const config::MissionStep& step : mission.steps) {
+    fastest_m_s = std::max(fastest_m_s, step.speed_m_s.value_or(0));
+    fastest_m_s = std::max(fastest_m_s, speed_of_shaft(step.shaft_rps.value_or(0)));
+  }
+  if (!plan_.commanded[0] || fastest_m_s <= plan_.greatest_m_s) return {};
+  return fmt::format("{}: speeds are held at {:.2f} m/s, the most that the autopilot trusts this layout with; the mission "
+                     "asks for up to {:.2f} m/s",
+                     vehicle_.layout().name, plan_.greatest_m_s, fastest_m_s);
 }
 
 void LayoutMissionHelm::expect_progress() const {

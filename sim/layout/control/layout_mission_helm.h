@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "autopilot/mission_steps.h"
 #include "config/layout.h"
 #include "config/mission.h"
@@ -21,6 +24,8 @@ class LayoutMissionHelm final : public LayoutHelm {
   [[nodiscard]] const std::vector<double>& next(double time_s, double step_s, const Body& body) override;
   [[nodiscard]] bool finished() const override { return steps_.finished(); }
   [[nodiscard]] const ControlPlan& plan() const { return plan_; }
+  /// What is less than the mission asks for: "speeds are held at 0.48 m/s, ..."; empty: nothing.
+  [[nodiscard]] std::string remark() const;
 
  private:
   /// Throws UnfitLayout on a leg of metres along which the vehicle hardly moves.
