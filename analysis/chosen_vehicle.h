@@ -29,8 +29,8 @@ struct LayoutOnMission {
   std::string remark;  ///< what is less than the mission asks for; empty: nothing
 };
 
-/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws config::Error, and
-/// Failure where the layout cannot be simulated, or cannot do what the mission needs.
+/// A layout that takes a mission (a name or a file). `file` stands for the layout in messages. Throws
+/// config::Error, and Failure where the layout cannot be simulated, or cannot do what the mission needs.
 [[nodiscard]] LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
                                                 const std::string& mission, const sim::MotionOptions& options);
 

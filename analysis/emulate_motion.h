@@ -18,9 +18,9 @@ struct EmulatedMotion {
   OrderedLayout* ordered_layout = nullptr;  ///< the motion, if it obeys outputs
 };
 
-/// How the emulated vehicle moves from start_ns (UTC) on: by the orders of motor card or outputs, by a mission, along a path,
-/// or along the path that comes with the program. `influencer` must outlive the motion; paths pass it over.
-/// `now_ns` gives UTC. Throws sim::BadPath, config::Error or Failure.
+/// How the emulated vehicle moves from start_ns (UTC) on: by the orders of motor card or outputs, by a mission,
+/// along a path, or along the path that comes with the program. `influencer` must outlive the motion; paths pass
+/// it over. `now_ns` gives UTC. Throws sim::BadPath, config::Error or Failure.
 [[nodiscard]] EmulatedMotion emulate_motion(const EmulateArguments& arguments, std::int64_t start_ns,
                                             sim::VehicleInfluencer& influencer,
                                             std::function<std::int64_t()> now_ns);

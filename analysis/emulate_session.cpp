@@ -29,7 +29,7 @@ namespace navcal::analysis {
 namespace {
 
 constexpr std::string_view kOutputs = "outputs";  ///< port of the commands to a layout
-constexpr double kGreatest_ppm = 200;  // ICD section 3: what the card's clock may be off by
+constexpr double kGreatest_ppm = 200;             // ICD section 3: what the card's clock may be off by
 
 std::int64_t utc_minus_monotonic() {
   using namespace std::chrono;

@@ -14,11 +14,13 @@
 
 namespace navcal::analysis {
 
-/// A simulated layout that obeys the outputs that it is sent, in real time: as OrderedMotion, which obeys a motor card.
+/// A simulated layout that obeys the outputs that it is sent, in real time: as OrderedMotion, which obeys a motor
+/// card.
 class OrderedLayout final : public sim::Motion {
  public:
   /// `options.start_ns` in UTC; `now_ns` gives UTC.
-  OrderedLayout(const config::Layout& layout, const sim::MotionOptions& options, std::function<std::int64_t()> now_ns)
+  OrderedLayout(const config::Layout& layout, const sim::MotionOptions& options,
+                std::function<std::int64_t()> now_ns)
       : now_ns_(std::move(now_ns)),
         start_ns_(options.start_ns),
         helm_(new sim::LayoutOrderedHelm(layout)),

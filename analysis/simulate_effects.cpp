@@ -107,8 +107,9 @@ void refuse_on_path(const sim::EffectSet& set) {
                                            about.name));
   }
   if (!set.layout_members().empty())
-    throw Failure(Exit::usage, fmt::format("{} changes the vehicle's motion, which --path determines: use --mission",
-                                           set.layout_members().front().effect.about->name));
+    throw Failure(Exit::usage,
+                  fmt::format("{} changes the vehicle's motion, which --path determines: use --mission",
+                              set.layout_members().front().effect.about->name));
 }
 
 }  // namespace

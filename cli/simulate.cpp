@@ -106,10 +106,10 @@ void add_simulate(CLI::App& app) {
   command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
       ->check(CLI::Range(0.01, 1e6));
   command
-      ->add_option(
-          "--effect", arguments.effects,
-          "departure from the nominal model, in typical strengths; its direction comes from the seed; repeatable.\n"
-          "Of a part of a layout: thrust_scale@thruster.2=1")
+      ->add_option("--effect", arguments.effects,
+                   "departure from the nominal model, in typical strengths; its direction comes from the seed; "
+                   "repeatable.\n"
+                   "Of a part of a layout: thrust_scale@thruster.2=1")
       ->option_text("NAME[@OF]=STRENGTH");
   command
       ->add_option(

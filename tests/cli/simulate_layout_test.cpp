@@ -33,9 +33,10 @@ class SimulateLayout : public testing::Test {
 };
 
 TEST_F(SimulateLayout, RecordsTheOutputsOfAnRov) {
-  write("hover.toml",
-        "start.shaft_rpm = 0\nstart.depth_m = 1\nstep = [{do = \"leg\", seconds = 5}, {do = \"leg\", seconds = 10, "
-        "speed_m_s = 0.4}]\n");
+  write(
+      "hover.toml",
+      "start.shaft_rpm = 0\nstart.depth_m = 1\nstep = [{do = \"leg\", seconds = 5}, {do = \"leg\", seconds = 10, "
+      "speed_m_s = 0.4}]\n");
   ASSERT_EQ(simulate(std::string(kVehicles) + "bluerov2-heavy.toml",
                      "--mission ./hover.toml --truth truth.csv --report page.html --effect "
                      "thrust_scale@thruster.2=1"),
@@ -72,8 +73,9 @@ TEST_F(SimulateLayout, WhatALayoutLacksIsSaid) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "run.cap"));
   EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2.toml", "--mission survey --effect fin_gain=1"), 2);
   EXPECT_NE(said("err").find("the layout has no surface"), std::string::npos) << said("err");
-  EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2.toml", "--mission survey --effect thrust_scale@thruster.7=1"),
-            2);
+  EXPECT_EQ(
+      simulate(std::string(kVehicles) + "bluerov2.toml", "--mission survey --effect thrust_scale@thruster.7=1"),
+      2);
   EXPECT_NE(said("err").find("there is no thruster.7"), std::string::npos) << said("err");
   EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2.toml", "--drive x.csv"), 2);
   EXPECT_NE(said("err").find("a layout takes --mission"), std::string::npos) << said("err");
@@ -81,7 +83,8 @@ TEST_F(SimulateLayout, WhatALayoutLacksIsSaid) {
 
 TEST_F(SimulateLayout, ALayoutThatCannotBeIsRefused) {
   write("light.toml",
-        "[body]\nmass_kg = 10\ninertia_kg_m2 = [1, 1, 1]\nneutral = true\n[added_mass]\nmatrix = [-20, 1, 1, 1, 1, 1]\n");
+        "[body]\nmass_kg = 10\ninertia_kg_m2 = [1, 1, 1]\nneutral = true\n[added_mass]\nmatrix = [-20, 1, 1, 1, "
+        "1, 1]\n");
   EXPECT_EQ(simulate("light.toml", "--mission survey"), 3);
   EXPECT_NE(said("err").find("light.toml: cannot be simulated"), std::string::npos) << said("err");
   write("bad.toml", "[body]\nmass = 10\n");
@@ -94,8 +97,9 @@ TEST_F(SimulateLayout, AVehicleThatTumblesEndsWithAMessage) {
                      "--mission survey --seconds 100 --effects effects.toml"),
             3)
       << "no such file";
-  write("effects.toml", "[buoyancy_shift]\nz_m = 0.2\n[[actuator_reversed]]\nof = \"thruster.5\"\nshare = 1\n"
-                        "[[actuator_reversed]]\nof = \"thruster.6\"\nshare = 1\n");
+  write("effects.toml",
+        "[buoyancy_shift]\nz_m = 0.2\n[[actuator_reversed]]\nof = \"thruster.5\"\nshare = 1\n"
+        "[[actuator_reversed]]\nof = \"thruster.6\"\nshare = 1\n");
   EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2-heavy.toml",
                      "--mission survey --seconds 100 --effects effects.toml"),
             1);

@@ -20,8 +20,8 @@ class LayoutOrderedHelm final : public LayoutHelm {
   explicit LayoutOrderedHelm(const config::Layout& layout)
       : pulses_us_(pulses_of(layout, ActuatorValues::neutral(layout))) {}
 
-  /// Takes an order; nullopt leaves an output as it is. Times are in order, seconds of the run. An order applies from
-  /// the step whose beginning is nearest; one for a past time, from the next step on.
+  /// Takes an order; nullopt leaves an output as it is. Times are in order, seconds of the run. An order applies
+  /// from the step whose beginning is nearest; one for a past time, from the next step on.
   void order(double time_s, std::vector<std::optional<double>> pulses_us) {
     waiting_.push_back({time_s, std::move(pulses_us)});
   }

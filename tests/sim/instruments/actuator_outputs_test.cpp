@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lines of a layout's outputs, and the description by which they are read.
+#include "sim/instruments/actuator_outputs.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "sim/instruments/actuator_outputs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace navcal::sim::testing {
@@ -71,7 +72,8 @@ TEST(ActuatorOutputs, ObeyIntactLinesOnly) {
 }
 
 TEST(ActuatorOutputs, AreDescribedByTheShippedFile) {
-  EXPECT_EQ(navcal::test::read_file(NAVCAL_SOURCE_DIR "/share/devices/actuator-outputs.toml"), outputs_description());
+  EXPECT_EQ(navcal::test::read_file(NAVCAL_SOURCE_DIR "/share/devices/actuator-outputs.toml"),
+            outputs_description());
   EXPECT_EQ(outputs_port().described->name, "actuator outputs");
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Effects of a layout: each changes what it says and nothing else, and belongs to what it names.
+#include "sim/layout/effects/layout_effects.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +11,6 @@
 #include "config/layout/layout_file.h"
 #include "sim/effects/document.h"
 #include "sim/layout/added_mass.h"
-#include "sim/layout/effects/layout_effects.h"
 #include "sim/layout/layout_of.h"
 #include "sim/layout/layout_vehicle.h"
 #include "sim/vehicle/vehicle.h"
@@ -48,7 +49,8 @@ TEST(LayoutEffects, EachChangesALayoutThatCanBeWrittenAndReadAgain) {
   const config::Layout nominal = with_all_parts();
   for (const LayoutEffectDescription& about : layout_effects()) {
     std::vector<double> values;
-    for (const EffectParameter& parameter : parameters_for(nominal, about)) values.push_back(0.5 * parameter.typical);
+    for (const EffectParameter& parameter : parameters_for(nominal, about))
+      values.push_back(0.5 * parameter.typical);
     const config::Layout changed = changed_layout(nominal, {&about, {}, values});
     EXPECT_NE(changed, nominal) << about.name;
     config::Layout again = config::parse_layout(config::layout_file(changed), "changed");
@@ -127,12 +129,13 @@ TEST(LayoutEffects, ChangeHowActuatorsHearTheirCommands) {
   EXPECT_EQ(after(effect_of("fin_dead_band", "", {1})).surfaces_rad[2], 0);
   EXPECT_NEAR(after(effect_of("actuator_reversed", "surface.1", {1})).surfaces_rad[0], -0.2, 1e-9);
   EXPECT_EQ(after(effect_of("actuator_dead", "propeller", {1})).thrusters[0], 0);
-  EXPECT_NEAR(after(effect_of("thruster_offset", "", {5})).thrusters[0], 600 + 0.05 * nominal.thrusters[0].high, 1e-6);
+  EXPECT_NEAR(after(effect_of("thruster_offset", "", {5})).thrusters[0], 600 + 0.05 * nominal.thrusters[0].high,
+              1e-6);
   EXPECT_NEAR(after(effect_of("ballast_offset", "", {-0.2})).ballasts_N[0], 0.3, 1e-9);
   EXPECT_NEAR(after(effect_of("mass_scale", "", {0.5})).masses_m[0], 0.075, 1e-9);
   const double lag_s = nominal.thrusters[0].lag_s;
-  EXPECT_NEAR(after(effect_of("thruster_lag", "", {0.3}), 0.1).thrusters[0], 600 * (1 - std::exp(-0.1 / (lag_s + 0.3))),
-              1e-9);
+  EXPECT_NEAR(after(effect_of("thruster_lag", "", {0.3}), 0.1).thrusters[0],
+              600 * (1 - std::exp(-0.1 / (lag_s + 0.3))), 1e-9);
 }
 
 TEST(LayoutEffects, DampingAndAddedMassChangeOneDegreeOfFreedom) {
@@ -153,9 +156,10 @@ TEST(LayoutEffects, OfAFileAreReadWithOwnersAndIntervals) {
   const config::Layout layout = rov();
   EffectSet set;
   std::vector<config::Problem> problems;
-  add_effects("[[thrust_scale]]\nof = \"thruster.2\"\nscale = -0.3\nfrom_s = 10\nuntil_s = 20\n"
-              "[[thrust_scale]]\nof = \"thruster.3\"\nscale = 0.1\n[hard_iron]\nx_uT = 1\n",
-              set, problems, &layout);
+  add_effects(
+      "[[thrust_scale]]\nof = \"thruster.2\"\nscale = -0.3\nfrom_s = 10\nuntil_s = 20\n"
+      "[[thrust_scale]]\nof = \"thruster.3\"\nscale = 0.1\n[hard_iron]\nx_uT = 1\n",
+      set, problems, &layout);
   ASSERT_TRUE(problems.empty()) << problems.front().message;
   ASSERT_EQ(set.layout_members().size(), 2U);
   EXPECT_EQ(set.size(), 1U);
@@ -185,7 +189,8 @@ TEST(LayoutEffects, OfAFileThatCannotBeAreNamed) {
   EXPECT_NE(complaint("[thrust_scale]\nof = 2\nscale = 1\n").find("a text is expected"), std::string::npos);
   EXPECT_NE(complaint("[thrust_scale]\nscale = -2\n").find("lies between -1 and 4"), std::string::npos);
   EXPECT_NE(complaint("[fin_gain]\nscale = 0.1\n").find("no surface"), std::string::npos);
-  EXPECT_NE(complaint("[elevator_offset]\nangle_deg = 1\n").find("one propeller and three fins"), std::string::npos);
+  EXPECT_NE(complaint("[elevator_offset]\nangle_deg = 1\n").find("one propeller and three fins"),
+            std::string::npos);
   EXPECT_NE(complaint("[motor_field]\nx_uT_per_A = 1\n").find("does not state"), std::string::npos);
   EXPECT_NE(complaint("[weight]\nof = \"thruster.1\"\nmass_kg = 1\n").find("unknown key"), std::string::npos);
   EXPECT_NE(complaint("[weigth]\nmass_kg = 1\n").find("did you mean weight"), std::string::npos);

@@ -24,8 +24,8 @@ config::Layout shipped_layout(const std::string& name) {
 }
 
 config::Mission mission_of(const std::string& steps, const std::string& start = "start.shaft_rpm = 0\n") {
-  return config::parse_mission("mission.at_end = \"hold\"\nstart.depth_m = 0.5\n" + start + "step = [" + steps + "]\n",
-                               "mission");
+  return config::parse_mission(
+      "mission.at_end = \"hold\"\nstart.depth_m = 0.5\n" + start + "step = [" + steps + "]\n", "mission");
 }
 
 std::unique_ptr<LayoutMotion> on_mission(const config::Layout& layout, const config::Mission& mission,
@@ -47,9 +47,10 @@ std::string why_unfit(const config::Layout& layout, const config::Mission& missi
 
 TEST(LayoutMission, AnRovGoesStraightTurnsAndHovers) {
   const config::Layout layout = shipped_layout("bluerov2-heavy");
-  const auto motion = on_mission(layout, mission_of("{do = \"dive\", depth_m = 2}, {do = \"leg\", seconds = 30, speed_m_s = "
-                                                    "0.4}, {do = \"turn\", by_deg = 90, rate_deg_s = 15}, {do = "
-                                                    "\"leg\", seconds = 20, shaft_rpm = 0}"));
+  const auto motion =
+      on_mission(layout, mission_of("{do = \"dive\", depth_m = 2}, {do = \"leg\", seconds = 30, speed_m_s = "
+                                    "0.4}, {do = \"turn\", by_deg = 90, rate_deg_s = 15}, {do = "
+                                    "\"leg\", seconds = 20, shaft_rpm = 0}"));
   const double duration_s = motion->duration_s();
   State state = at_s(*motion, duration_s);
   EXPECT_NEAR(state.position_m[2], 2, 0.05);
@@ -85,9 +86,10 @@ TEST(LayoutMission, RemusHoldsItsDepthWhenItIsNearlyNeutral) {
 }
 
 TEST(LayoutMission, AGliderGlidesDownAndUp) {
-  const auto motion = on_mission(shipped_layout("slocum"),
-                                 mission_of("{do = \"dive\", depth_m = 15, seconds = 300}, {do = \"dive\", depth_m = "
-                                            "3, seconds = 300}"));
+  const auto motion =
+      on_mission(shipped_layout("slocum"),
+                 mission_of("{do = \"dive\", depth_m = 15, seconds = 300}, {do = \"dive\", depth_m = "
+                            "3, seconds = 300}"));
   EXPECT_LT(motion->duration_s(), 500);
   EXPECT_GT(at_s(*motion, 60).velocity_body_m_s[0], 0.2);
   EXPECT_LT(at_s(*motion, 30).euler_rad[1] * kMissionDegrees, -15);
@@ -106,15 +108,17 @@ TEST(LayoutMission, WhatIsMissingIsNamed) {
   EXPECT_NE(why_unfit(rov, mission_of("{do = \"doublet\", on = \"elevator\", amplitude_deg = 5, seconds = 1}"))
                 .find("pitch cannot be commanded, which step[1] (doublet)"),
             std::string::npos);
-  EXPECT_NE(why_unfit(rov, mission_of("{do = \"direct\", fin2_deg = 5, seconds = 1}")).find("there is no surface 2"),
-            std::string::npos);
+  EXPECT_NE(
+      why_unfit(rov, mission_of("{do = \"direct\", fin2_deg = 5, seconds = 1}")).find("there is no surface 2"),
+      std::string::npos);
   rov.thrusters.resize(4);
   EXPECT_NE(why_unfit(rov, mission_of("{do = \"leg\", seconds = 5}")).find("heave cannot be commanded"),
             std::string::npos);
   rov = shipped_layout("bluerov2");
   rov.body.buoyancy_centre_m[2] = 0.01;
-  EXPECT_NE(why_unfit(rov, mission_of("{do = \"leg\", seconds = 5}")).find("pitch cannot be commanded, and the vehicle is "
-                                                                         "not stable"),
+  EXPECT_NE(why_unfit(rov, mission_of("{do = \"leg\", seconds = 5}"))
+                .find("pitch cannot be commanded, and the vehicle is "
+                      "not stable"),
             std::string::npos)
       << why_unfit(rov, mission_of("{do = \"leg\", seconds = 5}"));
 }
@@ -188,7 +192,8 @@ TEST(Pulses, AreWholeAndGiveTheCommandsBack) {
   for (const char* name : {"reference", "remus-100", "bluerov2", "micro-auv", "slocum"}) {
     const config::Layout layout = shipped_layout(name);
     std::vector<double> pulses;
-    for (std::size_t i = 0; i < outputs_of(layout); ++i) pulses.push_back(1500 + 37.0 * static_cast<double>(i + 1));
+    for (std::size_t i = 0; i < outputs_of(layout); ++i)
+      pulses.push_back(1500 + 37.0 * static_cast<double>(i + 1));
     const ActuatorValues commands = commands_of(layout, pulses);
     EXPECT_EQ(pulses_of(layout, commands), pulses) << name;
     const ActuatorValues neutral = ActuatorValues::neutral(layout);
