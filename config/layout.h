@@ -122,7 +122,7 @@ struct LayoutThruster {
   double dead_band = 0;           ///< commands nearer to neutral than this are neutral
   double lag_s = 0.1;
   double low = 0, high = 0;  ///< limits of the command
-  LayoutHeard heard;
+  LayoutHeard heard{};
 
   [[nodiscard]] double neutral() const { return unit == CommandUnit::microseconds ? 1500 : 0; }
   bool operator==(const LayoutThruster&) const = default;
@@ -143,7 +143,7 @@ struct LayoutSurface {
   double lag_s = 0.1;
   double limit_rad = 0;
   double dead_band_rad = 0;  ///< commands nearer to zero than this are zero
-  LayoutHeard heard;
+  LayoutHeard heard{};
 
   bool operator==(const LayoutSurface&) const = default;
 };
@@ -154,7 +154,7 @@ struct LayoutBallast {
   LayoutVector place_m{};
   double low_N = 0, high_N = 0;
   double rate_N_s = 1;
-  LayoutHeard heard;
+  LayoutHeard heard{};
 
   bool operator==(const LayoutBallast&) const = default;
 };
@@ -167,7 +167,7 @@ struct LayoutMovingMass {
   LayoutVector axis{1, 0, 0};
   double low_m = 0, high_m = 0;
   double rate_m_s = 0.01;
-  LayoutHeard heard;
+  LayoutHeard heard{};
 
   bool operator==(const LayoutMovingMass&) const = default;
 };

