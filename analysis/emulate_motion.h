@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "analysis/emulate_session.h"
+#include "analysis/ordered_layout.h"
 #include "analysis/ordered_motion.h"
 #include "sim/state.h"
 
@@ -13,12 +14,13 @@ namespace navcal::analysis {
 
 struct EmulatedMotion {
   std::unique_ptr<sim::Motion> motion;
-  OrderedMotion* ordered = nullptr;  ///< the motion, if it obeys the motor card
+  OrderedMotion* ordered = nullptr;         ///< the motion, if it obeys the motor card
+  OrderedLayout* ordered_layout = nullptr;  ///< the motion, if it obeys outputs
 };
 
-/// How the emulated vehicle moves from start_ns (UTC) on: by the motor card's orders, by a mission, along a path,
-/// or along the path that comes with the program. `influencer` must outlive the motion; paths pass it over.
-/// `now_ns` gives UTC. Throws sim::BadPath or config::Error.
+/// How the emulated vehicle moves from start_ns (UTC) on: by the orders of motor card or outputs, by a mission,
+/// along a path, or along the path that comes with the program. `influencer` must outlive the motion; paths pass
+/// it over. `now_ns` gives UTC. Throws sim::BadPath, config::Error or Failure.
 [[nodiscard]] EmulatedMotion emulate_motion(const EmulateArguments& arguments, std::int64_t start_ns,
                                             sim::VehicleInfluencer& influencer,
                                             std::function<std::int64_t()> now_ns);

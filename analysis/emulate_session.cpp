@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "analysis/chosen_vehicle.h"
 #include "analysis/emulate_motion.h"
 #include "analysis/failure.h"
 #include "analysis/simulate_effects.h"
@@ -16,6 +17,7 @@
 #include "devices/instrument_model.h"
 #include "ports/port.h"
 #include "protocols/device_types.h"
+#include "sim/instruments/actuator_outputs.h"
 #include "sim/instruments/altimeter.h"
 #include "sim/instruments/battery_gauge.h"
 #include "sim/instruments/emulators.h"
@@ -26,7 +28,8 @@
 namespace navcal::analysis {
 namespace {
 
-constexpr double kGreatest_ppm = 200;  // ICD section 3: what the card's clock may be off by
+constexpr std::string_view kOutputs = "outputs";  ///< port of the commands to a layout
+constexpr double kGreatest_ppm = 200;             // ICD section 3: what the card's clock may be off by
 
 std::int64_t utc_minus_monotonic() {
   using namespace std::chrono;
@@ -60,7 +63,7 @@ std::unique_ptr<sim::Device> emulator_of(const EmulatedDevice& device, const sim
 }
 
 /// The lines of the ports, in the order in which the session adds them.
-std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments) {
+std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments, bool is_layout) {
   std::vector<config::PortSettings> lines;
   const auto add = [&](std::string_view name, protocols::Protocol protocol, int baud) {
     config::PortSettings& line = lines.emplace_back();
@@ -69,6 +72,11 @@ std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments) 
     line.baud = baud;
   };
   for (const protocols::DeviceType& type : protocols::kDeviceTypes) {
+    if (is_layout && type.protocol == protocols::Protocol::motor_card) {
+      if (device_at(arguments, kOutputs) == nullptr)
+        add(kOutputs, protocols::Protocol::described, sim::ActuatorOutputs::kBaud);
+      continue;
+    }
     if (type.vehicle.name.empty() || device_at(arguments, type.vehicle.name) != nullptr) continue;
     const bool is_compass = type.protocol == protocols::Protocol::tcm2;
     add(type.vehicle.name, type.protocol, is_compass ? arguments.compass_baud : type.vehicle.baud);
@@ -85,8 +93,10 @@ std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments) 
 }
 
 /// The effects asked for. Throws Failure where an effect moves a vehicle whose path is given.
-sim::EffectSet effects_of(const EmulateArguments& arguments, std::int64_t start_ns) {
+sim::EffectSet effects_of(const EmulateArguments& arguments, const std::optional<config::Layout>& layout,
+                          std::int64_t start_ns) {
   SimulateArguments wanted;
+  wanted.layout = layout;
   wanted.effects = arguments.effects;
   wanted.effects_file = arguments.effects_file;
   wanted.seed = arguments.seed;
@@ -121,16 +131,18 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
     : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()), truth_timer_(io) {
   const std::int64_t start_ns = now_ns();
   const SimulatedPlace place = emulated_place(arguments.where, start_ns);
-  effects_ = effects_of(arguments, start_ns);
+  layout_ = layout_in(arguments.vehicle);
+  effects_ = effects_of(arguments, layout_, start_ns);
   EmulatedMotion made = emulate_motion(arguments, start_ns, effects_, [this] { return now_ns(); });
   ordered_ = made.ordered;
+  ordered_layout_ = made.ordered_layout;
   motion_ = std::make_unique<sim::MotionInField>(std::move(made.motion), place.field_world_uT);
   if (!arguments.truth.empty()) {
     truth_ = std::make_unique<EmulateTruth>(arguments.truth, *motion_, start_ns);
     write_truth();
   }
   if (!arguments.sent_log.empty()) {
-    log_ = std::make_unique<SentLog>(arguments.sent_log, port_lines(arguments));
+    log_ = std::make_unique<SentLog>(arguments.sent_log, port_lines(arguments, layout_.has_value()));
     log_->comment(place.field_event());
   }
   sim::Noise seeds(arguments.seed);
@@ -180,15 +192,29 @@ void EmulateSession::add_vehicle_devices(const EmulateArguments& arguments, cons
   gps.receiver.effects = &effects_;
   gps.seed = next_seed(seeds);
   add_own("gps", std::make_unique<sim::Oncore>(gps, *motion_));
+  add_commands(arguments, model.motor, seeds);
+}
+
+void EmulateSession::add_commands(const EmulateArguments& arguments, const devices::MotorModel& model,
+                                  sim::Noise& seeds) {
+  if (layout_) {
+    sim::ActuatorOutputs::Obey obey;
+    if (ordered_layout_ != nullptr)
+      obey = [this](std::int64_t t_ns, const auto& pulses_us) { ordered_layout_->order(t_ns, pulses_us); };
+    if (device_at(arguments, kOutputs) == nullptr)
+      add(arguments, std::string(kOutputs), std::make_unique<sim::ActuatorOutputs>(*motion_, std::move(obey)));
+    return;
+  }
   sim::MotorCard::Options motor;
-  motor.motor = model.motor;
+  motor.motor = model;
   motor.seed = next_seed(seeds);
   motor.effects = &effects_;
   motor.clock_ppm = sim::clock_ppm(arguments.clocks, "motor", motor.clock_ppm);
   if (ordered_ != nullptr) {
     motor.obey = [this](std::int64_t t_ns, const auto& command) { ordered_->order(t_ns, command); };
   }
-  add_own("motor", std::make_unique<sim::MotorCard>(motor, *motion_));
+  if (device_at(arguments, "motor") == nullptr)
+    add(arguments, "motor", std::make_unique<sim::MotorCard>(motor, *motion_));
 }
 
 void EmulateSession::add_gauges(const EmulateArguments& arguments, sim::Noise& seeds) {
@@ -229,6 +255,8 @@ void EmulateSession::finish_after_error() {
   if (truth_ == nullptr) return;
   try {
     truth_->advance(now_ns());
+  } catch (const sim::UnfitLayout&) {
+    // Expected: a mission that does not end.
   } catch (const sim::UnstableVehicle&) {
     // Expected: these are the rows before it.
   }

@@ -13,6 +13,7 @@
 
 #include "analysis/emulate_port.h"
 #include "analysis/emulate_truth.h"
+#include "analysis/ordered_layout.h"
 #include "analysis/ordered_motion.h"
 #include "analysis/place_arguments.h"
 #include "analysis/simulated_place.h"
@@ -91,6 +92,7 @@ class EmulateSession {
 
  private:
   void add_vehicle_devices(const EmulateArguments& arguments, const sim::Origin& origin, sim::Noise& seeds);
+  void add_commands(const EmulateArguments& arguments, const devices::MotorModel& model, sim::Noise& seeds);
   void add_gauges(const EmulateArguments& arguments, sim::Noise& seeds);
   void add(const EmulateArguments& arguments, std::string name, std::unique_ptr<sim::Device> device);
   void write_truth();
@@ -102,7 +104,9 @@ class EmulateSession {
   std::int64_t utc_minus_monotonic_ns_;
   sim::EffectSet effects_;
   std::unique_ptr<sim::Motion> motion_;
-  OrderedMotion* ordered_ = nullptr;  ///< within motion_
+  std::optional<config::Layout> layout_;
+  OrderedMotion* ordered_ = nullptr;         ///< within motion_
+  OrderedLayout* ordered_layout_ = nullptr;  ///< within motion_
   std::unique_ptr<EmulateTruth> truth_;
   boost::asio::steady_timer truth_timer_;
   std::unique_ptr<SentLog> log_;

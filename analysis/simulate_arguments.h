@@ -9,6 +9,7 @@
 
 #include "analysis/place_arguments.h"
 #include "analysis/simulated_place.h"
+#include "config/layout.h"
 #include "devices/instrument_model.h"
 #include "sim/instruments/clock_factor.h"
 
@@ -35,6 +36,8 @@ struct SimulateArguments {
   std::int64_t begin_ns = kSimulatedBegin_ns;
   SimulatedPlace place;
   devices::InstrumentModel instruments;  ///< what `config` says
+  /// The layout that `vehicle` is; simulate() sets it. nullopt: a vehicle of one propeller and three fins.
+  std::optional<config::Layout> layout;
 };
 
 }  // namespace navcal::analysis

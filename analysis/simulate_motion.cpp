@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_motion.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "analysis/chosen_vehicle.h"
 #include "analysis/failure.h"
 #include "config/mission_file.h"
 #include "config/vehicle_file.h"
@@ -18,24 +21,42 @@ namespace {
 SimulatedRun along_path(const SimulateArguments& arguments) {
   auto path = std::make_unique<sim::PathMotion>(sim::load_path(arguments.path), arguments.begin_ns);
   const double duration_s = arguments.seconds.value_or(path->duration_s());
-  return {std::move(path), duration_s};
+  return {std::move(path), duration_s, sim::CommandPort::motor_card, {}};
 }
 
-SimulatedRun under_way(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer) {
-  const auto vehicle =
-      arguments.vehicle.empty() ? config::VehicleSettings{} : config::load_vehicle(arguments.vehicle);
+SimulatedRun with_layout(const config::Layout& layout, const SimulateArguments& arguments,
+                         const sim::MotionOptions& options) {
+  if (!arguments.drive.empty())
+    throw Failure(Exit::usage,
+                  fmt::format("{} is a layout, and --drive moves one propeller and three fins: a layout "
+                              "takes --mission",
+                              arguments.vehicle.string()));
+  LayoutOnMission run = layout_on_mission(layout, arguments.vehicle, arguments.mission, options);
+  const double duration_s = arguments.seconds ? *arguments.seconds : run.motion->duration_s();
+  return {std::move(run.motion), duration_s, sim::CommandPort::outputs, std::move(run.remark)};
+}
+
+SimulatedRun with_three_fins(const config::VehicleSettings& vehicle, const SimulateArguments& arguments,
+                             const sim::MotionOptions& options) {
   std::unique_ptr<sim::Helm> helm;
   if (!arguments.drive.empty()) {
     helm = std::make_unique<sim::DriveHelm>(sim::load_path(arguments.drive));
   } else {
     helm = std::make_unique<sim::MissionHelm>(vehicle, config::load_mission(arguments.mission));
   }
+  auto motion = std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), options);
+  const double duration_s = arguments.seconds ? *arguments.seconds : motion->duration_s();
+  return {std::move(motion), duration_s, sim::CommandPort::motor_card, {}};
+}
+
+SimulatedRun under_way(const SimulateArguments& arguments, sim::VehicleInfluencer& influencer) {
   sim::MotionOptions options;
   options.start_ns = arguments.begin_ns;
   options.influencer = &influencer;
-  auto motion = std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), options);
-  const double duration_s = arguments.seconds ? *arguments.seconds : motion->duration_s();
-  return {std::move(motion), duration_s};
+  if (arguments.layout) return with_layout(*arguments.layout, arguments, options);
+  const auto vehicle =
+      arguments.vehicle.empty() ? config::VehicleSettings{} : config::load_vehicle(arguments.vehicle);
+  return with_three_fins(vehicle, arguments, options);
 }
 
 }  // namespace
@@ -49,6 +70,10 @@ SimulatedRun simulate_motion(const SimulateArguments& arguments, sim::VehicleInf
     throw Failure(Exit::bad_input, error.what());
   } catch (const config::Error& error) {
     throw Failure(Exit::bad_input, error.what());
+  } catch (const sim::UnfitLayout& error) {
+    throw Failure(Exit::failed, error.what());
+  } catch (const sim::UnstableVehicle& error) {
+    throw Failure(Exit::failed, error.what());
   }
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "analysis/simulate_arguments.h"
+#include "sim/recording.h"
 #include "sim/state.h"
 #include "sim/vehicle/influences.h"
 
@@ -12,6 +14,8 @@ namespace navcal::analysis {
 struct SimulatedRun {
   std::unique_ptr<sim::Motion> motion;
   double duration_s = 0;
+  sim::CommandPort commands = sim::CommandPort::motor_card;
+  std::string remark{};  ///< what is less than was asked for; empty: nothing
 };
 
 /// How the vehicle moves, and for how long. `influencer` must outlive the motion. Throws Failure.

@@ -13,25 +13,25 @@
 #include "base/interruptible.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
+#include "sim/layout/layout_helm.h"
 #include "sim/recording.h"
 #include "sim/truth.h"
+#include "sim/vehicle/vehicle.h"
 
 namespace navcal::analysis {
 namespace {
 
 constexpr std::int64_t kTruthStep_ns = 10'000'000;
 
-}  // namespace
-
-void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
-                      SimulateHistory* history) {
+void write_recording(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
+                     SimulateHistory* history) {
   const base::Interruptible interruptible;
   Progress progress("simulate");
   record::WholeFile capture(arguments.capture);
   std::optional<record::WholeFile> truth;
   if (!arguments.truth.empty()) truth.emplace(arguments.truth);
 
-  record::CaptureWriter writer(sim::recording_ports(arguments.instruments));
+  record::CaptureWriter writer(sim::recording_ports(arguments.instruments, run.commands));
   std::string text, rows;
   writer.begin(text);
   record::CaptureWriter::comment(text, arguments.place.field_event());
@@ -42,6 +42,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   options.clocks = arguments.clocks;
   options.origin = arguments.place.origin;
   options.instruments = arguments.instruments;
+  options.commands = run.commands;
   sim::Recording recording(options, *run.motion);
   std::vector<sim::LineRead> reads;
   std::int64_t truth_ns = begin_ns;
@@ -69,6 +70,19 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   }
   capture.commit();
   if (truth) truth->commit();
+}
+
+}  // namespace
+
+void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
+                      SimulateHistory* history) {
+  try {
+    write_recording(arguments, run, effects, history);
+  } catch (const sim::UnstableVehicle& error) {
+    throw Failure(Exit::failed, fmt::format("{}. Nothing was written", error.what()));
+  } catch (const sim::UnfitLayout& error) {
+    throw Failure(Exit::failed, fmt::format("{}. Nothing was written", error.what()));
+  }
 }
 
 }  // namespace navcal::analysis

@@ -29,6 +29,7 @@ Eigen::VectorXd free_step(const Eigen::MatrixXd& H, const Eigen::VectorXd& gradi
 Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double eps,
                                       const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
   const Eigen::Index n = A.cols();
+  if (n == 0) return {};
   const Eigen::MatrixXd H = A.transpose() * A + eps * eps * Eigen::MatrixXd::Identity(n, n);
   const Eigen::VectorXd c = A.transpose() * b;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n).cwiseMax(low).cwiseMin(high);

@@ -21,6 +21,7 @@
 #include "config/mission_file.h"
 #include "devices/instrument_model.h"
 #include "protocols/device_types.h"
+#include "sim/layout/layout_helm.h"
 #include "sim/path.h"
 #include "sim/vehicle/vehicle.h"
 
@@ -51,6 +52,9 @@ void run(const analysis::EmulateArguments& arguments) {
   } catch (const sim::UnstableVehicle&) {
     session.finish_after_error();
     throw;
+  } catch (const sim::UnfitLayout&) {
+    session.finish_after_error();
+    throw;
   }
   session.report();
 }
@@ -79,7 +83,7 @@ void add_vehicle(CLI::App* command, analysis::EmulateArguments& arguments) {
           },
           "without --mission: the motor card's orders drive a simulated vehicle, which lies still at the\n"
           "surface at first (navcal pilot); with it, the vehicle that does the mission. Without a file:\n"
-          "the reference vehicle")
+          "the reference vehicle. A layout obeys the lines $PNCAO at DIR/outputs instead of a motor card")
       ->expected(0, 1)
       ->option_text("[FILE.toml]");
   command
@@ -220,6 +224,8 @@ void add_emulate(CLI::App& app) {
     } catch (const config::Error& error) {
       throw analysis::Failure(analysis::Exit::bad_input, error.what());
     } catch (const sim::UnstableVehicle& error) {
+      throw analysis::Failure(analysis::Exit::failed, error.what());
+    } catch (const sim::UnfitLayout& error) {
       throw analysis::Failure(analysis::Exit::failed, error.what());
     }
   });

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/chosen_vehicle.h"
 #include "analysis/simulate_effects.h"
 #include "analysis/simulate_motion.h"
 #include "analysis/simulate_run.h"
@@ -17,6 +18,7 @@
 #include "devices/instrument_model.h"
 #include "report/simulate_page.h"
 #include "sim/effects/choice.h"
+#include "sim/layout/effects/layout_effects.h"
 #include "sim/recording.h"
 
 namespace navcal::cli {
@@ -30,9 +32,10 @@ struct SimulateCommandOptions {
 void run(const analysis::SimulateArguments& arguments) {
   sim::EffectSet effects = analysis::simulate_effects(arguments);
   const analysis::SimulatedRun run = analysis::simulate_motion(arguments, effects);
+  if (!run.remark.empty()) fmt::print(stderr, "navcal simulate: {}\n", run.remark);
   std::optional<analysis::SimulateHistory> history;
   if (!arguments.report.empty())
-    history.emplace(sim::recording_ports(arguments.instruments), arguments.begin_ns, run.duration_s);
+    history.emplace(sim::recording_ports(arguments.instruments, run.commands), arguments.begin_ns, run.duration_s);
   analysis::write_simulation(arguments, run, effects, history ? &*history : nullptr);
   if (history) {
     write_result(arguments.report, report::simulate_page(*history, arguments, run, effects));
@@ -50,6 +53,8 @@ devices::InstrumentModel configured_instruments(const std::filesystem::path& fil
 void simulate(SimulateCommandOptions& options) {
   if (options.list_effects) {
     std::fputs(sim::effects_text().c_str(), stdout);
+    fmt::print("\nWith a layout (--vehicle LAYOUT.toml) those on the vehicle are these, and water_current:\n\n{}",
+               sim::layout_effects_text());
     return;
   }
   auto& arguments = options.arguments;
@@ -66,6 +71,7 @@ void simulate(SimulateCommandOptions& options) {
   arguments.begin_ns = arguments.where.day_ns().value_or(analysis::kSimulatedBegin_ns);
   arguments.place = analysis::simulated_place(arguments.where, arguments.begin_ns);
   if (!arguments.config.empty()) arguments.instruments = configured_instruments(arguments.config);
+  arguments.layout = analysis::layout_in(arguments.vehicle);
   run(arguments);
 }
 
@@ -89,7 +95,9 @@ void add_simulate(CLI::App& app) {
   command->add_option("--mission", arguments.mission, "autopiloted mission: a shipped one, or a file")
       ->option_text("NAME|FILE")
       ->group(motion);
-  command->add_option("--vehicle", arguments.vehicle, "the vehicle, if it is not the reference vehicle")
+  command
+      ->add_option("--vehicle", arguments.vehicle,
+                   "the vehicle, if it is not the reference vehicle: a vehicle file, or a layout (navcal vehicle)")
       ->option_text("FILE.toml");
   command
       ->add_option("--config", arguments.config,
@@ -98,10 +106,11 @@ void add_simulate(CLI::App& app) {
   command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
       ->check(CLI::Range(0.01, 1e6));
   command
-      ->add_option(
-          "--effect", arguments.effects,
-          "departure from the nominal model, in typical strengths; its direction comes from the seed; repeatable")
-      ->option_text("NAME=STRENGTH");
+      ->add_option("--effect", arguments.effects,
+                   "departure from the nominal model, in typical strengths; its direction comes from the seed; "
+                   "repeatable.\n"
+                   "Of a part of a layout: thrust_scale@thruster.2=1")
+      ->option_text("NAME[@OF]=STRENGTH");
   command
       ->add_option(
           "--effects", arguments.effects_file,

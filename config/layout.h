@@ -80,8 +80,22 @@ struct LayoutDamping {
   double cross_flow_coefficient = 0;
   LayoutStrips strips;
   std::optional<LayoutFlowAxes> flow_axes;
+  /// Factors on the sum of all of it: surge, sway, heave, roll, pitch, yaw.
+  std::array<double, 6> factors{1, 1, 1, 1, 1, 1};
 
   bool operator==(const LayoutDamping&) const = default;
+};
+
+/// What an actuator makes of a command before its limits and dead band: neutral + scale (command - neutral) +
+/// offset. A sound one has 1 and 0, a reversed one -1, a dead one 0.
+struct LayoutHeard {
+  double scale = 1;
+  double offset = 0;  ///< in the unit of the command; rad of a surface
+
+  [[nodiscard]] double of(double command, double neutral) const {
+    return neutral + scale * (command - neutral) + offset;
+  }
+  bool operator==(const LayoutHeard&) const = default;
 };
 
 enum class CommandUnit { rpm, percent, microseconds };
@@ -108,6 +122,7 @@ struct LayoutThruster {
   double dead_band = 0;           ///< commands nearer to neutral than this are neutral
   double lag_s = 0.1;
   double low = 0, high = 0;  ///< limits of the command
+  LayoutHeard heard{};
 
   [[nodiscard]] double neutral() const { return unit == CommandUnit::microseconds ? 1500 : 0; }
   bool operator==(const LayoutThruster&) const = default;
@@ -127,6 +142,8 @@ struct LayoutSurface {
   double stall_rad = 0.45;
   double lag_s = 0.1;
   double limit_rad = 0;
+  double dead_band_rad = 0;  ///< commands nearer to zero than this are zero
+  LayoutHeard heard{};
 
   bool operator==(const LayoutSurface&) const = default;
 };
@@ -137,6 +154,7 @@ struct LayoutBallast {
   LayoutVector place_m{};
   double low_N = 0, high_N = 0;
   double rate_N_s = 1;
+  LayoutHeard heard{};
 
   bool operator==(const LayoutBallast&) const = default;
 };
@@ -149,6 +167,7 @@ struct LayoutMovingMass {
   LayoutVector axis{1, 0, 0};
   double low_m = 0, high_m = 0;
   double rate_m_s = 0.01;
+  LayoutHeard heard{};
 
   bool operator==(const LayoutMovingMass&) const = default;
 };

@@ -32,7 +32,7 @@ void append_figures(HtmlPage& page, std::vector<Figure> figures) {
 
 void append_effects(HtmlPage& page, const sim::EffectSet& effects) {
   page.section("Effects");
-  if (effects.size() == 0) return page.paragraph("None: the nominal model.");
+  if (effects.size() == 0 && effects.layout_members().empty()) return page.paragraph("None: the nominal model.");
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const auto& about = effects[i].description();
@@ -41,6 +41,16 @@ void append_effects(HtmlPage& page, const sim::EffectSet& effects) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       rows.push_back(
           {name, std::string(about.parameters[k].name), fmt::format("{:.4g}", values[k]), equation, when});
+      for (auto* once : {&name, &equation, &when}) once->clear();
+    }
+  }
+  for (const sim::EffectSet::LayoutMember& member : effects.layout_members()) {
+    const sim::LayoutEffectDescription& about = *member.effect.about;
+    std::string name = std::string(about.name) + (member.effect.of.empty() ? "" : " of " + member.effect.of);
+    std::string equation(about.equation), when = effect_interval_text(member.when);
+    for (std::size_t k = 0; k < member.effect.values.size(); ++k) {
+      rows.push_back({name, std::string(about.parameters[k].name), fmt::format("{:.4g}", member.effect.values[k]),
+                      equation, when});
       for (auto* once : {&name, &equation, &when}) once->clear();
     }
   }

@@ -21,6 +21,9 @@ class MotionInField final : public Motion {
     return state;
   }
   void take_orders(std::int64_t t_ns, std::vector<Order>& out) const override { motion_->take_orders(t_ns, out); }
+  void take_outputs(std::int64_t t_ns, std::vector<OutputOrder>& out) const override {
+    motion_->take_outputs(t_ns, out);
+  }
 
  private:
   std::unique_ptr<const Motion> motion_;

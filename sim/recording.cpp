@@ -11,6 +11,11 @@
 #include "config/load.h"
 #include "protocols/motor_card.h"
 #include "protocols/oncore_command.h"
+#include "sim/instruments/actuator_outputs.h"
+#include "sim/instruments/imu_card.h"
+#include "sim/instruments/motor_card.h"
+#include "sim/instruments/oncore.h"
+#include "sim/instruments/tcm2.h"
 
 namespace navcal::sim {
 namespace {
@@ -39,7 +44,8 @@ config::PortSettings recording_port(std::string name, protocols::Protocol protoc
 
 }  // namespace
 
-std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments) {
+std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments,
+                                                  CommandPort commands) {
   using protocols::Protocol;
   std::vector<config::PortSettings> ports{recording_port("compass", Protocol::tcm2, instruments.compass.timing),
                                           recording_port("imu", Protocol::imu_card, instruments.imu.timing),
@@ -49,6 +55,7 @@ std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel
   ports[1].imu_card = instruments.imu.channels;
   ports[1].mounting = instruments.imu.mounting;
   ports[2].mounting = instruments.gps.mounting;
+  if (commands == CommandPort::outputs) ports[3] = outputs_port();
   return ports;
 }
 
@@ -84,6 +91,11 @@ Recording::Recording(const Options& options, const Motion& motion)
   receiver.receiver.effects = &effects_;
   receiver.receiver.origin = options.origin;
   add(Instrument::gps, std::make_unique<Oncore>(receiver, motion));
+  if (options.commands == CommandPort::outputs) {
+    add(Instrument::motor, std::make_unique<ActuatorOutputs>(motion));
+    ask_receiver(options.begin_ns);
+    return;
+  }
   MotorCard::Options motor;
   motor.motor = model.motor;
   motor.baud = static_cast<int>(model.motor.timing.baud);
@@ -91,10 +103,13 @@ Recording::Recording(const Options& options, const Motion& motion)
   motor.effects = &effects_;
   motor.clock_ppm = clock_ppm(options.clocks, "motor", motor.clock_ppm);
   add(Instrument::motor, std::make_unique<MotorCard>(motor, motion));
+  ask_receiver(options.begin_ns);
+}
 
+void Recording::ask_receiver(std::int64_t t_ns) {
   const auto poll = protocols::oncore::encode_poll(protocols::oncore::kHa, kEverySecond);
-  channels_[static_cast<std::size_t>(Instrument::gps)].device->on_bytes(options.begin_ns, poll);
-  sent_.push_back({options.begin_ns, Instrument::gps, true, poll});
+  channels_[static_cast<std::size_t>(Instrument::gps)].device->on_bytes(t_ns, poll);
+  sent_.push_back({t_ns, Instrument::gps, true, poll});
 }
 
 void Recording::write_orders(std::int64_t t_ns) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -14,12 +15,19 @@
 
 namespace navcal::sim {
 
+/// What the commands to the vehicle are recorded from, at the place of Instrument::motor.
+enum class CommandPort : std::uint8_t {
+  motor_card,  ///< of one propeller and three fins
+  outputs,     ///< of the actuators of a layout: instruments/actuator_outputs.h
+};
+
 /// The ports of a recording by these instruments, in the order of Instrument.
-[[nodiscard]] std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments);
+[[nodiscard]] std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel& instruments,
+                                                                CommandPort commands = CommandPort::motor_card);
 
 /// The four instruments from power-on, each on its line, as a host records them. Nothing has to be said to them:
 /// the compass is set up to send all it has, and the receiver is asked for its position every second in the first
-/// moment. The motor card is told what the vehicle's helm orders.
+/// moment. The motor card is told what the vehicle's helm orders; the outputs of a layout say it themselves.
 class Recording {
  public:
   struct Options {
@@ -31,6 +39,7 @@ class Recording {
     bool sky_always_seen = false;       ///< fixes at every depth, from the first second on
     std::vector<ClockFactor> clocks{};  ///< of compass, imu and motor
     Origin origin{};                    ///< origin of the fixes
+    CommandPort commands = CommandPort::motor_card;
     devices::InstrumentModel instruments{};
   };
   Recording(const Options& options, const Motion& motion);
@@ -43,6 +52,7 @@ class Recording {
     std::unique_ptr<Device> device;
     HostLine line;
   };
+  void ask_receiver(std::int64_t t_ns);
   void write_orders(std::int64_t t_ns);
 
   EffectSet none_;

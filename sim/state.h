@@ -45,6 +45,12 @@ struct Order {
   Vector3 fins_rad{};
 };
 
+/// Commands to all actuators of a layout at one instant.
+struct OutputOrder {
+  std::int64_t time_ns = 0;       ///< UTC since the epoch
+  std::vector<double> pulses_us;  ///< in the order of sim/layout/pulses.h
+};
+
 /// Motion of the vehicle, at any time and in any order of times. The devices have no other source of it.
 class Motion {
  public:
@@ -54,6 +60,9 @@ class Motion {
   /// Appends what the motor card was told up to t_ns and was not yet taken, in order of time. Along a path it is
   /// told nothing.
   virtual void take_orders(std::int64_t /*t_ns*/, std::vector<Order>& /*out*/) const {}
+  /// Appends what the actuators of a layout were told up to t_ns and was not yet taken, in order of time. Other
+  /// vehicles have a motor card.
+  virtual void take_outputs(std::int64_t /*t_ns*/, std::vector<OutputOrder>& /*out*/) const {}
 };
 
 }  // namespace navcal::sim

@@ -62,6 +62,12 @@ void read_table(LayoutTable& table, LayoutThruster& thruster, const Bounds& boun
   thruster.table_force_N = {0, 0};
 }
 
+/// What an actuator makes of its command: scale and offset, the latter in the command's unit.
+void read_heard(LayoutTable& table, LayoutHeard& heard, const Bounds& offset) {
+  table.number("command_scale", heard.scale, {-10, 10});
+  table.number("command_offset", heard.offset, offset);
+}
+
 bool is_taken(const std::string& name, const Layout& layout) {
   const auto has_name = [&](const auto& actuator) { return actuator.name == name; };
   return std::any_of(layout.thrusters.begin(), layout.thrusters.end(), has_name) ||
@@ -105,6 +111,7 @@ void read_thruster(const Node& node, Layout& layout, std::vector<Problem>& probl
   table.number("dead_band", thruster.dead_band, {0, unit.bounds.high, unit.bounds.unit});
   table.number("lag_s", thruster.lag_s, kLag);
   table.limits("limits", thruster.low, thruster.high, unit.bounds);
+  read_heard(table, thruster.heard, {-unit.bounds.high, unit.bounds.high, unit.bounds.unit});
   if (thruster.unit == CommandUnit::rpm) table.reader().require("limits", "[LOW, HIGH] of the command (rpm)");
   table.finish();
   layout.thrusters.push_back(std::move(thruster));
@@ -129,6 +136,9 @@ void read_surface(const Node& node, Layout& layout, std::vector<Problem>& proble
   table.angle("stall_deg", surface.stall_rad, {1, 90, "deg"});
   table.number("lag_s", surface.lag_s, kLag);
   table.angle("limit_deg", surface.limit_rad, {0, 80, "deg"});
+  table.angle("dead_band_deg", surface.dead_band_rad, {0, 80, "deg"});
+  table.number("command_scale", surface.heard.scale, {-10, 10});
+  table.angle("command_offset_deg", surface.heard.offset, {-80, 80, "deg"});
   table.finish();
   layout.surfaces.push_back(std::move(surface));
 }
@@ -141,6 +151,7 @@ void read_ballast(const Node& node, Layout& layout, std::vector<Problem>& proble
   table.numbers("place_m", ballast.place_m, kActuatorPlace);
   table.limits("range_N", ballast.low_N, ballast.high_N, {-1e6, 1e6, "N"});
   table.number("rate_N_s", ballast.rate_N_s, {1e-6, 1e5, "N/s"});
+  read_heard(table, ballast.heard, {-1e6, 1e6, "N"});
   table.reader().require("range_N", "[LOW, HIGH] of the added buoyancy (N)");
   table.reader().require("rate_N_s", "greatest change of the added buoyancy (N/s)");
   table.finish();
@@ -157,6 +168,7 @@ void read_moving_mass(const Node& node, Layout& layout, std::vector<Problem>& pr
   table.direction("axis", mass.axis);
   table.limits("range_m", mass.low_m, mass.high_m, {-20, 20, "m"});
   table.number("rate_m_s", mass.rate_m_s, {1e-6, 10, "m/s"});
+  read_heard(table, mass.heard, {-20, 20, "m"});
   table.reader().require("mass_kg", "the part of the body's mass that moves (kg)");
   table.reader().require("range_m", "[LOW, HIGH] of its way from place_m (m)");
   if (mass.mass_kg >= layout.body.mass_kg && layout.body.mass_kg > 0)

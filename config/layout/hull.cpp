@@ -112,6 +112,7 @@ void read_damping(const Node& node, Layout& layout, std::vector<Problem>& proble
   table.matrix("linear", damping.linear, kCoefficient);
   table.matrix("quadratic", damping.quadratic, kCoefficient);
   table.matrix("lift", damping.lift, kCoefficient);
+  table.numbers("factors", damping.factors, {0, 100});
   if (const Node* below = table.below("axial")) {
     LayoutTable axial(*below, layout, problems);
     axial.number("coefficient", damping.axial_coefficient, {0, 10});

@@ -47,6 +47,11 @@ class LayoutText {
     line(key, fmt::format("[{}]", fmt::join(values, ", ")));
     uncertainty(key);
   }
+  /// What a sound actuator has is left out.
+  void heard(const LayoutHeard& heard) {
+    if (heard.scale != 1) number("command_scale", heard.scale);
+    if (heard.offset != 0) number("command_offset", heard.offset);
+  }
   void matrix(std::string_view key, const LayoutMatrix& values) {
     std::vector<double> diagonal;
     for (std::size_t i = 0; i < 6; ++i) diagonal.push_back(values[7 * i]);
@@ -122,6 +127,7 @@ void write_damping(LayoutText& text, const LayoutDamping& damping) {
   text.matrix("linear", damping.linear);
   text.matrix("quadratic", damping.quadratic);
   text.matrix("lift", damping.lift);
+  if (damping.factors != LayoutDamping{}.factors) text.numbers("factors", damping.factors);
   if (damping.axial_area_m2 > 0) {
     text.table("[damping.axial]", "damping.axial");
     text.number("coefficient", damping.axial_coefficient);
@@ -175,6 +181,7 @@ void write_thruster(LayoutText& text, const LayoutThruster& thruster, std::size_
   text.line("hand", thruster.is_left_handed ? "\"left\"" : "\"right\"");
   text.number("dead_band", thruster.dead_band);
   text.number("lag_s", thruster.lag_s);
+  text.heard(thruster.heard);
 }
 
 void write_surface(LayoutText& text, const LayoutSurface& surface, std::size_t number) {
@@ -190,6 +197,9 @@ void write_surface(LayoutText& text, const LayoutSurface& surface, std::size_t n
   text.angle("stall_deg", surface.stall_rad);
   text.number("lag_s", surface.lag_s);
   text.angle("limit_deg", surface.limit_rad);
+  if (surface.dead_band_rad != 0) text.angle("dead_band_deg", surface.dead_band_rad);
+  if (surface.heard.scale != 1) text.number("command_scale", surface.heard.scale);
+  if (surface.heard.offset != 0) text.angle("command_offset_deg", surface.heard.offset);
 }
 
 void write_masses(LayoutText& text, const Layout& layout) {
@@ -200,6 +210,7 @@ void write_masses(LayoutText& text, const Layout& layout) {
     text.numbers("place_m", ballast.place_m);
     text.numbers("range_N", std::array{ballast.low_N, ballast.high_N});
     text.number("rate_N_s", ballast.rate_N_s);
+    text.heard(ballast.heard);
   }
   for (std::size_t i = 0; i < layout.moving_masses.size(); ++i) {
     const LayoutMovingMass& mass = layout.moving_masses[i];
@@ -210,6 +221,7 @@ void write_masses(LayoutText& text, const Layout& layout) {
     text.numbers("axis", mass.axis);
     text.numbers("range_m", std::array{mass.low_m, mass.high_m});
     text.number("rate_m_s", mass.rate_m_s);
+    text.heard(mass.heard);
   }
 }
 

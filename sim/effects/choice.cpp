@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "config/suggestion.h"
 #include "sim/effects/effect_table.h"
+#include "sim/layout/effects/layout_effects.h"
 
 namespace navcal::sim {
 namespace {
@@ -52,9 +55,25 @@ std::optional<std::string> refusal(const EffectParameter& parameter, double valu
                      parameter.greatest, value);
 }
 
-std::string unknown_effect(std::string_view name) {
+std::optional<std::string> refusal_for_layout(const EffectDescription& effect) {
+  constexpr std::array<std::string_view, 3> kByMotorCurrent{"accel_vibration", "adc_droop", "motor_field"};
+  if (std::find(kByMotorCurrent.begin(), kByMotorCurrent.end(), effect.name) != kByMotorCurrent.end())
+    return fmt::format("{} grows with the motor's current, which a layout does not state", effect.name);
+  if (effect.place != EffectPlace::vehicle || effect.name == "water_current") return std::nullopt;
+  return fmt::format(
+      "{} belongs to the vehicle of one propeller and three fins; a layout has the effects of "
+      "--list-effects with a column \"of\"",
+      effect.name);
+}
+
+std::string unknown_effect(std::string_view name, bool of_layout) {
   std::vector<std::string> known;
   for (const EffectEntry& entry : effect_table()) known.emplace_back(entry.name);
+  if (of_layout) {
+    for (const LayoutEffectDescription& about : layout_effects()) known.emplace_back(about.name);
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+  }
   return fmt::format("there is no such effect{}. Known are: {}", config::suggestion(name, known),
                      fmt::join(known, ", "));
 }

@@ -19,8 +19,13 @@ namespace navcal::sim {
 /// Why a value cannot be ("tau_s lies between 0 and 10"), or nothing.
 [[nodiscard]] std::optional<std::string> refusal(const EffectParameter& parameter, double value);
 
+/// Why an effect by name cannot act on a layout, or nothing: of the effects on the vehicle itself only the water's
+/// current does, the others have a counterpart in sim/layout/effects; a layout states no motor current.
+[[nodiscard]] std::optional<std::string> refusal_for_layout(const EffectDescription& effect);
+
 /// "there is no effect magnetfield; did you mean ...? Known are: ...".
-[[nodiscard]] std::string unknown_effect(std::string_view name);
+/// With a layout the effects on it are known too.
+[[nodiscard]] std::string unknown_effect(std::string_view name, bool of_layout = false);
 
 /// The table of all effects as people read it, in the form that docs/simulator.md takes.
 [[nodiscard]] std::string effects_text();

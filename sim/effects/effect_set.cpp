@@ -6,7 +6,8 @@
 
 namespace navcal::sim {
 
-EffectSet::EffectSet(const EffectSet& other) : VehicleInfluencer(other), begin_ns_(other.begin_ns_) {
+EffectSet::EffectSet(const EffectSet& other)
+    : VehicleInfluencer(other), begin_ns_(other.begin_ns_), layout_members_(other.layout_members_) {
   members_.reserve(other.members_.size());
   for (const Member& member : other.members_) members_.push_back({member.effect->clone(), member.when});
 }
@@ -80,6 +81,22 @@ void EffectSet::influence(double time_s, Influences& on) {
 
 void EffectSet::link_fins(double time_s, double step_s, Vector3& fins_rad) {
   each(time_s, [&](Effect& effect) { effect.link_fins(step_s, fins_rad); });
+}
+
+void EffectSet::change_layout(double time_s, config::Layout& layout) {
+  for (const LayoutMember& member : layout_members_) {
+    if (member.when.contains(time_s)) layout = changed_layout(std::move(layout), member.effect);
+  }
+}
+
+double EffectSet::next_layout_change_s(double time_s) const {
+  double next_s = std::numeric_limits<double>::infinity();
+  for (const LayoutMember& member : layout_members_) {
+    for (const double edge_s : {member.when.from_s, member.when.until_s}) {
+      if (edge_s > time_s) next_s = std::min(next_s, edge_s);
+    }
+  }
+  return next_s;
 }
 
 double EffectSet::noise(Instrument of, double time_s) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "sim/effects/effect.h"
+#include "sim/layout/effects/layout_effects.h"
 
 namespace navcal::sim {
 
@@ -30,11 +32,22 @@ class EffectSet final : public VehicleInfluencer {
 
   /// Returns the added effect, so that the caller can change its parameters.
   Effect& add(std::unique_ptr<Effect> effect, const Interval& when = {});
+  /// Adds an effect of the layout itself, in the order in which they act.
+  void add(LayoutEffect effect, const Interval& when = {}) {
+    layout_members_.push_back({std::move(effect), when});
+  }
   /// Seeds the random numbers of all effects, each with a seed of its own.
   void reseed(std::uint64_t seed);
   [[nodiscard]] std::size_t size() const { return members_.size(); }
   [[nodiscard]] Effect& operator[](std::size_t i) const { return *members_[i].effect; }
   [[nodiscard]] const Interval& interval(std::size_t i) const { return members_[i].when; }
+
+  /// An effect of the layout with its interval.
+  struct LayoutMember {
+    LayoutEffect effect;
+    Interval when;
+  };
+  [[nodiscard]] const std::vector<LayoutMember>& layout_members() const { return layout_members_; }
 
   [[nodiscard]] double time_s(std::int64_t t_ns) const { return static_cast<double>(t_ns - begin_ns_) * 1e-9; }
   [[nodiscard]] Instant instant(std::int64_t t_ns, const State& state, double electronics_C) const {
@@ -54,6 +67,8 @@ class EffectSet final : public VehicleInfluencer {
   [[nodiscard]] Delays delays(double time_s);
   void influence(double time_s, Influences& on) override;
   void link_fins(double time_s, double step_s, Vector3& fins_rad) override;
+  void change_layout(double time_s, config::Layout& layout) override;
+  [[nodiscard]] double next_layout_change_s(double time_s) const override;
   /// Factor on the standard deviation of an instrument's noise.
   [[nodiscard]] double noise(Instrument of, double time_s);
   /// Amount by which an instrument's clock runs slower than nominal, parts per million.
@@ -70,6 +85,7 @@ class EffectSet final : public VehicleInfluencer {
 
   std::int64_t begin_ns_;
   std::vector<Member> members_;
+  std::vector<LayoutMember> layout_members_;
 };
 
 }  // namespace navcal::sim

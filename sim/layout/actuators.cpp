@@ -42,23 +42,26 @@ ActuatorValues follow(const config::Layout& layout, const ActuatorValues& positi
   ActuatorValues next = positions;
   for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
     const config::LayoutThruster& thruster = layout.thrusters[i];
-    const double target = autopilot::effective_command(thruster, commands.thrusters[i]);
+    const double target =
+        autopilot::effective_command(thruster, thruster.heard.of(commands.thrusters[i], thruster.neutral()));
     next.thrusters[i] = with_lag(positions.thrusters[i], target, thruster.lag_s, step_s);
   }
   for (std::size_t i = 0; i < layout.surfaces.size(); ++i) {
     const config::LayoutSurface& surface = layout.surfaces[i];
-    const double moved = with_lag(positions.surfaces_rad[i], commands.surfaces_rad[i], surface.lag_s, step_s);
+    const double heard = surface.heard.of(commands.surfaces_rad[i], 0);
+    const double target = std::abs(heard) < surface.dead_band_rad ? 0 : heard;
+    const double moved = with_lag(positions.surfaces_rad[i], target, surface.lag_s, step_s);
     next.surfaces_rad[i] = std::clamp(moved, -surface.limit_rad, surface.limit_rad);
   }
   for (std::size_t i = 0; i < layout.ballasts.size(); ++i) {
     const config::LayoutBallast& ballast = layout.ballasts[i];
-    next.ballasts_N[i] = at_rate(positions.ballasts_N[i], commands.ballasts_N[i], ballast.low_N, ballast.high_N,
-                                 ballast.rate_N_s * step_s);
+    next.ballasts_N[i] = at_rate(positions.ballasts_N[i], ballast.heard.of(commands.ballasts_N[i], 0),
+                                 ballast.low_N, ballast.high_N, ballast.rate_N_s * step_s);
   }
   for (std::size_t i = 0; i < layout.moving_masses.size(); ++i) {
     const config::LayoutMovingMass& mass = layout.moving_masses[i];
-    next.masses_m[i] =
-        at_rate(positions.masses_m[i], commands.masses_m[i], mass.low_m, mass.high_m, mass.rate_m_s * step_s);
+    next.masses_m[i] = at_rate(positions.masses_m[i], mass.heard.of(commands.masses_m[i], 0), mass.low_m,
+                               mass.high_m, mass.rate_m_s * step_s);
   }
   return next;
 }

@@ -20,7 +20,8 @@ struct ActuatorValues {
 
 /// Positions of the actuators after a step towards constant commands. Thrusters and surfaces follow with
 /// first-order lags, exactly over the step: p' = (c - p)/T, p(t + h) = p + (1 - exp(-h/T)) (c - p), with c within
-/// its limits and neutral in its dead band. Ballasts and moving masses go at their rates.
+/// its limits and neutral in its dead band, behind what the actuator makes of its command (config::LayoutHeard).
+/// Ballasts and moving masses go at their rates.
 [[nodiscard]] ActuatorValues follow(const config::Layout& layout, const ActuatorValues& positions,
                                     const ActuatorValues& commands, double step_s);
 

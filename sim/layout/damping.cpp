@@ -26,7 +26,10 @@ HullDamping::HullDamping(const config::Layout& layout)
                       layout.damping.body_lift_slope_per_rad),
       body_lift_at_m_(layout.damping.body_lift_at_m),
       strips_(layout.damping.strips, layout.damping.cross_flow_coefficient, layout.water_density_kg_m3),
-      flow_axes_(layout.damping.flow_axes) {}
+      flow_axes_(layout.damping.flow_axes) {
+  if (layout.damping.factors != config::LayoutDamping{}.factors)
+    factors_ = Eigen::Map<const Vector6>(layout.damping.factors.data());
+}
 
 Vector6 HullDamping::operator()(const Vector6& velocity) const {
   const double surge = std::abs(velocity[0]);
@@ -39,6 +42,7 @@ Vector6 HullDamping::operator()(const Vector6& velocity) const {
   if (lift_) force -= surge * (*lift_ * velocity);
   strips_.add(velocity, force);
   if (flow_axes_) force += flow_axes_force(*flow_axes_, velocity);
+  if (factors_) force = force.cwiseProduct(*factors_);
   return force;
 }
 

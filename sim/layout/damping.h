@@ -16,7 +16,8 @@ namespace navcal::sim {
 /// - axial drag X = -1/2 rho Cd A |u| u;
 /// - body lift Y = -1/2 rho A a |u| v, Z the same with w, acting at x: N += x Y, M -= x Z;
 /// - cross-flow drag of the strips (strips.h);
-/// - lift and drag in axes of the flow (flow_axes.h).
+/// - lift and drag in axes of the flow (flow_axes.h);
+/// times a factor in each degree of freedom.
 class HullDamping {
  public:
   explicit HullDamping(const config::Layout& layout);
@@ -29,6 +30,7 @@ class HullDamping {
   double axial_kg_m_, body_lift_kg_m_, body_lift_at_m_;
   CrossFlowStrips strips_;
   std::optional<config::LayoutFlowAxes> flow_axes_;
+  std::optional<Vector6> factors_;
 };
 
 }  // namespace navcal::sim

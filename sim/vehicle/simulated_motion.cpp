@@ -8,7 +8,7 @@
 namespace navcal::sim {
 namespace {
 
-constexpr double kStep_s = 1e-9 * SimulatedMotion::kStep_ns;
+constexpr double kStep_s = kMotionStep_s;
 
 Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
@@ -21,19 +21,15 @@ SimulatedMotion::SimulatedMotion(const config::VehicleSettings& vehicle, std::un
       options_(options),
       helm_(std::move(helm)),
       body_(helm_->start()),
-      actuators_(helm_->actuators_at_start()) {
+      actuators_(helm_->actuators_at_start()),
+      states_(options.history_s) {
   check_stable(body_, 0);
 }
 
 State SimulatedMotion::at(std::int64_t t_ns) const {
-  const std::int64_t elapsed_ns = std::max<std::int64_t>(0, t_ns - options_.start_ns);
-  const std::int64_t step = elapsed_ns / kStep_ns;
-  while (steps_ < step + 2) take_step();
-  const std::int64_t oldest = steps_ - static_cast<std::int64_t>(states_.size());
-  if (step < oldest) return states_.front();
-  const auto index = static_cast<std::size_t>(step - oldest);
-  const double part = static_cast<double>(elapsed_ns - step * kStep_ns) / static_cast<double>(kStep_ns);
-  return between(states_[index], states_[index + 1], part);
+  const std::int64_t elapsed_ns = t_ns - options_.start_ns;
+  while (states_.steps() < StepHistory::steps_for(elapsed_ns)) take_step();
+  return states_.at(elapsed_ns);
 }
 
 void SimulatedMotion::take_orders(std::int64_t t_ns, std::vector<Order>& out) const {
@@ -47,12 +43,13 @@ double SimulatedMotion::duration_s() const {
 }
 
 void SimulatedMotion::take_step() const {
-  const double time_s = static_cast<double>(steps_) * kStep_s;
+  const std::int64_t steps = states_.steps();
+  const double time_s = static_cast<double>(steps) * kStep_s;
   Influences influences;
   if (options_.influencer != nullptr) options_.influencer->influence(time_s, influences);
   const Actuators next = helm_->next(time_s, kStep_s, body_);
   if (next.fins_ordered_rad) {
-    const std::int64_t time_ns = options_.start_ns + steps_ * kStep_ns;
+    const std::int64_t time_ns = options_.start_ns + steps * kStep_ns;
     orders_.push_back({time_ns, 60 * next.shaft_commanded_rps, array_of(*next.fins_ordered_rad)});
     const auto is_old = [&](const Order& order) {
       return 1e-9 * static_cast<double>(time_ns - order.time_ns) > options_.history_s;
@@ -72,14 +69,11 @@ void SimulatedMotion::take_step() const {
   }
   linked_rad_ = linked_rad;
   const Vehicle::Step step = vehicle_.step(body_, held, influences, kStep_s);
-  states_.push_back(state_of(step.acceleration, influences));
-  if (static_cast<double>(states_.size()) * kStep_s > options_.history_s && states_.size() > 2)
-    states_.pop_front();
-  ++steps_;
+  states_.push(state_of(step.acceleration, influences));
   body_ = step.body;
   actuators_ = next;
   check_stable(body_, time_s + kStep_s);
-  if (!ended_s_ && helm_->finished()) ended_s_ = static_cast<double>(steps_) * kStep_s;
+  if (!ended_s_ && helm_->finished()) ended_s_ = static_cast<double>(states_.steps()) * kStep_s;
 }
 
 State SimulatedMotion::state_of(const Vector6& acceleration, const Influences& influences) const {

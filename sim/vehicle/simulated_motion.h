@@ -9,6 +9,7 @@
 
 #include "sim/state.h"
 #include "sim/vehicle/helm.h"
+#include "sim/vehicle/step_history.h"
 #include "sim/vehicle/vehicle.h"
 
 namespace navcal::sim {
@@ -26,7 +27,7 @@ struct MotionOptions {
 /// straight line. After its helm's orders have ended it goes on as the helm does. Not for several threads at once.
 class SimulatedMotion final : public Motion {
  public:
-  static constexpr std::int64_t kStep_ns = 10'000'000;
+  static constexpr std::int64_t kStep_ns = kMotionStep_ns;
 
   SimulatedMotion(const config::VehicleSettings& vehicle, std::unique_ptr<Helm> helm,
                   const MotionOptions& options);
@@ -51,9 +52,8 @@ class SimulatedMotion final : public Motion {
   mutable Body body_;
   mutable Actuators actuators_;
   mutable std::optional<Eigen::Vector3d> linked_rad_;  ///< the fins themselves, behind their linkage
-  mutable std::int64_t steps_ = 0;                     ///< taken
-  mutable std::deque<State> states_;                   ///< at the beginnings of the newest of them
-  mutable std::deque<Order> orders_;                   ///< not yet taken
+  mutable StepHistory states_;
+  mutable std::deque<Order> orders_;  ///< not yet taken
   mutable std::optional<double> ended_s_;
 };
 

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "sim/effects/document.h"
+#include "sim/layout/effects/layout_effects.h"
 #include "tests/sim/effects/at_rest.h"
 
 namespace navcal::sim::testing {
@@ -111,6 +112,8 @@ TEST(EffectText, IsTheTableOfTheDocumentation) {
   std::ifstream in(NAVCAL_SOURCE_DIR "/docs/simulator.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   EXPECT_NE(page.find(effects_text()), std::string::npos)
+      << "put the output of navcal simulate --list-effects there";
+  EXPECT_NE(page.find(layout_effects_text()), std::string::npos)
       << "put the output of navcal simulate --list-effects there";
 }
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/chosen_vehicle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "config/complaints.h"
+#include "config/document.h"
+#include "config/layout/layout_file.h"
+#include "config/mission_file.h"
+#include "config/vehicle_file.h"
+#include "sim/instruments/actuator_outputs.h"
+#include "sim/layout/assessment/parts.h"
+#include "sim/layout/control/layout_mission_helm.h"
+#include "sim/layout/pulses.h"
+
+namespace navcal::analysis {
+namespace {
+
+bool is_layout(std::string_view toml) {
+  constexpr std::array<std::string_view, 6> kTables{"body",    "added_mass", "thruster",
+                                                    "surface", "ballast",    "moving_mass"};
+  std::vector<config::Problem> problems;
+  const std::vector<config::Entry> entries = config::read_document(toml, problems);
+  return std::any_of(entries.begin(), entries.end(), [&](const config::Entry& entry) {
+    return std::find(kTables.begin(), kTables.end(), entry.keys.front()) != kTables.end();
+  });
+}
+
+}  // namespace
+
+ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file) {
+  if (file.empty()) return config::VehicleSettings{};
+  const std::string toml = config::content_of(file);
+  if (is_layout(toml)) return config::parse_layout(toml, file.native());
+  return config::parse_vehicle(toml, file.native());
+}
+
+std::optional<config::Layout> layout_in(const std::filesystem::path& file) {
+  try {
+    ChosenVehicle vehicle = load_chosen_vehicle(file);
+    auto* const layout = std::get_if<config::Layout>(&vehicle);
+    return layout != nullptr ? std::optional(std::move(*layout)) : std::nullopt;
+  } catch (const config::Error& error) {
+    throw Failure(Exit::bad_input, error.what());
+  }
+}
+
+void expect_simulable(const config::Layout& layout, const std::filesystem::path& file) {
+  const std::string why = sim::assessment::reason_not_to_simulate(layout);
+  if (!why.empty()) throw Failure(Exit::bad_input, fmt::format("{}: cannot be simulated: {}", file.string(), why));
+  const std::size_t outputs = sim::outputs_of(layout);
+  if (outputs > sim::kMostOutputs)
+    throw Failure(Exit::bad_input, fmt::format("{}: {} actuators; a recording has {} outputs", file.string(),
+                                               outputs, sim::kMostOutputs));
+}
+
+LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
+                                  const std::string& mission, const sim::MotionOptions& options) {
+  expect_simulable(layout, file);
+  try {
+    auto helm = std::make_unique<sim::LayoutMissionHelm>(layout, config::load_mission(mission));
+    std::string remark = helm->remark();
+    return {std::make_unique<sim::LayoutMotion>(layout, std::move(helm), options), std::move(remark)};
+  } catch (const sim::UnfitLayout& error) {
+    throw Failure(Exit::bad_input, fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace navcal::analysis

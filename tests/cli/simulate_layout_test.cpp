@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// navcal simulate with a layout, given to the program as people give it: recording, decoding, log and export.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::cli {
+namespace {
+
+constexpr const char* kVehicles = NAVCAL_SOURCE_DIR "/share/vehicles/";
+
+class SimulateLayout : public testing::Test {
+ protected:
+  int run_navcal(const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments + " > out 2> err < /dev/null";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int simulate(const std::string& layout, const std::string& more) {
+    return run_navcal("simulate --vehicle '" + layout + "' -o run.cap " + more);
+  }
+  [[nodiscard]] std::string said(const std::string& file) const { return navcal::test::read_file(folder_ / file); }
+  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
+
+  navcal::test::TemporaryFolder folder_;
+};
+
+TEST_F(SimulateLayout, RecordsTheOutputsOfAnRov) {
+  write(
+      "hover.toml",
+      "start.shaft_rpm = 0\nstart.depth_m = 1\nstep = [{do = \"leg\", seconds = 5}, {do = \"leg\", seconds = 10, "
+      "speed_m_s = 0.4}]\n");
+  ASSERT_EQ(simulate(std::string(kVehicles) + "bluerov2-heavy.toml",
+                     "--mission ./hover.toml --truth truth.csv --report page.html --effect "
+                     "thrust_scale@thruster.2=1"),
+            0)
+      << said("err");
+  EXPECT_NE(said("page.html").find("thrust_scale of thruster.2"), std::string::npos);
+  ASSERT_EQ(run_navcal("decode --device '" NAVCAL_SOURCE_DIR "/share/devices/actuator-outputs.toml' --json --port "
+                       "outputs run.cap"),
+            0)
+      << said("err");
+  EXPECT_NE(said("out").find("\"PNCAO\":150"), std::string::npos) << said("out").substr(0, 500);
+  write("navcald.toml",
+        "[port.compass]\nprotocol = \"tcm2\"\n[port.imu]\nprotocol = \"imu-card\"\n[port.gps]\nprotocol = "
+        "\"oncore\"\n[port.outputs]\nprotocol = \"described\"\ndevice = \"" NAVCAL_SOURCE_DIR
+        "/share/devices/actuator-outputs.toml\"\n");
+  ASSERT_EQ(run_navcal("replay --config navcald.toml --json run.cap"), 0) << said("err");
+  EXPECT_NE(said("out").find("\"quantity\":\"output8\""), std::string::npos);
+}
+
+TEST_F(SimulateLayout, SameSeedSameBytesAndAnEffectChangesThem) {
+  const std::string layout = std::string(kVehicles) + "micro-auv.toml";
+  const std::string mission = "--mission survey --seconds 20 --seed 3 ";
+  ASSERT_EQ(simulate(layout, mission), 0) << said("err");
+  const std::string first = said("run.cap");
+  ASSERT_EQ(simulate(layout, mission), 0);
+  EXPECT_EQ(said("run.cap"), first);
+  ASSERT_EQ(simulate(layout, mission + "--effect damping@surge=2"), 0) << said("err");
+  EXPECT_NE(said("run.cap"), first);
+}
+
+TEST_F(SimulateLayout, WhatALayoutLacksIsSaid) {
+  EXPECT_EQ(simulate(std::string(kVehicles) + "slocum.toml", "--mission survey"), 3);
+  EXPECT_NE(said("err").find("surge cannot be commanded, which step["), std::string::npos) << said("err");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "run.cap"));
+  EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2.toml", "--mission survey --effect fin_gain=1"), 2);
+  EXPECT_NE(said("err").find("the layout has no surface"), std::string::npos) << said("err");
+  EXPECT_EQ(
+      simulate(std::string(kVehicles) + "bluerov2.toml", "--mission survey --effect thrust_scale@thruster.7=1"),
+      2);
+  EXPECT_NE(said("err").find("there is no thruster.7"), std::string::npos) << said("err");
+  EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2.toml", "--drive x.csv"), 2);
+  EXPECT_NE(said("err").find("a layout takes --mission"), std::string::npos) << said("err");
+}
+
+TEST_F(SimulateLayout, ALayoutThatCannotBeIsRefused) {
+  write("light.toml",
+        "[body]\nmass_kg = 10\ninertia_kg_m2 = [1, 1, 1]\nneutral = true\n[added_mass]\nmatrix = [-20, 1, 1, 1, "
+        "1, 1]\n");
+  EXPECT_EQ(simulate("light.toml", "--mission survey"), 3);
+  EXPECT_NE(said("err").find("light.toml: cannot be simulated"), std::string::npos) << said("err");
+  write("bad.toml", "[body]\nmass = 10\n");
+  EXPECT_EQ(simulate("bad.toml", "--mission survey"), 3);
+  EXPECT_NE(said("err").find("bad.toml:2: body.mass: unknown key"), std::string::npos) << said("err");
+}
+
+TEST_F(SimulateLayout, AVehicleThatTumblesEndsWithAMessage) {
+  ASSERT_EQ(simulate(std::string(kVehicles) + "bluerov2-heavy.toml",
+                     "--mission survey --seconds 100 --effects effects.toml"),
+            3)
+      << "no such file";
+  write("effects.toml",
+        "[buoyancy_shift]\nz_m = 0.2\n[[actuator_reversed]]\nof = \"thruster.5\"\nshare = 1\n"
+        "[[actuator_reversed]]\nof = \"thruster.6\"\nshare = 1\n");
+  EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2-heavy.toml",
+                     "--mission survey --seconds 100 --effects effects.toml"),
+            1);
+  EXPECT_NE(said("err").find("the vehicle"), std::string::npos) << said("err");
+  EXPECT_NE(said("err").find("Nothing was written"), std::string::npos) << said("err");
+}
+
+}  // namespace
+}  // namespace navcal::cli
