@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "identify/data/actuator_inputs.h"
+#include "sim/layout/layout_vehicle.h"
+
+namespace navcal::identify {
+
+/// Position, Euler angles, body velocity and rates: 12 numbers, SI, as sim::Body has them.
+inline constexpr Eigen::Index kStates = 12;
+using StateVector = Eigen::Matrix<double, kStates, 1>;
+
+[[nodiscard]] sim::Body body_of(const StateVector& state);
+[[nodiscard]] StateVector state_of(const sim::Body& body);
+
+/// The motion at one instant. Position and velocity are relative to the water.
+struct MotionPoint {
+  sim::Body body;
+  sim::Vector6 acceleration = sim::Vector6::Zero();  ///< nu'
+};
+
+/// The vehicle of a layout under recorded actuators from one state on, in steps of kReplayStep_s.
+struct ReplayedMotion {
+  static constexpr double kStep_s = 0.02;
+
+  double begin_s = 0;
+  std::vector<MotionPoint> points;  ///< one at the begin of each step, and one at the end of the last
+
+  /// Velocity by cubic interpolation with the accelerations, all else linear.
+  [[nodiscard]] MotionPoint at(double time_s) const;
+  [[nodiscard]] const sim::Body& end() const { return points.back().body; }
+};
+
+/// nullopt: the motion leaves all bounds (no number, pitch beyond 88 degrees, or speeds that no vehicle has).
+/// The actuators are `delay_s` later than recorded.
+[[nodiscard]] std::optional<ReplayedMotion> replay(const sim::LayoutVehicle& vehicle,
+                                                   const ActuatorTrajectory& actuators, double delay_s,
+                                                   double begin_s, std::size_t steps, const StateVector& begin);
+
+}  // namespace navcal::identify
