@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of navcal identify on simulated recordings against its stated errors, and the agreement of fits of the whole, of
-// three minutes and of one minute.
+// Errors of navcal identify on simulated recordings against its stated errors, and the agreement of fits of the
+// whole, of three minutes and of one minute.
 //
 // usage: identify_coverage VEHICLE MINUTES CASES [FIRST_SEED]
 #include <algorithm>
@@ -77,7 +77,8 @@ int main(int argc, char** argv) {
     std::printf("of numbers that the recording tells: %.1f %% of %zu; rms %.3f\n", share(told, 2), told.size(),
                 rms(told));
   if (!differences.empty())
-    std::printf("fits of whole, 3 min, 1 min within 1.2 joint stated errors: %.1f %%; within 1.2 of the larger: %.1f %%\n",
-                share(differences, 1.2), share(sums, 1.2));
+    std::printf(
+        "fits of whole, 3 min, 1 min within 1.2 joint stated errors: %.1f %%; within 1.2 of the larger: %.1f %%\n",
+        share(differences, 1.2), share(sums, 1.2));
   return 0;
 }

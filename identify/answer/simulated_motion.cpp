@@ -69,7 +69,11 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
     if (request.reports_positions) note(recorded, layout, time_s, positions);
     sim::ActuatorValues next = sim::follow(layout, positions, commands, step_s);
     const auto step = vehicle.step(body, sim::mean_of(positions, next), step_s);
-    if (k % per_point == 0) motion.points.push_back({body, step.acceleration});
+    if (k % per_point == 0) {
+      const sim::LayoutVehicle::Held now = vehicle.hold(positions);
+      motion.points.push_back(
+          {body, now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now), {}});
+    }
     const bool is_sane = std::abs(step.body.euler_rad.y()) < 1.5 && step.body.velocity.cwiseAbs().maxCoeff() < 30;
     if (!is_sane) {
       recorded.duration_s = time_s;
@@ -79,6 +83,10 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
     positions = std::move(next);
   }
   if (motion.points.size() < 3) return recorded;
+  recorded.tilt_lag_s = request.tilt_lag_s;
+  recorded.dip_rad = request.dip_rad;
+  motion.points.front().tilt_rad = motion.points.front().body.euler_rad.head<2>();
+  add_lagged_tilt(motion, request.tilt_lag_s);
   std::vector<WindowReading> readings;
   for (const ChannelNoise& channel : request.channels) {
     const double end_s = ReplayedMotion::kStep_s * static_cast<double>(motion.points.size() - 1);

@@ -31,6 +31,7 @@ struct SimulatedMotionRequest {
   std::function<sim::ActuatorValues(double, const sim::Body&)> commands;
   Calibration calibration = Calibration::Zero();  ///< errors of the instruments, and the current
   std::optional<std::uint64_t> seed;              ///< nullopt: no noise
+  double tilt_lag_s = 0, dip_rad = 0;             ///< of the compass
   bool reports_positions = false;  ///< signals are where thrusters and surfaces are, a hundred times a second
 };
 

@@ -86,7 +86,8 @@ void ActuatorTrajectory::set(std::size_t row, const sim::ActuatorValues& positio
     out = std::copy(part->begin(), part->end(), out);
 }
 
-void ActuatorTrajectory::at(double time_s, sim::ActuatorValues& out) const {
+template <class Take>
+void ActuatorTrajectory::interpolate(double time_s, sim::ActuatorValues& out, Take take) const {
   const double place = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(rows_ - 1));
   const std::size_t row = std::min(static_cast<std::size_t>(place), rows_ - 1);
   const double part = place - static_cast<double>(row);
@@ -94,11 +95,21 @@ void ActuatorTrajectory::at(double time_s, sim::ActuatorValues& out) const {
   const double* b = row + 1 < rows_ ? a + columns_ : a;
   for (auto* values : {&out.thrusters, &out.surfaces_rad, &out.ballasts_N, &out.masses_m}) {
     for (double& value : *values) {
-      value = *a + part * (*b - *a);
+      take(value, *a + part * (*b - *a));
       ++a;
       ++b;
     }
   }
+}
+
+void ActuatorTrajectory::at(double time_s, sim::ActuatorValues& out) const {
+  interpolate(time_s, out, [](double& value, double now) { value = now; });
+}
+
+void ActuatorTrajectory::mean(double time_s, double over_s, sim::ActuatorValues& out) const {
+  interpolate(time_s, out, [](double& value, double now) { value = now / 4; });
+  interpolate(time_s + over_s / 2, out, [](double& value, double now) { value += now / 2; });
+  interpolate(time_s + over_s, out, [](double& value, double now) { value += now / 4; });
 }
 
 std::vector<std::string> signals_of_thruster(const config::Layout& layout, std::size_t thruster) {

@@ -21,9 +21,14 @@ class ActuatorTrajectory {
   void set(std::size_t row, const sim::ActuatorValues& positions);
   /// Writes the positions at a time into `out`, which has the layout's sizes; before and after the grid its ends.
   void at(double time_s, sim::ActuatorValues& out) const;
+  /// Means over the time from `time_s` on, exact where the grid is as fine as half of it.
+  void mean(double time_s, double over_s, sim::ActuatorValues& out) const;
   [[nodiscard]] double end_s() const { return kStep_s * static_cast<double>(rows_ > 0 ? rows_ - 1 : 0); }
 
  private:
+  template <class Take>
+  void interpolate(double time_s, sim::ActuatorValues& out, Take take) const;
+
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<double> values_;
 };

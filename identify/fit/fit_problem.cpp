@@ -13,28 +13,26 @@
 namespace navcal::identify {
 namespace {
 
-/// Standard deviations of what disturbs the vehicle during a window, and of the first state about its guess.
-StateVector tie_stds() {
-  StateVector stds;
-  stds << 0.05, 0.05, 0.01, 0.003, 0.003, 0.003, 0.01, 0.01, 0.01, 0.005, 0.005, 0.005;
-  return stds;
+StateVector states(double position_m, double depth_m, double angle_rad, double velocity_m_s, double rate_rad_s) {
+  StateVector all;
+  all << position_m, position_m, depth_m, Eigen::Vector3d::Constant(angle_rad),
+      Eigen::Vector3d::Constant(velocity_m_s), Eigen::Vector3d::Constant(rate_rad_s),
+      Eigen::Vector2d::Constant(angle_rad);
+  return all;
 }
-StateVector first_state_stds() {
-  StateVector stds;
-  stds << 100, 100, 5, 0.2, 0.2, 3, 1, 1, 1, 0.5, 0.5, 0.5;
-  return stds;
-}
-StateVector state_steps() {
-  StateVector steps;
-  steps << 1, 1, 1, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4;
-  return steps;
-}
+
+/// Standard deviations of what disturbs the vehicle in a second.
+StateVector disturbances() { return states(0.015, 0.003, 0.001, 0.003, 0.002); }
+StateVector first_state_stds() { return states(100, 5, 0.3, 1, 0.5); }
+StateVector state_steps() { return states(1, 1, 1e-4, 1e-4, 1e-4); }
 
 /// Step of a finite difference, as part of the prior's standard deviation.
 constexpr double kStepPart = 1e-3;
 constexpr double kDelayStep_s = 0.005;
 /// Nuisances beside the delay change the prediction only.
 constexpr Eigen::Index kDelay = static_cast<Eigen::Index>(Nuisance::actuator_delay);
+
+StateVector tie_stds(const Window& window) { return std::sqrt(window.end_s() - window.begin_s) * disturbances(); }
 
 double delay_of(const Calibration& calibration) { return calibration[kDelay]; }
 
@@ -101,8 +99,22 @@ Unknowns FitProblem::initial() const {
   const sim::LayoutVehicle vehicle(layout_);
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     unknowns.calibrations.emplace_back(Calibration::Zero());
-    unknowns.states.push_back(
-        guessed_states(recordings_[r], windows_[r], vehicle, inputs_[r].trajectory(layout_)));
+    const ActuatorTrajectory actuators = inputs_[r].trajectory(layout_);
+    unknowns.states.push_back(guessed_states(recordings_[r], windows_[r], vehicle, actuators));
+    for (std::size_t k = 0; k < windows_[r].size(); ++k) {
+      const Window& window = windows_[r][k];
+      StateVector& state = unknowns.states[r][k];
+      if (replay(vehicle, actuators, 0, window.begin_s, window.steps, state, recordings_[r].tilt_lag_s)) continue;
+      state.segment<6>(6).setZero();
+      if (replay(vehicle, actuators, 0, window.begin_s, window.steps, state, recordings_[r].tilt_lag_s)) continue;
+      throw std::invalid_argument(
+          fmt::format("{}: from {:.1f} s on the vehicle of the layout leaves all bounds within a window of {:.1f} "
+                      "s: pitch beyond "
+                      "88 degrees or speeds beyond 50 m/s. Shorter windows help where it is unstable; navcal "
+                      "vehicle check shows "
+                      "what is odd about it",
+                      recordings_[r].name, window.begin_s, window.end_s() - window.begin_s));
+    }
   }
   return unknowns;
 }
@@ -121,8 +133,8 @@ std::optional<FitProblem::Replayed> FitProblem::replayed(const sim::LayoutVehicl
                                                          std::size_t window) const {
   const Window& of = windows_[recording][window];
   const Calibration& calibration = unknowns.calibrations[recording];
-  const auto motion =
-      replay(vehicle, actuators, delay_of(calibration), of.begin_s, of.steps, unknowns.states[recording][window]);
+  const auto motion = replay(vehicle, actuators, delay_of(calibration), of.begin_s, of.steps,
+                             unknowns.states[recording][window], recordings_[recording].tilt_lag_s);
   if (!motion) return std::nullopt;
   const PredictedReadings predicted(recordings_[recording]);
   Replayed out;
@@ -131,7 +143,7 @@ std::optional<FitProblem::Replayed> FitProblem::replayed(const sim::LayoutVehicl
   if (window + 1 < windows_[recording].size()) {
     out.tie = end_of(*motion, calibration) - unknowns.states[recording][window + 1];
     out.tie[5] = base::wrapped(out.tie[5]);
-    out.tie = out.tie.cwiseQuotient(tie_stds());
+    out.tie = out.tie.cwiseQuotient(tie_stds(of));
   }
   Eigen::MatrixXd white = out.residuals;
   noise_.whiten(of.readings, white);
@@ -215,14 +227,14 @@ WindowEquations FitProblem::window_equations(const Vehicles& vehicles, const Unk
   const ActuatorTrajectory& actuators = vehicles.actuators[recording];
   const auto run = [&](const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& where, double delay_s,
                        const StateVector& state) {
-    auto motion = replay(vehicle, where, delay_s, of.begin_s, of.steps, state);
+    auto motion = replay(vehicle, where, delay_s, of.begin_s, of.steps, state, recordings_[recording].tilt_lag_s);
     if (!motion) throw std::runtime_error("a replay leaves all bounds");
     return std::move(*motion);
   };
   const ReplayedMotion nominal = run(vehicles.nominal, actuators, delay_of(calibration), begin);
   const Eigen::VectorXd at_nominal = predicted(nominal, of.readings, calibration);
   const StateVector end = end_of(nominal, calibration);
-  // Readings above, the twelve ties below.
+  // Readings above, the ties below.
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows + kStates, at_next + kStates);
   const auto fill = [&](Eigen::Index column, const ReplayedMotion& motion, const Calibration& with, double step) {
     const Eigen::VectorXd difference =
@@ -262,7 +274,7 @@ WindowEquations FitProblem::window_equations(const Vehicles& vehicles, const Unk
   if (window + 1 < windows_[recording].size()) {
     StateVector tie = end - unknowns.states[recording][window + 1];
     tie[5] = base::wrapped(tie[5]);
-    const StateVector stds = tie_stds();
+    const StateVector stds = tie_stds(of);
     jacobian.bottomRows<kStates>() = stds.cwiseInverse().asDiagonal() * jacobian.bottomRows<kStates>();
     jacobian.block<kStates, kStates>(rows, at_next).diagonal() = -stds.cwiseInverse();
     right.bottomRows<kStates>() = -tie.cwiseQuotient(stds);

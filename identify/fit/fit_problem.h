@@ -22,15 +22,15 @@ struct Unknowns {
 };
 
 struct FitSettings {
-  double window_s = 10;
+  double window_s = 2;
   unsigned threads = 2;
 };
 
 /// Whitened residuals of recordings as a function of all unknowns (multiple shooting: Bock 1981; Betts, Practical
 /// Methods for Optimal Control, 2010, section 3.4). The recordings are cut into windows, and each is replayed from
 /// a state of its own. The states of neighbouring windows are tied: the state at a window's end is that at the
-/// begin of the next up to normal deviates of kTie, which stand for what disturbs the vehicle during a window. So
-/// a replay cannot diverge over more than a window, and the windows still know of one another.
+/// begin of the next up to normal deviates of small ones, which stand for what disturbs the vehicle during a
+/// window. So a replay cannot diverge over more than a window, and the windows still know of one another.
 ///
 /// Minimised: |whitened residuals|^2 + |ties|^2 + |parameters and nuisances about their priors|^2.
 class FitProblem {
@@ -73,7 +73,7 @@ class FitProblem {
   struct Vehicles;
   struct Replayed {
     Eigen::VectorXd residuals;  ///< not whitened
-    StateVector tie;            ///< end less the next begin, over kTie
+    StateVector tie;            ///< end less the next begin, over its standard deviation
     double cost = 0;            ///< of residuals and tie
   };
   [[nodiscard]] std::vector<ActuatorTrajectory> trajectories(const config::Layout& layout) const;

@@ -37,17 +37,16 @@ std::vector<Window> windows_of(const RecordedMotion& motion, double window_s) {
   }
   const auto full = static_cast<std::size_t>(std::lround(window_s / ReplayedMotion::kStep_s));
   std::vector<Window> windows;
-  double begin_s = first_s + kRunIn_s;
+  // On the grid of the replay, so that it is that of the actuators too.
+  double begin_s = std::ceil((first_s + kRunIn_s) / ReplayedMotion::kStep_s) * ReplayedMotion::kStep_s;
   while (begin_s < motion.duration_s) {
     const auto left = static_cast<std::size_t>((motion.duration_s - begin_s) / ReplayedMotion::kStep_s);
     if (left < full / 2 || left < 2) break;
     Window window{begin_s, std::min(full, left), {}};
     for (std::size_t c = 0; c < kChannels; ++c) {
       const auto channel = static_cast<Channel>(c);
-      const bool lags = channel == Channel::roll || channel == Channel::pitch || channel == Channel::heading;
-      const double from_s = begin_s + (lags ? PredictedReadings::kLags * motion.tilt_lag_s : 0);
       for (const Reading& reading : motion.channels[c]) {
-        if (reading.time_s >= from_s && reading.time_s < window.end_s() && reading.std > 0)
+        if (reading.time_s >= begin_s && reading.time_s < window.end_s() && reading.std > 0)
           window.readings.push_back({channel, reading.time_s, reading.value, reading.std});
       }
     }
@@ -82,11 +81,13 @@ std::vector<StateVector> guessed_states(const RecordedMotion& motion, const std:
       if (!set(6 + i, after(Channel::water_x), kNear_s)) set(6 + i, after(Channel::bottom_x), kNear_s);
       set(9 + i, after(Channel::rate_x), kNear_s);
     }
+    now.tail<2>() = now.segment<2>(3);
     states.push_back(now);
-    if (const auto replayed = replay(vehicle, actuators, 0, window.begin_s, window.steps, now)) {
+    if (const auto replayed =
+            replay(vehicle, actuators, 0, window.begin_s, window.steps, now, motion.tilt_lag_s)) {
       now = state_of(replayed->end());
     } else {
-      now.tail<6>().setZero();
+      now.segment<6>(6).setZero();
     }
   }
   return states;

@@ -18,28 +18,6 @@ Eigen::Matrix3d world_from_body(const Eigen::Vector3d& euler_rad) {
       .toRotationMatrix();
 }
 
-/// Roll and pitch through a first-order lag at each point of the motion. The lag's state at the begin is that of a
-/// steady turn.
-std::vector<Eigen::Vector2d> lagged_tilt(const ReplayedMotion& motion, double lag_s) {
-  std::vector<Eigen::Vector2d> tilts;
-  tilts.reserve(motion.points.size());
-  const double part = -std::expm1(-ReplayedMotion::kStep_s / lag_s);
-  for (const MotionPoint& point : motion.points) {
-    const Eigen::Vector2d now = point.body.euler_rad.head<2>();
-    if (tilts.empty()) {
-      const Eigen::Vector2d next = motion.points[1].body.euler_rad.head<2>();
-      tilts.emplace_back(now - lag_s / ReplayedMotion::kStep_s * (next - now));
-      continue;
-    }
-    // Exactly, for an input that is linear over the step.
-    const Eigen::Vector2d before = motion.points[tilts.size() - 1].body.euler_rad.head<2>();
-    const Eigen::Vector2d slope_lag = lag_s / ReplayedMotion::kStep_s * (now - before);
-    const Eigen::Vector2d last = tilts.back();
-    tilts.emplace_back(now - slope_lag + (1 - part) * (last - before + slope_lag));
-  }
-  return tilts;
-}
-
 /// Heading of a compass that levels its field by a tilt of its own.
 double levelled_heading(const Eigen::Vector3d& euler_rad, const Eigen::Vector2d& tilt_rad, double dip_rad) {
   const Eigen::Vector3d field =
@@ -54,8 +32,7 @@ double levelled_heading(const Eigen::Vector3d& euler_rad, const Eigen::Vector2d&
 struct Instant {
   MotionPoint point;
   Eigen::Matrix3d R;
-  Eigen::Vector3d v, omega, current;
-  Eigen::Vector2d tilt;
+  Eigen::Vector3d v, omega;
 };
 
 double component(Channel channel, Channel first, const Eigen::Vector3d& vector) {
@@ -71,8 +48,6 @@ Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
   const auto vector = [&](Nuisance first) {
     return Eigen::Vector3d(calibration.segment<3>(static_cast<Eigen::Index>(first)));
   };
-  const std::vector<Eigen::Vector2d> tilts =
-      recorded_.tilt_lag_s > 0 ? lagged_tilt(motion, recorded_.tilt_lag_s) : std::vector<Eigen::Vector2d>{};
   const Eigen::Vector3d current(value(Nuisance::current_north), value(Nuisance::current_east), 0);
   const Eigen::Vector3d imu_turn = vector(Nuisance::imu_turn_x);
   const Eigen::Matrix3d doppler_from_body =
@@ -83,13 +58,6 @@ Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
     now.R = world_from_body(now.point.body.euler_rad);
     now.v = now.point.body.velocity.head<3>();
     now.omega = now.point.body.velocity.tail<3>();
-    now.tilt = now.point.body.euler_rad.head<2>();
-    if (!tilts.empty()) {
-      const double place = std::clamp((time_s - motion.begin_s) / ReplayedMotion::kStep_s, 0.0,
-                                      static_cast<double>(tilts.size() - 1));
-      const std::size_t i = std::min(static_cast<std::size_t>(place), tilts.size() - 2);
-      now.tilt = tilts[i] + (place - static_cast<double>(i)) * (tilts[i + 1] - tilts[i]);
-    }
     return now;
   };
   const auto predict = [&](Channel channel, double time_s, const Instant& now) -> double {
@@ -118,15 +86,16 @@ Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
                          force - imu_turn.cross(force) + vector(Nuisance::force_bias_x));
       }
       case Channel::roll:
-        return now.tilt.x() + value(Nuisance::roll_offset);
+        return now.point.tilt_rad.x() + value(Nuisance::roll_offset);
       case Channel::pitch:
-        return now.tilt.y() + value(Nuisance::pitch_offset);
+        return now.point.tilt_rad.y() + value(Nuisance::pitch_offset);
       case Channel::heading: {
         Eigen::Vector3d euler_rad = body.euler_rad;
         euler_rad.z() += value(Nuisance::heading_offset);
         const double heading =
-            tilts.empty() ? euler_rad.z()
-                          : levelled_heading(euler_rad, now.tilt, recorded_.dip_rad + value(Nuisance::dip));
+            recorded_.tilt_lag_s <= 0
+                ? euler_rad.z()
+                : levelled_heading(euler_rad, now.point.tilt_rad, recorded_.dip_rad + value(Nuisance::dip));
         return heading + value(Nuisance::heading_sine) * std::sin(heading) +
                value(Nuisance::heading_cosine) * std::cos(heading);
       }

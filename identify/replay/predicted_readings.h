@@ -29,12 +29,10 @@ class PredictedReadings {
  public:
   explicit PredictedReadings(const RecordedMotion& recorded) : recorded_(recorded) {}
 
-  /// One number for each reading; the readings lie within the motion. Readings of tilt within kLags lags of the
-  /// begin are wrong, because the lag's state there is not known.
+  /// One number for each reading; the readings lie within the motion.
   [[nodiscard]] Eigen::VectorXd operator()(const ReplayedMotion& motion,
                                            const std::vector<WindowReading>& readings,
                                            const Calibration& calibration) const;
-  static constexpr double kLags = 4;
 
  private:
   const RecordedMotion& recorded_;

@@ -22,12 +22,34 @@ bool is_sane(const sim::Body& body) {
 
 }  // namespace
 
-sim::Body body_of(const StateVector& state) { return {state.segment<3>(0), state.segment<3>(3), state.tail<6>()}; }
+MotionPoint point_of(const StateVector& state) {
+  MotionPoint point;
+  point.body = {state.segment<3>(0), state.segment<3>(3), state.segment<6>(6)};
+  point.tilt_rad = state.tail<2>();
+  return point;
+}
 
-StateVector state_of(const sim::Body& body) {
+StateVector state_of(const MotionPoint& point) {
   StateVector state;
-  state << body.position_m, body.euler_rad, body.velocity;
+  state << point.body.position_m, point.body.euler_rad, point.body.velocity, point.tilt_rad;
   return state;
+}
+
+void add_lagged_tilt(ReplayedMotion& motion, double lag_s) {
+  for (std::size_t k = 0; k < motion.points.size(); ++k) {
+    MotionPoint& point = motion.points[k];
+    const Eigen::Vector2d now = point.body.euler_rad.head<2>();
+    if (lag_s <= 0) {
+      point.tilt_rad = now;
+    } else if (k > 0) {
+      // Exactly, for an input that is linear over the step.
+      const MotionPoint& before = motion.points[k - 1];
+      const Eigen::Vector2d then = before.body.euler_rad.head<2>();
+      const Eigen::Vector2d behind = lag_s / ReplayedMotion::kStep_s * (now - then);
+      point.tilt_rad =
+          now - behind + std::exp(-ReplayedMotion::kStep_s / lag_s) * (before.tilt_rad - then + behind);
+    }
+  }
 }
 
 MotionPoint ReplayedMotion::at(double time_s) const {
@@ -42,28 +64,34 @@ MotionPoint ReplayedMotion::at(double time_s) const {
                         s * (1 - s) * (1 - s) * kStep_s * a.acceleration + s * s * (3 - 2 * s) * b.body.velocity +
                         s * s * (s - 1) * kStep_s * b.acceleration;
   point.acceleration = a.acceleration + s * (b.acceleration - a.acceleration);
+  point.tilt_rad = a.tilt_rad + s * (b.tilt_rad - a.tilt_rad);
   return point;
 }
 
 std::optional<ReplayedMotion> replay(const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& actuators,
-                                     double delay_s, double begin_s, std::size_t steps, const StateVector& begin) {
+                                     double delay_s, double begin_s, std::size_t steps, const StateVector& begin,
+                                     double tilt_lag_s) {
   ReplayedMotion motion{begin_s, {}};
   motion.points.reserve(steps + 1);
   sim::ActuatorValues held = sim::ActuatorValues::neutral(vehicle.layout());
-  sim::Body body = body_of(begin);
+  sim::Body body = point_of(begin).body;
+  const auto add_point = [&](double time_s) {
+    actuators.at(time_s - delay_s, held);
+    const sim::LayoutVehicle::Held now = vehicle.hold(held);
+    motion.points.push_back(
+        {body, now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now), {}});
+  };
   for (std::size_t k = 0; k < steps; ++k) {
     if (!is_sane(body)) return std::nullopt;
     const double time_s = begin_s + ReplayedMotion::kStep_s * static_cast<double>(k);
-    actuators.at(time_s + ReplayedMotion::kStep_s / 2 - delay_s, held);
-    const auto step = vehicle.step(body, held, ReplayedMotion::kStep_s);
-    motion.points.push_back({body, step.acceleration});
-    body = step.body;
+    add_point(time_s);
+    actuators.mean(time_s - delay_s, ReplayedMotion::kStep_s, held);
+    body = vehicle.step(body, held, ReplayedMotion::kStep_s).body;
   }
   if (!is_sane(body)) return std::nullopt;
-  actuators.at(begin_s + ReplayedMotion::kStep_s * static_cast<double>(steps) - delay_s, held);
-  const sim::LayoutVehicle::Held at_end = vehicle.hold(held);
-  motion.points.push_back(
-      {body, at_end.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), at_end)});
+  add_point(begin_s + ReplayedMotion::kStep_s * static_cast<double>(steps));
+  motion.points.front().tilt_rad = begin.tail<2>();
+  add_lagged_tilt(motion, tilt_lag_s);
   return motion;
 }
 

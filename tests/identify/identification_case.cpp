@@ -12,9 +12,9 @@
 namespace navcal::identify {
 namespace {
 
-const std::vector<ChannelNoise> kInertial{
-    {Channel::rate_x, 20, 0.002},  {Channel::rate_y, 20, 0.002},  {Channel::rate_z, 20, 0.002},
-    {Channel::force_x, 20, 0.02}, {Channel::force_y, 20, 0.02}, {Channel::force_z, 20, 0.02}};
+const std::vector<ChannelNoise> kInertial{{Channel::rate_x, 20, 0.002}, {Channel::rate_y, 20, 0.002},
+                                          {Channel::rate_z, 20, 0.002}, {Channel::force_x, 20, 0.02},
+                                          {Channel::force_y, 20, 0.02}, {Channel::force_z, 20, 0.02}};
 const std::vector<ChannelNoise> kAttitude{
     {Channel::roll, 10, 0.003}, {Channel::pitch, 10, 0.003}, {Channel::heading, 10, 0.01}};
 const std::vector<ChannelNoise> kDoppler{
@@ -80,8 +80,7 @@ VehicleCase micro() {
 }
 
 VehicleCase reference() {
-  VehicleCase of{"reference",
-                 shipped("reference"),
+  VehicleCase of{"reference", shipped("reference"),
                  joined({{{Channel::rate_x, 20, 0.0018},
                           {Channel::rate_y, 20, 0.0018},
                           {Channel::rate_z, 20, 0.0018},
@@ -171,8 +170,8 @@ RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth
       const double most =
           matrix.row(i).cwiseAbs().dot(limits.high.cwiseMin(-limits.low).cwiseMax(0.3 * limits.high).transpose());
       double part = 0.35 * (*wanted)[i];
-      if (i == 3) part = 0.2 * (*wanted)[i] - 0.8 * body.euler_rad.x() - 0.2 * body.velocity[3];
-      if (i == 4) part = 0.3 * (*wanted)[i] - 1.5 * body.euler_rad.y() - 0.3 * body.velocity[4];
+      if (i == 3) part = 0.1 * (*wanted)[i] - 0.8 * body.euler_rad.x() - 0.2 * body.velocity[3];
+      if (i == 4) part = 0.15 * (*wanted)[i] - 1.5 * body.euler_rad.y() - 0.3 * body.velocity[4];
       if (i == 2) part += 0.05 * (5 - body.position_m.z());
       if (i == 4 && has_fins) part -= 0.1 * (5 - body.position_m.z());
       allocation.wanted[i] = std::clamp(part, -0.9, 0.9) * most;
