@@ -13,10 +13,12 @@ namespace {
 
 constexpr double kOrderEvery_s = 0.1;
 
-void note(RecordedMotion& motion, const config::Layout& layout, double time_s, const sim::ActuatorValues& values) {
+/// Of two signals of a shaft the first is its position, the last its command.
+void note(RecordedMotion& motion, const config::Layout& layout, double time_s, const sim::ActuatorValues& values,
+          bool are_positions) {
   const auto put = [&](const std::vector<std::string>& names, double value) {
     if (names.empty()) return;
-    Signal& signal = motion.signals[names.back()];
+    Signal& signal = motion.signals[are_positions ? names.front() : names.back()];
     signal.times_s.push_back(time_s);
     signal.values.push_back(value);
   };
@@ -64,15 +66,17 @@ RecordedMotion simulated_motion(const config::Layout& layout, const SimulatedMot
     const double time_s = step_s * static_cast<double>(k);
     if (k % per_order == 0) {
       commands = request.commands(time_s, body);
-      if (!request.reports_positions) note(recorded, layout, time_s, commands);
+      if (!request.reports_positions) note(recorded, layout, time_s, commands, false);
     }
-    if (request.reports_positions) note(recorded, layout, time_s, positions);
+    if (request.reports_positions) note(recorded, layout, time_s, positions, true);
     sim::ActuatorValues next = sim::follow(layout, positions, commands, step_s);
     const auto step = vehicle.step(body, sim::mean_of(positions, next), step_s);
     if (k % per_point == 0) {
       const sim::LayoutVehicle::Held now = vehicle.hold(positions);
-      motion.points.push_back(
-          {body, now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now), {}});
+      MotionPoint point;
+      point.body = body;
+      point.acceleration = now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now);
+      motion.points.push_back(point);
     }
     const bool is_sane = std::abs(step.body.euler_rad.y()) < 1.5 && step.body.velocity.cwiseAbs().maxCoeff() < 30;
     if (!is_sane) {

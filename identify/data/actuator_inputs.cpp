@@ -186,9 +186,16 @@ ActuatorTrajectory ActuatorInputs::trajectory(const config::Layout& layout) cons
   // Where a card reported all fins: angles between its reports by the servo's lag
   // (gap/actuators/actuator_track.h).
   std::optional<gap::ActuatorTrack> track;
+  constexpr double kCoarse_s = 0.03;  // reports that come faster need no model between them
+  const auto is_coarse = [](const Signal& signal) {
+    return signal.times_s.size() > 1 &&
+           (signal.times_s.back() - signal.times_s.front()) / static_cast<double>(signal.times_s.size() - 1) >
+               kCoarse_s;
+  };
   const bool reports_fins =
-      surfaces_.size() == 3 && std::all_of(surfaces_.begin(), surfaces_.end(), [&](auto& in) {
-        return in.is_position && in.signal->times_s == surfaces_.front().signal->times_s;
+      surfaces_.size() == 3 && std::all_of(surfaces_.begin(), surfaces_.end(), [&](const Input& input) {
+        return input.is_position && is_coarse(*input.signal) &&
+               input.signal->times_s == surfaces_.front().signal->times_s;
       });
   if (reports_fins) {
     std::vector<gap::MotorReading> readings;

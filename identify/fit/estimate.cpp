@@ -111,8 +111,9 @@ void add_covariance(const FitProblem& problem, const FitProblem::Linearised& lin
   // In the directions of the estimate: trace(A^-1 B) over trace(A^-1 H), which counts what the data determine.
   const double expected = model.cwiseProduct(data.transpose()).sum();
   const double found = model.cwiseProduct(empirical.transpose()).sum();
-  // The fit has taken its unknowns' share out of the scores.
-  const double left = std::max(1 - expected / std::max(windows, 1.0), 0.25);
+  // The fit brings the sum of the scores to zero, which takes out as much as one window of all, and of its
+  // neighbours.
+  const double left = std::max(1 - static_cast<double>(1 + kLag) / std::max(windows, 1.0), 0.5);
   estimate.model_error = expected > 0 ? std::max(found / (expected * left), 1.0) : 1;
   const double weight = windows / (windows + kWindowsPerUnknown * std::max(expected, 1.0));
   const Eigen::MatrixXd score = weight * empirical + (1 - weight) * estimate.model_error * data + prior;

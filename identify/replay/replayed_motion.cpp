@@ -78,8 +78,10 @@ std::optional<ReplayedMotion> replay(const sim::LayoutVehicle& vehicle, const Ac
   const auto add_point = [&](double time_s) {
     actuators.at(time_s - delay_s, held);
     const sim::LayoutVehicle::Held now = vehicle.hold(held);
-    motion.points.push_back(
-        {body, now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now), {}});
+    MotionPoint point;
+    point.body = body;
+    point.acceleration = now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now);
+    motion.points.push_back(point);
   };
   for (std::size_t k = 0; k < steps; ++k) {
     if (!is_sane(body)) return std::nullopt;

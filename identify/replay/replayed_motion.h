@@ -27,7 +27,7 @@ struct MotionPoint {
 
 /// The vehicle of a layout under recorded actuators from one state on, in steps of kReplayStep_s.
 struct ReplayedMotion {
-  static constexpr double kStep_s = 0.02;
+  static constexpr double kStep_s = 0.01;
 
   double begin_s = 0;
   std::vector<MotionPoint> points;  ///< one at the begin of each step, and one at the end of the last
