@@ -14,6 +14,7 @@
 #include "instruments/compass_error.h"
 #include "instruments/samples.h"
 #include "pipeline/pipeline.h"
+#include "protocols/frame.h"
 #include "record/port_matching.h"
 #include "record/recording.h"
 

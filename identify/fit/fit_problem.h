@@ -64,6 +64,7 @@ class FitProblem {
   void fit_noise(const Unknowns& unknowns);
   [[nodiscard]] const NoiseModel& noise() const { return noise_; }
   [[nodiscard]] const std::vector<std::vector<Window>>& windows() const { return windows_; }
+  [[nodiscard]] const FitSettings& settings() const { return settings_; }
   [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
   [[nodiscard]] const config::Layout& layout() const { return layout_; }
   [[nodiscard]] const std::vector<RecordedMotion>& recordings() const { return recordings_; }
