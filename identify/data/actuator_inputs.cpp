@@ -186,16 +186,10 @@ ActuatorTrajectory ActuatorInputs::trajectory(const config::Layout& layout) cons
   // Where a card reported all fins: angles between its reports by the servo's lag
   // (gap/actuators/actuator_track.h).
   std::optional<gap::ActuatorTrack> track;
-  constexpr double kCoarse_s = 0.03;  // reports that come faster need no model between them
-  const auto is_coarse = [](const Signal& signal) {
-    return signal.times_s.size() > 1 &&
-           (signal.times_s.back() - signal.times_s.front()) / static_cast<double>(signal.times_s.size() - 1) >
-               kCoarse_s;
-  };
   const bool reports_fins =
-      surfaces_.size() == 3 && std::all_of(surfaces_.begin(), surfaces_.end(), [&](const Input& input) {
-        return input.is_position && is_coarse(*input.signal) &&
-               input.signal->times_s == surfaces_.front().signal->times_s;
+      !motion_.order_times_s.empty() && surfaces_.size() == 3 &&
+      std::all_of(surfaces_.begin(), surfaces_.end(), [&](const Input& input) {
+        return input.is_position && input.signal->times_s == surfaces_.front().signal->times_s;
       });
   if (reports_fins) {
     std::vector<gap::MotorReading> readings;
@@ -205,7 +199,7 @@ ActuatorTrajectory ActuatorInputs::trajectory(const config::Layout& layout) cons
                           0,
                           {fins[0].signal->values[i], fins[1].signal->values[i], fins[2].signal->values[i]},
                           0});
-    track.emplace(readings, std::span<const double>{}, std::span<const gap::Vector3>{}, layout.surfaces[0].lag_s,
+    track.emplace(readings, motion_.order_times_s, motion_.ordered_fins_rad, layout.surfaces[0].lag_s,
                   devices::MotorModel{}, motion_.duration_s);
   }
   std::vector<std::size_t> at(thrusters_.size() + surfaces_.size() + ballasts_.size() + masses_.size());

@@ -15,6 +15,7 @@
 #include "instruments/samples.h"
 #include "pipeline/pipeline.h"
 #include "protocols/frame.h"
+#include "protocols/motor_card.h"
 #include "record/port_matching.h"
 #include "record/recording.h"
 
@@ -247,11 +248,22 @@ RecordedMotion load_motion(const std::filesystem::path& file, const std::functio
   pipeline::Pipeline pipeline(settings);
   MotionGatherer gatherer(settings, model);
   std::optional<std::int64_t> begin_ns;
+  std::vector<std::int64_t> orders_ns;
+  std::vector<std::array<double, 3>> ordered_fins_rad;
+  std::optional<protocols::motor_card::Command> last_order;
   while (const auto entry = recording->next()) {
     if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
       if (!begin_ns) begin_ns = raw->time_ns;
       if (raw->direction == record::Direction::received) {
         if (const auto port = ports[raw->port]) pipeline.bytes(*port, raw->time_ns, raw->bytes, gatherer);
+      } else if (const auto order = protocols::motor_card::decode_command(raw->bytes);
+                 order && order != last_order) {
+        // A repeated order moves nothing.
+        orders_ns.push_back(raw->time_ns);
+        ordered_fins_rad.push_back({order->fins_deg[0] * base::kRadiansPerDegree,
+                                    order->fins_deg[1] * base::kRadiansPerDegree,
+                                    order->fins_deg[2] * base::kRadiansPerDegree});
+        last_order = order;
       }
     } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
       pipeline.set_mapping(change->mapping, gatherer);
@@ -260,6 +272,9 @@ RecordedMotion load_motion(const std::filesystem::path& file, const std::functio
   }
   RecordedMotion motion = gatherer.take(begin_ns.value_or(0));
   motion.name = file.string();
+  for (const std::int64_t time_ns : orders_ns)
+    motion.order_times_s.push_back(static_cast<double>(time_ns - *begin_ns) * 1e-9);
+  motion.ordered_fins_rad = std::move(ordered_fins_rad);
   for (const auto& port : ports.missing())
     motion.remarks.push_back(fmt::format("{}: port {} is not in the configuration: left out", motion.name, port));
   for (const auto& remark : recording->remarks()) motion.remarks.push_back(motion.name + ": " + remark);

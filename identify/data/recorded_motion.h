@@ -37,6 +37,9 @@ struct RecordedMotion {
   /// "output1".
   std::map<std::string, Signal> signals;
   bool fins_are_reported = false;  ///< by a motor card: where the servos are; else where they were told to be
+  /// New commands to a motor card, as they were sent: times and angles of its fins. Empty: not recorded.
+  std::vector<double> order_times_s;
+  std::vector<std::array<double, 3>> ordered_fins_rad;
   double duration_s = 0;
 
   // Places of the instruments in the body, m, by the configuration.
