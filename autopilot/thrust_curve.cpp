@@ -21,7 +21,8 @@ Thrust propeller_thrust(const config::LayoutThruster& thruster, double density_k
   const double sign = n > 0 ? 1 : -1;
   const double J = std::max(sign * advance_m_s, 0.0) / (sign * n * D);
   const double KT = std::max(polynomial(thruster.KT, J), 0.0);
-  const double scale_N = density_kg_m3 * n * n * D * D * D * D * (n > 0 ? 1 : -thruster.reverse_efficiency);
+  const double scale_N =
+      thruster.force_scale * density_kg_m3 * n * n * D * D * D * D * (n > 0 ? 1 : -thruster.reverse_efficiency);
   return {scale_N * KT, thruster.torque_share * scale_N * D * polynomial(thruster.KQ, J)};
 }
 
@@ -29,11 +30,11 @@ double at_rest_N(const config::LayoutThruster& thruster, double command) {
   const auto& commands = thruster.table_command;
   const auto& forces = thruster.table_force_N;
   const auto above = std::upper_bound(commands.begin(), commands.end(), command);
-  if (above == commands.begin()) return forces.front();
-  if (above == commands.end()) return forces.back();
+  if (above == commands.begin()) return thruster.force_scale * forces.front();
+  if (above == commands.end()) return thruster.force_scale * forces.back();
   const auto i = static_cast<std::size_t>(above - commands.begin());
   const double part = (command - commands[i - 1]) / (commands[i] - commands[i - 1]);
-  return forces[i - 1] + part * (forces[i] - forces[i - 1]);
+  return thruster.force_scale * (forces[i - 1] + part * (forces[i] - forces[i - 1]));
 }
 
 Thrust table_thrust(const config::LayoutThruster& thruster, double command, double advance_m_s) {

@@ -17,6 +17,7 @@ void add_doctor(CLI::App& app);
 void add_emulate(CLI::App& app);
 void add_field(CLI::App& app);
 void add_gap(CLI::App& app);
+void add_identify(CLI::App& app);
 void add_log(CLI::App& app);
 void add_noise(CLI::App& app);
 void add_pilot(CLI::App& app);

@@ -27,7 +27,14 @@ struct LayoutBody {
                                           ///< as they stand in the matrix (I_xy = -integral x y dm)
   double buoyancy_N = 0;                  ///< with ballast at zero
   LayoutVector size_m{};                  ///< length, width, height; zero: not stated
+  bool is_neutral = false;                ///< the file says so: buoyancy_N is the weight, whatever the mass
+  double volume_m3 = 0;  ///< above zero: the file states it, and buoyancy_N follows from it and the density
 
+  /// Buoyancy by mass or volume, where the file states it so.
+  void set_buoyancy(double density_kg_m3) {
+    if (is_neutral) buoyancy_N = mass_kg * base::kGravity_m_s2;
+    if (volume_m3 > 0) buoyancy_N = density_kg_m3 * base::kGravity_m_s2 * volume_m3;
+  }
   bool operator==(const LayoutBody&) const = default;
 };
 
@@ -104,6 +111,7 @@ enum class CommandUnit { rpm, percent, microseconds };
 /// command.
 struct LayoutThruster {
   std::string name;
+  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};
   LayoutVector direction{1, 0, 0};  ///< as in the file; the model takes its unit vector
   CommandUnit unit = CommandUnit::rpm;
@@ -116,6 +124,7 @@ struct LayoutThruster {
   double advance_loss_sqrtN_s_m = 0;  ///< force falls by this times sqrt(|force at rest|) and the advance speed
   double torque_m = 0;                ///< torque over thrust
   // Both.
+  double force_scale = 1;         ///< force and torque over those of the table or of KT and KQ
   double reverse_efficiency = 1;  ///< reverse thrust of a propeller over forward thrust at the same shaft speed
   double torque_share = 1;        ///< share of the torque that acts on the hull
   bool is_left_handed = false;    ///< the reaction turns the hull about +direction when it thrusts forwards
@@ -132,6 +141,7 @@ struct LayoutThruster {
 /// lies along `chord`; a positive angle gives force along `normal`.
 struct LayoutSurface {
   std::string name;
+  std::string channel;     ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};  ///< centre of pressure
   LayoutVector normal{0, 0, 1};
   LayoutVector chord{1, 0, 0};
@@ -151,6 +161,7 @@ struct LayoutSurface {
 /// Net buoyancy that changes; the command is the added upward force. Mass and inertia stay as they are.
 struct LayoutBallast {
   std::string name;
+  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};
   double low_N = 0, high_N = 0;
   double rate_N_s = 1;
@@ -162,7 +173,8 @@ struct LayoutBallast {
 /// A mass that slides along an axis; the command is its way from `place_m`, where the body's numbers hold.
 struct LayoutMovingMass {
   std::string name;
-  double mass_kg = 0;  ///< part of the body's mass
+  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
+  double mass_kg = 0;   ///< part of the body's mass
   LayoutVector place_m{};
   LayoutVector axis{1, 0, 0};
   double low_m = 0, high_m = 0;
@@ -172,10 +184,12 @@ struct LayoutMovingMass {
   bool operator==(const LayoutMovingMass&) const = default;
 };
 
-/// What a file says about the error of one number: a standard error, a range, or both, in the unit of the file.
+/// What a file says about the error of a number, or of an array of them: a standard error, a range, or both, in
+/// the unit of the file.
 struct LayoutUncertainty {
-  std::string key;  ///< "body.mass_kg", "thruster[2].lag_s"
-  std::optional<double> std;
+  std::string key;            ///< "body.mass_kg", "thruster[2].lag_s"
+  std::optional<double> std;  ///< of the number; of each number of an array that is not zero
+  std::vector<double> stds;   ///< one for each number of an array, zero: it is exact; empty: not so stated
   std::optional<std::pair<double, double>> range;
 
   bool operator==(const LayoutUncertainty&) const = default;

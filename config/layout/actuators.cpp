@@ -83,6 +83,10 @@ void read_name(LayoutTable& table, std::string& name, const Layout& layout) {
     table.reader().complain("name", fmt::format("\"{}\" is already the name of another actuator", name));
 }
 
+void read_channel(LayoutTable& table, std::string& channel) {
+  if (auto given = table.reader().text("channel")) channel = std::move(*given);
+}
+
 void require_name(LayoutTable& table) { table.reader().require("name", "a name of its own, such as \"port\""); }
 
 }  // namespace
@@ -91,6 +95,7 @@ void read_thruster(const Node& node, Layout& layout, std::vector<Problem>& probl
   LayoutTable table(node, layout, problems);
   LayoutThruster thruster;
   read_name(table, thruster.name, layout);
+  read_channel(table, thruster.channel);
   require_name(table);
   table.numbers("place_m", thruster.place_m, kActuatorPlace);
   table.direction("direction", thruster.direction);
@@ -105,6 +110,7 @@ void read_thruster(const Node& node, Layout& layout, std::vector<Problem>& probl
   } else {
     read_table(table, thruster, unit.bounds);
   }
+  table.number("force_scale", thruster.force_scale, {0, 100});
   table.number("reverse_efficiency", thruster.reverse_efficiency, {0, 1});
   table.number("torque_share", thruster.torque_share, {0, 1});
   thruster.is_left_handed = table.reader().choice("hand", {"right", "left"}) == "left";
@@ -121,6 +127,7 @@ void read_surface(const Node& node, Layout& layout, std::vector<Problem>& proble
   LayoutTable table(node, layout, problems);
   LayoutSurface surface;
   read_name(table, surface.name, layout);
+  read_channel(table, surface.channel);
   require_name(table);
   table.numbers("place_m", surface.place_m, kActuatorPlace);
   table.direction("normal", surface.normal);
@@ -148,6 +155,7 @@ void read_ballast(const Node& node, Layout& layout, std::vector<Problem>& proble
   LayoutBallast ballast;
   ballast.name = "ballast";
   read_name(table, ballast.name, layout);
+  read_channel(table, ballast.channel);
   table.numbers("place_m", ballast.place_m, kActuatorPlace);
   table.limits("range_N", ballast.low_N, ballast.high_N, {-1e6, 1e6, "N"});
   table.number("rate_N_s", ballast.rate_N_s, {1e-6, 1e5, "N/s"});
@@ -163,6 +171,7 @@ void read_moving_mass(const Node& node, Layout& layout, std::vector<Problem>& pr
   LayoutMovingMass mass;
   mass.name = "moving_mass";
   read_name(table, mass.name, layout);
+  read_channel(table, mass.channel);
   table.number("mass_kg", mass.mass_kg, {0.001, 1e6, "kg"});
   table.numbers("place_m", mass.place_m, kActuatorPlace);
   table.direction("axis", mass.axis);

@@ -89,8 +89,11 @@ void read_body(LayoutTable& table, LayoutBody& body, double density_kg_m3) {
   if (stated != 1)
     table.reader().complain(stated == 0 ? "buoyancy_N" : "volume_m3",
                             "exactly one of buoyancy_N (N), volume_m3 (m3) and neutral = true is expected");
-  if (is_neutral) body.buoyancy_N = body.mass_kg * base::kGravity_m_s2;
-  if (table.reader().has("volume_m3")) body.buoyancy_N = density_kg_m3 * base::kGravity_m_s2 * volume_m3;
+  if (stated == 1) {
+    body.is_neutral = is_neutral;
+    body.volume_m3 = volume_m3;
+  }
+  body.set_buoyancy(density_kg_m3);
   table.finish();
 }
 

@@ -49,7 +49,7 @@ bool LayoutTable::are_within(std::string_view key, const std::vector<double>& va
   return false;
 }
 
-void LayoutTable::uncertainty(std::string_view key, const Bounds& bounds) {
+void LayoutTable::uncertainty(std::string_view key, const Bounds& bounds, std::size_t count) {
   LayoutUncertainty about;
   about.key = name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
   const std::string std_key = fmt::format("{}_std", key), range_key = fmt::format("{}_range", key);
@@ -58,7 +58,19 @@ void LayoutTable::uncertainty(std::string_view key, const Bounds& bounds) {
     return std::any_of(table_.children.begin(), table_.children.end(),
                        [&](const Node& child) { return child.key == name; });
   };
-  if (stands(std_key)) about.std = reader_.number(std_key, 0, bounds.high - bounds.low, bounds.unit);
+  const Bounds of_std{0, bounds.high - bounds.low, bounds.unit};
+  if (stands(std_key)) {
+    const Node* node = reader_.find(std_key);
+    const auto* each = std::get_if<std::vector<double>>(&node->value);
+    if (count == 1 || each == nullptr || node->is_list) {
+      about.std = reader_.number(std_key, of_std.low, of_std.high, of_std.unit);
+    } else if (each->size() != count && !(count == 36 && each->size() == 6)) {
+      reader_.complain(std_key, fmt::format("one number or {} are expected, as many as {} has, not {}", count, key,
+                                            each->size()));
+    } else if (are_within(std_key, *each, of_std)) {
+      about.stds = *each;
+    }
+  }
   const auto* range = stands(range_key) ? values_of(range_key, "[LOW, HIGH]") : nullptr;
   if (range != nullptr) {
     if (range->size() != 2 || !((*range)[0] <= (*range)[1])) {
@@ -67,7 +79,7 @@ void LayoutTable::uncertainty(std::string_view key, const Bounds& bounds) {
       about.range = {(*range)[0], (*range)[1]};
     }
   }
-  if (about.std || about.range) layout_.uncertainties.push_back(std::move(about));
+  if (about.std || !about.stds.empty() || about.range) layout_.uncertainties.push_back(std::move(about));
 }
 
 void LayoutTable::number(std::string_view key, double& value, const Bounds& bounds) {
@@ -91,7 +103,7 @@ void LayoutTable::numbers(std::string_view key, double* values, std::size_t coun
       std::copy(given->begin(), given->end(), values);
     }
   }
-  uncertainty(key, bounds);
+  uncertainty(key, bounds, count);
 }
 
 void LayoutTable::list(std::string_view key, std::vector<double>& values, const Bounds& bounds) {
@@ -126,7 +138,7 @@ void LayoutTable::matrix(std::string_view key, LayoutMatrix& values, const Bound
   } else if (given != nullptr && are_within(key, *given, bounds)) {
     for (std::size_t i = 0; i < given->size(); ++i) values[given->size() == 6 ? 7 * i : i] = (*given)[i];
   }
-  uncertainty(key, bounds);
+  uncertainty(key, bounds, values.size());
 }
 
 void LayoutTable::direction(std::string_view key, LayoutVector& value) {

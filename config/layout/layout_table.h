@@ -59,7 +59,8 @@ class LayoutTable {
  private:
   [[nodiscard]] const std::vector<double>* values_of(std::string_view key, std::string_view wanted);
   [[nodiscard]] bool are_within(std::string_view key, const std::vector<double>& values, const Bounds& bounds);
-  void uncertainty(std::string_view key, const Bounds& bounds);
+  /// `count`: numbers that the key has; of a matrix 36, whose standard errors may be those of its diagonal.
+  void uncertainty(std::string_view key, const Bounds& bounds, std::size_t count = 1);
 
   const Node& table_;
   Layout& layout_;

@@ -79,6 +79,7 @@ class LayoutText {
     for (const LayoutUncertainty& about : layout_.uncertainties) {
       if (about.key != name) continue;
       if (about.std) line(fmt::format("{}_std", key), to_toml_text(*about.std));
+      if (!about.stds.empty()) line(fmt::format("{}_std", key), fmt::format("[{}]", fmt::join(about.stds, ", ")));
       if (about.range)
         line(fmt::format("{}_range", key), fmt::format("[{}, {}]", about.range->first, about.range->second));
     }
@@ -94,7 +95,13 @@ void write_body(LayoutText& text, const LayoutBody& body) {
   text.numbers("gravity_centre_m", body.gravity_centre_m);
   text.numbers("buoyancy_centre_m", body.buoyancy_centre_m);
   text.numbers("inertia_kg_m2", body.inertia_kg_m2);
-  text.number("buoyancy_N", body.buoyancy_N);
+  if (body.is_neutral) {
+    text.line("neutral", "true");
+  } else if (body.volume_m3 > 0) {
+    text.number("volume_m3", body.volume_m3);
+  } else {
+    text.number("buoyancy_N", body.buoyancy_N);
+  }
   text.numbers("size_m", body.size_m);
 }
 
@@ -162,6 +169,7 @@ std::string_view word_for(CommandUnit unit) {
 void write_thruster(LayoutText& text, const LayoutThruster& thruster, std::size_t number) {
   text.table("[[thruster]]", fmt::format("thruster[{}]", number));
   text.line("name", to_toml_text(thruster.name));
+  if (!thruster.channel.empty()) text.line("channel", to_toml_text(thruster.channel));
   text.numbers("place_m", thruster.place_m);
   text.numbers("direction", thruster.direction);
   text.line("command", to_toml_text(std::string(word_for(thruster.unit))));
@@ -176,6 +184,7 @@ void write_thruster(LayoutText& text, const LayoutThruster& thruster, std::size_
     text.number("advance_loss_sqrtN_s_m", thruster.advance_loss_sqrtN_s_m);
     text.number("torque_m", thruster.torque_m);
   }
+  text.number("force_scale", thruster.force_scale);
   text.number("reverse_efficiency", thruster.reverse_efficiency);
   text.number("torque_share", thruster.torque_share);
   text.line("hand", thruster.is_left_handed ? "\"left\"" : "\"right\"");
@@ -187,6 +196,7 @@ void write_thruster(LayoutText& text, const LayoutThruster& thruster, std::size_
 void write_surface(LayoutText& text, const LayoutSurface& surface, std::size_t number) {
   text.table("[[surface]]", fmt::format("surface[{}]", number));
   text.line("name", to_toml_text(surface.name));
+  if (!surface.channel.empty()) text.line("channel", to_toml_text(surface.channel));
   text.numbers("place_m", surface.place_m);
   text.numbers("normal", surface.normal);
   text.numbers("chord", surface.chord);
@@ -207,6 +217,7 @@ void write_masses(LayoutText& text, const Layout& layout) {
     const LayoutBallast& ballast = layout.ballasts[i];
     text.table("[[ballast]]", fmt::format("ballast[{}]", i + 1));
     text.line("name", to_toml_text(ballast.name));
+    if (!ballast.channel.empty()) text.line("channel", to_toml_text(ballast.channel));
     text.numbers("place_m", ballast.place_m);
     text.numbers("range_N", std::array{ballast.low_N, ballast.high_N});
     text.number("rate_N_s", ballast.rate_N_s);
@@ -216,6 +227,7 @@ void write_masses(LayoutText& text, const Layout& layout) {
     const LayoutMovingMass& mass = layout.moving_masses[i];
     text.table("[[moving_mass]]", fmt::format("moving_mass[{}]", i + 1));
     text.line("name", to_toml_text(mass.name));
+    if (!mass.channel.empty()) text.line("channel", to_toml_text(mass.channel));
     text.number("mass_kg", mass.mass_kg);
     text.numbers("place_m", mass.place_m);
     text.numbers("axis", mass.axis);

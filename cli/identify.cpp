@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "analysis/output.h"
+#include "analysis/progress.h"
+#include "cli/commands.h"
+#include "cli/result_file.h"
+#include "config/layout/layout_file.h"
+#include "config/load.h"
+#include "identify/answer/identification.h"
+#include "record/recording.h"
+#include "report/identify_report.h"
+
+namespace navcal::cli {
+namespace {
+
+struct IdentifyCommandOptions {
+  std::string vehicle, output, json, report, config;
+  std::vector<std::string> files, held_out;
+  double window_s = identify::FitSettings{}.window_s;
+  bool no_advice = false;
+};
+
+std::vector<std::filesystem::path> inputs_of(const IdentifyCommandOptions& options) {
+  std::vector<std::filesystem::path> inputs(options.files.begin(), options.files.end());
+  inputs.insert(inputs.end(), options.held_out.begin(), options.held_out.end());
+  inputs.insert(inputs.end(), {options.vehicle, options.config});
+  return inputs;
+}
+
+identify::Identification identification_of(const IdentifyCommandOptions& options) {
+  identify::IdentifyRequest request;
+  request.prior = config::load_layout(options.vehicle);
+  std::optional<config::Settings> settings;
+  if (!options.config.empty()) settings = config::load(options.config);
+  request.settings.window_s = options.window_s;
+  request.advise = !options.no_advice;
+  analysis::Progress progress("identify", analysis::Progress::Answer::at_the_end);
+  const auto load = [&](const std::vector<std::string>& files, std::vector<identify::RecordedMotion>& out) {
+    for (const std::string& file : files) {
+      out.push_back(identify::load_motion(
+          file, [&](double done) { progress.show("reading", done); }, settings));
+      for (const auto& remark : out.back().remarks) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+    }
+  };
+  load(options.files, request.recordings);
+  load(options.held_out, request.held_out);
+  return identify::identify(request, [&](std::string_view what, double done) { progress.show(what, done); });
+}
+
+void write_identification(const IdentifyCommandOptions& options, const identify::Identification& found) {
+  for (const auto& warning : found.warnings) std::fprintf(stderr, "navcal: %s\n", warning.c_str());
+  write_result(options.output, config::layout_file(found.layout));
+  if (!options.report.empty()) write_result(options.report, report::identify_page(found));
+  const bool json_only = options.json == "-";
+  if (!json_only && !options.json.empty()) write_result(options.json, report::identify_json(found));
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(json_only ? report::identify_json(found) : report::identify_text(found));
+  output.flush();
+}
+
+void run_identify(const IdentifyCommandOptions& options) {
+  for (const std::string& file : {options.output, options.json, options.report}) {
+    if (!file.empty() && file != "-") expect_folder_of(file);
+  }
+  expect_no_overwriting(inputs_of(options), {options.output, options.json, options.report});
+  try {
+    write_identification(options, identification_of(options));
+  } catch (const record::BadRecording& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::invalid_argument& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "identify", "parameters of a vehicle's layout, with standard errors, from recordings and their commands");
+  const auto options = std::make_shared<IdentifyCommandOptions>();
+  command->add_option("FILE", options->files, "recordings of the vehicle without faults: captures or logs")
+      ->required();
+  command
+      ->add_option("--vehicle", options->vehicle,
+                   "layout with the data sheet's numbers; those with KEY_std or KEY_range are fitted")
+      ->required()
+      ->option_text("PRIOR.toml");
+  command
+      ->add_option("--holdout", options->held_out,
+                   "another recording of the vehicle, on which the fit is judged; repeatable")
+      ->option_text("FILE")
+      ->allow_extra_args(false);
+  command->add_option("-o,--output", options->output, "layout to write: fitted numbers with their standard errors")
+      ->required()
+      ->option_text("VEHICLE.toml");
+  command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
+      ->option_text("FILE|-");
+  command->add_option("--report", options->report, "page with a picture; needs no other file")
+      ->option_text("FILE.html");
+  command->add_option("--config", options->config, "configuration of all recordings, instead of their own")
+      ->option_text("FILE.toml");
+  command->add_option("--window", options->window_s, "length of the windows of the replay, s")
+      ->check(CLI::Range(0.5, 60.0))
+      ->capture_default_str();
+  command->add_flag("--no-advice", options->no_advice, "do not look for manoeuvres that would tell more");
+  command->footer(
+      "docs/identify.md describes the method, the file and the JSON keys.\n\n"
+      "Example: navcal identify --vehicle datasheet.toml --holdout c.mcap -o vehicle.toml a.mcap b.mcap");
+  command->callback([options] { run_identify(*options); });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/data/actuator_inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+#include "gap/actuators/actuator_track.h"
+
+namespace navcal::identify {
+namespace {
+
+/// The value that holds at a time; `at` is where the search of the time before ended.
+double held_at(const Signal& signal, double time_s, std::size_t& at) {
+  while (at + 1 < signal.times_s.size() && signal.times_s[at + 1] <= time_s) ++at;
+  return signal.values[at];
+}
+
+double linear_at(const Signal& signal, double time_s, std::size_t& at) {
+  const double held = held_at(signal, time_s, at);
+  if (at + 1 >= signal.times_s.size() || time_s <= signal.times_s[at]) return held;
+  const double part = (time_s - signal.times_s[at]) / (signal.times_s[at + 1] - signal.times_s[at]);
+  return held + part * (signal.values[at + 1] - held);
+}
+
+struct Limits {
+  double low, high;
+  std::string unit;
+  double per_unit = 1;
+};
+
+void add_oddities(const std::string& actuator, const std::string& channel, const Signal& signal,
+                  const Limits& limits, double duration_s, std::vector<std::string>& out) {
+  constexpr double kOften = 0.2, kLongGap_s = 1, kPart = 1e-3;
+  const double margin = kPart * (limits.high - limits.low);
+  std::size_t at_limit = 0;
+  double longest_s = 0, least = signal.values.front(), greatest = least;
+  for (std::size_t i = 0; i < signal.values.size(); ++i) {
+    const double value = signal.values[i];
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+    if (value <= limits.low + margin || value >= limits.high - margin) ++at_limit;
+    if (i > 0) longest_s = std::max(longest_s, signal.times_s[i] - signal.times_s[i - 1]);
+  }
+  if (least < limits.low - margin || greatest > limits.high + margin)
+    out.push_back(
+        fmt::format("{}: commands of {} reach from {:.4g} to {:.4g} {}, beyond the limits {:.4g} to {:.4g}",
+                    actuator, channel, least / limits.per_unit, greatest / limits.per_unit, limits.unit,
+                    limits.low / limits.per_unit, limits.high / limits.per_unit));
+  const double share = static_cast<double>(at_limit) / static_cast<double>(signal.values.size());
+  if (share > kOften && limits.low < limits.high)
+    out.push_back(
+        fmt::format("{}: saturated: {} stands at a limit {:.0f} % of the time", actuator, channel, 100 * share));
+  const double late_s = signal.times_s.front(), early_s = duration_s - signal.times_s.back();
+  if (std::max({longest_s, late_s, early_s}) > kLongGap_s && greatest > least)
+    out.push_back(fmt::format("{}: {} is not recorded for up to {:.1f} s; its last value is taken to hold",
+                              actuator, channel, std::max({longest_s, late_s, early_s})));
+}
+
+std::string_view unit_name(config::CommandUnit unit) {
+  switch (unit) {
+    case config::CommandUnit::rpm:
+      return "rpm";
+    case config::CommandUnit::percent:
+      return "%";
+    case config::CommandUnit::microseconds:
+      return "us";
+  }
+  return "";
+}
+
+}  // namespace
+
+ActuatorTrajectory::ActuatorTrajectory(const config::Layout& layout, std::size_t rows)
+    : columns_(layout.thrusters.size() + layout.surfaces.size() + layout.ballasts.size() +
+               layout.moving_masses.size()),
+      rows_(rows),
+      values_(columns_ * rows) {}
+
+void ActuatorTrajectory::set(std::size_t row, const sim::ActuatorValues& positions) {
+  auto out = values_.begin() + static_cast<std::ptrdiff_t>(row * columns_);
+  for (const auto* part :
+       {&positions.thrusters, &positions.surfaces_rad, &positions.ballasts_N, &positions.masses_m})
+    out = std::copy(part->begin(), part->end(), out);
+}
+
+template <class Take>
+void ActuatorTrajectory::interpolate(double time_s, sim::ActuatorValues& out, Take take) const {
+  const double place = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(rows_ - 1));
+  const std::size_t row = std::min(static_cast<std::size_t>(place), rows_ - 1);
+  const double part = place - static_cast<double>(row);
+  const double* a = values_.data() + row * columns_;
+  const double* b = row + 1 < rows_ ? a + columns_ : a;
+  for (auto* values : {&out.thrusters, &out.surfaces_rad, &out.ballasts_N, &out.masses_m}) {
+    for (double& value : *values) {
+      take(value, *a + part * (*b - *a));
+      ++a;
+      ++b;
+    }
+  }
+}
+
+void ActuatorTrajectory::at(double time_s, sim::ActuatorValues& out) const {
+  interpolate(time_s, out, [](double& value, double now) { value = now; });
+}
+
+void ActuatorTrajectory::mean(double time_s, double over_s, sim::ActuatorValues& out) const {
+  interpolate(time_s, out, [](double& value, double now) { value = now / 4; });
+  interpolate(time_s + over_s / 2, out, [](double& value, double now) { value += now / 2; });
+  interpolate(time_s + over_s, out, [](double& value, double now) { value += now / 4; });
+}
+
+std::vector<std::string> signals_of_thruster(const config::Layout& layout, std::size_t thruster) {
+  const config::LayoutThruster& of = layout.thrusters[thruster];
+  if (!of.channel.empty()) return {of.channel};
+  if (of.unit != config::CommandUnit::rpm) return {fmt::format("output{}", thruster + 1)};
+  if (layout.thrusters.size() > 1) return {fmt::format("rpm{}", thruster + 1)};
+  return {"rpm", "rpm_commanded"};
+}
+
+std::vector<std::string> signals_of_surface(const config::Layout& layout, std::size_t surface) {
+  const config::LayoutSurface& of = layout.surfaces[surface];
+  if (of.limit_rad == 0) return {};
+  if (!of.channel.empty()) return {of.channel};
+  const auto movable =
+      std::count_if(layout.surfaces.begin(), layout.surfaces.begin() + static_cast<std::ptrdiff_t>(surface),
+                    [](const config::LayoutSurface& before) { return before.limit_rad > 0; });
+  return {fmt::format("fin_{}", movable + 1)};
+}
+
+ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator,
+                                               const std::vector<std::string>& wanted) {
+  for (const std::string& name : wanted) {
+    const auto found = motion_.signals.find(name);
+    if (found == motion_.signals.end() || found->second.empty()) continue;
+    const bool is_position = name == "rpm" || (name.starts_with("fin_") && motion_.fins_are_reported);
+    return {&found->second, is_position, name};
+  }
+  std::string names, there;
+  for (const std::string& name : wanted) names += (names.empty() ? "" : " or ") + name;
+  for (const auto& [name, signal] : motion_.signals) there += (there.empty() ? "" : ", ") + name;
+  if (!wanted.empty())
+    missing_.push_back(fmt::format("commands are missing: {} needs {}; the recording has {}", actuator, names,
+                                   there.empty() ? "no commands" : there));
+  return {};
+}
+
+ActuatorInputs::ActuatorInputs(const config::Layout& layout, const RecordedMotion& motion) : motion_(motion) {
+  for (std::size_t i = 0; i < layout.thrusters.size(); ++i)
+    thrusters_.push_back(input_of("thruster " + layout.thrusters[i].name, signals_of_thruster(layout, i)));
+  for (std::size_t i = 0; i < layout.surfaces.size(); ++i)
+    surfaces_.push_back(input_of("surface " + layout.surfaces[i].name, signals_of_surface(layout, i)));
+  const auto of_channel = [](const std::string& channel) {
+    return channel.empty() ? std::vector<std::string>{} : std::vector{channel};
+  };
+  for (const auto& ballast : layout.ballasts)
+    ballasts_.push_back(input_of("ballast " + ballast.name, of_channel(ballast.channel)));
+  for (const auto& mass : layout.moving_masses)
+    masses_.push_back(input_of("moving mass " + mass.name, of_channel(mass.channel)));
+}
+
+std::vector<std::string> ActuatorInputs::oddities(const config::Layout& layout) const {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
+    const config::LayoutThruster& thruster = layout.thrusters[i];
+    if (thrusters_[i].signal != nullptr)
+      add_oddities("thruster " + thruster.name, thrusters_[i].name, *thrusters_[i].signal,
+                   {thruster.low, thruster.high, std::string(unit_name(thruster.unit))}, motion_.duration_s,
+                   words);
+  }
+  for (std::size_t i = 0; i < layout.surfaces.size(); ++i) {
+    const config::LayoutSurface& surface = layout.surfaces[i];
+    if (surfaces_[i].signal != nullptr)
+      add_oddities("surface " + surface.name, surfaces_[i].name, *surfaces_[i].signal,
+                   {-surface.limit_rad, surface.limit_rad, "deg", base::kRadiansPerDegree}, motion_.duration_s,
+                   words);
+  }
+  return words;
+}
+
+ActuatorTrajectory ActuatorInputs::trajectory(const config::Layout& layout) const {
+  const auto rows = static_cast<std::size_t>(std::ceil(motion_.duration_s / ActuatorTrajectory::kStep_s)) + 3;
+  ActuatorTrajectory trajectory(layout, rows);
+  // Where a card reported all fins: angles between its reports by the servo's lag
+  // (gap/actuators/actuator_track.h).
+  std::optional<gap::ActuatorTrack> track;
+  const bool reports_fins =
+      !motion_.order_times_s.empty() && surfaces_.size() == 3 &&
+      std::all_of(surfaces_.begin(), surfaces_.end(), [&](const Input& input) {
+        return input.is_position && input.signal->times_s == surfaces_.front().signal->times_s;
+      });
+  if (reports_fins) {
+    std::vector<gap::MotorReading> readings;
+    const auto& fins = surfaces_;
+    for (std::size_t i = 0; i < fins[0].signal->times_s.size(); ++i)
+      readings.push_back({fins[0].signal->times_s[i],
+                          0,
+                          {fins[0].signal->values[i], fins[1].signal->values[i], fins[2].signal->values[i]},
+                          0});
+    track.emplace(readings, motion_.order_times_s, motion_.ordered_fins_rad, layout.surfaces[0].lag_s,
+                  devices::MotorModel{}, motion_.duration_s);
+  }
+  std::vector<std::size_t> at(thrusters_.size() + surfaces_.size() + ballasts_.size() + masses_.size());
+  sim::ActuatorValues commands = sim::ActuatorValues::neutral(layout), positions = commands;
+  const auto read = [&](double time_s, bool positions_only) {
+    std::size_t n = 0;
+    const auto take = [&](const std::vector<Input>& inputs, std::vector<double>& command,
+                          std::vector<double>& position) {
+      for (std::size_t i = 0; i < inputs.size(); ++i, ++n) {
+        if (inputs[i].signal == nullptr) continue;
+        if (inputs[i].is_position) {
+          position[i] = linear_at(*inputs[i].signal, time_s, at[n]);
+        } else if (!positions_only) {
+          command[i] = held_at(*inputs[i].signal, time_s, at[n]);
+        }
+      }
+    };
+    take(thrusters_, commands.thrusters, positions.thrusters);
+    take(surfaces_, commands.surfaces_rad, positions.surfaces_rad);
+    take(ballasts_, commands.ballasts_N, positions.ballasts_N);
+    take(masses_, commands.masses_m, positions.masses_m);
+  };
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double time_s = ActuatorTrajectory::kStep_s * static_cast<double>(row);
+    // The command of the middle of the step leads to its end.
+    read(time_s - ActuatorTrajectory::kStep_s / 2, false);
+    if (row > 0) positions = sim::follow(layout, positions, commands, ActuatorTrajectory::kStep_s);
+    read(time_s, true);
+    if (track) {
+      const auto& fins_rad = track->rows()[std::min(row, track->rows().size() - 1)].fins_rad;
+      std::copy(fins_rad.begin(), fins_rad.end(), positions.surfaces_rad.begin());
+    }
+    trajectory.set(row, positions);
+  }
+  return trajectory;
+}
+
+}  // namespace navcal::identify

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/settings.h"
+#include "identify/data/channel.h"
+
+namespace navcal::identify {
+
+struct Reading {
+  double time_s = 0;
+  double value = 0;
+  double std = 0;  ///< of its noise
+};
+
+/// One number that moves an actuator, as it was recorded: held from one time to the next.
+struct Signal {
+  std::vector<double> times_s, values;  ///< in order of time
+
+  [[nodiscard]] bool empty() const { return times_s.empty(); }
+};
+
+/// What one recording says of the vehicle's motion and of its actuators. Times are seconds since its first byte.
+/// Instruments and signals that it lacks are empty.
+struct RecordedMotion {
+  std::string name;  ///< the file
+  std::array<std::vector<Reading>, kChannels> channels;
+  /// Shaft speed "rpm", as reported, and "rpm_commanded"; "fin_1" to "fin_3" (rad); mission sensors by their name:
+  /// "output1".
+  std::map<std::string, Signal> signals;
+  bool fins_are_reported = false;  ///< by a motor card: where the servos are; else where they were told to be
+  /// New commands to a motor card, as they were sent: times and angles of its fins. Empty: not recorded.
+  std::vector<double> order_times_s;
+  std::vector<std::array<double, 3>> ordered_fins_rad;
+  double duration_s = 0;
+
+  // Places of the instruments in the body, m, by the configuration.
+  Eigen::Vector3d imu_place_m = Eigen::Vector3d::Zero(), gauge_place_m = Eigen::Vector3d::Zero(),
+                  doppler_place_m = Eigen::Vector3d::Zero(), antenna_place_m = Eigen::Vector3d::Zero();
+  double tilt_lag_s = 0;          ///< first-order lag of roll and pitch
+  double dip_rad = 0;             ///< of the Earth's field, by the compass; only with a lag
+  double gyro_turn_on_rad_s = 0;  ///< standard deviation of the bias at power-on
+  std::vector<std::string> remarks;
+
+  [[nodiscard]] const std::vector<Reading>& operator[](Channel channel) const {
+    return channels[static_cast<std::size_t>(channel)];
+  }
+  [[nodiscard]] bool has(Channel channel) const { return !(*this)[channel].empty(); }
+};
+
+/// Reads a log or a capture through the pipeline. `stated`: the configuration to use instead of the recording's
+/// own. Rates and forces that come faster than 25 times a second are averaged over 0.04 s. Of two devices with the
+/// same channel the one with more readings counts. `progress` gets 0 to 1. Throws record::BadRecording.
+[[nodiscard]] RecordedMotion load_motion(const std::filesystem::path& file,
+                                         const std::function<void(double)>& progress,
+                                         const std::optional<config::Settings>& stated = std::nullopt);
+
+}  // namespace navcal::identify

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+
+#include "identify/data/recorded_motion.h"
+
+namespace navcal::identify {
+
+/// Nuisance parameters of one recording: errors of its instruments, the current, and how late the recorded
+/// actuators are. All are zero for perfect instruments in still water, but for the dip.
+enum class Nuisance : Eigen::Index {
+  rate_bias_x,
+  rate_bias_y,
+  rate_bias_z,
+  second_yaw_rate_bias,
+  rate_scale_x,
+  rate_scale_y,
+  rate_scale_z,
+  second_yaw_rate_scale,
+  force_bias_x,
+  force_bias_y,
+  force_bias_z,
+  imu_turn_x,  ///< small rotation of the inertial unit against the body
+  imu_turn_y,
+  imu_turn_z,
+  roll_offset,
+  pitch_offset,
+  heading_offset,  ///< with the magnetic declination
+  heading_sine,    ///< deviation, sine and cosine of the heading
+  heading_cosine,
+  dip,  ///< of the Earth's field, beyond that of the recording
+  depth_offset,
+  gauge_offset,
+  doppler_scale,
+  doppler_turn,  ///< about z
+  current_north,
+  current_east,
+  actuator_delay,
+};
+inline constexpr Eigen::Index kNuisances = 27;
+using Calibration = Eigen::Matrix<double, kNuisances, 1>;
+
+struct NuisanceDescription {
+  std::string_view name, unit;
+  double prior_std;  ///< about zero
+};
+
+/// Prior standard deviations: of instruments as they are built and fitted (turn-on bias of the gyros by the
+/// configuration). The offset of the heading contains the declination, which is unknown without a place.
+[[nodiscard]] const std::array<NuisanceDescription, static_cast<std::size_t>(kNuisances)>& nuisances();
+[[nodiscard]] Calibration nuisance_stds(const RecordedMotion& motion);
+
+[[nodiscard]] inline double get(const Calibration& calibration, Nuisance nuisance) {
+  return calibration[static_cast<Eigen::Index>(nuisance)];
+}
+
+}  // namespace navcal::identify

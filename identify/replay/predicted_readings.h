@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identify/data/recorded_motion.h"
+#include "identify/replay/calibration.h"
+#include "identify/replay/replayed_motion.h"
+
+namespace navcal::identify {
+
+/// One reading within a window.
+struct WindowReading {
+  Channel channel;
+  double time_s, value, std;
+};
+
+/// What the instruments of a recording read on a replayed motion. With nu = (v, omega) through the water, R the
+/// rotation from body to world, c the current, r the instrument's place, and the nuisances by their names:
+///   rates     (1 + scale)(1 - turn x) omega + bias
+///   force     (1 - turn x)(v' + omega x v + omega' x r + omega x (omega x r) - R^T g) + bias
+///   tilt      roll and pitch through the sensor's first-order lag, + offset
+///   heading   the field at yaw + offset, levelled with the lagged tilt, + sine and cosine of it
+///   depth     z of the instrument's place + offset
+///   Doppler   (1 + scale) Rz(turn)^T (v + omega x r [+ R^T c over the bottom])
+///   fixes     position + R r + c t; R (v + omega x r) + c
+class PredictedReadings {
+ public:
+  explicit PredictedReadings(const RecordedMotion& recorded) : recorded_(recorded) {}
+
+  /// One number for each reading; the readings lie within the motion.
+  [[nodiscard]] Eigen::VectorXd operator()(const ReplayedMotion& motion,
+                                           const std::vector<WindowReading>& readings,
+                                           const Calibration& calibration) const;
+
+ private:
+  const RecordedMotion& recorded_;
+};
+
+/// Reading less prediction, wrapped where the channel is an angle.
+[[nodiscard]] Eigen::VectorXd residuals(const std::vector<WindowReading>& readings,
+                                        const Eigen::VectorXd& predicted);
+
+}  // namespace navcal::identify

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/replay/replayed_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+#include "sim/layout/restoring.h"
+
+namespace navcal::identify {
+namespace {
+
+constexpr double kSteepest_rad = 88 * base::kRadiansPerDegree;
+constexpr double kFastest_m_s = 50, kFastestTurn_rad_s = 50;
+
+bool is_sane(const sim::Body& body) {
+  // Written so that NaN is not.
+  return body.velocity.head<3>().cwiseAbs().maxCoeff() < kFastest_m_s &&
+         body.velocity.tail<3>().cwiseAbs().maxCoeff() < kFastestTurn_rad_s &&
+         std::abs(body.euler_rad.y()) < kSteepest_rad && body.position_m.allFinite() && body.velocity.allFinite();
+}
+
+}  // namespace
+
+MotionPoint point_of(const StateVector& state) {
+  MotionPoint point;
+  point.body = {state.segment<3>(0), state.segment<3>(3), state.segment<6>(6)};
+  point.tilt_rad = state.tail<2>();
+  return point;
+}
+
+StateVector state_of(const MotionPoint& point) {
+  StateVector state;
+  state << point.body.position_m, point.body.euler_rad, point.body.velocity, point.tilt_rad;
+  return state;
+}
+
+void add_lagged_tilt(ReplayedMotion& motion, double lag_s) {
+  for (std::size_t k = 0; k < motion.points.size(); ++k) {
+    MotionPoint& point = motion.points[k];
+    const Eigen::Vector2d now = point.body.euler_rad.head<2>();
+    if (lag_s <= 0) {
+      point.tilt_rad = now;
+    } else if (k > 0) {
+      // Exactly, for an input that is linear over the step.
+      const MotionPoint& before = motion.points[k - 1];
+      const Eigen::Vector2d then = before.body.euler_rad.head<2>();
+      const Eigen::Vector2d behind = lag_s / ReplayedMotion::kStep_s * (now - then);
+      point.tilt_rad =
+          now - behind + std::exp(-ReplayedMotion::kStep_s / lag_s) * (before.tilt_rad - then + behind);
+    }
+  }
+}
+
+MotionPoint ReplayedMotion::at(double time_s) const {
+  const double place = std::clamp((time_s - begin_s) / kStep_s, 0.0, static_cast<double>(points.size() - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(place), points.size() - 2);
+  const double s = place - static_cast<double>(i);
+  const MotionPoint &a = points[i], &b = points[i + 1];
+  MotionPoint point;
+  point.body.position_m = a.body.position_m + s * (b.body.position_m - a.body.position_m);
+  point.body.euler_rad = a.body.euler_rad + s * (b.body.euler_rad - a.body.euler_rad);
+  point.body.velocity = (1 + 2 * s) * (1 - s) * (1 - s) * a.body.velocity +
+                        s * (1 - s) * (1 - s) * kStep_s * a.acceleration + s * s * (3 - 2 * s) * b.body.velocity +
+                        s * s * (s - 1) * kStep_s * b.acceleration;
+  point.acceleration = a.acceleration + s * (b.acceleration - a.acceleration);
+  point.tilt_rad = a.tilt_rad + s * (b.tilt_rad - a.tilt_rad);
+  return point;
+}
+
+std::optional<ReplayedMotion> replay(const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& actuators,
+                                     double delay_s, double begin_s, std::size_t steps, const StateVector& begin,
+                                     double tilt_lag_s) {
+  ReplayedMotion motion{begin_s, {}};
+  motion.points.reserve(steps + 1);
+  sim::ActuatorValues held = sim::ActuatorValues::neutral(vehicle.layout());
+  sim::Body body = point_of(begin).body;
+  const auto add_point = [&](double time_s) {
+    actuators.at(time_s - delay_s, held);
+    const sim::LayoutVehicle::Held now = vehicle.hold(held);
+    MotionPoint point;
+    point.body = body;
+    point.acceleration = now.mass_inverse * vehicle.force(body.velocity, sim::down_of(body.euler_rad), now);
+    motion.points.push_back(point);
+  };
+  for (std::size_t k = 0; k < steps; ++k) {
+    if (!is_sane(body)) return std::nullopt;
+    const double time_s = begin_s + ReplayedMotion::kStep_s * static_cast<double>(k);
+    add_point(time_s);
+    actuators.mean(time_s - delay_s, ReplayedMotion::kStep_s, held);
+    body = vehicle.step(body, held, ReplayedMotion::kStep_s).body;
+  }
+  if (!is_sane(body)) return std::nullopt;
+  add_point(begin_s + ReplayedMotion::kStep_s * static_cast<double>(steps));
+  motion.points.front().tilt_rad = begin.tail<2>();
+  add_lagged_tilt(motion, tilt_lag_s);
+  return motion;
+}
+
+}  // namespace navcal::identify

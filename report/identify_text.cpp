@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/identify_report.h"
+#include "report/identify_words.h"
+
+namespace navcal::report {
+
+std::vector<std::string> identify_heads() { return {"number", "file", "fitted", "unit", ""}; }
+
+std::vector<std::string> identify_row(const identify::IdentifiedParameter& one, std::string_view between) {
+  return {one.parameter.name,
+          fmt::format("{:.4g} {} {:.2g}", one.parameter.prior, between, one.parameter.prior_std),
+          fmt::format("{:.4g} {} {:.2g}", one.value, between, one.std), one.parameter.unit,
+          one.is_identified ? "" : "not told"};
+}
+
+std::string rms_sentence(std::string_view what, const identify::BeforeAfter& rms) {
+  return fmt::format("{}: whitened residuals {:.3f} with the numbers of the file, {:.3f} with the fitted ones",
+                     what, rms.before, rms.after);
+}
+
+std::string manoeuvre_sentence(const identify::ManoeuvreAdvice& advice) {
+  return fmt::format("{:.0f} s of {}: standard error of {} from {:.2g} to {:.2g}", advice.seconds,
+                     advice.manoeuvre, advice.parameter, advice.std_before, advice.std_after);
+}
+
+std::string identify_text(const identify::Identification& found) {
+  std::vector<std::vector<std::string>> rows{identify_heads()};
+  for (const auto& one : found.parameters) rows.push_back(identify_row(one, "+-"));
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string out = fmt::format("{:.0f} s of recordings, {} steps{}\n\n", found.seconds, found.iterations,
+                                found.converged ? "" : ", not settled");
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
+    out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  out += '\n' + rms_sentence("these recordings", found.fitted) + '\n';
+  if (found.held_out) out += rms_sentence("held-out recordings", *found.held_out) + '\n';
+  if (!found.directions.empty()) out += "\nwhat the recordings do not tell:\n";
+  for (const auto& direction : found.directions) out += "  " + direction.words + '\n';
+  if (!found.manoeuvres.empty()) out += "\nwhat would tell more:\n";
+  for (const auto& advice : found.manoeuvres) out += "  " + manoeuvre_sentence(advice) + '\n';
+  return out;
+}
+
+}  // namespace navcal::report

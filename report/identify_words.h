@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "identify/answer/identification.h"
+
+namespace navcal::report {
+
+// Parts that the text and the page of navcal identify share.
+
+[[nodiscard]] std::vector<std::string> identify_heads();
+/// One row of the table of parameters; `between` stands between a value and its error.
+[[nodiscard]] std::vector<std::string> identify_row(const identify::IdentifiedParameter& one,
+                                                    std::string_view between);
+[[nodiscard]] std::string rms_sentence(std::string_view what, const identify::BeforeAfter& rms);
+[[nodiscard]] std::string manoeuvre_sentence(const identify::ManoeuvreAdvice& advice);
+
+}  // namespace navcal::report

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/identify/identification_case.h"
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <stdexcept>
+
+#include "autopilot/allocation.h"
+#include "config/layout/layout_file.h"
+
+namespace navcal::identify {
+namespace {
+
+const std::vector<ChannelNoise> kInertial{{Channel::rate_x, 20, 0.002}, {Channel::rate_y, 20, 0.002},
+                                          {Channel::rate_z, 20, 0.002}, {Channel::force_x, 20, 0.02},
+                                          {Channel::force_y, 20, 0.02}, {Channel::force_z, 20, 0.02}};
+const std::vector<ChannelNoise> kAttitude{
+    {Channel::roll, 10, 0.003}, {Channel::pitch, 10, 0.003}, {Channel::heading, 10, 0.01}};
+const std::vector<ChannelNoise> kDoppler{
+    {Channel::bottom_x, 5, 0.01}, {Channel::bottom_y, 5, 0.01}, {Channel::bottom_z, 5, 0.01}};
+const ChannelNoise kDepth{Channel::gauge_depth, 10, 0.01};
+
+void add(config::Layout& layout, const std::string& key, std::vector<double> stds) {
+  config::LayoutUncertainty about;
+  about.key = key;
+  if (stds.size() == 1) {
+    about.std = stds.front();
+  } else {
+    about.stds = std::move(stds);
+  }
+  layout.uncertainties.push_back(std::move(about));
+}
+
+config::Layout shipped(const std::string& name) {
+  return config::load_layout(std::string(NAVCAL_SOURCE_DIR) + "/share/vehicles/" + name + ".toml");
+}
+
+std::vector<ChannelNoise> joined(std::initializer_list<std::vector<ChannelNoise>> parts) {
+  std::vector<ChannelNoise> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+VehicleCase rov(const std::string& name, std::vector<ChannelNoise> channels) {
+  VehicleCase of{name, shipped("bluerov2-heavy"), std::move(channels), false};
+  of.prior.uncertainties.clear();
+  of.prior.body.volume_m3 = 0;
+  add(of.prior, "body.mass_kg", {0.3});
+  add(of.prior, "body.buoyancy_N", {3});
+  add(of.prior, "body.gravity_centre_m", {0.005, 0.005, 0.01});
+  add(of.prior, "added_mass.matrix", {2, 2, 5, 0.06, 0.04, 0.07});
+  add(of.prior, "damping.linear", {5, 5, 10, 0.1, 0.3, 0.1});
+  add(of.prior, "damping.quadratic", {40, 60, 60, 0.4, 0.2, 0.5});
+  for (std::size_t i = 0; i < of.prior.thrusters.size(); ++i)
+    add(of.prior, "thruster[" + std::to_string(i + 1) + "].force_scale", {0.1});
+  return of;
+}
+
+VehicleCase micro() {
+  VehicleCase of{"micro", shipped("micro-auv"), joined({kInertial, kAttitude, {kDepth}}), false};
+  of.prior.uncertainties.clear();
+  const double mass = of.prior.body.mass_kg;
+  add(of.prior, "body.mass_kg", {0.03 * mass});
+  add(of.prior, "body.gravity_centre_m", {0.002, 0.002, 0.003});
+  std::vector<double> added, linear, quadratic;
+  for (std::size_t i = 0; i < 36; i += 7) {
+    added.push_back(0.3 * of.prior.added_mass.matrix_kg[i]);
+    linear.push_back(0.3 * of.prior.damping.linear[i]);
+    quadratic.push_back(0.3 * of.prior.damping.quadratic[i]);
+  }
+  add(of.prior, "added_mass.matrix", added);
+  add(of.prior, "damping.linear", linear);
+  add(of.prior, "damping.quadratic", quadratic);
+  for (std::size_t i = 0; i < of.prior.thrusters.size(); ++i) {
+    add(of.prior, "thruster[" + std::to_string(i + 1) + "].force_scale", {0.1});
+    add(of.prior, "thruster[" + std::to_string(i + 1) + "].lag_s", {0.2 * of.prior.thrusters[i].lag_s});
+  }
+  return of;
+}
+
+VehicleCase reference() {
+  VehicleCase of{"reference", shipped("reference"),
+                 joined({{{Channel::rate_x, 20, 0.0018},
+                          {Channel::rate_y, 20, 0.0018},
+                          {Channel::rate_z, 20, 0.0018},
+                          {Channel::second_yaw_rate, 20, 0.0018},
+                          {Channel::force_x, 20, 0.02},
+                          {Channel::force_y, 20, 0.02},
+                          {Channel::force_z, 20, 0.02},
+                          {Channel::depth, 20, 0.02},
+                          {Channel::north_velocity, 1, 0.1},
+                          {Channel::east_velocity, 1, 0.1},
+                          {Channel::north, 1, 1},
+                          {Channel::east, 1, 1}},
+                         kAttitude}),
+                 true};
+  add(of.prior, "body.mass_kg", {0.1});
+  of.prior.body.is_neutral = true;
+  add(of.prior, "body.gravity_centre_m", {0, 0, 0.002});
+  add(of.prior, "body.inertia_kg_m2", {0.001, 0.03, 0.03, 0, 0, 0});
+  add(of.prior, "added_mass.matrix", {0.03, 0.5, 0.5, 0, 0.05, 0.05});
+  add(of.prior, "damping.linear", {0, 0, 0, 0.01, 0.15, 0.03});
+  add(of.prior, "damping.axial.coefficient", {0.06});
+  add(of.prior, "damping.cross_flow.coefficient", {0.2});
+  add(of.prior, "damping.body_lift.slope_per_rad", {0.15});
+  add(of.prior, "thruster[1].force_scale", {0.08});
+  for (int i = 1; i <= 3; ++i) add(of.prior, "surface[" + std::to_string(i) + "].lift_slope_per_rad", {0.3});
+  return of;
+}
+
+}  // namespace
+
+VehicleCase vehicle_case(const std::string& name) {
+  if (name == "rov") return rov(name, joined({kInertial, kAttitude, {kDepth}, kDoppler}));
+  if (name == "rov-imu") return rov(name, joined({kInertial, kAttitude, {kDepth}}));
+  if (name == "micro") return micro();
+  if (name == "reference") return reference();
+  throw std::invalid_argument("no vehicle " + name);
+}
+
+DrawnVehicle draw_vehicle(const VehicleCase& of, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const auto parameters = uncertain_parameters(of.prior);
+  DrawnVehicle drawn{prior_values(parameters), {}};
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    double& value = drawn.truth[static_cast<Eigen::Index>(i)];
+    do {
+      value = parameters[i].prior + parameters[i].prior_std * normal(random);
+    } while (value < parameters[i].low || value > parameters[i].high);
+  }
+  drawn.layout = with_values(of.prior, parameters, drawn.truth);
+  return drawn;
+}
+
+RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth, double seconds,
+                              std::uint64_t seed) {
+  auto random = std::make_shared<std::mt19937_64>(seed);
+  auto allocator = std::make_shared<autopilot::Allocator>(of.prior);
+  // The recording lacks what the vehicle cannot measure; nuisances of missing instruments do no harm.
+  const Calibration stds = nuisance_stds(RecordedMotion{});
+  std::normal_distribution<double> normal;
+  SimulatedMotionRequest request;
+  request.channels = of.channels;
+  request.seconds = seconds;
+  request.seed = seed + 1;
+  request.reports_positions = of.reports_positions;
+  for (Eigen::Index i = 0; i < kNuisances; ++i) request.calibration[i] = stds[i] * normal(*random);
+  request.calibration[static_cast<Eigen::Index>(Nuisance::actuator_delay)] = 0;
+  const bool has_fins = std::any_of(of.prior.surfaces.begin(), of.prior.surfaces.end(),
+                                    [](const auto& surface) { return surface.limit_rad > 0; });
+  request.start.position_m.z() = 5;
+  if (has_fins) request.start.velocity[0] = 0.8;
+  auto wanted = std::make_shared<autopilot::Wrench>(autopilot::Wrench::Zero());
+  auto until_s = std::make_shared<double>(0);
+  request.commands = [=](double time_s, const sim::Body& body) {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    if (time_s >= *until_s) {
+      *until_s = time_s + 2 + 2 * std::abs(uniform(*random));
+      for (Eigen::Index i = 0; i < 6; ++i) (*wanted)[i] = uniform(*random);
+      if (has_fins) (*wanted)[0] = 0.6 + 0.3 * (*wanted)[0];
+    }
+    autopilot::AllocationRequest allocation;
+    allocation.velocity = body.velocity;
+    const auto limits = allocator->limits(body.velocity);
+    const Eigen::MatrixXd matrix = allocator->matrix(body.velocity);
+    // Half of what each degree of freedom can have, with feedback that keeps the vehicle level and at its depth.
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      const double most =
+          matrix.row(i).cwiseAbs().dot(limits.high.cwiseMin(-limits.low).cwiseMax(0.3 * limits.high).transpose());
+      double part = 0.35 * (*wanted)[i];
+      if (i == 3) part = 0.1 * (*wanted)[i] - 0.8 * body.euler_rad.x() - 0.2 * body.velocity[3];
+      if (i == 4) part = 0.15 * (*wanted)[i] - 1.5 * body.euler_rad.y() - 0.3 * body.velocity[4];
+      if (i == 2) part += 0.05 * (5 - body.position_m.z());
+      if (i == 4 && has_fins) part -= 0.1 * (5 - body.position_m.z());
+      allocation.wanted[i] = std::clamp(part, -0.9, 0.9) * most;
+    }
+    if (has_fins) {
+      allocation.wanted[1] = allocation.wanted[2] = 0;
+      allocation.weights << 1, 0, 0, 0.1, 1, 1;
+      allocation.wanted[0] = 1;
+    }
+    allocation.saturation = autopilot::Saturation::least_squares;
+    const auto allocated = allocator->allocate(allocation);
+    sim::ActuatorValues commands = sim::ActuatorValues::neutral(of.prior);
+    commands.thrusters = allocated.thruster_commands;
+    commands.surfaces_rad = allocated.surfaces_rad;
+    if (has_fins) commands.thrusters[0] = of.prior.thrusters[0].high * (*wanted)[0] * 0.6;
+    return commands;
+  };
+  return simulated_motion(truth, request);
+}
+
+RecordedMotion part_of(const RecordedMotion& motion, double from_s, double to_s) {
+  RecordedMotion part = motion;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    part.channels[c].clear();
+    for (const Reading& reading : motion.channels[c]) {
+      if (reading.time_s >= from_s && reading.time_s < to_s) part.channels[c].push_back(reading);
+    }
+  }
+  part.duration_s = std::min(to_s, motion.duration_s);
+  return part;
+}
+
+}  // namespace navcal::identify
