@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -18,7 +17,7 @@
 namespace navcal::gap {
 namespace {
 
-constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSilentValue = std::numeric_limits<double>::quiet_NaN();
 
 bool is_measured(const Vector3& vector) { return std::isfinite(vector[0]); }
 
@@ -66,17 +65,17 @@ std::vector<double> times_of(Quantity quantity, const Mission& mission) {
 /// Removes a quantity from a reading.
 void silence(Quantity quantity, CompassReading& reading) {
   if (quantity == Quantity::heading) reading.heading_rad.reset();
-  if (quantity == Quantity::field) reading.field_uT.fill(kUnmeasured);
-  if (quantity == Quantity::tilt) reading.roll_rad = reading.pitch_rad = kUnmeasured;
+  if (quantity == Quantity::field) reading.field_uT.fill(kSilentValue);
+  if (quantity == Quantity::tilt) reading.roll_rad = reading.pitch_rad = kSilentValue;
 }
 
 void silence(Quantity quantity, CardReading& reading) {
   if (quantity == Quantity::rates) {
-    for (std::size_t i = 0; i < 3; ++i) reading.gyro_rad_s[i] = kUnmeasured;
+    for (std::size_t i = 0; i < 3; ++i) reading.gyro_rad_s[i] = kSilentValue;
   }
-  if (quantity == Quantity::second_yaw_rate) reading.gyro_rad_s[3] = kUnmeasured;
-  if (quantity == Quantity::force) reading.force_m_s2.fill(kUnmeasured);
-  if (quantity == Quantity::depth) reading.depth_m = kUnmeasured;
+  if (quantity == Quantity::second_yaw_rate) reading.gyro_rad_s[3] = kSilentValue;
+  if (quantity == Quantity::force) reading.force_m_s2.fill(kSilentValue);
+  if (quantity == Quantity::depth) reading.depth_m = kSilentValue;
 }
 
 bool says_nothing(const CompassReading& reading) {
@@ -103,9 +102,9 @@ void add_empty_frames(Mission& mission) {
   const double period_s = 1 / mission.instruments.imu.timing.rate_Hz;
   const auto times_s = times_with(mission.card, [](const CardReading&) { return true; });
   CardReading empty;
-  for (std::size_t i = 0; i < 4; ++i) empty.gyro_rad_s[i] = kUnmeasured;
-  empty.force_m_s2.fill(kUnmeasured);
-  empty.depth_m = kUnmeasured;
+  for (std::size_t i = 0; i < 4; ++i) empty.gyro_rad_s[i] = kSilentValue;
+  empty.force_m_s2.fill(kSilentValue);
+  empty.depth_m = kSilentValue;
   std::vector<CardReading> frames;
   for (const Silence& each : silences_of(Quantity::rates, times_s, mission.duration_s)) {
     for (double time_s = each.from_s + period_s / 2; time_s < each.until_s - period_s / 2; time_s += period_s) {
@@ -120,29 +119,32 @@ void add_empty_frames(Mission& mission) {
 
 /// What is silent when all of these quantities are, as people call it. The first that fits counts.
 struct Named {
-  std::initializer_list<Quantity> quantities;
+  std::vector<Quantity> quantities;
   const char *missing, *interrupted;
 };
-using enum Quantity;
-const std::array<Named, 12> kNamed{{
-    {{heading, field, tilt}, "compass", "compass"},
-    {{heading, field}, "heading and no magnetic field", "magnetometer"},
-    {{field}, "magnetic field", "magnetometer"},
-    {{heading}, "heading", "heading of the compass"},
-    {{tilt}, "inclinometer", "inclinometer"},
-    {{rates, second_yaw_rate, force, depth}, "inertial card", "inertial card"},
-    {{rates, second_yaw_rate}, "rate gyros", "rate gyros"},
-    {{second_yaw_rate}, "second yaw gyro", "second yaw gyro"},
-    {{force}, "accelerometers", "accelerometers"},
-    {{depth}, "depth", "depth gauge"},
-    {{fixes}, "GPS", "GPS"},
-    {{motor}, "motor report", "motor card"},
-}};
+const std::array<Named, 12>& named_silences() {
+  using enum Quantity;
+  static const std::array<Named, 12> kNamed{{
+      {{heading, field, tilt}, "compass", "compass"},
+      {{heading, field}, "heading and no magnetic field", "magnetometer"},
+      {{field}, "magnetic field", "magnetometer"},
+      {{heading}, "heading", "heading of the compass"},
+      {{tilt}, "inclinometer", "inclinometer"},
+      {{rates, second_yaw_rate, force, depth}, "inertial card", "inertial card"},
+      {{rates, second_yaw_rate}, "rate gyros", "rate gyros"},
+      {{second_yaw_rate}, "second yaw gyro", "second yaw gyro"},
+      {{force}, "accelerometers", "accelerometers"},
+      {{depth}, "depth", "depth gauge"},
+      {{fixes}, "GPS", "GPS"},
+      {{motor}, "motor report", "motor card"},
+  }};
+  return kNamed;
+}
 
 /// Names of what is silent in a set of quantities, each quantity once.
 template <class Add>
 void for_each_named(std::vector<Quantity> silent, Add add) {
-  for (const Named& named : kNamed) {
+  for (const Named& named : named_silences()) {
     const bool all = std::all_of(named.quantities.begin(), named.quantities.end(), [&](Quantity quantity) {
       return std::find(silent.begin(), silent.end(), quantity) != silent.end();
     });

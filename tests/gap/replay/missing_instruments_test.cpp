@@ -18,7 +18,7 @@
 namespace navcal::gap {
 namespace {
 
-double rms(const Innovations& innovations, Eigen::Index channel) {
+double settled_rms(const Innovations& innovations, Eigen::Index channel) {
   double square = 0;
   int count = 0;
   for (Eigen::Index i = 300; i < innovations.grid.rows(); ++i) {
@@ -48,30 +48,30 @@ class MissingInstrument : public testing::Test {
 TEST_F(MissingInstrument, LeavesItsOwnChannelsUnmeasured) {
   const Innovations no_compass = left_of(without({"compass"}));
   for (const Channel channel : {field_x, field_z, tilt_roll, tilt_pitch, heading}) {
-    EXPECT_TRUE(std::isnan(rms(no_compass, channel))) << channel;
+    EXPECT_TRUE(std::isnan(settled_rms(no_compass, channel))) << channel;
   }
-  EXPECT_TRUE(std::isfinite(rms(no_compass, gyro_yaw_a)));
+  EXPECT_TRUE(std::isfinite(settled_rms(no_compass, gyro_yaw_a)));
   const Innovations no_card = left_of(without({"card"}));
   for (const Channel channel : {gyro_pitch, gyro_yaw_a, gyro_yaw_b, force_x, depth, gyro_roll}) {
-    EXPECT_TRUE(std::isnan(rms(no_card, channel))) << channel;
+    EXPECT_TRUE(std::isnan(settled_rms(no_card, channel))) << channel;
   }
-  EXPECT_TRUE(std::isfinite(rms(no_card, field_x)));
+  EXPECT_TRUE(std::isfinite(settled_rms(no_card, field_x)));
   const Innovations no_gps = left_of(without({"gps"}));
   EXPECT_EQ(no_gps.fixes.rows(), 0);
-  EXPECT_TRUE(std::isfinite(rms(no_gps, field_x)));
+  EXPECT_TRUE(std::isfinite(settled_rms(no_gps, field_x)));
 }
 
 TEST_F(MissingInstrument, TheOthersStayNearTheirNoise) {
-  EXPECT_LT(rms(left_of(without({"depth"})), field_x), 0.3);
-  EXPECT_LT(rms(left_of(without({"accelerometers"})), field_x), 0.3);
-  EXPECT_LT(rms(left_of(without({"gps"})), field_x), 0.3);
-  EXPECT_LT(rms(left_of(without({"gps", "depth"})), gyro_yaw_a), 0.3 * base::kRadiansPerDegree);
+  EXPECT_LT(settled_rms(left_of(without({"depth"})), field_x), 0.3);
+  EXPECT_LT(settled_rms(left_of(without({"accelerometers"})), field_x), 0.3);
+  EXPECT_LT(settled_rms(left_of(without({"gps"})), field_x), 0.3);
+  EXPECT_LT(settled_rms(left_of(without({"gps", "depth"})), gyro_yaw_a), 0.3 * base::kRadiansPerDegree);
   const Innovations no_tilt = left_of(without({"tilt"}));
-  EXPECT_LT(rms(no_tilt, field_x), 0.6) << "levelled by the accelerometers";
-  EXPECT_LT(rms(no_tilt, force_y), 0.06);
-  EXPECT_LT(rms(left_of(without({"field"})), tilt_pitch), 0.3 * base::kRadiansPerDegree);
-  EXPECT_LT(rms(left_of(without({"compass"})), gyro_yaw_a), 0.3 * base::kRadiansPerDegree);
-  EXPECT_LT(rms(left_of(without({"card"})), field_x), 3) << "the vehicle model alone carries the attitude";
+  EXPECT_LT(settled_rms(no_tilt, field_x), 0.6) << "levelled by the accelerometers";
+  EXPECT_LT(settled_rms(no_tilt, force_y), 0.06);
+  EXPECT_LT(settled_rms(left_of(without({"field"})), tilt_pitch), 0.3 * base::kRadiansPerDegree);
+  EXPECT_LT(settled_rms(left_of(without({"compass"})), gyro_yaw_a), 0.3 * base::kRadiansPerDegree);
+  EXPECT_LT(settled_rms(left_of(without({"card"})), field_x), 3) << "the vehicle model alone carries the attitude";
 }
 
 TEST_F(MissingInstrument, ForAWhileLeavesTheRestAsItWas) {
@@ -82,8 +82,8 @@ TEST_F(MissingInstrument, ForAWhileLeavesTheRestAsItWas) {
   ASSERT_EQ(all.grid.rows(), some.grid.rows());
   EXPECT_TRUE(std::isnan(some.grid(850, field_x)));
   EXPECT_TRUE(std::isfinite(some.grid(1300, field_x)));
-  EXPECT_LT(rms(some, field_x), 2 * rms(all, field_x));
-  EXPECT_LT(rms(some, gyro_yaw_a), 2 * rms(all, gyro_yaw_a));
+  EXPECT_LT(settled_rms(some, field_x), 2 * settled_rms(all, field_x));
+  EXPECT_LT(settled_rms(some, gyro_yaw_a), 2 * settled_rms(all, gyro_yaw_a));
 }
 
 TEST_F(MissingInstrument, ACommandedVehicleIsNearTheReportedOne) {
@@ -91,8 +91,8 @@ TEST_F(MissingInstrument, ACommandedVehicleIsNearTheReportedOne) {
   leave_out(quantities_named("motor"), mission);
   obey_orders(mission, {});
   const Innovations reported = left_of(whole_), commanded = left_of(mission);
-  EXPECT_LT(rms(commanded, field_x), 1.5 * rms(reported, field_x));
-  EXPECT_LT(rms(commanded, gyro_yaw_a), 1.5 * rms(reported, gyro_yaw_a));
+  EXPECT_LT(settled_rms(commanded, field_x), 1.5 * settled_rms(reported, field_x));
+  EXPECT_LT(settled_rms(commanded, gyro_yaw_a), 1.5 * settled_rms(reported, gyro_yaw_a));
 }
 
 /// Names of the effects that a mission hardly shows, by the noise of its instruments.
