@@ -101,7 +101,7 @@ std::vector<double> Mission::fix_times_s() const {
 
 bool Mission::is_silent(Quantity quantity, double time_s) const {
   return std::any_of(silences.begin(), silences.end(), [&](const Silence& silence) {
-    return silence.quantity == quantity && time_s >= silence.from_s && time_s < silence.until_s;
+    return silence.quantity == quantity && silence.contains(time_s, duration_s);
   });
 }
 

@@ -88,10 +88,10 @@ bool says_nothing(const CardReading& reading) {
 }
 
 template <class Reading>
-void silence(const std::vector<Silence>& silences, std::vector<Reading>& readings) {
+void silence(const std::vector<Silence>& silences, double duration_s, std::vector<Reading>& readings) {
   for (const Silence& each : silences) {
     for (Reading& reading : readings) {
-      if (reading.time_s >= each.from_s && reading.time_s < each.until_s) silence(each.quantity, reading);
+      if (each.contains(reading.time_s, duration_s)) silence(each.quantity, reading);
     }
   }
   std::erase_if(readings, [](const Reading& reading) { return says_nothing(reading); });
@@ -126,7 +126,7 @@ const std::array<Named, 12>& named_silences() {
   using enum Quantity;
   static const std::array<Named, 12> kNamed{{
       {{heading, field, tilt}, "compass", "compass"},
-      {{heading, field}, "heading and no magnetic field", "magnetometer"},
+      {{heading, field}, "magnetometer", "magnetometer"},
       {{field}, "magnetic field", "magnetometer"},
       {{heading}, "heading", "heading of the compass"},
       {{tilt}, "inclinometer", "inclinometer"},
@@ -242,8 +242,8 @@ void leave_out(std::span<const Quantity> quantities, Mission& mission) {
     mission.fixes.clear();
     if (mission.field.source == EarthField::Source::model) mission.field = fitted_field(mission.compass);
   }
-  silence(whole, mission.compass);
-  silence(whole, mission.card);
+  silence(whole, mission.duration_s, mission.compass);
+  silence(whole, mission.duration_s, mission.card);
   find_silences(mission);
 }
 
@@ -253,8 +253,8 @@ void silence_like(const Mission& recorded, Mission& simulated) {
   simulated.judged_until_s = recorded.judged_until_s;
   if (simulated.silences.empty()) return;
   simulated.duration_s = recorded.duration_s;
-  silence(simulated.silences, simulated.compass);
-  silence(simulated.silences, simulated.card);
+  silence(simulated.silences, recorded.duration_s, simulated.compass);
+  silence(simulated.silences, recorded.duration_s, simulated.card);
   add_empty_frames(simulated);
 }
 

@@ -35,6 +35,10 @@ struct Silence {
   Quantity quantity = Quantity::heading;
   double from_s = 0, until_s = 0;
 
+  /// Whether a time is in it. The end of a recording of this length ends no silence.
+  [[nodiscard]] bool contains(double time_s, double duration_s) const {
+    return time_s >= from_s && (time_s < until_s || until_s >= duration_s);
+  }
   bool operator==(const Silence&) const = default;
 };
 

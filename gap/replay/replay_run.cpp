@@ -61,8 +61,9 @@ std::array<double, 4> of_speaking(std::array<double, 4> said, const std::array<d
   return said;
 }
 
-/// Magnetic heading from the compass's own field and tilt.
+/// Magnetic heading from the compass's own field and tilt; NaN without a field.
 double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
+  if (std::isnan(field[0])) return field[0];
   return calib::levelled_heading(base::vector_of(field), roll_rad, pitch_rad);
 }
 
