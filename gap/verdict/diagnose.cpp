@@ -121,6 +121,18 @@ bool judges_nothing(const FoundEffects& result, const Library& library) {
   return result.not_judged().size() == held;
 }
 
+/// Reason why a gap that is seen has no name: effects that were not judged take it up.
+std::string hidden_cause_text(const FoundEffects& result, const Library& library) {
+  std::vector<std::string_view> strong;
+  for (const std::size_t effect : result.not_judged()) {
+    if (strength_of(library, effect, result.found.best.mean) > kBeyondWideTolerance) {
+      strong.push_back(library[effect].name);
+    }
+  }
+  return fmt::format("the gap goes away with effects that were not judged{}{}", strong.empty() ? "" : ": ",
+                     fmt::join(strong, ", "));
+}
+
 std::string other_vehicle_text(double least_ratio) {
   return fmt::format(
       "every channel is off by at least {:.1f} times what vehicles without a gap show: this looks like the "
@@ -155,6 +167,10 @@ void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Com
   answer.verdict = judgement.verdict;
   answer.unexplained = judgement.reasons;
   if (judges_nothing(result, problem.library)) answer.verdict = Verdict::unknown;
+  if (answer.verdict == Verdict::no_gap && !answer.where.empty() && !result.not_judged().empty()) {
+    answer.verdict = Verdict::unknown;
+    answer.unexplained.push_back(hidden_cause_text(result, problem.library));
+  }
   if (answer.least_ratio && *answer.least_ratio > kOtherVehicle) {
     answer.verdict = Verdict::unknown;
     answer.unexplained.insert(answer.unexplained.begin(), other_vehicle_text(*answer.least_ratio));
