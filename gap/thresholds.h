@@ -162,8 +162,8 @@ inline constexpr double kBeyondNulls_nats = 300;
 inline constexpr double kNullBayesFactor_sigma = 3;
 /// Smallest scatter of null Bayes factors, nats: that of gains which hardly differ.
 inline constexpr double kLeastNullScatter_nats = 1;
-/// Ratio to the nulls' residuals that every channel must exceed for a recording to be taken for that of another
-/// vehicle. Set: effects of the library leave some channels at their floor.
+/// Ratio to the nulls' residuals that all channels of the motion must exceed for an unexplained recording to be
+/// taken for that of another vehicle. Set: effects of the library leave some of them at their floor.
 inline constexpr double kOtherVehicle = 2;
 /// Length of a block of the bootstrap of closures, s: more than the 6.4 s that the whitening filter reaches back.
 inline constexpr double kBlock_s = 10;

@@ -171,8 +171,7 @@ void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Com
     answer.verdict = Verdict::unknown;
     answer.unexplained.push_back(hidden_cause_text(result, problem.library));
   }
-  if (answer.least_ratio && *answer.least_ratio > kOtherVehicle) {
-    answer.verdict = Verdict::unknown;
+  if (answer.verdict == Verdict::unknown && answer.least_ratio.value_or(0) > kOtherVehicle) {
     answer.unexplained.insert(answer.unexplained.begin(), other_vehicle_text(*answer.least_ratio));
   }
   write_gap(compared.holdouts, closure, !blocks, answer);

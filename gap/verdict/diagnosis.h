@@ -124,8 +124,8 @@ struct Diagnosis {
   std::array<double, 4> gyro_bias_rad_s{};  ///< A-x, A-z, B-y, B-z; a nuisance, never a cause
   InstrumentFacts instruments;
   std::optional<CommandCheck> commands;  ///< empty: the recording could not be read so far
-  /// Smallest ratio of a channel's residuals to their floor, root mean square: of another vehicle every channel is
-  /// off. Empty without a null bank.
+  /// Smallest ratio to their floor of the residuals by which the motion departs from the model of the vehicle,
+  /// root mean square. Empty without a null bank, and where hardly a channel shows the motion.
   std::optional<double> least_ratio;
   std::vector<ChangePoint> changes;
   std::optional<Scatter> scatter;   ///< of the strongest channel

@@ -130,10 +130,12 @@ std::vector<WhereEntry> significant_cells(const std::vector<WhereEntry>& map) {
 }
 
 std::optional<double> least_ratio(const Eigen::MatrixXd& explained_rms, const RegimeStatistics& nulls) {
-  constexpr int kLeastChannels = 4;
+  constexpr int kLeastChannels = 3;
   double least = std::numeric_limits<double>::infinity();
   int channels = 0;
   for (Eigen::Index c = 0; c < explained_rms.rows(); ++c) {
+    const std::string_view name = reported_channels()[static_cast<std::size_t>(c)].name;
+    if (!name.starts_with("vehicle.") && name != "imu.gyro" && name != "imu.accel") continue;
     const double value = explained_rms(c, overall_regime()), floor = nulls.floor(c, overall_regime());
     if (!(value > 0) || !(floor > 0)) continue;
     least = std::min(least, value / floor);

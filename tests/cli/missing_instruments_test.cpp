@@ -193,6 +193,8 @@ TEST_F(DoubtfulRecording, AnotherVehicleIsToldByItsRatio) {
   const auto json = gap("--vehicle other.toml all.cap");
   EXPECT_EQ(json["verdict"], "unknown") << json["sentence"];
   EXPECT_TRUE(json["effects"].empty());
+  EXPECT_GT(json["least_ratio"].get<double>(), 2);
+  EXPECT_NE(json["unexplained"].dump().find("the recording of another vehicle"), std::string::npos);
 }
 
 /// Without the compass nothing but the card tells of roll and pitch.
