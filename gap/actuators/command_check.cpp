@@ -137,6 +137,13 @@ Measured measured_yaw_rate(const Mission& mission) {
   return yaw;
 }
 
+/// Delay of the measured yaw rate behind that of the nominal vehicle.
+Delay delay_of_turns(const Mission& mission, const config::VehicleSettings& vehicle) {
+  const Series predicted = commanded_yaw_rate(mission, vehicle);
+  const Measured measured = measured_yaw_rate(mission);
+  return delay_of({&predicted, 1}, {&measured, 1});
+}
+
 bool is_at_limit(const Vector3& fins_rad, double limit_rad) {
   return std::any_of(fins_rad.begin(), fins_rad.end(),
                      [&](double fin_rad) { return std::abs(fin_rad) > limit_rad - kAtLimit_rad; });
@@ -185,15 +192,10 @@ CommandCheck check_commands(const Mission& mission, const config::VehicleSetting
   check.unrecorded = unrecorded_share(mission);
   if (mission.orders.empty()) return check;
   check.by_reports = !mission.motor_is_commanded;
-  if (check.by_reports) {
-    const Delay delay = delay_of_reports(mission, vehicle);
-    if (delay.correlation > kLeastCorrelation && delay.spread > kLeastMove_rad) check.delay_s = delay.late_s;
-    return check;
-  }
-  const Series predicted = commanded_yaw_rate(mission, vehicle);
-  const Measured measured = measured_yaw_rate(mission);
-  const Delay delay = delay_of({&predicted, 1}, {&measured, 1});
-  if (delay.correlation > kLeastCorrelation && delay.spread > kLeastMove_rad) check.delay_s = delay.late_s;
+  const Delay delay = check.by_reports ? delay_of_reports(mission, vehicle) : delay_of_turns(mission, vehicle);
+  if (!(delay.spread > kLeastMove_rad)) return check;
+  check.correlation = delay.correlation;
+  if (delay.correlation > kLeastCorrelation) check.delay_s = delay.late_s;
   return check;
 }
 

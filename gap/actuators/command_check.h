@@ -15,6 +15,9 @@ struct CommandCheck {
   /// between the measured yaw rate and that of the nominal vehicle under these commands, which takes the lag of a
   /// vehicle that is not nominal for a delay. Empty where the fins hardly moved or nothing correlates.
   std::optional<double> delay_s;
+  /// Correlation at that lag, or the greatest where it is too small for a delay; empty where the fins hardly moved
+  /// or nothing measures their consequence.
+  std::optional<double> correlation;
   bool by_reports = false;  ///< the delay is that of reported fins
   /// Share of the time in which a fin stands at its limit, by commands, else by reports; 0 to 1.
   double saturated = 0;

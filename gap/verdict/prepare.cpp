@@ -117,6 +117,14 @@ void Preparation::remark_on(const Prepared& prepared, const std::string& name, D
 }
 
 bool Preparation::can_obey(const CommandCheck& check, const std::string& name, Diagnosis& answer) {
+  if (!check.delay_s && check.correlation) {
+    answer.remarks.push_back(
+        fmt::format("{}: the vehicle's turns do not follow these commands (correlation {:.2f} at best), and no "
+                    "report says what "
+                    "the fins did",
+                    name, *check.correlation));
+    return false;
+  }
   if (!check.delay_s || std::abs(*check.delay_s) < kLateUnreported_s) return true;
   answer.remarks.push_back(
       fmt::format("{}: the vehicle turns {:.2f} s {} than these commands say (cross-correlation of its yaw rate), "
