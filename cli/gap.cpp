@@ -33,6 +33,7 @@ struct GapCommandOptions {
   report::GapSource source;
   analysis::PlaceArguments where;
   std::string json, report;
+  std::vector<std::string> without;
   std::filesystem::path cache;
   int bank_missions = gap::Request{}.bank_missions;
   std::uint64_t bank_seed = gap::Request{}.bank_seed;
@@ -56,6 +57,14 @@ void expect_effects(const std::vector<std::string>& names) {
   }
 }
 
+void expect_instrument(const std::string& name) {
+  try {
+    static_cast<void>(gap::quantities_named(name));
+  } catch (const std::invalid_argument& error) {
+    throw analysis::Failure(analysis::Exit::usage, std::string("--without: ") + error.what());
+  }
+}
+
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   gap::Request request;
   request.mission = options.source.mission;
@@ -63,6 +72,10 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   if (!options.source.config.empty()) request.settings = config::load(options.source.config);
   if (!options.source.vehicle.empty()) request.vehicle = config::load_vehicle(options.source.vehicle);
   request.excluded = options.source.excluded;
+  for (const std::string& name : options.without) {
+    const auto quantities = gap::quantities_named(name);
+    request.without.insert(request.without.end(), quantities.begin(), quantities.end());
+  }
   request.field_uT = options.where.field_uT();
   request.cache = options.cache.empty() ? usual_cache() : options.cache;
   request.bank_missions = options.bank_missions;
@@ -89,6 +102,7 @@ void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& opt
 void find_gap(const GapCommandOptions& options) {
   try {
     expect_effects(options.source.excluded);
+    for (const std::string& name : options.without) expect_instrument(name);
     const auto& source = options.source;
     for (const std::string& file : {options.json, options.report, source.effects_file}) {
       if (!file.empty() && file != "-") expect_folder_of(file);
@@ -133,6 +147,13 @@ void add_gap(CLI::App& app) {
                    "fixes are")
       ->option_text("N,E,D");
   command->add_option("--exclude", source.excluded, "removes this effect from the library; repeatable")
+      ->option_text("NAME")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--without", options->without,
+          "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
+          "gyros, accelerometers, depth, gps or motor; repeatable")
       ->option_text("NAME")
       ->allow_extra_args(false);
   command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")

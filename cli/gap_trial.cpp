@@ -166,6 +166,11 @@ void add_gap_trial(CLI::App& gap) {
                    "number of null missions of the diagnosis; default: that of navcal gap")
       ->check(CLI::Range(1, 100000))
       ->option_text("N");
+  command
+      ->add_option("--without", asking.without,
+                   "instruments that the diagnosis has to do without: those of navcal gap --without")
+      ->delimiter(',')
+      ->option_text("LIST");
   command->add_option("--timeout", options->timeout_s, "time limit of a diagnosis, seconds")
       ->check(CLI::Range(1, 86400))
       ->capture_default_str();

@@ -105,6 +105,13 @@ inline constexpr std::size_t kLeastFixes = 3;
 /// Least number of 0.1 s intervals with compass, inertial card and motor card for a recording to be judged: 20
 /// s.
 inline constexpr int kLeastIntervals = 200;
+/// Delay of the fins behind recorded commands from which it is said, s: more than latencies and clocks make.
+inline constexpr double kLateCommands_s = 0.1;
+/// Delay of the turns behind commands, where no report says what the fins did, from which the commands are not
+/// believed, s: more than an unmodelled lag of the vehicle makes (fin_lag 0.2 s). Set.
+inline constexpr double kLateUnreported_s = 0.5;
+/// Share of the time with a fin at its limit from which it is said.
+inline constexpr double kManySaturated = 0.05;
 /// Largest misfit of recorded fin commands, in units of the report noise: a report with twice its noise has 4.
 inline constexpr double kMostCommandMisfit = 4;
 
@@ -155,6 +162,9 @@ inline constexpr double kBeyondNulls_nats = 300;
 inline constexpr double kNullBayesFactor_sigma = 3;
 /// Smallest scatter of null Bayes factors, nats: that of gains which hardly differ.
 inline constexpr double kLeastNullScatter_nats = 1;
+/// Ratio to the nulls' residuals that all channels of the motion must exceed for an unexplained recording to be
+/// taken for that of another vehicle. Set: effects of the library leave some of them at their floor.
+inline constexpr double kOtherVehicle = 2;
 /// Length of a block of the bootstrap of closures, s: more than the 6.4 s that the whitening filter reaches back.
 inline constexpr double kBlock_s = 10;
 /// Resamples of that bootstrap: its 2.5 % quantile rests on 25 of them.

@@ -88,6 +88,22 @@ OrderedJson json_of(const gap::BankFacts& bank) {
           {"seconds", bank.seconds}};
 }
 
+OrderedJson json_of(const gap::InstrumentFacts& instruments) {
+  return {{"missing", instruments.missing},
+          {"interrupted",
+           list_of(instruments.interrupted,
+                   [](const gap::Interruption& each) {
+                     return OrderedJson{{"name", each.what}, {"from_s", each.from_s}, {"until_s", each.until_s}};
+                   })},
+          {"not_judged", instruments.not_judged}};
+}
+
+OrderedJson json_of(const gap::CommandCheck& commands) {
+  OrderedJson delay;
+  if (commands.delay_s) delay = *commands.delay_s;
+  return {{"delay_s", std::move(delay)}, {"saturated", commands.saturated}, {"unrecorded", commands.unrecorded}};
+}
+
 OrderedJson json_of(const gap::EarthField& field) {
   OrderedJson place, date;
   if (field.place) {
@@ -118,6 +134,9 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"next", diagnosis.next},
       {"remarks", diagnosis.remarks},
       {"gyro_bias", {{"ax_rad_s", bias[0]}, {"az_rad_s", bias[1]}, {"by_rad_s", bias[2]}, {"bz_rad_s", bias[3]}}},
+      {"instruments", json_of(diagnosis.instruments)},
+      {"commands", diagnosis.commands ? json_of(*diagnosis.commands) : OrderedJson()},
+      {"least_ratio", diagnosis.least_ratio ? OrderedJson(*diagnosis.least_ratio) : OrderedJson()},
       {"changes", list_of(diagnosis.changes, convert)},
       {"field", diagnosis.field ? json_of(*diagnosis.field) : OrderedJson()},
       {"bank", json_of(diagnosis.bank)},

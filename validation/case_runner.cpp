@@ -74,6 +74,7 @@ void diagnose(const TrialCase& drawn, const CaseRunOptions& asking, const fs::pa
   std::vector<std::string> arguments{"gap",    files[0],    "--holdout", files[1], "--holdout",
                                      files[2], "--vehicle", vehicle,     "--json", json};
   if (asking.bank_missions) arguments.insert(arguments.end(), {"--bank", std::to_string(*asking.bank_missions)});
+  for (const std::string& name : asking.without) arguments.insert(arguments.end(), {"--without", name});
   if (!drawn.excluded.empty()) arguments.insert(arguments.end(), {"--exclude", drawn.excluded});
   const ChildEnd end = run_child(asking.program, arguments, errors, asking.timeout);
   result.seconds = end.seconds;

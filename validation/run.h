@@ -16,6 +16,7 @@ namespace navcal::validation {
 struct CaseRunOptions {
   std::filesystem::path program = "/proc/self/exe";
   std::optional<int> bank_missions;
+  std::vector<std::string> without;  ///< instruments that the diagnosis has to do without (navcal gap --without)
   std::chrono::seconds timeout{600};
   unsigned jobs = 1;
   std::filesystem::path keep;  ///< empty: recordings are removed once they are answered

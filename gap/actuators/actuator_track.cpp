@@ -46,6 +46,7 @@ std::vector<double> ActuatorTrack::current_A(std::span<const MotorReading> readi
     for (std::size_t n = 0; n < rows_.size(); ++n) {
       const std::size_t k = pass == 0 ? n : rows_.size() - 1 - n;
       const auto take = [&](const MotorReading& reading) {
+        if (!std::isfinite(reading.current_A)) return;
         const double difference = reading.current_A - nominal_A[row_of(reading)];
         mean += (begun ? std::min(report_s_ / kCurrentMean_s, 1.0) : 1.0) * (difference - mean);
         begun = true;

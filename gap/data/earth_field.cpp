@@ -22,6 +22,11 @@ namespace {
 /// No place on the Earth has more than 70 uT.
 constexpr double kGreatest_uT = 100;
 
+/// Whether the reading has a field and a tilt.
+bool is_complete(const CompassReading& reading) {
+  return std::isfinite(reading.field_uT[0]) && std::isfinite(reading.roll_rad);
+}
+
 /// Unit vector downwards in body axes, by the reading's own tilt.
 Eigen::Vector3d downwards(const CompassReading& reading) {
   const double sf = std::sin(reading.roll_rad), cf = std::cos(reading.roll_rad);
@@ -45,9 +50,11 @@ std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassRe
   constexpr double kReading_uT = 10;  ///< lag of the tilt and noise, alike for many readings in a row
   constexpr double kIron_uT = 3;
   constexpr double kOutlier = 0.3;  ///< of the usual size
-  if (readings.empty()) return std::nullopt;
   std::vector<double> sizes_uT;
-  for (const CompassReading& reading : readings) sizes_uT.push_back(base::vector_of(reading.field_uT).norm());
+  for (const CompassReading& reading : readings) {
+    if (is_complete(reading)) sizes_uT.push_back(base::vector_of(reading.field_uT).norm());
+  }
+  if (sizes_uT.empty()) return std::nullopt;
   const double usual_uT = median(std::move(sizes_uT));
   if (!(usual_uT > 0)) return std::nullopt;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();  // of b, D, (F^2 - |b|^2) / (2 usual size)
@@ -58,6 +65,7 @@ std::optional<std::array<double, 2>> vertical_and_size(std::span<const CompassRe
     right += row * value;
   };
   for (const CompassReading& reading : readings) {
+    if (!is_complete(reading)) continue;
     const Eigen::Vector3d B = base::vector_of(reading.field_uT);
     if (std::abs(B.norm() - usual_uT) > kOutlier * usual_uT) continue;
     const Eigen::Vector3d g = downwards(reading);

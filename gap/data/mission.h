@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,13 +13,15 @@
 #include "config/settings.h"
 #include "devices/instrument_model.h"
 #include "gap/data/earth_field.h"
+#include "gap/data/silence.h"
 #include "instruments/samples.h"
 #include "pipeline/pipeline.h"
 #include "sim/state.h"
 
 namespace navcal::gap {
 
-// Times are seconds since the recording's first byte, body axes x forward, y starboard, z down.
+// Times are seconds since the recording's first byte, body axes x forward, y starboard, z down. NaN is what an
+// instrument does not measure: all components of a vector, roll with pitch, the first three gyros together.
 
 struct CompassReading {
   double time_s = 0;
@@ -49,6 +52,13 @@ struct MotorReading {
   double current_A = 0;
 };
 
+/// A command to the motor card: what the vehicle was told, not what it did.
+struct Order {
+  double time_s = 0;
+  double rpm = 0;
+  Vector3 fins_rad{};
+};
+
 /// Readings of the instruments of one mission, each in order of time.
 struct Mission {
   std::vector<CompassReading> compass;
@@ -61,10 +71,21 @@ struct Mission {
     std::string compass, card, motor;
   };
   Lacks lacks;
-  /// Times of new commands to the motor card. Empty: not recorded.
+  /// Commands as they were recorded, each that differs from the one before. Empty: not recorded.
+  std::vector<Order> orders;
+  /// Times of all commands, repeated ones too.
+  std::vector<double> commanded_s;
+  /// Times of new commands by which the fins are thought to have moved: recorded, or estimated.
   std::vector<double> order_times_s;
   /// Fins that each of them commanded: what the vehicle was told, not what it did. Empty: not recorded.
   std::vector<Vector3> ordered_fins_rad;
+  /// Whether `motor` is not reported but computed from the commands.
+  bool motor_is_commanded = false;
+  /// Mission sensors that may be outputs to actuators ("output1"): nothing says what they move.
+  std::vector<std::string> outputs;
+  std::vector<Silence> silences;
+  /// The time for which the mission can be judged.
+  double judged_from_s = 0, judged_until_s = std::numeric_limits<double>::infinity();
   double duration_s = 0;
   std::uint64_t distorted = 0;  ///< words of the compass with its remark of magnetic distortion (E001)
   std::vector<std::string> remarks;
@@ -73,12 +94,16 @@ struct Mission {
   devices::InstrumentModel instruments;
 
   [[nodiscard]] std::vector<double> fix_times_s() const;
+  /// Whether a quantity is silent at a time, and whether it is silent at all.
+  [[nodiscard]] bool is_silent(Quantity quantity, double time_s) const;
+  [[nodiscard]] bool is_silent(Quantity quantity) const;
   /// All reasons why the mission cannot be diagnosed ("no inertial card in the recording: ...; ..."); empty: it
   /// can.
   [[nodiscard]] std::string shortcoming() const;
 };
 
-/// Gathers a mission from a pipeline. Readings that lack a part that is needed, or are not finite, are left out.
+/// Gathers a mission from a pipeline. Where an instrument gives complete samples, incomplete ones are left out;
+/// where it is silent otherwise (kSilent_s), the parts of incomplete samples serve.
 class MissionGatherer final : public pipeline::Sink {
  public:
   void on_sample(const instruments::Sample& sample) override;
@@ -95,11 +120,27 @@ class MissionGatherer final : public pipeline::Sink {
   void add(const instruments::ImuSample& sample, std::int64_t time_ns);
   void add(const instruments::GpsSample& sample, std::int64_t time_ns);
   void add(const instruments::MotorSample& sample, std::int64_t time_ns);
+  void add(const instruments::ScalarSample& sample, std::int64_t time_ns);
 
   [[nodiscard]] EarthField field(const Said& said) const;
 
+  /// Readings with the times of their samples, in order of arrival.
+  template <class Reading>
+  struct Gathered {
+    std::vector<Reading> readings;
+    std::vector<std::int64_t> times_ns;
+    void add(const Reading& reading, std::int64_t time_ns) {
+      readings.push_back(reading);
+      times_ns.push_back(time_ns);
+    }
+  };
   Mission mission_;
-  std::vector<std::int64_t> times_ns_[4];
+  Gathered<CompassReading> compass_, compass_parts_;
+  Gathered<CardReading> card_, card_parts_;
+  Gathered<FixReading> fixes_;
+  Gathered<MotorReading> motor_, motor_parts_;
+  Gathered<Order> orders_;
+  std::vector<bool> heading_is_true_;  ///< of compass_parts_
 };
 
 /// Settings under which the pipeline makes stamped samples and nothing else.

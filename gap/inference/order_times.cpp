@@ -65,6 +65,9 @@ Mission busiest_part(const Mission& mission) {
   part.duration_s = until_s;
   part.field = mission.field;
   part.instruments = mission.instruments;
+  part.silences = mission.silences;
+  part.judged_from_s = mission.judged_from_s;
+  part.judged_until_s = mission.judged_until_s;
   return part;
 }
 
@@ -82,7 +85,9 @@ std::vector<double> likely_order_times_s(const Mission& mission, const config::V
   const Whitening whitening = Whitening::nominal(mission.instruments);
   const Mission part = busiest_part(mission);
   // An instrument may be silent in that part.
-  const Mission& looked_at = part.shortcoming().empty() ? part : mission;
+  const bool is_whole =
+      !part.card.empty() && (!part.compass.empty() || mission.compass.empty()) && !part.motor.empty();
+  const Mission& looked_at = is_whole && part.shortcoming().empty() ? part : mission;
   const Mission first = ordered_at(looked_at, 0);
   const Replay replay(first, vehicle);
   const Eigen::VectorXd at = with_biases_found(replay, library, threads);

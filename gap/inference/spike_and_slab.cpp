@@ -2,6 +2,7 @@
 #include "gap/inference/spike_and_slab.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -71,6 +72,22 @@ Priors fit_spike_widths(const Library& library, const Eigen::MatrixXd& gram, con
     priors.spike[j] = std::max({tolerance, scatter[j], priors.model_error[j]});
   }
   return priors;
+}
+
+EffectSubset hardly_shown_effects(const Library& library, const Eigen::MatrixXd& gram, const Priors& priors) {
+  const Evidence evidence(gram, Eigen::VectorXd::Zero(gram.rows()), priors.spike, priors.slab);
+  EffectSubset hidden;
+  for (std::size_t effect = 0; effect < library.size(); ++effect) {
+    if (!library.holds(effect)) continue;
+    double most_nats = 0;
+    for (const Eigen::Index j : parameter_indices(library, {effect})) {
+      Eigen::VectorXd values = Eigen::VectorXd::Zero(gram.rows());
+      values[j] = library.unknowns()[static_cast<std::size_t>(j)].typical;
+      most_nats = std::max(most_nats, evidence.separation(std::array{j}, values, {}));
+    }
+    if (most_nats < kObservable_nats) hidden.push_back(effect);
+  }
+  return hidden;
 }
 
 }  // namespace navcal::gap

@@ -47,7 +47,7 @@ bool are_near(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Library&
 
 SubsetSearch::SubsetSearch(const InferenceProblem& problem) : problem_(problem), library_(problem.model.library) {
   for (std::size_t effect = 0; effect < library_.size(); ++effect) {
-    if (library_.holds(effect)) held_.push_back(effect);
+    if (library_.holds(effect) && !has(problem.priors.not_judged, effect)) held_.push_back(effect);
   }
 }
 

@@ -105,7 +105,8 @@ BankCache::BankCache(std::filesystem::path folder, const config::VehicleSettings
 }
 
 std::string BankCache::model_of(const Replay& replay) const {
-  return model_ + fmt::format(" instruments {:08x}", checksum_of(replay.mission().instruments));
+  return model_ + fmt::format(" instruments {:08x}", checksum_of(replay.mission().instruments)) +
+         silence_key(replay.mission());
 }
 
 std::optional<NullBank> BankCache::find(const Replay& replay, const Trajectory10Hz& course,

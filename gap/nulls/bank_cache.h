@@ -14,8 +14,8 @@ namespace navcal::gap {
 
 /// Null banks of missions that were diagnosed before. A bank serves every mission that was steered alike: the
 /// same shaft speeds, turns, depths, fixes and field of the Earth within a tolerance. Nominal vehicle,
-/// instruments, library and program must be equal. The folder holds at most kMostBanks banks; the least
-/// recently used one is removed first.
+/// instruments, what of them is silent and when, library and program must be equal. The folder holds at most
+/// kMostBanks banks; the least recently used one is removed first.
 class BankCache {
  public:
   static constexpr std::size_t kMostBanks = 64;  ///< of about 0.3 MB each
@@ -30,7 +30,7 @@ class BankCache {
   [[nodiscard]] std::string keep(const Replay& replay, const Trajectory10Hz& course, const NullBank& bank) const;
 
  private:
-  /// Text that must be equal for a bank to serve: program, vehicle, library and instruments.
+  /// Text that must be equal for a bank to serve: program, vehicle, library, instruments and silences.
   [[nodiscard]] std::string model_of(const Replay& replay) const;
 
   std::filesystem::path folder_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/durations.h"
+#include "gap/actuators/commanded_motor.h"
 #include "gap/actuators/trajectory_tracker.h"
 #include "gap/thresholds.h"
 #include "sim/effects/effect_table.h"
@@ -94,10 +95,24 @@ Mission null_mission(const RepeatedMission& repeated, const sim::EffectSet& mism
   }
   Mission mission = gatherer.take(begin_ns, {});
   mission.instruments = options.instruments;
+  silence_like(recorded.mission(), mission);
   // A fitted field absorbs some of each vehicle's tolerances, so it is fitted to each null, too.
   mission.field = field.source == EarthField::Source::fitted ? fitted_field(mission.compass) : field;
   keep_fixes(recorded.mission(), mission);
   for (const double time_s : track.orders().order_times_s()) mission.order_times_s.push_back(time_s + later_s);
+  if (recorded.mission().motor_is_commanded) {
+    for (Order order : recorded.mission().orders) {
+      order.time_s += later_s;
+      mission.orders.push_back(order);
+    }
+    mission.motor.clear();
+    obey_orders(mission, vehicle);
+    mission.order_times_s.clear();
+    for (const Order& order : mission.orders) {
+      mission.order_times_s.push_back(order.time_s);
+      mission.ordered_fins_rad.push_back(order.fins_rad);
+    }
+  }
   return mission;
 }
 

@@ -53,8 +53,12 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
 
   // Frames lie in the middle of their share of an interval, so that clock drift does not move one into the next
   // interval.
-  const double first_s =
-      std::max({mission.card.front().time_s, mission.compass.front().time_s, mission.motor.front().time_s});
+  // An instrument that begins late is waited for, unless the others are to be judged without it.
+  const auto begins_s = [&](const auto& readings, Quantity quantity) {
+    return readings.empty() || mission.is_silent(quantity, 0) ? 0.0 : readings.front().time_s;
+  };
+  const double first_s = std::max({mission.card.front().time_s, begins_s(mission.compass, Quantity::heading),
+                                   mission.motor.front().time_s, mission.judged_from_s});
   const auto first = std::find_if(mission.card.begin(), mission.card.end(),
                                   [&](const CardReading& reading) { return reading.time_s >= first_s; });
   const double half_frame_s = std::min(0.5 / mission.instruments.imu.timing.rate_Hz, kInterval_s / 2);
@@ -66,7 +70,8 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
     compass_shift_s_ = kInterval_s / 2 - phase_s;
   }
   intervals_ = std::max<Eigen::Index>(
-      0, static_cast<Eigen::Index>(std::floor((mission.card.back().time_s - begin_s_) / kInterval_s)));
+      0, static_cast<Eigen::Index>(
+             std::floor((std::min(mission.card.back().time_s, mission.judged_until_s) - begin_s_) / kInterval_s)));
 }
 
 Innovations Replay::run(const Model& model, Trajectory10Hz* course) const {

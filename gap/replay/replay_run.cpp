@@ -19,6 +19,13 @@ namespace {
 
 // Gains of the estimator, for each reading or frame. Set by a study of this vehicle.
 constexpr double kHeadingGain = 0.02, kTiltGain = 0.05, kRateGain = 0.15;
+/// In the place of a silent compass: share by which one frame's specific force corrects roll and pitch, and one
+/// fix's course over ground the heading.
+constexpr double kLevelGain = 0.01, kCourseGain = 0.1;
+/// Time over which the first attitude is levelled by specific force.
+constexpr double kLevelled_s = 1;
+/// Slower than this over ground, the course says nothing of the heading.
+constexpr double kLeastCourse_m_s = 0.4;
 constexpr double kDriftVariance_m2_s = 0.02;
 /// After a longer silence the card has been off, and the estimator begins anew.
 constexpr double kRestart_s = 5;
@@ -36,11 +43,27 @@ Eigen::Vector3d euler_rates(const Eigen::Vector3d& euler_rad, const Eigen::Vecto
   return {rate_rad_s[0] + std::sin(euler_rad[1]) * yaw, cf * rate_rad_s[1] - sf * rate_rad_s[2], yaw};
 }
 
-/// Body rates about x, y and z from the four gyros; the two about z are averaged.
-Vector3 about_axes(const std::array<double, 4>& gyros) { return {gyros[0], gyros[2], (gyros[1] + gyros[3]) / 2}; }
+/// Mean of the two gyros about z, or what one of them says where the other is silent.
+double about_z(double a, double b) { return std::isnan(b) ? a : std::isnan(a) ? b : (a + b) / 2; }
 
-/// Magnetic heading from the compass's own field and tilt.
+/// Body rates about x, y and z from the four gyros; the two about z are averaged.
+Vector3 about_axes(const std::array<double, 4>& gyros) {
+  return {gyros[0], gyros[2], about_z(gyros[1], gyros[3])};
+}
+
+double finite_or_zero(double value) { return std::isfinite(value) ? value : 0; }
+
+/// What is predicted of gyros, without those that are silent.
+std::array<double, 4> of_speaking(std::array<double, 4> said, const std::array<double, 4>& measured) {
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    if (std::isnan(measured[i])) said[i] = measured[i];
+  }
+  return said;
+}
+
+/// Magnetic heading from the compass's own field and tilt; NaN without a field.
 double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
+  if (std::isnan(field[0])) return field[0];
   return calib::levelled_heading(base::vector_of(field), roll_rad, pitch_rad);
 }
 
@@ -76,22 +99,54 @@ void ReplayRun::complete(sim::State& state, double time_s) {
   state.field_world_uT = in_.mission.field.north_east_down_uT;
 }
 
+Eigen::Vector3d ReplayRun::first_attitude(const CardReading& reading) const {
+  const Mission& mission = in_.mission;
+  const Vector3& earth_uT = mission.field.north_east_down_uT;
+  const double variation_rad = std::atan2(earth_uT[1], earth_uT[0]);
+  const bool levelled = mission.is_silent(Quantity::tilt, reading.time_s);
+  const CompassReading* const word =
+      mission.compass.empty() ? nullptr : &mission.compass[std::min(next_word_, mission.compass.size() - 1)];
+  double roll_rad = 0, pitch_rad = 0;
+  if (!levelled && word != nullptr && std::isfinite(word->roll_rad)) {
+    roll_rad = word->roll_rad;
+    pitch_rad = word->pitch_rad;
+  } else {
+    Eigen::Vector3d force_m_s2 = Eigen::Vector3d::Zero();
+    for (const CardReading& frame : mission.card) {
+      const bool is_near = frame.time_s >= reading.time_s && frame.time_s < reading.time_s + kLevelled_s;
+      if (is_near && std::isfinite(frame.force_m_s2[0])) force_m_s2 += base::vector_of(frame.force_m_s2);
+    }
+    if (force_m_s2.norm() > 0) {
+      roll_rad = std::atan2(-force_m_s2.y(), -force_m_s2.z());
+      pitch_rad = std::atan2(force_m_s2.x(), std::hypot(force_m_s2.y(), force_m_s2.z()));
+    }
+  }
+  if (word != nullptr && !mission.is_silent(Quantity::heading, reading.time_s)) {
+    const double heading_rad = word->heading_rad.value_or(heading_of(word->field_uT, roll_rad, pitch_rad));
+    if (std::isfinite(heading_rad)) return {roll_rad, pitch_rad, heading_rad + variation_rad};
+  }
+  const auto fix = std::find_if(mission.fixes.begin(), mission.fixes.end(), [&](const FixReading& each) {
+    return each.time_s >= reading.time_s && each.velocity_m_s;
+  });
+  if (fix == mission.fixes.end()) return {roll_rad, pitch_rad, 0};
+  return {roll_rad, pitch_rad, std::atan2((*fix->velocity_m_s)[1], (*fix->velocity_m_s)[0])};
+}
+
 void ReplayRun::begin(const CardReading& reading) {
   while (next_word_ + 1 < in_.mission.compass.size() && in_.mission.compass[next_word_].time_s < reading.time_s) {
     ++next_word_;
   }
-  const CompassReading& word = in_.mission.compass[std::min(next_word_, in_.mission.compass.size() - 1)];
-  const Vector3& earth_uT = in_.mission.field.north_east_down_uT;
-  const double variation_rad = std::atan2(earth_uT[1], earth_uT[0]);
-  const double heading_rad = word.heading_rad.value_or(heading_of(word.field_uT, word.roll_rad, word.pitch_rad));
   body_ = {};
-  body_.euler_rad = {word.roll_rad, word.pitch_rad, heading_rad + variation_rad};
-  body_.position_m.z() = reading.depth_m;
+  body_.euler_rad = first_attitude(reading);
+  has_heading_ = !in_.mission.is_silent(Quantity::heading, reading.time_s);
+  body_.position_m.z() = finite_or_zero(reading.depth_m);
   body_.velocity[0] =
       sim::steady_advance_m(in_.settings) * in_.actuators[actuators_.row_at(reading.time_s)].shaft_rps;
   gyro_said_rad_s_ = about_axes(reading.gyro_rad_s);
   gyro_error_rad_s_ = gyro_error_at_rest_rad_s_;
-  body_.velocity.tail<3>() = base::vector_of(gyro_said_rad_s_) - base::vector_of(gyro_error_rad_s_);
+  for (std::size_t i = 0; i < 3; ++i) {
+    body_.velocity[static_cast<Eigen::Index>(3 + i)] = finite_or_zero(gyro_said_rad_s_[i] - gyro_error_rad_s_[i]);
+  }
   if (!in_.electronics_C.empty()) {
     instruments_.set_electronics(in_.electronics_C[std::min(next_word_, in_.electronics_C.size() - 1)]);
   }
@@ -125,11 +180,12 @@ void ReplayRun::carry(const CardReading& to) {
   Vector3 rate{};
   for (std::size_t i = 0; i < 3; ++i) rate[i] = (gyro_said_rad_s_[i] + said[i]) / 2 - gyro_error_rad_s_[i];
   gyro_said_rad_s_ = said;
+  const bool measured = std::isfinite(rate[0]) && std::isfinite(rate[1]) && std::isfinite(rate[2]);
   const int steps = std::max(1, static_cast<int>(std::ceil(span_s / kLongestStep_s)));
   for (int i = 0; i < steps; ++i) {
     // Across a gap the gyro readings at its two ends do not describe the motion in between, so the rates are
     // those of the vehicle model.
-    if (steps > 3) rate = array_of(body_.velocity.tail<3>());
+    if (steps > 3 || !measured) rate = array_of(body_.velocity.tail<3>());
     step(from_s + span_s * i / steps, from_s + span_s * (i + 1) / steps, rate);
   }
 }
@@ -165,19 +221,31 @@ void ReplayRun::take_card(const CardReading& reading) {
   add(interval, depth, reading.depth_m - said.depth_m);
 
   const auto& rate = now.rate_rad_s;
-  gyro_error_rad_s_ = {said.gyro_rad_s[0] - rate[0], said.gyro_rad_s[2] - rate[1],
-                       (said.gyro_rad_s[1] + said.gyro_rad_s[3]) / 2 - rate[2]};
-  body_.velocity[3] += kRateGain * missed[0];
-  body_.velocity[4] += kRateGain * missed[2];
-  body_.velocity[5] += kRateGain * (missed[1] + missed[3]) / 2;
-  body_.position_m.z() += kDepthGain * (reading.depth_m - said.depth_m);
+  const Vector3 said_rad_s = about_axes(of_speaking(said.gyro_rad_s, reading.gyro_rad_s));
+  for (std::size_t i = 0; i < 3; ++i) gyro_error_rad_s_[i] = said_rad_s[i] - rate[i];
+  body_.velocity[3] += kRateGain * finite_or_zero(missed[0]);
+  body_.velocity[4] += kRateGain * finite_or_zero(missed[2]);
+  body_.velocity[5] += kRateGain * finite_or_zero(about_z(missed[1], missed[3]));
+  body_.position_m.z() += kDepthGain * finite_or_zero(reading.depth_m - said.depth_m);
+  if (in_.mission.is_silent(Quantity::tilt, reading.time_s)) level_by(reading, said);
+}
+
+void ReplayRun::level_by(const CardReading& reading, const PredictedInstruments::Card& said) {
+  body_.euler_rad[0] -=
+      kLevelGain * finite_or_zero(reading.force_m_s2[1] - said.force_m_s2[1]) / sim::kGravity_m_s2;
+  body_.euler_rad[1] +=
+      kLevelGain * finite_or_zero(reading.force_m_s2[0] - said.force_m_s2[0]) / sim::kGravity_m_s2;
 }
 
 void ReplayRun::take_word(const CompassReading& reading, const sim::State& state) {
   const auto said = instruments_.word(reading.time_s, state);
-  const double heading_missed = base::wrapped(
-      reading.heading_rad.value_or(heading_of(reading.field_uT, reading.roll_rad, reading.pitch_rad)) -
-      heading_of(said.field_uT, said.tilt.roll_rad, said.tilt.pitch_rad));
+  // A magnetometer without an inclinometer is levelled by the estimate.
+  const bool has_tilt = std::isfinite(reading.roll_rad);
+  const double roll_rad = has_tilt ? reading.roll_rad : said.tilt.roll_rad;
+  const double pitch_rad = has_tilt ? reading.pitch_rad : said.tilt.pitch_rad;
+  const double heading_missed =
+      base::wrapped(reading.heading_rad.value_or(heading_of(reading.field_uT, roll_rad, pitch_rad)) -
+                    heading_of(said.field_uT, said.tilt.roll_rad, said.tilt.pitch_rad));
   const double roll_missed = reading.roll_rad - said.tilt.roll_rad;
   const double pitch_missed = reading.pitch_rad - said.tilt.pitch_rad;
   const auto interval = interval_of(reading.time_s + in_.compass_shift_s);
@@ -189,7 +257,8 @@ void ReplayRun::take_word(const CompassReading& reading, const sim::State& state
   add(interval, tilt_pitch, pitch_missed);
   add(interval, heading, heading_missed);
   body_.euler_rad +=
-      Eigen::Vector3d{kTiltGain * roll_missed, kTiltGain * pitch_missed, kHeadingGain * heading_missed};
+      Eigen::Vector3d{kTiltGain * finite_or_zero(roll_missed), kTiltGain * finite_or_zero(pitch_missed),
+                      kHeadingGain * finite_or_zero(heading_missed)};
 }
 
 void ReplayRun::take_words(double until_s) {
@@ -236,13 +305,30 @@ void ReplayRun::take_fix(std::size_t index) {
     variance_m2_ *= fix_variance_m2 / together_m2;
   }
   if (fix.velocity_m_s) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      out_.fixes(row, static_cast<Eigen::Index>(velocity_north + static_cast<int>(i))) =
-          ((*fix.velocity_m_s)[i] - antenna.velocity_m_s[i]) / degraded;
+    std::array<double, 2> missed_m_s{};
+    for (std::size_t i = 0; i < 2; ++i) missed_m_s[i] = (*fix.velocity_m_s)[i] - antenna.velocity_m_s[i];
+    const bool is_start = steer_by(fix, missed_m_s, degraded);
+    for (std::size_t i = 0; i < 2 && !is_start; ++i) {
+      out_.fixes(row, static_cast<Eigen::Index>(velocity_north + static_cast<int>(i))) = missed_m_s[i] / degraded;
     }
   }
   last_fix_s_ = fix.time_s;
   distance_at_fix_m_ = distance_m_;
+}
+
+bool ReplayRun::steer_by(const FixReading& fix, const std::array<double, 2>& missed_m_s, double degraded) {
+  const auto& [north_m_s, east_m_s] = *fix.velocity_m_s;
+  const double speed_m_s = std::hypot(north_m_s, east_m_s);
+  if (!in_.mission.is_silent(Quantity::heading, fix.time_s) || speed_m_s < kLeastCourse_m_s) return false;
+  double& heading_rad = body_.euler_rad[2];
+  if (!has_heading_) {
+    has_heading_ = true;
+    heading_rad = std::atan2(east_m_s, north_m_s);
+    return true;
+  }
+  const double across_m_s = std::cos(heading_rad) * missed_m_s[1] - std::sin(heading_rad) * missed_m_s[0];
+  heading_rad += kCourseGain / degraded * across_m_s / speed_m_s;
+  return false;
 }
 
 void ReplayRun::write_course(const CardReading& reading, Trajectory10Hz& course) const {

@@ -62,6 +62,8 @@ ChannelSeries series_of(std::size_t channel, const Innovations& innovations, con
   const std::size_t points = at_fixes ? fix_times_s.size() : course.time_s.size();
   // Correction of the estimator's depth a second, for each metre that it is off: turns a depth into a rate.
   const double depth_gain_per_s = kDepthGain * course.instruments.imu.timing.rate_Hz;
+  // Without a second yaw gyro, the first one is the yaw rate, and its roll the rest.
+  const bool both_gyros = innovations.grid.col(gyro_yaw_b).array().isFinite().any();
   std::vector<Eigen::VectorXd> rows;
   for (std::size_t i = 0; i < points; ++i) {
     std::size_t at = i;
@@ -85,7 +87,9 @@ ChannelSeries series_of(std::size_t channel, const Innovations& innovations, con
         row = Eigen::Vector2d{grid(tilt_roll), grid(tilt_pitch)};
         break;
       case imu_gyro:
-        row = Eigen::Vector2d{grid(gyro_roll), (grid(gyro_yaw_a) - grid(gyro_yaw_b)) / std::numbers::sqrt2};
+        row = both_gyros ? Eigen::VectorXd(Eigen::Vector2d{
+                               grid(gyro_roll), (grid(gyro_yaw_a) - grid(gyro_yaw_b)) / std::numbers::sqrt2})
+                         : Eigen::VectorXd::Constant(1, grid(gyro_roll));
         break;
       case imu_accel:
         row = Eigen::Vector3d{grid(force_x), grid(force_y), grid(force_z)};
@@ -101,7 +105,8 @@ ChannelSeries series_of(std::size_t channel, const Innovations& innovations, con
         row = Eigen::Vector2d{fix(velocity_north), fix(velocity_east)};
         break;
       case vehicle_yaw_rate:
-        row = Eigen::VectorXd::Constant(1, (grid(gyro_yaw_a) + grid(gyro_yaw_b)) / 2);
+        row = Eigen::VectorXd::Constant(1,
+                                        both_gyros ? (grid(gyro_yaw_a) + grid(gyro_yaw_b)) / 2 : grid(gyro_yaw_a));
         break;
       case vehicle_pitch_rate:
         row = Eigen::VectorXd::Constant(1, grid(gyro_pitch));

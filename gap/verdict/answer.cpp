@@ -195,6 +195,10 @@ void write_words(Diagnosis& answer) {
     case Verdict::no_gap:
       answer.sentence =
           "No gap: this recording shows nothing beyond what a vehicle within 2 % of the model shows.";
+      if (const auto count = answer.instruments.not_judged.size(); count > 0) {
+        answer.sentence +=
+            fmt::format(" {} effects were not judged: an instrument that shows them is missing.", count);
+      }
       return;
     case Verdict::explained:
       write_explained(answer);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,7 @@
 #include "base/parallel.h"
 #include "gap/data/instruments_alone.h"
 #include "gap/inference/blocks.h"
+#include "gap/thresholds.h"
 #include "gap/verdict/answer.h"
 #include "gap/verdict/find_effects.h"
 #include "gap/verdict/holdout.h"
@@ -91,6 +93,16 @@ Comparisons compare_all(const DiagnosisProblem& problem, const SearchResult& fou
 }
 
 void remark_on(const FoundEffects& result, const Library& library, Diagnosis& answer) {
+  for (const std::size_t effect : result.not_judged()) {
+    answer.instruments.not_judged.emplace_back(library[effect].name);
+  }
+  if (!result.not_judged().empty()) {
+    const auto& [missing, interrupted, not_judged] = answer.instruments;
+    std::vector<std::string_view> silent(missing.begin(), missing.end());
+    for (const Interruption& each : interrupted) silent.push_back(each.what);
+    answer.remarks.push_back(fmt::format("without {}, these effects hardly show and were not judged: {}",
+                                         fmt::join(silent, " and "), fmt::join(not_judged, ", ")));
+  }
   for (const std::size_t effect : result.by_chance) {
     answer.remarks.push_back(fmt::format(
         "{} was the best candidate, but simulated vehicles without a gap show as much on such a course",
@@ -100,6 +112,33 @@ void remark_on(const FoundEffects& result, const Library& library, Diagnosis& an
     answer.remarks.push_back(
         fmt::format("{} hardly shows in this mission: it was allowed for, not asked for", library[effect].name));
   }
+}
+
+/// Whether the instruments of the recording hardly show any effect of the library.
+bool judges_nothing(const FoundEffects& result, const Library& library) {
+  std::size_t held = 0;
+  for (std::size_t effect = 0; effect < library.size(); ++effect) held += library.holds(effect) ? 1U : 0U;
+  return result.not_judged().size() == held;
+}
+
+/// Reason why a gap that is seen has no name: effects that were not judged take it up.
+std::string hidden_cause_text(const FoundEffects& result, const Library& library) {
+  std::vector<std::string_view> strong;
+  for (const std::size_t effect : result.not_judged()) {
+    if (strength_of(library, effect, result.found.best.mean) > kBeyondWideTolerance) {
+      strong.push_back(library[effect].name);
+    }
+  }
+  return fmt::format("the gap goes away with effects that were not judged{}{}", strong.empty() ? "" : ": ",
+                     fmt::join(strong, ", "));
+}
+
+std::string other_vehicle_text(double least_ratio) {
+  return fmt::format(
+      "every channel is off by at least {:.1f} times what vehicles without a gap show: this looks like the "
+      "recording "
+      "of another vehicle",
+      least_ratio);
 }
 
 /// The verdict, the gap's size and how much of it the effects close.
@@ -127,6 +166,14 @@ void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Com
       judge({result.found, problem.library, answer.where, leftover, gains_nats, closure, closure_by_all, blocks});
   answer.verdict = judgement.verdict;
   answer.unexplained = judgement.reasons;
+  if (judges_nothing(result, problem.library)) answer.verdict = Verdict::unknown;
+  if (answer.verdict == Verdict::no_gap && !answer.where.empty() && !result.not_judged().empty()) {
+    answer.verdict = Verdict::unknown;
+    answer.unexplained.push_back(hidden_cause_text(result, problem.library));
+  }
+  if (answer.verdict == Verdict::unknown && answer.least_ratio.value_or(0) > kOtherVehicle) {
+    answer.unexplained.insert(answer.unexplained.begin(), other_vehicle_text(*answer.least_ratio));
+  }
   write_gap(compared.holdouts, closure, !blocks, answer);
 }
 
@@ -152,6 +199,7 @@ void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts
   const Eigen::MatrixXd nominal_rms = explained_rms(here.nominal, a.course, here.fix_times_s);
   answer.map = residual_map(nominal_rms, a.bank.explained_rms);
   answer.where = significant_cells(answer.map);
+  answer.least_ratio = least_ratio(nominal_rms, a.bank.explained_rms);
   remark_on(result, problem.library, answer);
   judge_into(problem, result, std::move(compared), answer);
   if (answer.where.empty() && answer.verdict != Verdict::no_gap && with_effects && !answer.map.empty()) {
@@ -167,6 +215,10 @@ void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts
   write_findings(result, problem.library, answer);
   write_pictures(a, here, with_effects, answer);
   write_words(answer);
+  if (judges_nothing(result, problem.library)) {
+    answer.sentence =
+        "Nothing can be said of a gap: the instruments of this recording show none of the library's effects.";
+  }
 }
 
 /// Reports a recording that cannot be compared with a model: its instruments are compared with each other

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "calib/suite/report.h"
+#include "gap/actuators/command_check.h"
 #include "gap/data/earth_field.h"
+#include "gap/data/silence.h"
 #include "gap/data/track.h"
 
 // Results of a diagnosis: the numbers behind `navcal gap --json`, the text and the page (docs/gap.md).
@@ -101,6 +103,13 @@ struct BankFacts {
   double seconds = 0;  ///< computing time of the bank
 };
 
+/// Instruments of the diagnosed recording that are silent, all the time or for a while, and the consequence.
+struct InstrumentFacts {
+  std::vector<std::string> missing;  ///< "GPS", "magnetic field"
+  std::vector<Interruption> interrupted;
+  std::vector<std::string> not_judged;  ///< effects that the other instruments hardly show
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::unknown;
   std::string sentence;                   ///< the verdict for people
@@ -113,6 +122,11 @@ struct Diagnosis {
   std::vector<std::string> next;         ///< next steps: a manoeuvre, an effect to add
   std::vector<std::string> remarks;  ///< about the recording: gaps, missing instruments, limits of the diagnosis
   std::array<double, 4> gyro_bias_rad_s{};  ///< A-x, A-z, B-y, B-z; a nuisance, never a cause
+  InstrumentFacts instruments;
+  std::optional<CommandCheck> commands;  ///< empty: the recording could not be read so far
+  /// Smallest ratio to their floor of the residuals by which the motion departs from the model of the vehicle,
+  /// root mean square. Empty without a null bank, and where hardly a channel shows the motion.
+  std::optional<double> least_ratio;
   std::vector<ChangePoint> changes;
   std::optional<Scatter> scatter;   ///< of the strongest channel
   std::vector<Course> courses;      ///< of each channel

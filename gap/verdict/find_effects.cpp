@@ -16,10 +16,22 @@ SearchResult search_by(const Priors& priors, const DiagnosisProblem& problem, co
   return SubsetSearch(problem.inference(nominal, priors)).run();
 }
 
+/// Priors by the null bank. Where an instrument is silent, what the others hardly show may be there unnoticed.
+Priors priors_of(const DiagnosisProblem& problem, const Linearised& nominal) {
+  const Library& library = problem.library;
+  const NullBank& bank = problem.prepared.bank;
+  Priors priors = fit_spike_widths(library, bank.gram, bank.scores);
+  if (problem.prepared.mission.silences.empty()) return priors;
+  const EffectSubset hidden = hardly_shown_effects(library, nominal.gram, priors);
+  priors = as_nuisance_parameters(std::move(priors), library, hidden);
+  priors.not_judged = hidden;
+  return priors;
+}
+
 /// Searches, and searches again with wider priors when backlash was found.
 FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Linearised& nominal) {
   const Library& library = problem.library;
-  const Priors priors = fit_spike_widths(library, problem.prepared.bank.gram, problem.prepared.bank.scores);
+  const Priors priors = priors_of(problem, nominal);
   FoundEffects result{search_by(priors, problem, nominal), priors, {}, {}, {}};
   if (!has_backlash(library, result.found.best.effects)) return result;
   problem.progress("null missions with backlash", 0);

@@ -32,11 +32,15 @@ struct FoundEffects {
   std::optional<BacklashNullBank> backlash_bank;  ///< when backlash was found
   EffectSubset unobservable;  ///< effects that the mission hardly shows: nuisance parameters of the search
   EffectSubset by_chance;     ///< effects that were found, and that null missions show as well
+
+  /// Effects that were no candidates, because the instruments of the recording hardly show them.
+  [[nodiscard]] const EffectSubset& not_judged() const { return priors.not_judged; }
 };
 
 /// The second step of a diagnosis: finds the most probable subset of effects. Backlash is judged by a null bank
 /// of vehicles that have it, a subset of little evidence by null Bayes factors. Effects that the mission cannot
-/// show become nuisance parameters of a second search.
+/// show become nuisance parameters of a second search. Where an instrument is silent, those that the others hardly
+/// show are nuisance parameters from the first and no candidates.
 [[nodiscard]] FoundEffects find_effects(const DiagnosisProblem& problem);
 
 }  // namespace navcal::gap

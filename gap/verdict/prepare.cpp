@@ -2,10 +2,13 @@
 #include "gap/verdict/prepare.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "gap/actuators/commanded_motor.h"
 #include "gap/inference/biases.h"
 #include "gap/inference/order_times.h"
 #include "gap/thresholds.h"
@@ -39,6 +42,7 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
   prepared->mission = load_mission(
       file, [&](double done) { progress_("reading " + name, done); }, request_.settings);
   expect_other_content(name, prepared->mission);
+  if (!request_.without.empty()) leave_out(request_.without, prepared->mission);
   if (request_.field_uT) prepared->mission.field.set_given(*request_.field_uT);
   if (!answer.field) answer.field = prepared->mission.field;
   for (const auto& remark : prepared->mission.remarks) answer.remarks.push_back(remark);
@@ -49,13 +53,13 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
     answer.remarks.push_back(name + ": " + shortcoming);
     return nullptr;
   }
-  if (prepared->mission.fixes.size() < kLeastFixes) {
-    answer.remarks.push_back(name +
-                             ": hardly a GPS fix, so nothing can be said of declination, current, GPS and speed");
-  }
+  obey_orders(prepared->mission, request_.vehicle);
+  prepared->commands = check_commands(prepared->mission, request_.vehicle);
+  remark_on(*prepared, name, answer);
+  if (prepared->mission.motor_is_commanded && !can_obey(prepared->commands, name, answer)) return nullptr;
   replay_orders(*prepared, name, answer);
   if (prepared->replay->intervals() < kLeastIntervals) {
-    answer.remarks.push_back(name + ": compass, inertial card and motor card have less than 20 s in common");
+    answer.remarks.push_back(name + ": the instruments and the motor card have less than 20 s in common");
     return nullptr;
   }
   prepared->at = with_biases_found(*prepared->replay, library_, threads_);
@@ -69,12 +73,77 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
   return prepared;
 }
 
+void Preparation::remark_on(const Prepared& prepared, const std::string& name, Diagnosis& answer) const {
+  const Mission& mission = prepared.mission;
+  const auto remark = [&](const std::string& words) { answer.remarks.push_back(name + ": " + words); };
+  const bool is_first = !answer.commands;
+  if (is_first) answer.commands = prepared.commands;
+  const auto missing = missing_instruments(mission);
+  if (!missing.empty()) {
+    remark(fmt::format("the recording has no {}: judged by the others", fmt::join(missing, " and no ")));
+  }
+  const auto pauses = interruptions(mission);
+  for (const Interruption& each : pauses) {
+    remark(fmt::format(
+        "the {} is silent from {:.0f} s to {:.0f} s ({:.0f} % of the recording): judged by the others "
+        "there",
+        each.what, each.from_s, each.until_s, 100 * (each.until_s - each.from_s) / mission.duration_s));
+  }
+  if (is_first) {
+    answer.instruments.missing = missing;
+    answer.instruments.interrupted = pauses;
+  }
+  if (mission.judged_from_s > 0 || mission.judged_until_s < mission.duration_s) {
+    remark(fmt::format("judged from {:.0f} s to {:.0f} s, where the motor card reports", mission.judged_from_s,
+                       std::min(mission.judged_until_s, mission.duration_s)));
+  }
+  if (mission.motor_is_commanded) {
+    remark("fins and shaft are those of nominal servos that obey the commands: nothing reports them");
+  }
+  const CommandCheck& commands = prepared.commands;
+  if (commands.delay_s && commands.by_reports && std::abs(*commands.delay_s) > kLateCommands_s) {
+    remark(fmt::format("the fins follow the recorded commands {:.2f} s {} than servos do (cross-correlation)",
+                       std::abs(*commands.delay_s), *commands.delay_s > 0 ? "later" : "earlier"));
+  }
+  if (commands.saturated > kManySaturated) {
+    remark(
+        fmt::format("a fin stands at its limit for {:.0f} % of the time: what was ordered beyond it shows nothing",
+                    100 * commands.saturated));
+  }
+  if (commands.unrecorded > 0) {
+    remark(fmt::format("no command is recorded for {:.0f} % of the time although the fins moved",
+                       100 * commands.unrecorded));
+  }
+}
+
+bool Preparation::can_obey(const CommandCheck& check, const std::string& name, Diagnosis& answer) {
+  if (!check.delay_s && check.correlation) {
+    answer.remarks.push_back(
+        fmt::format("{}: the vehicle's turns do not follow these commands (correlation {:.2f} at best), and no "
+                    "report says what "
+                    "the fins did",
+                    name, *check.correlation));
+    return false;
+  }
+  if (!check.delay_s || std::abs(*check.delay_s) < kLateUnreported_s) return true;
+  answer.remarks.push_back(
+      fmt::format("{}: the vehicle turns {:.2f} s {} than these commands say (cross-correlation of its yaw rate), "
+                  "and no report "
+                  "says what the fins did",
+                  name, std::abs(*check.delay_s), *check.delay_s > 0 ? "later" : "earlier"));
+  return false;
+}
+
 void Preparation::replay_orders(Prepared& prepared, const std::string& name, Diagnosis& answer) const {
   auto& orders_s = prepared.mission.order_times_s;
   if (!orders_s.empty()) {
     prepared.replay = std::make_unique<Replay>(prepared.mission, request_.vehicle);
     if (prepared.replay->actuators().orders().misfit() > kMostCommandMisfit) {
-      answer.remarks.push_back(name + ": the fins moved by other orders than those recorded");
+      answer.remarks.push_back(
+          fmt::format("{}: the fins moved by other orders than those recorded (misfit {:.0f} times the noise of "
+                      "the reports, at "
+                      "most {:.0f})",
+                      name, prepared.replay->actuators().orders().misfit(), kMostCommandMisfit));
       orders_s.clear();
       prepared.mission.ordered_fins_rad.clear();
     }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "gap/actuators/command_check.h"
 #include "gap/data/shared_content.h"
 #include "gap/inference/linearised.h"
 #include "gap/nulls/bank_cache.h"
@@ -24,6 +25,7 @@ struct Prepared {
   std::unique_ptr<Replay> replay;
   Eigen::VectorXd at;  ///< parameters of the nominal vehicle with the turn-on biases of this recording
   Trajectory10Hz course;
+  CommandCheck commands;
   NullBank bank;
   bool from_cache = false;
 
@@ -47,6 +49,10 @@ class Preparation {
 
  private:
   void expect_other_content(const std::string& name, const Mission& mission);
+  /// Remarks on silent instruments and on commands; the facts of the first recording stand in `answer`.
+  void remark_on(const Prepared& prepared, const std::string& name, Diagnosis& answer) const;
+  /// Whether the commands, without reports, say what the vehicle did.
+  [[nodiscard]] static bool can_obey(const CommandCheck& check, const std::string& name, Diagnosis& answer);
   /// Estimates the times of the fin orders where they were not recorded, and replays with them.
   void replay_orders(Prepared& prepared, const std::string& name, Diagnosis& answer) const;
   void find_bank(Prepared& prepared, const std::string& name, Diagnosis& answer);

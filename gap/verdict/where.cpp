@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -125,6 +127,21 @@ std::vector<WhereEntry> significant_cells(const std::vector<WhereEntry>& map) {
     if (entry.p_value < kSignificantBelow && entry.gap >= kLouderThanNulls * entry.floor) clear.push_back(entry);
   }
   return clear;
+}
+
+std::optional<double> least_ratio(const Eigen::MatrixXd& explained_rms, const RegimeStatistics& nulls) {
+  constexpr int kLeastChannels = 3;
+  double least = std::numeric_limits<double>::infinity();
+  int channels = 0;
+  for (Eigen::Index c = 0; c < explained_rms.rows(); ++c) {
+    const std::string_view name = reported_channels()[static_cast<std::size_t>(c)].name;
+    if (!name.starts_with("vehicle.") && name != "imu.gyro" && name != "imu.accel") continue;
+    const double value = explained_rms(c, overall_regime()), floor = nulls.floor(c, overall_regime());
+    if (!(value > 0) || !(floor > 0)) continue;
+    least = std::min(least, value / floor);
+    ++channels;
+  }
+  return channels < kLeastChannels ? std::nullopt : std::optional(least);
 }
 
 std::vector<WhereEntry> significant_against_exact_model(const Eigen::MatrixXd& left, const RegimeStatistics& known,

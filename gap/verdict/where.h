@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gap/data/innovations.h"
@@ -16,6 +17,10 @@ namespace navcal::gap {
 /// Cells of a map that are significant against the nulls, by p-value and by size (kSignificantBelow,
 /// kLouderThanNulls).
 [[nodiscard]] std::vector<WhereEntry> significant_cells(const std::vector<WhereEntry>& map);
+/// Smallest ratio of a channel's root mean square to that of the nulls, over the channels that compare the motion
+/// with the model of the vehicle: the others follow any vehicle. Empty where there are less than three of them.
+[[nodiscard]] std::optional<double> least_ratio(const Eigen::MatrixXd& explained_rms,
+                                                const RegimeStatistics& nulls);
 /// Significant cells of the residuals `left` when all that was found is in the model. A cell must be
 /// significant against vehicles whose parameters are known exactly (`known`). It must also exceed the rms of
 /// vehicles whose tolerances are unknown (`nulls`).

@@ -74,6 +74,19 @@ TEST_F(GapCommand, AFieldGoesIntoTheRequest) {
   EXPECT_EQ(run({"a.cap", "--field", "19.0,0.6"}).status, 2);
 }
 
+TEST_F(GapCommand, InstrumentsAreLeftOutByName) {
+  EXPECT_EQ(run({"a.cap", "--without", "gps", "--without", "depth"}).status, 0);
+  ASSERT_TRUE(asked);
+  EXPECT_EQ(asked->without, (std::vector<gap::Quantity>{gap::Quantity::fixes, gap::Quantity::depth}));
+  asked.reset();
+  const Outcome unknown = run({"a.cap", "--without", "sonar"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.message.find("--without: there is no instrument sonar; there are compass, field"),
+            std::string::npos)
+      << unknown.message;
+  EXPECT_FALSE(asked);
+}
+
 TEST_F(GapCommand, ItsCacheIsWhereCachesAre) {
   ::setenv("HOME", "/home/someone", 1);
   ::setenv("XDG_CACHE_HOME", "/caches", 1);

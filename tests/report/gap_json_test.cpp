@@ -20,9 +20,10 @@ std::vector<std::string> keys_of(const Json& object) {
 
 TEST(GapJson, HasTheKeysOfTheContract) {
   const Json json = Json::parse(report::gap_json(test::explained_gap()));
-  EXPECT_EQ(keys_of(json), (std::vector<std::string>{"verdict", "sentence", "where", "effects", "gap",
-                                                     "unexplained", "candidates", "next", "remarks", "gyro_bias",
-                                                     "changes", "field", "bank", "duration_s", "seconds"}));
+  EXPECT_EQ(keys_of(json),
+            (std::vector<std::string>{"verdict", "sentence", "where", "effects", "gap", "unexplained",
+                                      "candidates", "next", "remarks", "gyro_bias", "instruments", "commands",
+                                      "least_ratio", "changes", "field", "bank", "duration_s", "seconds"}));
   EXPECT_EQ(json["verdict"], "explained");
   EXPECT_EQ(keys_of(json["where"][0]),
             (std::vector<std::string>{"channel", "regime", "gap", "unit", "floor", "p_value"}));
@@ -34,6 +35,22 @@ TEST(GapJson, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys_of(json["gap"]["channels"][0]),
             (std::vector<std::string>{"channel", "before", "after", "floor", "closed", "closed_ci", "unit"}));
   EXPECT_EQ(keys_of(json["bank"]), (std::vector<std::string>{"missions", "seed", "from_cache", "seconds"}));
+}
+
+TEST(GapJson, SaysWhichInstrumentsAreMissing) {
+  auto diagnosis = test::explained_gap();
+  EXPECT_TRUE(Json::parse(report::gap_json(diagnosis))["commands"].is_null());
+  diagnosis.instruments = {{"GPS"}, {{"compass", 100, 200}}, {"water_current"}};
+  diagnosis.commands.emplace().saturated = 0.25;
+  diagnosis.least_ratio = 1.5;
+  const Json json = Json::parse(report::gap_json(diagnosis));
+  EXPECT_EQ(json["instruments"]["missing"], Json::array({"GPS"}));
+  EXPECT_EQ(json["instruments"]["not_judged"], Json::array({"water_current"}));
+  EXPECT_EQ(json["instruments"]["interrupted"][0]["name"], "compass");
+  EXPECT_EQ(json["instruments"]["interrupted"][0]["until_s"], 200);
+  EXPECT_TRUE(json["commands"]["delay_s"].is_null());
+  EXPECT_EQ(json["commands"]["saturated"], 0.25);
+  EXPECT_EQ(json["least_ratio"], 1.5);
 }
 
 TEST(GapJson, NumbersComeBackToTheLastBit) {

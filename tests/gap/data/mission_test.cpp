@@ -156,36 +156,84 @@ TEST(Mission, SaysWhatItLacks) {
   const Mission whole = simulated_mission("identification", "", 60, 1);
   Mission mission = whole;
   mission.card.clear();
-  EXPECT_NE(mission.shortcoming().find("inertial card"), std::string::npos);
+  find_silences(mission);
+  EXPECT_EQ(mission.shortcoming(), "") << "judged by the others";
   mission = whole;
   mission.compass.clear();
-  EXPECT_NE(mission.shortcoming().find("compass"), std::string::npos);
+  find_silences(mission);
+  EXPECT_EQ(mission.shortcoming(), "");
+  mission.card.clear();
+  mission.fixes.clear();
+  find_silences(mission);
+  EXPECT_NE(mission.shortcoming().find("nothing can be said"), std::string::npos);
   mission = whole;
   mission.motor.clear();
-  EXPECT_NE(mission.shortcoming().find("motor card"), std::string::npos);
+  EXPECT_EQ(mission.shortcoming(), "") << "the commands are recorded";
+  mission.orders.clear();
+  EXPECT_NE(mission.shortcoming().find("no motor card in the recording, and no commands"), std::string::npos);
   EXPECT_NE(simulated_mission("identification", "", 10, 1).shortcoming().find("lasts 9."), std::string::npos);
   EXPECT_NE(Mission{}.shortcoming(), "");
 }
 
-TEST(Mission, TellsAllThatIsMissingAtOnce) {
-  MissionGatherer gatherer;
+// Samples of an inertial unit or a magnetometer beside complete ones would disturb what those say.
+TEST(Mission, PartsOfSamplesServeOnlyWhereThereAreNoCompleteOnes) {
   instruments::Sample sample;
-  instruments::ImuSample imu;
-  imu.rate_rad_s = {0, 0, 0};
-  sample.value = imu;
-  gatherer.on_sample(sample);
-  imu.specific_force_m_s2 = {0, 0, -9.81};
-  sample.value = imu;
-  gatherer.on_sample(sample);
-  instruments::CompassSample compass;
-  compass.heading_rad = 1;
-  sample.value = compass;
-  gatherer.on_sample(sample);
-  EXPECT_EQ(
-      gatherer.take(0, {}).shortcoming(),
-      "the inertial unit reports no yaw rate of a second gyro, depth in the same sample: nothing carries the "
-      "motion from sample to sample; the compass reports no field, roll, pitch: heading is not known; no motor "
-      "card in the recording: what the vehicle was told to do is not known");
+  instruments::ImuSample whole;
+  whole.rate_rad_s = {1, 2, 3};
+  whole.yaw_rate_b_rad_s = 4;
+  whole.specific_force_m_s2 = {0, 0, -9.81};
+  whole.depth_m = 5;
+  instruments::ImuSample part;
+  part.rate_rad_s = {6, 7, 8};
+  MissionGatherer gatherer;
+  for (int i = 0; i < 1000; ++i) {
+    const bool is_whole = i < 500;
+    sample.stamp.validity_ns = i * 100'000'000LL;
+    sample.value = is_whole || i % 2 == 0 ? whole : part;
+    if (i >= 600) sample.value = part;
+    gatherer.on_sample(sample);
+  }
+  const Mission mission = gatherer.take(0, {});
+  double last_whole_s = 0, first_part_s = 1e9;
+  for (const CardReading& reading : mission.card) {
+    if (std::isfinite(reading.depth_m)) last_whole_s = std::max(last_whole_s, reading.time_s);
+    if (!std::isfinite(reading.depth_m)) {
+      first_part_s = std::min(first_part_s, reading.time_s);
+      EXPECT_EQ(reading.gyro_rad_s[1], 8);
+      EXPECT_TRUE(std::isnan(reading.gyro_rad_s[3]) && std::isnan(reading.force_m_s2[0]));
+    }
+  }
+  EXPECT_NEAR(last_whole_s, 59.8, 0.01);
+  EXPECT_NEAR(first_part_s, 59.9, 0.01);
+}
+
+TEST(Mission, OutputsOfAnAutopilotAreCommandsOnlyWithAMap) {
+  instruments::Sample sample;
+  MissionGatherer unmapped;
+  for (const char* name : {"output1", "output3", "oxygen", "motor temperature"}) {
+    sample.value = instruments::ScalarSample{instruments::Text<24>(name), instruments::Text<16>("us"), 1500, {}};
+    unmapped.on_sample(sample);
+  }
+  const std::string reason = unmapped.take(0, {}).shortcoming();
+  EXPECT_NE(reason.find("outputs (output1, output3), and nothing says what they move"), std::string::npos)
+      << reason;
+
+  MissionGatherer mapped;
+  instruments::MotorSample motor;
+  motor.rpm_commanded = 700;
+  motor.fins_rad = {0.1, 0, 0};
+  for (int i = 0; i < 10; ++i) {
+    if (i == 5) motor.fins_rad[0] = 0.2;
+    sample.stamp.validity_ns = i * 100'000'000LL;
+    sample.value = motor;
+    mapped.on_sample(sample);
+  }
+  const Mission mission = mapped.take(0, {});
+  ASSERT_EQ(mission.orders.size(), 2U) << "a repeated order moves nothing";
+  EXPECT_EQ(mission.commanded_s.size(), 10U);
+  EXPECT_EQ(mission.orders[1].rpm, 700);
+  EXPECT_NEAR(mission.orders[1].time_s, 0.5, 1e-9);
+  EXPECT_TRUE(mission.motor.empty());
 }
 
 }  // namespace

@@ -70,6 +70,19 @@ TEST_F(BankCacheTest, OtherInstrumentsNeedAnother) {
   for (const auto& instruments : {noisier, later, scaled}) EXPECT_FALSE(is_found_with(instruments));
 }
 
+TEST_F(BankCacheTest, InstrumentsThatAreSilentNeedAnother) {
+  const BankCache cache(folder_.path(), {}, library_);
+  EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
+  const auto is_found_without = [&](std::initializer_list<const char*> names) {
+    Mission mission = mission_;
+    for (const char* const name : names) leave_out(quantities_named(name), mission);
+    return cache.find(Replay(mission, {}), course_, {20, 1, 1}).has_value();
+  };
+  EXPECT_TRUE(is_found_without({}));
+  for (const char* const name : {"compass", "tilt", "card", "depth"})
+    EXPECT_FALSE(is_found_without({name})) << name;
+}
+
 TEST_F(BankCacheTest, TheSameMissionOnceMoreIsServed) {
   const BankCache cache(folder_.path(), {}, library_);
   EXPECT_EQ(cache.keep(replay_, course_, bank_), "");
