@@ -22,17 +22,17 @@ struct RepresentationRow {
   std::array<Representation, kSimulators.size()> in;  ///< in the order of Simulator
 };
 
-constexpr std::string_view kNoSuchSensor = "the IMU has noise and a random walk of its biases, no such error";
-constexpr std::string_view kHeadingOnly = "the compass gives a heading and has no field";
+constexpr std::string_view kNoSuchSensor = "the IMU has only noise and a random walk of its biases";
+constexpr std::string_view kHeadingOnly = "the compass gives a heading, no field";
 constexpr std::string_view kNoFins = "the submarine model has no control surfaces";
 constexpr std::string_view kNoInclinometer = "there is no inclinometer; tilt is the autopilot's own estimate";
-constexpr std::string_view kNoGyroError = "the gyros have scale, bias and noise, no such error";
-constexpr std::string_view kStonefishGyro = "the gyro has noise and a constant bias, no such error";
-constexpr std::string_view kStonefishForce = "the accelerometer has noise, no such error";
-constexpr std::string_view kMagnetometer = "the magnetometer has noise and a mounting, no such error";
+constexpr std::string_view kNoGyroError = "the gyros have only scale, bias, temperature and noise";
+constexpr std::string_view kStonefishGyro = "the gyro has only noise and a constant bias";
+constexpr std::string_view kStonefishForce = "the accelerometer has only noise";
+constexpr std::string_view kMagnetometer = "the magnetometer has only noise and a mounting";
 constexpr std::string_view kNoDelay = "sensors have no delay";
-constexpr std::string_view kDepthNoise = "the depth sensor has noise, no such error";
-constexpr std::string_view kPressureNoise = "the pressure sensor has noise, no such error";
+constexpr std::string_view kDepthNoise = "the depth sensor has only noise";
+constexpr std::string_view kPressureNoise = "the pressure sensor has only noise";
 
 constexpr std::array<RepresentationRow, 34> kRepresentations{{
     {"accel_bias",
@@ -62,7 +62,7 @@ constexpr std::array<RepresentationRow, 34> kRepresentations{{
        {exact, "rotation of the MagnetometerSensor, deg about forward, left and up"},
        {approximate, "z only: rpy of the compass, rad; x and y need a field, and the compass has none"}}}},
     {"declination",
-     {{{exact, "SIM_MAG_ALY = 10 (turned field - field), mGauss, north, east, down"},
+     {{{exact, "SIM_MAG_ALY = 10 (turned field - field), mGauss, north, east, down, where the recording was made"},
        {exact, "MagneticVector of the MagnetometerSensor: the turned field, north, west, up"},
        {exact, "rpy of the compass, rad: its heading less the angle"}}}},
     {"depth_scale",
@@ -114,9 +114,9 @@ constexpr std::array<RepresentationRow, 34> kRepresentations{{
        {none, kNoSuchSensor},
        {none, kStonefishGyro}}}},
     {"gyro_temperature",
-     {{{exact,
+     {{{approximate,
         "SIM_IMUTn_GYR1 = 1e6 coefficient, rad/s/C, about 15 C; SIM_IMUT_START, END, TCONST: the warm-up of "
-        "navcal's simulator in water of 15 C"},
+        "navcal's simulator in water of 15 C, not the recorded one"},
        {none, kNoSuchSensor},
        {none, kStonefishGyro}}}},
     {"hard_iron",
@@ -149,7 +149,9 @@ constexpr std::array<RepresentationRow, 34> kRepresentations{{
        {none, "attitude sensors give the true attitude, without a fluid"},
        {none, "attitude sensors give the true attitude, without a fluid"}}}},
     {"water_current",
-     {{{exact, "SIM_WIND_SPD, SIM_WIND_DIR (where it comes from), SIM_WIND_T = 1: the water of the submarine"},
+     {{{exact,
+        "SIM_WIND_SPD, SIM_WIND_DIR (where it comes from), SIM_WIND_T = 1: for the submarine it is the water that "
+        "moves"},
        {none, "currents are set by a call, env.set_ocean_currents(agent, [north, west, up]), not by a scenario"},
        {exact, "velocity of a uniform current, m/s, north, east, down"}}}},
     {"yaw_damping",
