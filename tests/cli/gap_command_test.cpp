@@ -131,7 +131,7 @@ class GapExportCommand : public GapCommand {
  protected:
   GapExportCommand() {
     std::ofstream(folder_ / "a.json") << report::gap_json(explained_gap());
-    std::ofstream(folder_ / "config.toml") << "";
+    std::ofstream(folder_ / "config.toml") << "[port.imu]\nprotocol = \"imu-card\"\npath = \"/dev/null\"\n";
   }
   [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
   [[nodiscard]] Outcome exported(std::vector<std::string> arguments) const {
