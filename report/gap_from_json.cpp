@@ -84,6 +84,9 @@ gap::Verdict verdict_of(const SavedValue& value) {
 gap::EffectFinding finding_of(const SavedValue& value) {
   gap::EffectFinding finding;
   finding.name = value.at("name").text();
+  // No effect of this library belongs to one actuator of a layout: the same name must not act on the whole
+  // vehicle.
+  if (value.has("of")) finding.name += " of " + value.at("of").text();
   finding.probability = value.at("probability").number();
   const SavedValue errors = value.at("std_errors");
   for (const auto& [name, number] : value.at("parameters").members()) {

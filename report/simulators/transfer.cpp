@@ -36,14 +36,6 @@ std::string unusable(const gap::EffectFinding& finding) {
   return {};
 }
 
-/// The text without control characters, which would end a comment.
-std::string printable(std::string_view text) {
-  std::string out(text);
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
-  return out;
-}
-
 std::vector<std::string> names_of(const std::vector<gap::EffectFinding>& findings) {
   std::vector<std::string> names;
   for (const auto& finding : findings) names.push_back(finding.name);

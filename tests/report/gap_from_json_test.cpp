@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/gap_json.h"
+#include "report/simulators/simulator_file.h"
 #include "tests/report/gap_samples.h"
 
 namespace navcal::report {
@@ -57,6 +58,19 @@ TEST(GapFromJson, WhatIsNotKnownIsNotANumber) {
   ASSERT_EQ(back.effects.size(), 1U);
   EXPECT_TRUE(std::isnan(back.effects[0].probability));
   EXPECT_FALSE(back.field);
+}
+
+TEST(GapFromJson, AnEffectOfOneActuatorIsNotThatOfTheVehicle) {
+  const gap::Diagnosis back = gap_from_json(
+      R"({"verdict": "explained", "effects": [
+          {"name": "thrust_scale", "of": "thruster.1", "probability": 1, "parameters": {"scale": 0.1}, "std_errors": {}},
+          {"name": "thrust_scale", "of": "thruster.2", "probability": 1, "parameters": {"scale": 0.2}, "std_errors": {}}]})",
+      "a.json");
+  ASSERT_EQ(back.effects.size(), 2U);
+  EXPECT_EQ(back.effects[0].name, "thrust_scale of thruster.1");
+  const SimulatorFile file = simulator_file(Simulator::stonefish, {back, "a.json", {}, {}});
+  EXPECT_EQ(file.text.find("thrust_coeff"), std::string::npos);
+  EXPECT_NE(file.summary.find("left out: thrust_scale of thruster.1 ("), std::string::npos) << file.summary;
 }
 
 TEST(GapFromJson, BadFilesAreNamedWithTheirPlace) {
