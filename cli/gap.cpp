@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -13,13 +16,17 @@
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
+#include "cli/gap_export.h"
 #include "cli/gap_trial.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "config/vehicle_file.h"
+#include "devices/instrument_model.h"
 #include "gap/verdict/request.h"
+#include "record/recording.h"
 #include "report/gap_effects_file.h"
+#include "report/gap_from_json.h"
 #include "report/gap_json.h"
 #include "report/gap_page.h"
 #include "report/gap_text.h"
@@ -34,9 +41,14 @@ struct GapCommandOptions {
   analysis::PlaceArguments where;
   std::string json, report;
   std::vector<std::string> without;
+  std::string saved;  ///< diagnosis to read instead of making one
+  ExportOptions exports;
   std::filesystem::path cache;
   int bank_missions = gap::Request{}.bank_missions;
   std::uint64_t bank_seed = gap::Request{}.bank_seed;
+
+  /// File of the diagnosis: the recording, or the saved one.
+  [[nodiscard]] const std::string& origin() const { return saved.empty() ? source.mission : saved; }
 };
 
 /// Where the user's caches are, after the XDG base directories; empty when there is no such place.
@@ -90,27 +102,69 @@ void write_to_output(std::string_view text) {
   output.flush();
 }
 
-void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
+/// Nominal model that the exports correct: with the instruments of --config, else of the recording itself.
+report::CorrectedModel corrected_model(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
+  const auto& source = options.source;
+  report::CorrectedModel model{diagnosis, options.origin(), {}, {}};
+  if (!source.vehicle.empty()) model.vehicle = config::load_vehicle(source.vehicle);
+  if (!source.config.empty()) {
+    model.instruments = devices::instrument_model(config::load(source.config));
+  } else if (options.saved.empty()) {
+    model.instruments = devices::instrument_model(record::Recording::open(source.mission)->settings());
+  }
+  return model;
+}
+
+/// Writes the answers that a saved diagnosis gives as well.
+void write_models(const gap::Diagnosis& diagnosis, const GapCommandOptions& options,
+                  const std::vector<ExportFile>& exports) {
   const auto& source = options.source;
   if (!source.effects_file.empty()) write_result(source.effects_file, report::gap_effects_file(diagnosis));
+  if (!exports.empty()) write_exports(exports, options.exports, corrected_model(diagnosis, options));
+}
+
+void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& options) {
+  const auto& source = options.source;
   if (!options.report.empty()) write_result(options.report, report::gap_page(diagnosis, source));
   if (options.json == "-") return write_to_output(report::gap_json(diagnosis) + '\n');
   if (!options.json.empty()) write_result(options.json, report::gap_json(diagnosis) + '\n');
   write_to_output(report::gap_text(diagnosis, source));
 }
 
+gap::Diagnosis saved_diagnosis(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::system_error(errno, std::system_category(), file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw std::system_error(errno, std::system_category(), file);
+  return report::gap_from_json(text, file);
+}
+
+/// Checks what can be checked before the work. Throws Failure.
+std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
+  const auto& source = options.source;
+  std::vector<std::filesystem::path> outputs{options.json, options.report, source.effects_file};
+  for (const auto& file : outputs) {
+    if (!file.empty() && file != "-") expect_folder_of(file);
+  }
+  std::vector<ExportFile> exports = export_files(options.exports, options.origin());
+  for (const auto& [simulator, file] : exports) outputs.push_back(file);
+  std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
+  inputs.insert(inputs.end(), {options.origin(), source.vehicle, source.config});
+  expect_no_overwriting(inputs, outputs);
+  return exports;
+}
+
 void find_gap(const GapCommandOptions& options) {
   try {
     expect_effects(options.source.excluded);
     for (const std::string& name : options.without) expect_instrument(name);
-    const auto& source = options.source;
-    for (const std::string& file : {options.json, options.report, source.effects_file}) {
-      if (!file.empty() && file != "-") expect_folder_of(file);
-    }
-    std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
-    inputs.insert(inputs.end(), {source.mission, source.vehicle, source.config});
-    expect_no_overwriting(inputs, {options.json, options.report, source.effects_file});
-    write_answers(diagnosis_of(options), options);
+    const std::vector<ExportFile> exports = expect_outputs(options);
+    const gap::Diagnosis diagnosis =
+        options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
+    write_models(diagnosis, options, exports);
+    if (options.saved.empty()) write_answers(diagnosis, options);
+  } catch (const report::BadDiagnosis& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const record::BadRecording& error) {
     throw analysis::Failure(analysis::Exit::bad_input, error.what());
   } catch (const config::Error& error) {
@@ -122,6 +176,20 @@ void find_gap(const GapCommandOptions& options) {
   }
 }
 
+/// Adds the options by which found effects become files for simulators, also of a diagnosis that is saved.
+void add_exports(CLI::App* command, CLI::Option* mission, GapCommandOptions& options) {
+  add_export_options(command, options.exports);
+  auto* const saved =
+      command
+          ->add_option("--from", options.saved,
+                       "a diagnosis that --json wrote, instead of a recording; for --export and --effects-out")
+          ->option_text("FILE.json")
+          ->excludes(mission);
+  for (const char* other :
+       {"--holdout", "--field", "--exclude", "--json", "--report", "--bank", "--seed", "--cache"})
+    saved->excludes(command->get_option(other));
+}
+
 }  // namespace
 
 void add_gap(CLI::App& app) {
@@ -129,7 +197,8 @@ void add_gap(CLI::App& app) {
       "gap", "diagnosis of the gap between a recording and the model: where, from which effect, how much");
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
-  command->add_option("FILE", source.mission, "the mission to be diagnosed: a capture (.cap) or a log (.mcap)");
+  auto* const mission = command->add_option("FILE", source.mission,
+                                            "the mission to be diagnosed: a capture (.cap) or a log (.mcap)");
   command
       ->add_option("--holdout", source.holdouts,
                    "another mission of the same vehicle, on which the answer is judged; repeatable")
@@ -173,13 +242,16 @@ void add_gap(CLI::App& app) {
   command->add_option("--cache", options->cache, "folder in which they are kept; default: ~/.cache/navcal")
       ->option_text("DIR")
       ->group(bank);
+  add_exports(command, mission, *options);
   command->footer(
       "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"
-      "Example: navcal gap --holdout b.cap --holdout c.cap --report a.html a.cap");
+      "Example: navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
   add_gap_trial(*command);
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;
-    if (options->source.mission.empty()) throw CLI::RequiredError("FILE");
+    if (options->origin().empty()) throw CLI::RequiredError("FILE");
+    if (!options->saved.empty() && options->exports.wanted.empty() && options->source.effects_file.empty())
+      throw CLI::RequiredError("--from: --export or --effects-out");
     find_gap(*options);
   });
 }

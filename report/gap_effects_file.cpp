@@ -9,6 +9,7 @@
 #include <span>
 
 #include "report/gap_words.h"
+#include "report/wrapped_text.h"
 #include "sim/effects/effect_table.h"
 
 namespace navcal::report {
@@ -39,7 +40,11 @@ std::string gap_effects_file(const gap::Diagnosis& diagnosis) {
   if (diagnosis.effects.empty()) return text + "# No effect was found.\n";
   for (const gap::EffectFinding& effect : diagnosis.effects) {
     const auto known = sim::make_effect(effect.name);
-    const auto parameters = known ? known->description().parameters : std::span<const sim::EffectParameter>{};
+    if (!known) {
+      text += fmt::format("\n# {}: the simulator has no such effect.\n", printable(effect.name));
+      continue;
+    }
+    const auto parameters = known->description().parameters;
     text += fmt::format("\n[{}]  # probability {}\n", effect.name, probability_text(effect.probability));
     for (const auto& estimate : effect.parameters) {
       const auto [value, comment] = written(estimate, parameters);

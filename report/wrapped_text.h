@@ -16,6 +16,9 @@ inline constexpr std::size_t kLineWidth = 110;
 void append_wrapped(std::string& out, std::size_t indent, const std::vector<std::string>& pieces,
                     std::string_view between);
 
+/// The text with spaces in place of control characters, which would end a line or a comment.
+[[nodiscard]] std::string printable(std::string_view text);
+
 /// The words between spaces.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view text);
 

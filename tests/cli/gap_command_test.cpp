@@ -9,6 +9,7 @@
 
 #include "cli/gap_trial.h"
 #include "gap/verdict/request.h"
+#include "report/gap_json.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/gap_samples.h"
 #include "tests/support/temporary_folder.h"
@@ -136,6 +137,91 @@ TEST_F(GapCommand, BadInputNamesFileAndPlace) {
   const Outcome outcome = run({"--vehicle", vehicle, "a.cap"});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(outcome.message.find(vehicle + ":1"), 0U) << outcome.message;
+}
+
+/// A saved diagnosis and what is exported from it.
+class GapExportCommand : public GapCommand {
+ protected:
+  GapExportCommand() {
+    std::ofstream(folder_ / "a.json") << report::gap_json(explained_gap());
+    std::ofstream(folder_ / "config.toml") << "[port.imu]\nprotocol = \"imu-card\"\npath = \"/dev/null\"\n";
+  }
+  [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
+  [[nodiscard]] Outcome exported(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"--from", at("a.json")});
+    ::testing::internal::CaptureStderr();
+    Outcome outcome = run(std::move(arguments));
+    outcome.message += ::testing::internal::GetCapturedStderr();
+    return outcome;
+  }
+};
+
+TEST_F(GapExportCommand, ASavedDiagnosisGivesTheFiles) {
+  const Outcome outcome = exported({"--export", "sitl=" + at("a.parm"), "--export", "stonefish=" + at("a.xml"),
+                                    "--export", "holoocean=" + at("h.json"), "--effects-out", at("a.toml")});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  EXPECT_FALSE(asked);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_NE(navcal::test::read_file(at("a.parm")).find("SIM_MAG_MOT_X 8.031"), std::string::npos);
+  EXPECT_NE(navcal::test::read_file(at("a.xml")).find("<scenario>"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(navcal::test::read_file(at("h.json")))["agents"][0]["agent_type"], "TorpedoAUV");
+  EXPECT_NE(navcal::test::read_file(at("a.toml")).find("[motor_field]"), std::string::npos);
+  EXPECT_NE(outcome.message.find(at("a.parm") + ": motor_field, gyro_scale"), std::string::npos)
+      << outcome.message;
+  EXPECT_NE(outcome.message.find("left out: motor_field (the compass gives a heading"), std::string::npos);
+}
+
+TEST_F(GapExportCommand, ARecordingIsDiagnosedAndExportedBesideItsAnswer) {
+  const Outcome outcome =
+      run({"a.cap", "--config", at("config.toml"), "--json", "-", "--export", "sitl=" + at("a.parm")});
+  ASSERT_EQ(outcome.status, 0) << outcome.message;
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["verdict"], "explained");
+  EXPECT_NE(navcal::test::read_file(at("a.parm")).find("Diagnosis of a.cap"), std::string::npos);
+}
+
+TEST_F(GapExportCommand, AFileThatExistsStays) {
+  std::ofstream(folder_ / "a.parm") << "mine";
+  const Outcome refused = exported({"--export", "sitl=" + at("a.parm")});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.message.find(at("a.parm") + ": the file exists and is not overwritten"), std::string::npos)
+      << refused.message;
+  EXPECT_EQ(navcal::test::read_file(at("a.parm")), "mine");
+  EXPECT_EQ(run({"a.cap", "--export", "sitl=" + at("a.parm")}).status, 1);
+  EXPECT_FALSE(asked) << "before the work";
+  EXPECT_EQ(exported({"--overwrite", "--export", "sitl=" + at("a.parm")}).status, 0);
+  EXPECT_NE(navcal::test::read_file(at("a.parm")), "mine");
+  EXPECT_EQ(exported({"--overwrite", "--export", "sitl=" + at("a.json")}).status, 2) << "its own input";
+}
+
+TEST_F(GapExportCommand, WrongUsageIsSaid) {
+  EXPECT_NE(exported({"--export", "gazebo"})
+                .message.find("there is no simulator gazebo; known are sitl, holoocean, "
+                              "stonefish"),
+            std::string::npos);
+  for (const auto& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--export", "gazebo"},
+                                             {"--export", "sitl="},
+                                             {"--export", "sitl=-"},
+                                             {"a.cap", "--export", "sitl=" + at("x")},
+                                             {"--json", "-", "--export", "sitl=" + at("x")},
+                                             {"--holdout", "b.cap", "--export", "sitl=" + at("x")},
+                                             {"--export", "sitl=" + at("x"), "--export", "stonefish=" + at("x")}})
+    EXPECT_EQ(exported(arguments).status, 2);
+  EXPECT_EQ(exported({"--export", "sitl=" + at("absent") + "/x"}).status, 1);
+}
+
+TEST_F(GapExportCommand, ABadFileIsNamed) {
+  std::ofstream(folder_ / "a.json") << "{\"verdict\": \"explained\",\n \"effects\": [{}]}";
+  const Outcome bad = exported({"--export", "sitl=" + at("x")});
+  EXPECT_EQ(bad.status, 3);
+  EXPECT_EQ(bad.message, at("a.json") + ": effects[0]: the key name is missing");
+  EXPECT_FALSE(std::filesystem::exists(at("x")));
+  EXPECT_EQ(run({"--from", at("absent.json"), "--export", "sitl=" + at("x")}).status, 1);
+  std::filesystem::remove(at("a.json"));
+  std::filesystem::create_directory(at("a.json"));
+  EXPECT_EQ(exported({"--export", "sitl=" + at("x")}).status, 1);
 }
 
 TEST_F(GapCommand, ARecordingMayBeNamedLikeTheTrial) {

@@ -75,6 +75,16 @@ TEST(GapEffectsFile, WhatTheSimulatorWouldRefuseIsBroughtWithinItsRange) {
   EXPECT_NE(toml.find("-0.01 +- 0.02, outside the range of the simulator"), std::string::npos) << toml;
 }
 
+TEST(GapEffectsFile, WhatTheSimulatorDoesNotHaveIsAComment) {
+  gap::Diagnosis diagnosis;
+  diagnosis.effects = {{"thrust_scale of thruster.2\n[hard_iron]", 0.9, {{"scale", 0.1, 0.02}}, {}}};
+  const std::string toml = report::gap_effects_file(diagnosis);
+  EXPECT_EQ(read_back(toml).size(), 0U);
+  EXPECT_NE(toml.find("# thrust_scale of thruster.2 [hard_iron]: the simulator has no such effect."),
+            std::string::npos)
+      << toml;
+}
+
 TEST(GapEffectsFile, StandardErrorsStandBesideTheValues) {
   const std::string toml = report::gap_effects_file(test::explained_gap());
   EXPECT_NE(toml.find("x_uT_per_A = 0.8031  # +- 0.0042"), std::string::npos) << toml;
