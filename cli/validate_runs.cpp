@@ -24,7 +24,7 @@ namespace navcal::cli {
 namespace {
 
 struct ValidateRunsArguments {
-  std::string nominal, runs, pools, removed, json;
+  std::string nominal, runs, pools, removed, json, sessions;
 };
 
 using RunPools = std::vector<std::pair<std::string, std::vector<std::string>>>;
@@ -64,6 +64,13 @@ const runs::EffectInformation* removed_effect(const std::string& name) {
   for (const auto& known : runs::kEffects) names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
   throw analysis::Failure(analysis::Exit::usage,
                           fmt::format("--removed {}: no such effect; there are {}", name, names));
+}
+
+/// Sessions of the nominal runs in the form of pools.
+std::string sessions_json(const runs::NominalVehicle& vehicle) {
+  nlohmann::ordered_json sessions = nlohmann::ordered_json::object();
+  for (const auto& session : vehicle.sessions) sessions[fmt::format("s{}", sessions.size() + 1)] = session;
+  return sessions.dump(2) + '\n';
 }
 
 /// Answers about all runs and pools, one line each.
@@ -123,11 +130,14 @@ class RunAnswers {
 void answer_runs(const ValidateRunsArguments& arguments) {
   const bool to_output = arguments.json == "-";
   if (!to_output) expect_folder_of(arguments.json);
-  expect_no_overwriting({arguments.nominal, arguments.runs, arguments.pools}, {arguments.json});
+  if (!arguments.sessions.empty()) expect_folder_of(arguments.sessions);
+  expect_no_overwriting({arguments.nominal, arguments.runs, arguments.pools},
+                        {arguments.json, arguments.sessions});
   const auto* const removed = removed_effect(arguments.removed);
   const RunPools pools = arguments.pools.empty() ? RunPools{} : read_run_pools(arguments.pools);
   const runs::NominalVehicle vehicle = runs::identify(analysis::read_run_folder(arguments.nominal));
   for (const auto& remark : vehicle.remarks) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+  if (!arguments.sessions.empty()) write_result(arguments.sessions, sessions_json(vehicle));
   RunAnswers answers(vehicle, removed);
   answers.add_runs(analysis::read_run_folder(arguments.runs), arguments.runs);
   answers.add_pools(pools, arguments.pools);
@@ -172,6 +182,10 @@ void add_validate_runs(CLI::App& app) {
                    "runs to diagnose together, each pool of one session: {\"p001\": [\"r0001\", ...]}")
       ->option_text("FILE.json");
   command->add_option("--removed", arguments->removed, "effect to take out of the library")->option_text("NAME");
+  command
+      ->add_option("--sessions", arguments->sessions,
+                   "file to be written: the sessions found among the nominal runs, in the form of pools")
+      ->option_text("FILE.json");
   command
       ->add_option("--json", arguments->json,
                    "answers to be written, one JSON object a line; - is standard output")

@@ -67,6 +67,7 @@ Eigen::MatrixXd shape_of(Eigen::Index bands) {
 }
 
 struct NominalRuns {
+  std::vector<std::string> names;
   std::vector<Response> responses;
   std::vector<std::vector<std::size_t>> sessions;
 };
@@ -82,6 +83,7 @@ NominalRuns responses_of(std::span<const Run> runs, NominalVehicle& vehicle) {
           run.name));
       continue;
     }
+    nominal.names.push_back(run.name);
     nominal.responses.push_back(response);
     rest.push_back(*response.rest);
   }
@@ -167,10 +169,13 @@ NominalVehicle identify(std::span<const Run> runs) {
     throw BadNominal(fmt::format("{} nominal runs; {} are needed", runs.size(), kFewestRuns));
   }
   NominalVehicle vehicle;
-  vehicle.runs = runs.size();
   vehicle.thrusters = runs[0].command_us.cols();
   vehicle.clock = {row_rate_of(runs), stop_command_of(runs)};
   const NominalRuns nominal = responses_of(runs, vehicle);
+  for (const auto& session : nominal.sessions) {
+    auto& names = vehicle.sessions.emplace_back();
+    for (const std::size_t run : session) names.push_back(nominal.names[run]);
+  }
   vehicle.parameters = parameters_of(nominal);
   const Eigen::Index bands = bands_at(vehicle.clock.row_rate_Hz);
   if (bands > 3) {

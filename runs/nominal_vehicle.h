@@ -31,7 +31,8 @@ struct NominalVehicle {
   std::optional<Scatter> spectrum;
   /// Takes level, slope and curvature out of a spectrum.
   Eigen::MatrixXd without_shape;
-  std::size_t runs = 0;
+  /// Names of the runs of each session that was found.
+  std::vector<std::vector<std::string>> sessions;
   /// Runs that were left out, and what limits the answers.
   std::vector<std::string> remarks;
 };
