@@ -19,6 +19,9 @@ constexpr std::size_t kSessionsWanted = 4;
 /// Weights by which correlations are drawn to zero. A session's rest on as many degrees of freedom as there are
 /// sessions less one, about as many as there are parameters: half. A run's rest on tens: a fifth.
 constexpr double kSessionShrinkage = 0.5, kRunShrinkage = 0.2;
+/// What is assumed of the parameters when only one session was seen: sessions differ by twice what runs do. The
+/// spectrum scatters from run to run because it is short, which sessions have in common: its tolerance is enough.
+constexpr double kSessionOverRun = 4;
 /// Tolerance of the spectrum from session to session, dB, and the width over which such a deviation extends.
 constexpr double kSpectrumTolerance_dB = 0.7, kSpectrumWidth_Hz = 0.25;
 /// Share of the variance of a band that is its own alone, so that the covariance stays regular.
@@ -108,7 +111,7 @@ Scatter parameters_of(const NominalRuns& nominal) {
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     values.row(i) = nominal.responses[static_cast<std::size_t>(i)].parameters.transpose();
   }
-  Scatter scatter = scatter_of(values, nominal.sessions);
+  Scatter scatter = scatter_of(values, nominal.sessions, kSessionOverRun);
   scatter.session = with_weaker_correlations(scatter.session, kSessionShrinkage);
   scatter.run = with_weaker_correlations(scatter.run, kRunShrinkage);
   for (Eigen::Index i = 0; i < kParameterCount; ++i) {
@@ -157,7 +160,7 @@ std::optional<Scatter> spectrum_of(const NominalRuns& nominal, const Eigen::Matr
     const auto& spectrum_dB = nominal.responses[static_cast<std::size_t>(i)].spectrum_dB;
     if (spectrum_dB) values.row(i) = (without_shape * *spectrum_dB).transpose();
   }
-  Scatter scatter = scatter_of(values, sessions);
+  Scatter scatter = scatter_of(values, sessions, 0);
   make_stationary(scatter);
   return scatter;
 }

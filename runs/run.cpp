@@ -119,12 +119,11 @@ class RunReader {
     return value;
   }
 
+  /// Recorders have written second 89 for the end of a minute, so minutes and seconds may pass 59.
   double second_of_day(double hhmmss) const {
+    if (hhmmss < 0 || hhmmss >= 250000) fail("time", fmt::format("{} is not HHMMSS", hhmmss));
     const double hour = std::floor(hhmmss / 10000), minute = std::floor(std::fmod(hhmmss, 10000) / 100);
-    const double second = std::fmod(hhmmss, 100);
-    if (hhmmss < 0 || hour > 23 || minute > 59 || second >= 61)
-      fail("time", fmt::format("{} is not HHMMSS", hhmmss));
-    return 3600 * hour + 60 * minute + second;
+    return 3600 * hour + 60 * minute + std::fmod(hhmmss, 100);
   }
 
   [[nodiscard]] Eigen::VectorXd vector_of(const Column& column) const {

@@ -16,7 +16,8 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& values, const std::vector<std::si
 
 }  // namespace
 
-Scatter scatter_of(const Eigen::MatrixXd& values, std::span<const std::vector<std::size_t>> sessions) {
+Scatter scatter_of(const Eigen::MatrixXd& values, std::span<const std::vector<std::size_t>> sessions,
+                   double session_over_run) {
   const Eigen::Index n = values.cols();
   Scatter scatter;
   scatter.run.setZero(n, n);
@@ -39,7 +40,7 @@ Scatter scatter_of(const Eigen::MatrixXd& values, std::span<const std::vector<st
   scatter.mean.setZero(n);
   for (const auto& mean : means) scatter.mean += mean / count;
   if (means.size() < 2) {
-    scatter.session = scatter.run;
+    scatter.session = session_over_run * scatter.run.diagonal().asDiagonal();
     return scatter;
   }
   scatter.session.setZero(n, n);
@@ -50,8 +51,8 @@ Scatter scatter_of(const Eigen::MatrixXd& values, std::span<const std::vector<st
   const Eigen::VectorXd whole = scatter.session.diagonal();
   const Eigen::VectorXd left =
       (whole - scatter.run.diagonal() * inverse_counts / count).cwiseMax(0) * (1 + 1 / count);
-  const Eigen::VectorXd shrunk = (left.array() / whole.array().max(1e-300)).sqrt().matrix();
-  scatter.session = shrunk.asDiagonal() * scatter.session * shrunk.asDiagonal();
+  const Eigen::VectorXd factor = (left.array() / whole.array().max(1e-300)).sqrt().matrix();
+  scatter.session = factor.asDiagonal() * scatter.session * factor.asDiagonal();
   return scatter;
 }
 

@@ -22,9 +22,10 @@ inline constexpr std::size_t kRunsOfASession = 3;
 
 /// Moments of the rows of `values`, one a run, in sessions given by places of rows. The session's covariance is
 /// not yet regularised: with k sessions it has k - 1 degrees of freedom. With fewer than two sessions nothing is
-/// known of it, and the covariance from run to run takes its place. Needs a session of kRunsOfASession runs.
-[[nodiscard]] Scatter scatter_of(const Eigen::MatrixXd& values,
-                                 std::span<const std::vector<std::size_t>> sessions);
+/// known of it, and its variances are taken as those of the run times `session_over_run`. Needs a session of
+/// kRunsOfASession runs.
+[[nodiscard]] Scatter scatter_of(const Eigen::MatrixXd& values, std::span<const std::vector<std::size_t>> sessions,
+                                 double session_over_run);
 
 /// The correlations of a covariance drawn towards zero by this weight; the variances stay.
 [[nodiscard]] Eigen::MatrixXd with_weaker_correlations(const Eigen::MatrixXd& covariance, double weight);

@@ -9,7 +9,7 @@ consecutive runs (10) of one session; the sessions of a label are parted by gaps
 of day with which file names begin. Each cause is also asked about with the cause taken out of the library.
 
 Normal runs are judged by a nominal vehicle that has not seen their session, in two ways: sessions parted by gaps, and
-sessions as the program itself finds them. Prints tables in Markdown.
+sessions as the program itself finds them; and once by one that has seen other runs of their sessions. Prints tables in Markdown.
 """
 
 import argparse
@@ -153,6 +153,13 @@ def print_table(navcal, folder, size):
             pooled += asked[1]
         print(row(f"Normal, unseen sessions {words} ({len(sessions)})", "pool", pooled, "no-gap"))
         print(row(f"Normal, unseen sessions {words} ({len(sessions)})", "run", singles, "no-gap"), flush=True)
+    singles, pooled = [], []
+    for pool in pools_of(sessions_by_gap(nominal), size):
+        asked = asking.ask([file for file in nominal if file not in set(pool)], pool, [pool])
+        singles += asked[0]
+        pooled += asked[1]
+    print(row("Normal, unseen runs of sessions seen", "pool", pooled, "no-gap"))
+    print(row("Normal, unseen runs of sessions seen", "run", singles, "no-gap"), flush=True)
     print("\n| cause, taken out of the library | | unknown | its family | undecided | no-gap | wrong |")
     print("|---|---|---|---|---|---|---|")
     print("\n".join(removed_lines))
