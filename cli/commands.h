@@ -27,6 +27,7 @@ void add_remote(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_thesis(CLI::App& app);
+void add_validate_runs(CLI::App& app);
 void add_vehicle(CLI::App& app);
 void add_view(CLI::App& app);
 void add_watch(CLI::App& app);

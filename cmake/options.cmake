@@ -58,7 +58,7 @@ if(NAVCAL_SANITIZE)
 endif()
 
 # Coverage of these libraries too: without it the fuzzer sees nothing of what it feeds.
-set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record link autopilot sim gap report daemon web)
+set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record link autopilot sim gap report runs daemon web)
 
 # navcal_batches(TARGET SIZE): compiles the sources of a target in batches of that size, in the order in which they are listed.
 # Most of the time of a build is spent on headers, which a batch reads once (docs/building.md). Names in anonymous namespaces

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "analysis/output.h"
+#include "analysis/run_folder.h"
+#include "cli/commands.h"
+#include "cli/result_file.h"
+#include "report/run_diagnosis_json.h"
+#include "runs/diagnosis.h"
+#include "runs/nominal_vehicle.h"
+
+namespace navcal::cli {
+namespace {
+
+struct ValidateRunsArguments {
+  std::string nominal, runs, pools, removed, json, sessions;
+};
+
+using RunPools = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+[[noreturn]] void bad_pools(const std::string& file, const std::string& what) {
+  throw analysis::Failure(analysis::Exit::bad_input, file + ": " + what);
+}
+
+RunPools read_run_pools(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::system_error(errno, std::generic_category(), file);
+  nlohmann::ordered_json content;
+  try {
+    content = nlohmann::ordered_json::parse(stream);
+  } catch (const nlohmann::json::parse_error& error) {
+    bad_pools(file, fmt::format("byte {}: not JSON: {}", error.byte, error.what()));
+  }
+  if (!content.is_object()) bad_pools(file, "not an object of pools: {\"p001\": [\"r0001\", ...]}");
+  RunPools pools;
+  for (const auto& [name, members] : content.items()) {
+    auto& pool = pools.emplace_back(name, std::vector<std::string>{}).second;
+    if (!members.is_array() || members.empty()) bad_pools(file, "pool " + name + " is not a list of runs");
+    for (const auto& member : members) {
+      if (!member.is_string())
+        bad_pools(file, "pool " + name + ": " + member.dump() + " is not the name of a run");
+      pool.push_back(member.get<std::string>());
+    }
+  }
+  return pools;
+}
+
+const runs::EffectInformation* removed_effect(const std::string& name) {
+  if (name.empty()) return nullptr;
+  const auto* const effect = runs::effect_named(name);
+  if (effect != nullptr) return effect;
+  std::string names;
+  for (const auto& known : runs::kEffects) names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
+  throw analysis::Failure(analysis::Exit::usage,
+                          fmt::format("--removed {}: no such effect; there are {}", name, names));
+}
+
+/// Sessions of the nominal runs in the form of pools.
+std::string sessions_json(const runs::NominalVehicle& vehicle) {
+  nlohmann::ordered_json sessions = nlohmann::ordered_json::object();
+  for (const auto& session : vehicle.sessions) sessions[fmt::format("s{}", sessions.size() + 1)] = session;
+  return sessions.dump(2) + '\n';
+}
+
+/// Answers about all runs and pools, one line each.
+class RunAnswers {
+ public:
+  RunAnswers(const runs::NominalVehicle& vehicle, const runs::EffectInformation* removed)
+      : vehicle_(vehicle), removed_(removed) {}
+
+  void add_runs(const std::vector<runs::Run>& all, const std::string& folder) {
+    for (const runs::Run& run : all) {
+      if (run.command_us.cols() != vehicle_.thrusters) {
+        throw runs::BadRun(fmt::format("{}: run {} has {} thrusters, the nominal vehicle {}", folder, run.name,
+                                       run.command_us.cols(), vehicle_.thrusters));
+      }
+      const auto& response = responses_.emplace(run.name, runs::response_of(run, vehicle_.clock)).first->second;
+      add("run", run.name, {&response, 1});
+    }
+  }
+
+  void add_pools(const RunPools& pools, const std::string& file) {
+    for (const auto& [name, members] : pools) {
+      std::vector<runs::Response> pool;
+      for (const std::string& member : members) {
+        const auto found = responses_.find(member);
+        if (found == responses_.end()) bad_pools(file, "pool " + name + ": there is no run " + member);
+        pool.push_back(found->second);
+      }
+      add("pool", name, pool);
+    }
+  }
+
+  [[nodiscard]] const std::string& lines() const { return lines_; }
+  [[nodiscard]] std::string summary() const {
+    std::string text;
+    for (const auto& [what, count] : counts_) text += fmt::format("{:5}  {}\n", count, what);
+    return text;
+  }
+
+ private:
+  void add(const std::string& kind, const std::string& name, std::span<const runs::Response> responses) {
+    const runs::RunDiagnosis diagnosis = runs::diagnose(vehicle_, responses, removed_);
+    lines_ += report::run_diagnosis_json(kind, name, diagnosis);
+    std::string what = fmt::format("{}: {}", kind, runs::verdict_name(diagnosis.verdict));
+    for (const auto& effect : diagnosis.effects) {
+      what += fmt::format("{}{}", &effect == diagnosis.effects.data() ? ", " : " or ", effect.name);
+    }
+    ++counts_[what];
+  }
+
+  const runs::NominalVehicle& vehicle_;
+  const runs::EffectInformation* removed_;
+  std::map<std::string, runs::Response> responses_;
+  std::map<std::string, int> counts_;
+  std::string lines_;
+};
+
+void answer_runs(const ValidateRunsArguments& arguments) {
+  const bool to_output = arguments.json == "-";
+  if (!to_output) expect_folder_of(arguments.json);
+  if (!arguments.sessions.empty()) expect_folder_of(arguments.sessions);
+  expect_no_overwriting({arguments.nominal, arguments.runs, arguments.pools},
+                        {arguments.json, arguments.sessions});
+  const auto* const removed = removed_effect(arguments.removed);
+  const RunPools pools = arguments.pools.empty() ? RunPools{} : read_run_pools(arguments.pools);
+  const runs::NominalVehicle vehicle = runs::identify(analysis::read_run_folder(arguments.nominal));
+  for (const auto& remark : vehicle.remarks) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+  if (!arguments.sessions.empty()) write_result(arguments.sessions, sessions_json(vehicle));
+  RunAnswers answers(vehicle, removed);
+  answers.add_runs(analysis::read_run_folder(arguments.runs), arguments.runs);
+  answers.add_pools(pools, arguments.pools);
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  if (to_output) {
+    output.append(answers.lines());
+  } else {
+    write_result(arguments.json, answers.lines());
+    output.append(answers.summary());
+  }
+  output.flush();
+}
+
+void validate_runs(const ValidateRunsArguments& arguments) {
+  try {
+    answer_runs(arguments);
+  } catch (const runs::BadRun& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const runs::BadNominal& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, arguments.nominal + ": " + error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+}  // namespace
+
+void add_validate_runs(CLI::App& app) {
+  auto arguments = std::make_shared<ValidateRunsArguments>();
+  auto* command =
+      app.add_subcommand("validate-runs", "causes of short runs of a thruster vehicle, from nominal runs");
+  command
+      ->add_option("--nominal", arguments->nominal,
+                   "folder of nominal runs (.csv), which tell the nominal vehicle")
+      ->option_text("DIR")
+      ->required();
+  command->add_option("--runs", arguments->runs, "folder of the runs to diagnose (.csv)")
+      ->option_text("DIR")
+      ->required();
+  command
+      ->add_option("--pools", arguments->pools,
+                   "runs to diagnose together, each pool of one session: {\"p001\": [\"r0001\", ...]}")
+      ->option_text("FILE.json");
+  command->add_option("--removed", arguments->removed, "effect to take out of the library")->option_text("NAME");
+  command
+      ->add_option("--sessions", arguments->sessions,
+                   "file to be written: the sessions found among the nominal runs, in the form of pools")
+      ->option_text("FILE.json");
+  command
+      ->add_option("--json", arguments->json,
+                   "answers to be written, one JSON object a line; - is standard output")
+      ->option_text("FILE")
+      ->required();
+  command->footer(
+      "docs/runs.md describes the files, the method, the answers and how far they can be trusted.\n\n"
+      "Example: navcal validate-runs --nominal normal --runs today --pools pools.json --json answers.jsonl");
+  command->callback([arguments] { validate_runs(*arguments); });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace navcal::runs {
+
+/// One-way random effects: value of a run = mean + what its session has + what the run has.
+/// (Searle, Casella and McCulloch 1992, Variance Components, ch. 3; moments, for sessions of unequal size.)
+struct Scatter {
+  Eigen::VectorXd mean;      ///< over sessions, each counted once
+  Eigen::MatrixXd session;   ///< covariance of what a new session has; it includes the error of the mean
+  Eigen::MatrixXd run;       ///< covariance from run to run within a session
+  std::size_t sessions = 0;  ///< sessions that the covariance rests on
+};
+
+/// Sessions of this many runs and more count.
+inline constexpr std::size_t kRunsOfASession = 3;
+
+/// Moments of the rows of `values`, one a run, in sessions given by places of rows. The session's covariance is
+/// not yet regularised: with k sessions it has k - 1 degrees of freedom. With fewer than two sessions nothing is
+/// known of it, and its variances are taken as those of the run times `session_over_run`. Needs a session of
+/// kRunsOfASession runs.
+[[nodiscard]] Scatter scatter_of(const Eigen::MatrixXd& values, std::span<const std::vector<std::size_t>> sessions,
+                                 double session_over_run);
+
+/// The correlations of a covariance drawn towards zero by this weight; the variances stay.
+[[nodiscard]] Eigen::MatrixXd with_weaker_correlations(const Eigen::MatrixXd& covariance, double weight);
+
+}  // namespace navcal::runs
