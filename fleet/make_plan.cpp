@@ -21,6 +21,7 @@
 #include "fleet/catalogue.h"
 #include "fleet/folder_scan.h"
 #include "fleet/jobs.h"
+#include "fleet/plan_lock.h"
 #include "fleet/result_store.h"
 #include "fleet/whole_writing.h"
 #include "record/content_hash.h"
@@ -274,6 +275,7 @@ class Planner {
 
 PlanSummary make_plan(const PlanRequest& request, const PlanProgress& progress) {
   fs::create_directories(request.plan);
+  const PlanLock lock(request.plan);
   const fs::path catalogue = catalogue_of(request.plan), part = part_of(catalogue);
   fs::remove(part);
   if (fs::exists(catalogue)) fs::copy_file(catalogue, part);

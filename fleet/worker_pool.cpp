@@ -38,7 +38,7 @@ constexpr std::array kCrashes{SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSYS, 
 /// A task in a process of its own, with a pipe through which the process says why it has no result.
 class Worker {
  public:
-  Worker(const Plan& plan, const Task& task, unsigned threads) : task_(&task) {
+  Worker(const Plan& plan, const Task& task, const PoolOptions& options) : task_(&task) {
     std::array<int, 2> pipe{};
     if (::pipe2(pipe.data(), O_CLOEXEC) != 0) fail_of("pipe");
     said_ = base::Descriptor(pipe[0]);
@@ -46,7 +46,7 @@ class Worker {
     const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ < 0) fail_of("fork");
-    if (pid_ == 0) work(plan, parent, threads, says.get());
+    if (pid_ == 0) work(plan, parent, options, says.get());
     // Debian 12's <sys/pidfd.h> cannot be used from C++: it lacks the extern "C".
     end_ = base::Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
     if (!end_) {
@@ -81,13 +81,13 @@ class Worker {
   }
 
  private:
-  [[noreturn]] void work(const Plan& plan, pid_t parent, unsigned threads, int says) const {
+  [[noreturn]] void work(const Plan& plan, pid_t parent, const PoolOptions& options, int says) const {
     for (const int number : {SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
     // A terminal's Ctrl-C is the parent's to pass on; with the parent this process ends, too.
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(EXIT_FAILURE);
-    const Attempt made = run_task(plan, *task_, threads);
+    const Attempt made = options.run(plan, *task_, options.threads);
     if (made.state == TaskState::open) {
       const auto length = std::min<std::size_t>(made.why.size(), PIPE_BUF);
       (void)!::write(says, made.why.data(), length);
@@ -124,7 +124,7 @@ class Pool {
     auto next = tasks.begin();
     while (!base::Interruptible::interrupted()) {
       while (workers_.size() < options_.jobs && next != tasks.end()) {
-        workers_.emplace_back(plan_, **next++, options_.threads);
+        workers_.emplace_back(plan_, **next++, options_);
       }
       if (workers_.empty()) return;
       collect(kLook);

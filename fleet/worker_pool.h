@@ -12,6 +12,8 @@ namespace navcal::fleet {
 struct PoolOptions {
   unsigned jobs = 1;     ///< tasks at a time
   unsigned threads = 1;  ///< of each task
+  /// What is done in each process.
+  std::function<Attempt(const Plan&, const Task&, unsigned threads)> run = run_task;
 };
 
 /// Called for each task that ended, in the order in which they end.
