@@ -149,7 +149,7 @@ void add_fleet_run(CLI::App& parent) {
       "is "
       "a result.\n\n"
       "Example: navcal fleet run plan/ --task 17\n"
-      "         parallel navcal fleet run plan/ --task {} ::: $(seq 2 200)");
+      "         seq 200 | parallel navcal fleet run plan/ --task {}");
   command->callback([options] {
     run_fleet_job([&] { run_fleet_tasks(options->plan, options->tasks, options->again, options->threads); });
   });

@@ -55,7 +55,7 @@ void submit_locally(const SubmitOptions& options, const fleet::Plan& plan) {
   const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, cores / jobs);
   const std::size_t open = open_tasks(plan, results.states()).size();
   {
-    analysis::Progress progress("fleet submit");
+    analysis::Progress progress("fleet submit", analysis::Progress::Answer::at_the_end);
     std::size_t ended = 0;
     fleet::run_locally(plan, {jobs, threads}, [&](const fleet::Task& task, const fleet::Attempt& attempt) {
       ++ended;
@@ -74,7 +74,7 @@ void submit_to_slurm(const SubmitOptions& options, const fleet::Plan& plan) {
   by_slurm.poll = std::chrono::milliseconds(static_cast<int>(options.poll_s * 1000));
   std::vector<std::string> remarks;
   try {
-    analysis::Progress progress("fleet submit");
+    analysis::Progress progress("fleet submit", analysis::Progress::Answer::at_the_end);
     remarks = fleet::run_by_slurm(plan, by_slurm, [&](const fleet::SlurmProgress& now) {
       std::string words = fmt::format("{} of {} tasks, {} elements running, {} pending", now.ended, now.tasks,
                                       now.running, now.pending);

@@ -16,7 +16,7 @@
 namespace navcal::fleet {
 namespace {
 
-constexpr int kNoSuchProgram = 127, kSignalled = 128;
+constexpr int kSignalled = 128;
 
 /// A file in memory: unlike a pipe it never fills, so nobody has to read while the program runs.
 base::Descriptor memory_file(const char* name) {

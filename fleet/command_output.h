@@ -6,9 +6,12 @@
 
 namespace navcal::fleet {
 
+/// Status of a program that is not there, as in a shell.
+inline constexpr int kNoSuchProgram = 127;
+
 /// A command of another program that has ended.
 struct CommandOutput {
-  int status = 0;  ///< of exit; 128 + number of the signal that ended it; 127: there is no such program
+  int status = 0;  ///< of exit; 128 + number of the signal that ended it
   std::string out, err;
 };
 

@@ -148,7 +148,8 @@ void MergeTables::add_calibration(int task, const MergedJson& answer) {
 }
 
 void MergeTables::add_quantities(int task, const std::string& calibrator, const MergedJson& values) {
-  for (const auto& [path, value] : values.flatten().items()) {
+  const MergedJson flat = values.flatten();
+  for (const auto& [path, value] : flat.items()) {
     // "/deviation_deg/A" becomes "deviation_deg.A".
     std::string quantity = path.substr(1);
     for (char& c : quantity) c = c == '/' ? '.' : c;

@@ -29,7 +29,6 @@ std::string first_line(std::string text) {
 std::string answer_to(const std::vector<std::string>& command) {
   CommandOutput output = run_command(command);
   if (output.status == 0) return std::move(output.out);
-  constexpr int kNoSuchProgram = 127;
   if (output.status == kNoSuchProgram) {
     throw SlurmError(command.front() + ": Slurm's commands are not installed here (Debian: slurm-client)");
   }

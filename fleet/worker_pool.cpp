@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -87,13 +88,21 @@ class Worker {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(EXIT_FAILURE);
-    const Attempt made = options.run(plan, *task_, options.threads);
+    const Attempt made = attempt_in_child(plan, options);
     if (made.state == TaskState::open) {
       const auto length = std::min<std::size_t>(made.why.size(), PIPE_BUF);
       (void)!::write(says, made.why.data(), length);
     }
     // Not exit(): it would write the parent's buffers once more.
     ::_exit(made.state == TaskState::open ? EXIT_FAILURE : EXIT_SUCCESS);
+  }
+  /// No exception may reach the frames of the parent.
+  [[nodiscard]] Attempt attempt_in_child(const Plan& plan, const PoolOptions& options) const {
+    try {
+      return options.run(plan, *task_, options.threads);
+    } catch (const std::exception& error) {
+      return {TaskState::open, error.what()};
+    }
   }
   [[nodiscard]] int reap() const {
     int status = 0;
