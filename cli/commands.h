@@ -16,6 +16,7 @@ void add_devices(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_emulate(CLI::App& app);
 void add_field(CLI::App& app);
+void add_fleet(CLI::App& app);
 void add_gap(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_log(CLI::App& app);

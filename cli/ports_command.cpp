@@ -15,7 +15,7 @@
 namespace navcal::cli {
 namespace {
 
-using nlohmann::json;
+using PortsJson = nlohmann::json;
 
 struct PortsCommandOptions {
   std::filesystem::path control = "/run/navcal/control";
@@ -31,20 +31,20 @@ constexpr std::chrono::seconds kOutcomeLimit{60};
 
 void list_commands(const PortsCommandOptions& options) {
   ControlLink link(options.control);
-  const json answer = link.ask({{"command", "device.commands"}, {"port", options.port}});
-  for (const json& port : answer.at("ports")) {
-    for (const json& command : port.at("commands"))
+  const PortsJson answer = link.ask({{"command", "device.commands"}, {"port", options.port}});
+  for (const PortsJson& port : answer.at("ports")) {
+    for (const PortsJson& command : port.at("commands"))
       fmt::print("{:<12} {:<18} {}{}\n", port.at("port").get<std::string>(), command.at("name").get<std::string>(),
                  command.at("meaning").get<std::string>(), command.at("force") == true ? " (--force)" : "");
   }
 }
 
 /// Waits until the dialogue with the device is over, and prints the answer.
-void show_outcome(ControlLink& link, const PortsCommandOptions& options, const json& number) {
+void show_outcome(ControlLink& link, const PortsCommandOptions& options, const PortsJson& number) {
   const auto until = std::chrono::steady_clock::now() + kOutcomeLimit;
   while (std::chrono::steady_clock::now() < until && !base::Interruptible::interrupted()) {
-    const json answer = link.ask({{"command", "device.commands"}, {"port", options.port}});
-    const json& last = answer.at("ports").at(0).at("last");
+    const PortsJson answer = link.ask({{"command", "device.commands"}, {"port", options.port}});
+    const PortsJson& last = answer.at("ports").at(0).at("last");
     if (last.at("number") != number) fail_command("another command was given meanwhile");
     if (last.at("state") == "done") return fmt::print("{}\n", last.at("answer").get<std::string>());
     if (last.at("state") == "failed")
@@ -57,7 +57,7 @@ void show_outcome(ControlLink& link, const PortsCommandOptions& options, const j
 void give_command(const PortsCommandOptions& options) {
   const base::Interruptible interruptible;
   ControlLink link(options.control);
-  const json answer = link.ask(
+  const PortsJson answer = link.ask(
       {{"command", "device.command"}, {"port", options.port}, {"name", options.name}, {"force", options.force}});
   show_outcome(link, options, answer.at("number"));
 }
@@ -65,7 +65,7 @@ void give_command(const PortsCommandOptions& options) {
 void run_command(const PortsCommandOptions& options) {
   try {
     options.name.empty() ? list_commands(options) : give_command(options);
-  } catch (const json::exception& error) {
+  } catch (const PortsJson::exception& error) {
     fail_command(std::string("navcald's answer cannot be read: ") + error.what());
   }
 }

@@ -97,6 +97,8 @@ inline constexpr double kSameShaft_rps = 0.5, kSameTurn_rad_s = 0.05, kSameDepth
 /// Difference of the Earth's field, uT, within which a kept null bank serves: compass.field and heading then
 /// differ by a hundredth or two.
 inline constexpr double kSameField_uT = 0.5;
+/// Distance of two outlines below which their missions are planned to share a null bank. Set.
+inline constexpr double kAlikeOutline = 0.8;
 
 // ---- recording
 

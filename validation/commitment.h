@@ -2,14 +2,10 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 namespace navcal::validation {
 
-/// SHA-256 in hexadecimal, small letters.
-[[nodiscard]] std::string sha256_of(std::string_view text);
-
-/// A truth that is fixed before anybody answers: the digest is published first, truth and salt after the last
+/// A truth that is fixed before anybody answers: the digest (SHA-256, record/content_hash.h) is published first, truth and salt after the last
 /// answer, and then everybody can reckon that digest = SHA-256(truth salt), the two texts one after the other.
 /// Without the salt the few possible truths could be tried one by one.
 struct Commitment {

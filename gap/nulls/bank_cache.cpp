@@ -4,17 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <functional>
-#include <limits>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "gap/nulls/bank_file.h"
+#include "gap/nulls/mission_outline.h"
+#include "gap/nulls/number_checksum.h"
 #include "gap/thresholds.h"
 #include "record/log/checksum.h"
 #include "record/whole_file.h"
@@ -23,7 +22,6 @@ namespace navcal::gap {
 namespace {
 
 constexpr std::string_view kPrefix = "null-bank-";
-constexpr double kWindow_s = 10;
 
 /// The files of the folder that are banks, the one used last first. Empty where the folder cannot be read.
 std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder) {
@@ -45,7 +43,7 @@ std::vector<std::filesystem::path> banks_in(const std::filesystem::path& folder)
 /// Features of a mission that its nulls depend on, in units of their tolerated differences: one row for each
 /// ten seconds.
 std::vector<double> fingerprint(const Replay& replay, const Trajectory10Hz& course) {
-  const auto window = static_cast<std::size_t>(kWindow_s / kInterval_s);
+  const auto window = static_cast<std::size_t>(kOutlineWindow_s / kInterval_s);
   std::vector<double> all;
   for (std::size_t from = 0; from + window <= course.time_s.size(); from += window) {
     double shaft = 0, turn = 0, depth = 0, fixes = 0;
@@ -55,7 +53,7 @@ std::vector<double> fingerprint(const Replay& replay, const Trajectory10Hz& cour
       depth += course.depth_m[i];
     }
     for (const FixReading& fix : replay.mission().fixes) {
-      if (fix.time_s >= course.time_s[from] && fix.time_s < course.time_s[from] + kWindow_s) fixes += 1;
+      if (fix.time_s >= course.time_s[from] && fix.time_s < course.time_s[from] + kOutlineWindow_s) fixes += 1;
     }
     const auto n = static_cast<double>(window);
     all.insert(all.end(), {shaft / n / kSameShaft_rps, turn / n / kSameTurn_rad_s, depth / n / kSameDepth_m,
@@ -69,27 +67,6 @@ bool in_same_field(const KeptBank& kept, const EarthField& field) {
   const auto &a = kept.field_uT, &b = field.north_east_down_uT;
   return kept.field_is_fitted == (field.source == EarthField::Source::fitted) &&
          std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kSameField_uT;
-}
-
-/// Root mean square difference of two fingerprints, in tolerances; infinite between missions of different
-/// lengths.
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  const std::size_t longer = std::max(a.size(), b.size()), shorter = std::min(a.size(), b.size());
-  if (shorter == 0 || static_cast<double>(longer - shorter) > 4 + 0.02 * static_cast<double>(longer)) {
-    return std::numeric_limits<double>::infinity();
-  }
-  double square = 0;
-  for (std::size_t i = 0; i < shorter; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(square / static_cast<double>(shorter));
-}
-
-/// Checksum of a type that consists of numbers only: padding between members would make equal values differ.
-template <class Numbers>
-std::uint32_t checksum_of(const Numbers& numbers) {
-  static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) % sizeof(double) == 0);
-  std::array<char, sizeof(Numbers)> bytes{};
-  std::memcpy(bytes.data(), &numbers, bytes.size());
-  return record::crc32c({bytes.data(), bytes.size()});
 }
 
 }  // namespace
@@ -123,7 +100,7 @@ std::optional<NullBank> BankCache::find(const Replay& replay, const Trajectory10
     auto kept = read_bank(text, model, unknowns_);
     if (!kept || kept->bank.missions < options.missions * 9 / 10 || kept->bank.seed != options.seed) continue;
     if (!in_same_field(*kept, replay.mission().field)) continue;
-    const double apart = distance(wanted, kept->fingerprint);
+    const double apart = fingerprint_distance(wanted, kept->fingerprint);
     if (!(apart < best_distance)) continue;
     best = std::move(kept->bank);
     best_distance = apart;

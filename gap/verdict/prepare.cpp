@@ -163,7 +163,9 @@ void Preparation::find_bank(Prepared& prepared, const std::string& name, Diagnos
   }
   prepared.bank = make_null_bank({*prepared.replay, prepared.course, request_.vehicle}, library_, prepared.at,
                                  options, [&](double done) { progress_("null bank of " + name, done); });
+  if (request_.cache_is_read_only) return;
   const std::string refusal = cache_.keep(*prepared.replay, prepared.course, prepared.bank);
+  prepared.refusal = refusal;
   if (!refusal.empty())
     answer.remarks.push_back("the simulated null missions could not be kept for next time: " + refusal);
 }

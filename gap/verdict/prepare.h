@@ -28,6 +28,7 @@ struct Prepared {
   CommandCheck commands;
   NullBank bank;
   bool from_cache = false;
+  std::string refusal;  ///< why the cache could not keep the bank; empty: it did, or was not to
 
   /// Whitened residuals of the recording as a function of the unknowns. The references are valid as long as
   /// this and `library`.

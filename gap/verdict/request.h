@@ -27,6 +27,7 @@ struct Request {
   std::vector<Quantity> without;                ///< to be left out of all recordings, as if they were not there
   std::vector<std::string> excluded;            ///< effects that the library is to be without
   std::filesystem::path cache;                  ///< folder of null banks; empty: none are kept
+  bool cache_is_read_only = false;              ///< null banks that the folder lacks are made, and not kept
   int bank_missions = 100;
   std::uint64_t bank_seed = 1;
   unsigned threads = 0;  ///< 0: as many as there are cores
@@ -40,5 +41,15 @@ using Progress = std::function<void(std::string_view what, double done)>;
 /// readings with the mission or another hold-out. A recording that cannot be diagnosed gets the verdict
 /// `unknown` and remarks that say why.
 [[nodiscard]] Diagnosis diagnose(const Request& request, const Progress& progress);
+
+/// A null bank made for later diagnoses.
+struct MadeBank {
+  int missions = 0;
+  std::string shortcoming;  ///< why there is none; empty: it is in the cache
+};
+
+/// Makes the null bank of `request.mission` and keeps it in `request.cache`, or finds one there that serves. Throws
+/// record::BadRecording, and std::runtime_error where the bank cannot be kept.
+[[nodiscard]] MadeBank make_bank(const Request& request, const Progress& progress);
 
 }  // namespace navcal::gap

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "record/content_hash.h"
 #include "tests/support/process.h"
-#include "validation/commitment.h"
 
 namespace navcal::cli {
 namespace {
@@ -30,8 +30,7 @@ TEST(GapTrialProgram, NamesNothingThatIsNotThereAndAnswersEveryCase) {
   for (const auto& one : json["cases"]) {
     EXPECT_FALSE(one.contains("failure")) << one["failure"];
     EXPECT_NE(one["outcome"], "wrong name") << one["truth"] << one["answer"];
-    EXPECT_EQ(validation::sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()),
-              one["sha256"]);
+    EXPECT_EQ(record::sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()), one["sha256"]);
     named += one["outcome"] == "exact";
   }
   EXPECT_GE(named, 1) << "not one effect was found";

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/gap_trial.h"
+#include "record/content_hash.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/markup.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
-#include "validation/commitment.h"
 
 // The whole trial with a shell script for a diagnosing program.
 namespace navcal::cli {
@@ -104,7 +104,7 @@ TEST_F(GapTrial, WhatIsPublishedFirstIsTheDigestOfWhatIsToldLast) {
   ASSERT_EQ(json["cases"].size(), 3U);
   for (const auto& one : json["cases"]) {
     const std::string digest = one["sha256"];
-    EXPECT_EQ(validation::sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()), digest);
+    EXPECT_EQ(record::sha256_of(one["truth"].get<std::string>() + one["salt"].get<std::string>()), digest);
     EXPECT_LT(outcome.output.find(digest), outcome.output.find("answered in"));
     EXPECT_EQ(outcome.output.find(one["salt"].get<std::string>()), std::string::npos);
   }

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "analysis/output.h"
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "cli/commands.h"
+#include "cli/fleet_submit.h"
+#include "cli/result_file.h"
+#include "config/error.h"
+#include "fleet/jobs.h"
+#include "fleet/make_plan.h"
+#include "fleet/merge.h"
+#include "fleet/merge_page.h"
+#include "fleet/plan_list.h"
+#include "fleet/worker_pool.h"
+
+namespace navcal::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs a part of the command and turns its errors into statuses.
+void run_fleet_job(const std::function<void()>& job) {
+  try {
+    job();
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+void make_fleet_plan(fleet::PlanRequest request) {
+  const base::Interruptible interruptible;
+  request.threads = std::max(1U, std::thread::hardware_concurrency());
+  fleet::PlanSummary summary;
+  {
+    analysis::Progress progress("fleet plan", analysis::Progress::Answer::at_the_end);
+    summary = fleet::make_plan(request, [&](std::string_view what, double done) { progress.show(what, done); });
+  }
+  for (const std::string& remark : summary.remarks) fmt::print(stderr, "navcal fleet: {}\n", remark);
+  fmt::print(
+      "{} recordings in {} ({} read now); plan {}: {} recordings, {} tasks ({} new), {} of them null banks\n",
+      summary.files, request.recordings.string(), summary.read, request.plan.string(), summary.recordings,
+      summary.tasks, summary.added, summary.banks);
+  if (summary.gone > 0) fmt::print("{} files of the earlier plan are gone\n", summary.gone);
+}
+
+void run_fleet_tasks(const std::string& folder, const std::string& tasks, bool again, unsigned threads) {
+  const base::Interruptible interruptible;
+  const fleet::Plan plan = fleet::load_plan(folder);
+  const std::vector<const fleet::Task*> wanted = fleet::tasks_named(plan, tasks);
+  const fleet::ResultStore results(plan.folder);
+  if (again) {
+    for (const fleet::Task* task : wanted) results.forget_error(*task);
+  }
+  std::size_t ended = 0, open = 0;
+  fleet::run_in_processes(plan, wanted, {1, threads}, [&](const fleet::Task& task, const fleet::Attempt& attempt) {
+    ++ended;
+    if (attempt.state == fleet::TaskState::open) ++open;
+    if (!attempt.why.empty()) fmt::print(stderr, "navcal fleet: task {}: {}\n", task.number, attempt.why);
+  });
+  if (ended < wanted.size()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
+  if (open > 0) {
+    throw analysis::Failure(analysis::Exit::failed,
+                            fmt::format("{} of {} tasks have no result; they can be tried again", open, ended));
+  }
+}
+
+void merge_fleet(const std::string& folder, const std::string& output, const std::string& page) {
+  const fleet::Plan plan = fleet::load_plan(folder);
+  const fs::path file = output.empty() ? plan.folder / "results.sqlite" : fs::path(output);
+  expect_folder_of(file);
+  if (!page.empty()) expect_folder_of(page);
+  expect_no_overwriting({fleet::catalogue_of(plan.folder)}, {file, page});
+  const fleet::MergeSummary summary = fleet::merge(plan, file);
+  if (!page.empty()) write_result(page, fleet::merge_page(plan, fleet::ResultStore(plan.folder)));
+  fmt::print("{}: {} tasks done, {} failed, {} open\n", file.string(), summary.done, summary.failed, summary.open);
+}
+
+void list_fleet(const std::string& folder, bool json) {
+  const fleet::Plan plan = fleet::load_plan(folder);
+  const fleet::ResultStore results(plan.folder);
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(json ? fleet::list_json(plan, results) : fleet::list_text(plan, results));
+  output.flush();
+}
+
+void add_fleet_plan(CLI::App& parent) {
+  auto* command = parent.add_subcommand("plan", "make or extend a plan for the recordings of a folder");
+  const auto request = std::make_shared<fleet::PlanRequest>();
+  command->add_option("FOLDER", request->recordings, "folder with recordings (.cap, .mcap), at any depth")
+      ->required();
+  command->add_option("-o,--output", request->plan, "folder of the plan")->option_text("PLAN")->required();
+  command
+      ->add_option(
+          "--vehicle", request->vehicle,
+          "the nominal vehicle of all; default: vehicle.toml beside the recording or in a folder above it, "
+          "else the reference vehicle")
+      ->option_text("FILE.toml");
+  command->add_option("--config", request->config, "configuration of all recordings, instead of their own")
+      ->option_text("FILE.toml");
+  std::vector<std::string> names;
+  for (const fleet::Job& job : fleet::jobs()) names.emplace_back(job.name);
+  command->add_option("--job", request->jobs, "what to do with each recording; several with commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  command->add_option("--bank", request->bank_missions, "number of simulated null missions of each bank")
+      ->check(CLI::Range(2, 10'000))
+      ->capture_default_str();
+  command->add_option("--seed", request->bank_seed, "seed of their noise and tolerances")->capture_default_str();
+  command->footer(
+      "A recording is known by its content: one that was moved or renamed is not done again.\n\n"
+      "Example: navcal fleet plan recordings/ -o plan/ --job gap,calibrate");
+  command->callback([request] { run_fleet_job([&] { make_fleet_plan(*request); }); });
+}
+
+void add_fleet_run(CLI::App& parent) {
+  struct Options {
+    std::string plan, tasks;
+    bool again = false;
+    unsigned threads = 1;
+  };
+  auto* command = parent.add_subcommand("run", "do tasks of a plan; those that have a result are not done again");
+  const auto options = std::make_shared<Options>();
+  command->add_option("PLAN", options->plan, "folder of the plan")->required();
+  command->add_option("--task", options->tasks, "numbers of tasks: 7, or 3,5,7, or 10-20")
+      ->option_text("K")
+      ->required();
+  command->add_option("--threads", options->threads, "threads of a task; they change no result")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_flag("--again", options->again, "do tasks once more that failed");
+  command->footer(
+      "The exit status is 0 when each task has a result, 1 when one has none. An error that the recording causes "
+      "is "
+      "a result.\n\n"
+      "Example: navcal fleet run plan/ --task 17\n"
+      "         seq 200 | parallel navcal fleet run plan/ --task {}");
+  command->callback([options] {
+    run_fleet_job([&] { run_fleet_tasks(options->plan, options->tasks, options->again, options->threads); });
+  });
+}
+
+void add_fleet_merge(CLI::App& parent) {
+  struct Options {
+    std::string plan, output, page;
+  };
+  auto* command = parent.add_subcommand("merge", "all results of a plan in one SQLite file");
+  const auto options = std::make_shared<Options>();
+  command->add_option("PLAN", options->plan, "folder of the plan")->required();
+  command->add_option("-o,--output", options->output, "the file; default: PLAN/results.sqlite")
+      ->option_text("FILE.sqlite");
+  command->add_option("--report", options->page, "page with tables; needs no other file")
+      ->option_text("FILE.html");
+  command->footer(
+      "The same results give the same bytes, in whatever order and wherever the tasks were done.\n\n"
+      "Example: navcal fleet merge plan/ --report fleet.html");
+  command->callback(
+      [options] { run_fleet_job([&] { merge_fleet(options->plan, options->output, options->page); }); });
+}
+
+void add_fleet_list(CLI::App& parent) {
+  struct Options {
+    std::string plan;
+    bool json = false;
+  };
+  auto* command = parent.add_subcommand("list", "the tasks of a plan and their state, one a line");
+  const auto options = std::make_shared<Options>();
+  command->add_option("PLAN", options->plan, "folder of the plan")->required();
+  command->add_flag("--json", options->json, "one JSON object a line instead of text");
+  command->footer("Example: navcal fleet list plan/");
+  command->callback([options] { run_fleet_job([&] { list_fleet(options->plan, options->json); }); });
+}
+
+}  // namespace
+
+void add_fleet(CLI::App& app) {
+  auto* const command = app.add_subcommand(
+      "fleet", "many recordings: plan, run on this machine or by Slurm, merge the results into one file");
+  command->require_subcommand(1);
+  command->footer("Example: navcal fleet plan recordings/ -o plan/ && navcal fleet submit plan/ --local");
+  add_fleet_plan(*command);
+  add_fleet_submit(*command);
+  add_fleet_run(*command);
+  add_fleet_list(*command);
+  add_fleet_merge(*command);
+}
+
+}  // namespace navcal::cli

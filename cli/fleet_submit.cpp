@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/fleet_submit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "analysis/failure.h"
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "fleet/local_run.h"
+#include "fleet/plan_lock.h"
+#include "fleet/slurm.h"
+#include "fleet/slurm_run.h"
+
+namespace navcal::cli {
+namespace {
+
+struct SubmitOptions {
+  std::string plan;
+  bool local = false, slurm = false, again = false;
+  unsigned jobs = 0, threads = 0;
+  fleet::SlurmOptions by_slurm;
+  double poll_s = 5;
+};
+
+/// What stands at the end of a submission, and the failure where tasks are left.
+void conclude(const fleet::Plan& plan, const std::string& hint) {
+  const fleet::ResultStore::States states = fleet::ResultStore(plan.folder).states();
+  std::size_t done = 0, failed = 0, open = 0;
+  for (const fleet::Task& task : plan.tasks) {
+    const fleet::TaskState state = state_in(states, task);
+    (state == fleet::TaskState::done ? done : state == fleet::TaskState::failed ? failed : open) += 1;
+  }
+  fmt::print("{} tasks: {} done, {} failed, {} open\n", plan.tasks.size(), done, failed, open);
+  if (failed > 0) fmt::print("Errors: navcal fleet list {}\n", plan.folder.string());
+  if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted; " + hint);
+  if (open > 0) {
+    throw analysis::Failure(analysis::Exit::failed, fmt::format("{} tasks have no result; {}", open, hint));
+  }
+}
+
+void submit_locally(const SubmitOptions& options, const fleet::Plan& plan) {
+  const fleet::ResultStore results(plan.folder);
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  const unsigned jobs = options.jobs > 0 ? options.jobs : cores;
+  const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, cores / jobs);
+  const std::size_t open = open_tasks(plan, results.states()).size();
+  {
+    analysis::Progress progress("fleet submit", analysis::Progress::Answer::at_the_end);
+    std::size_t ended = 0;
+    fleet::run_locally(plan, {jobs, threads}, [&](const fleet::Task& task, const fleet::Attempt& attempt) {
+      ++ended;
+      if (!attempt.why.empty()) fmt::print(stderr, "navcal fleet: task {}: {}\n", task.number, attempt.why);
+      progress.show(fmt::format("{} of {} tasks", ended, open),
+                    static_cast<double>(ended) / static_cast<double>(open));
+    });
+  }
+  conclude(plan, "the same command goes on with them");
+}
+
+void submit_to_slurm(const SubmitOptions& options, const fleet::Plan& plan) {
+  fleet::SlurmOptions by_slurm = options.by_slurm;
+  if (by_slurm.program.empty()) by_slurm.program = std::filesystem::read_symlink("/proc/self/exe");
+  by_slurm.threads = std::max(1U, options.threads);
+  by_slurm.poll = std::chrono::milliseconds(static_cast<int>(options.poll_s * 1000));
+  std::vector<std::string> remarks;
+  try {
+    analysis::Progress progress("fleet submit", analysis::Progress::Answer::at_the_end);
+    remarks = fleet::run_by_slurm(plan, by_slurm, [&](const fleet::SlurmProgress& now) {
+      std::string words = fmt::format("{} of {} tasks, {} elements running, {} pending", now.ended, now.tasks,
+                                      now.running, now.pending);
+      if (!now.remark.empty()) words += fmt::format(" ({})", now.remark);
+      progress.show(words, now.tasks == 0 ? 1 : static_cast<double>(now.ended) / static_cast<double>(now.tasks));
+    });
+  } catch (const fleet::SlurmError& error) {
+    throw analysis::Failure(analysis::Exit::failed, std::string("Slurm: ") + error.what());
+  }
+  for (const std::string& remark : remarks) fmt::print(stderr, "navcal fleet: {}\n", remark);
+  conclude(plan, base::Interruptible::interrupted()
+                     ? fmt::format("what is in Slurm's queue goes on. The same command follows it; \"squeue --me "
+                                   "--format=%A,%j | grep {}\" lists it for scancel",
+                                   fleet::slurm_name_of(plan))
+                     : "the same command tries them again");
+}
+
+void submit(const SubmitOptions& options) {
+  const base::Interruptible interruptible;
+  const fleet::Plan plan = fleet::load_plan(options.plan);
+  const fleet::PlanLock lock(plan.folder);
+  if (options.again) {
+    const fleet::ResultStore results(plan.folder);
+    for (const fleet::Task& task : plan.tasks) results.forget_error(task);
+  }
+  if (options.slurm) {
+    submit_to_slurm(options, plan);
+  } else {
+    submit_locally(options, plan);
+  }
+}
+
+}  // namespace
+
+void add_fleet_submit(CLI::App& fleet) {
+  auto* command = fleet.add_subcommand("submit", "do all open tasks of a plan, on this machine or by Slurm");
+  const auto options = std::make_shared<SubmitOptions>();
+  command->add_option("PLAN", options->plan, "folder of the plan")->required();
+  auto* const local = command->add_flag("--local", options->local, "in processes of this machine");
+  auto* const slurm = command->add_flag("--slurm", options->slurm, "as job arrays of Slurm, null banks first");
+  slurm->excludes(local);
+  command->add_option("--jobs", options->jobs, "tasks at a time; default: one for each core")
+      ->check(CLI::Range(1, 1024))
+      ->needs(local);
+  command->add_option("--threads", options->threads, "threads of a task; they change no result")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--again", options->again, "do tasks once more that failed");
+  const auto* const by_slurm = "Slurm";
+  command
+      ->add_option("--sbatch", options->by_slurm.options,
+                   "an option for sbatch, such as --sbatch=--partition=long; repeatable")
+      ->option_text("OPTION")
+      ->allow_extra_args(false)
+      ->needs(slurm)
+      ->group(by_slurm);
+  command->add_option("--chunk", options->by_slurm.chunk, "tasks of one array element, one after the other")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str()
+      ->needs(slurm)
+      ->group(by_slurm);
+  command
+      ->add_option("--attempts", options->by_slurm.attempts,
+                   "arrays in which a task may end without a result, beyond what Slurm requeues by itself")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str()
+      ->needs(slurm)
+      ->group(by_slurm);
+  command->add_option("--poll", options->poll_s, "seconds between two looks at the queue")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str()
+      ->needs(slurm)
+      ->group(by_slurm);
+  command->add_option("--program", options->by_slurm.program, "navcal as the nodes see it; default: this program")
+      ->option_text("FILE")
+      ->needs(slurm)
+      ->group(by_slurm);
+  command->footer(
+      "Tasks that have a result are not done again. Ctrl-C ends the command, and the same command goes on.\n\n"
+      "Example: navcal fleet submit plan/ --local --jobs 4\n"
+      "         navcal fleet submit plan/ --slurm --sbatch=--time=30 --sbatch=--mem=2G");
+  command->callback([options] {
+    if (!options->local && !options->slurm) throw CLI::RequiredError("one of --local and --slurm");
+    try {
+      submit(*options);
+    } catch (const std::system_error& error) {
+      throw analysis::Failure(analysis::Exit::failed, error.what());
+    }
+  });
+}
+
+}  // namespace navcal::cli

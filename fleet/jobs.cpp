@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fleet/jobs.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "analysis/calibrate_run.h"
+#include "analysis/noise/noise_run.h"
+#include "analysis/surfacing_run.h"
+#include "gap/verdict/request.h"
+#include "record/json/calibration_json.h"
+#include "record/recording.h"
+#include "report/gap_json.h"
+#include "report/noise_text.h"
+#include "report/surfacings_text.h"
+
+namespace navcal::fleet {
+namespace {
+
+using JobJson = nlohmann::ordered_json;
+
+config::Settings settings_of(const JobInput& input) {
+  return input.settings ? *input.settings : record::Recording::open(input.recording)->settings();
+}
+
+gap::Request request_of(const JobInput& input) {
+  gap::Request request;
+  request.mission = input.recording;
+  request.vehicle = input.vehicle;
+  request.settings = input.settings;
+  request.cache = input.bank_folder;
+  request.bank_missions = input.bank_missions;
+  request.bank_seed = input.bank_seed;
+  request.threads = input.threads;
+  return request;
+}
+
+std::string text_of(const JobJson& json) {
+  // A file name in a remark may be invalid UTF-8.
+  return json.dump(-1, ' ', false, JobJson::error_handler_t::replace);
+}
+
+std::string bank_answer(const JobInput& input) {
+  const gap::MadeBank made = gap::make_bank(request_of(input), [](std::string_view, double) {});
+  if (!made.shortcoming.empty()) throw std::invalid_argument(made.shortcoming);
+  return text_of({{"missions", made.missions}, {"seed", input.bank_seed}});
+}
+
+std::string gap_answer(const JobInput& input) {
+  gap::Request request = request_of(input);
+  request.cache_is_read_only = true;
+  const gap::Diagnosis diagnosis = gap::diagnose(request, [](std::string_view, double) {});
+  auto json = JobJson::parse(report::gap_json(diagnosis));
+  json.erase("seconds");
+  json["bank"].erase("seconds");
+  return text_of(json);
+}
+
+std::string calibrate_answer(const JobInput& input) {
+  analysis::CalibrateRun run(settings_of(input), nullptr);
+  run.play(input.recording.string());
+  std::string text;
+  record::append_calibrate_json(text, run.finish());
+  auto json = JobJson::parse(text);
+  json["duration_s"] = run.duration_s();
+  json["remarks"] = run.remarks();
+  return text_of(json);
+}
+
+std::string noise_answer(const JobInput& input) {
+  auto json = JobJson::parse(
+      report::noise_json(analysis::noise_of({input.recording.string(), {}, {}}, settings_of(input))));
+  json.erase("file");
+  return text_of(json);
+}
+
+std::string surfacings_answer(const JobInput& input) {
+  analysis::SurfacingRun run(settings_of(input));
+  run.play(input.recording.string());
+  return text_of(JobJson::parse(report::surfacings_json(run.surfacings(), {})));
+}
+
+constexpr std::array kJobs{Job{"gap", true, true, gap_answer}, Job{"calibrate", false, false, calibrate_answer},
+                           Job{"noise", false, false, noise_answer},
+                           Job{"surfacings", false, false, surfacings_answer}};
+constexpr Job kBank{kBankJob, true, false, bank_answer};
+
+}  // namespace
+
+std::span<const Job> jobs() { return kJobs; }
+
+const Job& bank_job() { return kBank; }
+
+const Job& job_named(std::string_view name) {
+  if (name == kBankJob) return kBank;
+  std::string names;
+  for (const Job& job : kJobs) {
+    if (job.name == name) return job;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", job.name);
+  }
+  throw std::invalid_argument(fmt::format("there is no job {}; there are {}", name, names));
+}
+
+}  // namespace navcal::fleet

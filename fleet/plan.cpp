@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fleet/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "analysis/failure.h"
+#include "fleet/catalogue.h"
+#include "fleet/database.h"
+#include "fleet/jobs.h"
+#include "record/content_hash.h"
+
+namespace navcal::fleet {
+namespace {
+
+namespace fs = std::filesystem;
+
+int number_in(std::string_view text, std::string_view all) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 1) {
+    throw analysis::Failure(analysis::Exit::usage,
+                            fmt::format("{}: tasks are given as 7, as 3,5,7 or as 10-20", all));
+  }
+  return number;
+}
+
+void add_range(const Plan& plan, int from, int to, std::string_view text, std::vector<const Task*>& found) {
+  const auto before = found.size();
+  const auto first = std::lower_bound(plan.tasks.begin(), plan.tasks.end(), from,
+                                      [](const Task& task, int number) { return task.number < number; });
+  for (auto at = first; at != plan.tasks.end() && at->number <= to; ++at) found.push_back(&*at);
+  if (found.size() == before) {
+    throw analysis::Failure(
+        analysis::Exit::usage,
+        fmt::format("{}: the plan has no such task (navcal fleet list {})", text, plan.folder.string()));
+  }
+}
+
+}  // namespace
+
+bool Task::makes_bank() const { return job == kBankJob; }
+
+const Task* Plan::task(int number) const {
+  const auto at = std::lower_bound(tasks.begin(), tasks.end(), number,
+                                   [](const Task& task, int wanted) { return task.number < wanted; });
+  return at != tasks.end() && at->number == number ? &*at : nullptr;
+}
+
+const Task* Plan::maker_of(std::string_view bank) const {
+  const auto at =
+      std::find_if(tasks.begin(), tasks.end(), [&](const Task& t) { return t.makes_bank() && t.bank == bank; });
+  return at == tasks.end() ? nullptr : &*at;
+}
+
+fs::path Plan::bank_folder(std::string_view bank) const { return folder / "banks" / bank; }
+
+std::string Plan::id() const {
+  constexpr std::size_t kDigits = 10;
+  return record::sha256_of(folder.string()).substr(0, kDigits);
+}
+
+fs::path catalogue_of(const fs::path& plan) { return plan / "plan.sqlite"; }
+
+Plan load_plan(const fs::path& folder) {
+  const fs::path file = catalogue_of(folder);
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    throw analysis::Failure(analysis::Exit::bad_input,
+                            folder.string() + ": no plan of navcal fleet plan (no plan.sqlite)");
+  }
+  try {
+    Database database(file, Database::Access::read);
+    Plan plan;
+    plan.folder = fs::canonical(folder);
+    read_catalogue(database, file.string(), plan);
+    return plan;
+  } catch (const DatabaseError& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  }
+}
+
+std::vector<const Task*> tasks_named(const Plan& plan, std::string_view text) {
+  std::vector<const Task*> found;
+  for (std::string_view rest = text;;) {
+    const auto comma = rest.find(',');
+    const std::string_view part = rest.substr(0, comma);
+    const auto dash = part.find('-');
+    const int from = number_in(part.substr(0, dash), text);
+    const int to = dash == std::string_view::npos ? from : number_in(part.substr(dash + 1), text);
+    add_range(plan, from, to, text, found);
+    if (comma == std::string_view::npos) return found;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace navcal::fleet

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "fleet/plan.h"
+#include "fleet/task_run.h"
+
+namespace navcal::fleet {
+
+struct PoolOptions {
+  unsigned jobs = 1;     ///< tasks at a time
+  unsigned threads = 1;  ///< of each task
+  /// What is done in each process.
+  std::function<Attempt(const Plan&, const Task&, unsigned threads)> run = run_task;
+};
+
+/// Called for each task that ended, in the order in which they end.
+using TaskEnded = std::function<void(const Task&, const Attempt&)>;
+
+/// Does tasks in processes of this machine, one process for each: a recording on which the program crashes costs
+/// its own task only, whose result is the signal then. Begins them in the order given. Ctrl-C
+/// (base::Interruptible) and the end of this process end the tasks that run; they leave nothing behind and stay
+/// open. The calling process must have one thread. Throws std::system_error when no process can be made.
+void run_in_processes(const Plan& plan, const std::vector<const Task*>& tasks, const PoolOptions& options,
+                      const TaskEnded& ended);
+
+}  // namespace navcal::fleet

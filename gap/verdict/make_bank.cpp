@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+#include "gap/verdict/prepare.h"
+#include "gap/verdict/request.h"
+
+namespace navcal::gap {
+
+MadeBank make_bank(const Request& request, const Progress& progress) {
+  const Library library(request.excluded);
+  const unsigned threads =
+      request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
+  Preparation preparation(request, library, progress, threads);
+  Diagnosis answer;
+  const auto prepared = preparation.prepare(request.mission, answer);
+  if (!prepared) return {0, answer.remarks.empty() ? "the recording is empty" : answer.remarks.back()};
+  if (!prepared->refusal.empty()) throw std::runtime_error("the null bank cannot be kept: " + prepared->refusal);
+  return {prepared->bank.missions, {}};
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+navcal_fuzz(fuzz_fleet SOURCES fleet.cpp USES navcal::fleet)
