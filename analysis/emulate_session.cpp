@@ -121,6 +121,7 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
     : io_(io), utc_minus_monotonic_ns_(utc_minus_monotonic()), truth_timer_(io) {
   const std::int64_t start_ns = now_ns();
   const SimulatedPlace place = emulated_place(arguments.where, start_ns);
+  if (!place.remark.empty()) fmt::print(stderr, "navcal: {}\n", place.remark);
   effects_ = effects_of(arguments, start_ns);
   EmulatedMotion made = emulate_motion(arguments, start_ns, effects_, [this] { return now_ns(); });
   ordered_ = made.ordered;

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "analysis/failure.h"
-#include "analysis/progress.h"
 #include "base/durations.h"
-#include "base/interruptible.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
 #include "sim/recording.h"
@@ -24,9 +19,7 @@ constexpr std::int64_t kTruthStep_ns = 10'000'000;
 }  // namespace
 
 void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
-                      SimulateHistory* history) {
-  const base::Interruptible interruptible;
-  Progress progress("simulate");
+                      SimulateHistory* history, const record::Progress& progress) {
   record::WholeFile capture(arguments.capture);
   std::optional<record::WholeFile> truth;
   if (!arguments.truth.empty()) truth.emplace(arguments.truth);
@@ -46,7 +39,6 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
   std::vector<sim::LineRead> reads;
   std::int64_t truth_ns = begin_ns;
   for (std::int64_t t_ns = begin_ns; t_ns < end_ns;) {
-    if (base::Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
     t_ns = std::min(t_ns + base::kSecond_ns, end_ns);
     reads.clear();
     recording.advance(t_ns, reads);
@@ -65,7 +57,7 @@ void write_simulation(const SimulateArguments& arguments, const SimulatedRun& ru
     if (truth) truth->write(rows);
     text.clear();
     rows.clear();
-    progress.show(static_cast<double>(t_ns - begin_ns) / static_cast<double>(end_ns - begin_ns));
+    progress(static_cast<double>(t_ns - begin_ns) / static_cast<double>(end_ns - begin_ns));
   }
   capture.commit();
   if (truth) truth->commit();
