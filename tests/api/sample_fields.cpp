@@ -116,7 +116,7 @@ struct Members {
   }
   void operator()(const AltimeterSample& s) {
     text("class", "ALTIMETER");
-    put("altitude_m", s.altitude_m);
+    put("altitude_m", std::optional(s.altitude_m));
     put("altitude_std_m", s.altitude_std_m);
   }
   void operator()(const PowerSample& s) {
@@ -148,7 +148,7 @@ struct Members {
     text("class", "SENSOR");
     text("quantity", s.quantity);
     text("unit", s.unit);
-    put("value", s.value);
+    put("value", std::optional(s.value));
     put("value_std", s.value_std);
   }
   void operator()(const NavigationSample& s) {
