@@ -35,8 +35,10 @@ class SampleQueue final : public analysis::ReplaySink {
 }  // namespace
 
 struct Recording::State {
-  explicit State(const config::Settings& in_use) : settings(in_use), ports(ports_of(in_use)), run(in_use) {}
+  State(std::filesystem::path opened, const config::Settings& in_use)
+      : file(std::move(opened)), settings(in_use), ports(ports_of(in_use)), run(in_use) {}
 
+  std::filesystem::path file;
   config::Settings settings;
   std::vector<Port> ports;
   analysis::ReplayRun run;
@@ -46,7 +48,7 @@ struct Recording::State {
 Recording::Recording(const std::filesystem::path& file, const std::filesystem::path& config) {
   guarded([&] {
     auto recording = record::Recording::open(file);
-    state_ = std::make_unique<State>(config.empty() ? recording->settings() : config::load(config));
+    state_ = std::make_unique<State>(file, config.empty() ? recording->settings() : config::load(config));
     state_->run.open(std::move(recording), file.string());
   });
 }
@@ -58,7 +60,15 @@ Recording& Recording::operator=(Recording&& other) noexcept = default;
 const std::vector<Port>& Recording::ports() const { return state_->ports; }
 
 std::string Recording::configuration() const {
-  return guarded([&] { return config::to_toml(state_->settings); });
+  return guarded([&] {
+    config::Settings settings = state_->settings;
+    for (auto& port : settings.ports) {
+      const bool has_place =
+          !port.path.empty() || !port.udev_name.empty() || !port.usb_serial.empty() || !port.address.empty();
+      if (!has_place) port.path = std::filesystem::absolute(state_->file).string() + ":" + port.name;
+    }
+    return config::to_toml(settings);
+  });
 }
 
 std::optional<Sample> Recording::next() {

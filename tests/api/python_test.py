@@ -47,8 +47,8 @@ class Module(unittest.TestCase):
         return self.folder / name
 
     def test_simulations_are_those_of_the_program(self):
-        navcal.simulate(self.folder / "a.cap", mission="survey", seconds=10, seed=3, effects={"current": 0.5}, truth=self.folder / "a.csv")
-        run("simulate", "--mission", "survey", "--seconds", "10", "--seed", "3", "--effect", "current=0.5", "-o", self.folder / "b.cap",
+        navcal.simulate(self.folder / "a.cap", mission="survey", seconds=10, seed=3, effects={"water_current": 0.5}, truth=self.folder / "a.csv")
+        run("simulate", "--mission", "survey", "--seconds", "10", "--seed", "3", "--effect", "water_current=0.5", "-o", self.folder / "b.cap",
             "--truth", self.folder / "b.csv")
         self.assertEqual((self.folder / "a.cap").read_bytes(), (self.folder / "b.cap").read_bytes())
         self.assertEqual((self.folder / "a.csv").read_bytes(), (self.folder / "b.csv").read_bytes())

@@ -19,13 +19,13 @@ TEST_F(ApiSimulate, FilesAreThoseOfTheProgramByteForByte) {
   SimulateOptions options;
   options.mission = "survey";
   options.seconds = 20;
-  options.effects = {{"motor_field", 1}, {"current", 0.3}};
+  options.effects = {{"motor_field", 1}, {"water_current", 0.3}};
   options.seed = 7;
   options.truth = folder_ / "a.csv";
   const Simulation simulation = simulate(folder_ / "a.cap", options);
   EXPECT_DOUBLE_EQ(simulation.duration_s, 20);
   (void)output_of(
-      "simulate --mission survey --seconds 20 --effect motor_field=1 --effect current=0.3 --seed 7 "
+      "simulate --mission survey --seconds 20 --effect motor_field=1 --effect water_current=0.3 --seed 7 "
       "-o b.cap --truth b.csv");
   ASSERT_GT(content("a.cap").size(), 10'000U);
   EXPECT_TRUE(content("a.cap") == content("b.cap"));
@@ -87,7 +87,7 @@ TEST_F(ApiSimulate, WhatCannotBeUsedIsNamed) {
   refused("no_such_mission", input, [](auto& o) { o.mission = "no_such_mission.toml"; });
   refused("warp_drive", argument, [](auto& o) { o.effects = {{"warp_drive", 1}}; });
   refused("finite", argument, [](auto& o) {
-    o.effects = {{"current", std::numeric_limits<double>::quiet_NaN()}};
+    o.effects = {{"water_current", std::numeric_limits<double>::quiet_NaN()}};
   });
   refused("missing.toml", input, [](auto& o) { o.effects_file = "/missing.toml"; });
   refused("missing.toml", input, [](auto& o) { o.vehicle = "/missing.toml"; });

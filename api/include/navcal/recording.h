@@ -31,6 +31,7 @@ class NAVCAL_API Recording {
   /// Ports of the configuration in use, in the order that Sample::port counts.
   [[nodiscard]] const std::vector<Port>& ports() const;
   /// The configuration in use as the text of a file, complete and to the last bit: for Pipeline::from_text().
+  /// A capture does not say where its ports were: their place is "FILE:PORT" then, which nothing opens.
   [[nodiscard]] std::string configuration() const;
   /// The next sample; nullopt at the end. Throws Error (bad_input) for content that cannot be read over.
   std::optional<Sample> next();
