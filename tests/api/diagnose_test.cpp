@@ -25,9 +25,9 @@ class ApiDiagnose : public ApiProgram {
 };
 
 TEST_F(ApiDiagnose, TheAnswerIsThatOfTheProgram) {
-  const auto mission = survey("a.cap", 90);
+  const auto mission = survey("a.cap", 60);
   DiagnoseOptions options;
-  options.bank = 20;
+  options.bank = 10;
   options.cache = folder_ / "mine";
   std::set<std::string> steps;
   options.progress = [&](std::string_view step, double share) {
@@ -39,7 +39,7 @@ TEST_F(ApiDiagnose, TheAnswerIsThatOfTheProgram) {
   const Diagnosis answer = diagnose(mission, options);
   EXPECT_TRUE(steps.contains("null bank of a.cap"));
   EXPECT_EQ(without_times(answer.json).dump(),
-            without_times(output_of("gap --json - --bank 20 --cache others a.cap")).dump());
+            without_times(output_of("gap --json - --bank 10 --cache others a.cap")).dump());
 
   const auto json = nlohmann::json::parse(answer.json);
   const std::array names{"no-gap", "explained", "unknown"};
