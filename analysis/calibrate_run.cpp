@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "analysis/port_matching.h"
-#include "analysis/progress.h"
 
 namespace navcal::analysis {
 namespace {
@@ -46,16 +45,16 @@ CalibrateRun::CalibrateRun(const config::Settings& settings, CalibrateHistory* h
       sink_(history != nullptr ? static_cast<pipeline::Sink&>(*history) : nobody()),
       pipeline_(std::make_unique<pipeline::Pipeline>(settings_)) {}
 
-void CalibrateRun::play(const std::string& file) {
+void CalibrateRun::play(const std::string& file, const record::Progress& progress) {
   const auto recording = record::Recording::open(file);
-  const auto ports = match_ports(recording->settings(), settings_, file);
-  Progress progress("calibrate");
+  const record::PortMatch ports(recording->settings(), settings_);
+  for (const auto& port : ports.missing()) remarks_.push_back(missing_port_remark(file, port));
   file_begins_ = true;
   while (const auto entry = recording->next()) {
     at(file, time_of(*entry));
     take(*entry, ports);
     if (history_ != nullptr) history_->look(*pipeline_);
-    progress.show(recording->progress());
+    progress(recording->progress());
   }
   pipeline_->advance(newest_ns_, sink_);
   for (const auto& remark : recording->remarks()) remarks_.push_back(fmt::format("{}: {}", file, remark));

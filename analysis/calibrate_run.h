@@ -10,6 +10,7 @@
 #include "calib/suite/report.h"
 #include "config/settings.h"
 #include "pipeline/pipeline.h"
+#include "record/log/log_info.h"
 #include "record/port_matching.h"
 #include "record/recording.h"
 
@@ -24,8 +25,10 @@ class CalibrateRun {
   /// `history` may be null: nothing is kept for pictures then.
   CalibrateRun(const config::Settings& settings, CalibrateHistory* history);
 
-  /// Throws record::BadRecording.
-  void play(const std::string& file);
+  /// `progress` gets the share of the file that was read, 0 to 1; what it throws ends the run. Throws
+  /// record::BadRecording.
+  void play(
+      const std::string& file, const record::Progress& progress = [](double) {});
   /// No more files come.
   [[nodiscard]] calib::Report finish();
 

@@ -132,6 +132,7 @@ EmulateSession::EmulateSession(boost::asio::io_context& io, const EmulateArgumen
   const std::int64_t start_ns = now_ns();
   const SimulatedPlace place = emulated_place(arguments.where, start_ns);
   layout_ = layout_in(arguments.vehicle);
+  if (!place.remark.empty()) fmt::print(stderr, "navcal: {}\n", place.remark);
   effects_ = effects_of(arguments, layout_, start_ns);
   EmulatedMotion made = emulate_motion(arguments, start_ns, effects_, [this] { return now_ns(); });
   ordered_ = made.ordered;

@@ -86,22 +86,28 @@ std::optional<std::array<double, 3>> PlaceArguments::field_uT() const {
   return std::array<double, 3>{numbers[0], numbers[1], numbers[2]};
 }
 
+double model_year(const PlaceArguments& arguments, std::int64_t otherwise_ns) {
+  return base::decimal_year(arguments.day_ns().value_or(otherwise_ns));
+}
+
 std::optional<std::array<double, 3>> chosen_field_uT(const PlaceArguments& arguments, std::int64_t otherwise_ns) {
   const auto given = arguments.field_uT();
   const auto position = arguments.position();
   if (given || !position) return given;
-  const double year = base::decimal_year(arguments.day_ns().value_or(otherwise_ns));
-  warn_if_extrapolated(year);
-  const auto uT = base::world_magnetic_field(*position, year).north_east_down_uT;
+  const auto uT = base::world_magnetic_field(*position, model_year(arguments, otherwise_ns)).north_east_down_uT;
   return std::array<double, 3>{uT.x(), uT.y(), uT.z()};
 }
 
+std::string extrapolation_remark(double year) {
+  if (base::wmm_covers(year)) return {};
+  return fmt::format(
+      "the World Magnetic Model is valid from 2025 to 2029; for {:.1f} it is extrapolated and may be degrees off",
+      year);
+}
+
 void warn_if_extrapolated(double year) {
-  if (base::wmm_covers(year)) return;
-  fmt::print(stderr,
-             "navcal: the World Magnetic Model is valid from 2025 to 2029; for {:.1f} it is extrapolated and may "
-             "be degrees off\n",
-             year);
+  const std::string remark = extrapolation_remark(year);
+  if (!remark.empty()) fmt::print(stderr, "navcal: {}\n", remark);
 }
 
 std::string field_text(const std::array<double, 3>& field_uT) {

@@ -22,12 +22,17 @@ struct PlaceArguments {
   [[nodiscard]] std::optional<std::array<double, 3>> field_uT() const;
 };
 
-/// The field that --field states; else the model's at --place on --date, or at `otherwise_ns` (UTC) without a
-/// date; else none. Says to standard error when the model does not cover that time.
+/// Year for which the World Magnetic Model is asked: that of --date, or of `otherwise_ns` (UTC) without a date.
+[[nodiscard]] double model_year(const PlaceArguments& arguments, std::int64_t otherwise_ns);
+
+/// The field that --field states; else the model's at --place in model_year(); else none.
 [[nodiscard]] std::optional<std::array<double, 3>> chosen_field_uT(const PlaceArguments& arguments,
                                                                    std::int64_t otherwise_ns);
 
-/// Warns on standard error when the model is extrapolated to that year.
+/// Says that the model is extrapolated to that year; empty where it covers the year.
+[[nodiscard]] std::string extrapolation_remark(double year);
+
+/// Writes extrapolation_remark() to standard error, if there is one.
 void warn_if_extrapolated(double year);
 
 /// "north 19.000, east 0.600, down 44.000 uT".

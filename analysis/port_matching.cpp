@@ -5,12 +5,15 @@
 
 namespace navcal::analysis {
 
+std::string missing_port_remark(const std::string& file, const std::string& port) {
+  return file + ": port " + port + " is not in the configuration: left out";
+}
+
 record::PortMatch match_ports(const config::Settings& recorded, const config::Settings& used,
                               const std::string& file) {
   record::PortMatch match(recorded, used);
   for (const std::string& port : match.missing()) {
-    std::fprintf(stderr, "navcal: %s: port %s is not in the configuration: left out\n", file.c_str(),
-                 port.c_str());
+    std::fprintf(stderr, "navcal: %s\n", missing_port_remark(file, port).c_str());
   }
   return match;
 }

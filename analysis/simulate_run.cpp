@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "analysis/failure.h"
-#include "analysis/progress.h"
 #include "base/durations.h"
-#include "base/interruptible.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
 #include "sim/layout/layout_helm.h"
@@ -24,9 +19,7 @@ namespace {
 constexpr std::int64_t kTruthStep_ns = 10'000'000;
 
 void write_recording(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
-                     SimulateHistory* history) {
-  const base::Interruptible interruptible;
-  Progress progress("simulate");
+                     SimulateHistory* history, const record::Progress& progress) {
   record::WholeFile capture(arguments.capture);
   std::optional<record::WholeFile> truth;
   if (!arguments.truth.empty()) truth.emplace(arguments.truth);
@@ -47,7 +40,6 @@ void write_recording(const SimulateArguments& arguments, const SimulatedRun& run
   std::vector<sim::LineRead> reads;
   std::int64_t truth_ns = begin_ns;
   for (std::int64_t t_ns = begin_ns; t_ns < end_ns;) {
-    if (base::Interruptible::interrupted()) throw Failure(Exit::failed, "interrupted: nothing was written");
     t_ns = std::min(t_ns + base::kSecond_ns, end_ns);
     reads.clear();
     recording.advance(t_ns, reads);
@@ -66,7 +58,7 @@ void write_recording(const SimulateArguments& arguments, const SimulatedRun& run
     if (truth) truth->write(rows);
     text.clear();
     rows.clear();
-    progress.show(static_cast<double>(t_ns - begin_ns) / static_cast<double>(end_ns - begin_ns));
+    progress(static_cast<double>(t_ns - begin_ns) / static_cast<double>(end_ns - begin_ns));
   }
   capture.commit();
   if (truth) truth->commit();

@@ -25,6 +25,8 @@ SimulatedPlace simulated_place(const PlaceArguments& arguments, std::int64_t oth
                                              *arguments.place));
     }
   }
+  if (arguments.place && !arguments.field)
+    place.remark = extrapolation_remark(model_year(arguments, otherwise_ns));
   place.field_world_uT = chosen_field_uT(arguments, otherwise_ns).value_or(place.field_world_uT);
   return place;
 }

@@ -16,6 +16,8 @@ struct SimulatedPlace {
   sim::Vector3 field_world_uT =
       sim::State{}.field_world_uT;  ///< north, east, down; by default the reference field
 
+  std::string remark = {};  ///< that the model was extrapolated to the date; empty: it was not
+
   /// The field as an `#event` line of a recording.
   [[nodiscard]] std::string field_event() const;
 };

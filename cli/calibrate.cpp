@@ -10,6 +10,7 @@
 
 #include "analysis/calibrate_run.h"
 #include "analysis/output.h"
+#include "analysis/progress.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -37,7 +38,10 @@ void calibrate(const CalibrateCommandOptions& options) {
     std::optional<analysis::CalibrateHistory> history;
     if (!options.report.empty()) history.emplace(settings);
     analysis::CalibrateRun run(settings, history ? &*history : nullptr);
-    for (const std::string& file : options.files) run.play(file);
+    for (const std::string& file : options.files) {
+      analysis::Progress progress("calibrate");
+      run.play(file, [&progress](double share) { progress.show(share); });
+    }
     const calib::Report report = run.finish();
     for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
 

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/output.h"
-#include "analysis/port_matching.h"
 #include "analysis/progress.h"
+#include "analysis/replay_run.h"
 #include "cli/commands.h"
-#include "cli/watch_text.h"
 #include "config/load.h"
-#include "pipeline/pipeline.h"
 #include "record/json/battery_json.h"
 #include "record/json/event_json.h"
 #include "record/json/navigation_json.h"
@@ -31,7 +28,7 @@ struct ReplayCommandOptions {
 };
 
 /// Samples as lines, in the order in which the pipeline makes them.
-class Printer : public pipeline::Sink {
+class Printer : public analysis::ReplaySink {
  public:
   Printer(const config::Settings& settings, analysis::Output& output) : settings_(settings), output_(output) {}
   void on_sample(const instruments::Sample& sample) override {
@@ -71,7 +68,7 @@ class Printer : public pipeline::Sink {
     output_.append(line_);
   }
   /// A command is printed as it was logged, because the result of an order does not follow from the bytes.
-  void command(const record::LoggedCommand& command) { output_.append(command.json + '\n'); }
+  void on_command(const record::LoggedCommand& command) override { output_.append(command.json + '\n'); }
 
  private:
   const config::Settings& settings_;
@@ -80,46 +77,9 @@ class Printer : public pipeline::Sink {
   std::string line_;
 };
 
-/// The daemon knows nothing of where the vehicle was in its last run, unlike its calibrations. The battery's
-/// charge does not follow from the bytes.
-void take_event(const record::LoggedEvent& event, pipeline::Pipeline& pipeline, Printer& printer) {
-  const auto json = nlohmann::json::parse(event.json, nullptr, false);
-  if (!json.is_object()) return;
-  if (text(json, "name") == "daemon.start") pipeline.begin_navigation_run();
-  if (text(json, "name") != "battery.set") return;
-  pipeline.advance(event.time_ns, printer);
-  if (const auto charge = record::battery_event_charge(text(json, "message"))) pipeline.set_battery(*charge);
-}
-
-/// Plays one file through the pipeline; files of one series may follow each other.
-void play(record::Recording& recording, const std::string& file, pipeline::Pipeline& pipeline, Printer& printer) {
-  const auto ports = analysis::match_ports(recording.settings(), pipeline.settings(), file);
-  std::int64_t newest_ns = 0;
-  analysis::Progress progress("replay");
-  while (const auto entry = recording.next()) {
-    if (const auto* raw = std::get_if<record::RawRead>(&*entry)) {
-      newest_ns = std::max(newest_ns, raw->time_ns);
-      const auto port = ports[raw->port];
-      if (raw->direction == record::Direction::received && port) {
-        pipeline.bytes(*port, raw->time_ns, raw->bytes, printer);
-      }
-    } else if (const auto* change = std::get_if<record::MappingChange>(&*entry)) {
-      pipeline.set_mapping(change->mapping, printer);
-    } else if (const auto* calibration = std::get_if<pipeline::CalibrationChange>(&*entry)) {
-      newest_ns = std::max(newest_ns, calibration->time_ns);
-      if (const auto problem = pipeline.replay_calibration(*calibration, printer); !problem.empty())
-        std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), problem.c_str());
-    } else if (const auto* event = std::get_if<record::LoggedEvent>(&*entry)) {
-      newest_ns = std::max(newest_ns, event->time_ns);
-      take_event(*event, pipeline, printer);
-    } else if (const auto* command = std::get_if<record::LoggedCommand>(&*entry)) {
-      printer.command(*command);
-    }
-    progress.show(recording.progress());
-  }
-  pipeline.advance(newest_ns, printer);
-  for (const auto& remark : recording.remarks())
-    std::fprintf(stderr, "navcal: %s: %s\n", file.c_str(), remark.c_str());
+/// Remarks from number `told` on are new.
+void tell(const analysis::ReplayRun& run, std::size_t& told) {
+  for (; told < run.remarks().size(); ++told) std::fprintf(stderr, "navcal: %s\n", run.remarks()[told].c_str());
 }
 
 void replay(const ReplayCommandOptions& options) {
@@ -128,11 +88,16 @@ void replay(const ReplayCommandOptions& options) {
     const auto settings = options.config.empty() ? recording->settings() : config::load(options.config);
     analysis::Output output(STDOUT_FILENO, "standard output");
     Printer printer(settings, output);
-    pipeline::Pipeline pipeline(settings);
-    play(*recording, options.files.front(), pipeline, printer);
-    for (std::size_t i = 1; i < options.files.size(); ++i) {
-      recording = record::Recording::open(options.files[i]);
-      play(*recording, options.files[i], pipeline, printer);
+    analysis::ReplayRun run(settings);
+    std::size_t told = 0;
+    for (const std::string& file : options.files) {
+      run.open(recording ? std::move(recording) : record::Recording::open(file), file);
+      tell(run, told);
+      {
+        analysis::Progress progress("replay");
+        while (run.step(printer)) progress.show(run.progress());
+      }
+      tell(run, told);
     }
     output.flush();
   } catch (const record::BadRecording& error) {

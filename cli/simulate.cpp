@@ -7,9 +7,11 @@
 #include <optional>
 
 #include "analysis/chosen_vehicle.h"
+#include "analysis/progress.h"
 #include "analysis/simulate_effects.h"
 #include "analysis/simulate_motion.h"
 #include "analysis/simulate_run.h"
+#include "base/interruptible.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/place_options.h"
@@ -36,7 +38,13 @@ void run(const analysis::SimulateArguments& arguments) {
   std::optional<analysis::SimulateHistory> history;
   if (!arguments.report.empty())
     history.emplace(sim::recording_ports(arguments.instruments, run.commands), arguments.begin_ns, run.duration_s);
-  analysis::write_simulation(arguments, run, effects, history ? &*history : nullptr);
+  const base::Interruptible interruptible;
+  analysis::Progress progress("simulate");
+  analysis::write_simulation(arguments, run, effects, history ? &*history : nullptr, [&progress](double share) {
+    if (base::Interruptible::interrupted())
+      throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
+    progress.show(share);
+  });
   if (history) {
     write_result(arguments.report, report::simulate_page(*history, arguments, run, effects));
   }
@@ -70,6 +78,7 @@ void simulate(SimulateCommandOptions& options) {
                         {arguments.capture, arguments.truth, arguments.report});
   arguments.begin_ns = arguments.where.day_ns().value_or(analysis::kSimulatedBegin_ns);
   arguments.place = analysis::simulated_place(arguments.where, arguments.begin_ns);
+  if (!arguments.place.remark.empty()) std::fprintf(stderr, "navcal: %s\n", arguments.place.remark.c_str());
   if (!arguments.config.empty()) arguments.instruments = configured_instruments(arguments.config);
   arguments.layout = analysis::layout_in(arguments.vehicle);
   run(arguments);

@@ -3,7 +3,7 @@
 # tests/rooms compares it with every #include, and the table of ARCHITECTURE.md is compared with it. In the order in which
 # the rooms may use each other; each line names all rooms that are included directly. A folder within a room can be a room of
 # its own (validation/reference); the room around it then does not contain it.
-set(NAVCAL_ROOMS base protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify runs analysis validation/reference validation report fleet share web daemon cli)
+set(NAVCAL_ROOMS base protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify runs analysis validation/reference validation report fleet api share web daemon cli)
 set(NAVCAL_MAY_INCLUDE_base)
 set(NAVCAL_MAY_INCLUDE_protocols)
 set(NAVCAL_MAY_INCLUDE_config base protocols)
@@ -26,16 +26,29 @@ set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
 set(NAVCAL_MAY_INCLUDE_validation base config record sim analysis validation/reference)
 set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim gap identify runs analysis validation)
 set(NAVCAL_MAY_INCLUDE_fleet base config record gap analysis report)
+set(NAVCAL_MAY_INCLUDE_api protocols config devices instruments pipeline record sim gap analysis report)
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_web base record ports share)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports link share)
-set(NAVCAL_MAY_INCLUDE_cli base protocols config devices pipeline record ports link autopilot sim gap identify runs analysis validation report fleet share web)
+set(NAVCAL_MAY_INCLUDE_cli base protocols config devices record ports link autopilot sim gap identify runs analysis validation report fleet share web)
 
 # The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.
 # What lies there may include all of them only from a .cpp. Folders that are not named (calib/thesis) are free.
 set(NAVCAL_ORDER_calib turn magnetometer gps delay swing reference suite)
 set(NAVCAL_ORDER_gap data actuators replay inference nulls verdict)
 set(NAVCAL_ORDER_identify data replay fit answer)
+
+# The rooms of the shared library: api and all that it uses, directly or not. Their code is independent of its position and
+# their symbols are hidden; api marks those that are exported.
+set(NAVCAL_LIBRARY_ROOMS api)
+set(rooms_from_the_last ${NAVCAL_ROOMS})
+list(REVERSE rooms_from_the_last)
+foreach(room IN LISTS rooms_from_the_last)
+  if(room IN_LIST NAVCAL_LIBRARY_ROOMS)
+    list(APPEND NAVCAL_LIBRARY_ROOMS ${NAVCAL_MAY_INCLUDE_${room}})
+  endif()
+endforeach()
+list(REMOVE_DUPLICATES NAVCAL_LIBRARY_ROOMS)
 
 # navcal_include_rooms(TARGET ROOM): gives a target the headers of a room, and of what that room may include with what their
 # headers include in turn. No others: a folder of links in the build folder is the target's only include folder of ours.

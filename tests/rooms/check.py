@@ -14,6 +14,9 @@ import sys
 FREE = {"tests", "bench", "build", "docs"}
 SPDX = "SPDX-License-Identifier: Apache-2.0"
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+# Headers of the installed library are included as its users include them.
+INSTALLED = re.compile(r"^\s*#\s*include\s+<(navcal/[^>]+)>")
+INSTALLED_FOLDER = "api/include/"
 
 
 def table_of(text):
@@ -81,6 +84,14 @@ def sources(root, rooms):
                 yield room_of(path.relative_to(root).as_posix(), rooms), path
 
 
+def included_by(line):
+    """What a line includes of ours, from the root; empty if nothing."""
+    if found := INCLUDE.match(line):
+        return found.group(1)
+    found = INSTALLED.match(line)
+    return INSTALLED_FOLDER + found.group(1) if found else ""
+
+
 def problems_of_includes(root, rooms, allowed):
     used = {room: set() for room in rooms}
     for room, path in sources(root, rooms):
@@ -88,13 +99,16 @@ def problems_of_includes(root, rooms, allowed):
         if room not in rooms:
             yield f"{name}:1: the folder {room} is no room of cmake/rooms.cmake"
             continue
+        is_installed = name.as_posix().startswith(INSTALLED_FOLDER)
         for number, line in enumerate(path.read_text().splitlines(), 1):
-            found = INCLUDE.match(line)
-            if not found:
+            included = included_by(line)
+            if not included:
                 continue
-            other = room_of(found.group(1), rooms)
-            if "/" not in found.group(1) or other not in rooms:
-                yield f'{name}:{number}: "{found.group(1)}" is not in a room of cmake/rooms.cmake'
+            other = room_of(included, rooms)
+            if "/" not in included or other not in rooms:
+                yield f'{name}:{number}: "{included}" is not in a room of cmake/rooms.cmake'
+            elif is_installed and not included.startswith(INSTALLED_FOLDER):
+                yield f'{name}:{number}: an installed header may include only <navcal/...>, not "{included}"'
             elif other != room and other not in allowed.get(room, set()):
                 yield f"{name}:{number}: {room} may not include {other} (cmake/rooms.cmake)"
             else:

@@ -49,6 +49,23 @@ class Check(unittest.TestCase):
         found = problems(files={"utils/u.h": "\n"})
         self.assertEqual(found, ["utils/u.h:1: the folder utils is no room of cmake/rooms.cmake"])
 
+    def test_headers_of_the_installed_library(self):
+        table = TABLE.replace("base sim cli)", "base sim api cli)") + "set(NAVCAL_MAY_INCLUDE_api sim)\n"
+        page = PAGE + "| `api/` | d | sim |\n"
+        files = {"cmake/rooms.cmake": table, "ARCHITECTURE.md": page}
+        files["api/run.cpp"] = '#include <navcal/run.h>\n#include "sim/s.h"\n'
+        files["api/include/navcal/run.h"] = "#include <navcal/error.h>\n#include <vector>\n"
+        self.assertEqual(problems(files=files), [])
+        files["sim/s.cpp"] = '#include "base/a.h"\n#include <navcal/run.h>\n'
+        files["api/include/navcal/error.h"] = '#include "sim/s.h"\n'
+        self.assertEqual(
+            problems(files=files),
+            [
+                'api/include/navcal/error.h:1: an installed header may include only <navcal/...>, not "sim/s.h"',
+                "sim/s.cpp:2: sim may not include api (cmake/rooms.cmake)",
+            ],
+        )
+
     def test_an_include_of_a_room_that_was_renamed(self):
         found = problems(files={"sim/old.h": '#include "nav/angles.h"\n'})
         self.assertEqual(found, ['sim/old.h:1: "nav/angles.h" is not in a room of cmake/rooms.cmake'])

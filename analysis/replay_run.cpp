@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/replay_run.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <variant>
+
+#include "analysis/port_matching.h"
+#include "record/json/battery_json.h"
+
+namespace navcal::analysis {
+namespace {
+
+/// The text at `key`; empty when there is none.
+std::string text_at(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+}  // namespace
+
+void ReplayRun::open(std::unique_ptr<record::Recording> recording, std::string file) {
+  ports_ = std::make_unique<record::PortMatch>(recording->settings(), pipeline_.settings());
+  recording_ = std::move(recording);
+  file_ = std::move(file);
+  newest_ns_ = 0;
+  ended_ = false;
+  for (const std::string& port : ports_->missing()) remarks_.push_back(missing_port_remark(file_, port));
+}
+
+bool ReplayRun::step(ReplaySink& sink) {
+  if (ended_) return false;
+  if (const auto entry = recording_->next()) {
+    take(*entry, sink);
+    return true;
+  }
+  finish(sink);
+  return false;
+}
+
+void ReplayRun::take(const record::Entry& entry, ReplaySink& sink) {
+  if (const auto* raw = std::get_if<record::RawRead>(&entry)) {
+    newest_ns_ = std::max(newest_ns_, raw->time_ns);
+    const auto port = (*ports_)[raw->port];
+    if (raw->direction == record::Direction::received && port)
+      pipeline_.bytes(*port, raw->time_ns, raw->bytes, sink);
+  } else if (const auto* change = std::get_if<record::MappingChange>(&entry)) {
+    pipeline_.set_mapping(change->mapping, sink);
+  } else if (const auto* calibration = std::get_if<pipeline::CalibrationChange>(&entry)) {
+    newest_ns_ = std::max(newest_ns_, calibration->time_ns);
+    const auto problem = pipeline_.replay_calibration(*calibration, sink);
+    if (!problem.empty()) remarks_.push_back(file_ + ": " + problem);
+  } else if (const auto* event = std::get_if<record::LoggedEvent>(&entry)) {
+    newest_ns_ = std::max(newest_ns_, event->time_ns);
+    take_event(*event, sink);
+  } else if (const auto* command = std::get_if<record::LoggedCommand>(&entry)) {
+    sink.on_command(*command);
+  }
+}
+
+/// The daemon knows nothing of where the vehicle was in its last run, unlike its calibrations. The battery's
+/// charge does not follow from the bytes.
+void ReplayRun::take_event(const record::LoggedEvent& event, ReplaySink& sink) {
+  const auto json = nlohmann::json::parse(event.json, nullptr, false);
+  if (!json.is_object()) return;
+  const std::string name = text_at(json, "name");
+  if (name == "daemon.start") pipeline_.begin_navigation_run();
+  if (name != "battery.set") return;
+  pipeline_.advance(event.time_ns, sink);
+  if (const auto charge = record::battery_event_charge(text_at(json, "message"))) pipeline_.set_battery(*charge);
+}
+
+void ReplayRun::finish(ReplaySink& sink) {
+  ended_ = true;
+  pipeline_.advance(newest_ns_, sink);
+  for (const auto& remark : recording_->remarks()) remarks_.push_back(file_ + ": " + remark);
+}
+
+}  // namespace navcal::analysis

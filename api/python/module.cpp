@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Python module navcal: the public interface of libnavcal, with samples as numpy arrays (docs/python.md).
+#include <navcal/navcal.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/python/relay.h"
+#include "api/python/table.h"
+
+namespace py = pybind11;
+using navcal::python::relay_to;
+using navcal::python::Table;
+namespace api = navcal::api;
+
+namespace {
+
+using Tables = std::map<std::string, Table>;
+
+py::dict release(Tables& tables) {
+  py::dict kinds;
+  for (auto& [name, table] : tables) kinds[py::str(name)] = table.release();
+  return kinds;
+}
+
+py::dict arrays_of(const std::vector<api::Sample>& samples) {
+  Tables tables;
+  for (const api::Sample& sample : samples) append(tables[navcal::python::name_of(sample.value)], sample);
+  return release(tables);
+}
+
+/// All samples that have not been read yet.
+py::dict read_arrays(api::Recording& recording, const py::object& progress) {
+  constexpr std::size_t kTellEvery = 4096;
+  Tables tables;
+  const api::Progress tell = relay_to(progress);
+  {
+    const py::gil_scoped_release unlocked;
+    std::size_t number = 0;
+    while (const auto sample = recording.next()) {
+      append(tables[navcal::python::name_of(sample->value)], *sample);
+      if (++number % kTellEvery == 0 && !tell("reading", recording.progress()))
+        throw api::Error(api::ErrorKind::cancelled, "cancelled by the progress callback");
+    }
+  }
+  return release(tables);
+}
+
+py::object loads(const std::string& json) { return py::module_::import("json").attr("loads")(json); }
+
+void bind_errors(py::module_& module) {
+  static py::exception<api::Error> any(module, "Error");
+  static py::exception<api::Error> bad_input(module, "BadInput", any.ptr());
+  static py::exception<api::Error> bad_argument(module, "BadArgument", any.ptr());
+  static py::exception<api::Error> cancelled(module, "Cancelled", any.ptr());
+  any.attr("__doc__") = "Base of the module's exceptions.";
+  bad_input.attr("__doc__") = "A file is missing, or is not what it should be; the text names file and place.";
+  bad_argument.attr("__doc__") = "An argument cannot be used; the text names it.";
+  cancelled.attr("__doc__") = "The progress function ended the work.";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const api::Error& error) {
+      switch (error.kind()) {
+        case api::ErrorKind::bad_input:
+          return bad_input(error.what());
+        case api::ErrorKind::bad_argument:
+          return bad_argument(error.what());
+        case api::ErrorKind::cancelled:
+          return cancelled(error.what());
+        case api::ErrorKind::failed:
+          break;
+      }
+      any(error.what());
+    }
+  });
+}
+
+void bind_samples(py::module_& module) {
+  py::class_<api::Port>(module, "Port", "A serial port and its device.")
+      .def_readonly("name", &api::Port::name)
+      .def_readonly("device", &api::Port::device)
+      .def_readonly("baud", &api::Port::baud);
+  py::class_<api::Recording>(module, "Recording", "A recording (capture or log), played through the pipeline.")
+      .def(py::init([](const std::filesystem::path& file, const std::optional<std::filesystem::path>& config) {
+             return api::Recording(file, config.value_or(std::filesystem::path()));
+           }),
+           py::arg("file"), py::arg("config") = py::none())
+      .def_property_readonly("ports", &api::Recording::ports)
+      .def_property_readonly("remarks", &api::Recording::remarks)
+      .def("configuration", &api::Recording::configuration)
+      .def("arrays", &read_arrays, py::arg("progress") = py::none(),
+           "All samples: {kind: {column: numpy array}}. Absent numbers are NaN; times are ns since 1970 UTC.");
+  py::class_<api::Pipeline>(module, "Pipeline", "Bytes of serial ports to samples.")
+      .def(py::init([](const std::filesystem::path& config) { return api::Pipeline::from_file(config); }),
+           py::arg("config"))
+      .def_static(
+          "from_text", [](const std::string& toml) { return api::Pipeline::from_text(toml); }, py::arg("toml"))
+      .def_property_readonly("ports", &api::Pipeline::ports)
+      .def(
+          "push",
+          [](api::Pipeline& pipeline, const std::string& port, std::int64_t arrival_ns, const py::bytes& bytes) {
+            const auto view = static_cast<std::string_view>(bytes);
+            return arrays_of(pipeline.push(pipeline.port(port), arrival_ns,
+                                           {reinterpret_cast<const std::uint8_t*>(view.data()), view.size()}));
+          },
+          py::arg("port"), py::arg("arrival_ns"), py::arg("bytes"))
+      .def(
+          "advance",
+          [](api::Pipeline& pipeline, std::int64_t now_ns) { return arrays_of(pipeline.advance(now_ns)); },
+          py::arg("now_ns"));
+}
+
+void bind_calibration(py::module_& module) {
+  py::class_<api::Quantity>(module, "Quantity", "One number of an estimate.")
+      .def_readonly("name", &api::Quantity::name)
+      .def_readonly("value", &api::Quantity::value)
+      .def_readonly("std_error", &api::Quantity::std_error);
+  py::class_<api::CalibratorResult>(module, "CalibratorResult",
+                                    "The estimate of one calibrator and its judgement.")
+      .def_readonly("name", &api::CalibratorResult::name)
+      .def_readonly("verdict", &api::CalibratorResult::verdict)
+      .def_readonly("judgement", &api::CalibratorResult::judgement)
+      .def_readonly("accepted", &api::CalibratorResult::accepted)
+      .def_readonly("reason", &api::CalibratorResult::reason)
+      .def_readonly("manoeuvre", &api::CalibratorResult::manoeuvre)
+      .def_readonly("coverage", &api::CalibratorResult::coverage)
+      .def_readonly("condition", &api::CalibratorResult::condition)
+      .def_readonly("samples", &api::CalibratorResult::samples)
+      .def_readonly("estimate", &api::CalibratorResult::estimate);
+  py::class_<api::Calibration>(module, "Calibration", "The answer of calibrate().")
+      .def_readonly("calibrators", &api::Calibration::calibrators)
+      .def_readonly("duration_s", &api::Calibration::duration_s)
+      .def_readonly("remarks", &api::Calibration::remarks)
+      .def_readonly("json", &api::Calibration::json)
+      .def("as_dict", [](const api::Calibration& answer) { return loads(answer.json); });
+  module.def(
+      "calibrate",
+      [](const std::vector<std::filesystem::path>& files, const std::optional<std::filesystem::path>& config,
+         const py::object& progress) {
+        api::CalibrateOptions options;
+        options.config = config.value_or(std::filesystem::path());
+        options.progress = relay_to(progress);
+        const py::gil_scoped_release unlocked;
+        return api::calibrate(files, options);
+      },
+      py::arg("files"), py::arg("config") = py::none(), py::arg("progress") = py::none(),
+      "Calibrates compass and gyros by recordings in order of time.");
+}
+
+/// Sets a member from a keyword of a call, if it was given.
+template <class Value>
+void take(py::kwargs& keywords, const char* name, Value& member) {
+  if (!keywords.contains(name)) return;
+  const py::object given = keywords.attr("pop")(name);
+  if (given.is_none()) return;
+  member = given.cast<Value>();
+}
+
+void expect_none_left(const py::kwargs& keywords, const char* function) {
+  for (const auto& [name, value] : keywords) {
+    throw py::type_error(std::string(function) + "() has no argument '" + name.cast<std::string>() + "'");
+  }
+}
+
+void bind_simulation(py::module_& module) {
+  module.def(
+      "simulate",
+      [](const std::filesystem::path& capture, const py::object& progress, py::kwargs keywords) {
+        api::SimulateOptions options;
+        std::map<std::string, double> effects, clocks;
+        std::optional<std::array<double, 3>> place;
+        take(keywords, "mission", options.mission);
+        take(keywords, "drive", options.drive);
+        take(keywords, "path", options.path);
+        take(keywords, "vehicle", options.vehicle);
+        take(keywords, "config", options.config);
+        take(keywords, "effects", effects);
+        take(keywords, "effects_file", options.effects_file);
+        take(keywords, "clocks", clocks);
+        take(keywords, "seconds", options.seconds);
+        take(keywords, "place", place);
+        take(keywords, "field_uT", options.field_uT);
+        take(keywords, "date", options.date);
+        take(keywords, "seed", options.seed);
+        take(keywords, "noise", options.noise);
+        take(keywords, "truth", options.truth);
+        expect_none_left(keywords, "simulate");
+        for (const auto& [name, strength] : effects) options.effects.push_back({name, strength});
+        for (const auto& [port, rate] : clocks) options.clocks.push_back({port, rate});
+        if (place) options.place = api::Place{(*place)[0], (*place)[1], (*place)[2]};
+        options.progress = relay_to(progress);
+        const py::gil_scoped_release unlocked;
+        return api::simulate(capture, options).remarks;
+      },
+      py::arg("capture"), py::arg("progress") = py::none(),
+      "Simulates a mission and writes its recording. Keywords: the members of SimulateOptions; effects and clocks "
+      "are dictionaries, place is (latitude_deg, longitude_deg, height_m). Returns remarks.");
+}
+
+void bind_diagnosis(py::module_& module) {
+  py::class_<api::EffectParameter>(module, "EffectParameter", "A parameter of an effect.")
+      .def_readonly("name", &api::EffectParameter::name)
+      .def_readonly("value", &api::EffectParameter::value)
+      .def_readonly("std_error", &api::EffectParameter::std_error);
+  py::class_<api::Effect>(module, "Effect", "An effect as a cause.")
+      .def_readonly("name", &api::Effect::name)
+      .def_readonly("probability", &api::Effect::probability)
+      .def_readonly("parameters", &api::Effect::parameters);
+  py::class_<api::Diagnosis>(module, "Diagnosis", "The answer of diagnose().")
+      .def_property_readonly("verdict",
+                             [](const api::Diagnosis& answer) {
+                               constexpr std::array kNames{"no-gap", "explained", "unknown"};
+                               return kNames.at(static_cast<std::size_t>(answer.verdict));
+                             })
+      .def_readonly("sentence", &api::Diagnosis::sentence)
+      .def_readonly("effects", &api::Diagnosis::effects)
+      .def_readonly("candidates", &api::Diagnosis::candidates)
+      .def_readonly("unexplained", &api::Diagnosis::unexplained)
+      .def_readonly("next", &api::Diagnosis::next)
+      .def_readonly("remarks", &api::Diagnosis::remarks)
+      .def_readonly("duration_s", &api::Diagnosis::duration_s)
+      .def_readonly("seconds", &api::Diagnosis::seconds)
+      .def_readonly("json", &api::Diagnosis::json)
+      .def_readonly("effects_toml", &api::Diagnosis::effects_toml)
+      .def("as_dict", [](const api::Diagnosis& answer) { return loads(answer.json); });
+  module.def(
+      "diagnose",
+      [](const std::filesystem::path& mission, const py::object& progress, py::kwargs keywords) {
+        api::DiagnoseOptions options;
+        take(keywords, "holdouts", options.holdouts);
+        take(keywords, "vehicle", options.vehicle);
+        take(keywords, "config", options.config);
+        take(keywords, "field_uT", options.field_uT);
+        take(keywords, "exclude", options.exclude);
+        take(keywords, "bank", options.bank);
+        take(keywords, "seed", options.seed);
+        take(keywords, "cache", options.cache);
+        take(keywords, "threads", options.threads);
+        expect_none_left(keywords, "diagnose");
+        options.progress = relay_to(progress);
+        const py::gil_scoped_release unlocked;
+        return api::diagnose(mission, options);
+      },
+      py::arg("mission"), py::arg("progress") = py::none(),
+      "Diagnoses where and why a recording departs from the model. Keywords: the members of DiagnoseOptions.");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(navcal, module) {
+  module.doc() =
+      "Recordings of small underwater vehicles: samples, calibration, simulation, diagnosis (libnavcal).";
+  module.attr("__version__") = api::version();
+  bind_errors(module);
+  bind_samples(module);
+  bind_calibration(module);
+  bind_simulation(module);
+  bind_diagnosis(module);
+}
