@@ -5,6 +5,7 @@
 
 #include "validation/reference/instrument.h"
 #include "validation/reference/lag.h"
+#include "validation/reference/waters.h"
 
 namespace navcal::reference {
 

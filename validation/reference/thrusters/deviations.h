@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "validation/reference/hull.h"
+#include "validation/reference/parameter_deviations.h"
 
 namespace navcal::reference::thrusters {
 

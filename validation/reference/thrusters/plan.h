@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "validation/reference/hull.h"
+#include "validation/reference/parameter_deviations.h"
 
 /// A second reality for vehicles with thrusters (docs/trial.md). It reads the layouts of docs/vehicles.md by
 /// itself.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "validation/reference/hull.h"
+#include "validation/reference/parameter_deviations.h"
 #include "validation/reference/rng.h"
 
 namespace navcal::reference::thrusters {
