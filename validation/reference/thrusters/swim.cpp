@@ -133,7 +133,8 @@ std::vector<Leg> drawn_legs(const Plan& layout, double duration_s, Rng& dice) {
   constexpr double kFloating_m = 0.28, kShallow_m = 1, kDeep_m = 4;
   const Allocator allocator(layout);
   const bool hovers = allocator.commands(2);
-  const double cruise = hovers ? 0 : 0.4;  // what has no thruster downwards needs way to dive
+  const double cruise = hovers ? 0 : 0.4;                  // what has no thruster downwards needs way to dive
+  constexpr double kPush_m_s2 = 0.6, kTwist_rad_s2 = 1.2;  // of doublets, at most
   Leg leg;
   leg.heading_rad = dice.uniform(0, 2 * std::numbers::pi);
   leg.depth_m = kFloating_m;
@@ -145,13 +146,15 @@ std::vector<Leg> drawn_legs(const Plan& layout, double duration_s, Rng& dice) {
     leg.from_s = time_s;
     leg.heading_rad = std::remainder(leg.heading_rad + dice.uniform(-1.6, 1.6), 2 * std::numbers::pi);
     leg.depth_m = dice.uniform(kShallow_m, kDeep_m);
-    leg.surge = hovers ? dice.uniform(-0.6, 0.6) : dice.uniform(cruise, 0.8);
-    leg.sway = allocator.commands(1) ? dice.uniform(-0.5, 0.5) : 0;
+    leg.surge = hovers ? dice.uniform(-0.35, 0.35) : dice.uniform(cruise, 0.8);
+    leg.sway = allocator.commands(1) ? dice.uniform(-0.25, 0.25) : 0;
     leg.doublet.setZero();
     leg.doublet_s = dice.uniform(1, 3);
     do axis = (axis + 1) % kAxes;
     while (!allocator.commands(axis));
-    leg.doublet(static_cast<Eigen::Index>(axis)) = (dice.uniform() < 0.5 ? -1 : 1) * dice.uniform(0.15, 0.4);
+    const double greatest = axis < 3 ? kPush_m_s2 : kTwist_rad_s2;
+    leg.doublet(static_cast<Eigen::Index>(axis)) =
+        (dice.uniform() < 0.5 ? -1 : 1) * dice.uniform(0.4, 1) * greatest;
     legs.push_back(leg);
     time_s += dice.uniform(kShortest_s, kLongest_s);
   }
