@@ -121,9 +121,9 @@ class FolderWriter {
                                         number, kMostAttempts));
   }
 
-  std::optional<std::array<std::string, 3>> captures_of(const LayoutCase& drawn,
-                                                        const LayoutVehicleCase& vehicle) {
-    std::array<std::string, 3> captures;
+  std::optional<std::array<std::string, kRecordingsPerCase>> captures_of(const LayoutCase& drawn,
+                                                                         const LayoutVehicleCase& vehicle) {
+    std::array<std::string, kRecordingsPerCase> captures;
     for (std::size_t i = 0; i < captures.size(); ++i) {
       const std::uint64_t seed = mission_seed(options_.seed, 1, drawn.number, static_cast<int>(i));
       const int day = options_.nominal + drawn.number;
@@ -135,7 +135,7 @@ class FolderWriter {
   }
 
   void advance() {
-    const int all = options_.vehicles * options_.nominal + 3 * options_.cases;
+    const int all = options_.vehicles * options_.nominal + kRecordingsPerCase * options_.cases;
     progress_(static_cast<double>(++done_) / all);
   }
 

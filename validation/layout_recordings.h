@@ -10,6 +10,9 @@
 
 namespace navcal::validation {
 
+/// Of a case: to be diagnosed, and two held out.
+inline constexpr int kRecordingsPerCase = 3;
+
 struct LayoutRecordingsOptions {
   std::vector<NamedLayout> layouts;
   std::uint64_t seed = 1;
