@@ -49,27 +49,41 @@ double strength_of(LayoutArm arm) {
   return arm == LayoutArm::single_double ? 2 : 1;
 }
 
-/// The effects of the library, or those outside it, in an order of the seed's, over and over.
-const thrusters::CraftEffectKind& effect_in_turn(std::uint64_t seed, LayoutArm arm, int place) {
+/// Effects of thrusters and vehicle, or of instruments; of the library, or those outside it; in an order of the
+/// seed's, over and over.
+const thrusters::CraftEffectKind& effect_in_turn(std::uint64_t seed, LayoutArm arm, bool is_instrument,
+                                                 int place) {
   std::vector<const thrusters::CraftEffectKind*> kinds;
   for (const thrusters::CraftEffectKind& kind : thrusters::craft_effects()) {
-    if (kind.in_library == (arm != LayoutArm::foreign)) kinds.push_back(&kind);
+    if (kind.in_library == (arm != LayoutArm::foreign) &&
+        (kind.scope == thrusters::Scope::instrument) == is_instrument)
+      kinds.push_back(&kind);
   }
   const std::size_t cycle = static_cast<std::size_t>(place) / kinds.size();
-  reference::Rng dice(seed, kTurnStream + 64 * cycle + static_cast<std::uint64_t>(arm));
+  reference::Rng dice(seed,
+                      kTurnStream + 64 * cycle + 2 * static_cast<std::uint64_t>(arm) + (is_instrument ? 1 : 0));
   for (std::size_t i = kinds.size(); i > 1; --i) std::swap(kinds[i - 1], kinds[dice.bits() % i]);
   return *kinds[static_cast<std::size_t>(place) % kinds.size()];
 }
 
+/// Two of three single effects are the vehicle's, the third an instrument's; of a pair, one is of each.
 std::vector<thrusters::CraftEffect> drawn_effects(std::uint64_t seed, int number, const thrusters::Plan& layout,
                                                   reference::Rng& dice) {
   const LayoutArm arm = layout_arm_of(number);
+  const int turn = turn_of(number);
   std::vector<thrusters::CraftEffect> effects;
+  const auto add = [&](bool is_instrument, int place) {
+    effects.push_back(
+        thrusters::drawn(effect_in_turn(seed, arm, is_instrument, place), strength_of(arm), layout, dice));
+  };
   if (arm == LayoutArm::nulls) return effects;
-  const int count = arm == LayoutArm::pairs ? 2 : 1;
-  while (static_cast<int>(effects.size()) < count) {
-    const int place = count * turn_of(number) + static_cast<int>(effects.size());
-    effects.push_back(thrusters::drawn(effect_in_turn(seed, arm, place), strength_of(arm), layout, dice));
+  if (arm == LayoutArm::pairs) {
+    add(false, turn);
+    add(true, turn);
+  } else if (turn % 3 == 2) {
+    add(true, turn / 3);
+  } else {
+    add(false, turn - turn / 3);
   }
   return effects;
 }

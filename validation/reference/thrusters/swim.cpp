@@ -136,6 +136,7 @@ std::vector<Leg> drawn_legs(const Plan& layout, double duration_s, Rng& dice) {
   const double cruise = hovers ? 0 : 0.4;                  // what has no thruster downwards needs way to dive
   constexpr double kPush_m_s2 = 0.6, kTwist_rad_s2 = 1.2;  // of doublets, at most
   Leg leg;
+  leg.from_s = 0.3;  // each instrument has spoken
   leg.heading_rad = dice.uniform(0, 2 * std::numbers::pi);
   leg.depth_m = kFloating_m;
   leg.surge = hovers ? 0 : 0.2;

@@ -20,7 +20,7 @@ struct Swim {
   std::int64_t start_ns = 0;  ///< UTC: power-on
   double duration_s = 180;
   Start start;
-  std::vector<Leg> legs;  ///< in order of time; the first begins at 0
+  std::vector<Leg> legs;  ///< in order of time; before the first nothing turns
   Anchorage anchorage;
   Waters waters;  ///< the density is the layout's: a vehicle is trimmed where it swims
   double floor_m = 25;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The second reality against what navcal vehicle check says of the same file: both read it by themselves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "config/layout/layout_file.h"
+#include "sim/layout/added_mass.h"
+#include "sim/layout/assessment/assessment.h"
+#include "sim/layout/layout_of.h"
+#include "sim/layout/layout_vehicle.h"
+#include "tests/validation/reference/thrusters/shipped_plan.h"
+#include "validation/reference/thrusters/craft.h"
+
+namespace navcal::reference::thrusters::testing {
+namespace {
+
+config::Layout layout_of_file(const std::string& name) {
+  return config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/" + name + ".toml");
+}
+
+std::vector<double> commands_of(const Plan& plan, double share) {
+  std::vector<double> commands;
+  for (const PlannedThruster& thruster : plan.thrusters)
+    commands.push_back(thruster.neutral() + share * (thruster.high - thruster.neutral()));
+  return commands;
+}
+
+class LayoutAgreement : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Shipped, LayoutAgreement, ::testing::ValuesIn(kThrusterLayouts));
+
+TEST_P(LayoutAgreement, MassAndAddedMassAreTheSame) {
+  const config::Layout layout = layout_of_file(GetParam());
+  const Plan plan = shipped_plan(GetParam());
+  EXPECT_NEAR((plan.added_mass - sim::added_mass(layout)).norm() / plan.added_mass.norm(), 0, 1e-9);
+  EXPECT_NEAR(plan.buoyancy_N, layout.body.buoyancy_N, 1e-9);
+}
+
+TEST_P(LayoutAgreement, SteadySpeedAheadIsWithinOnePerCent) {
+  // Thrusters that all push ahead, through the centre of gravity, so that the vehicle stays level.
+  const sim::Assessment found = sim::assess(layout_of_file(GetParam()));
+  Plan plan = shipped_plan(GetParam());
+  std::erase_if(plan.thrusters, [](const PlannedThruster& t) { return t.direction.x() < 0.1; });
+  for (PlannedThruster& thruster : plan.thrusters) thruster.place_m.z() = plan.gravity_centre_m.z();
+  if (std::string(GetParam()) == "micro-auv") plan.thrusters = shipped_plan(GetParam()).thrusters;
+  Start start;
+  start.position_m.z() = 30;
+  plan.buoyancy_N = plan.mass_kg * kGravity_m_s2;
+  int compared = 0;
+  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+    Craft craft(plan, {}, {}, {}, start);
+    craft.order(commands_of(plan, share));
+    craft.advance(60);
+    const std::string begin = std::to_string(std::lround(100 * share)) + " % command";
+    for (const sim::SteadySpeed& speed : found.ahead) {
+      if (speed.what.find(begin) == std::string::npos || !speed.speed_m_s || *speed.speed_m_s <= 0) continue;
+      EXPECT_NEAR(craft.snapshot().velocity_m_s.x() / *speed.speed_m_s, 1, 0.01) << speed.what;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 3);
+}
+
+TEST_P(LayoutAgreement, AtRestItTrimsAndSinksAsTheCheckSays) {
+  const sim::Assessment found = sim::assess(layout_of_file(GetParam()));
+  const Plan plan = shipped_plan(GetParam());
+  Start start;
+  start.position_m.z() = 30;
+  start.world_from_body = attitude(0.02, -0.02, 0.5);
+  Craft craft(plan, {}, {}, {}, start);
+  craft.advance(120);
+  const Snapshot end = craft.snapshot();
+  EXPECT_NEAR(end.roll_rad(), found.statics.roll_rad, 0.01);
+  EXPECT_NEAR(end.pitch_rad(), found.statics.pitch_rad, 0.01);
+  double sinking_m_s = 0;
+  for (const sim::SteadySpeed& speed : found.downwards) {
+    if (speed.what.starts_with("neutral")) sinking_m_s = speed.speed_m_s.value_or(0);
+  }
+  EXPECT_NEAR(end.ground_velocity_m_s().z(), sinking_m_s, 0.01 * std::abs(sinking_m_s) + 1e-4);
+}
+
+TEST_P(LayoutAgreement, ForTwoSecondsBothMoveAlike) {
+  // Rotors, wakes and strips differ, so the paths may: by a tenth of the way, not by more.
+  const config::Layout layout = layout_of_file(GetParam());
+  const sim::LayoutVehicle model(layout);
+  const Plan plan = shipped_plan(GetParam());
+  sim::Body body;
+  body.position_m.z() = 20;
+  sim::LayoutRun model_run(model, body);
+  sim::ActuatorValues values = model_run.positions();
+  values.thrusters = commands_of(plan, 0.4);
+  model_run.advance(values, 2);
+  Start start;
+  start.position_m.z() = 20;
+  Craft craft(plan, {}, {}, {}, start);
+  craft.order(commands_of(plan, 0.4));
+  craft.advance(2);
+  const Vector3 way = model_run.body().position_m - body.position_m;
+  EXPECT_GT(way.norm(), 0.1);
+  EXPECT_LT((craft.snapshot().position_m - model_run.body().position_m).norm(), 0.1 * way.norm());
+}
+
+}  // namespace
+}  // namespace navcal::reference::thrusters::testing
