@@ -43,7 +43,7 @@ TEST(LayoutCases, ArmsAndEffectsComeByTurns) {
     nulls += drawn.arm == LayoutArm::nulls ? 1 : 0;
     EXPECT_EQ(drawn.effects.empty(), drawn.arm == LayoutArm::nulls);
     EXPECT_EQ(drawn.excluded.empty(), drawn.arm != LayoutArm::removed);
-    if (drawn.arm == LayoutArm::pairs) EXPECT_EQ(drawn.effects.size(), 2U);
+    EXPECT_EQ(drawn.effects.size() == 2, drawn.arm == LayoutArm::pairs);
     for (const auto& effect : drawn.effects) {
       const auto* const kind = reference::thrusters::find_craft_effect(effect.name);
       ASSERT_NE(kind, nullptr) << effect.name;

@@ -74,7 +74,7 @@ TEST(Outputs, TheLineIsThatOfTheDescription) {
     const auto line = output_line(pulses);
     return std::string(line.begin(), line.end());
   };
-  EXPECT_EQ(text_of({1500, 1620, 1500, 1500}), "$PNCAO,1500,1620,1500,1500,,,,*4E\r\n");
+  EXPECT_EQ(text_of({1500, 1620, 1500, 1500}), "$PNCAO,1500,1620,1500,1500,,,,*52\r\n");
   EXPECT_THROW((void)output_line(std::vector<int>(9, 1500)), std::invalid_argument);
 }
 
