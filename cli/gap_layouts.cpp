@@ -114,9 +114,15 @@ void add_record(CLI::App& layouts) {
       ->check(CLI::Range(0.75, 60.0))
       ->capture_default_str();
   command
-      ->add_option("--layout-error", options.layout_error,
+      ->add_option("--layout-error", options.errors.layout,
                    "how far the vehicles are off their layouts, one standard deviation")
       ->check(CLI::Range(0.0, 0.2))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--unmodelled", options.errors.unmodelled,
+          "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell")
+      ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->footer(
       "Example: navcal gap layouts record --layout /usr/share/navcal/vehicles/bluerov2-heavy.toml -o recordings "

@@ -145,7 +145,7 @@ LayoutArm layout_arm_named(std::string_view name) {
 }
 
 LayoutVehicleCase drawn_vehicle(std::uint64_t seed, int number, std::span<const NamedLayout> layouts,
-                                double layout_error) {
+                                const LayoutErrors& errors) {
   LayoutVehicleCase vehicle;
   vehicle.number = number;
   vehicle.layout = layouts[static_cast<std::size_t>(number - 1) % layouts.size()];
@@ -158,11 +158,13 @@ LayoutVehicleCase drawn_vehicle(std::uint64_t seed, int number, std::span<const 
   if (craft.layout.thrusters.size() > thrusters::kOutputChannels)
     throw std::invalid_argument(vehicle.layout.name + ": more than eight thrusters cannot be reported");
   reference::Rng dice(seed, kVehicleStream + static_cast<std::uint64_t>(number));
-  craft.real = thrusters::perturbed(craft.layout, layout_error, dice);
+  craft.real = thrusters::perturbed(craft.layout, errors.layout, dice);
   craft.nature.resistance = dice.uniform(0.2, 0.4);
-  craft.nature.overshoot = dice.uniform(0.05, 0.2);
-  craft.nature.jet_loss = dice.uniform(0, 0.04);
-  craft.nature.strips = dice.uniform(0.5, 1);
+  craft.nature.overshoot = errors.unmodelled * dice.uniform(0.05, 0.2);
+  craft.nature.jet_loss = std::min(errors.unmodelled * dice.uniform(0, 0.04), 1.0);
+  craft.nature.strips = std::min(errors.unmodelled * dice.uniform(0, 0.1), 1.0);
+  craft.nature.current_m_s *= errors.unmodelled;
+  craft.nature.wave_m *= errors.unmodelled;
   craft.doppler = {dice.normal(0.003), dice.normal(1e-4)};
   reference::apply_tolerance(kInstrumentTolerance, craft.differences.instruments, dice);
   constexpr double kGreatestClockError = 0.01;
@@ -215,13 +217,14 @@ std::string full_name(const thrusters::CraftEffect& effect) {
   return effect.of.empty() ? effect.name : effect.name + " of " + effect.of;
 }
 
-std::string truth_text(const LayoutVehicleCase& vehicle, std::uint64_t seed, double layout_error) {
+std::string truth_text(const LayoutVehicleCase& vehicle, std::uint64_t seed, const LayoutErrors& errors) {
   const auto& [anchorage, waters, begin_ns] = vehicle.place;
   const thrusters::Nature& nature = vehicle.craft.nature;
   const ordered_json truth{{"vehicle", vehicle.number},
                            {"seed", seed},
                            {"layout", vehicle.layout.name},
-                           {"layout_error", layout_error},
+                           {"layout_error", errors.layout},
+                           {"unmodelled", errors.unmodelled},
                            {"day_tolerance", kDayTolerance},
                            {"place",
                             {{"latitude_deg", anchorage.latitude_deg},

@@ -41,11 +41,17 @@ struct LayoutVehicleCase {
   TrialPlace place;
 };
 
-/// The same seed, number, layouts and error give the same vehicle on every machine. Layouts are taken by turns.
-/// `layout_error`: reference::thrusters::perturbed. Throws std::invalid_argument for a layout that cannot be read
-/// or has other actuators than thrusters, or more than eight of them.
+struct LayoutErrors {
+  double layout = 0.05;   ///< reference::thrusters::perturbed
+  double unmodelled = 1;  ///< factor on the spreads of reference::thrusters::Nature
+};
+
+/// The same seed, number, layouts and errors give the same vehicle on every machine. Layouts are taken by turns.
+/// `errors`: how far it is off what its layout states, and off what any layout can state. Throws
+/// std::invalid_argument for a layout that cannot be read or has other actuators than thrusters, or more than
+/// eight of them.
 [[nodiscard]] LayoutVehicleCase drawn_vehicle(std::uint64_t seed, int number, std::span<const NamedLayout> layouts,
-                                              double layout_error);
+                                              const LayoutErrors& errors);
 
 /// Truth of one case, which a diagnosis must not know before it has answered.
 struct LayoutCase {
@@ -73,7 +79,8 @@ inline constexpr double kDayTolerance = 0.005;
                                                     double duration_s, int day);
 
 /// Lines of JSON with what is true, and what the numbers of the vehicle really are.
-[[nodiscard]] std::string truth_text(const LayoutVehicleCase& vehicle, std::uint64_t seed, double layout_error);
+[[nodiscard]] std::string truth_text(const LayoutVehicleCase& vehicle, std::uint64_t seed,
+                                     const LayoutErrors& errors);
 [[nodiscard]] std::string truth_text(const LayoutCase& drawn, std::uint64_t seed);
 /// Name of an effect with what it belongs to: "thrust_scale of thruster.2".
 [[nodiscard]] std::string full_name(const reference::thrusters::CraftEffect& effect);

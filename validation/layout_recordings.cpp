@@ -86,9 +86,9 @@ class FolderWriter {
 
  private:
   void write_vehicle(int number) {
-    vehicles_.push_back(drawn_vehicle(options_.seed, number, options_.layouts, options_.layout_error));
+    vehicles_.push_back(drawn_vehicle(options_.seed, number, options_.layouts, options_.errors));
     const LayoutVehicleCase& vehicle = vehicles_.back();
-    truth_.write(truth_text(vehicle, options_.seed, options_.layout_error) + '\n');
+    truth_.write(truth_text(vehicle, options_.seed, options_.errors) + '\n');
     write_file(options_.folder / fmt::format("vehicle-{}.toml", number), vehicle.layout.text);
     for (int day = 1; day <= options_.nominal; ++day) {
       const std::uint64_t seed = mission_seed(options_.seed, 0, number, day);

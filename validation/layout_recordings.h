@@ -18,7 +18,7 @@ struct LayoutRecordingsOptions {
   std::uint64_t seed = 1;
   int vehicles = 3, nominal = 3, cases = 16;
   double minutes = 3;
-  double layout_error = 0.05;
+  LayoutErrors errors;
   std::filesystem::path folder;  ///< of the recordings; a new one, or one that is empty
   std::filesystem::path truth;   ///< file for the truth, outside the folder
 };

@@ -25,17 +25,17 @@ const std::vector<NamedLayout>& shipped_layouts() {
 }
 
 TEST(LayoutCases, AreTheSameForTheSameSeed) {
-  const LayoutVehicleCase one = drawn_vehicle(3, 1, shipped_layouts(), 0.05);
-  const LayoutVehicleCase again = drawn_vehicle(3, 1, shipped_layouts(), 0.05);
-  EXPECT_EQ(truth_text(one, 3, 0.05), truth_text(again, 3, 0.05));
-  EXPECT_NE(truth_text(one, 3, 0.05), truth_text(drawn_vehicle(4, 1, shipped_layouts(), 0.05), 3, 0.05));
-  EXPECT_EQ(drawn_vehicle(3, 2, shipped_layouts(), 0.05).layout.name, "micro-auv.toml");
-  EXPECT_EQ(drawn_vehicle(3, 3, shipped_layouts(), 0.05).layout.name, "bluerov2-heavy.toml");
+  const LayoutVehicleCase one = drawn_vehicle(3, 1, shipped_layouts(), {});
+  const LayoutVehicleCase again = drawn_vehicle(3, 1, shipped_layouts(), {});
+  EXPECT_EQ(truth_text(one, 3, {}), truth_text(again, 3, {}));
+  EXPECT_NE(truth_text(one, 3, {}), truth_text(drawn_vehicle(4, 1, shipped_layouts(), {}), 3, {}));
+  EXPECT_EQ(drawn_vehicle(3, 2, shipped_layouts(), {}).layout.name, "micro-auv.toml");
+  EXPECT_EQ(drawn_vehicle(3, 3, shipped_layouts(), {}).layout.name, "bluerov2-heavy.toml");
   EXPECT_EQ(truth_text(drawn_layout_case(3, 2, one, 0), 3), truth_text(drawn_layout_case(3, 2, one, 0), 3));
 }
 
 TEST(LayoutCases, ArmsAndEffectsComeByTurns) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(5, 1, shipped_layouts(), 0.05);
+  const LayoutVehicleCase vehicle = drawn_vehicle(5, 1, shipped_layouts(), {});
   int nulls = 0;
   std::set<std::string> singles, foreign;
   for (int number = 1; number <= 320; ++number) {
@@ -58,8 +58,8 @@ TEST(LayoutCases, ArmsAndEffectsComeByTurns) {
 }
 
 TEST(LayoutCases, TruthNamesTheThrusterAndWhatTheVehicleIs) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(3, 1, shipped_layouts(), 0.1);
-  const auto truth = nlohmann::json::parse(truth_text(vehicle, 3, 0.1));
+  const LayoutVehicleCase vehicle = drawn_vehicle(3, 1, shipped_layouts(), {.layout = 0.1});
+  const auto truth = nlohmann::json::parse(truth_text(vehicle, 3, {}));
   EXPECT_NE(truth.at("real").at("mass_kg").get<double>(), 13.5);
   EXPECT_NEAR(truth.at("real").at("mass_kg").get<double>(), 13.5, 1.4);
   EXPECT_EQ(truth.at("real").at("thrusters").size(), 8U);
@@ -71,7 +71,7 @@ TEST(LayoutCases, TruthNamesTheThrusterAndWhatTheVehicleIs) {
 }
 
 TEST(LayoutCases, WithoutErrorTheVehicleIsItsLayout) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(3, 1, shipped_layouts(), 0);
+  const LayoutVehicleCase vehicle = drawn_vehicle(3, 1, shipped_layouts(), {.layout = 0});
   EXPECT_DOUBLE_EQ(vehicle.craft.real.mass_kg, vehicle.craft.layout.mass_kg);
   EXPECT_DOUBLE_EQ(vehicle.craft.real.thrusters[0].lag_s, vehicle.craft.layout.thrusters[0].lag_s);
 }
@@ -79,7 +79,7 @@ TEST(LayoutCases, WithoutErrorTheVehicleIsItsLayout) {
 TEST(LayoutCases, LayoutsThatCannotBeFlownAreRefusedByName) {
   const std::vector<NamedLayout> wrong{shipped_layout("remus-100")};
   try {
-    (void)drawn_vehicle(1, 1, wrong, 0.05);
+    (void)drawn_vehicle(1, 1, wrong, {});
     FAIL() << "it has surfaces";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("remus-100.toml"), std::string::npos) << error.what();
@@ -88,7 +88,7 @@ TEST(LayoutCases, LayoutsThatCannotBeFlownAreRefusedByName) {
 }
 
 TEST(LayoutRecordings, ACaptureHasAllPorts) {
-  const LayoutVehicleCase vehicle = drawn_vehicle(3, 2, shipped_layouts(), 0.05);
+  const LayoutVehicleCase vehicle = drawn_vehicle(3, 2, shipped_layouts(), {});
   const std::string text = capture_of(drawn_swim(vehicle, 9, 45, 1), nominal_day(3, vehicle, 1), 9);
   for (const char* const port : {"#port compass tcm2", "#port imu imu-card", "#port gps oncore",
                                  "#port doppler waterlinked", "#port actuators described"})

@@ -43,7 +43,7 @@ struct Nature {
   double overshoot = 0.15;     ///< thrust of a rotor whose wake is not built up, over its steady thrust, less 1
   double rotor_inertia = 0.1;  ///< reaction of a rotor that spins up within its lag, over its full torque
   double jet_loss = 0.02;      ///< share of the thrust that a flow across the rotor takes at most
-  double strips = 0.9;         ///< how much of quadratic drag is by strips, where strips can give it
+  double strips = 0.05;        ///< share of a diagonal's quadratic drag across that is spread over the length
   double current_m_s = 0.003;  ///< amplitude of the slow changes of the current
   double wave_m = 0.005;       ///< amplitude at the surface
 };

@@ -39,7 +39,8 @@ void Drag::spread_slices(const Plan& plan) {
   for (const Slice& slice : plan.slices) {
     for (const Node& node : kGauss3) {
       const double area = half * slice.length_m * node.weight / 2;
-      points_.push_back({slice.x_m + node.at * slice.length_m / 2, area * slice.height_m, area * slice.width_m});
+      points_.push_back(
+          {slice.x_m + node.at * slice.length_m / 2, area * slice.height_m, area * slice.width_m, true});
     }
   }
 }
@@ -54,7 +55,7 @@ void Drag::spread_diagonal(int across, double length_m, double share) {
   const double spread = std::min(share * whole, there / per_drag);
   for (const Node& node : kGauss5) {
     const double drag = spread * node.weight / 2;
-    points_.push_back({node.at * length_m / 2, across == 1 ? drag : 0, across == 2 ? drag : 0});
+    points_.push_back({node.at * length_m / 2, across == 1 ? drag : 0, across == 2 ? drag : 0, false});
   }
   quadratic_(across, across) -= spread;
   quadratic_(turning, turning) -= spread * per_drag;
@@ -73,8 +74,9 @@ Wrench Drag::operator()(const Flow& flow, const Vector6& factors) const {
   sum(5) += body_lift_m_ * side;
   for (const Point& point : points_) {
     const double v = nu(1) + point.x_m * nu(5), w = nu(2) - point.x_m * nu(4);
-    const double speed = std::hypot(v, w);
-    const double Y = -point.sway_kg_m * speed * v, Z = -point.heave_kg_m * speed * w;
+    const double across = std::hypot(v, w);
+    const double Y = -point.sway_kg_m * (point.is_round ? across : std::abs(v)) * v;
+    const double Z = -point.heave_kg_m * (point.is_round ? across : std::abs(w)) * w;
     sum(1) += Y;
     sum(2) += Z;
     sum(4) -= point.x_m * Z;

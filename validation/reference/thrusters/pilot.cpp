@@ -14,6 +14,7 @@ constexpr double kSmoothing_s = 0.3;
 constexpr double kGreatestPitch_rad = 35 * kDegree;
 constexpr double kDoublet_s = 1;
 constexpr double kTiltMemory_s = 2;
+constexpr double kNear_m = 0.3;  ///< from the depth that is wanted: only there its error is summed
 
 double turned(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
@@ -42,7 +43,7 @@ void Pilot::steer_depth(const Leg& leg, const Card::Reading& card, Wrench& wante
   const double error_m = std::clamp(leg.depth_m - card.depth_m, -2.0, 2.0);
   double pitch_rad = 0;
   if (allocator_.commands(2)) {
-    depth_sum_ = std::clamp(depth_sum_ + error_m * kPeriod_s, -20.0, 20.0);
+    if (std::abs(error_m) < kNear_m) depth_sum_ = std::clamp(depth_sum_ + error_m * kPeriod_s, -4.0, 4.0);
     const double force =
         inertia_(2) *
         (kDepthPace_rad_s * (kDepthPace_rad_s * error_m - 2 * kDamping * sinking_m_s_) + 0.05 * depth_sum_);

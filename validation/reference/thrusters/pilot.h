@@ -27,7 +27,8 @@ struct Leg {
 /// can be commanded, with inertia M of the layout, e the error, x' the rate:
 ///     heading        N = M66 b (b e - 2 z r)                   b 1.5 rad/s, z 0.9
 ///     roll, pitch    K, M likewise                             b 2.5 rad/s
-///     depth          Z = M33 (b (b d - 2 z w) + 0.05 int d)    b 0.6 rad/s; w from the filtered depth
+///     depth          Z = M33 (b (b d - 2 z w) + 0.05 int d)    b 0.6 rad/s; w from the filtered depth;
+///                                                            the integral within 0.3 m only
 ///     where heave cannot be commanded: pitch wanted = -0.6 (d + 0.1 int d), within 35 degrees
 class Pilot {
  public:

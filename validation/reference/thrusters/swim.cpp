@@ -130,7 +130,7 @@ std::optional<Lost> run(const Swim& swim, const CraftUnderTest& specimen, std::u
 
 std::vector<Leg> drawn_legs(const Plan& layout, double duration_s, Rng& dice) {
   constexpr double kAtSurface_s = 14, kShortest_s = 6, kLongest_s = 10;
-  constexpr double kFloating_m = 0.28, kShallow_m = 1, kDeep_m = 4;
+  constexpr double kFloating_m = 0.3, kShallow_m = 1, kDeep_m = 4;
   const Allocator allocator(layout);
   const bool hovers = allocator.commands(2);
   const double cruise = hovers ? 0 : 0.4;                  // what has no thruster downwards needs way to dive

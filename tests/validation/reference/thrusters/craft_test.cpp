@@ -4,12 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include "tests/validation/reference/thrusters/shipped_plan.h"
 #include "validation/reference/instrument.h"
 
 namespace navcal::reference::thrusters::testing {
 namespace {
+
+std::string text_of_number(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
 
 /// Deep under water, tumbling.
 Start tumbling() {
@@ -36,6 +44,7 @@ TEST_P(CraftOfLayout, EnergyIsKeptWithoutDriveAndDrag) {
   Craft craft(without_drag(shipped_plan(GetParam())), {}, {}, {}, tumbling());
   const double begin_J = craft.energy_J();
   craft.advance(30);
+  RecordProperty("relative_error", text_of_number(craft.energy_J() / begin_J - 1));
   EXPECT_NEAR(craft.energy_J() / begin_J, 1, 1e-8);
 }
 
@@ -63,6 +72,7 @@ TEST_P(CraftOfLayout, MomentumIsKeptWithoutForces) {
   };
   const Vector6 begin = about_world();
   craft.advance(20);
+  RecordProperty("relative_error", text_of_number((about_world() - begin).norm() / begin.norm()));
   EXPECT_NEAR((about_world() - begin).norm() / begin.norm(), 0, 1e-8);
 }
 
@@ -78,6 +88,7 @@ TEST_P(CraftOfLayout, TheIntegratorConverges) {
     return craft.snapshot();
   };
   const Snapshot exact = end_of(1e-12), usual = end_of(Craft::kTolerance);
+  RecordProperty("error_m", text_of_number((usual.position_m - exact.position_m).norm()));
   EXPECT_LT((usual.position_m - exact.position_m).norm(), 1e-6);
   EXPECT_LT(usual.world_from_body.angularDistance(exact.world_from_body), 1e-6);
 }
