@@ -26,8 +26,15 @@ std::optional<double> number(const Json& object, const char* key) {
   return found->get<double>();
 }
 
+/// "thrust_scale of thruster.2" of an effect that says what it belongs to.
+std::string full_name(const Json& object) {
+  const auto name = object.at("name").get<std::string>();
+  const auto of = object.value("of", std::string());
+  return of.empty() ? name : name + " of " + of;
+}
+
 TrialFinding finding_of(const Json& object, std::vector<std::string>& twins) {
-  TrialFinding finding{object.at("name").get<std::string>(), object.at("probability").get<double>(), {}};
+  TrialFinding finding{full_name(object), object.at("probability").get<double>(), {}};
   if (!(finding.probability >= 0 && finding.probability <= 1))
     fail("the probability of " + finding.name + " does not lie between 0 and 1");
   const Json nothing = Json::object();
@@ -35,8 +42,7 @@ TrialFinding finding_of(const Json& object, std::vector<std::string>& twins) {
   const Json& parameters = object.contains("parameters") ? object.at("parameters") : nothing;
   for (const auto& [key, value] : parameters.items())
     finding.parameters[key] = {value.get<double>(), number(errors, key.c_str())};
-  for (const Json& twin : object.value("confused_with", Json::array()))
-    twins.push_back(twin.at("name").get<std::string>());
+  for (const Json& twin : object.value("confused_with", Json::array())) twins.push_back(full_name(twin));
   return finding;
 }
 

@@ -21,7 +21,7 @@ struct TrialEstimate {
 };
 
 struct TrialFinding {
-  std::string name;
+  std::string name;  ///< with what it belongs to, if the answer says so: "thrust_scale of thruster.2"
   double probability = 0;
   std::map<std::string, TrialEstimate, std::less<>> parameters;
 };

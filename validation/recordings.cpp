@@ -19,8 +19,9 @@ namespace {
 
 std::vector<config::PortSettings> trial_ports() {
   std::vector<config::PortSettings> ports;
-  ports.reserve(reference::kPorts.size());
-  for (const reference::PortFacts& facts : reference::kPorts) {
+  ports.reserve(reference::kFinnedPorts.size());
+  for (const reference::Port port : reference::kFinnedPorts) {
+    const reference::PortFacts& facts = reference::facts_of(port);
     ports.push_back(config::default_port(std::string(facts.name),
                                          protocols::protocol_named(facts.protocol).value(), facts.baud));
   }

@@ -32,7 +32,7 @@ Card::Card(const Fitting& fitting, const CardDeviations& deviations)
 PerGyro Card::rates(const Snapshot& s) {
   const double warmer_K = s.electronics_C - kReferenceTemperature_C;
   const Vector3 down = s.down();
-  const Vector3 force = s.acceleration_m_s2 - kGravity_m_s2 * down;
+  const Vector3 force = s.acceleration_m_s2 - s.gravity_m_s2 * down;
   const Vector3 w = s.rate_rad_s - (warmer_K * warmer_K * departures_.gyro_twist_rad_per_K2).cross(s.rate_rad_s);
   PerGyro rate;
   for (int i = 0; i < 4; ++i) {
@@ -52,7 +52,7 @@ PerGyro Card::rates(const Snapshot& s) {
 }
 
 Vector3 Card::forces(const Snapshot& s) {
-  const Vector3 force = s.acceleration_m_s2 - kGravity_m_s2 * s.down();
+  const Vector3 force = s.acceleration_m_s2 - s.gravity_m_s2 * s.down();
   return force + departures_.force_scale.cwiseProduct(force) + departures_.force_bias_m_s2 +
          departures_.vibration_m_s2_per_A2 * s.motor_current_A * s.motor_current_A + noise3(kForceNoise_m_s2);
 }
@@ -65,12 +65,12 @@ double Card::depth(const Snapshot& s) {
          noise(kDepthNoise_m);
 }
 
-std::vector<std::uint8_t> Card::sample(const World& world, double time_s) {
-  const Snapshot s = world.at(time_s - departures_.latency_s);
+std::vector<std::uint8_t> Card::sample(const History& history, double time_s) {
+  const Snapshot s = history.at(time_s - departures_.latency_s);
   const PerGyro rate = rates(s);
   const Vector3 force = forces(s);
   const double depth_m = depth(s);
-  reading_ = {rate(2), rate(1), depth_m};
+  reading_ = {rate(2), rate(1), depth_m, rate(0)};
 
   Eigen::Array<double, 8, 1> mV;
   mV.head<4>() = kMiddle_mV + kRate_mV_s_per_deg / kDegree * rate;

@@ -19,12 +19,12 @@ class Card final : public Instrument {
 
   /// Last reading that the helmsman received.
   struct Reading {
-    double pitch_rate_rad_s = 0, yaw_rate_rad_s = 0, depth_m = 0;
+    double pitch_rate_rad_s = 0, yaw_rate_rad_s = 0, depth_m = 0, roll_rate_rad_s = 0;
   };
   [[nodiscard]] const Reading& reading() const { return reading_; }
 
  private:
-  std::vector<std::uint8_t> sample(const World& world, double time_s) override;
+  std::vector<std::uint8_t> sample(const History& history, double time_s) override;
   [[nodiscard]] PerGyro rates(const Snapshot& s);
   [[nodiscard]] Vector3 forces(const Snapshot& s);
   [[nodiscard]] double depth(const Snapshot& s);

@@ -55,19 +55,19 @@ void Compass::sense(const Snapshot& s, double after_s) {
   tilt_.feed(after_s, kFluid_s, Eigen::Vector2d(s.roll_rad(), s.pitch_rad()) + slosh);
 }
 
-void Compass::settle(const World& world, double time_s) {
-  if (sensed_s_ == 0) sense(world.at(0), 0);
+void Compass::settle(const History& history, double time_s) {
+  if (sensed_s_ == 0) sense(history.at(0), 0);
   const int steps = static_cast<int>(std::ceil((time_s - sensed_s_) / kSubstep_s));
   const double begin_s = sensed_s_;
   for (int i = 1; i <= steps; ++i) {
     const double next_s = begin_s + (time_s - begin_s) * i / steps;
-    sense(world.at(next_s), next_s - sensed_s_);
+    sense(history.at(next_s), next_s - sensed_s_);
     sensed_s_ = next_s;
   }
 }
 
-std::vector<std::uint8_t> Compass::sample(const World& world, double time_s) {
-  settle(world, time_s);
+std::vector<std::uint8_t> Compass::sample(const History& history, double time_s) {
+  settle(history, time_s);
   const Vector3 m = field_.output() + noise3(kFieldNoise_uT);
   const double roll = tilt_.output()(0) + departures_.tilt_offset_rad[0] + noise(kTiltNoise_deg * kDegree);
   const double pitch = tilt_.output()(1) + departures_.tilt_offset_rad[1] + noise(kTiltNoise_deg * kDegree);
@@ -86,7 +86,7 @@ std::vector<std::uint8_t> Compass::sample(const World& world, double time_s) {
   word.x = m.x();
   word.y = m.y();
   word.z = m.z();
-  word.temperature = world.at(time_s).electronics_C + noise(kTemperatureNoise_C);
+  word.temperature = history.at(time_s).electronics_C + noise(kTemperatureNoise_C);
   return protocols::tcm2::encode_word(word);
 }
 

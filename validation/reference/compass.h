@@ -5,6 +5,7 @@
 
 #include "validation/reference/instrument.h"
 #include "validation/reference/lag.h"
+#include "validation/reference/waters.h"
 
 namespace navcal::reference {
 
@@ -28,8 +29,8 @@ class Compass final : public Instrument {
   [[nodiscard]] const Reading& reading() const { return reading_; }
 
  private:
-  std::vector<std::uint8_t> sample(const World& world, double time_s) override;
-  void settle(const World& world, double time_s);
+  std::vector<std::uint8_t> sample(const History& history, double time_s) override;
+  void settle(const History& history, double time_s);
   void sense(const Snapshot& s, double after_s);
 
   CompassDeviations departures_;

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "validation/reference/history.h"
 #include "validation/reference/rng.h"
 #include "validation/reference/sink.h"
-#include "validation/reference/world.h"
 
 namespace navcal::reference {
 
@@ -37,11 +37,11 @@ class Instrument {
   Instrument(const Instrument&) = delete;
   Instrument& operator=(const Instrument&) = delete;
 
-  /// All samples that are taken up to the world's now.
-  void catch_up(const World& world, std::vector<Transfer>& out) {
-    for (; next_s() <= world.now().time_s; ++taken_) {
+  /// All samples that are taken up to the history's now.
+  void catch_up(const History& history, std::vector<Transfer>& out) {
+    for (; next_s() <= history.now().time_s; ++taken_) {
       const double time_s = next_s();
-      std::vector<std::uint8_t> bytes = sample(world, time_s);
+      std::vector<std::uint8_t> bytes = sample(history, time_s);
       const double wire_s = 10.0 * static_cast<double>(bytes.size()) / facts_of(port_).baud;
       const double delay_s = latency_s_ + wire_s + dice_.exponential(fitting_.host_delay_s);
       out.push_back({port_, false, fitting_.start_ns + std::llround((time_s + delay_s) * 1e9), std::move(bytes)});
@@ -50,7 +50,7 @@ class Instrument {
 
  protected:
   /// The frame of a sample taken at this time.
-  virtual std::vector<std::uint8_t> sample(const World& world, double time_s) = 0;
+  virtual std::vector<std::uint8_t> sample(const History& history, double time_s) = 0;
 
   [[nodiscard]] double noise(double sigma) { return fitting_.noisy ? dice_.normal(sigma) : 0; }
   [[nodiscard]] Vector3 noise3(double sigma) {

@@ -37,8 +37,8 @@ void Motor::order(double shaft_rev_s, const Vector3& fins_rad, World& world, std
                  motor_wire::encode_command(command)});
 }
 
-std::vector<std::uint8_t> Motor::sample(const World& world, double time_s) {
-  const Snapshot s = world.at(time_s);
+std::vector<std::uint8_t> Motor::sample(const History& history, double time_s) {
+  const Snapshot s = history.at(time_s);
   motor_wire::Status status;
   status.sequence = sequence_++;
   status.rpm_commanded = rpm_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "validation/reference/instrument.h"
+#include "validation/reference/world.h"
 
 namespace navcal::reference {
 
@@ -15,7 +16,7 @@ class Motor final : public Instrument {
   void order(double shaft_rev_s, const Vector3& fins_rad, World& world, std::vector<Transfer>& out);
 
  private:
-  std::vector<std::uint8_t> sample(const World& world, double time_s) override;
+  std::vector<std::uint8_t> sample(const History& history, double time_s) override;
 
   std::int64_t start_ns_;
   int rpm_ = 0;

@@ -76,10 +76,10 @@ void Receiver::measure(const Snapshot& s) {
   if (last_.heading_deg < 0) last_.heading_deg += 360;
 }
 
-std::vector<std::uint8_t> Receiver::sample(const World& world, double time_s) {
-  const bool fixed = has_fix(world.at(time_s).position_m.z(), time_s);
+std::vector<std::uint8_t> Receiver::sample(const History& history, double time_s) {
+  const bool fixed = has_fix(history.at(time_s).position_m.z(), time_s);
   last_.speed_m_s = last_.heading_deg = 0;
-  if (fixed) measure(world.at(time_s - departures_.latency_s));
+  if (fixed) measure(history.at(time_s - departures_.latency_s));
   set_time(last_, start_ns_ + std::llround(time_s * 1e9));
   last_.unfiltered = last_.filtered;
   last_.speed_3d_m_s = last_.speed_m_s;

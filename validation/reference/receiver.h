@@ -19,7 +19,7 @@ class Receiver final : public Instrument {
   Receiver(const Fitting& fitting, const GpsDeviations& deviations, const Anchorage& anchorage);
 
  private:
-  std::vector<std::uint8_t> sample(const World& world, double time_s) override;
+  std::vector<std::uint8_t> sample(const History& history, double time_s) override;
   [[nodiscard]] bool has_fix(double depth_m, double time_s);
   void measure(const Snapshot& s);
 

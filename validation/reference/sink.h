@@ -10,17 +10,23 @@
 
 namespace navcal::reference {
 
-enum class Port : std::uint8_t { compass, imu, gps, motor };
+enum class Port : std::uint8_t { compass, imu, gps, motor, doppler, actuators };
 
 /// Entry for one port in the header of a recording.
 struct PortFacts {
   std::string_view name, protocol;
   int baud;
 };
-inline constexpr std::array<PortFacts, 4> kPorts{{{"compass", "tcm2", 38400},
+inline constexpr std::array<PortFacts, 6> kPorts{{{"compass", "tcm2", 38400},
                                                   {"imu", "imu-card", 57600},
                                                   {"gps", "oncore", 9600},
-                                                  {"motor", "motor-card", 19200}}};
+                                                  {"motor", "motor-card", 19200},
+                                                  {"doppler", "waterlinked", 115200},
+                                                  {"actuators", "described", 115200}}};
+/// Of the vehicle with one propeller and three fins.
+inline constexpr std::array kFinnedPorts{Port::compass, Port::imu, Port::gps, Port::motor};
+/// Of vehicles with thrusters.
+inline constexpr std::array kThrusterPorts{Port::compass, Port::imu, Port::gps, Port::doppler, Port::actuators};
 [[nodiscard]] constexpr const PortFacts& facts_of(Port port) { return kPorts[static_cast<std::size_t>(port)]; }
 
 /// Bytes that the vehicle's computer read from a port, or wrote to it.

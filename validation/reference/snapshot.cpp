@@ -41,6 +41,7 @@ Snapshot between(const Snapshot& first, const Snapshot& second, double part) {
   s.motor_current_A = std::lerp(first.motor_current_A, second.motor_current_A, part);
   s.supply_loss = std::lerp(first.supply_loss, second.supply_loss, part);
   s.electronics_C = std::lerp(first.electronics_C, second.electronics_C, part);
+  s.gravity_m_s2 = first.gravity_m_s2;
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "validation/reference/hull.h"
 #include "validation/reference/parameter_deviations.h"
 
 namespace navcal::reference {
@@ -22,6 +23,7 @@ struct Snapshot {
   double motor_current_A = 0;
   double supply_loss = 0;  ///< relative, of the battery
   double electronics_C = 0;
+  double gravity_m_s2 = kGravity_m_s2;  ///< local
 
   /// Unit vector downwards, body axes.
   [[nodiscard]] Vector3 down() const { return world_from_body.conjugate() * Vector3::UnitZ(); }

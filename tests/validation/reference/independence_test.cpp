@@ -48,10 +48,12 @@ TEST(Independence, TheReferenceIncludesNothingButProtocols) {
     EXPECT_TRUE(include.starts_with("validation/reference/") || include.starts_with("protocols/")) << include;
 }
 
-TEST(Independence, TheReferenceLinksNothingButProtocolsAndEigen) {
+TEST(Independence, TheReferenceLinksNothingButProtocolsAndLibraries) {
   const auto linked = linked_by("navcal_validation_reference");
   ASSERT_TRUE(linked);
-  EXPECT_EQ(*linked, (std::set<std::string>{"navcal_protocols", "Eigen3::Eigen"}));
+  for (const std::string& name : *linked)
+    EXPECT_TRUE(!name.starts_with("navcal") || name == "navcal_protocols") << name;
+  EXPECT_TRUE(linked->contains("navcal_protocols"));
 }
 
 class Stranger : public ::testing::TestWithParam<const char*> {};

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/gap_layouts.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <system_error>
+
+#include "analysis/failure.h"
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "cli/result_file.h"
+#include "report/layout_score_report.h"
+#include "validation/layout_recordings.h"
+
+namespace navcal::cli {
+namespace {
+
+struct GapLayoutsScoreArguments {
+  std::string answers, truth, json;
+};
+
+struct GapLayoutsRecordArguments {
+  std::vector<std::string> layouts;
+  validation::LayoutRecordingsOptions options;
+};
+
+std::string whole_text(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw std::system_error(errno, std::generic_category(), file);
+  return text;
+}
+
+void record_layouts(GapLayoutsRecordArguments arguments) {
+  validation::LayoutRecordingsOptions& options = arguments.options;
+  try {
+    for (const std::string& file : arguments.layouts)
+      options.layouts.push_back({std::filesystem::path(file).filename().string(), whole_text(file)});
+    expect_folder_of(options.truth);
+    const base::Interruptible interruptible;
+    analysis::Progress progress("gap layouts record");
+    validation::write_layout_recordings(options, [&](double share) { progress.show(share); });
+  } catch (const std::invalid_argument& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+  fmt::print("{} recordings in {}, truth in {}\n",
+             options.vehicles * options.nominal + validation::kRecordingsPerCase * options.cases,
+             options.folder.string(), options.truth.string());
+}
+
+void score_layouts(const GapLayoutsScoreArguments& arguments) {
+  const auto named = [](const std::string& file, const auto& read) {
+    try {
+      return read(whole_text(file));
+    } catch (const std::system_error& error) {
+      throw analysis::Failure(analysis::Exit::failed, error.what());
+    } catch (const std::runtime_error& error) {
+      throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
+    }
+  };
+  const auto truths = named(arguments.truth, validation::read_layout_truths);
+  const auto answers = named(arguments.answers, validation::read_layout_answers);
+  validation::LayoutScores scores;
+  try {
+    scores = validation::layout_scores(truths, answers);
+  } catch (const std::runtime_error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, arguments.answers + ": " + error.what());
+  }
+  if (arguments.json != "-") fmt::print("{}", report::layout_score_text(scores));
+  if (arguments.json == "-") fmt::print("{}", report::layout_score_json(scores));
+  if (arguments.json.empty() || arguments.json == "-") return;
+  try {
+    write_result(arguments.json, report::layout_score_json(scores));
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+void add_record(CLI::App& layouts) {
+  auto* command = layouts.add_subcommand("record", "recordings by the reference simulator, with the truth apart");
+  const auto arguments = std::make_shared<GapLayoutsRecordArguments>();
+  auto& options = arguments->options;
+  command
+      ->add_option("--layout", arguments->layouts,
+                   "a layout whose actuators are thrusters, up to eight; repeatable, vehicles take them by turns")
+      ->required()
+      ->option_text("FILE.toml")
+      ->allow_extra_args(false);
+  command->add_option("-o,--output", options.folder, "folder for the recordings; a new or an empty one")
+      ->required()
+      ->option_text("DIR");
+  command->add_option("--truth", options.truth, "file for the truth, outside that folder")
+      ->required()
+      ->option_text("FILE.jsonl");
+  command->add_option("--seed", options.seed, "seed of vehicles, places, effects, missions and noise")
+      ->capture_default_str();
+  command->add_option("--vehicles", options.vehicles, "number of vehicles")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--nominal", options.nominal, "recordings without an effect, of each vehicle")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  command->add_option("--cases", options.cases, "number of cases; each has three recordings of one vehicle")
+      ->check(CLI::Range(0, 9999))
+      ->capture_default_str();
+  command->add_option("--minutes", options.minutes, "length of a recording")
+      ->check(CLI::Range(0.75, 60.0))
+      ->capture_default_str();
+  command
+      ->add_option("--layout-error", options.errors.layout,
+                   "how far the vehicles are off their layouts, one standard deviation")
+      ->check(CLI::Range(0.0, 0.2))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--unmodelled", options.errors.unmodelled,
+          "factor on what no layout has a number for: wakes, flow across rotors, drag along the hull, swell")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->footer(
+      "Example: navcal gap layouts record --layout /usr/share/navcal/vehicles/bluerov2-heavy.toml -o recordings "
+      "--truth truth.jsonl");
+  command->callback([arguments] { record_layouts(*arguments); });
+}
+
+void add_score(CLI::App& layouts) {
+  auto* command = layouts.add_subcommand("score", "score of answers, a line of JSON for each case");
+  const auto arguments = std::make_shared<GapLayoutsScoreArguments>();
+  command->add_option("ANSWERS", arguments->answers, "lines of JSON: {\"case\":\"0001\", what navcal gap prints}")
+      ->required();
+  command->add_option("--truth", arguments->truth, "the truth that was written with the recordings")
+      ->required()
+      ->option_text("FILE.jsonl");
+  command
+      ->add_option("--json", arguments->json, "the scores as one JSON object; - is standard output, without text")
+      ->option_text("FILE|-");
+  command->footer("Example: navcal gap layouts score answers.jsonl --truth truth.jsonl");
+  command->callback([arguments] { score_layouts(*arguments); });
+}
+
+}  // namespace
+
+void add_gap_layouts(CLI::App& gap) {
+  auto* command =
+      gap.add_subcommand("layouts", "blind validation on vehicles with thrusters: recordings and score");
+  command->require_subcommand(1);
+  add_record(*command);
+  add_score(*command);
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// navcal gap layouts: what it records, the programs of the same build read without a bad byte.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::cli {
+namespace {
+
+class GapLayouts : public testing::Test {
+ protected:
+  int run_navcal(const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments + " > out 2> err < /dev/null";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string said(const std::string& file) const { return navcal::test::read_file(folder_ / file); }
+  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
+
+  static constexpr const char* kRecord = "gap layouts record --layout '" NAVCAL_SOURCE_DIR
+                                         "/share/vehicles/bluerov2.toml' --vehicles 1 --nominal 1 "
+                                         "--cases 2 --minutes 0.75 --seed 11 -o recordings --truth truth.jsonl";
+  navcal::test::TemporaryFolder folder_;
+};
+
+TEST_F(GapLayouts, RecordingsAreDecodedWithoutABadByteAndScored) {
+  ASSERT_EQ(run_navcal(kRecord), 0) << said("err");
+  for (const char* const file : {"vehicle-1-nominal-1.cap", "0001-a.cap", "0002-c.cap"}) {
+    for (const char* const port : {"compass", "imu", "gps", "doppler", "actuators"}) {
+      const std::string described =
+          std::string(port) == "actuators" ? "--device recordings/actuator-outputs.toml " : "";
+      ASSERT_EQ(run_navcal("decode --json " + described + "--port " + port + " recordings/" + file), 0)
+          << said("err");
+      const std::string lines = said("out");
+      const auto summary = nlohmann::json::parse(lines.substr(lines.rfind('\n', lines.size() - 2) + 1));
+      EXPECT_EQ(summary.at("skipped_bytes").get<int>(), 0) << file << ' ' << port << ' ' << summary;
+      EXPECT_EQ(summary.at("incomplete_bytes").get<int>(), 0) << file << ' ' << port << ' ' << summary;
+      EXPECT_EQ(summary.at("bad_checksum").get<int>(), 0) << file << ' ' << port << ' ' << summary;
+    }
+  }
+  ASSERT_EQ(run_navcal("replay --config recordings/navcald.toml recordings/0001-a.cap"), 0) << said("err");
+  for (const char* const sample : {"\"output6\"", "\"DVL\"", "\"IMU\"", "\"COMPASS\"", "\"GPS\""})
+    EXPECT_NE(said("out").find(sample), std::string::npos) << sample;
+
+  EXPECT_EQ(said("recordings/cases.jsonl").find("effects"), std::string::npos);
+  write("answers.jsonl", "{\"case\":\"0001\",\"verdict\":\"cannot-say\"}\n");
+  ASSERT_EQ(run_navcal("gap layouts score answers.jsonl --truth truth.jsonl"), 0) << said("err");
+  EXPECT_NE(said("out").find("1 of 2 cases answered"), std::string::npos) << said("out");
+  ASSERT_EQ(run_navcal("gap layouts score answers.jsonl --truth truth.jsonl --json -"), 0) << said("err");
+  EXPECT_EQ(nlohmann::json::parse(said("out")).at("cases"), 2);
+}
+
+TEST_F(GapLayouts, TheSameSeedGivesTheSameFiles) {
+  ASSERT_EQ(run_navcal(kRecord), 0) << said("err");
+  const std::string first = said("recordings/0002-b.cap"), truth = said("truth.jsonl");
+  std::filesystem::remove_all(folder_ / "recordings");
+  ASSERT_EQ(run_navcal(kRecord), 0) << said("err");
+  EXPECT_EQ(said("recordings/0002-b.cap"), first);
+  EXPECT_EQ(said("truth.jsonl"), truth);
+}
+
+TEST_F(GapLayouts, WhatCannotBeIsSaid) {
+  EXPECT_EQ(run_navcal("gap layouts record --layout '" NAVCAL_SOURCE_DIR
+                       "/share/vehicles/slocum.toml' -o new --truth truth.jsonl"),
+            3);
+  EXPECT_NE(said("err").find("slocum.toml"), std::string::npos) << said("err");
+  std::filesystem::create_directories(folder_ / "full/inside");
+  EXPECT_EQ(run_navcal("gap layouts record --layout '" NAVCAL_SOURCE_DIR
+                       "/share/vehicles/bluerov2.toml' -o full --truth truth.jsonl"),
+            3);
+  EXPECT_NE(said("err").find("not empty"), std::string::npos) << said("err");
+  std::filesystem::create_directories(folder_ / "empty");
+  EXPECT_EQ(run_navcal("gap layouts record --layout '" NAVCAL_SOURCE_DIR
+                       "/share/vehicles/bluerov2.toml' -o empty --truth empty/truth.jsonl"),
+            3);
+  EXPECT_NE(said("err").find("must not lie"), std::string::npos) << said("err");
+  EXPECT_EQ(run_navcal("gap layouts record --layout none.toml -o new --truth truth.jsonl"), 1);
+  write("bad.jsonl", "{\n");
+  EXPECT_EQ(run_navcal("gap layouts score bad.jsonl --truth bad.jsonl"), 3);
+  EXPECT_NE(said("err").find("bad.jsonl: line 1"), std::string::npos) << said("err");
+  EXPECT_EQ(run_navcal("gap layouts"), 2);
+}
+
+}  // namespace
+}  // namespace navcal::cli

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "validation/reference/snapshot.h"
+#include "validation/reference/thrusters/drag.h"
+#include "validation/reference/thrusters/rotor.h"
+#include "validation/reference/thrusters/sea.h"
+#include "validation/reference/vehicle.h"
+
+namespace navcal::reference::thrusters {
+
+/// A vehicle with thrusters, by the spatial momentum h = (P, H) of body and carried water about the layout's
+/// origin, body axes (Featherstone, Rigid Body Dynamics Algorithms, ch. 2; Lamb, Hydrodynamics, ch. 6):
+///     h' = -v x* h + force:  P' = P x omega + F,  H' = H x omega + P x v + M,   (v, omega) = inverse(M) h
+///     x' = R v + current,    q' = 1/2 q (0, omega),   two further states for each rotor (Rotor)
+/// Integrated by the pair of Dormand and Prince with control of the error (Boost.Odeint), never across an order.
+/// Weight acts at the centre of gravity, buoyancy at its own centre; what stands out of the water gives none.
+class Craft {
+ public:
+  static constexpr double kStep_s = 0.005;
+  static constexpr double kTolerance = 1e-8;  ///< of one step, absolute (SI) and relative
+
+  Craft(const Plan& plan, const CraftDeviations& deviations, const Nature& nature, const Sea& sea,
+        const Start& start, double tolerance = kTolerance);
+  Craft(const Craft&) = delete;
+  Craft& operator=(const Craft&) = delete;
+  ~Craft();
+
+  /// From now on: one command for each thruster, in its unit.
+  void order(const std::vector<double>& commands);
+  void advance(double to_s);
+
+  [[nodiscard]] Snapshot snapshot() const;
+  /// Kinetic energy of body and carried water, and potential energy of weight and buoyancy, of a vehicle that is
+  /// wholly under water; constant without drive and drag.
+  [[nodiscard]] double energy_J() const;
+  /// Momenta about the origin, turned into the world's axes.
+  [[nodiscard]] Vector6 momentum() const;
+  [[nodiscard]] bool finite() const;
+  [[nodiscard]] double time_s() const { return time_s_; }
+  /// Thrust of each rotor along its direction, N.
+  [[nodiscard]] std::vector<double> thrusts_N() const;
+
+ private:
+  /// Position, quaternion (x, y, z, w), P, H; then s and w of each rotor.
+  using State = std::vector<double>;
+  struct Stepper;
+
+  void slope(const State& y, State& dy, double time_s) const;
+  [[nodiscard]] Flow flow_of(const State& y) const;
+  [[nodiscard]] Wrench wrench(const State& y, const State& dy, double time_s, const Flow& flow) const;
+  [[nodiscard]] Wrench still_wrench(const State& y, double time_s, const Flow& flow) const;
+  [[nodiscard]] double sag(const State& y) const;
+  void step(double to_s);
+
+  Plan plan_;
+  CraftDeviations deviations_;
+  Sea sea_;
+  Matrix6 inertia_, inverse_inertia_;
+  Matrix6 displaced_;  ///< added mass with that of the displaced water: what a swell pulls at
+  Drag drag_;
+  Vector6 drag_factors_;
+  std::vector<Rotor> rotors_;
+  double time_s_ = 0, settled_s_ = 0;
+  State y_;
+  std::unique_ptr<Stepper> stepper_;
+};
+
+}  // namespace navcal::reference::thrusters
