@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/simulate_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "analysis/failure.h"
 #include "base/durations.h"
 #include "record/capture/capture_writer.h"
 #include "record/whole_file.h"
@@ -67,9 +70,9 @@ void write_recording(const SimulateArguments& arguments, const SimulatedRun& run
 }  // namespace
 
 void write_simulation(const SimulateArguments& arguments, const SimulatedRun& run, sim::EffectSet& effects,
-                      SimulateHistory* history) {
+                      SimulateHistory* history, const record::Progress& progress) {
   try {
-    write_recording(arguments, run, effects, history);
+    write_recording(arguments, run, effects, history, progress);
   } catch (const sim::UnstableVehicle& error) {
     throw Failure(Exit::failed, fmt::format("{}. Nothing was written", error.what()));
   } catch (const sim::UnfitLayout& error) {
