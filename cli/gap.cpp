@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "analysis/chosen_vehicle.h"
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
@@ -24,6 +25,7 @@
 #include "config/load.h"
 #include "config/vehicle_file.h"
 #include "devices/instrument_model.h"
+#include "diagnosis/diagnose_layout.h"
 #include "gap/verdict/request.h"
 #include "record/recording.h"
 #include "report/gap_effects_file.h"
@@ -40,6 +42,7 @@ namespace {
 struct GapCommandOptions {
   report::GapSource source;
   analysis::PlaceArguments where;
+  std::vector<std::string> nominals;
   std::string json, report;
   std::vector<std::string> without;
   std::string saved;  ///< diagnosis to read instead of making one
@@ -78,12 +81,36 @@ void expect_instrument(const std::string& name) {
   }
 }
 
+/// The diagnosis of a vehicle that a layout describes.
+gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layout& layout) {
+  if (options.where.field_uT())
+    throw std::invalid_argument("--field: the diagnosis of a layout takes the heading's offset from each recording");
+  diagnosis::LayoutFiles files{.recording = options.source.mission,
+                               .holdouts = {options.source.holdouts.begin(), options.source.holdouts.end()},
+                               .nominals = {options.nominals.begin(), options.nominals.end()},
+                               .settings = {}};
+  if (!options.source.config.empty()) files.settings = config::load(options.source.config);
+  diagnosis::LayoutRequest request{.layout = layout, .excluded = options.source.excluded};
+  if (options.bank_missions != gap::Request{}.bank_missions) request.simulated_nominals = options.bank_missions;
+  request.seed = options.bank_seed;
+  analysis::Progress progress("gap", analysis::Progress::Answer::at_the_end);
+  const auto show = [&](std::string_view what, double done) { progress.show(what, done); };
+  return diagnosis::diagnose(request, diagnosis::load(files, show), show);
+}
+
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
   gap::Request request;
+  if (!options.source.vehicle.empty()) {
+    const analysis::ChosenVehicle vehicle = analysis::load_chosen_vehicle(options.source.vehicle);
+    if (const auto* layout = std::get_if<config::Layout>(&vehicle)) return diagnosis_of(options, *layout);
+    request.vehicle = std::get<config::VehicleSettings>(vehicle);
+  }
+  if (!options.nominals.empty())
+    throw std::invalid_argument("--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
+  expect_effects(options.source.excluded);
   request.mission = options.source.mission;
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
   if (!options.source.config.empty()) request.settings = config::load(options.source.config);
-  if (!options.source.vehicle.empty()) request.vehicle = config::load_vehicle(options.source.vehicle);
   request.excluded = options.source.excluded;
   for (const std::string& name : options.without) {
     const auto quantities = gap::quantities_named(name);
@@ -157,7 +184,6 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
 
 void find_gap(const GapCommandOptions& options) {
   try {
-    expect_effects(options.source.excluded);
     for (const std::string& name : options.without) expect_instrument(name);
     const std::vector<ExportFile> exports = expect_outputs(options);
     const gap::Diagnosis diagnosis =
@@ -205,7 +231,15 @@ void add_gap(CLI::App& app) {
                    "another mission of the same vehicle, on which the answer is judged; repeatable")
       ->option_text("FILE")
       ->allow_extra_args(false);
-  command->add_option("--vehicle", source.vehicle, "the nominal vehicle, if it is not the reference vehicle")
+  command
+      ->add_option("--nominal", options->nominals,
+                   "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
+                   "repeatable")
+      ->option_text("FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--vehicle", source.vehicle,
+                   "the nominal vehicle, if it is not the reference vehicle: a vehicle file or a layout")
       ->option_text("FILE.toml");
   command
       ->add_option("--config", source.config,

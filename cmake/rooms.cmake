@@ -3,7 +3,7 @@
 # tests/rooms compares it with every #include, and the table of ARCHITECTURE.md is compared with it. In the order in which
 # the rooms may use each other; each line names all rooms that are included directly. A folder within a room can be a room of
 # its own (validation/reference); the room around it then does not contain it.
-set(NAVCAL_ROOMS base protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify runs analysis validation/reference validation report fleet api share web daemon cli)
+set(NAVCAL_ROOMS base protocols config devices control instruments calib nav pipeline record ports link autopilot sim gap identify diagnosis runs analysis validation/reference validation report fleet api share web daemon cli)
 set(NAVCAL_MAY_INCLUDE_base)
 set(NAVCAL_MAY_INCLUDE_protocols)
 set(NAVCAL_MAY_INCLUDE_config base protocols)
@@ -20,6 +20,7 @@ set(NAVCAL_MAY_INCLUDE_autopilot base config)
 set(NAVCAL_MAY_INCLUDE_sim base protocols config devices autopilot)
 set(NAVCAL_MAY_INCLUDE_gap base protocols config devices instruments calib pipeline record autopilot sim)
 set(NAVCAL_MAY_INCLUDE_identify base protocols config devices instruments pipeline record autopilot sim gap)
+set(NAVCAL_MAY_INCLUDE_diagnosis base config sim gap identify)
 set(NAVCAL_MAY_INCLUDE_runs base)
 set(NAVCAL_MAY_INCLUDE_analysis base protocols config devices instruments calib pipeline record ports sim runs)
 set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
@@ -30,7 +31,7 @@ set(NAVCAL_MAY_INCLUDE_api protocols config devices instruments pipeline record 
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_web base record ports share)
 set(NAVCAL_MAY_INCLUDE_daemon base protocols config control instruments pipeline record ports link share)
-set(NAVCAL_MAY_INCLUDE_cli base protocols config devices record ports link autopilot sim gap identify runs analysis validation report fleet share web)
+set(NAVCAL_MAY_INCLUDE_cli base protocols config devices record ports link autopilot sim gap identify diagnosis runs analysis validation report fleet share web)
 
 # The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.
 # What lies there may include all of them only from a .cpp. Folders that are not named (calib/thesis) are free.

@@ -95,6 +95,11 @@ config::Layout with_values(config::Layout layout, std::span<const Parameter> par
       numbers->values[element] = values[static_cast<Eigen::Index>(i)] * numbers->per_file_unit;
   }
   layout.body.set_buoyancy(layout.water_density_kg_m3);
+  // Effects act on the vehicle that the numbers make.
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double value = values[static_cast<Eigen::Index>(i)];
+    if (parameters[i].change && value != 0) parameters[i].change(layout, value);
+  }
   return layout;
 }
 
@@ -143,7 +148,7 @@ Eigen::VectorXd prior_stds(std::span<const Parameter> parameters) {
 }
 
 bool moves_actuators(const Parameter& parameter) {
-  return parameter.key.ends_with(".lag_s") || parameter.key.ends_with(".dead_band") ||
+  return parameter.change != nullptr || parameter.key.ends_with(".lag_s") || parameter.key.ends_with(".dead_band") ||
          parameter.key.ends_with(".rate_N_s") || parameter.key.ends_with(".rate_m_s");
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct Parameter {
   double low, high;                   ///< bounds of the estimate
   std::string key;                    ///< of the file
   std::vector<std::size_t> elements;  ///< in the array of the key; two for an element of a symmetric matrix
+  /// Changes the layout by a value in another way than by its numbers (an effect); the key is then empty.
+  std::function<void(config::Layout&, double)> change = {};
+  double step = 0;  ///< of a finite difference; 0: a small part of the prior's standard deviation
 };
 
 /// All uncertain numbers, in the order of the file. A standard error of zero means that a number is exact.

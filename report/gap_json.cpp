@@ -39,11 +39,13 @@ OrderedJson json_of(const gap::EffectFinding& effect) {
     parameters[parameter.name] = parameter.value;
     errors[parameter.name] = parameter.std_error;
   }
-  return {{"name", effect.name},
-          {"probability", effect.probability},
+  OrderedJson json{{"name", effect.name}};
+  if (!effect.of.empty()) json["of"] = effect.of;
+  json.update({{"probability", effect.probability},
           {"parameters", std::move(parameters)},
           {"std_errors", std::move(errors)},
-          {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}};
+          {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}});
+  return json;
 }
 
 OrderedJson json_of(const gap::Closure& closure, const std::string& unit) {

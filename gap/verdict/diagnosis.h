@@ -53,6 +53,7 @@ struct EffectFinding {
   std::vector<EffectParameterEstimate> parameters;
   std::vector<Confusion> confused_with;
   std::string manoeuvre = {};  ///< the manoeuvre that shows the effect
+  std::string of = {};         ///< part of a layout that it belongs to: "thruster.2"; empty: the vehicle
 };
 
 /// Share of the gap that goes away: `closed` = 1 - (after - floor) / (before - floor), on held-out data. Empty

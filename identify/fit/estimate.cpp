@@ -30,43 +30,6 @@ Unknowns moved(const FitProblem& problem, const Unknowns& from, const ChainSyste
   return to;
 }
 
-struct Descent {
-  Unknowns unknowns;
-  double cost;
-  int iterations = 0;
-  bool converged = false;
-};
-
-Descent descend(const FitProblem& problem, Unknowns unknowns, int most, FitProblem::Parameters which,
-                const FitProgress& progress, std::string_view what) {
-  Descent descent{std::move(unknowns), 0};
-  descent.cost = problem.cost(descent.unknowns);
-  double damping = kFirstDamping;
-  while (descent.iterations < most && !descent.converged) {
-    progress(what, static_cast<double>(descent.iterations) / most);
-    const auto linearised = problem.linearise(descent.unknowns, which);
-    ++descent.iterations;
-    for (;;) {
-      const auto step = linearised.system.solve(damping);
-      Unknowns next = moved(problem, descent.unknowns, step, linearised.system);
-      const double cost = problem.cost(next);
-      if (cost <= descent.cost) {
-        descent.converged = descent.cost - cost < kSettled;
-        descent.cost = cost;
-        descent.unknowns = std::move(next);
-        damping = std::max(damping / 10, 1e-9);
-        break;
-      }
-      damping *= 10;
-      if (damping > kGreatestDamping) {
-        descent.converged = true;
-        break;
-      }
-    }
-  }
-  return descent;
-}
-
 /// Covariance of the score of one recording: its own windows, and neighbours with Bartlett's weights.
 Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& scores) {
   const Eigen::Index n = scores.cols();
@@ -132,14 +95,44 @@ void add_covariance(const FitProblem& problem, const FitProblem::Linearised& lin
 
 }  // namespace
 
+Descent minimise(const FitProblem& problem, Unknowns unknowns, int most, FitProblem::Parameters which,
+                const FitProgress& progress, std::string_view what) {
+  Descent descent{std::move(unknowns), 0};
+  descent.cost = problem.cost(descent.unknowns);
+  double damping = kFirstDamping;
+  while (descent.iterations < most && !descent.converged) {
+    progress(what, static_cast<double>(descent.iterations) / most);
+    const auto linearised = problem.linearise(descent.unknowns, which);
+    ++descent.iterations;
+    for (;;) {
+      const auto step = linearised.system.solve(damping);
+      Unknowns next = moved(problem, descent.unknowns, step, linearised.system);
+      const double cost = problem.cost(next);
+      if (cost <= descent.cost) {
+        descent.converged = descent.cost - cost < kSettled;
+        descent.cost = cost;
+        descent.unknowns = std::move(next);
+        damping = std::max(damping / 10, 1e-9);
+        break;
+      }
+      damping *= 10;
+      if (damping > kGreatestDamping) {
+        descent.converged = true;
+        break;
+      }
+    }
+  }
+  return descent;
+}
+
 Estimate estimate(FitProblem& problem, const FitProgress& progress) {
   // States and nuisances first: the parameters would be moved to mend a poor guess of them.
   constexpr int kFewFirst = 6;
   Descent descent =
-      descend(problem, problem.initial(), kFewFirst, FitProblem::Parameters::fixed, progress, "states");
+      minimise(problem, problem.initial(), kFewFirst, FitProblem::Parameters::fixed, progress, "states");
   Estimate estimate;
   for (int pass = 0; pass <= kNoisePasses; ++pass) {
-    descent = descend(problem, std::move(descent.unknowns), kMostIterations, FitProblem::Parameters::free,
+    descent = minimise(problem, std::move(descent.unknowns), kMostIterations, FitProblem::Parameters::free,
                       progress, "fit");
     estimate.iterations += descent.iterations;
     if (pass < kNoisePasses) problem.fit_noise(descent.unknowns);
@@ -153,7 +146,7 @@ Estimate estimate(FitProblem& problem, const FitProgress& progress) {
 }
 
 Unknowns fit_nuisances(const FitProblem& problem, Unknowns unknowns, const FitProgress& progress) {
-  return descend(problem, std::move(unknowns), kMostIterations, FitProblem::Parameters::fixed, progress,
+  return minimise(problem, std::move(unknowns), kMostIterations, FitProblem::Parameters::fixed, progress,
                  "held out")
       .unknowns;
 }

@@ -12,6 +12,17 @@ namespace navcal::identify {
 /// Called with what is done and 0 to 1 of it; it may throw to end the fit.
 using FitProgress = std::function<void(std::string_view, double)>;
 
+struct Descent {
+  Unknowns unknowns;
+  double cost;
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Least cost by Levenberg and Marquardt in at most `most` steps from these unknowns, with the noise as it is.
+[[nodiscard]] Descent minimise(const FitProblem& problem, Unknowns unknowns, int most,
+                               FitProblem::Parameters which, const FitProgress& progress, std::string_view what = "fit");
+
 struct Estimate {
   Unknowns unknowns;
   Eigen::VectorXd stds;               ///< of the parameters, in their units

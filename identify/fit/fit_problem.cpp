@@ -293,7 +293,7 @@ FitProblem::Linearised FitProblem::linearise(const Unknowns& unknowns, Parameter
   Vehicles vehicles{sim::LayoutVehicle(nominal), trajectories(nominal), {}, {}, {}};
   for (std::size_t i = 0; i < parameters_.size() && which == Parameters::free; ++i) {
     Eigen::VectorXd values = unknowns.parameters;
-    double step = kStepPart * parameters_[i].prior_std;
+    double step = parameters_[i].step > 0 ? parameters_[i].step : kStepPart * parameters_[i].prior_std;
     if (values[static_cast<Eigen::Index>(i)] + step > parameters_[i].high) step = -step;
     values[static_cast<Eigen::Index>(i)] += step;
     const config::Layout layout = with_values(layout_, parameters_, values);

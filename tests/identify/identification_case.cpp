@@ -135,7 +135,7 @@ DrawnVehicle draw_vehicle(const VehicleCase& of, std::uint64_t seed) {
 }
 
 RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth, double seconds,
-                              std::uint64_t seed) {
+                              std::uint64_t seed, double instrument_errors) {
   auto random = std::make_shared<std::mt19937_64>(seed);
   auto allocator = std::make_shared<autopilot::Allocator>(of.prior);
   // The recording lacks what the vehicle cannot measure; nuisances of missing instruments do no harm.
@@ -146,7 +146,7 @@ RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth
   request.seconds = seconds;
   request.seed = seed + 1;
   request.reports_positions = of.reports_positions;
-  for (Eigen::Index i = 0; i < kNuisances; ++i) request.calibration[i] = stds[i] * normal(*random);
+  for (Eigen::Index i = 0; i < kNuisances; ++i) request.calibration[i] = instrument_errors * stds[i] * normal(*random);
   request.calibration[static_cast<Eigen::Index>(Nuisance::actuator_delay)] = 0;
   const bool has_fins = std::any_of(of.prior.surfaces.begin(), of.prior.surfaces.end(),
                                     [](const auto& surface) { return surface.limit_rad > 0; });

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "diagnosis/cause_search.h"
+
+namespace navcal::diagnosis {
+
+/// What nominal recordings show: the floor of a diagnosis.
+struct NominalBank {
+  /// Estimates of every single cause's columns as if it were the cause, one vector for each recording.
+  std::vector<Eigen::VectorXd> estimates;
+  std::vector<std::array<double, identify::kChannels>> channel_powers;
+  std::vector<double> powers;  ///< mean square of all whitened residuals
+  bool is_recorded = false;    ///< from recordings; else simulated
+
+  [[nodiscard]] std::size_t size() const { return powers.size(); }
+  void add(const RecordingFit& fit, const CauseLibrary& library, const ColumnPriors& priors);
+};
+
+/// Simulates the recording `count` times with the layout within its tolerances: the recorded positions of the actuators, the
+/// recorded times of the readings, and noise as stated. Every number that is uncertain, every effect and every error of an
+/// instrument departs by a normal deviate of its tolerance. A motion that leaves all bounds is left out.
+[[nodiscard]] std::vector<identify::RecordedMotion> simulate_nominal(const config::Layout& layout,
+                                                                     const CauseLibrary& library,
+                                                                     const identify::RecordedMotion& recording,
+                                                                     const RecordingFit& fit,
+                                                                     const ColumnPriors& priors, int count,
+                                                                     std::uint64_t seed);
+
+/// Priors of a library: tolerances of kTolerance for effects and instruments' errors that can be a cause, the fit's own priors
+/// for all other nuisances.
+[[nodiscard]] ColumnPriors tolerances_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds);
+/// The same, as wide as the bank's recordings scatter.
+[[nodiscard]] ColumnPriors widened(ColumnPriors priors, const CauseLibrary& library, const NominalBank& bank);
+
+}  // namespace navcal::diagnosis
