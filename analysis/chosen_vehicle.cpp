@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "config/complaints.h"
@@ -30,6 +31,13 @@ bool is_layout(std::string_view toml) {
   });
 }
 
+/// Why a layout has no equations of motion; empty: it has.
+std::string reason_against(const config::Layout& layout) {
+  if (!(layout.body.mass_kg > 0)) return fmt::format("its mass is {:g} kg", layout.body.mass_kg);
+  if (!(layout.body.buoyancy_N >= 0)) return fmt::format("its buoyancy is {:g} N", layout.body.buoyancy_N);
+  return sim::assessment::reason_not_to_simulate(layout);
+}
+
 }  // namespace
 
 ChosenVehicle load_chosen_vehicle(const std::filesystem::path& file) {
@@ -49,18 +57,28 @@ std::optional<config::Layout> layout_in(const std::filesystem::path& file) {
   }
 }
 
-void expect_simulable(const config::Layout& layout, const std::filesystem::path& file) {
-  const std::string why = sim::assessment::reason_not_to_simulate(layout);
+void expect_simulable(const config::Layout& layout, const std::filesystem::path& file,
+                      sim::VehicleInfluencer* effects) {
+  const std::string why = reason_against(layout);
   if (!why.empty()) throw Failure(Exit::bad_input, fmt::format("{}: cannot be simulated: {}", file.string(), why));
   const std::size_t outputs = sim::outputs_of(layout);
   if (outputs > sim::kMostOutputs)
     throw Failure(Exit::bad_input, fmt::format("{}: {} actuators; a recording has {} outputs", file.string(),
                                                outputs, sim::kMostOutputs));
+  if (effects == nullptr) return;
+  for (double time_s = 0; std::isfinite(time_s); time_s = effects->next_layout_change_s(time_s)) {
+    config::Layout changed = layout;
+    effects->change_layout(time_s, changed);
+    const std::string against = reason_against(changed);
+    if (!against.empty())
+      throw Failure(Exit::bad_input, fmt::format("{}: cannot be simulated with its effects at {:g} s: {}",
+                                                 file.string(), time_s, against));
+  }
 }
 
 LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
                                   const std::string& mission, const sim::MotionOptions& options) {
-  expect_simulable(layout, file);
+  expect_simulable(layout, file, options.influencer);
   try {
     auto helm = std::make_unique<sim::LayoutMissionHelm>(layout, config::load_mission(mission));
     std::string remark = helm->remark();

@@ -34,7 +34,9 @@ struct LayoutOnMission {
 [[nodiscard]] LayoutOnMission layout_on_mission(const config::Layout& layout, const std::filesystem::path& file,
                                                 const std::string& mission, const sim::MotionOptions& options);
 
-/// Throws Failure where a layout has no equations of motion, or more actuators than a recording has outputs.
-void expect_simulable(const config::Layout& layout, const std::filesystem::path& file);
+/// Throws Failure where a layout, or what effects make of it at any time, has no equations of motion, and where it
+/// has more actuators than a recording has outputs. `effects` may be null.
+void expect_simulable(const config::Layout& layout, const std::filesystem::path& file,
+                      sim::VehicleInfluencer* effects);
 
 }  // namespace navcal::analysis

@@ -25,7 +25,7 @@ EmulatedMotion emulate_motion(const EmulateArguments& arguments, std::int64_t st
     const sim::MotionOptions options{.start_ns = start_ns, .influencer = &influencer, .history_s = kHistory_s};
     if (!arguments.ordered)
       return {layout_on_mission(*layout, arguments.vehicle, arguments.mission, options).motion};
-    expect_simulable(*layout, arguments.vehicle);
+    expect_simulable(*layout, arguments.vehicle, &influencer);
     auto motion = std::make_unique<OrderedLayout>(*layout, options, std::move(now_ns));
     OrderedLayout* const ordered = motion.get();
     return {std::move(motion), nullptr, ordered};

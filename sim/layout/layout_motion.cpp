@@ -88,7 +88,7 @@ void LayoutMotion::take_step() const {
   LayoutVehicle::Held held = vehicle_.hold(mean_of(positions_, next));
   const double emerged = std::clamp(0.5 - body_.position_m.z() / height_m_, 0.0, 1.0);
   held.restoring.net_weight_N += emerged * vehicle_.layout().body.buoyancy_N;
-  const LayoutVehicle::Step step = vehicle_.step(body_, held, kMotionStep_s);
+  const LayoutVehicle::Step step = vehicle_.held_step(body_, held, kMotionStep_s);
   states_.push(layout_state(body_, step.acceleration, influences));
   body_ = step.body;
   body_.position_m.x() += kMotionStep_s * influences.current_m_s[0];

@@ -61,7 +61,7 @@ LayoutVehicle::Change LayoutVehicle::change(const Body& body, const Held& held) 
   return change;
 }
 
-LayoutVehicle::Step LayoutVehicle::step(const Body& body, const Held& held, double step_s) const {
+LayoutVehicle::Step LayoutVehicle::held_step(const Body& body, const Held& held, double step_s) const {
   const Change k1 = change(body, held);
   const Change k2 = change(moved(body, k1, step_s / 2), held);
   const Change k3 = change(moved(body, k2, step_s / 2), held);

@@ -37,9 +37,10 @@ class LayoutVehicle {
   };
   /// One step of the classical Runge-Kutta method of fourth order with actuators that are held.
   [[nodiscard]] Step step(const Body& body, const ActuatorValues& actuators, double step_s) const {
-    return step(body, hold(actuators), step_s);
+    return held_step(body, hold(actuators), step_s);
   }
-  [[nodiscard]] Step step(const Body& body, const Held& held, double step_s) const;
+  /// The same with what hold() gave, to which other forces at rest may have been added.
+  [[nodiscard]] Step held_step(const Body& body, const Held& held, double step_s) const;
 
   /// tau - C nu about the origin, N and Nm, at this body velocity with `down` in body axes.
   [[nodiscard]] Vector6 force(const Vector6& velocity, const Eigen::Vector3d& down, const Held& held) const;

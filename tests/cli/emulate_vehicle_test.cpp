@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "emulate_program.h"
+#include "protocols/checked_line.h"
 #include "protocols/motor_card.h"
 #include "tests/ports/harness.h"
 
@@ -82,6 +83,31 @@ TEST_F(EmulatedVehicle, TheCardRefusesFinsBeyondTheirLimit) {
   motor.write(order_line(300, {0, 0, 0}));
   EXPECT_NE(motor.read_until(",300,").find(",300,"), std::string::npos);
   EXPECT_EQ(motor.read_until(",300,").find(",780,"), std::string::npos);
+}
+
+TEST_F(EmulatedVehicle, ALayoutObeysItsOutputs) {
+  Program program({"emulate", "--vehicle", NAVCAL_SOURCE_DIR "/share/vehicles/bluerov2-heavy.toml", "--dir",
+                   dir.string(), "--truth", truth.string(), "--no-noise"});
+  ASSERT_EQ(program.line(), "ready");
+  EXPECT_FALSE(fs::exists(dir / "motor"));
+  Client outputs(dir / "outputs");
+  outputs.set_speed(115200);
+  EXPECT_NE(outputs.read_until("$PNCAO,1500,1500,1500,1500,1500,1500,1500,1500*").find("1500*"),
+            std::string::npos);
+  const auto line = protocols::checked_line("PNCAO,1700,1700,1700,1700,,,,");
+  outputs.write({line.begin(), line.end()});
+  EXPECT_NE(outputs.read_until("$PNCAO,1700,1700,1700,1700,1500").find("1700,1500"), std::string::npos);
+  outputs.read_until("never", std::chrono::milliseconds(1500));
+  program.interrupt();
+  EXPECT_EQ(program.wait(), 0) << program.errors();
+  EXPECT_GT(rows().back()[7], 0.1) << "it moves ahead";
+}
+
+TEST_F(EmulatedVehicle, ALayoutThatCannotDoItsMissionIsRefused) {
+  Program program({"emulate", "--vehicle", NAVCAL_SOURCE_DIR "/share/vehicles/slocum.toml", "--mission", "survey",
+                   "--dir", dir.string()});
+  EXPECT_EQ(program.wait(), 3);
+  EXPECT_NE(program.errors().find("surge cannot be commanded"), std::string::npos) << program.errors();
 }
 
 TEST_F(EmulatedVehicle, EffectsMoveIt) {

@@ -48,12 +48,12 @@ TEST_F(SimulateLayout, RecordsTheOutputsOfAnRov) {
             0)
       << said("err");
   EXPECT_NE(said("out").find("\"PNCAO\":150"), std::string::npos) << said("out").substr(0, 500);
-  write("navcald.toml",
-        "[port.compass]\nprotocol = \"tcm2\"\n[port.imu]\nprotocol = \"imu-card\"\n[port.gps]\nprotocol = "
-        "\"oncore\"\n[port.outputs]\nprotocol = \"described\"\ndevice = \"" NAVCAL_SOURCE_DIR
-        "/share/devices/actuator-outputs.toml\"\n");
-  ASSERT_EQ(run_navcal("replay --config navcald.toml --json run.cap"), 0) << said("err");
-  EXPECT_NE(said("out").find("\"quantity\":\"output8\""), std::string::npos);
+  // The log of an import contains the description of the outputs.
+  ASSERT_EQ(run_navcal("log import -o run.mcap run.cap"), 0) << said("err");
+  ASSERT_EQ(run_navcal("replay --json run.mcap"), 0) << said("err");
+  EXPECT_NE(said("out").find("\"quantity\":\"output8\",\"unit\":\"us\""), std::string::npos);
+  ASSERT_EQ(run_navcal("log export --csv csv run.mcap"), 0) << said("err");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "csv" / "sensor.csv"));
 }
 
 TEST_F(SimulateLayout, SameSeedSameBytesAndAnEffectChangesThem) {
@@ -105,6 +105,9 @@ TEST_F(SimulateLayout, AVehicleThatTumblesEndsWithAMessage) {
             1);
   EXPECT_NE(said("err").find("the vehicle"), std::string::npos) << said("err");
   EXPECT_NE(said("err").find("Nothing was written"), std::string::npos) << said("err");
+  write("heavy.toml", "[weight]\nmass_kg = -20\nfrom_s = 5\n");
+  EXPECT_EQ(simulate(std::string(kVehicles) + "bluerov2-heavy.toml", "--mission survey --effects heavy.toml"), 3);
+  EXPECT_NE(said("err").find("with its effects at 5 s: its mass is -6.5 kg"), std::string::npos) << said("err");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include "sim/effects/choice.h"
 #include "sim/effects/document.h"
+#include "sim/layout/effects/layout_effects.h"
+#include "sim/layout/layout_of.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace navcal::sim;
@@ -19,6 +21,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (refusal(parameters[k], set[i].parameters()[k])) std::abort();
     }
     if (!(set.interval(i).from_s < set.interval(i).until_s)) std::abort();
+  }
+  const navcal::config::Layout layout = layout_of({});
+  EffectSet on_layout;
+  problems.clear();
+  add_effects({reinterpret_cast<const char*>(data), size}, on_layout, problems, &layout);
+  if (!problems.empty() && !on_layout.layout_members().empty()) std::abort();
+  for (const EffectSet::LayoutMember& member : on_layout.layout_members()) {
+    const LayoutEffect& effect = member.effect;
+    if (owner_refusal(layout, *effect.about, effect.of)) std::abort();
+    if (effect.values.size() != effect.about->parameters.size()) std::abort();
+    (void)changed_layout(layout, effect);
   }
   return 0;
 }

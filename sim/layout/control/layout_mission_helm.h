@@ -19,6 +19,9 @@ class LayoutMissionHelm final : public LayoutHelm {
 
   /// Throws UnfitLayout where the layout cannot be steered as the mission needs.
   LayoutMissionHelm(const config::Layout& layout, config::Mission mission);
+  // The autopilot refers to the vehicle beside it.
+  LayoutMissionHelm(const LayoutMissionHelm&) = delete;
+  LayoutMissionHelm& operator=(const LayoutMissionHelm&) = delete;
 
   [[nodiscard]] Body start() const override;
   [[nodiscard]] const std::vector<double>& next(double time_s, double step_s, const Body& body) override;

@@ -26,7 +26,7 @@ class Told final : public Motion {
   mutable std::size_t next_ = 0;
 };
 
-std::string text_of(const Emission& emission) { return {emission.bytes.begin(), emission.bytes.end()}; }
+std::string sent_text(const Emission& emission) { return {emission.bytes.begin(), emission.bytes.end()}; }
 
 TEST(ActuatorOutputs, SayWhatWasToldAfterTheirLatency) {
   const Told motion({{1500, 1620, 1500, 1500}, {1501, 1621, 1500, 1500}});
@@ -35,7 +35,7 @@ TEST(ActuatorOutputs, SayWhatWasToldAfterTheirLatency) {
   std::vector<Emission> out;
   device.advance(104'999'999, out);
   ASSERT_EQ(out.size(), 1U);
-  EXPECT_EQ(text_of(out[0]), "$PNCAO,1500,1620,1500,1500,,,,*52\r\n");
+  EXPECT_EQ(sent_text(out[0]), "$PNCAO,1500,1620,1500,1500,,,,*52\r\n");
   EXPECT_EQ(out[0].start_ns, 5'000'000);
   device.advance(105'000'000, out);
   EXPECT_EQ(out.size(), 2U);
@@ -48,7 +48,7 @@ TEST(ActuatorOutputs, HaveASecondLineForMoreThanEight) {
   std::vector<Emission> out;
   device.advance(10'000'000, out);
   ASSERT_EQ(out.size(), 2U);
-  EXPECT_EQ(text_of(out[1]).substr(0, 23), "$PNCAP,1500,1500,,,,,,*");
+  EXPECT_EQ(sent_text(out[1]).substr(0, 23), "$PNCAP,1500,1500,,,,,,*");
 }
 
 TEST(ActuatorOutputs, ObeyIntactLinesOnly) {

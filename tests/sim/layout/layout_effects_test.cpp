@@ -18,7 +18,7 @@
 namespace navcal::sim::testing {
 namespace {
 
-config::Layout rov() { return config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/bluerov2-heavy.toml"); }
+config::Layout heavy_rov() { return config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/bluerov2-heavy.toml"); }
 
 LayoutEffect effect_of(std::string_view name, std::string of, std::vector<double> values) {
   return {find_layout_effect(name), std::move(of), std::move(values)};
@@ -60,7 +60,7 @@ TEST(LayoutEffects, EachChangesALayoutThatCanBeWrittenAndReadAgain) {
 }
 
 TEST(LayoutEffects, BelongToTheActuatorThatTheyName) {
-  const config::Layout nominal = rov();
+  const config::Layout nominal = heavy_rov();
   const auto& about = *find_layout_effect("thrust_scale");
   ASSERT_EQ(owners_of(nominal, about).size(), 8U);
   EXPECT_EQ(owners_of(nominal, about)[1], "thruster.2");
@@ -139,7 +139,7 @@ TEST(LayoutEffects, ChangeHowActuatorsHearTheirCommands) {
 }
 
 TEST(LayoutEffects, DampingAndAddedMassChangeOneDegreeOfFreedom) {
-  const config::Layout nominal = rov();
+  const config::Layout nominal = heavy_rov();
   Vector6 velocity;
   velocity << 0.5, 0.2, 0.1, 0.1, 0.2, 0.3;
   const Vector6 before = HullDamping(nominal)(velocity);
@@ -153,7 +153,7 @@ TEST(LayoutEffects, DampingAndAddedMassChangeOneDegreeOfFreedom) {
 }
 
 TEST(LayoutEffects, OfAFileAreReadWithOwnersAndIntervals) {
-  const config::Layout layout = rov();
+  const config::Layout layout = heavy_rov();
   EffectSet set;
   std::vector<config::Problem> problems;
   add_effects(
@@ -176,7 +176,7 @@ TEST(LayoutEffects, OfAFileAreReadWithOwnersAndIntervals) {
 }
 
 TEST(LayoutEffects, OfAFileThatCannotBeAreNamed) {
-  const config::Layout layout = rov();
+  const config::Layout layout = heavy_rov();
   const auto complaint = [&](std::string_view toml) {
     EffectSet set;
     std::vector<config::Problem> problems;

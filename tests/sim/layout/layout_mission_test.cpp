@@ -28,13 +28,13 @@ config::Mission mission_of(const std::string& steps, const std::string& start = 
       "mission.at_end = \"hold\"\nstart.depth_m = 0.5\n" + start + "step = [" + steps + "]\n", "mission");
 }
 
-std::unique_ptr<LayoutMotion> on_mission(const config::Layout& layout, const config::Mission& mission,
-                                         VehicleInfluencer* influencer = nullptr) {
+std::unique_ptr<LayoutMotion> steered(const config::Layout& layout, const config::Mission& mission,
+                                      VehicleInfluencer* influencer = nullptr) {
   return std::make_unique<LayoutMotion>(layout, std::make_unique<LayoutMissionHelm>(layout, mission),
                                         MotionOptions{.influencer = influencer});
 }
 
-State at_s(const LayoutMotion& motion, double time_s) { return motion.at(std::llround(time_s * 1e9)); }
+State layout_at(const LayoutMotion& motion, double time_s) { return motion.at(std::llround(time_s * 1e9)); }
 
 std::string why_unfit(const config::Layout& layout, const config::Mission& mission) {
   try {
@@ -48,17 +48,17 @@ std::string why_unfit(const config::Layout& layout, const config::Mission& missi
 TEST(LayoutMission, AnRovGoesStraightTurnsAndHovers) {
   const config::Layout layout = shipped_layout("bluerov2-heavy");
   const auto motion =
-      on_mission(layout, mission_of("{do = \"dive\", depth_m = 2}, {do = \"leg\", seconds = 30, speed_m_s = "
-                                    "0.4}, {do = \"turn\", by_deg = 90, rate_deg_s = 15}, {do = "
-                                    "\"leg\", seconds = 20, shaft_rpm = 0}"));
+      steered(layout, mission_of("{do = \"dive\", depth_m = 2}, {do = \"leg\", seconds = 30, speed_m_s = "
+                                 "0.4}, {do = \"turn\", by_deg = 90, rate_deg_s = 15}, {do = "
+                                 "\"leg\", seconds = 20, shaft_rpm = 0}"));
   const double duration_s = motion->duration_s();
-  State state = at_s(*motion, duration_s);
+  State state = layout_at(*motion, duration_s);
   EXPECT_NEAR(state.position_m[2], 2, 0.05);
   EXPECT_NEAR(state.euler_rad[2] * kMissionDegrees, 90, 1);
   EXPECT_NEAR(state.velocity_body_m_s[0], 0, 0.02);
   EXPECT_GT(state.position_m[0], 10) << "the leg";
   for (double t = 0; t < duration_s; t += 0.5) {
-    state = at_s(*motion, t);
+    state = layout_at(*motion, t);
     EXPECT_LT(std::abs(state.euler_rad[0]) * kMissionDegrees, 5) << t;
     EXPECT_LT(std::abs(state.euler_rad[1]) * kMissionDegrees, 5) << t;
   }
@@ -66,8 +66,8 @@ TEST(LayoutMission, AnRovGoesStraightTurnsAndHovers) {
 
 TEST(LayoutMission, EveryShippedLayoutThatCanDoesTheSurveyAtItsDepth) {
   for (const char* name : {"reference", "bluerov2-heavy", "micro-auv"}) {
-    const auto motion = on_mission(shipped_layout(name), config::load_mission("survey"));
-    const State state = at_s(*motion, 80);
+    const auto motion = steered(shipped_layout(name), config::load_mission("survey"));
+    const State state = layout_at(*motion, 80);
     EXPECT_NEAR(state.position_m[2], 1.5, 0.1) << name;
     EXPECT_NEAR(state.euler_rad[2], 0, 0.02) << name;
     EXPECT_GT(state.velocity_body_m_s[0], 0.3) << name;
@@ -79,21 +79,20 @@ TEST(LayoutMission, RemusHoldsItsDepthWhenItIsNearlyNeutral) {
   EXPECT_NE(why_unfit(layout, config::load_mission("survey")).find("+8.99 N of net buoyancy"), std::string::npos)
       << why_unfit(layout, config::load_mission("survey"));
   layout.body.buoyancy_N = layout.weight_N() + 1;
-  const auto motion = on_mission(layout, config::load_mission("survey"));
-  const State state = at_s(*motion, 80);
+  const auto motion = steered(layout, config::load_mission("survey"));
+  const State state = layout_at(*motion, 80);
   EXPECT_NEAR(state.position_m[2], 1.5, 0.15);
   EXPECT_NEAR(state.velocity_body_m_s[0], 1.13, 0.05);
 }
 
 TEST(LayoutMission, AGliderGlidesDownAndUp) {
-  const auto motion =
-      on_mission(shipped_layout("slocum"),
-                 mission_of("{do = \"dive\", depth_m = 15, seconds = 300}, {do = \"dive\", depth_m = "
-                            "3, seconds = 300}"));
+  const auto motion = steered(shipped_layout("slocum"),
+                              mission_of("{do = \"dive\", depth_m = 15, seconds = 300}, {do = \"dive\", depth_m = "
+                                         "3, seconds = 300}"));
   EXPECT_LT(motion->duration_s(), 500);
-  EXPECT_GT(at_s(*motion, 60).velocity_body_m_s[0], 0.2);
-  EXPECT_LT(at_s(*motion, 30).euler_rad[1] * kMissionDegrees, -15);
-  EXPECT_NEAR(at_s(*motion, motion->duration_s()).position_m[2], 3, 0.2);
+  EXPECT_GT(layout_at(*motion, 60).velocity_body_m_s[0], 0.2);
+  EXPECT_LT(layout_at(*motion, 30).euler_rad[1] * kMissionDegrees, -15);
+  EXPECT_NEAR(layout_at(*motion, motion->duration_s()).position_m[2], 3, 0.2);
 }
 
 TEST(LayoutMission, WhatIsMissingIsNamed) {
@@ -122,7 +121,7 @@ TEST(LayoutMission, WhatIsMissingIsNamed) {
 
 TEST(LayoutMission, ALegThatIsNeverDoneEndsInWords) {
   const config::Layout layout = shipped_layout("bluerov2-heavy");
-  const auto motion = on_mission(layout, mission_of("{do = \"leg\", metres = 50}"));
+  const auto motion = steered(layout, mission_of("{do = \"leg\", metres = 50}"));
   try {
     (void)motion->duration_s();
     FAIL() << "it ended";
@@ -144,17 +143,17 @@ TEST(LayoutMission, AnEffectActsInItsIntervalOnly) {
   const config::Mission mission = mission_of("{do = \"leg\", seconds = 40, speed_m_s = 0.4, depth_m = 2}");
   EffectSet effects;
   effects.add({find_layout_effect("actuator_dead"), "thruster.5", {1}}, {15, 20});
-  const auto nominal = on_mission(layout, mission), broken = on_mission(layout, mission, &effects);
-  EXPECT_EQ(at_s(*nominal, 15).position_m, at_s(*broken, 15).position_m);
-  EXPECT_GT(std::abs(at_s(*nominal, 18).euler_rad[0] - at_s(*broken, 18).euler_rad[0]) +
-                std::abs(at_s(*nominal, 18).euler_rad[1] - at_s(*broken, 18).euler_rad[1]),
+  const auto nominal = steered(layout, mission), broken = steered(layout, mission, &effects);
+  EXPECT_EQ(layout_at(*nominal, 15).position_m, layout_at(*broken, 15).position_m);
+  EXPECT_GT(std::abs(layout_at(*nominal, 18).euler_rad[0] - layout_at(*broken, 18).euler_rad[0]) +
+                std::abs(layout_at(*nominal, 18).euler_rad[1] - layout_at(*broken, 18).euler_rad[1]),
             0.01);
-  EXPECT_NEAR(at_s(*nominal, 40).euler_rad[1], at_s(*broken, 40).euler_rad[1], 0.05) << "it recovers";
+  EXPECT_NEAR(layout_at(*nominal, 40).euler_rad[1], layout_at(*broken, 40).euler_rad[1], 0.05) << "it recovers";
 }
 
 TEST(LayoutMission, OutputsAreToldTenTimesASecondAndAreTheCommands) {
   const config::Layout layout = shipped_layout("bluerov2-heavy");
-  const auto motion = on_mission(layout, mission_of("{do = \"leg\", seconds = 10, speed_m_s = 0.4}"));
+  const auto motion = steered(layout, mission_of("{do = \"leg\", seconds = 10, speed_m_s = 0.4}"));
   std::vector<OutputOrder> outputs;
   motion->take_outputs(5'000'000'000, outputs);
   ASSERT_EQ(outputs.size(), 51U);
@@ -169,7 +168,7 @@ TEST(LayoutMission, TheHullFloats) {
   config::Layout layout = shipped_layout("bluerov2-heavy");
   layout.body.buoyancy_N = layout.weight_N() + 5;
   const LayoutMotion motion(layout, std::make_unique<LayoutOrderedHelm>(layout), {});
-  const double depth_m = at_s(motion, 60).position_m[2];
+  const double depth_m = layout_at(motion, 60).position_m[2];
   // 5 N of 137 N are above the water: the origin lies deeper than half the height by the share that is in it.
   EXPECT_NEAR(depth_m, (0.5 - 5 / layout.body.buoyancy_N) * layout.body.size_m[2], 0.005);
 }
@@ -179,7 +178,7 @@ TEST(LayoutMission, OrdersMoveTheActuatorsThatTheyName) {
   auto helm = std::make_unique<LayoutOrderedHelm>(layout);
   helm->order(1, {1700, std::nullopt, 1600});
   const LayoutMotion motion(layout, std::move(helm), {});
-  (void)at_s(motion, 10);
+  (void)layout_at(motion, 10);
   EXPECT_NEAR(motion.positions().thrusters[0], 0.5 * layout.thrusters[0].high, 1e-3);
   EXPECT_EQ(motion.positions().surfaces_rad[0], 0);
   EXPECT_NEAR(motion.positions().surfaces_rad[1], 0.25 * layout.surfaces[1].limit_rad, 1e-9);
