@@ -101,9 +101,13 @@ OrderedJson json_of(const gap::InstrumentFacts& instruments) {
 }
 
 OrderedJson json_of(const gap::CommandCheck& commands) {
-  OrderedJson delay;
+  OrderedJson delay, correlation;
   if (commands.delay_s) delay = *commands.delay_s;
-  return {{"delay_s", std::move(delay)}, {"saturated", commands.saturated}, {"unrecorded", commands.unrecorded}};
+  if (commands.correlation) correlation = *commands.correlation;
+  return {{"delay_s", std::move(delay)},
+          {"correlation", std::move(correlation)},
+          {"saturated", commands.saturated},
+          {"unrecorded", commands.unrecorded}};
 }
 
 OrderedJson json_of(const gap::EarthField& field) {

@@ -50,6 +50,7 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
   if (!doubt.empty()) answer.remarks.push_back(name + ": " + doubt);
   const std::string shortcoming = prepared->mission.shortcoming();
   if (!shortcoming.empty()) {
+    if (file == request_.mission) answer.instruments.missing = missing_instruments(prepared->mission);
     answer.remarks.push_back(name + ": " + shortcoming);
     return nullptr;
   }
