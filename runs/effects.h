@@ -12,8 +12,8 @@
 
 /// The causes that the diagnosis of runs knows, each with what it does to the parameters of the response.
 ///
-/// Directions come from physics, and sizes are spread broadly. No number was fitted to runs with a known cause, but the
-/// parameters and the heights of the line were chosen with sight of such runs (docs/runs.md).
+/// Directions come from physics, and sizes are spread broadly. No number was fitted to runs with a known cause,
+/// but the parameters and the heights of the line were chosen with sight of such runs (docs/runs.md).
 namespace navcal::runs {
 
 using ParameterVector = Eigen::Matrix<double, kParameterCount, 1>;
