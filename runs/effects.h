@@ -12,7 +12,8 @@
 
 /// The causes that the diagnosis of runs knows, each with what it does to the parameters of the response.
 ///
-/// Directions come from physics, sizes are spread broadly; neither was fitted to runs with a known cause.
+/// Directions come from physics, and sizes are spread broadly. No number was fitted to runs with a known cause,
+/// but the parameters and the heights of the line were chosen with sight of such runs (docs/runs.md).
 namespace navcal::runs {
 
 using ParameterVector = Eigen::Matrix<double, kParameterCount, 1>;

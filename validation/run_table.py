@@ -8,6 +8,9 @@ The program is given the runs under neutral names and never the labels, which se
 consecutive runs (10) of one session; the sessions of a label are parted by gaps of more than 600 s between the seconds
 of day with which file names begin. Each cause is also asked about with the cause taken out of the library.
 
+A second table hides commands and battery: all runs, nominal ones too, get the same command once their thrusters run, and the
+same voltage. It shows which answers rest on the command.
+
 Normal runs are judged by a nominal vehicle that has not seen their session, in two ways: sessions parted by gaps, and
 sessions as the program itself finds them; and once by one that has seen other runs of their sessions. Prints tables in Markdown.
 """
@@ -48,11 +51,29 @@ def pools_of(sessions, size):
     return pools
 
 
+def with_hidden_inputs(text):
+    """The run with one command for all running rows, and one voltage for all rows."""
+    lines = text.split("\n")
+    heading = lines[0].split(",")
+    commands = [place for place, name in enumerate(heading) if name.startswith("pwm")]
+    stop = float(lines[1].split(",")[commands[0]])
+    for number, line in enumerate(lines[1:], 1):
+        cells = line.split(",")
+        if len(cells) != len(heading):
+            continue
+        for place in commands:
+            cells[place] = "1198" if abs(float(cells[place]) - stop) > 10 else "1100"
+        cells[heading.index("voltage")] = "12"
+        lines[number] = ",".join(cells)
+    return "\n".join(lines)
+
+
 class Asking:
     """Runs the program on copies with neutral names."""
 
     def __init__(self, navcal):
         self.navcal = navcal
+        self.hidden = False
         self.seconds = 0.0
         self.asked = 0
 
@@ -65,7 +86,11 @@ class Asking:
                 (scratch / folder).mkdir()
                 for number, file in enumerate(files):
                     name = f"r{number:04}"
-                    shutil.copyfile(file, scratch / folder / f"{name}.csv")
+                    copy = scratch / folder / f"{name}.csv"
+                    if self.hidden:
+                        copy.write_text(with_hidden_inputs(file.read_text()))
+                    else:
+                        shutil.copyfile(file, copy)
                     if folder == "runs":
                         names[file] = name
             named = {f"p{number:03}": [names[file] for file in pool] for number, pool in enumerate(pools)}
@@ -163,6 +188,11 @@ def print_table(navcal, folder, size):
     print("\n| cause, taken out of the library | | unknown | its family | undecided | no-gap | wrong |")
     print("|---|---|---|---|---|---|---|")
     print("\n".join(removed_lines))
+    print("\n| arm, commands and battery hidden | | exact | size first | size second | other size | undecided | unknown | wrong |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    asking.hidden = True
+    for label, files in labels.items():
+        print(row(label, "pool", asking.ask(nominal, files, pools_of(sessions_by_gap(files), size))[1], label))
     peak_MB = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1000
     print(f"\n{asking.asked} answers in {asking.seconds:.1f} s, at most {peak_MB:.0f} MB")
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <regex>
@@ -57,7 +58,9 @@ TEST(Commands, EachSourceOfOneIsListed) {
     for (auto it = std::sregex_iterator(text.begin(), text.end(), definition); it != std::sregex_iterator();
          ++it) {
       ++definitions;
-      EXPECT_EQ(names.count((*it)[2].str()), 1U) << file.path();
+      std::string name = (*it)[2].str();
+      std::ranges::replace(name, '_', '-');
+      EXPECT_EQ(names.count(name), 1U) << file.path();
     }
   }
   EXPECT_EQ(definitions, names.size());
