@@ -63,10 +63,11 @@ TEST(IdentifyParameters, ElementsAcrossTheDiagonalOfAddedMassAreOneNumber) {
 }
 
 TEST(IdentifyParameters, EstimatesSurviveTheFile) {
-  const auto layout = layout_with("mass_kg_std = 0.1\nneutral = true\n",
-                                  "[damping]\nlinear = [1, 2, 0, 0, 0, 3]\nlinear_std = 0.5\n[[surface]]\nname = "
-                                  "\"fin\"\nplace_m = [0, 0, 0]\n"
-                                  "area_m2 = 0.01\nlift_slope_per_rad = 3\nstall_deg = 20\nstall_deg_std = 2\n");
+  const auto layout = layout_with(
+      "mass_kg_std = 0.1\nneutral = true\n",
+      "[damping]\nlinear = [1, 2, 0, 0, 0, 3]\nlinear_std = 0.5\n[[surface]]\nname = "
+      "\"fin\"\nplace_m = [0, 0, 0]\n"
+      "normal = [0, 1, 0]\narea_m2 = 0.01\nlift_slope_per_rad = 3\nstall_deg = 20\nstall_deg_std = 2\n");
   const auto parameters = uncertain_parameters(layout);
   const Eigen::VectorXd values = prior_values(parameters) * 1.1, stds = prior_stds(parameters) * 0.3;
   const auto again =
