@@ -66,6 +66,10 @@ int main(int argc, char** argv) {
         }
       }
     }
+    std::printf(
+        "  so far: within two %.1f %% of %zu, rms %.3f; agreement within 1.2 joint errors %.1f %%, of the larger "
+        "%.1f %%\n",
+        share(errors, 2), errors.size(), rms(errors), share(differences, 1.2), share(sums, 1.2));
     std::fflush(stdout);
   }
   for (std::size_t i = 0; i < parameters.size(); ++i)

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// navcal identify on a capture of navcal simulate, which is a simulator of its own (sim::Vehicle and the emulated
+// instruments).
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "config/layout/layout_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace navcal::cli {
+namespace {
+
+class IdentifyProgram : public testing::Test {
+ protected:
+  int run_navcal(const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments + " > out 2> err < /dev/null";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string said(const std::string& file) const { return navcal::test::read_file(folder_ / file); }
+
+  /// The reference vehicle with drag, thrust and one mass that are wrong and uncertain.
+  void write_prior() {
+    config::Layout prior = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml");
+    prior.damping.axial_coefficient = 0.36;
+    prior.damping.linear[21] *= 1.2;
+    prior.added_mass.matrix_kg[0] *= 1.2;
+    prior.uncertainties = {{"damping.axial.coefficient", 0.06, {}, {}},
+                           {"damping.linear", {}, {0, 0, 0, 0.01, 0, 0}, {}},
+                           {"added_mass.matrix", {}, {0.03, 0, 0, 0, 0, 0}, {}}};
+    std::ofstream(folder_ / "prior.toml") << config::layout_file(prior);
+  }
+
+  navcal::test::TemporaryFolder folder_;
+};
+
+TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {
+  write_prior();
+  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 60 --seed 5 -o a.cap"), 0) << said("err");
+  ASSERT_EQ(
+      run_navcal(
+          "identify --vehicle prior.toml --holdout a.cap -o fit.toml --json fit.json --report fit.html a.cap"),
+      0)
+      << said("err");
+  const auto json = nlohmann::json::parse(said("fit.json"));
+  const auto expect_near = [&](const std::string& name, double truth) {
+    const auto& one = json.at("parameters").at(name);
+    EXPECT_LT(std::abs(one.at("value").get<double>() - truth), 4 * one.at("std").get<double>()) << name;
+    EXPECT_EQ(one.at("identified").get<bool>(),
+              one.at("std").get<double>() <= one.at("prior_std").get<double>() / 2);
+  };
+  const config::Layout truth = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml");
+  expect_near("damping.axial.coefficient", truth.damping.axial_coefficient);
+  expect_near("damping.linear.roll", truth.damping.linear[21]);
+  expect_near("added_mass.matrix.surge", truth.added_mass.matrix_kg[0]);
+  EXPECT_TRUE(json.at("parameters").at("damping.linear.roll").at("identified").get<bool>());
+  EXPECT_LT(json.at("held_out").at("after").get<double>(), json.at("held_out").at("before").get<double>());
+  const config::Layout fitted = config::load_layout(folder_ / "fit.toml");
+  EXPECT_NEAR(fitted.damping.linear[21], json.at("parameters").at("damping.linear.roll").at("value").get<double>(),
+              1e-12);
+  EXPECT_EQ(fitted.uncertainties.size(), 3U);
+  EXPECT_NE(said("fit.html").find("Fitted numbers"), std::string::npos);
+  EXPECT_NE(said("out").find("held-out recordings"), std::string::npos) << said("out");
+}
+
+TEST_F(IdentifyProgram, NeverOverwritesAnInput) {
+  write_prior();
+  const std::string before = said("prior.toml");
+  std::ofstream(folder_ / "a.cap") << "";
+  EXPECT_EQ(run_navcal("identify --vehicle prior.toml -o prior.toml a.cap"), 2);
+  EXPECT_EQ(said("prior.toml"), before);
+}
+
+TEST_F(IdentifyProgram, MissingCommandsAreBadInput) {
+  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 20 --seed 5 -o a.cap"), 0) << said("err");
+  config::Layout prior = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/bluerov2-heavy.toml");
+  prior.uncertainties = {{"body.mass_kg", 0.3, {}, {}}};
+  std::ofstream(folder_ / "rov.toml") << config::layout_file(prior);
+  EXPECT_EQ(run_navcal("identify --vehicle rov.toml -o fit.toml a.cap"), 3);
+  EXPECT_NE(said("err").find(
+                "a.cap: commands are missing: thruster front_starboard needs output1; the recording has fin_1"),
+            std::string::npos)
+      << said("err");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "fit.toml"));
+}
+
+TEST_F(IdentifyProgram, ALayoutWithNothingUncertainIsBadInput) {
+  ASSERT_EQ(run_navcal("simulate --mission identification --seconds 20 --seed 5 -o a.cap"), 0) << said("err");
+  EXPECT_EQ(
+      run_navcal("identify --vehicle '" NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml' -o fit.toml a.cap"), 3);
+  EXPECT_NE(said("err").find("states no uncertain number"), std::string::npos) << said("err");
+}
+
+}  // namespace
+}  // namespace navcal::cli
