@@ -21,6 +21,8 @@ using nlohmann::ordered_json;
 constexpr std::uint64_t kVehicleStream = 2ULL << 40U, kDayStream = 3ULL << 40U, kCaseStream = 4ULL << 40U,
                         kTurnStream = 5ULL << 40U, kSwimStream = 6ULL << 40U;
 constexpr double kInstrumentTolerance = 0.02;
+/// After so many draws of an effect with which a vehicle cannot swim comes the next one.
+constexpr int kAttemptsOfAnEffect = 6;
 
 constexpr std::array<std::string_view, kLayoutArms> kLayoutArmNames{"nulls", "single-0.5", "single-1", "single-2",
                                                                     "pairs", "removed",    "foreign"};
@@ -67,14 +69,15 @@ const thrusters::CraftEffectKind& effect_in_turn(std::uint64_t seed, LayoutArm a
 }
 
 /// Two of three single effects are the vehicle's, the third an instrument's; of a pair, one is of each.
-std::vector<thrusters::CraftEffect> drawn_effects(std::uint64_t seed, int number, const thrusters::Plan& layout,
-                                                  reference::Rng& dice) {
+std::vector<thrusters::CraftEffect> drawn_effects(std::uint64_t seed, int number, int attempt,
+                                                  const thrusters::Plan& layout, reference::Rng& dice) {
   const LayoutArm arm = layout_arm_of(number);
   const int turn = turn_of(number);
   std::vector<thrusters::CraftEffect> effects;
   const auto add = [&](bool is_instrument, int place) {
-    effects.push_back(
-        thrusters::drawn(effect_in_turn(seed, arm, is_instrument, place), strength_of(arm), layout, dice));
+    const thrusters::CraftEffectKind& kind =
+        effect_in_turn(seed, arm, is_instrument, place + attempt / kAttemptsOfAnEffect);
+    effects.push_back(thrusters::drawn(kind, strength_of(arm), layout, dice));
   };
   if (arm == LayoutArm::nulls) return effects;
   if (arm == LayoutArm::pairs) {
@@ -191,7 +194,7 @@ LayoutCase drawn_layout_case(std::uint64_t seed, int number, const LayoutVehicle
   drawn.arm = layout_arm_of(number);
   drawn.craft = vehicle.craft;
   drawn.craft.real = thrusters::perturbed(drawn.craft.real, kDayTolerance, dice);
-  drawn.effects = drawn_effects(seed, number, vehicle.craft.layout, dice);
+  drawn.effects = drawn_effects(seed, number, attempt, vehicle.craft.layout, dice);
   for (const thrusters::CraftEffect& effect : drawn.effects)
     thrusters::add(effect, vehicle.craft.layout, drawn.craft.differences);
   if (drawn.arm == LayoutArm::removed) drawn.excluded = drawn.effects.front().name;

@@ -70,7 +70,8 @@ inline constexpr double kDayTolerance = 0.005;
 [[nodiscard]] reference::thrusters::CraftUnderTest nominal_day(std::uint64_t seed,
                                                                const LayoutVehicleCase& vehicle, int day);
 /// The arm follows from the number; effects come by turns, so that each comes once before any comes again.
-/// `attempt`: another draw of the same case, for effects with which the vehicle cannot swim.
+/// `attempt`: another draw of the same case, for effects with which the vehicle cannot swim; after six of them the
+/// next effect is drawn.
 [[nodiscard]] LayoutCase drawn_layout_case(std::uint64_t seed, int number, const LayoutVehicleCase& vehicle,
                                            int attempt);
 

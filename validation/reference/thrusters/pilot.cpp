@@ -23,7 +23,10 @@ Eigen::Index at(std::size_t axis) { return static_cast<Eigen::Index>(axis); }
 }  // namespace
 
 Pilot::Pilot(const Plan& plan, double variation_rad)
-    : allocator_(plan), inertia_(inertia(plan).diagonal()), variation_rad_(variation_rad) {}
+    : allocator_(plan),
+      inertia_(inertia(plan).diagonal()),
+      sinking_N_(plan.mass_kg * kGravity_m_s2 - plan.buoyancy_N),
+      variation_rad_(variation_rad) {}
 
 double Pilot::held(std::size_t axis, double error_rad, double rate_rad_s, double pace_rad_s) const {
   const double wanted = inertia_(at(axis)) * pace_rad_s * (pace_rad_s * error_rad - 2 * kDamping * rate_rad_s);
@@ -47,7 +50,7 @@ void Pilot::steer_depth(const Leg& leg, const Card::Reading& card, Wrench& wante
     const double force =
         inertia_(2) *
         (kDepthPace_rad_s * (kDepthPace_rad_s * error_m - 2 * kDamping * sinking_m_s_) + 0.05 * depth_sum_);
-    wanted(2) = std::clamp(force, -allocator_.limit(2), allocator_.limit(2));
+    wanted(2) = std::clamp(force - sinking_N_, -allocator_.limit(2), allocator_.limit(2));
   } else {
     depth_sum_ = std::clamp(depth_sum_ + error_m * kPeriod_s, -3.0, 3.0);
     pitch_rad = std::clamp(-0.6 * (error_m + 0.1 * depth_sum_), -kGreatestPitch_rad, kGreatestPitch_rad);

@@ -28,7 +28,8 @@ struct Leg {
 ///     heading        N = M66 b (b e - 2 z r)                   b 1.5 rad/s, z 0.9
 ///     roll, pitch    K, M likewise                             b 2.5 rad/s
 ///     depth          Z = M33 (b (b d - 2 z w) + 0.05 int d)    b 0.6 rad/s; w from the filtered depth;
-///                                                            the integral within 0.3 m only
+///                                                            the integral within 0.3 m only; less weight that
+///                                                            buoyancy does not bear
 ///     where heave cannot be commanded: pitch wanted = -0.6 (d + 0.1 int d), within 35 degrees
 class Pilot {
  public:
@@ -49,6 +50,7 @@ class Pilot {
 
   Allocator allocator_;
   Vector6 inertia_;
+  double sinking_N_;  ///< weight less buoyancy, by the layout
   double variation_rad_;
   double roll_rad_ = 0, pitch_rad_ = 0;
   double depth_sum_ = 0;

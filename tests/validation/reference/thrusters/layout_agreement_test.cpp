@@ -92,7 +92,7 @@ TEST_P(LayoutAgreement, AtRestItTrimsAndSinksAsTheCheckSays) {
 }
 
 TEST_P(LayoutAgreement, ForTwoSecondsBothMoveAlike) {
-  // Rotors, wakes and strips differ, so the paths may: by 15 % of the way, not by more.
+  // Rotors, wakes and strips differ, so the paths may: by 5 % of the way, not by more.
   const config::Layout layout = layout_of_file(GetParam());
   const sim::LayoutVehicle model(layout);
   const Plan plan = shipped_plan(GetParam());
@@ -111,7 +111,7 @@ TEST_P(LayoutAgreement, ForTwoSecondsBothMoveAlike) {
   EXPECT_GT(way.norm(), 0.1);
   const double apart_m = (craft.snapshot().position_m - model_run.body().position_m).norm();
   RecordProperty("apart_percent_of_the_way", std::to_string(100 * apart_m / way.norm()));
-  EXPECT_LT(apart_m, 0.15 * way.norm());
+  EXPECT_LT(apart_m, 0.05 * way.norm());
 }
 
 /// The true states and the commands of a mission.
