@@ -84,7 +84,8 @@ void expect_instrument(const std::string& name) {
 /// The diagnosis of a vehicle that a layout describes.
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layout& layout) {
   if (options.where.field_uT())
-    throw std::invalid_argument("--field: the diagnosis of a layout takes the heading's offset from each recording");
+    throw std::invalid_argument(
+        "--field: the diagnosis of a layout takes the heading's offset from each recording");
   diagnosis::LayoutFiles files{.recording = options.source.mission,
                                .holdouts = {options.source.holdouts.begin(), options.source.holdouts.end()},
                                .nominals = {options.nominals.begin(), options.nominals.end()},
@@ -106,7 +107,8 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
     request.vehicle = std::get<config::VehicleSettings>(vehicle);
   }
   if (!options.nominals.empty())
-    throw std::invalid_argument("--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
+    throw std::invalid_argument(
+        "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
   expect_effects(options.source.excluded);
   request.mission = options.source.mission;
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
@@ -232,9 +234,10 @@ void add_gap(CLI::App& app) {
       ->option_text("FILE")
       ->allow_extra_args(false);
   command
-      ->add_option("--nominal", options->nominals,
-                   "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
-                   "repeatable")
+      ->add_option(
+          "--nominal", options->nominals,
+          "a recording of the same vehicle without a gap, which shows what is no gap; only with a layout; "
+          "repeatable")
       ->option_text("FILE")
       ->allow_extra_args(false);
   command

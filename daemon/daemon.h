@@ -15,6 +15,7 @@
 #include "daemon/battery_keeper.h"
 #include "daemon/calibrations.h"
 #include "daemon/control_server.h"
+#include "daemon/health.h"
 #include "daemon/lazy_timer.h"
 #include "daemon/log_writer.h"
 #include "daemon/motor_control.h"

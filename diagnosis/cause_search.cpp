@@ -36,7 +36,8 @@ double log_mean_exp(const std::vector<double>& values) {
   return most + std::log(sum / static_cast<double>(values.size()));
 }
 
-/// log(2 Phi(z)): what the evidence gains when a prior of both signs becomes one of positive values (a lag, a dead band).
+/// log(2 Phi(z)): what the evidence gains when a prior of both signs becomes one of positive values (a lag, a dead
+/// band).
 double log_share_above_zero(double z) {
   if (z > -8) return std::log(std::erfc(-z / std::numbers::sqrt2));
   // Mills' ratio, where erfc loses its digits.
@@ -73,8 +74,8 @@ class Scores {
 };
 
 /// Priors with which a set is fitted at its own estimate. Instruments' errors are nuisances of every fit.
-std::vector<ParameterPrior> priors_for(const CauseLibrary& library, const ColumnPriors& priors, const CauseSet& set,
-                                       const Eigen::VectorXd& estimate) {
+std::vector<ParameterPrior> priors_for(const CauseLibrary& library, const ColumnPriors& priors,
+                                       const CauseSet& set, const Eigen::VectorXd& estimate) {
   std::vector<ParameterPrior> all;
   for (const std::size_t cause : set) {
     if (library.causes[cause].is_instrument) continue;
@@ -96,8 +97,8 @@ SetEvidence::SetEvidence(const LinearRecording& linear, const CauseLibrary& libr
   const Eigen::VectorXd solved = factor.solve(half);
   base_ = 0.5 * half.dot(solved) - factor.matrixLLT().diagonal().array().log().sum() - 0.5 * linear.power;
   mean_ = priors.spike.cwiseProduct(solved);
-  covariance_ = priors.spike.asDiagonal() *
-                factor.solve(Eigen::MatrixXd::Identity(score_.size(), score_.size())) * priors.spike.asDiagonal();
+  covariance_ = priors.spike.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(score_.size(), score_.size())) *
+                priors.spike.asDiagonal();
 }
 
 double SetEvidence::log_prior(std::size_t size) const {
@@ -116,7 +117,8 @@ double SetEvidence::operator()(const CauseSet& set) const {
   const Eigen::MatrixXd covariance = covariance_(members, members);
   std::vector<bool> one_sided;
   for (const std::size_t cause : set) {
-    for (const CauseParameter& parameter : library_.causes[cause].parameters) one_sided.push_back(parameter.low == 0);
+    for (const CauseParameter& parameter : library_.causes[cause].parameters)
+      one_sided.push_back(parameter.low == 0);
   }
   const Eigen::VectorXd mean = mean_(members), spike = priors_.spike(members), typical = priors_.typical(members);
   std::vector<double> gains;
@@ -164,7 +166,8 @@ double SetEvidence::separation(std::size_t cause, const CauseSet& others) const 
 }
 
 CauseSearchResult search_causes(const FittedRecording& recording, const RecordingFit& nominal,
-                                const CauseLibrary& library, const ColumnPriors& priors, const Progress& progress) {
+                                const CauseLibrary& library, const ColumnPriors& priors,
+                                const Progress& progress) {
   Scores scores;
   std::map<CauseSet, RecordingFit> fits;
   const SetEvidence about_nominal(nominal.linear, library, priors);
@@ -174,7 +177,8 @@ CauseSearchResult search_causes(const FittedRecording& recording, const Recordin
     for (std::size_t j = i + 1; j < library.causes.size(); ++j) scores.set({i, j}, about_nominal({i, j}));
   }
   const auto fit_again = [&](const CauseSet& set, const RecordingFit& from, const SetEvidence& evidence) {
-    RecordingFit fit = recording.fit(priors_for(library, priors, set, evidence.posterior(set).mean), &from, [](double) {});
+    RecordingFit fit =
+        recording.fit(priors_for(library, priors, set, evidence.posterior(set).mean), &from, [](double) {});
     const SetEvidence here(fit.linear, library, priors);
     scores.set(set, here(set), true);
     if (set.size() < kMostEffects) {

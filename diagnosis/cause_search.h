@@ -14,8 +14,8 @@ namespace navcal::diagnosis {
 /// Causes that act together: indices into CauseLibrary::causes, in order.
 using CauseSet = std::vector<std::size_t>;
 
-/// Standard deviations of the priors of all columns, about zero. Spike: a vehicle within tolerance. Typical: what strength 1
-/// is, of columns that belong to a cause.
+/// Standard deviations of the priors of all columns, about zero. Spike: a vehicle within tolerance. Typical: what
+/// strength 1 is, of columns that belong to a cause.
 struct ColumnPriors {
   Eigen::VectorXd spike, typical;
 };
@@ -27,14 +27,14 @@ struct ScoredSet {
 };
 
 struct CauseSearchResult {
-  std::vector<ScoredSet> sets;  ///< most probable first
-  RecordingFit best;            ///< fitted with the causes of the first one
-  Eigen::VectorXd mean, std;    ///< posterior of all columns with that set
+  std::vector<ScoredSet> sets;           ///< most probable first
+  RecordingFit best;                     ///< fitted with the causes of the first one
+  Eigen::VectorXd mean, std;             ///< posterior of all columns with that set
   std::vector<double> information_nats;  ///< expected of each cause of that set, at its typical strength
 };
 
-/// Log evidence of a set of causes by a linearised recording, nats, up to a constant that all sets and all linearisations
-/// share: a mixture of the strengths kStrengths (spike-and-slab regression, docs/gap.md).
+/// Log evidence of a set of causes by a linearised recording, nats, up to a constant that all sets and all
+/// linearisations share: a mixture of the strengths kStrengths (spike-and-slab regression, docs/gap.md).
 class SetEvidence {
  public:
   /// The library and the priors must outlive it.
@@ -58,9 +58,9 @@ class SetEvidence {
   double base_ = 0;
 };
 
-/// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation about the nominal
-/// vehicle; the leaders of each size are fitted again at their own estimate, because large effects are not linear, and
-/// score their larger neighbours.
+/// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation about the
+/// nominal vehicle; the leaders of each size are fitted again at their own estimate, because large effects are not
+/// linear, and score their larger neighbours.
 [[nodiscard]] CauseSearchResult search_causes(const FittedRecording& recording, const RecordingFit& nominal,
                                               const CauseLibrary& library, const ColumnPriors& priors,
                                               const Progress& progress);

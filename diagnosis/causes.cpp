@@ -90,7 +90,10 @@ void add_effects(const config::Layout& layout, const std::set<std::string, std::
     if (about.part == sim::LayoutPart::vehicle) owners = {""};
     const auto parameters = sim::parameters_for(layout, about);
     for (const std::string& of : owners) {
-      Cause cause{.name = std::string(about.name), .of = of, .manoeuvre = std::string(about.manoeuvre.text()), .parameters = {}};
+      Cause cause{.name = std::string(about.name),
+                  .of = of,
+                  .manoeuvre = std::string(about.manoeuvre.text()),
+                  .parameters = {}};
       for (std::size_t i = 0; i < parameters.size(); ++i) {
         const sim::EffectParameter& parameter = parameters[i];
         cause.parameters.push_back({.name = std::string(parameter.name),
@@ -125,8 +128,9 @@ void add_instrument_errors(const RecordedMotion& recording, const std::set<std::
   const auto first = static_cast<Eigen::Index>(library.parameters.size());
   for (const InstrumentError& error : instrument_errors()) {
     if (excluded.contains(error.name)) continue;
-    const bool exists = error.needs.empty() || std::any_of(error.needs.begin(), error.needs.end(),
-                                                           [&](Channel channel) { return recording.has(channel); });
+    const bool exists =
+        error.needs.empty() || std::any_of(error.needs.begin(), error.needs.end(),
+                                           [&](Channel channel) { return recording.has(channel); });
     if (!exists) {
       library.not_judged.push_back(std::string(error.name) + " was not judged: the recording has no " +
                                    std::string(identify::describe(error.needs.front()).name));
@@ -164,9 +168,8 @@ Eigen::Index CauseLibrary::columns() const {
 CauseLibrary causes_of(const config::Layout& layout, const RecordedMotion& recording,
                        std::span<const std::string> excluded) {
   for (const std::string& name : excluded) {
-    const bool is_instrument =
-        std::any_of(instrument_errors().begin(), instrument_errors().end(),
-                    [&](const InstrumentError& error) { return error.name == name; });
+    const bool is_instrument = std::any_of(instrument_errors().begin(), instrument_errors().end(),
+                                           [&](const InstrumentError& error) { return error.name == name; });
     if (!is_instrument && sim::find_layout_effect(name) == nullptr)
       throw std::invalid_argument(name + " is no effect of a layout (navcal simulate --effects help)");
   }

@@ -15,14 +15,15 @@ namespace navcal::diagnosis {
 /// One number of a cause. Its unknown is a column of the fit of one recording (identify::ChainSystem::border()):
 /// numbers of the layout, then parameters of effects, then the recording's nuisances.
 struct CauseParameter {
-  std::string name;             ///< with its unit, as files and answers say it: "scale", "angle_deg"
-  double typical = 1;           ///< value of strength 1, in the unit of the name
-  double per_unit = 1;          ///< unknown of the fit over value in the unit of the name (degrees: radians)
-  double low = 0, high = 0;     ///< in the unit of the name
+  std::string name;          ///< with its unit, as files and answers say it: "scale", "angle_deg"
+  double typical = 1;        ///< value of strength 1, in the unit of the name
+  double per_unit = 1;       ///< unknown of the fit over value in the unit of the name (degrees: radians)
+  double low = 0, high = 0;  ///< in the unit of the name
   Eigen::Index column = 0;
 };
 
-/// What may be the cause of a gap: an effect of the layout's library on one part of it, or an error of an instrument.
+/// What may be the cause of a gap: an effect of the layout's library on one part of it, or an error of an
+/// instrument.
 struct Cause {
   std::string name;       ///< "thrust_scale"
   std::string of;         ///< "thruster.2"; empty: the vehicle or its instruments
@@ -38,8 +39,8 @@ struct Cause {
 /// The causes that a layout and the instruments of a recording can have.
 struct CauseLibrary {
   std::vector<Cause> causes;
-  /// Numbers of the layout that are uncertain by its file (they stand for its tolerances), then the parameters of all
-  /// effects with a prior about zero.
+  /// Numbers of the layout that are uncertain by its file (they stand for its tolerances), then the parameters of
+  /// all effects with a prior about zero.
   std::vector<identify::Parameter> parameters;
   std::size_t layout_numbers = 0;       ///< the first so many of `parameters`
   std::vector<std::string> not_judged;  ///< why an instrument's errors are no candidates here, for people

@@ -25,9 +25,7 @@ using identify::RecordedMotion;
 constexpr std::string_view kUnit = "noise power";
 
 /// A channel's name in the answer: "imu.gyro roll rate".
-std::string channel_name(std::size_t channel) {
-  return std::string(identify::kChannelDescriptions[channel].name);
-}
+std::string channel_name(std::size_t channel) { return std::string(identify::kChannelDescriptions[channel].name); }
 
 struct ChannelFloor {
   double mean = 1, std = 0;
@@ -152,11 +150,12 @@ class Diagnosing {
   }
 
   void record_bank() {
-    // The first pass finds the noise of the residuals, which contains what every model of a hull leaves out; the second what
-    // the causes' estimates are under that noise.
+    // The first pass finds the noise of the residuals, which contains what every model of a hull leaves out; the
+    // second what the causes' estimates are under that noise.
     std::vector<std::vector<RecordedMotion>> nominals;
     for (const RecordedMotion& nominal : recordings_.nominals) nominals.push_back({nominal});
-    noise_ = fitted(nominals.front()).noise_of(fit(fitted(nominals.front()), "noise of " + nominals.front().front().name));
+    noise_ = fitted(nominals.front())
+                 .noise_of(fit(fitted(nominals.front()), "noise of " + nominals.front().front().name));
     for (const auto& one : nominals) bank_.add(fit(fitted(one), "nominal " + one.front().name), library_, priors_);
     bank_.is_recorded = true;
     answer_.remarks.push_back(
@@ -171,8 +170,9 @@ class Diagnosing {
       try {
         bank_.add(fitted(one).fit({}, nullptr,
                                   [&](double done) {
-                                    progress_("simulated nominal recordings",
-                                              (static_cast<double>(i) + done) / static_cast<double>(simulated.size()));
+                                    progress_(
+                                        "simulated nominal recordings",
+                                        (static_cast<double>(i) + done) / static_cast<double>(simulated.size()));
                                   }),
                   library_, priors_);
       } catch (const CannotSay&) {
@@ -181,11 +181,13 @@ class Diagnosing {
     }
     answer_.bank = {.missions = static_cast<int>(bank_.size()), .seed = request_.seed};
     if (bank_.size() < 3)
-      throw CannotSay(fmt::format("only {} of {} simulated nominal recordings could be replayed: the vehicle cannot follow "
-                                  "the recorded commands without its controller; give nominal recordings (--nominal)",
-                                  bank_.size(), request_.simulated_nominals));
+      throw CannotSay(
+          fmt::format("only {} of {} simulated nominal recordings could be replayed: the vehicle cannot follow "
+                      "the recorded commands without its controller; give nominal recordings (--nominal)",
+                      bank_.size(), request_.simulated_nominals));
     answer_.remarks.emplace_back(
-        "no nominal recording was given (--nominal): the floor is simulated, and what the layout leaves out of every "
+        "no nominal recording was given (--nominal): the floor is simulated, and what the layout leaves out of "
+        "every "
         "vehicle counts as a gap");
   }
 
@@ -234,7 +236,8 @@ class Diagnosing {
 
   void measure_gap() {
     std::vector<double> before, after, readings;
-    const auto take = [&](const std::vector<double>& b, const std::vector<double>& a, const std::vector<double>& n) {
+    const auto take = [&](const std::vector<double>& b, const std::vector<double>& a,
+                          const std::vector<double>& n) {
       before.insert(before.end(), b.begin(), b.end());
       after.insert(after.end(), a.begin(), a.end());
       readings.insert(readings.end(), n.begin(), n.end());
@@ -276,8 +279,10 @@ class Diagnosing {
     const ScoredSet& best = found_.sets.front();
     double none = 0, rivals = 0;
     for (const ScoredSet& one : found_.sets) {
-      if (one.causes.empty()) none = one.probability;
-      else if (one.causes != best.causes) rivals += one.probability;
+      if (one.causes.empty())
+        none = one.probability;
+      else if (one.causes != best.causes)
+        rivals += one.probability;
     }
     measure_gap();
     std::map<std::size_t, double> probabilities;
@@ -302,21 +307,25 @@ class Diagnosing {
     for (const std::size_t cause : best.causes) words.push_back(library_.causes[cause].words());
     const std::string names = fmt::format("{}", fmt::join(words, " and "));
     if (best.probability < kNamedFrom || rivals > kMostRivals)
-      return say_unknown(fmt::format("the most probable cause, {}, has a probability of {:.2f} only", names, best.probability),
-                         louder_after);
+      return say_unknown(
+          fmt::format("the most probable cause, {}, has a probability of {:.2f} only", names, best.probability),
+          louder_after);
     if (!louder_after.empty())
-      return say_unknown(fmt::format("{} leaves {} louder than nominal", names, louder_after.front().channel), louder_after);
+      return say_unknown(fmt::format("{} leaves {} louder than nominal", names, louder_after.front().channel),
+                         louder_after);
     for (const std::size_t cause : best.causes) {
       for (const CauseParameter& parameter : library_.causes[cause].parameters) {
         const double strength = std::abs(found_.mean[parameter.column]) / (parameter.typical * parameter.per_unit);
         if (strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical)
-          return say_unknown(fmt::format("{} would have {:.0f} times its typical strength", names, strength), louder_after);
+          return say_unknown(fmt::format("{} would have {:.0f} times its typical strength", names, strength),
+                             louder_after);
       }
     }
     double gain = 0;
     for (const HeldOut& held : held_out_) gain += held.gain_nats;
     if (!held_out_.empty() && gain < kHeldOutGain_nats)
-      return say_unknown(fmt::format("{} does not improve the held-out recordings ({:+.1f} nats)", names, gain), louder_after);
+      return say_unknown(fmt::format("{} does not improve the held-out recordings ({:+.1f} nats)", names, gain),
+                         louder_after);
     answer_.verdict = gap::Verdict::explained;
     for (const std::size_t cause : best.causes)
       answer_.effects.push_back(finding_of(library_.causes[cause], probabilities[cause], found_.mean, found_.std));

@@ -20,7 +20,7 @@ namespace navcal::diagnosis {
 struct LayoutRequest {
   config::Layout layout;              ///< numbers with standard errors are its tolerances
   std::vector<std::string> excluded;  ///< effects that the library is to be without
-  int simulated_nominals = 8;                   ///< where `nominals` is empty
+  int simulated_nominals = 8;         ///< where `nominals` is empty
   std::uint64_t seed = 1;
   unsigned threads = 0;  ///< 0: as many as there are cores
 };
@@ -41,8 +41,9 @@ struct LayoutFiles {
 /// Gets the current step and the share of it that is done (0 to 1); may throw to end the work.
 using LayoutProgress = std::function<void(std::string_view what, double done)>;
 
-/// Diagnoses a recording (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded name that is no
-/// cause. A recording that cannot be diagnosed gets the verdict `unknown` and remarks that say why.
+/// Diagnoses a recording (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded
+/// name that is no cause. A recording that cannot be diagnosed gets the verdict `unknown` and remarks that say
+/// why.
 [[nodiscard]] gap::Diagnosis diagnose(const LayoutRequest& request, LayoutRecordings recordings,
                                       const LayoutProgress& progress);
 

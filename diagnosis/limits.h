@@ -3,8 +3,8 @@
 
 #include <array>
 
-// Every threshold of the diagnosis of layouts, with its unit and the argument for it. Those that it shares with the diagnosis
-// of the reference vehicle have the same values (gap/thresholds.h).
+// Every threshold of the diagnosis of layouts, with its unit and the argument for it. Those that it shares with
+// the diagnosis of the reference vehicle have the same values (gap/thresholds.h).
 namespace navcal::diagnosis {
 
 /// Departure that every vehicle may have, as part of an effect's typical strength (docs/gap.md).
@@ -25,8 +25,8 @@ inline constexpr double kNamedFrom = 0.7, kMostRivals = 0.15;
 inline constexpr double kNoGapBelow = 0.01;
 /// A strength beyond it usually stands for another cause.
 inline constexpr double kLargestStrength = 5;
-/// A channel's noise power exceeds that of nominal recordings by chance up to so many standard deviations of theirs, and
-/// by tolerances that they do not show up to this factor.
+/// A channel's noise power exceeds that of nominal recordings by chance up to so many standard deviations of
+/// theirs, and by tolerances that they do not show up to this factor.
 inline constexpr double kChannelScatter_sigma = 5, kChannelFactor = 1.5;
 /// Gain on held-out recordings that supports an effect, nats.
 inline constexpr double kHeldOutGain_nats = 2;

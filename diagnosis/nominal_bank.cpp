@@ -72,7 +72,8 @@ std::vector<RecordedMotion> simulate_nominal(const config::Layout& layout, const
     const Eigen::VectorXd predicted = identify::PredictedReadings(null)(*motion, inside, calibration);
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const double value = predicted[static_cast<Eigen::Index>(i)] + inside[i].std * normal(random);
-      null.channels[static_cast<std::size_t>(inside[i].channel)].push_back({inside[i].time_s, value, inside[i].std});
+      null.channels[static_cast<std::size_t>(inside[i].channel)].push_back(
+          {inside[i].time_s, value, inside[i].std});
     }
     null.name = "simulated nominal recording";
     simulated.push_back(std::move(null));

@@ -21,18 +21,16 @@ struct NominalBank {
   void add(const RecordingFit& fit, const CauseLibrary& library, const ColumnPriors& priors);
 };
 
-/// Simulates the recording `count` times with the layout within its tolerances: the recorded positions of the actuators, the
-/// recorded times of the readings, and noise as stated. Every number that is uncertain, every effect and every error of an
-/// instrument departs by a normal deviate of its tolerance. A motion that leaves all bounds is left out.
-[[nodiscard]] std::vector<identify::RecordedMotion> simulate_nominal(const config::Layout& layout,
-                                                                     const CauseLibrary& library,
-                                                                     const identify::RecordedMotion& recording,
-                                                                     const RecordingFit& fit,
-                                                                     const ColumnPriors& priors, int count,
-                                                                     std::uint64_t seed);
+/// Simulates the recording `count` times with the layout within its tolerances: the recorded positions of the
+/// actuators, the recorded times of the readings, and noise as stated. Every number that is uncertain, every
+/// effect and every error of an instrument departs by a normal deviate of its tolerance. A motion that leaves all
+/// bounds is left out.
+[[nodiscard]] std::vector<identify::RecordedMotion> simulate_nominal(
+    const config::Layout& layout, const CauseLibrary& library, const identify::RecordedMotion& recording,
+    const RecordingFit& fit, const ColumnPriors& priors, int count, std::uint64_t seed);
 
-/// Priors of a library: tolerances of kTolerance for effects and instruments' errors that can be a cause, the fit's own priors
-/// for all other nuisances.
+/// Priors of a library: tolerances of kTolerance for effects and instruments' errors that can be a cause, the
+/// fit's own priors for all other nuisances.
 [[nodiscard]] ColumnPriors tolerances_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds);
 /// The same, as wide as the bank's recordings scatter.
 [[nodiscard]] ColumnPriors widened(ColumnPriors priors, const CauseLibrary& library, const NominalBank& bank);

@@ -16,7 +16,8 @@ using identify::Unknowns;
 /// Greatest number of steps of a fit: of states and nuisances alone, and of all.
 constexpr int kStepsOfStates = 10, kSteps = 25;
 
-/// All parameters with these priors, and which of them are fitted: the numbers of the layout, and those with a prior.
+/// All parameters with these priors, and which of them are fitted: the numbers of the layout, and those with a
+/// prior.
 struct Fitted {
   std::vector<identify::Parameter> all, active;
   std::vector<Eigen::Index> columns;  ///< of `active` among all
@@ -31,8 +32,8 @@ Fitted fitted_with(const CauseLibrary& library, const std::vector<ParameterPrior
   }
   for (std::size_t i = 0; i < fitted.all.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const bool has_prior =
-        std::any_of(priors.begin(), priors.end(), [&](const ParameterPrior& prior) { return prior.column == column; });
+    const bool has_prior = std::any_of(priors.begin(), priors.end(),
+                                       [&](const ParameterPrior& prior) { return prior.column == column; });
     if (i >= library.layout_numbers && !has_prior) continue;
     fitted.active.push_back(fitted.all[i]);
     fitted.columns.push_back(column);
@@ -106,7 +107,8 @@ RecordingFit FittedRecording::fit(const std::vector<ParameterPrior>& priors, con
     return [&progress, done](std::string_view, double part) { progress(done + 0.5 * part); };
   };
   // States and nuisances first: numbers of the layout would be moved to mend a poor guess of them.
-  start = identify::minimise(active, std::move(start), kStepsOfStates, FitProblem::Parameters::fixed, tell(0)).unknowns;
+  start = identify::minimise(active, std::move(start), kStepsOfStates, FitProblem::Parameters::fixed, tell(0))
+              .unknowns;
   Unknowns found =
       identify::minimise(active, std::move(start), kSteps, FitProblem::Parameters::free, tell(0.5)).unknowns;
   const Eigen::VectorXd values = found.parameters;
@@ -135,8 +137,7 @@ RecordingFit FittedRecording::fit(const std::vector<ParameterPrior>& priors, con
   LinearRecording here;
   here.gram = linearised.system.information();
   here.gram.diagonal() -= precision;
-  here.score =
-      linearised.system.effective_scores(0, linearised.windows.front()).rowwise().sum();
+  here.score = linearised.system.effective_scores(0, linearised.windows.front()).rowwise().sum();
   here.power = problem.cost(found) - precision.dot(deviation.cwiseAbs2());
   fit.linear = here.about(-fit.at);
   add_powers(problem, found, fit);

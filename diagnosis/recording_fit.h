@@ -12,7 +12,8 @@
 namespace navcal::diagnosis {
 
 /// Whitened residuals of one recording as a linear function of the columns of a library (CauseLibrary::columns()):
-///   |r(x)|^2 = power - 2 score . x + x . gram x   for departures x from the nominal vehicle and perfect instruments.
+///   |r(x)|^2 = power - 2 score . x + x . gram x   for departures x from the nominal vehicle and perfect
+///   instruments.
 /// States of the vehicle are eliminated. The priors are not in it.
 struct LinearRecording {
   Eigen::MatrixXd gram;
@@ -52,8 +53,8 @@ class FittedRecording {
                   const std::vector<identify::RecordedMotion>& one_recording, const identify::NoiseModel& noise,
                   unsigned threads);
 
-  /// Fits the uncertain numbers of the layout, the parameters of `priors`, nuisances and states, beginning at `from` where it
-  /// is given, and linearises there about all columns. The other effects are zero.
+  /// Fits the uncertain numbers of the layout, the parameters of `priors`, nuisances and states, beginning at
+  /// `from` where it is given, and linearises there about all columns. The other effects are zero.
   [[nodiscard]] RecordingFit fit(const std::vector<ParameterPrior>& priors, const RecordingFit* from,
                                  const Progress& progress) const;
   /// Standard deviations of the nuisances' priors.

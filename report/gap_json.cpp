@@ -41,10 +41,11 @@ OrderedJson json_of(const gap::EffectFinding& effect) {
   }
   OrderedJson json{{"name", effect.name}};
   if (!effect.of.empty()) json["of"] = effect.of;
-  json.update({{"probability", effect.probability},
-          {"parameters", std::move(parameters)},
-          {"std_errors", std::move(errors)},
-          {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}});
+  json.update(
+      {{"probability", effect.probability},
+       {"parameters", std::move(parameters)},
+       {"std_errors", std::move(errors)},
+       {"confused_with", list_of(effect.confused_with, [](const auto& other) { return json_of(other); })}});
   return json;
 }
 

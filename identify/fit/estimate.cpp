@@ -96,7 +96,7 @@ void add_covariance(const FitProblem& problem, const FitProblem::Linearised& lin
 }  // namespace
 
 Descent minimise(const FitProblem& problem, Unknowns unknowns, int most, FitProblem::Parameters which,
-                const FitProgress& progress, std::string_view what) {
+                 const FitProgress& progress, std::string_view what) {
   Descent descent{std::move(unknowns), 0};
   descent.cost = problem.cost(descent.unknowns);
   double damping = kFirstDamping;
@@ -133,7 +133,7 @@ Estimate estimate(FitProblem& problem, const FitProgress& progress) {
   Estimate estimate;
   for (int pass = 0; pass <= kNoisePasses; ++pass) {
     descent = minimise(problem, std::move(descent.unknowns), kMostIterations, FitProblem::Parameters::free,
-                      progress, "fit");
+                       progress, "fit");
     estimate.iterations += descent.iterations;
     if (pass < kNoisePasses) problem.fit_noise(descent.unknowns);
   }
@@ -147,7 +147,7 @@ Estimate estimate(FitProblem& problem, const FitProgress& progress) {
 
 Unknowns fit_nuisances(const FitProblem& problem, Unknowns unknowns, const FitProgress& progress) {
   return minimise(problem, std::move(unknowns), kMostIterations, FitProblem::Parameters::fixed, progress,
-                 "held out")
+                  "held out")
       .unknowns;
 }
 

@@ -21,7 +21,8 @@ struct Descent {
 
 /// Least cost by Levenberg and Marquardt in at most `most` steps from these unknowns, with the noise as it is.
 [[nodiscard]] Descent minimise(const FitProblem& problem, Unknowns unknowns, int most,
-                               FitProblem::Parameters which, const FitProgress& progress, std::string_view what = "fit");
+                               FitProblem::Parameters which, const FitProgress& progress,
+                               std::string_view what = "fit");
 
 struct Estimate {
   Unknowns unknowns;

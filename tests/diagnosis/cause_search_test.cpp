@@ -18,17 +18,16 @@ CauseLibrary small_library() {
   CauseLibrary library;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const std::string name(1, static_cast<char>('a' + i));
-    library.causes.push_back({.name = name,
-                              .of = {},
-                              .manoeuvre = {},
-                              .parameters = {{.name = "k", .low = i == 2 ? 0.0 : -10.0, .high = 10, .column = i}}});
+    library.causes.push_back(
+        {.name = name,
+         .of = {},
+         .manoeuvre = {},
+         .parameters = {{.name = "k", .low = i == 2 ? 0.0 : -10.0, .high = 10, .column = i}}});
   }
   return library;
 }
 
-ColumnPriors small_priors() {
-  return {Eigen::VectorXd::Constant(3, kTolerance), Eigen::VectorXd::Constant(3, 1)};
-}
+ColumnPriors small_priors() { return {Eigen::VectorXd::Constant(3, kTolerance), Eigen::VectorXd::Constant(3, 1)}; }
 
 /// Residuals of a known design with unit noise.
 LinearRecording recording_of(const Eigen::VectorXd& truth, double noise, std::uint64_t seed) {
@@ -47,7 +46,8 @@ TEST(SetEvidence, TheTrueSetWins) {
     const SetEvidence none(recording_of(Eigen::Vector3d(0, 0, 0), 1, seed), library, priors);
     const SetEvidence second(recording_of(Eigen::Vector3d(0, 0.8, 0), 1, seed), library, priors);
     const SetEvidence both(recording_of(Eigen::Vector3d(1, 0, 1), 1, seed), library, priors);
-    for (const CauseSet& other : {CauseSet{0}, CauseSet{1}, CauseSet{2}, CauseSet{0, 1}}) EXPECT_GT(none({}), none(other));
+    for (const CauseSet& other : {CauseSet{0}, CauseSet{1}, CauseSet{2}, CauseSet{0, 1}})
+      EXPECT_GT(none({}), none(other));
     for (const CauseSet& other : {CauseSet{}, CauseSet{0}, CauseSet{2}, CauseSet{0, 1}})
       EXPECT_GT(second({1}), second(other));
     for (const CauseSet& other : {CauseSet{}, CauseSet{0}, CauseSet{2}, CauseSet{0, 1}, CauseSet{1, 2}})
@@ -59,7 +59,8 @@ TEST(SetEvidence, DoesNotDependOnThePointOfLinearisation) {
   const CauseLibrary library = small_library();
   const ColumnPriors priors = small_priors();
   const LinearRecording about_zero = recording_of(Eigen::Vector3d(0.5, 0, 0.7), 1, 3);
-  const LinearRecording there = about_zero.about(Eigen::Vector3d(0.4, -0.1, 0.6)).about(Eigen::Vector3d(-0.4, 0.1, -0.6));
+  const LinearRecording there =
+      about_zero.about(Eigen::Vector3d(0.4, -0.1, 0.6)).about(Eigen::Vector3d(-0.4, 0.1, -0.6));
   EXPECT_NEAR(there.power, about_zero.power, 1e-9 * about_zero.power);
   const SetEvidence a(about_zero, library, priors), b(there, library, priors);
   for (const CauseSet& set : {CauseSet{}, CauseSet{0}, CauseSet{0, 2}}) EXPECT_NEAR(a(set), b(set), 1e-6);
@@ -80,8 +81,8 @@ TEST(SetEvidence, ThePosteriorHoldsTheTruthAsOftenAsItSays) {
   int within = 0;
   constexpr int kCases = 200;
   for (int i = 0; i < kCases; ++i) {
-    const SetEvidence evidence(recording_of(Eigen::Vector3d(0.6, 0, 0), 1, 100 + static_cast<std::uint64_t>(i)), library,
-                               priors);
+    const SetEvidence evidence(recording_of(Eigen::Vector3d(0.6, 0, 0), 1, 100 + static_cast<std::uint64_t>(i)),
+                               library, priors);
     const auto posterior = evidence.posterior({0});
     within += std::abs(posterior.mean[0] - 0.6) < posterior.std[0];
   }
@@ -106,7 +107,8 @@ TEST(Causes, EveryEffectOfEveryPartIsOneCause) {
   recording.channels[static_cast<std::size_t>(identify::Channel::rate_z)] = {{0, 0, 1}};
   const CauseLibrary library = causes_of(of.prior, recording, {});
   const auto count = [&](const std::string& name) {
-    return std::count_if(library.causes.begin(), library.causes.end(), [&](const Cause& c) { return c.name == name; });
+    return std::count_if(library.causes.begin(), library.causes.end(),
+                         [&](const Cause& c) { return c.name == name; });
   };
   EXPECT_EQ(count("thrust_scale"), 8);
   EXPECT_EQ(count("damping"), 6);

@@ -16,7 +16,8 @@ identify::VehicleCase micro() {
   return of;
 }
 
-identify::RecordedMotion recording(const identify::VehicleCase& of, const config::Layout& truth, std::uint64_t seed) {
+identify::RecordedMotion recording(const identify::VehicleCase& of, const config::Layout& truth,
+                                   std::uint64_t seed) {
   return identify::draw_recording(of, truth, 40, seed, 0.05);
 }
 
@@ -84,9 +85,10 @@ TEST(DiagnoseLayout, ARecordingOfAnotherVehicleIsNotExplained) {
 TEST(DiagnoseLayout, ProgressMayEndIt) {
   const auto of = micro();
   struct Ended {};
-  EXPECT_THROW(static_cast<void>(diagnose({.layout = of.prior, .excluded = {}}, {recording(of, of.prior, 1), {}, {}},
-                                          [](std::string_view, double) { throw Ended(); })),
-               Ended);
+  EXPECT_THROW(
+      static_cast<void>(diagnose({.layout = of.prior, .excluded = {}}, {recording(of, of.prior, 1), {}, {}},
+                                 [](std::string_view, double) { throw Ended(); })),
+      Ended);
 }
 
 }  // namespace

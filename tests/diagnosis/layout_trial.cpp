@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A trial of the diagnosis of layouts on simulated recordings whose causes it is not told:
 //   layout_trial VEHICLE ARM COUNT SEED
-// VEHICLE as of identification_case.h, ARM none, actuator, hull or the name of an effect. One line for each case, then counts.
+// VEHICLE as of identification_case.h, ARM none, actuator, hull or the name of an effect. One line for each case,
+// then counts.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -25,7 +26,8 @@ std::vector<std::string> effects_of_arm(const config::Layout& layout, const std:
     const bool has_owner = about.part == sim::LayoutPart::vehicle || !sim::owners_of(layout, about).empty();
     if (!has_owner) continue;
     const bool is_hull = about.part == sim::LayoutPart::vehicle || about.part == sim::LayoutPart::freedom;
-    if (arm == about.name || (arm == "hull" && is_hull) || (arm == "actuator" && !is_hull)) names.emplace_back(about.name);
+    if (arm == about.name || (arm == "hull" && is_hull) || (arm == "actuator" && !is_hull))
+      names.emplace_back(about.name);
   }
   return names;
 }
@@ -81,20 +83,21 @@ int run(const std::string& vehicle, const std::string& arm, int count, std::uint
                                  identify::draw_recording(of, truth, 120, own + 7, kInstrumentErrors),
                                  identify::draw_recording(of, truth, 120, own + 9, kInstrumentErrors)}};
     const auto begin = std::chrono::steady_clock::now();
-    const gap::Diagnosis answer = diagnose({.layout = of.prior, .excluded = {}}, recordings, [](std::string_view, double) {});
+    const gap::Diagnosis answer =
+        diagnose({.layout = of.prior, .excluded = {}}, recordings, [](std::string_view, double) {});
     std::string found = "none";
     for (const auto& effect : answer.effects) {
       const std::string words = effect.of.empty() ? effect.name : effect.name + " of " + effect.of;
       found = found == "none" ? words : found + " and " + words;
     }
     const bool is_none = drawn.words == "none";
-    const char* score = answer.verdict == gap::Verdict::unknown ? "unknown"
+    const char* score = answer.verdict == gap::Verdict::unknown  ? "unknown"
                         : answer.verdict == gap::Verdict::no_gap ? (is_none ? "right" : "missed")
                         : found == drawn.words                   ? "right"
                                                                  : "wrong";
     ++counts[score];
-    fmt::print("{}: {} -> {} ({}) {} {:.1f} s\n", score, drawn.words, found, gap::name_of(answer.verdict), answer.sentence,
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    fmt::print("{}: {} -> {} ({}) {} {:.1f} s\n", score, drawn.words, found, gap::name_of(answer.verdict),
+               answer.sentence, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     for (const auto& candidate : answer.candidates) {
       if (answer.verdict == gap::Verdict::unknown)
         fmt::print("    {} {} {:.3f}\n", candidate.name, candidate.of, candidate.probability);

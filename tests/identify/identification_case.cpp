@@ -146,7 +146,8 @@ RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth
   request.seconds = seconds;
   request.seed = seed + 1;
   request.reports_positions = of.reports_positions;
-  for (Eigen::Index i = 0; i < kNuisances; ++i) request.calibration[i] = instrument_errors * stds[i] * normal(*random);
+  for (Eigen::Index i = 0; i < kNuisances; ++i)
+    request.calibration[i] = instrument_errors * stds[i] * normal(*random);
   request.calibration[static_cast<Eigen::Index>(Nuisance::actuator_delay)] = 0;
   const bool has_fins = std::any_of(of.prior.surfaces.begin(), of.prior.surfaces.end(),
                                     [](const auto& surface) { return surface.limit_rad > 0; });

@@ -30,8 +30,8 @@ struct DrawnVehicle {
 };
 [[nodiscard]] DrawnVehicle draw_vehicle(const VehicleCase& of, std::uint64_t seed);
 
-/// A recording with instruments whose errors are drawn too, `instrument_errors` times as large as their priors say. Legs of random forces and moments, held level by
-/// feedback.
+/// A recording with instruments whose errors are drawn too, `instrument_errors` times as large as their priors
+/// say. Legs of random forces and moments, held level by feedback.
 [[nodiscard]] RecordedMotion draw_recording(const VehicleCase& of, const config::Layout& truth, double seconds,
                                             std::uint64_t seed, double instrument_errors = 1);
 
