@@ -83,6 +83,9 @@ void Preparation::remark_on(const Prepared& prepared, const std::string& name, D
   if (!missing.empty()) {
     remark(fmt::format("the recording has no {}: judged by the others", fmt::join(missing, " and no ")));
   }
+  if (!mission.fixes.empty() && mission.is_silent(Quantity::fixes)) {
+    remark("hardly a GPS fix, so nothing can be said of declination, current, GPS and speed");
+  }
   const auto pauses = interruptions(mission);
   for (const Interruption& each : pauses) {
     remark(fmt::format(
