@@ -97,7 +97,6 @@ enum class CommandUnit { rpm, percent, microseconds };
 /// command.
 struct LayoutThruster {
   std::string name;
-  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};
   LayoutVector direction{1, 0, 0};  ///< as in the file; the model takes its unit vector
   CommandUnit unit = CommandUnit::rpm;
@@ -117,6 +116,7 @@ struct LayoutThruster {
   double dead_band = 0;           ///< commands nearer to neutral than this are neutral
   double lag_s = 0.1;
   double low = 0, high = 0;  ///< limits of the command
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   [[nodiscard]] double neutral() const { return unit == CommandUnit::microseconds ? 1500 : 0; }
   bool operator==(const LayoutThruster&) const = default;
@@ -126,7 +126,6 @@ struct LayoutThruster {
 /// lies along `chord`; a positive angle gives force along `normal`.
 struct LayoutSurface {
   std::string name;
-  std::string channel;     ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};  ///< centre of pressure
   LayoutVector normal{0, 0, 1};
   LayoutVector chord{1, 0, 0};
@@ -137,6 +136,7 @@ struct LayoutSurface {
   double stall_rad = 0.45;
   double lag_s = 0.1;
   double limit_rad = 0;
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   bool operator==(const LayoutSurface&) const = default;
 };
@@ -144,10 +144,10 @@ struct LayoutSurface {
 /// Net buoyancy that changes; the command is the added upward force. Mass and inertia stay as they are.
 struct LayoutBallast {
   std::string name;
-  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};
   double low_N = 0, high_N = 0;
   double rate_N_s = 1;
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   bool operator==(const LayoutBallast&) const = default;
 };
@@ -155,12 +155,12 @@ struct LayoutBallast {
 /// A mass that slides along an axis; the command is its way from `place_m`, where the body's numbers hold.
 struct LayoutMovingMass {
   std::string name;
-  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
-  double mass_kg = 0;   ///< part of the body's mass
+  double mass_kg = 0;  ///< part of the body's mass
   LayoutVector place_m{};
   LayoutVector axis{1, 0, 0};
   double low_m = 0, high_m = 0;
   double rate_m_s = 0.01;
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   bool operator==(const LayoutMovingMass&) const = default;
 };
@@ -170,8 +170,8 @@ struct LayoutMovingMass {
 struct LayoutUncertainty {
   std::string key;            ///< "body.mass_kg", "thruster[2].lag_s"
   std::optional<double> std;  ///< of the number; of each number of an array that is not zero
-  std::vector<double> stds;   ///< one for each number of an array, zero: it is exact; empty: not so stated
   std::optional<std::pair<double, double>> range;
+  std::vector<double> stds = {};  ///< one for each number of an array, zero: it is exact; empty: not so stated
 
   bool operator==(const LayoutUncertainty&) const = default;
 };
