@@ -111,7 +111,6 @@ enum class CommandUnit { rpm, percent, microseconds };
 /// command.
 struct LayoutThruster {
   std::string name;
-  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};
   LayoutVector direction{1, 0, 0};  ///< as in the file; the model takes its unit vector
   CommandUnit unit = CommandUnit::rpm;
@@ -132,6 +131,7 @@ struct LayoutThruster {
   double lag_s = 0.1;
   double low = 0, high = 0;  ///< limits of the command
   LayoutHeard heard{};
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   [[nodiscard]] double neutral() const { return unit == CommandUnit::microseconds ? 1500 : 0; }
   bool operator==(const LayoutThruster&) const = default;
@@ -141,7 +141,6 @@ struct LayoutThruster {
 /// lies along `chord`; a positive angle gives force along `normal`.
 struct LayoutSurface {
   std::string name;
-  std::string channel;     ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};  ///< centre of pressure
   LayoutVector normal{0, 0, 1};
   LayoutVector chord{1, 0, 0};
@@ -154,6 +153,7 @@ struct LayoutSurface {
   double limit_rad = 0;
   double dead_band_rad = 0;  ///< commands nearer to zero than this are zero
   LayoutHeard heard{};
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   bool operator==(const LayoutSurface&) const = default;
 };
@@ -161,11 +161,11 @@ struct LayoutSurface {
 /// Net buoyancy that changes; the command is the added upward force. Mass and inertia stay as they are.
 struct LayoutBallast {
   std::string name;
-  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
   LayoutVector place_m{};
   double low_N = 0, high_N = 0;
   double rate_N_s = 1;
   LayoutHeard heard{};
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   bool operator==(const LayoutBallast&) const = default;
 };
@@ -173,13 +173,13 @@ struct LayoutBallast {
 /// A mass that slides along an axis; the command is its way from `place_m`, where the body's numbers hold.
 struct LayoutMovingMass {
   std::string name;
-  std::string channel;  ///< of recordings that states its command; empty: by default (docs/identify.md)
-  double mass_kg = 0;   ///< part of the body's mass
+  double mass_kg = 0;  ///< part of the body's mass
   LayoutVector place_m{};
   LayoutVector axis{1, 0, 0};
   double low_m = 0, high_m = 0;
   double rate_m_s = 0.01;
   LayoutHeard heard{};
+  std::string channel = {};  ///< of recordings that states its command; empty: by default (docs/identify.md)
 
   bool operator==(const LayoutMovingMass&) const = default;
 };
@@ -189,8 +189,8 @@ struct LayoutMovingMass {
 struct LayoutUncertainty {
   std::string key;            ///< "body.mass_kg", "thruster[2].lag_s"
   std::optional<double> std;  ///< of the number; of each number of an array that is not zero
-  std::vector<double> stds;   ///< one for each number of an array, zero: it is exact; empty: not so stated
   std::optional<std::pair<double, double>> range;
+  std::vector<double> stds = {};  ///< one for each number of an array, zero: it is exact; empty: not so stated
 
   bool operator==(const LayoutUncertainty&) const = default;
 };

@@ -32,9 +32,9 @@ class IdentifyProgram : public testing::Test {
     prior.damping.axial_coefficient = 0.36;
     prior.damping.linear[21] *= 1.2;
     prior.added_mass.matrix_kg[0] *= 1.2;
-    prior.uncertainties = {{"damping.axial.coefficient", 0.06, {}, {}},
-                           {"damping.linear", {}, {0, 0, 0, 0.01, 0, 0}, {}},
-                           {"added_mass.matrix", {}, {0.03, 0, 0, 0, 0, 0}, {}}};
+    prior.uncertainties = {{"damping.axial.coefficient", 0.06, {}},
+                           {"damping.linear", {}, {}, {0, 0, 0, 0.01, 0, 0}},
+                           {"added_mass.matrix", {}, {}, {0.03, 0, 0, 0, 0, 0}}};
     std::ofstream(folder_ / "prior.toml") << config::layout_file(prior);
   }
 
@@ -81,7 +81,7 @@ TEST_F(IdentifyProgram, NeverOverwritesAnInput) {
 TEST_F(IdentifyProgram, MissingCommandsAreBadInput) {
   ASSERT_EQ(run_navcal("simulate --mission identification --seconds 20 --seed 5 -o a.cap"), 0) << said("err");
   config::Layout prior = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/bluerov2-heavy.toml");
-  prior.uncertainties = {{"body.mass_kg", 0.3, {}, {}}};
+  prior.uncertainties = {{"body.mass_kg", 0.3, {}}};
   std::ofstream(folder_ / "rov.toml") << config::layout_file(prior);
   EXPECT_EQ(run_navcal("identify --vehicle rov.toml -o fit.toml a.cap"), 3);
   EXPECT_NE(said("err").find(
