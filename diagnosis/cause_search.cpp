@@ -176,9 +176,16 @@ CauseSearchResult search_causes(const FittedRecording& recording, const Recordin
     scores.set({i}, about_nominal({i}));
     for (std::size_t j = i + 1; j < library.causes.size(); ++j) scores.set({i, j}, about_nominal({i, j}));
   }
+  constexpr double kImpossible_nats = 1e6;
   const auto fit_again = [&](const CauseSet& set, const RecordingFit& from, const SetEvidence& evidence) {
-    RecordingFit fit =
-        recording.fit(priors_for(library, priors, set, evidence.posterior(set).mean), &from, [](double) {});
+    RecordingFit fit;
+    try {
+      fit = recording.fit(priors_for(library, priors, set, evidence.posterior(set).mean), &from, [](double) {});
+    } catch (const identify::UnboundedReplay&) {
+      // With these effects the vehicle could not have moved as it did.
+      scores.set(set, about_nominal({}) - kImpossible_nats, true);
+      return;
+    }
     const SetEvidence here(fit.linear, library, priors);
     scores.set(set, here(set), true);
     if (set.size() < kMostEffects) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -143,7 +144,7 @@ class Diagnosing {
   RecordingFit fit(const FittedRecording& recording, std::string_view what) const {
     try {
       return recording.fit({}, nullptr, [&](double done) { progress_(what, done); });
-    } catch (const std::runtime_error& error) {
+    } catch (const identify::UnboundedReplay& error) {
       throw CannotSay(std::string("the layout cannot be replayed along the recording (") + error.what() +
                       "): is it this vehicle's?");
     }
@@ -219,13 +220,22 @@ class Diagnosing {
                               with.spike[column]});
         }
       }
-      const RecordingFit improved = other.fit(priors, &without, [](double) {});
       HeldOut held;
+      held.before_windows = without.window_power;
+      held.readings = without.window_readings;
+      RecordingFit improved;
+      try {
+        improved = other.fit(priors, &without, [](double) {});
+      } catch (const identify::UnboundedReplay&) {
+        // With these effects the vehicle could not have moved as it did.
+        held.gain_nats = -std::numeric_limits<double>::infinity();
+        held.after_windows = without.window_power;
+        held_out_.push_back(std::move(held));
+        continue;
+      }
       held.gain_nats = SetEvidence(improved.linear.about(shift), library_, with)({}) -
                        SetEvidence(without.linear, library_, priors_)({});
-      held.before_windows = without.window_power;
       held.after_windows = improved.window_power;
-      held.readings = without.window_readings;
       held_out_.push_back(std::move(held));
     }
   }

@@ -54,7 +54,8 @@ class FittedRecording {
                   unsigned threads);
 
   /// Fits the uncertain numbers of the layout, the parameters of `priors`, nuisances and states, beginning at
-  /// `from` where it is given, and linearises there about all columns. The other effects are zero.
+  /// `from` where it is given, and linearises there about all columns. The other effects are zero. Throws
+  /// identify::UnboundedReplay.
   [[nodiscard]] RecordingFit fit(const std::vector<ParameterPrior>& priors, const RecordingFit* from,
                                  const Progress& progress) const;
   /// Standard deviations of the nuisances' priors.

@@ -42,13 +42,13 @@ bool is_same(const LayoutTruth::Present& present, std::string_view full_name) {
 bool is_pair(std::string_view a, std::string_view b) {
   using Pair = std::array<std::string_view, 2>;
   constexpr std::array<Pair, 8> kPairs{{{"weight", "buoyancy"},
-                                        {"weight", "centre_shift"},
-                                        {"buoyancy", "centre_shift"},
-                                        {"centre_shift", "tilt_offset"},
+                                        {"weight", "gravity_shift"},
+                                        {"buoyancy", "gravity_shift"},
+                                        {"gravity_shift", "tilt_offset"},
                                         {"damping", "thrust_scale"},
                                         {"damping", "water_current"},
                                         {"added_mass", "weight"},
-                                        {"thrust_offset", "buoyancy"}}};
+                                        {"thruster_offset", "buoyancy"}}};
   return std::any_of(kPairs.begin(), kPairs.end(), [&](const Pair& pair) {
     return (pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a);
   });

@@ -228,7 +228,7 @@ WindowEquations FitProblem::window_equations(const Vehicles& vehicles, const Unk
   const auto run = [&](const sim::LayoutVehicle& vehicle, const ActuatorTrajectory& where, double delay_s,
                        const StateVector& state) {
     auto motion = replay(vehicle, where, delay_s, of.begin_s, of.steps, state, recordings_[recording].tilt_lag_s);
-    if (!motion) throw std::runtime_error("a replay leaves all bounds");
+    if (!motion) throw UnboundedReplay("a replay leaves all bounds");
     return std::move(*motion);
   };
   const ReplayedMotion nominal = run(vehicles.nominal, actuators, delay_of(calibration), begin);
@@ -248,8 +248,10 @@ WindowEquations FitProblem::window_equations(const Vehicles& vehicles, const Unk
   for (Eigen::Index i = 0; i < std::ssize(vehicles.moved); ++i) {
     const auto p = static_cast<std::size_t>(i);
     const auto& moved = vehicles.moved_actuators[p];
-    fill(i, run(vehicles.moved[p], moved.empty() ? actuators : moved[recording], delay_of(calibration), begin),
-         calibration, vehicles.steps[p]);
+    const auto motion = replay(vehicles.moved[p], moved.empty() ? actuators : moved[recording],
+                               delay_of(calibration), of.begin_s, of.steps, begin, recordings_[recording].tilt_lag_s);
+    // A vehicle that leaves all bounds for a small step is not linear here: this window then says nothing of the number.
+    if (motion) fill(i, *motion, calibration, vehicles.steps[p]);
   }
   for (Eigen::Index i = 0; i < kNuisances; ++i) {
     Calibration with = calibration;

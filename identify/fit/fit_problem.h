@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stdexcept>
 #include <vector>
 
 #include "config/layout.h"
@@ -19,6 +20,11 @@ struct Unknowns {
   Eigen::VectorXd parameters;
   std::vector<Calibration> calibrations;
   std::vector<std::vector<StateVector>> states;
+};
+
+/// A replay leaves all bounds within a window.
+struct UnboundedReplay : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 struct FitSettings {

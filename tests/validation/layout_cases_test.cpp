@@ -64,7 +64,7 @@ TEST(LayoutCases, TruthNamesTheThrusterAndWhatTheVehicleIs) {
   EXPECT_NEAR(truth.at("real").at("mass_kg").get<double>(), 13.5, 1.4);
   EXPECT_EQ(truth.at("real").at("thrusters").size(), 8U);
   LayoutCase drawn = drawn_layout_case(3, 1, vehicle, 0);
-  drawn.effects = {{"thrust_dead", "thruster.3", {}}};
+  drawn.effects = {{"actuator_dead", "thruster.3", {}}};
   const auto effect = nlohmann::json::parse(truth_text(drawn, 3)).at("effects").at(0);
   EXPECT_EQ(effect.at("of"), "thruster.3");
   EXPECT_EQ(effect.at("of_name"), "rear_starboard");

@@ -36,7 +36,7 @@ TEST(LayoutScore, OutcomesAreByNameAndPlace) {
   EXPECT_EQ(outcome_of(weak, answered("explained", effect("thrust_scale", "front_port"))), exact);
   EXPECT_EQ(outcome_of(weak, answered("explained", effect("thrust_scale", "thruster.1"))), wrong);
   EXPECT_EQ(outcome_of(weak, answered("explained", effect("thrust_scale", ""))), wrong);
-  EXPECT_EQ(outcome_of(weak, answered("explained", effect("thrust_offset", "thruster.2"))), in_class);
+  EXPECT_EQ(outcome_of(weak, answered("explained", effect("thruster_offset", "thruster.2"))), in_class);
   EXPECT_EQ(outcome_of(weak, answered("explained", effect("hard_iron", ""))), wrong);
   EXPECT_EQ(outcome_of(weak, answered("explained",
                                       effect("hard_iron", "", R"({"name":"thrust_scale","of":"thruster.2"})"))),

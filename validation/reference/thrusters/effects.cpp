@@ -27,16 +27,16 @@ constexpr std::array<std::string_view, 26> kInstrumentEffects{
 std::vector<CraftEffectKind> all_effects() {
   std::vector<CraftEffectKind> kinds{
       {"thrust_scale", Scope::thruster, true, {"scale"}},
-      {"thrust_offset", Scope::thruster, true, {"half_range"}},
-      {"thrust_lag", Scope::thruster, true, {"tau_s"}},
-      {"thrust_dead_band", Scope::thruster, true, {"half_range"}},
-      {"thrust_reversed", Scope::thruster, true, {}},
-      {"thrust_dead", Scope::thruster, true, {}},
+      {"thruster_offset", Scope::thruster, true, {"half_range"}},
+      {"thruster_lag", Scope::thruster, true, {"tau_s"}},
+      {"thruster_dead_band", Scope::thruster, true, {"half_range"}},
+      {"actuator_reversed", Scope::thruster, true, {}},
+      {"actuator_dead", Scope::thruster, true, {}},
       {"damping", Scope::axis, true, {"scale"}},
       {"added_mass", Scope::axis, true, {"scale"}},
       {"weight", Scope::vehicle, true, {"mass_kg"}},
       {"buoyancy", Scope::vehicle, true, {"force_N"}},
-      {"centre_shift", Scope::vehicle, true, {"x_m", "y_m", "z_m"}},
+      {"gravity_shift", Scope::vehicle, true, {"x_m", "y_m", "z_m"}},
       {"battery_sag", Scope::vehicle, false, {"share"}},
       {"tether", Scope::vehicle, false, {"kg_m"}},
       {"sway_jet", Scope::vehicle, false, {"share"}},
@@ -56,14 +56,14 @@ std::vector<CraftEffectKind> all_effects() {
 /// Typical strength of an effect that is no instrument's, in the unit of its parameter.
 double typical(std::string_view name, const Plan& plan) {
   if (name == "thrust_scale") return 0.2;
-  if (name == "thrust_offset") return 0.05;
-  if (name == "thrust_lag") return 0.3;
-  if (name == "thrust_dead_band") return 0.06;
+  if (name == "thruster_offset") return 0.05;
+  if (name == "thruster_lag") return 0.3;
+  if (name == "thruster_dead_band") return 0.06;
   if (name == "damping") return 0.3;
   if (name == "added_mass") return 0.4;
   if (name == "weight") return 0.02 * plan.mass_kg;
   if (name == "buoyancy") return 0.015 * plan.mass_kg * kGravity_m_s2;
-  if (name == "centre_shift") return std::max(0.2 * (plan.gravity_centre_m - plan.buoyancy_centre_m).norm(), 5e-4);
+  if (name == "gravity_shift") return std::max(0.2 * (plan.gravity_centre_m - plan.buoyancy_centre_m).norm(), 5e-4);
   if (name == "battery_sag") return 0.3;
   if (name == "tether") return 0.15 * std::max(plan.quadratic(0, 0) + plan.axial_kg_m, 1.0);
   if (name == "sway_jet") return 0.5;
@@ -73,8 +73,8 @@ double typical(std::string_view name, const Plan& plan) {
 }
 
 bool is_positive(std::string_view name) {
-  return name != "thrust_scale" && name != "thrust_offset" && name != "damping" && name != "added_mass" &&
-         name != "weight" && name != "buoyancy" && name != "centre_shift";
+  return name != "thrust_scale" && name != "thruster_offset" && name != "damping" && name != "added_mass" &&
+         name != "weight" && name != "buoyancy" && name != "gravity_shift";
 }
 
 /// Place in the list of what is named "thruster.3".
@@ -104,7 +104,7 @@ double* field_of(const CraftEffect& effect, const Plan& plan, CraftDeviations& c
   if (name == "added_mass") return &craft.added_mass(axis_of(effect));
   if (name == "weight") return &craft.mass_kg;
   if (name == "buoyancy") return &craft.lift_N;
-  if (name == "centre_shift") return craft.gravity_shift_m.data();
+  if (name == "gravity_shift") return craft.gravity_shift_m.data();
   if (name == "battery_sag") return &craft.sag;
   if (name == "tether") return &craft.tether_kg_m;
   if (name == "sway_jet") return &craft.sway_jet;
@@ -112,9 +112,9 @@ double* field_of(const CraftEffect& effect, const Plan& plan, CraftDeviations& c
   if (name == "leak") return &craft.leak_N_s;
   RotorDeviations& rotor = craft.rotors[thruster_of(effect, plan)];
   if (name == "thrust_scale") return &rotor.scale;
-  if (name == "thrust_offset") return &rotor.offset;
-  if (name == "thrust_lag") return &rotor.lag_s;
-  if (name == "thrust_dead_band") return &rotor.dead_band;
+  if (name == "thruster_offset") return &rotor.offset;
+  if (name == "thruster_lag") return &rotor.lag_s;
+  if (name == "thruster_dead_band") return &rotor.dead_band;
   if (name == "propeller_fouling") return &rotor.fouling_per_s;
   return nullptr;
 }
@@ -195,8 +195,8 @@ void add(const CraftEffect& effect, const Plan& plan, Differences& differences) 
   }
   CraftDeviations& craft = differences.craft;
   craft.rotors.resize(plan.thrusters.size());
-  if (effect.name == "thrust_reversed") craft.rotors[thruster_of(effect, plan)].reversed = true;
-  if (effect.name == "thrust_dead") craft.rotors[thruster_of(effect, plan)].dead = true;
+  if (effect.name == "actuator_reversed") craft.rotors[thruster_of(effect, plan)].reversed = true;
+  if (effect.name == "actuator_dead") craft.rotors[thruster_of(effect, plan)].dead = true;
   double* const field = field_of(effect, plan, craft);
   for (const auto& [key, value] : effect.parameters) {
     const auto at = std::find(kind->parameters.begin(), kind->parameters.end(), key);

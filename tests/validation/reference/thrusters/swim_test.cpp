@@ -136,7 +136,7 @@ TEST(Swim, EveryEffectChangesWhatIsRead) {
   const auto plain = bytes_of(kept(swim, craft));
   Rng dice(5, 5);
   for (const CraftEffectKind& kind : craft_effects()) {
-    if (kind.name == "thrust_reversed") continue;  // some thrusters of those lose the vehicle
+    if (kind.name == "actuator_reversed") continue;  // some thrusters of those lose the vehicle
     CraftUnderTest other = craft;
     add(drawn(kind, 1, craft.layout, dice), craft.layout, other.differences);
     KeptSwim sink;
@@ -184,11 +184,11 @@ TEST(CraftEffects, AreDrawnAtTheirTypicalStrength) {
   const Plan plan = shipped_plan("bluerov2-heavy");
   Rng dice(1, 2);
   for (int i = 0; i < 50; ++i) {
-    const CraftEffect shift = drawn(*find_craft_effect("centre_shift"), 2, plan, dice);
+    const CraftEffect shift = drawn(*find_craft_effect("gravity_shift"), 2, plan, dice);
     double size2 = 0;
     for (const auto& [key, value] : shift.parameters) size2 += value * value;
     EXPECT_NEAR(std::sqrt(size2), 2 * 0.2 * 0.01, 1e-12);
-    EXPECT_GT(drawn(*find_craft_effect("thrust_lag"), 1, plan, dice).parameters.at("tau_s"), 0);
+    EXPECT_GT(drawn(*find_craft_effect("thruster_lag"), 1, plan, dice).parameters.at("tau_s"), 0);
     Differences differences;
     add(drawn(*find_craft_effect("added_mass"), 1, plan, dice), plan, differences);
   }
