@@ -11,6 +11,7 @@
 #include "report/gap_words.h"
 #include "report/wrapped_text.h"
 #include "sim/effects/effect_table.h"
+#include "sim/layout/effects/layout_effects.h"
 
 namespace navcal::report {
 namespace {
@@ -32,6 +33,14 @@ Written written(const gap::EffectParameterEstimate& estimate, std::span<const si
   return {within, fmt::format("{:.4g} {}, outside the range of the simulator", estimate.value, error)};
 }
 
+void append_parameters(std::string& text, const gap::EffectFinding& effect,
+                       std::span<const sim::EffectParameter> known) {
+  for (const auto& estimate : effect.parameters) {
+    const auto [value, comment] = written(estimate, known);
+    fmt::format_to(std::back_inserter(text), "{} = {}  # {}\n", estimate.name, value, comment);
+  }
+}
+
 }  // namespace
 
 std::string gap_effects_file(const gap::Diagnosis& diagnosis) {
@@ -40,16 +49,20 @@ std::string gap_effects_file(const gap::Diagnosis& diagnosis) {
   if (diagnosis.effects.empty()) return text + "# No effect was found.\n";
   for (const gap::EffectFinding& effect : diagnosis.effects) {
     const auto known = sim::make_effect(effect.name);
-    if (!known) {
+    const auto* const of_layout = sim::find_layout_effect(effect.name);
+    // An effect on a part of a layout is never one on the whole vehicle, whatever its name.
+    if (of_layout != nullptr && (!known || !effect.of.empty())) {
+      text += fmt::format("\n[[{}]]  # probability {}\n", effect.name, probability_text(effect.probability));
+      if (!effect.of.empty()) text += fmt::format("of = \"{}\"\n", effect.of);
+      append_parameters(text, effect, of_layout->parameters);
+      continue;
+    }
+    if (!known || !effect.of.empty()) {
       text += fmt::format("\n# {}: the simulator has no such effect.\n", printable(effect.name));
       continue;
     }
-    const auto parameters = known->description().parameters;
     text += fmt::format("\n[{}]  # probability {}\n", effect.name, probability_text(effect.probability));
-    for (const auto& estimate : effect.parameters) {
-      const auto [value, comment] = written(estimate, parameters);
-      fmt::format_to(std::back_inserter(text), "{} = {}  # {}\n", estimate.name, value, comment);
-    }
+    append_parameters(text, effect, known->description().parameters);
   }
   return text;
 }

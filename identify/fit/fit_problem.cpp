@@ -248,9 +248,11 @@ WindowEquations FitProblem::window_equations(const Vehicles& vehicles, const Unk
   for (Eigen::Index i = 0; i < std::ssize(vehicles.moved); ++i) {
     const auto p = static_cast<std::size_t>(i);
     const auto& moved = vehicles.moved_actuators[p];
-    const auto motion = replay(vehicles.moved[p], moved.empty() ? actuators : moved[recording],
-                               delay_of(calibration), of.begin_s, of.steps, begin, recordings_[recording].tilt_lag_s);
-    // A vehicle that leaves all bounds for a small step is not linear here: this window then says nothing of the number.
+    const auto motion =
+        replay(vehicles.moved[p], moved.empty() ? actuators : moved[recording], delay_of(calibration), of.begin_s,
+               of.steps, begin, recordings_[recording].tilt_lag_s);
+    // A vehicle that leaves all bounds for a small step is not linear here: this window then says nothing of the
+    // number.
     if (motion) fill(i, *motion, calibration, vehicles.steps[p]);
   }
   for (Eigen::Index i = 0; i < kNuisances; ++i) {
