@@ -95,7 +95,7 @@ TEST_F(EmulatedVehicle, ALayoutObeysItsOutputs) {
   EXPECT_NE(outputs.read_until("$PNCAO,1500,1500,1500,1500,1500,1500,1500,1500*").find("1500*"),
             std::string::npos);
   const auto line = protocols::checked_line("PNCAO,1700,1700,1700,1700,,,,");
-  outputs.write({line.begin(), line.end()});
+  outputs.write(std::string(line.begin(), line.end()));
   EXPECT_NE(outputs.read_until("$PNCAO,1700,1700,1700,1700,1500").find("1700,1500"), std::string::npos);
   outputs.read_until("never", std::chrono::milliseconds(1500));
   program.interrupt();

@@ -151,10 +151,10 @@ TEST(LayoutFile, EverythingIsRead) {
 
 TEST(LayoutFile, ErrorsAndSourcesOfNumbersAreKept) {
   const Layout layout = parse_layout(kEverything, "v.toml");
-  const std::vector<LayoutUncertainty> expected{{"body.mass_kg", 0.1, {}, std::pair(9.0, 11.0)},
-                                                {"damping.linear", 0.2, {}, {}},
-                                                {"thruster[1].lag_s", 0.1, {}, {}},
-                                                {"moving_mass[1].range_m", {}, {}, std::pair(-0.2, 0.2)}};
+  const std::vector<LayoutUncertainty> expected{{"body.mass_kg", 0.1, std::pair(9.0, 11.0)},
+                                                {"damping.linear", 0.2, {}},
+                                                {"thruster[1].lag_s", 0.1, {}},
+                                                {"moving_mass[1].range_m", {}, std::pair(-0.2, 0.2)}};
   EXPECT_EQ(layout.uncertainties, expected);
   const std::vector<LayoutSource> sources{{"", "a data sheet"}, {"body", "weighed"}, {"thruster[1]", "tank test"}};
   EXPECT_EQ(layout.sources, sources);

@@ -27,8 +27,8 @@ LayoutEffect effect_of(std::string_view name, std::string of, std::vector<double
 /// A layout that has every kind of part.
 config::Layout with_all_parts() {
   config::Layout layout = layout_of({});
-  layout.ballasts = {{.name = "ballast", .channel = {}, .low_N = -1, .high_N = 1}};
-  layout.moving_masses = {{.name = "mass", .channel = {}, .mass_kg = 1, .low_m = -0.1, .high_m = 0.1}};
+  layout.ballasts = {{.name = "ballast", .low_N = -1, .high_N = 1}};
+  layout.moving_masses = {{.name = "mass", .mass_kg = 1, .low_m = -0.1, .high_m = 0.1}};
   return layout;
 }
 

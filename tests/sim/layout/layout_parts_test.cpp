@@ -65,7 +65,7 @@ TEST(RigidBody, HasTheKineticEnergyOfItsPoints) {
   layout.body.inertia_kg_m2 = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
                                inertia(0, 1), inertia(0, 2), inertia(1, 2)};
   // The last point moves along y: as a moving mass and as another body.
-  layout.moving_masses = {{"m", {}, 4, {0.1, 0.1, -0.2}, {0, 2, 0}, -1, 1, 0.1}};
+  layout.moving_masses = {{"m", 4, {0.1, 0.1, -0.2}, {0, 2, 0}, -1, 1, 0.1}};
   Vector6 nu;
   nu << 0.7, -0.4, 0.2, 1.1, -0.6, 0.9;
   for (const double way_m : {0.0, 0.25, -0.5}) {
@@ -107,8 +107,8 @@ TEST(LayoutVehicle, RestsWhereItsWeightHangsBelowItsBuoyancy) {
 TEST(LayoutVehicle, BallastLiftsAndAMovingMassPitches) {
   config::Layout layout = brick();
   for (std::size_t i = 0; i < 6; ++i) layout.damping.linear[7 * i] = i < 3 ? 20 : 2;
-  layout.ballasts = {{"tank", {}, {}, -2, 2, 1}};
-  layout.moving_masses = {{"battery", {}, 2, {}, {1, 0, 0}, -0.1, 0.1, 0.05}};
+  layout.ballasts = {{"tank", {}, -2, 2, 1}};
+  layout.moving_masses = {{"battery", 2, {}, {1, 0, 0}, -0.1, 0.1, 0.05}};
   const LayoutVehicle vehicle(layout);
   LayoutRun run(vehicle, {});
   ActuatorValues commands = run.positions();
