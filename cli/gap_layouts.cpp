@@ -151,6 +151,7 @@ void add_gap_layouts(CLI::App& gap) {
   auto* command =
       gap.add_subcommand("layouts", "blind validation on vehicles with thrusters: recordings and score");
   command->require_subcommand(1);
+  command->footer("Example: navcal gap layouts score answers.jsonl --truth truth.jsonl");
   add_record(*command);
   add_score(*command);
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "base/angles.h"
 #include "config/load.h"
@@ -186,10 +187,11 @@ std::string beginning(const Health& health, std::size_t first, std::size_t last,
 }  // namespace
 
 std::string vehicle_identity(const config::Settings& settings) {
-  std::string out = "{\"config_crc32c\":\"" + record::config_sum(config::to_toml(settings)) + '"';
-  if (!settings.vehicle.id.empty()) text(out, "id", settings.vehicle.id);
-  if (!settings.vehicle.name.empty()) text(out, "name", settings.vehicle.name);
-  return out + '}';
+  // A name is UTF-8, unlike the texts of devices, of which every byte has to be shown.
+  nlohmann::ordered_json identity{{"config_crc32c", record::config_sum(config::to_toml(settings))}};
+  if (!settings.vehicle.id.empty()) identity["id"] = settings.vehicle.id;
+  if (!settings.vehicle.name.empty()) identity["name"] = settings.vehicle.name;
+  return identity.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::vector<std::string> health_beginnings(const Health& health) {

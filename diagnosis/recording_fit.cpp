@@ -99,8 +99,9 @@ RecordingFit FittedRecording::fit(const std::vector<ParameterPrior>& priors, con
                                   const Progress& progress) const {
   const Fitted fitted = fitted_with(library_, priors);
   const FitProblem active = problem_with(fitted.active);
-  Unknowns start = from != nullptr ? unknowns_of(*from) : active.initial();
-  if (from != nullptr) start.parameters = start.parameters(fitted.columns).eval();
+  // The states are guessed anew: those of another vehicle lead to other minima.
+  Unknowns start = active.initial();
+  if (from != nullptr) start.parameters = unknowns_of(*from).parameters(fitted.columns).eval();
   for (std::size_t i = library_.layout_numbers; i < fitted.active.size(); ++i)
     start.parameters[static_cast<Eigen::Index>(i)] = fitted.active[i].prior;
   const auto tell = [&](double done) {

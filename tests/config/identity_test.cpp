@@ -13,7 +13,7 @@ Problems identity_problems(std::string_view table) {
 
 TEST(ConfigIdentity, IsNotGivenByDefaultAndComesBack) {
   EXPECT_EQ(parse(kGoodPort, "t.toml").vehicle, IdentitySettings());
-  const std::string text = std::string("[vehicle]\nid = \"AUV-2.b_9\"\nname = \"Tümmler \\\"II\\\"\"\n") +
+  const std::string text = std::string("[vehicle]\nid = \"AUV-2.b_9\"\nname = \"T\\u00FCmmler \\\"II\\\"\"\n") +
                            std::string(kGoodPort) + "serial_number = \"TCM2 40-113\"\n";
   const Settings settings = parse(text, "t.toml");
   EXPECT_EQ(settings.vehicle.id, "AUV-2.b_9");
