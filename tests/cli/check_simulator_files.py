@@ -9,6 +9,7 @@ simulators' own sources and documents have.
 """
 
 import cmath
+import itertools
 import json
 import math
 import os
@@ -64,8 +65,9 @@ DEGREE = math.pi / 180
 
 
 def library(navcal):
-    """{effect: [parameters]}, from the program's list."""
+    """{effect: [parameters]}, from the first table of the program's list; another one is of parts of layouts."""
     rows = subprocess.run([navcal, "simulate", "--list-effects"], check=True, capture_output=True, text=True).stdout.splitlines()[2:]
+    rows = list(itertools.takewhile(lambda row: row.startswith("|"), rows))
     cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows]
     return {row[0]: row[2].split() for row in cells}
 
