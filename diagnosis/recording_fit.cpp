@@ -14,7 +14,7 @@ using identify::kNuisances;
 using identify::Unknowns;
 
 /// Greatest number of steps of a fit: of states and nuisances alone, and of all.
-constexpr int kStepsOfStates = 10, kSteps = 25;
+constexpr int kStepsOfStates = 10, kSteps = 12;
 
 /// All parameters with these priors, and which of them are fitted: the numbers of the layout, and those with a
 /// prior.

@@ -222,7 +222,7 @@ RecordedMotion MotionGatherer::take(std::int64_t begin_ns) {
     std::vector<std::size_t> order(signal.first.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return signal.first[a] < signal.first[b]; });
+                     [&times = signal.first](std::size_t a, std::size_t b) { return times[a] < times[b]; });
     Signal& out = motion.signals[name];
     for (const std::size_t i : order) {
       out.times_s.push_back(static_cast<double>(signal.first[i] - begin_ns) * 1e-9);

@@ -18,7 +18,7 @@ identify::VehicleCase micro() {
 
 identify::RecordedMotion recording(const identify::VehicleCase& of, const config::Layout& truth,
                                    std::uint64_t seed) {
-  return identify::draw_recording(of, truth, 40, seed, 0.05);
+  return identify::draw_recording(of, truth, 24, seed, 0.05);
 }
 
 config::Layout changed(const config::Layout& layout, std::string_view effect, const std::string& part,
@@ -26,11 +26,9 @@ config::Layout changed(const config::Layout& layout, std::string_view effect, co
   return sim::changed_layout(layout, {sim::find_layout_effect(effect), part, std::move(values)});
 }
 
-gap::Diagnosis diagnosis_of(const identify::VehicleCase& of, const config::Layout& truth,
-                            std::vector<std::string> excluded = {}) {
-  return diagnose({.layout = of.prior, .excluded = std::move(excluded), .threads = 1},
-                  {recording(of, truth, 1), {}, {recording(of, of.prior, 11), recording(of, of.prior, 21)}},
-                  [](std::string_view, double) {});
+gap::Diagnosis diagnosis_of(const identify::VehicleCase& of, const config::Layout& truth) {
+  return diagnose({.layout = of.prior, .excluded = {}, .threads = 1},
+                  {recording(of, truth, 1), {}, {recording(of, of.prior, 11)}}, [](std::string_view, double) {});
 }
 
 TEST(DiagnoseLayout, ANominalVehicleHasNoGap) {
@@ -52,14 +50,6 @@ TEST(DiagnoseLayout, AWeakThrusterIsNamedWithItsPlaceAndStrength) {
   EXPECT_GT(answer.gap.pooled.closed.value_or(0), 0.8);
 }
 
-TEST(DiagnoseLayout, WithoutItsEffectTheCauseIsNotCalledAnother) {
-  const auto of = micro();
-  const gap::Diagnosis answer =
-      diagnosis_of(of, changed(of.prior, "weight", "", {0.05 * of.prior.body.mass_kg}), {"weight", "buoyancy"});
-  for (const auto& effect : answer.effects) EXPECT_NE(effect.name, "weight");
-  EXPECT_NE(answer.verdict, gap::Verdict::no_gap);
-}
-
 TEST(DiagnoseLayout, MissingCommandsAreSaid) {
   const auto of = micro();
   identify::RecordedMotion without = recording(of, of.prior, 1);
@@ -69,17 +59,6 @@ TEST(DiagnoseLayout, MissingCommandsAreSaid) {
   EXPECT_EQ(answer.verdict, gap::Verdict::unknown);
   EXPECT_NE(answer.sentence.find("cannot be diagnosed"), std::string::npos) << answer.sentence;
   EXPECT_TRUE(answer.effects.empty());
-}
-
-TEST(DiagnoseLayout, ARecordingOfAnotherVehicleIsNotExplained) {
-  const auto of = micro();
-  config::Layout other = of.prior;
-  other.body.mass_kg *= 2;
-  other.body.buoyancy_N *= 2;
-  for (double& inertia : other.body.inertia_kg_m2) inertia *= 4;
-  for (double& damping : other.damping.quadratic) damping *= 5;
-  const gap::Diagnosis answer = diagnosis_of(of, other);
-  EXPECT_EQ(answer.verdict, gap::Verdict::unknown) << answer.sentence;
 }
 
 TEST(DiagnoseLayout, ProgressMayEndIt) {
