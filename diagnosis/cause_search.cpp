@@ -73,15 +73,15 @@ class Scores {
   std::set<CauseSet> own_;
 };
 
-/// Priors with which a set is fitted at its own estimate. Instruments' errors are nuisances of every fit.
+/// Priors with which a set is fitted at its own estimate.
 std::vector<ParameterPrior> priors_for(const CauseLibrary& library, const ColumnPriors& priors,
                                        const CauseSet& set, const Eigen::VectorXd& estimate) {
   std::vector<ParameterPrior> all;
   for (const std::size_t cause : set) {
-    if (library.causes[cause].is_instrument) continue;
     for (const CauseParameter& parameter : library.causes[cause].parameters) {
       // The estimate enters as the point to begin at; the prior about it is wide.
-      const double begin = std::clamp(estimate[parameter.column], parameter.low, parameter.high);
+      const double begin = std::clamp(estimate[parameter.column], parameter.low * parameter.per_unit,
+                                      parameter.high * parameter.per_unit);
       all.push_back({parameter.column, begin, kStrengths.back() * priors.typical[parameter.column]});
     }
   }

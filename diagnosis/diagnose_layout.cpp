@@ -212,12 +212,13 @@ class Diagnosing {
         for (const CauseParameter& parameter : library_.causes[cause].parameters) {
           const Eigen::Index column = parameter.column;
           shift[column] = found_.mean[column];
+          // The mean of a nuisance's prior is zero: it may be as large as it was found.
+          const double found = library_.causes[cause].is_instrument ? std::abs(found_.mean[column]) : 0;
           with.spike[column] = std::max(found_.std[column], priors_.spike[column]);
-          if (!library_.causes[cause].is_instrument)
-            priors.push_back({column,
-                              std::clamp(found_.mean[column], parameter.low * parameter.per_unit,
-                                         parameter.high * parameter.per_unit),
-                              with.spike[column]});
+          priors.push_back({column,
+                            std::clamp(found_.mean[column], parameter.low * parameter.per_unit,
+                                       parameter.high * parameter.per_unit),
+                            std::max(with.spike[column], found)});
         }
       }
       HeldOut held;

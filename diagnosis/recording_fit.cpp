@@ -26,6 +26,7 @@ struct Fitted {
 Fitted fitted_with(const CauseLibrary& library, const std::vector<ParameterPrior>& priors) {
   Fitted fitted{library.parameters, {}, {}};
   for (const ParameterPrior& prior : priors) {
+    if (prior.column >= static_cast<Eigen::Index>(fitted.all.size())) continue;
     identify::Parameter& parameter = fitted.all[static_cast<std::size_t>(prior.column)];
     parameter.prior = prior.mean;
     parameter.prior_std = prior.std;
@@ -75,12 +76,20 @@ FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrar
       noise_(noise),
       threads_(threads),
       nuisance_stds_(identify::nuisance_stds(one_recording.front())) {
-  static_cast<void>(problem_with({}));
+  for (const Cause& cause : library.causes) {
+    if (!cause.is_instrument) continue;
+    for (const CauseParameter& parameter : cause.parameters)
+      nuisance_stds_[parameter.column - static_cast<Eigen::Index>(library.parameters.size())] =
+          kTolerance * parameter.typical * parameter.per_unit;
+  }
+  static_cast<void>(problem_with({}, nuisance_stds_));
 }
 
-FitProblem FittedRecording::problem_with(std::vector<identify::Parameter> parameters) const {
+FitProblem FittedRecording::problem_with(std::vector<identify::Parameter> parameters,
+                                         const identify::Calibration& nuisance_stds) const {
   FitProblem problem(layout_, std::move(parameters), recordings_, {.threads = threads_});
   problem.set_noise(noise_);
+  problem.set_nuisance_stds(0, nuisance_stds);
   return problem;
 }
 
@@ -98,7 +107,12 @@ Unknowns FittedRecording::unknowns_of(const RecordingFit& fit) const {
 RecordingFit FittedRecording::fit(const std::vector<ParameterPrior>& priors, const RecordingFit* from,
                                   const Progress& progress) const {
   const Fitted fitted = fitted_with(library_, priors);
-  const FitProblem active = problem_with(fitted.active);
+  const auto first_nuisance = static_cast<Eigen::Index>(library_.parameters.size());
+  identify::Calibration stds = nuisance_stds_;
+  for (const ParameterPrior& prior : priors) {
+    if (prior.column >= first_nuisance) stds[prior.column - first_nuisance] = prior.std;
+  }
+  const FitProblem active = problem_with(fitted.active, stds);
   // The states are guessed anew: those of another vehicle lead to other minima.
   Unknowns start = active.initial();
   if (from != nullptr) start.parameters = unknowns_of(*from).parameters(fitted.columns).eval();
@@ -115,7 +129,7 @@ RecordingFit FittedRecording::fit(const std::vector<ParameterPrior>& priors, con
   const Eigen::VectorXd values = found.parameters;
   found.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted.all.size()));
   found.parameters(fitted.columns) = values;
-  const FitProblem problem = problem_with(fitted.all);
+  const FitProblem problem = problem_with(fitted.all, stds);
   const FitProblem::Linearised linearised = problem.linearise(found);
 
   RecordingFit fit;
@@ -134,7 +148,7 @@ RecordingFit FittedRecording::fit(const std::vector<ParameterPrior>& priors, con
     precision[i] = 1 / (parameter.prior_std * parameter.prior_std);
     deviation[i] = found.parameters[i] - parameter.prior;
   }
-  precision.tail<kNuisances>() = nuisance_stds_.cwiseAbs2().cwiseInverse();
+  precision.tail<kNuisances>() = stds.cwiseAbs2().cwiseInverse();
   LinearRecording here;
   here.gram = linearised.system.information();
   here.gram.diagonal() -= precision;
@@ -145,10 +159,10 @@ RecordingFit FittedRecording::fit(const std::vector<ParameterPrior>& priors, con
   return fit;
 }
 
-std::vector<std::string> FittedRecording::oddities() const { return problem_with({}).oddities(); }
+std::vector<std::string> FittedRecording::oddities() const { return problem_with({}, nuisance_stds_).oddities(); }
 
 identify::NoiseModel FittedRecording::noise_of(const RecordingFit& fit) const {
-  FitProblem problem = problem_with(library_.parameters);
+  FitProblem problem = problem_with(library_.parameters, nuisance_stds_);
   problem.fit_noise(unknowns_of(fit));
   return problem.noise();
 }

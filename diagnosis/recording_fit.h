@@ -36,7 +36,7 @@ struct RecordingFit {
   std::vector<double> window_readings;  ///< readings behind them
 };
 
-/// Prior of a parameter of the layout or of an effect during a fit, instead of that of the library.
+/// Prior of a column during a fit, instead of that of the library. The mean of a nuisance's prior is zero.
 struct ParameterPrior {
   Eigen::Index column;
   double mean, std;
@@ -58,7 +58,8 @@ class FittedRecording {
   /// identify::UnboundedReplay.
   [[nodiscard]] RecordingFit fit(const std::vector<ParameterPrior>& priors, const RecordingFit* from,
                                  const Progress& progress) const;
-  /// Standard deviations of the nuisances' priors.
+  /// Standard deviations of the nuisances' priors. Errors of instruments that can be a cause are within tolerance:
+  /// if a fit could take any of them, it would mend a wrong layout with them and end far from the vehicle.
   [[nodiscard]] const identify::Calibration& nuisance_stds() const { return nuisance_stds_; }
   [[nodiscard]] const identify::RecordedMotion& recording() const { return recordings_.front(); }
   [[nodiscard]] std::vector<std::string> oddities() const;
@@ -66,7 +67,8 @@ class FittedRecording {
   [[nodiscard]] identify::NoiseModel noise_of(const RecordingFit& fit) const;
 
  private:
-  [[nodiscard]] identify::FitProblem problem_with(std::vector<identify::Parameter> parameters) const;
+  [[nodiscard]] identify::FitProblem problem_with(std::vector<identify::Parameter> parameters,
+                                                  const identify::Calibration& nuisance_stds) const;
   [[nodiscard]] identify::Unknowns unknowns_of(const RecordingFit& fit) const;
 
   const config::Layout& layout_;

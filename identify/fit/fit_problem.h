@@ -66,6 +66,8 @@ class FitProblem {
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> white_residuals_of(const Unknowns& unknowns) const;
 
   void set_noise(const NoiseModel& noise) { noise_ = noise; }
+  /// Standard deviations of the priors of a recording's nuisances, instead of nuisance_stds().
+  void set_nuisance_stds(std::size_t recording, const Calibration& stds) { nuisance_stds_[recording] = stds; }
   /// Fits the noise to the residuals.
   void fit_noise(const Unknowns& unknowns);
   [[nodiscard]] const NoiseModel& noise() const { return noise_; }

@@ -77,11 +77,11 @@ int run(const std::string& vehicle, const std::string& arm, int count, std::uint
     config::Layout truth = identify::draw_vehicle(of, own).layout;
     truth.uncertainties.clear();
     const Drawn drawn = draw_effect(truth, effects_of_arm(truth, arm), random);
-    LayoutRecordings recordings{identify::draw_recording(of, drawn.layout, 180, own + 1, kInstrumentErrors),
-                                {identify::draw_recording(of, drawn.layout, 120, own + 3, kInstrumentErrors)},
-                                {identify::draw_recording(of, truth, 120, own + 5, kInstrumentErrors),
-                                 identify::draw_recording(of, truth, 120, own + 7, kInstrumentErrors),
-                                 identify::draw_recording(of, truth, 120, own + 9, kInstrumentErrors)}};
+    LayoutRecordings recordings{identify::draw_recording(of, drawn.layout, 90, own + 1, kInstrumentErrors),
+                                {identify::draw_recording(of, drawn.layout, 60, own + 3, kInstrumentErrors)},
+                                {identify::draw_recording(of, truth, 60, own + 5, kInstrumentErrors),
+                                 identify::draw_recording(of, truth, 60, own + 7, kInstrumentErrors),
+                                 identify::draw_recording(of, truth, 60, own + 9, kInstrumentErrors)}};
     const auto begin = std::chrono::steady_clock::now();
     const gap::Diagnosis answer =
         diagnose({.layout = of.prior, .excluded = {}}, recordings, [](std::string_view, double) {});
