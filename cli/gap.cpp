@@ -179,6 +179,7 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
   std::vector<ExportFile> exports = export_files(options.exports, options.origin());
   for (const auto& [simulator, file] : exports) outputs.push_back(file);
   std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
+  inputs.insert(inputs.end(), options.nominals.begin(), options.nominals.end());
   inputs.insert(inputs.end(), {options.origin(), source.vehicle, source.config});
   expect_no_overwriting(inputs, outputs);
   return exports;
