@@ -47,8 +47,8 @@ struct MadeBank {
   std::string shortcoming;  ///< why there is none; empty: it is in the cache
 };
 
-/// Makes the null bank of `request.mission` and keeps it in `request.cache`, or finds one there that serves. Throws
-/// record::BadRecording, and std::runtime_error where the bank cannot be kept.
+/// Makes the null bank of `request.mission` and keeps it in `request.cache`, or finds one there that serves.
+/// Throws record::BadRecording, and std::runtime_error where the bank cannot be kept.
 [[nodiscard]] MadeBank make_bank(const Request& request, const Progress& progress);
 
 }  // namespace navcal::gap

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever squeue prints, a user gives as tasks, or a result has in it: arrays of the plan only, tasks of the plan only,
-// and tables that are whole.
+// Whatever squeue prints, a user gives as tasks, or a result has in it: arrays of the plan only, tasks of the plan
+// only, and tables that are whole.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
