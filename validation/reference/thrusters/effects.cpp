@@ -63,7 +63,8 @@ double typical(std::string_view name, const Plan& plan) {
   if (name == "added_mass") return 0.4;
   if (name == "weight") return 0.02 * plan.mass_kg;
   if (name == "buoyancy") return 0.015 * plan.mass_kg * kGravity_m_s2;
-  if (name == "gravity_shift") return std::max(0.2 * (plan.gravity_centre_m - plan.buoyancy_centre_m).norm(), 5e-4);
+  if (name == "gravity_shift")
+    return std::max(0.2 * (plan.gravity_centre_m - plan.buoyancy_centre_m).norm(), 5e-4);
   if (name == "battery_sag") return 0.3;
   if (name == "tether") return 0.15 * std::max(plan.quadratic(0, 0) + plan.axial_kg_m, 1.0);
   if (name == "sway_jet") return 0.5;
