@@ -229,7 +229,6 @@ CauseSearchResult search_causes(const FittedRecording& recording, const Recordin
   const auto posterior = evidence.posterior(best);
   result.mean = posterior.mean;
   result.std = posterior.std;
-  for (const std::size_t cause : best) result.information_nats.push_back(evidence.separation(cause, {}));
   return result;
 }
 

@@ -27,10 +27,9 @@ struct ScoredSet {
 };
 
 struct CauseSearchResult {
-  std::vector<ScoredSet> sets;           ///< most probable first
-  RecordingFit best;                     ///< fitted with the causes of the first one
-  Eigen::VectorXd mean, std;             ///< posterior of all columns with that set
-  std::vector<double> information_nats;  ///< expected of each cause of that set, at its typical strength
+  std::vector<ScoredSet> sets;  ///< most probable first
+  RecordingFit best;            ///< fitted with the causes of the first one
+  Eigen::VectorXd mean, std;    ///< posterior of all columns with that set
 };
 
 /// Log evidence of a set of causes by a linearised recording, nats, up to a constant that all sets and all

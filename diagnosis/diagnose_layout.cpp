@@ -30,7 +30,6 @@ std::string channel_name(std::size_t channel) { return std::string(identify::kCh
 
 struct ChannelFloor {
   double mean = 1, std = 0;
-  bool is_known = false;
 };
 
 ChannelFloor floor_of(const NominalBank& bank, std::size_t channel) {
@@ -43,7 +42,7 @@ ChannelFloor floor_of(const NominalBank& bank, std::size_t channel) {
   const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / n;
   double square = 0;
   for (const double power : powers) square += (power - mean) * (power - mean);
-  return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean, true};
+  return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean};
 }
 
 /// Channels whose noise power exceeds that of nominal recordings, most first.
@@ -158,7 +157,6 @@ class Diagnosing {
     noise_ = fitted(nominals.front())
                  .noise_of(fit(fitted(nominals.front()), "noise of " + nominals.front().front().name));
     for (const auto& one : nominals) bank_.add(fit(fitted(one), "nominal " + one.front().name), library_, priors_);
-    bank_.is_recorded = true;
     answer_.remarks.push_back(
         fmt::format("the floor is that of {} nominal recording{}", bank_.size(), bank_.size() == 1 ? "" : "s"));
   }

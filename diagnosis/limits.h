@@ -32,7 +32,5 @@ inline constexpr double kChannelScatter_sigma = 5, kChannelFactor = 1.5;
 inline constexpr double kHeldOutGain_nats = 2;
 /// Two sets that differ by less expected evidence cannot be told apart, nats.
 inline constexpr double kObservable_nats = 10;
-/// Simulated nominal recordings, unless the caller asks for another number.
-inline constexpr int kNulls = 8;
 
 }  // namespace navcal::diagnosis

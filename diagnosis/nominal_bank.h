@@ -15,7 +15,6 @@ struct NominalBank {
   std::vector<Eigen::VectorXd> estimates;
   std::vector<std::array<double, identify::kChannels>> channel_powers;
   std::vector<double> powers;  ///< mean square of all whitened residuals
-  bool is_recorded = false;    ///< from recordings; else simulated
 
   [[nodiscard]] std::size_t size() const { return powers.size(); }
   void add(const RecordingFit& fit, const CauseLibrary& library, const ColumnPriors& priors);
