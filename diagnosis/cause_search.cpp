@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/cause_search.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include "diagnosis/limits.h"
@@ -20,13 +18,6 @@ std::vector<Eigen::Index> columns_of(const CauseLibrary& library, const CauseSet
     for (const Eigen::Index column : library.causes[cause].columns()) all.push_back(column);
   }
   return all;
-}
-
-/// A = D^1/2 G D^1/2 + 1, well conditioned whatever the units.
-Eigen::LLT<Eigen::MatrixXd> scaled_factor(const Eigen::MatrixXd& gram, const Eigen::VectorXd& prior) {
-  Eigen::MatrixXd scaled = prior.asDiagonal() * gram * prior.asDiagonal();
-  scaled.diagonal().array() += 1;
-  return Eigen::LLT<Eigen::MatrixXd>(scaled);
 }
 
 double log_mean_exp(const std::vector<double>& values) {
@@ -82,7 +73,7 @@ std::vector<ParameterPrior> priors_for(const CauseLibrary& library, const Column
       // The estimate enters as the point to begin at; the prior about it is wide.
       const double begin = std::clamp(estimate[parameter.column], parameter.low * parameter.per_unit,
                                       parameter.high * parameter.per_unit);
-      all.push_back({parameter.column, begin, kStrengths.back() * priors.typical[parameter.column]});
+      all.push_back({parameter.column, begin, kMemberStrengths.back() * priors.typical[parameter.column]});
     }
   }
   return all;
@@ -91,20 +82,16 @@ std::vector<ParameterPrior> priors_for(const CauseLibrary& library, const Column
 }  // namespace
 
 SetEvidence::SetEvidence(const LinearRecording& linear, const CauseLibrary& library, const ColumnPriors& priors)
-    : library_(library), priors_(priors), gram_(linear.gram), score_(linear.score) {
-  const auto factor = scaled_factor(gram_, priors.spike);
-  const Eigen::VectorXd half = priors.spike.cwiseProduct(score_);
-  const Eigen::VectorXd solved = factor.solve(half);
-  base_ = 0.5 * half.dot(solved) - factor.matrixLLT().diagonal().array().log().sum() - 0.5 * linear.power;
-  mean_ = priors.spike.cwiseProduct(solved);
-  covariance_ = priors.spike.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(score_.size(), score_.size())) *
-                priors.spike.asDiagonal();
-}
+    : library_(library),
+      priors_(priors),
+      evidence_(linear.gram, linear.score, priors.spike,
+                (kMemberStrengths.back() * priors.typical).cwiseMax(priors.spike)),
+      base_(evidence_.base() - 0.5 * linear.power) {}
 
 double SetEvidence::log_prior(std::size_t size) const {
   double log_prior = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    log_prior -= i == 0 ? kFirstEffect_nats : kFurtherEffect_nats;
+    log_prior -= i == 0 ? kComplexityPenalty_nats : kComplexityPenaltyPerFurtherEffect_nats;
     log_prior -= std::log(static_cast<double>(library_.causes.size() - i) / static_cast<double>(i + 1));
   }
   return log_prior;
@@ -112,57 +99,51 @@ double SetEvidence::log_prior(std::size_t size) const {
 
 double SetEvidence::operator()(const CauseSet& set) const {
   if (set.empty()) return base_;
-  // As the ratio of the densities of wide and narrow priors over the members' posterior (Savage and Dickey).
   const std::vector<Eigen::Index> members = columns_of(library_, set);
-  const Eigen::MatrixXd covariance = covariance_(members, members);
+  const Eigen::VectorXd spike = priors_.spike(members), typical = priors_.typical(members);
+  std::vector<double> gains;
+  for (const double strength : kMemberStrengths) {
+    const Eigen::VectorXd slab = (strength * typical).cwiseMax(spike);
+    gains.push_back(evidence_.gain(members, slab) + gain_of_signs(set, members, slab));
+  }
+  return base_ + log_mean_exp(gains) + log_prior(set.size());
+}
+
+/// What the evidence gains because some of the members cannot be negative, nats.
+double SetEvidence::gain_of_signs(const CauseSet& set, const std::vector<Eigen::Index>& members,
+                                  const Eigen::VectorXd& slab) const {
   std::vector<bool> one_sided;
   for (const std::size_t cause : set) {
     for (const CauseParameter& parameter : library_.causes[cause].parameters)
       one_sided.push_back(parameter.low == 0);
   }
-  const Eigen::VectorXd mean = mean_(members), spike = priors_.spike(members), typical = priors_.typical(members);
-  std::vector<double> gains;
-  for (const double strength : kStrengths) {
-    const Eigen::VectorXd slab = (strength * typical).cwiseMax(spike);
-    const Eigen::VectorXd more = slab.cwiseAbs2().cwiseInverse() - spike.cwiseAbs2().cwiseInverse();
-    Eigen::MatrixXd changed = covariance * more.asDiagonal();
-    changed.diagonal().array() += 1;
-    const Eigen::PartialPivLU<Eigen::MatrixXd> factor(changed);
-    const double quadratic = (more.asDiagonal() * mean).dot(factor.solve(mean));
-    double gain = (spike.array() / slab.array()).log().sum() - 0.5 * std::log(std::abs(factor.determinant())) -
-                  0.5 * quadratic;
-    const Eigen::MatrixXd wide_covariance = factor.solve(covariance);
-    const Eigen::VectorXd wide_mean = factor.solve(mean);
-    for (Eigen::Index i = 0; i < wide_mean.size(); ++i) {
-      if (one_sided[static_cast<std::size_t>(i)])
-        gain += log_share_above_zero(wide_mean[i] / std::sqrt(std::max(wide_covariance(i, i), 1e-300)));
-    }
-    gains.push_back(gain);
+  if (std::none_of(one_sided.begin(), one_sided.end(), [](bool is) { return is; })) return 0;
+  // Posterior of the members with the wide prior, from that with the narrow one.
+  const gap::Evidence::Posterior& narrow = evidence_.base_posterior();
+  const Eigen::MatrixXd covariance = narrow.covariance(members, members);
+  const Eigen::VectorXd more = slab.cwiseAbs2().cwiseInverse() - priors_.spike(members).cwiseAbs2().cwiseInverse();
+  Eigen::MatrixXd changed = covariance * more.asDiagonal();
+  changed.diagonal().array() += 1;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(changed);
+  const Eigen::MatrixXd wide_covariance = factor.solve(covariance);
+  const Eigen::VectorXd wide_mean = factor.solve(narrow.mean(members));
+  double gain = 0;
+  for (Eigen::Index i = 0; i < wide_mean.size(); ++i) {
+    if (one_sided[static_cast<std::size_t>(i)])
+      gain += log_share_above_zero(wide_mean[i] / std::sqrt(std::max(wide_covariance(i, i), 1e-300)));
   }
-  return base_ + log_mean_exp(gains) + log_prior(set.size());
+  return gain;
 }
 
 SetEvidence::Posterior SetEvidence::posterior(const CauseSet& set) const {
-  Eigen::VectorXd prior = priors_.spike;
-  for (const Eigen::Index column : columns_of(library_, set))
-    prior[column] = std::max(kStrengths.back() * priors_.typical[column], prior[column]);
-  const auto factor = scaled_factor(gram_, prior);
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(prior.size(), prior.size()));
-  return {prior.cwiseProduct(factor.solve(prior.cwiseProduct(score_))),
-          prior.cwiseProduct(inverse.diagonal().cwiseSqrt())};
+  const gap::Evidence::Posterior posterior = evidence_.posterior(columns_of(library_, set));
+  return {posterior.mean, posterior.covariance.diagonal().cwiseSqrt()};
 }
 
 double SetEvidence::separation(std::size_t cause, const CauseSet& others) const {
-  Eigen::VectorXd signal = Eigen::VectorXd::Zero(score_.size());
   const std::vector<Eigen::Index> members = library_.causes[cause].columns();
-  for (const Eigen::Index column : members)
-    signal[column] = priors_.typical[column] / std::sqrt(static_cast<double>(members.size()));
-  Eigen::VectorXd prior = priors_.spike;
-  for (const Eigen::Index column : columns_of(library_, others))
-    prior[column] = std::max(kStrengths.back() * priors_.typical[column], prior[column]);
-  const Eigen::VectorXd image = gram_ * signal;
-  const Eigen::VectorXd half = prior.cwiseProduct(image);
-  return 0.5 * (signal.dot(image) - half.dot(scaled_factor(gram_, prior).solve(half)));
+  const Eigen::VectorXd values = priors_.typical / std::sqrt(static_cast<double>(members.size()));
+  return evidence_.separation(members, values, columns_of(library_, others));
 }
 
 CauseSearchResult search_causes(const FittedRecording& recording, const RecordingFit& nominal,

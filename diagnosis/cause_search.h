@@ -8,6 +8,7 @@
 
 #include "diagnosis/causes.h"
 #include "diagnosis/recording_fit.h"
+#include "gap/inference/evidence.h"
 
 namespace navcal::diagnosis {
 
@@ -33,7 +34,7 @@ struct CauseSearchResult {
 };
 
 /// Log evidence of a set of causes by a linearised recording, nats, up to a constant that all sets and all
-/// linearisations share: a mixture of the strengths kStrengths (spike-and-slab regression, docs/gap.md).
+/// linearisations share: a mixture of the strengths kMemberStrengths (spike-and-slab regression, docs/gap.md).
 class SetEvidence {
  public:
   /// The library and the priors must outlive it.
@@ -49,12 +50,13 @@ class SetEvidence {
 
  private:
   [[nodiscard]] double log_prior(std::size_t size) const;
+  [[nodiscard]] double gain_of_signs(const CauseSet& set, const std::vector<Eigen::Index>& members,
+                                     const Eigen::VectorXd& slab) const;
 
   const CauseLibrary& library_;
   const ColumnPriors& priors_;
-  Eigen::MatrixXd gram_, covariance_;
-  Eigen::VectorXd score_, mean_;
-  double base_ = 0;
+  gap::Evidence evidence_;
+  double base_;
 };
 
 /// Searches sets of at most kMostEffects causes. All singles and pairs are scored with the linearisation about the

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 
+#include "base/angles.h"
 #include "diagnosis/limits.h"
 #include "identify/replay/calibration.h"
 #include "sim/layout/effects/layout_effects.h"
@@ -18,8 +18,6 @@ namespace {
 using identify::Channel;
 using identify::Nuisance;
 using identify::RecordedMotion;
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 struct InstrumentParameter {
   std::string_view name;
@@ -51,19 +49,19 @@ const std::vector<InstrumentError>& instrument_errors() {
        {Channel::force_x, Channel::force_y, Channel::force_z}},
       {"imu_misalignment",
        "pure yaw, level and pitched",
-       {{"x_deg", Nuisance::imu_turn_x, 2, kRadiansPerDegree},
-        {"y_deg", Nuisance::imu_turn_y, 2, kRadiansPerDegree},
-        {"z_deg", Nuisance::imu_turn_z, 2, kRadiansPerDegree}},
+       {{"x_deg", Nuisance::imu_turn_x, 2, base::kRadiansPerDegree},
+        {"y_deg", Nuisance::imu_turn_y, 2, base::kRadiansPerDegree},
+        {"z_deg", Nuisance::imu_turn_z, 2, base::kRadiansPerDegree}},
        {Channel::rate_x, Channel::force_x}},
       {"tilt_offset",
        "lie still, then pitch and roll",
-       {{"roll_deg", Nuisance::roll_offset, 1, kRadiansPerDegree},
-        {"pitch_deg", Nuisance::pitch_offset, 1, kRadiansPerDegree}},
+       {{"roll_deg", Nuisance::roll_offset, 1, base::kRadiansPerDegree},
+        {"pitch_deg", Nuisance::pitch_offset, 1, base::kRadiansPerDegree}},
        {Channel::roll, Channel::pitch}},
       {"compass_deviation",
        "a full turn",
-       {{"sine_deg", Nuisance::heading_sine, 4, kRadiansPerDegree},
-        {"cosine_deg", Nuisance::heading_cosine, 4, kRadiansPerDegree}},
+       {{"sine_deg", Nuisance::heading_sine, 4, base::kRadiansPerDegree},
+        {"cosine_deg", Nuisance::heading_cosine, 4, base::kRadiansPerDegree}},
        {Channel::heading}},
       {"dvl_scale",
        "speed steps on reciprocal legs",
@@ -71,7 +69,7 @@ const std::vector<InstrumentError>& instrument_errors() {
        {Channel::bottom_x, Channel::water_x}},
       {"dvl_misalignment",
        "straight legs with fixes",
-       {{"z_deg", Nuisance::doppler_turn, 2, kRadiansPerDegree}},
+       {{"z_deg", Nuisance::doppler_turn, 2, base::kRadiansPerDegree}},
        {Channel::bottom_x, Channel::water_x}},
       {"water_current",
        "reciprocal legs",
@@ -171,7 +169,7 @@ CauseLibrary causes_of(const config::Layout& layout, const RecordedMotion& recor
     const bool is_instrument = std::any_of(instrument_errors().begin(), instrument_errors().end(),
                                            [&](const InstrumentError& error) { return error.name == name; });
     if (!is_instrument && sim::find_layout_effect(name) == nullptr)
-      throw std::invalid_argument(name + " is no effect of a layout (navcal simulate --effects help)");
+      throw std::invalid_argument(name + " is no effect of a layout (navcal simulate --list-effects)");
   }
   const std::set<std::string, std::less<>> left_out(excluded.begin(), excluded.end());
   CauseLibrary library;

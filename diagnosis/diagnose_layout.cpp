@@ -25,9 +25,6 @@ using identify::RecordedMotion;
 
 constexpr std::string_view kUnit = "noise power";
 
-/// A channel's name in the answer: "imu.gyro roll rate".
-std::string channel_name(std::size_t channel) { return std::string(identify::kChannelDescriptions[channel].name); }
-
 struct ChannelFloor {
   double mean = 1, std = 0;
 };
@@ -55,8 +52,8 @@ std::vector<gap::WhereEntry> louder_channels(const RecordingFit& fit, const Nomi
     const double limit = std::max(floor.mean * kChannelFactor, floor.mean + kChannelScatter_sigma * floor.std);
     if (power <= limit) continue;
     const double z = (power - floor.mean) / std::max(floor.std, 0.02 * floor.mean);
-    louder.push_back({channel_name(c), "whole recording", power, floor.mean, std::string(kUnit),
-                      std::erfc(std::min(z, 30.0) / std::numbers::sqrt2)});
+    louder.push_back({std::string(identify::kChannelDescriptions[c].name), "whole recording", power, floor.mean,
+                      std::string(kUnit), std::erfc(std::min(z, 30.0) / std::numbers::sqrt2)});
   }
   std::sort(louder.begin(), louder.end(),
             [](const auto& a, const auto& b) { return a.gap / a.floor > b.gap / b.floor; });
@@ -80,7 +77,6 @@ gap::EffectFinding finding_of(const Cause& cause, double probability, const Eige
 /// Prediction of a held-out recording with the found set, and how much of the gap goes away there.
 struct HeldOut {
   double gain_nats = 0;
-  double before = 0, after = 0;
   std::vector<double> before_windows, after_windows, readings;
 };
 
@@ -154,8 +150,8 @@ class Diagnosing {
     // second what the causes' estimates are under that noise.
     std::vector<std::vector<RecordedMotion>> nominals;
     for (const RecordedMotion& nominal : recordings_.nominals) nominals.push_back({nominal});
-    noise_ = fitted(nominals.front())
-                 .noise_of(fit(fitted(nominals.front()), "noise of " + nominals.front().front().name));
+    const FittedRecording first = fitted(nominals.front());
+    noise_ = first.noise_of(fit(first, "noise of " + nominals.front().front().name));
     for (const auto& one : nominals) bank_.add(fit(fitted(one), "nominal " + one.front().name), library_, priors_);
     answer_.remarks.push_back(
         fmt::format("the floor is that of {} nominal recording{}", bank_.size(), bank_.size() == 1 ? "" : "s"));
@@ -186,8 +182,7 @@ class Diagnosing {
                       bank_.size(), request_.simulated_nominals));
     answer_.remarks.emplace_back(
         "no nominal recording was given (--nominal): the floor is simulated, and what the layout leaves out of "
-        "every "
-        "vehicle counts as a gap");
+        "every vehicle counts as a gap");
   }
 
   void find() {
@@ -332,7 +327,7 @@ class Diagnosing {
     }
     double gain = 0;
     for (const HeldOut& held : held_out_) gain += held.gain_nats;
-    if (!held_out_.empty() && gain < kHeldOutGain_nats)
+    if (!held_out_.empty() && gain < kHoldoutGain_nats)
       return say_unknown(fmt::format("{} does not improve the held-out recordings ({:+.1f} nats)", names, gain),
                          louder_after);
     answer_.verdict = gap::Verdict::explained;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "diagnosis/limits.h"
 #include "identify/data/actuator_inputs.h"
 #include "identify/replay/predicted_readings.h"
 
@@ -87,11 +86,8 @@ ColumnPriors tolerances_of(const CauseLibrary& library, const identify::Calibrat
     priors.spike[static_cast<Eigen::Index>(i)] = library.parameters[i].prior_std;
   priors.spike.tail<kNuisances>() = nuisance_stds;
   for (const Cause& cause : library.causes) {
-    for (const CauseParameter& parameter : cause.parameters) {
-      const double typical = parameter.typical * parameter.per_unit;
-      priors.typical[parameter.column] = typical;
-      priors.spike[parameter.column] = kTolerance * typical;
-    }
+    for (const CauseParameter& parameter : cause.parameters)
+      priors.typical[parameter.column] = parameter.typical * parameter.per_unit;
   }
   return priors;
 }

@@ -28,8 +28,8 @@ struct NominalBank {
     const config::Layout& layout, const CauseLibrary& library, const identify::RecordedMotion& recording,
     const RecordingFit& fit, const ColumnPriors& priors, int count, std::uint64_t seed);
 
-/// Priors of a library: tolerances of kTolerance for effects and instruments' errors that can be a cause, the
-/// fit's own priors for all other nuisances.
+/// Priors of a library as a fit has them: those of its parameters, and these of the nuisances
+/// (FittedRecording::nuisance_stds()).
 [[nodiscard]] ColumnPriors tolerances_of(const CauseLibrary& library, const identify::Calibration& nuisance_stds);
 /// The same, as wide as the bank's recordings scatter.
 [[nodiscard]] ColumnPriors widened(ColumnPriors priors, const CauseLibrary& library, const NominalBank& bank);
