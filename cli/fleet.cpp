@@ -17,8 +17,11 @@
 #include "base/interruptible.h"
 #include "cli/commands.h"
 #include "cli/fleet_submit.h"
+#include "cli/fleet_trial.h"
 #include "cli/result_file.h"
 #include "config/error.h"
+#include "fleet/causes/answer_report.h"
+#include "fleet/causes/read_missions.h"
 #include "fleet/jobs.h"
 #include "fleet/make_plan.h"
 #include "fleet/merge.h"
@@ -90,6 +93,49 @@ void merge_fleet(const std::string& folder, const std::string& output, const std
   fmt::print("{}: {} tasks done, {} failed, {} open\n", file.string(), summary.done, summary.failed, summary.open);
 }
 
+struct CausesOptions {
+  std::string plan, json, page;
+  unsigned threads = 0;
+};
+
+void tell_causes(const CausesOptions& options) {
+  const base::Interruptible interruptible;
+  const fleet::Plan plan = fleet::load_plan(options.plan);
+  for (const std::string& file : {options.json, options.page}) {
+    if (!file.empty() && file != "-") expect_folder_of(file);
+  }
+  expect_no_overwriting({fleet::catalogue_of(plan.folder)}, {options.json, options.page});
+  const fleet::ResultStore results(plan.folder);
+  fleet::MissionsRead read = fleet::read_missions(plan, results);
+  if (read.missions.empty()) {
+    throw analysis::Failure(
+        analysis::Exit::bad_input,
+        fmt::format("{}: no mission has an answer of the job evidence ({} open, {} failed); plan it with: navcal fleet "
+                    "plan FOLDER -o {} --job evidence, and do it with: navcal fleet submit {} --local",
+                    options.plan, read.open, read.failed, options.plan, options.plan));
+  }
+  if (read.open > 0) {
+    read.remarks.push_back(fmt::format("{} recordings have no answer yet (navcal fleet submit)", read.open));
+  }
+  const std::vector<fleet::CalibrationHistory> calibrations = fleet::read_calibrations(plan, results);
+  const fleet::PooledMissions missions(std::move(read.missions));
+  const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  fleet::FleetAnswer answer;
+  {
+    analysis::Progress progress("fleet causes", analysis::Progress::Answer::at_the_end);
+    answer = fleet::answer_of_fleet(missions, threads, [&](double done) {
+      if (base::Interruptible::interrupted()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
+      progress.show("comparing causes", done);
+    });
+  }
+  const fleet::FleetStory story{missions, answer, calibrations, read.remarks};
+  if (!options.page.empty()) write_result(options.page, fleet::fleet_page(story));
+  if (options.json != "-" && !options.json.empty()) write_result(options.json, fleet::fleet_json(story));
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(options.json == "-" ? fleet::fleet_json(story) : fleet::fleet_text(story));
+  output.flush();
+}
+
 void list_fleet(const std::string& folder, bool json) {
   const fleet::Plan plan = fleet::load_plan(folder);
   const fleet::ResultStore results(plan.folder);
@@ -155,6 +201,26 @@ void add_fleet_run(CLI::App& parent) {
   });
 }
 
+void add_fleet_causes(CLI::App& parent) {
+  auto* command = parent.add_subcommand(
+      "causes", "what the missions tell together: which causes belong to a vehicle, to the design, to a day, and when "
+                "they began");
+  const auto options = std::make_shared<CausesOptions>();
+  command->add_option("PLAN", options->plan, "folder of the plan, with results of the job evidence")->required();
+  command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
+      ->option_text("FILE|-");
+  command->add_option("--report", options->page, "page with pictures; needs no other file")->option_text("FILE.html");
+  command->add_option("--threads", options->threads, "threads; default: one for each core; they change no result")
+      ->check(CLI::Range(1, 1024));
+  command->footer(
+      "Results of the job calibrate, where there are any, give the course of each calibration over the missions.\n\n"
+      "Example:\n"
+      "  navcal fleet plan recordings/ -o plan/ --job evidence,calibrate\n"
+      "  navcal fleet submit plan/ --local\n"
+      "  navcal fleet causes plan/ --report fleet.html");
+  command->callback([options] { run_fleet_job([&] { tell_causes(*options); }); });
+}
+
 void add_fleet_merge(CLI::App& parent) {
   struct Options {
     std::string plan, output, page;
@@ -198,6 +264,8 @@ void add_fleet(CLI::App& app) {
   add_fleet_run(*command);
   add_fleet_list(*command);
   add_fleet_merge(*command);
+  add_fleet_causes(*command);
+  add_fleet_trial(*command);
 }
 
 }  // namespace navcal::cli

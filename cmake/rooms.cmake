@@ -26,7 +26,7 @@ set(NAVCAL_MAY_INCLUDE_analysis base protocols config devices instruments calib 
 set(NAVCAL_MAY_INCLUDE_validation/reference protocols)
 set(NAVCAL_MAY_INCLUDE_validation base config record sim analysis validation/reference)
 set(NAVCAL_MAY_INCLUDE_report base config devices calib pipeline record sim gap identify runs analysis validation)
-set(NAVCAL_MAY_INCLUDE_fleet base config record gap analysis report)
+set(NAVCAL_MAY_INCLUDE_fleet base protocols config record gap analysis report)
 set(NAVCAL_MAY_INCLUDE_api protocols config devices instruments pipeline record sim gap analysis report)
 set(NAVCAL_MAY_INCLUDE_share)
 set(NAVCAL_MAY_INCLUDE_web base record ports share)

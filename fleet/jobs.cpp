@@ -10,6 +10,9 @@
 #include "analysis/calibrate_run.h"
 #include "analysis/noise/noise_run.h"
 #include "analysis/surfacing_run.h"
+#include "fleet/causes/information_json.h"
+#include "fleet/causes/recording_identity.h"
+#include "gap/verdict/information.h"
 #include "gap/verdict/request.h"
 #include "record/json/calibration_json.h"
 #include "record/recording.h"
@@ -59,6 +62,20 @@ std::string gap_answer(const JobInput& input) {
   return text_of(json);
 }
 
+std::string evidence_answer(const JobInput& input) {
+  gap::Request request = request_of(input);
+  request.cache_is_read_only = true;
+  const gap::InformationResult result = gap::information_of(request, [](std::string_view, double) {});
+  JobJson json{{"identity", recording_identity(input.recording)}, {"remarks", result.remarks}};
+  if (result.information) {
+    json["information"] = information_json(*result.information);
+  } else {
+    json["information"] = nullptr;
+    json["shortcoming"] = result.shortcoming;
+  }
+  return text_of(json);
+}
+
 std::string calibrate_answer(const JobInput& input) {
   analysis::CalibrateRun run(settings_of(input), nullptr);
   run.play(input.recording.string());
@@ -67,6 +84,7 @@ std::string calibrate_answer(const JobInput& input) {
   auto json = JobJson::parse(text);
   json["duration_s"] = run.duration_s();
   json["remarks"] = run.remarks();
+  json["identity"] = recording_identity(input.recording);
   return text_of(json);
 }
 
@@ -85,7 +103,8 @@ std::string surfacings_answer(const JobInput& input) {
 
 constexpr std::array kJobs{Job{"gap", true, true, gap_answer}, Job{"calibrate", false, false, calibrate_answer},
                            Job{"noise", false, false, noise_answer},
-                           Job{"surfacings", false, false, surfacings_answer}};
+                           Job{"surfacings", false, false, surfacings_answer},
+                           Job{"evidence", true, true, evidence_answer}};
 constexpr Job kBank{kBankJob, true, false, bank_answer};
 
 }  // namespace

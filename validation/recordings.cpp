@@ -57,6 +57,8 @@ class Recording final : public reference::Sink {
   std::string text_;
 };
 
+}  // namespace
+
 void write_recording(const reference::Mission& mission, const reference::VehicleUnderTest& vehicle,
                      std::uint64_t seed, const std::filesystem::path& file) {
   Recording recording(file);
@@ -67,8 +69,6 @@ void write_recording(const reference::Mission& mission, const reference::Vehicle
   }
   recording.finish();
 }
-
-}  // namespace
 
 std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
                                                       const std::filesystem::path& folder) {

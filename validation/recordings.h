@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 
 #include "validation/cases.h"
@@ -13,5 +14,9 @@ namespace navcal::validation {
 /// interrupted, std::system_error.
 [[nodiscard]] std::array<std::filesystem::path, 3> write_recordings(const TrialCase& drawn,
                                                                     const std::filesystem::path& folder);
+
+/// Swims one mission and writes its capture. Throws as write_recordings().
+void write_recording(const reference::Mission& mission, const reference::VehicleUnderTest& vehicle,
+                     std::uint64_t seed, const std::filesystem::path& file);
 
 }  // namespace navcal::validation

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/fleet_trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <thread>
+
+#include "analysis/failure.h"
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "cli/result_file.h"
+#include "validation/fleet_trial.h"
+
+namespace navcal::cli {
+namespace {
+
+std::string text_of_file(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw analysis::Failure(analysis::Exit::bad_input, file + ": it cannot be read");
+  return text;
+}
+
+struct FleetTrialArguments {
+  validation::FleetTrialOptions options;
+  std::string folder, truth, answer;
+};
+
+void record_fleet(const FleetTrialArguments& arguments) {
+  expect_folder_of(arguments.truth);
+  const validation::FleetCase fleet = validation::drawn_fleet(arguments.options);
+  try {
+    const base::Interruptible interruptible;
+    analysis::Progress progress("fleet trial record");
+    validation::write_fleet(fleet, arguments.folder, std::max(1U, std::thread::hardware_concurrency()),
+                            [&](double done) { progress.show(done); });
+    write_result(arguments.truth, validation::truth_text(fleet));
+  } catch (const std::invalid_argument& error) {
+    throw analysis::Failure(analysis::Exit::usage, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+  fmt::print("{} missions of {} vehicles in {}, truth in {}\n", arguments.options.vehicles * arguments.options.days,
+             arguments.options.vehicles, arguments.folder, arguments.truth);
+}
+
+void score_fleet(const FleetTrialArguments& arguments) {
+  const auto named = [](const std::string& file, const auto& read) {
+    try {
+      return read(text_of_file(file));
+    } catch (const std::runtime_error& error) {
+      throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
+    }
+  };
+  const validation::FleetTruth truth = named(arguments.truth, validation::read_fleet_truth);
+  fmt::print("{}", validation::score_text(named(arguments.answer, [&](const std::string& text) {
+    return validation::score_of(truth, text);
+  })));
+}
+
+}  // namespace
+
+void add_fleet_trial(CLI::App& parent) {
+  auto* trial = parent.add_subcommand("trial", "a fleet with sealed causes from the reference simulator, and its score");
+  trial->require_subcommand(1);
+  const auto arguments = std::make_shared<FleetTrialArguments>();
+  validation::FleetTrialOptions& options = arguments->options;
+
+  auto* record = trial->add_subcommand("record", "missions of a fleet, with the truth apart");
+  record->add_option("-o,--output", arguments->folder, "folder for the missions; a new or an empty one")
+      ->option_text("DIR")
+      ->required();
+  record->add_option("--truth", arguments->truth, "file for the truth")->option_text("FILE.json")->required();
+  record->add_option("--seed", options.seed, "seed of vehicles, causes, days and noise")->capture_default_str();
+  record->add_option("--vehicles", options.vehicles, "number of vehicles")->check(CLI::Range(1, 99))->capture_default_str();
+  record->add_option("--days", options.days, "number of days; each vehicle sails one mission on each")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  record->add_option("--minutes", options.minutes, "length of a mission: 3 or 10")
+      ->check(CLI::IsMember({3, 10}))
+      ->capture_default_str();
+  record->add_option("--strength", options.strength, "strength of the causes, typical values")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  record->add_option("--weak", options.weak, "strength of the weak cause of the design; 0: none")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  record->footer("Example: navcal fleet trial record -o recordings/ --truth truth.json --seed 7");
+  record->callback([arguments] { record_fleet(*arguments); });
+
+  auto* score = trial->add_subcommand("score", "compares what navcal fleet causes --json wrote with the truth");
+  score->add_option("ANSWER", arguments->answer, "file of navcal fleet causes --json")->required();
+  score->add_option("--truth", arguments->truth, "the truth that was written with the missions")
+      ->option_text("FILE.json")
+      ->required();
+  score->footer("Example: navcal fleet trial score answer.json --truth truth.json");
+  score->callback([arguments] { score_fleet(*arguments); });
+}
+
+}  // namespace navcal::cli

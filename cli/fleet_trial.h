@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace navcal::cli {
+
+/// Adds `navcal fleet trial record` and `navcal fleet trial score`.
+void add_fleet_trial(CLI::App& parent);
+
+}  // namespace navcal::cli

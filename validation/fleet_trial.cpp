@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "validation/fleet_trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "validation/missions.h"
+#include "validation/recordings.h"
+
+namespace navcal::validation {
+namespace {
+
+using FleetAnswerJson = nlohmann::json;
+
+/// Sailed by each vehicle in turn, and by the vehicles of one day alike.
+reference::Mission mission_of(const FleetCase& fleet, int day) {
+  const MissionKind kind = fleet.options.minutes == kBriefMinutes ? MissionKind::brief : MissionKind::usual;
+  reference::Mission mission =
+      at_place(trial_missions(kind, fleet.options.minutes)[static_cast<std::size_t>(day) % 3], fleet.place);
+  mission.start_ns = fleet.place.begin_ns + day * kDay_ns;
+  return mission;
+}
+
+std::string date_of_day(const FleetTruth& truth, int day) {
+  const std::chrono::sys_time<std::chrono::nanoseconds> time{std::chrono::nanoseconds(truth.begin_ns + day * kDay_ns)};
+  const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(time));
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()));
+}
+
+bool is_of(const FleetAnswerJson& named, const FleetCause& cause, const FleetTruth& truth) {
+  if (named.at("level") != name_of(cause.level)) return false;
+  const std::string of = named.at("of");
+  switch (cause.level) {
+    case FleetLevel::vehicle:
+      return of == vehicle_name(cause.vehicle);
+    case FleetLevel::design:
+      return true;
+    case FleetLevel::day:
+      return of.starts_with(date_of_day(truth, cause.day));
+  }
+  return false;
+}
+
+/// Number of the day in the name of a recording, "day-03.cap".
+int day_in(const std::string& recording) {
+  const auto at = recording.find("day-");
+  if (at == std::string::npos) throw std::runtime_error("the recording " + recording + " is none of this trial");
+  return std::stoi(recording.substr(at + 4));
+}
+
+std::string group_of(const FleetCause& cause, double strongest_design) {
+  if (cause.level == FleetLevel::vehicle) return cause.day > 1 ? "vehicle, begins" : "vehicle";
+  if (cause.level == FleetLevel::day) return "day";
+  return cause.strength < strongest_design ? "design, weak" : "design";
+}
+
+class Scoring {
+ public:
+  Scoring(const FleetTruth& truth, const FleetAnswerJson& answer) : truth_(truth), answer_(answer) {
+    for (const FleetCause& cause : truth.causes) {
+      if (cause.level == FleetLevel::design) strongest_design_ = std::max(strongest_design_, cause.strength);
+    }
+  }
+
+  FleetScore run() {
+    for (const FleetCause& cause : truth_.causes) {
+      if (!cause.is_foreign) judge(cause);
+    }
+    for (const FleetAnswerJson& named : answer_.at("causes")) {
+      ++score_.named;
+      const bool is_there = std::any_of(truth_.causes.begin(), truth_.causes.end(), [&](const FleetCause& cause) {
+        return named.at("name") == cause.effect.name && is_of(named, cause, truth_);
+      });
+      if (!is_there) ++score_.named_wrong;
+    }
+    for (const FleetAnswerJson& vehicle : answer_.at("vehicles")) {
+      const bool is_foreign = std::any_of(truth_.causes.begin(), truth_.causes.end(), [&](const FleetCause& cause) {
+        return cause.is_foreign && vehicle_name(cause.vehicle) == vehicle.at("vehicle").get<std::string>();
+      });
+      ++(is_foreign ? score_.foreign : score_.sound);
+      if (vehicle.at("verdict") == "unknown") ++(is_foreign ? score_.foreign_unknown : score_.sound_unknown);
+    }
+    return score_;
+  }
+
+ private:
+  void judge(const FleetCause& cause) {
+    std::string outcome = "missed";
+    for (const FleetAnswerJson& named : answer_.at("causes")) {
+      if (named.at("name") != cause.effect.name) continue;
+      if (is_of(named, cause, truth_)) {
+        outcome = "right";
+        judge_details(cause, named);
+        break;
+      }
+      if (cause.level != FleetLevel::vehicle || named.at("level") == "design") outcome = "wrong level";
+    }
+    for (const FleetAnswerJson& open : answer_.at("undecided")) {
+      const auto is_it = [&](const FleetAnswerJson& one) {
+        return one.at("name") == cause.effect.name && is_of(one, cause, truth_);
+      };
+      const auto& others = open.at("alternatives");
+      if (outcome == "missed" && (is_it(open) || std::any_of(others.begin(), others.end(), is_it))) outcome = "undecided";
+    }
+    ++score_.causes[group_of(cause, strongest_design_)][outcome];
+  }
+
+  void judge_details(const FleetCause& cause, const FleetAnswerJson& named) {
+    if (cause.level == FleetLevel::vehicle && cause.day > 1) {
+      ++score_.begun;
+      const auto& since = named.at("since");
+      if (!since.is_null() && std::abs(day_in(since.at("recording")) - cause.day) <= 1) ++score_.begun_right;
+    }
+    for (const auto& [key, value] : named.at("parameters").items()) {
+      const auto truth = cause.effect.parameters.find(key);
+      const double error = value.get<double>() - (truth == cause.effect.parameters.end() ? 0 : truth->second);
+      ++score_.parameters;
+      if (std::abs(error) <= 2 * named.at("std_errors").at(key).get<double>()) ++score_.parameters_within_two;
+    }
+  }
+
+  const FleetTruth& truth_;
+  const FleetAnswerJson& answer_;
+  double strongest_design_ = 0;
+  FleetScore score_;
+};
+
+}  // namespace
+
+void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, unsigned threads,
+                 const std::function<void(double)>& progress) {
+  if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder)) {
+    throw std::invalid_argument(folder.string() + ": the folder is not empty");
+  }
+  struct Mission {
+    int vehicle = 0, day = 0;
+    std::uint64_t seed = 0;
+  };
+  constexpr std::uint64_t kSeedStream = 12ULL << 40U;
+  reference::Rng dice(fleet.options.seed, kSeedStream);
+  std::vector<Mission> missions;
+  for (int vehicle = 1; vehicle <= fleet.options.vehicles; ++vehicle) {
+    std::filesystem::create_directories(folder / vehicle_name(vehicle));
+    for (int day = 1; day <= fleet.options.days; ++day) missions.push_back({vehicle, day, dice.bits()});
+  }
+  std::mutex mutex;
+  std::size_t done = 0;
+  base::in_parallel(threads, missions.size(), [&](std::size_t i) {
+    const auto& [vehicle, day, seed] = missions[i];
+    write_recording(mission_of(fleet, day), vehicle_on(fleet, vehicle, day), seed, folder / mission_name(vehicle, day));
+    const std::lock_guard lock(mutex);
+    progress(static_cast<double>(++done) / static_cast<double>(missions.size()));
+  });
+}
+
+FleetScore score_of(const FleetTruth& truth, std::string_view answer_json) {
+  try {
+    const FleetAnswerJson answer = FleetAnswerJson::parse(answer_json);
+    return Scoring(truth, answer).run();
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(std::string("no answer of navcal fleet causes: ") + error.what());
+  }
+}
+
+std::string score_text(const FleetScore& score) {
+  const auto share = [](int count, int of) {
+    return fmt::format("{} of {}{}", count, of, of > 0 ? fmt::format(" ({:.0f} %)", 100.0 * count / of) : "");
+  };
+  std::string text = fmt::format("{:<18}{:>8}{:>14}{:>12}{:>8}\n", "sealed causes", "right", "wrong level", "undecided", "missed");
+  for (const auto& [group, outcomes] : score.causes) {
+    const auto count = [&outcomes = outcomes](const char* outcome) {
+      const auto found = outcomes.find(outcome);
+      return found == outcomes.end() ? 0 : found->second;
+    };
+    text += fmt::format("{:<18}{:>8}{:>14}{:>12}{:>8}\n", group, count("right"), count("wrong level"), count("undecided"),
+                        count("missed"));
+  }
+  text += fmt::format("onset within one mission: {}\n", share(score.begun_right, score.begun));
+  text += fmt::format("named and not there: {}\n", share(score.named_wrong, score.named));
+  text += fmt::format("vehicles with an effect outside the library, unknown: {}\n",
+                      share(score.foreign_unknown, score.foreign));
+  text += fmt::format("other vehicles, unknown: {}\n", share(score.sound_unknown, score.sound));
+  text += fmt::format("parameters within two standard errors: {}\n",
+                      share(score.parameters_within_two, score.parameters));
+  return text;
+}
+
+}  // namespace navcal::validation
