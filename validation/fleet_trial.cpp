@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "record/whole_file.h"
 #include "validation/missions.h"
 #include "validation/recordings.h"
 
@@ -143,6 +144,10 @@ void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, un
   if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder)) {
     throw std::invalid_argument(folder.string() + ": the folder is not empty");
   }
+  std::filesystem::create_directories(folder);
+  record::WholeFile nominal(folder / "vehicle.toml");
+  nominal.write(fmt::format("[water]\ndensity_kg_m3 = {}\n", fleet.place.waters.density_kg_m3));
+  nominal.commit();
   struct Mission {
     int vehicle = 0, day = 0;
     std::uint64_t seed = 0;

@@ -33,14 +33,18 @@ class CauseSearch {
     }
   }
 
-  std::vector<FoundCause> run() {
-    const std::size_t most =
-        kMostCausesPerVehicle * (missions_.vehicles().size() + missions_.designs().size()) + missions_.days().size();
-    while (acting_.size() < most && add_best()) {
-      progress_(0.5 * static_cast<double>(acting_.size()) / static_cast<double>(most));
+  CauseSearchResult run() {
+    const double expected = 2 * static_cast<double>(missions_.vehicles().size() + missions_.days().size());
+    while (add_best()) {
+      progress_(0.5 * std::min(1.0, static_cast<double>(acting_.size()) / expected));
+      if (outlier_vehicle().empty()) continue;
+      // One cause that was not found at first may take the place of several that imitate it.
+      exchange_all();
+      if (std::string outlier = outlier_vehicle(); !outlier.empty()) return {{}, std::move(outlier)};
     }
     for (int round = 0; round < kExchangeRounds && exchange(); ++round) progress_(0.5 + 0.1 * (round + 1));
-    return described();
+    if (std::string outlier = outlier_vehicle(); !outlier.empty()) return {{}, std::move(outlier)};
+    return {described(), {}};
   }
 
  private:
@@ -79,14 +83,30 @@ class CauseSearch {
     return true;
   }
 
+  /// The vehicle, if any, that has more causes than a vehicle may have.
+  [[nodiscard]] std::string outlier_vehicle() const {
+    std::map<std::string, std::size_t> counts;
+    for (const ActingCause& each : acting_) {
+      if (each.cause.level == CauseLevel::vehicle && ++counts[each.cause.of] > kMostCausesPerVehicle) return each.cause.of;
+    }
+    return {};
+  }
+
   [[nodiscard]] std::vector<ActingCause> all_but(std::size_t i) const {
     std::vector<ActingCause> others = acting_;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     return others;
   }
 
-  /// Puts the best cause in the place of each, or none. Whether something changed.
+  /// The same, and then adds what is still missing.
   bool exchange() {
+    bool changed = exchange_all();
+    while (outlier_vehicle().empty() && add_best()) changed = true;
+    return changed;
+  }
+
+  /// Puts the best cause in the place of each, or none. Whether something changed.
+  bool exchange_all() {
     bool changed = false;
     for (std::size_t i = acting_.size(); i-- > 0;) {
       const PooledEvidence evidence(missions_, all_but(i));
@@ -100,7 +120,6 @@ class CauseSearch {
         changed = true;
       }
     }
-    while (add_best()) changed = true;
     return changed;
   }
 
@@ -167,7 +186,7 @@ class CauseSearch {
 
 }  // namespace
 
-std::vector<FoundCause> find_causes(const PooledMissions& missions, unsigned threads, const CauseProgress& progress) {
+CauseSearchResult find_causes(const PooledMissions& missions, unsigned threads, const CauseProgress& progress) {
   return CauseSearch(missions, threads, progress).run();
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "fleet/causes/pooled_evidence.h"
@@ -25,11 +26,19 @@ struct FoundCause {
   std::vector<Alternative> alternatives;  ///< from kAlternativeFrom on, most probable first
 };
 
+/// What a search ended with.
+struct CauseSearchResult {
+  std::vector<FoundCause> causes;
+  /// A vehicle for which more causes were found than a vehicle has (kMostCausesPerVehicle): what acts in it is not in the
+  /// library. The search ends there, and is to be repeated without that vehicle. Empty: there is none.
+  std::string outlier;
+};
+
 /// Gets the share that is done, 0 to 1.
 using CauseProgress = std::function<void(double)>;
 
 /// Finds the causes that explain the missions best: one after the other, then each against all others in its place.
-[[nodiscard]] std::vector<FoundCause> find_causes(const PooledMissions& missions, unsigned threads,
+[[nodiscard]] CauseSearchResult find_causes(const PooledMissions& missions, unsigned threads,
                                                   const CauseProgress& progress);
 
 }  // namespace navcal::fleet

@@ -13,6 +13,29 @@
 namespace navcal::fleet {
 namespace {
 
+constexpr std::string_view kBacklash = "fin_backlash";
+
+std::vector<FleetMission> without(const PooledMissions& missions, const std::vector<std::string>& vehicles) {
+  std::vector<FleetMission> rest = missions.missions();
+  std::erase_if(rest, [&](const FleetMission& mission) {
+    return std::find(vehicles.begin(), vehicles.end(), mission.vehicle) != vehicles.end();
+  });
+  return rest;
+}
+
+bool is_same_mission(const FleetMission& a, const FleetMission& b) {
+  return a.recording == b.recording && a.vehicle == b.vehicle && a.utc_ns == b.utc_ns;
+}
+
+/// Changes indices into `pool` to those of the same missions in `all`, which has them in the same order.
+void renumber(PossibleCause& cause, const PooledMissions& pool, const PooledMissions& all) {
+  std::size_t at = 0;
+  for (std::size_t& m : cause.missions) {
+    while (!is_same_mission(all.missions()[at], pool.missions()[m])) ++at;
+    m = at;
+  }
+}
+
 /// Every second mission of each vehicle, beginning with the first or the second.
 PooledMissions half_of(const PooledMissions& missions, std::size_t begin) {
   std::vector<FleetMission> half;
@@ -30,8 +53,7 @@ std::vector<std::size_t> within(const PooledMissions& half, const PooledMissions
   for (std::size_t m = 0; m < half.missions().size(); ++m) {
     const FleetMission& mission = half.missions()[m];
     const bool acts = std::any_of(cause.missions.begin(), cause.missions.end(), [&](std::size_t i) {
-      const FleetMission& other = missions.missions()[i];
-      return other.recording == mission.recording && other.vehicle == mission.vehicle && other.utc_ns == mission.utc_ns;
+      return is_same_mission(missions.missions()[i], mission);
     });
     if (acts) found.push_back(m);
   }
@@ -69,12 +91,37 @@ Eigen::VectorXd values_in(std::size_t mission, const PooledMissions& missions, c
   return all;
 }
 
-std::vector<MissionGap> gaps_of(const PooledMissions& missions, const std::vector<FoundCause>& causes) {
-  const bool has_halves = std::any_of(missions.vehicles().begin(), missions.vehicles().end(),
+/// Whether a cause may imitate the backlash `other`, which acts in some of its missions.
+bool imitates(const FoundCause& cause, const FoundCause& backlash) {
+  const PossibleCause &mine = cause.acting.cause, &theirs = backlash.acting.cause;
+  const bool is_own = mine.level == theirs.level && mine.of == theirs.of;
+  if (strength_of(cause) >= (is_own ? kBesideOwnBacklash : kBesideBacklash)) return false;
+  return std::find_first_of(mine.missions.begin(), mine.missions.end(), theirs.missions.begin(),
+                            theirs.missions.end()) != mine.missions.end();
+}
+
+/// For each cause, whether it may imitate the backlash of another one.
+std::vector<bool> imitating(const PooledMissions& missions, const std::vector<FoundCause>& causes) {
+  const auto is_backlash = [&](const FoundCause& cause) {
+    return missions.effects()[cause.acting.cause.effect].name == kBacklash;
+  };
+  std::vector<bool> imitate;
+  for (const FoundCause& cause : causes) {
+    imitate.push_back(!is_backlash(cause) && std::any_of(causes.begin(), causes.end(), [&](const FoundCause& other) {
+      return is_backlash(other) && imitates(cause, other);
+    }));
+  }
+  return imitate;
+}
+
+/// Gaps of all missions, the causes fitted to those of `pool`.
+std::vector<MissionGap> gaps_of(const PooledMissions& missions, const PooledMissions& pool,
+                                const std::vector<FoundCause>& causes) {
+  const bool has_halves = std::any_of(pool.vehicles().begin(), pool.vehicles().end(),
                                       [](const MissionGroup& vehicle) { return vehicle.missions.size() > 1; });
   std::array<std::vector<Eigen::VectorXd>, 2> fitted;
   for (std::size_t half = 0; half < 2; ++half) {
-    fitted[half] = fitted_to(has_halves ? half_of(missions, half) : missions, missions, causes);
+    fitted[half] = fitted_to(has_halves ? half_of(pool, half) : pool, missions, causes);
   }
   std::vector<MissionGap> gaps(missions.missions().size());
   for (const MissionGroup& vehicle : missions.vehicles()) {
@@ -91,17 +138,17 @@ std::vector<MissionGap> gaps_of(const PooledMissions& missions, const std::vecto
 
 double closed(const MissionGap& gap) { return 1 - (gap.after - gap.floor) / (gap.before - gap.floor); }
 
+/// Mean of some missions of one vehicle. The floor scatters with the tolerances of the vehicle, which all of its missions
+/// share, so the scatter does not fall with their number.
 MissionGap mean_of(const std::vector<MissionGap>& gaps, const std::vector<std::size_t>& missions) {
   MissionGap mean;
-  double variance = 0;
   const auto n = static_cast<double>(missions.size());
   for (const std::size_t m : missions) {
     mean.before += gaps[m].before / n;
     mean.after += gaps[m].after / n;
     mean.floor += gaps[m].floor / n;
-    variance += gaps[m].floor_std * gaps[m].floor_std / (n * n);
+    mean.floor_std += gaps[m].floor_std / n;
   }
-  mean.floor_std = std::sqrt(variance);
   return mean;
 }
 
@@ -131,18 +178,26 @@ bool acts_in(const FoundCause& cause, const MissionGroup& vehicle) {
 VehicleAnswer answer_of_vehicle(const MissionGroup& vehicle, const FleetAnswer& fleet) {
   VehicleAnswer answer;
   answer.vehicle = vehicle.name;
+  const bool is_outlier =
+      std::find(fleet.outliers.begin(), fleet.outliers.end(), vehicle.name) != fleet.outliers.end();
   answer.gap = mean_of(fleet.missions, vehicle.missions);
   const auto is_clear = [&](double power) {
     return power > answer.gap.floor + kFleetGap_sigma * answer.gap.floor_std;
   };
   const auto acts = [&](const FoundCause& cause) { return acts_in(cause, vehicle); };
   const bool has_cause = std::any_of(fleet.causes.begin(), fleet.causes.end(), acts);
-  const bool is_undecided = std::any_of(fleet.undecided.begin(), fleet.undecided.end(), acts);
+  const bool is_undecided = std::any_of(fleet.undecided.begin(), fleet.undecided.end(), [&](const FoundCause& cause) {
+    return cause.acting.cause.level == CauseLevel::vehicle && acts(cause);
+  });
   if (is_clear(answer.gap.before)) {
     answer.closed = closed(answer.gap);
     answer.closed_ci = closure_interval(fleet.missions, vehicle.missions);
   }
-  if (is_clear(answer.gap.after) && answer.closed_ci && (*answer.closed_ci)[1] < kFleetClosedFrom) {
+  if (is_outlier) {
+    answer.verdict = FleetVerdict::unknown;
+    answer.reason = fmt::format("more than {} causes would be needed: what acts in it is not in the library",
+                                kMostCausesPerVehicle);
+  } else if (is_clear(answer.gap.after) && answer.closed_ci && (*answer.closed_ci)[1] < kFleetClosedFrom) {
     answer.verdict = FleetVerdict::unknown;
     answer.reason = fmt::format("what was found closes {:.0f} % of the gap (95 % interval up to {:.0f} %)",
                                 100 * *answer.closed, 100 * (*answer.closed_ci)[1]);
@@ -169,7 +224,9 @@ std::string_view name_of(FleetVerdict verdict) {
   return "";
 }
 
-double strength_of(const FoundCause& cause) { return cause.mean.norm(); }
+double strength_of(const FoundCause& cause) {
+  return std::sqrt(std::max(0.0, cause.mean.squaredNorm() - cause.std.squaredNorm()));
+}
 
 double tolerance_of(CauseLevel level) {
   switch (level) {
@@ -185,12 +242,27 @@ double tolerance_of(CauseLevel level) {
 
 FleetAnswer answer_of_fleet(const PooledMissions& missions, unsigned threads, const CauseProgress& progress) {
   FleetAnswer answer;
-  for (FoundCause& cause : find_causes(missions, threads, progress)) {
+  CauseSearchResult result = find_causes(missions, threads, progress);
+  while (!result.outlier.empty()) {
+    answer.outliers.push_back(result.outlier);
+    const std::vector<FleetMission> rest = without(missions, answer.outliers);
+    if (rest.empty()) break;
+    const PooledMissions pool(rest);
+    result = find_causes(pool, threads, progress);
+    for (FoundCause& cause : result.causes) {
+      renumber(cause.acting.cause, pool, missions);
+      for (Alternative& other : cause.alternatives) renumber(other.cause, pool, missions);
+    }
+  }
+  const std::vector<bool> imitate = imitating(missions, result.causes);
+  for (std::size_t i = 0; i < result.causes.size(); ++i) {
+    FoundCause& cause = result.causes[i];
     const bool is_tolerance = strength_of(cause) <= tolerance_of(cause.acting.cause.level);
-    const bool is_named = cause.probability >= kCauseNamedFrom;
+    const bool is_named = cause.probability >= kCauseNamedFrom && !imitate[i];
     (is_tolerance ? answer.tolerances : is_named ? answer.causes : answer.undecided).push_back(std::move(cause));
   }
-  answer.missions = gaps_of(missions, answer.causes);
+  const std::vector<FleetMission> pooled = without(missions, answer.outliers);
+  answer.missions = gaps_of(missions, pooled.empty() ? missions : PooledMissions(pooled), answer.causes);
   for (const MissionGroup& vehicle : missions.vehicles()) {
     answer.vehicles.push_back(answer_of_vehicle(vehicle, answer));
   }

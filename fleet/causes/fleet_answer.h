@@ -45,9 +45,13 @@ struct FleetAnswer {
   std::vector<FoundCause> tolerances; ///< real, and not larger than what every vehicle has
   std::vector<VehicleAnswer> vehicles;
   std::vector<MissionGap> missions;  ///< in the order of PooledMissions::missions()
+  /// Vehicles whose missions were left out of the pool, because more causes would be needed than a vehicle has. Causes
+  /// hold their missions as indices into all missions.
+  std::vector<std::string> outliers;
 };
 
-/// Norm of a cause's parameters, typical values, and the norm up to which it is a tolerance of its level.
+/// Strength of a cause, typical values: the norm of its parameters without what their errors add to it. And the strength
+/// up to which a cause is a tolerance of its level.
 [[nodiscard]] double strength_of(const FoundCause& cause);
 [[nodiscard]] double tolerance_of(CauseLevel level);
 

@@ -32,10 +32,14 @@ inline constexpr double kCauseNamedFrom = 0.9;
 inline constexpr double kReplaced_nats = 1;
 /// Rounds in which each cause is compared with all others.
 inline constexpr int kExchangeRounds = 3;
-/// Most causes that are looked for, for each vehicle.
+/// Most causes of one vehicle. Set: an effect that is not in the library is imitated by one more cause after the other.
 inline constexpr std::size_t kMostCausesPerVehicle = 3;
 /// Strength up to which an effect is a tolerance of a vehicle: 2.5 standard deviations; of a design or a day by theirs.
 inline constexpr double kToleranceDeviations = 2.5;
+/// Strength up to which a cause beside a backlash in the same missions is not named, typical values: of the same vehicle or
+/// design, and of another one. Set: inside its dead band a fin is not where the linear model has it, and small effects
+/// of other instruments imitate the difference.
+inline constexpr double kBesideOwnBacklash = 0.5, kBesideBacklash = 0.15;
 /// Standard deviations of the floor above which the missions of a vehicle show a gap.
 inline constexpr double kFleetGap_sigma = 4;
 /// Share of its gap that the causes must close, or the vehicle has an unknown cause.
