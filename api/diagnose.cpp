@@ -25,7 +25,7 @@ gap::Request request_of(const std::filesystem::path& mission, const DiagnoseOpti
   if (options.bank < kLeastBank || options.bank > kMostBank)
     throw Error(ErrorKind::bad_argument, fmt::format("bank: must be 2 to 10000, not {}", options.bank));
   gap::Request request;
-  request.mission = mission;
+  request.missions = {mission};
   request.holdouts = options.holdouts;
   if (!options.config.empty()) request.settings = config::load(options.config);
   if (!options.vehicle.empty()) request.vehicle = config::load_vehicle(options.vehicle);

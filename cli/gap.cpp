@@ -52,7 +52,10 @@ struct GapCommandOptions {
   std::uint64_t bank_seed = gap::Request{}.bank_seed;
 
   /// File of the diagnosis: the recording, or the saved one.
-  [[nodiscard]] const std::string& origin() const { return saved.empty() ? source.mission : saved; }
+  [[nodiscard]] std::string origin() const {
+    if (!saved.empty()) return saved;
+    return source.missions.empty() ? std::string() : source.missions.front();
+  }
 };
 
 /// Where the user's caches are, after the XDG base directories; empty when there is no such place.
@@ -86,7 +89,9 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
   if (options.where.field_uT())
     throw std::invalid_argument(
         "--field: the diagnosis of a layout takes the heading's offset from each recording");
-  diagnosis::LayoutFiles files{.recording = options.source.mission,
+  if (options.source.missions.size() > 1)
+    throw std::invalid_argument("several recordings together: not yet for a layout; diagnose one, and hold out others");
+  diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
                                .holdouts = {options.source.holdouts.begin(), options.source.holdouts.end()},
                                .nominals = {options.nominals.begin(), options.nominals.end()},
                                .settings = {}};
@@ -110,7 +115,7 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
     throw std::invalid_argument(
         "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
   expect_effects(options.source.excluded);
-  request.mission = options.source.mission;
+  request.missions = {options.source.missions.begin(), options.source.missions.end()};
   request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
   if (!options.source.config.empty()) request.settings = config::load(options.source.config);
   request.excluded = options.source.excluded;
@@ -140,7 +145,7 @@ report::CorrectedModel corrected_model(const gap::Diagnosis& diagnosis, const Ga
   if (!source.config.empty()) {
     model.instruments = devices::instrument_model(config::load(source.config));
   } else if (options.saved.empty()) {
-    model.instruments = devices::instrument_model(record::Recording::open(source.mission)->settings());
+    model.instruments = devices::instrument_model(record::Recording::open(source.missions.front())->settings());
   }
   return model;
 }
@@ -180,6 +185,7 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
   for (const auto& [simulator, file] : exports) outputs.push_back(file);
   std::vector<std::filesystem::path> inputs(source.holdouts.begin(), source.holdouts.end());
   inputs.insert(inputs.end(), options.nominals.begin(), options.nominals.end());
+  inputs.insert(inputs.end(), source.missions.begin(), source.missions.end());
   inputs.insert(inputs.end(), {options.origin(), source.vehicle, source.config});
   expect_no_overwriting(inputs, outputs);
   return exports;
@@ -227,8 +233,9 @@ void add_gap(CLI::App& app) {
       "gap", "diagnosis of the gap between a recording and the model: where, from which effect, how much");
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
-  auto* const mission = command->add_option("FILE", source.mission,
-                                            "the mission to be diagnosed: a capture (.cap) or a log (.mcap)");
+  auto* const mission = command->add_option(
+      "FILE", source.missions,
+      "the mission to be diagnosed: a capture (.cap) or a log (.mcap); several of one vehicle are diagnosed together");
   command
       ->add_option("--holdout", source.holdouts,
                    "another mission of the same vehicle, on which the answer is judged; repeatable")
@@ -284,7 +291,9 @@ void add_gap(CLI::App& app) {
   add_exports(command, mission, *options);
   command->footer(
       "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"
-      "Example: navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
+      "Examples:\n"
+      "  navcal gap a.cap b.cap c.cap --holdout d.cap\n"
+      "  navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
   add_gap_layouts(*command);
   add_gap_trial(*command);
   command->callback([command, options] {

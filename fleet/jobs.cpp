@@ -31,7 +31,7 @@ config::Settings settings_of(const JobInput& input) {
 
 gap::Request request_of(const JobInput& input) {
   gap::Request request;
-  request.mission = input.recording;
+  request.missions = {input.recording};
   request.vehicle = input.vehicle;
   request.settings = input.settings;
   request.cache = input.bank_folder;

@@ -125,6 +125,26 @@ OrderedJson json_of(const gap::EarthField& field) {
           {"date", std::move(date)}};
 }
 
+OrderedJson json_of(const gap::RecordingFinding& finding) {
+  OrderedJson json{{"recording", finding.recording}};
+  json["effects"] = list_of(finding.effects, [](const gap::EffectFinding& effect) {
+    OrderedJson values, errors;
+    for (const gap::EffectParameterEstimate& each : effect.parameters) {
+      values[each.name] = each.value;
+      errors[each.name] = each.std_error;
+    }
+    return OrderedJson{{"name", effect.name}, {"parameters", std::move(values)}, {"std_errors", std::move(errors)}};
+  });
+  json["alone"] = finding.alone ? OrderedJson{{"effects", finding.alone->effects},
+                                              {"probability", finding.alone->probability}}
+                                : OrderedJson();
+  return json;
+}
+
+OrderedJson json_of(const gap::EffectDifference& difference) {
+  return {{"name", difference.name}, {"p_value", difference.p_value}, {"differs", difference.differs}};
+}
+
 }  // namespace
 
 std::string gap_json(const gap::Diagnosis& diagnosis) {
@@ -149,6 +169,10 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"bank", json_of(diagnosis.bank)},
       {"duration_s", diagnosis.duration_s},
       {"seconds", diagnosis.seconds}};
+  if (!diagnosis.recordings.empty()) {
+    json["recordings"] = list_of(diagnosis.recordings, convert);
+    json["differences"] = list_of(diagnosis.differences, convert);
+  }
   if (diagnosis.instruments_alone) {
     std::string alone;
     record::append_calibrate_json(alone, *diagnosis.instruments_alone);

@@ -2,6 +2,7 @@
 #include "report/gap_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -86,7 +87,8 @@ void append_residuals(HtmlPage& page, const gap::Diagnosis& diagnosis) {
 }
 
 void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSource& source) {
-  std::vector<std::vector<std::string>> rows{{"Mission", source.mission}};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& file : source.missions) rows.push_back({"Mission", file});
   if (diagnosis.duration_s > 0) rows.back().back() += ", " + duration_text(diagnosis.duration_s);
   for (const auto& file : source.holdouts) rows.push_back({"Held out", file});
   rows.push_back({"Nominal vehicle", source.vehicle.empty() ? "the reference vehicle" : source.vehicle});
@@ -111,7 +113,9 @@ void append_source(HtmlPage& page, const gap::Diagnosis& diagnosis, const GapSou
 }  // namespace
 
 std::string gap_page(const gap::Diagnosis& diagnosis, const GapSource& source) {
-  HtmlPage page("Gap between model and " + std::filesystem::path(source.mission).filename().string());
+  std::vector<std::string> names;
+  for (const auto& file : source.missions) names.push_back(std::filesystem::path(file).filename().string());
+  HtmlPage page(fmt::format("Gap between model and {}", fmt::join(names, ", ")));
   append_summary(page, diagnosis, source);
   if (!diagnosis.instruments_alone) append_where(page, diagnosis);
   if (!diagnosis.instruments_alone && diagnosis.verdict != gap::Verdict::no_gap)

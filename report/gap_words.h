@@ -13,7 +13,7 @@ namespace navcal::report {
 
 /// Inputs of a diagnosis.
 struct GapSource {
-  std::string mission;
+  std::vector<std::string> missions;  ///< diagnosed together
   std::vector<std::string> holdouts;
   std::string vehicle;  ///< empty: the reference vehicle
   std::vector<std::string> excluded;

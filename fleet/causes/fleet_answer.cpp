@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <utility>
 
@@ -210,6 +211,21 @@ VehicleAnswer answer_of_vehicle(const MissionGroup& vehicle, const FleetAnswer& 
   return answer;
 }
 
+/// What was found in a vehicle whose gap stays unknown may imitate what is not in the library, so it is not named.
+void withdraw_from_unknown(FleetAnswer& answer) {
+  const auto is_unknown = [&](const FoundCause& cause) {
+    return cause.acting.cause.level == CauseLevel::vehicle &&
+           std::any_of(answer.vehicles.begin(), answer.vehicles.end(), [&](const VehicleAnswer& vehicle) {
+             return vehicle.vehicle == cause.acting.cause.of && vehicle.verdict == FleetVerdict::unknown;
+           });
+  };
+  const auto kept = std::stable_partition(answer.causes.begin(), answer.causes.end(),
+                                          [&](const FoundCause& cause) { return !is_unknown(cause); });
+  answer.undecided.insert(answer.undecided.end(), std::make_move_iterator(kept),
+                          std::make_move_iterator(answer.causes.end()));
+  answer.causes.erase(kept, answer.causes.end());
+}
+
 }  // namespace
 
 std::string_view name_of(FleetVerdict verdict) {
@@ -266,6 +282,7 @@ FleetAnswer answer_of_fleet(const PooledMissions& missions, unsigned threads, co
   for (const MissionGroup& vehicle : missions.vehicles()) {
     answer.vehicles.push_back(answer_of_vehicle(vehicle, answer));
   }
+  withdraw_from_unknown(answer);
   return answer;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/inference/biases.h"
 
+#include <Eigen/QR>
 #include <array>
 #include <utility>
 
@@ -29,6 +30,15 @@ Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, 
     values = with_biases_fitted(model, std::move(values));
   }
   return values;
+}
+
+JoinedRecording joined(const ResidualModel& model, const Eigen::VectorXd& at) {
+  constexpr std::array<Eigen::Index, Library::kBiases> kColumns{0, 1, 2, 3};
+  const Eigen::MatrixXd design = design_at(model, at, residual_at(model, at), kColumns);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(design);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(design.rows(), factor.rank());
+  basis.applyOnTheLeft(factor.householderQ());
+  return {model.replay, model.whitening, at.head<Library::kBiases>(), std::move(basis)};
 }
 
 }  // namespace navcal::gap

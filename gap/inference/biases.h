@@ -18,4 +18,7 @@ namespace navcal::gap {
 /// Start values of a diagnosis for all unknowns: the gyros' biases by least squares, no effects.
 [[nodiscard]] Eigen::VectorXd with_biases_found(const Replay& replay, const Library& library, unsigned threads);
 
+/// A recording to be joined to others: its biases, from `at`, and what its residuals can show of them.
+[[nodiscard]] JoinedRecording joined(const ResidualModel& model, const Eigen::VectorXd& at);
+
 }  // namespace navcal::gap

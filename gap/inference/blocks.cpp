@@ -19,31 +19,49 @@ bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
   return row < (grid + rows) / 2;  // fixes: the first half of them
 }
 
+/// Gain in log likelihood by the effects on the rows that are not learnt from, nats. `learn` is 1 in rows to learn from.
+double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, const LinearGaussianModel& model) {
+  const Linearised& linear = model.linear;
+  const Priors& priors = model.priors;
+  const Eigen::VectorXd data = residual_at_zero(linear);
+  const auto members = parameter_indices(model.library, effects);
+  const Priors others = without_members(priors, model.library, effects);
+  const Eigen::MatrixXd design = learn.asDiagonal() * linear.design;
+  const Eigen::MatrixXd gram = design.transpose() * linear.design;
+  const Eigen::VectorXd score = design.transpose() * data;
+  const Eigen::VectorXd without = Evidence(gram, score, others.spike, others.slab).base_posterior().mean;
+  const Eigen::VectorXd with = Evidence(gram, score, priors.spike, priors.slab).posterior(members).mean;
+  const Eigen::VectorXd judged = (1 - learn.array()).matrix();
+  const auto misfit = [&](const Eigen::VectorXd& values) {
+    return judged.cwiseProduct(data - linear.design * values).squaredNorm();
+  };
+  return 0.5 * (misfit(without) - misfit(with));
+}
+
 }  // namespace
 
 std::vector<double> gains_of_blocks(const EffectSubset& effects, const LinearGaussianModel& model,
                                     const Layout& layout) {
-  const Linearised& linear = model.linear;
-  const Priors& priors = model.priors;
-  const Eigen::Index rows = linear.residual.size();
+  const Eigen::Index rows = model.linear.residual.size();
   Eigen::VectorXd mask(rows);
   for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
-  const Eigen::VectorXd data = residual_at_zero(linear);
-  const auto members = parameter_indices(model.library, effects);
-  const Priors others = without_members(priors, model.library, effects);
   std::vector<double> gains;
   for (const bool learn_from_even : {true, false}) {
-    const Eigen::VectorXd learn = learn_from_even ? mask : Eigen::VectorXd((1 - mask.array()).matrix());
-    const Eigen::MatrixXd design = learn.asDiagonal() * linear.design;
-    const Eigen::MatrixXd gram = design.transpose() * linear.design;
-    const Eigen::VectorXd score = design.transpose() * data;
-    const Eigen::VectorXd without = Evidence(gram, score, others.spike, others.slab).base_posterior().mean;
-    const Eigen::VectorXd with = Evidence(gram, score, priors.spike, priors.slab).posterior(members).mean;
-    const Eigen::VectorXd judged = (1 - learn.array()).matrix();
-    const auto misfit = [&](const Eigen::VectorXd& values) {
-      return judged.cwiseProduct(data - linear.design * values).squaredNorm();
-    };
-    gains.push_back(0.5 * (misfit(without) - misfit(with)));
+    gains.push_back(
+        gain_beyond(learn_from_even ? mask : Eigen::VectorXd((1 - mask.array()).matrix()), effects, model));
+  }
+  return gains;
+}
+
+std::vector<double> gains_of_recordings(const EffectSubset& effects, const LinearGaussianModel& model,
+                                        std::span<const Eigen::Index> rows) {
+  std::vector<double> gains;
+  Eigen::Index from = 0;
+  for (const Eigen::Index count : rows) {
+    Eigen::VectorXd learn = Eigen::VectorXd::Ones(model.linear.residual.size());
+    learn.segment(from, count).setZero();
+    gains.push_back(gain_beyond(learn, effects, model));
+    from += count;
   }
   return gains;
 }

@@ -55,7 +55,25 @@ Layout layout_of(const Replay& replay) {
 }
 
 Eigen::VectorXd residual_at(const ResidualModel& model, const Eigen::VectorXd& values) {
-  return model.whitening(model.replay.run(model.library.model(values)), layout_of(model.replay));
+  Eigen::VectorXd first = model.whitening(model.replay.run(model.library.model(values)), layout_of(model.replay));
+  if (model.others.empty()) return first;
+  std::vector<Eigen::VectorXd> parts{std::move(first)};
+  Eigen::Index rows = parts.front().size();
+  Eigen::VectorXd own = values;
+  for (const JoinedRecording& other : model.others) {
+    own.head<Library::kBiases>() = other.biases_rad_s;
+    Eigen::VectorXd part = other.whitening(other.replay.run(model.library.model(own)), layout_of(other.replay));
+    part -= other.bias_basis * (other.bias_basis.transpose() * part);
+    rows += part.size();
+    parts.push_back(std::move(part));
+  }
+  Eigen::VectorXd all(rows);
+  Eigen::Index row = 0;
+  for (const Eigen::VectorXd& part : parts) {
+    all.segment(row, part.size()) = part;
+    row += part.size();
+  }
+  return all;
 }
 
 Eigen::MatrixXd design_at(const ResidualModel& model, const Eigen::VectorXd& at, const Eigen::VectorXd& residual,

@@ -14,6 +14,9 @@
 namespace navcal::gap {
 namespace {
 
+/// Distance of the seeds of two missions of one null vehicle: any odd number far from those of other seeds.
+constexpr std::uint64_t kNextMission = 0x9e3779b97f4a7c15;
+
 /// Adds to the members those other unknowns whose usual tolerance resembles a member most, so that their
 /// regressors are computed for each null, too. A null's fins move otherwise between two reports than the
 /// recorded ones. With the recorded regressors only, its fin lag would pass for a member.
@@ -70,6 +73,32 @@ Linearised seen_by(const Linearised& recorded, Eigen::VectorXd white, const Eige
   return null;
 }
 
+/// Innovations of one null in the shape of the recorded mission, whitened, and its regressors for some unknowns.
+struct NullSeen {
+  Eigen::VectorXd white;
+  Eigen::MatrixXd own;
+};
+
+NullSeen null_seen(const RepeatedMission& repeated, const ResidualModel& recorded, const Model& truth,
+                   const std::vector<Eigen::Index>& columns, std::uint64_t seed) {
+  const Layout layout = layout_of(repeated.recorded);
+  const Mission mission = null_mission(repeated, truth.effects, seed);
+  const Replay replay(mission, repeated.vehicle);
+  NullSeen seen;
+  seen.white = recorded.whitening(fitted_into(replay.run({}), layout), layout);
+  seen.own = signatures({replay, recorded.library, recorded.whitening}, layout, seen.white, columns);
+  return seen;
+}
+
+/// Puts the rows of another mission of the same null vehicle below, without what they show of the gyros' biases.
+void append_rows(const NullSeen& other, const Eigen::MatrixXd& bias_basis, NullSeen& all) {
+  const Eigen::Index above = all.white.size();
+  all.white.conservativeResize(above + other.white.size());
+  all.white.tail(other.white.size()) = other.white - bias_basis * (bias_basis.transpose() * other.white);
+  all.own.conservativeResize(above + other.white.size(), Eigen::NoChange);
+  all.own.bottomRows(other.white.size()) = other.own - bias_basis * (bias_basis.transpose() * other.own);
+}
+
 }  // namespace
 
 double gain_over_none(const EffectSubset& set, const LinearGaussianModel& model) {
@@ -77,19 +106,21 @@ double gain_over_none(const EffectSubset& set, const LinearGaussianModel& model)
   return evidence(set) - bound_penalty_nats(set, model) - evidence({}) + bound_penalty_nats({}, model);
 }
 
-std::vector<double> null_bayes_factors(const EffectSubset& set, const RepeatedMission& repeated,
+std::vector<double> null_bayes_factors(const EffectSubset& set, std::span<const RepeatedMission> repeated,
                                        const InferenceProblem& problem, const BankOptions& options) {
-  const Library& library = problem.model.library;
-  const Whitening& whitening = problem.model.whitening;
-  const auto columns = with_likenesses(parameter_indices(library, set), problem.nominal, problem.priors);
-  const Layout layout = layout_of(repeated.recorded);
+  const ResidualModel& model = problem.model;
+  const auto columns = with_likenesses(parameter_indices(model.library, set), problem.nominal, problem.priors);
   return simulate_feasible(options, Seeds::null_gains, [&](std::size_t, std::uint64_t seed) {
-    const Model truth = library.model(benign_mismatch(library, seed));
-    const Mission mission = null_mission(repeated, truth.effects, seed);
-    const Replay replay(mission, repeated.vehicle);
-    Eigen::VectorXd white = whitening(fitted_into(replay.run({}), layout), layout);
-    const Eigen::MatrixXd own = signatures({replay, library, whitening}, layout, white, columns);
-    const Linearised null = seen_by(problem.nominal, std::move(white), own, columns);
+    const Model truth = model.library.model(benign_mismatch(model.library, seed));
+    NullSeen seen = null_seen(repeated.front(), model, truth, columns, seed);
+    for (std::size_t i = 0; i < model.others.size(); ++i) {
+      const JoinedRecording& other = model.others[i];
+      // The vehicle is the same in all missions; their noise is not.
+      const std::uint64_t noise = seed + (i + 1) * kNextMission;
+      append_rows(null_seen(repeated[i + 1], {other.replay, model.library, other.whitening}, truth, columns, noise),
+                  other.bias_basis, seen);
+    }
+    const Linearised null = seen_by(problem.nominal, std::move(seen.white), seen.own, columns);
     return gain_over_none(set, problem.about(null));
   });
 }

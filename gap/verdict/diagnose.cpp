@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include "base/parallel.h"
 #include "gap/data/instruments_alone.h"
+#include "gap/inference/biases.h"
 #include "gap/inference/blocks.h"
 #include "gap/thresholds.h"
 #include "gap/verdict/answer.h"
 #include "gap/verdict/find_effects.h"
 #include "gap/verdict/holdout.h"
 #include "gap/verdict/prepare.h"
+#include "gap/verdict/recordings_apart.h"
 #include "gap/verdict/request.h"
 #include "gap/verdict/verdict.h"
 #include "gap/verdict/where.h"
@@ -28,6 +31,7 @@ using HoldOuts = std::vector<std::unique_ptr<Prepared>>;
 /// The recording and its hold-outs, compared with and without the effects found.
 struct Comparisons {
   Comparison here;
+  std::vector<Comparison> others;  ///< of the recordings that are diagnosed together with the first one
   std::vector<Comparison> holdouts;
   std::vector<HeldOutPrediction> predictions;  ///< of the hold-outs; empty when no effect was found
 };
@@ -40,6 +44,50 @@ Innovations rest_of(const Replay& replay, const Library& library, const ModelFit
   // reversals.
   if (has_backlash(library, best.effects)) rest.grid.col(gyro_roll).setZero();
   return rest;
+}
+
+/// Maps of several recordings as one: of each cell the entry with the smallest p-value, which then holds over all of the
+/// recordings (Bonferroni). The order is that of the ranks in the single maps.
+std::vector<WhereEntry> merged(std::vector<std::vector<WhereEntry>> maps) {
+  if (maps.size() == 1) return std::move(maps.front());
+  std::size_t longest = 0;
+  for (auto& map : maps) {
+    longest = std::max(longest, map.size());
+    for (WhereEntry& entry : map) entry.p_value = std::min(1.0, entry.p_value * static_cast<double>(maps.size()));
+  }
+  std::vector<WhereEntry> all;
+  for (std::size_t rank = 0; rank < longest; ++rank) {
+    for (const auto& map : maps) {
+      if (rank >= map.size()) continue;
+      const auto same = std::find_if(all.begin(), all.end(), [&](const WhereEntry& other) {
+        return other.channel == map[rank].channel && other.regime == map[rank].regime;
+      });
+      if (same == all.end()) {
+        all.push_back(map[rank]);
+      } else if (map[rank].p_value < same->p_value) {
+        *same = map[rank];
+      }
+    }
+  }
+  return all;
+}
+
+/// Significant cells of the other recordings with all that was found in the model. Beside a backlash only the first
+/// recording is judged, because the nulls with backlash repeat that one.
+std::vector<std::vector<WhereEntry>> leftover_of_others(const DiagnosisProblem& problem, const FoundEffects& result,
+                                                        const std::vector<Comparison>& others) {
+  std::vector<std::vector<WhereEntry>> all;
+  if (result.backlash_bank) return all;
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    const Prepared& other = *problem.others[k];
+    Eigen::VectorXd mean = result.found.best.mean;
+    mean.head<Library::kBiases>() = problem.joined[k].biases_rad_s;
+    mean = with_biases_fitted(other.model(problem.library, problem.threads), std::move(mean));
+    const Innovations rest = other.replay->run(problem.library.model(mean));
+    all.push_back(significant_cells(
+        residual_map(explained_rms(rest, others[k].course, others[k].fix_times_s), other.bank.explained_rms)));
+  }
+  return all;
 }
 
 /// Cells of the residual map that are significant although all that was found is in the model; `seen`: a cell was
@@ -75,11 +123,17 @@ Comparisons compare_all(const DiagnosisProblem& problem, const SearchResult& fou
   for (const Eigen::Index j : parameter_indices(library, found.best.effects)) members[j] = found.best.mean[j];
   problem.progress("missions held out", 0);
   Comparisons result;
+  result.others.resize(problem.others.size());
   result.holdouts.resize(holdouts.size());
   result.predictions.resize(found.best.effects.empty() ? 0 : holdouts.size());
-  base::in_parallel(problem.threads, holdouts.size() + 1, [&](std::size_t i) {
+  base::in_parallel(problem.threads, holdouts.size() + 1 + problem.others.size(), [&](std::size_t i) {
     if (i == holdouts.size()) {
       result.here = compare(problem.prepared, library, members);
+      return;
+    }
+    if (i > holdouts.size()) {
+      const std::size_t k = i - holdouts.size() - 1;
+      result.others[k] = compare(*problem.others[k], library, members);
       return;
     }
     const Prepared& other = *holdouts[i];
@@ -144,15 +198,20 @@ std::string other_vehicle_text(double least_ratio) {
 /// The verdict, the gap's size and how much of it the effects close.
 void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Comparisons compared,
                 Diagnosis& answer) {
-  const auto leftover = leftover_of(problem, result, compared.here, !answer.where.empty());
+  std::vector<std::vector<WhereEntry>> leftovers = leftover_of_others(problem, result, compared.others);
+  leftovers.insert(leftovers.begin(), leftover_of(problem, result, compared.here, !answer.where.empty()));
+  const std::vector<WhereEntry> leftover = merged(std::move(leftovers));
   const ModelFit& best = result.found.best;
   const bool blocks = compared.holdouts.empty();
   std::vector<double> gains_nats;
   PooledClosure closure_by_all;
   if (blocks) {
-    gains_nats = gains_of_blocks(best.effects, {best.linear, problem.library, result.priors},
-                                 layout_of(*problem.prepared.replay));
+    const LinearGaussianModel model{best.linear, problem.library, result.priors};
+    gains_nats = problem.others.empty()
+                     ? gains_of_blocks(best.effects, model, layout_of(*problem.prepared.replay))
+                     : gains_of_recordings(best.effects, model, rows_of_recordings(problem));
     compared.holdouts.push_back(compared.here);
+    compared.holdouts.insert(compared.holdouts.end(), compared.others.begin(), compared.others.end());
   } else if (!compared.predictions.empty()) {
     std::vector<Power> by_all;
     for (HeldOutPrediction& each : compared.predictions) {
@@ -188,25 +247,40 @@ void write_pictures(const Prepared& a, const Comparison& here, bool with_effects
   }
 }
 
-/// Runs the steps of gap/README.md from the search on.
-void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts, Diagnosis& answer) {
+/// Residual maps of all recordings as one, and the smallest of their ratios.
+void write_map(const DiagnosisProblem& problem, const Comparisons& compared, Diagnosis& answer) {
+  std::vector<std::vector<WhereEntry>> maps;
+  const auto add = [&](const Prepared& of, const Comparison& compared_with) {
+    const Eigen::MatrixXd rms = explained_rms(compared_with.nominal, of.course, compared_with.fix_times_s);
+    maps.push_back(residual_map(rms, of.bank.explained_rms));
+    const auto ratio = least_ratio(rms, of.bank.explained_rms);
+    if (ratio && (!answer.least_ratio || *ratio < *answer.least_ratio)) answer.least_ratio = ratio;
+  };
+  add(problem.prepared, compared.here);
+  for (std::size_t k = 0; k < problem.others.size(); ++k) add(*problem.others[k], compared.others[k]);
+  answer.map = merged(std::move(maps));
+  answer.where = significant_cells(answer.map);
+}
+
+/// Runs the steps of gap/README.md from the search on. `names`: of the recordings that are diagnosed together.
+void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts,
+                       const std::vector<std::string>& names, Diagnosis& answer) {
   const Prepared& a = problem.prepared;
   FoundEffects result = find_effects(problem);
   SearchResult& found = result.found;
   const bool with_effects = !found.best.effects.empty();
   Comparisons compared = compare_all(problem, found, holdouts);
   const Comparison here = compared.here;
-  const Eigen::MatrixXd nominal_rms = explained_rms(here.nominal, a.course, here.fix_times_s);
-  answer.map = residual_map(nominal_rms, a.bank.explained_rms);
-  answer.where = significant_cells(answer.map);
-  answer.least_ratio = least_ratio(nominal_rms, a.bank.explained_rms);
+  write_map(problem, compared, answer);
   remark_on(result, problem.library, answer);
   judge_into(problem, result, std::move(compared), answer);
   if (answer.where.empty() && answer.verdict != Verdict::no_gap && with_effects && !answer.map.empty()) {
+    const Eigen::MatrixXd nominal_rms = explained_rms(here.nominal, a.course, here.fix_times_s);
     const Eigen::MatrixXd with_members = explained_rms(here.improved, here.course, here.fix_times_s);
     answer.where.push_back(most_changed(answer.map, nominal_rms, with_members, a.bank.explained_rms));
   }
   answer.duration_s = a.mission.duration_s;
+  for (const Prepared* other : problem.others) answer.duration_s += other->mission.duration_s;
   for (Eigen::Index i = 0; i < Library::kBiases; ++i) {
     answer.gyro_bias_rad_s[static_cast<std::size_t>(i)] = found.best.mean[i];
   }
@@ -219,6 +293,12 @@ void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts
     answer.sentence =
         "Nothing can be said of a gap: the instruments of this recording show none of the library's effects.";
   }
+  if (!problem.others.empty()) {
+    compare_recordings(problem, result, names, answer);
+    const bool differs = std::any_of(answer.differences.begin(), answer.differences.end(),
+                                     [](const EffectDifference& each) { return each.differs; });
+    if (differs || answer.verdict == Verdict::unknown) search_apart(problem, answer);
+  }
 }
 
 /// Reports a recording that cannot be compared with a model: its instruments are compared with each other
@@ -227,7 +307,7 @@ void say_without_causes(const Request& request, const Progress& progress, const 
                         Diagnosis& answer) {
   answer.sentence = fmt::format("The causes of a gap cannot be found: {}.", why);
   calib::Report report =
-      instruments_alone(request.mission, request.settings, answer.field.value_or(EarthField{}),
+      instruments_alone(request.missions.front(), request.settings, answer.field.value_or(EarthField{}),
                         [&](double done) { progress("comparing the instruments with each other", done); });
   if (!report.calibrators.empty()) answer.instruments_alone = std::move(report);
 }
@@ -238,23 +318,40 @@ Diagnosis diagnose(const Request& request, const Progress& progress) {
   const Library library(request.excluded);
   const unsigned threads =
       request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
+  if (request.missions.empty()) throw std::invalid_argument("there is no recording to diagnose");
   Preparation preparation(request, library, progress, threads);
   Diagnosis answer;
-  const auto a = preparation.prepare(request.mission, answer);
+  const auto a = preparation.prepare(request.missions.front(), answer);
   const std::string why_not =
       answer.remarks.empty() ? std::string("the recording is empty") : answer.remarks.back();
-  HoldOuts holdouts;
+  HoldOuts together, holdouts;
+  std::vector<std::string> names{request.missions.front().filename().string()};
+  for (std::size_t i = 1; i < request.missions.size(); ++i) {
+    auto prepared = preparation.prepare(request.missions[i], answer);
+    if (!prepared) continue;
+    together.push_back(std::move(prepared));
+    names.push_back(request.missions[i].filename().string());
+  }
   for (const auto& file : request.holdouts) {
     auto prepared = preparation.prepare(file, answer);
     if (prepared) holdouts.push_back(std::move(prepared));
   }
   const auto began = std::chrono::steady_clock::now();
   if (a) {
-    diagnose_prepared({*a, library, request, progress, threads}, holdouts, answer);
+    std::vector<const Prepared*> others;
+    std::vector<JoinedRecording> parts;
+    for (const auto& other : together) {
+      others.push_back(other.get());
+      parts.push_back(joined(other->model(library, threads), other->at));
+    }
+    diagnose_prepared({*a, library, request, progress, threads, others, parts}, holdouts, names, answer);
   } else {
     say_without_causes(request, progress, why_not, answer);
   }
-  if (a && request.holdouts.empty()) {
+  if (a && request.holdouts.empty() && !together.empty()) {
+    answer.remarks.emplace_back(
+        "no mission was held out: each recording was predicted by the others, which is weaker (--holdout OTHER.cap)");
+  } else if (a && request.holdouts.empty()) {
     answer.remarks.emplace_back(
         "no mission was held out: blocks of this one had to do, which is weaker (--holdout OTHER.cap)");
   }

@@ -111,6 +111,25 @@ struct InstrumentFacts {
   std::vector<std::string> not_judged;  ///< effects that the other instruments hardly show
 };
 
+/// What one of several recordings says by itself.
+struct RecordingFinding {
+  std::string recording;
+  std::vector<EffectFinding> effects;  ///< those of the joint answer, as this recording alone estimates them
+  /// The most probable effects of a search in this recording alone.
+  struct Alone {
+    std::vector<std::string> effects;
+    double probability = 0;
+  };
+  std::optional<Alone> alone;  ///< only where effects do not explain all recordings together, or differ among them
+};
+
+/// Whether an effect is the same in all recordings.
+struct EffectDifference {
+  std::string name;
+  double p_value = 1;  ///< of estimates that differ as much by their errors
+  bool differs = false;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::unknown;
   std::string sentence;                   ///< the verdict for people
@@ -135,8 +154,10 @@ struct Diagnosis {
   std::optional<Tracks> tracks;
   /// Comparison of the instruments with each other, where one is missing that the search for causes needs.
   std::optional<calib::Report> instruments_alone;
+  std::vector<RecordingFinding> recordings;   ///< of several that were diagnosed together; else empty
+  std::vector<EffectDifference> differences;  ///< among them
   BankFacts bank;
-  double duration_s = 0;  ///< of the mission
+  double duration_s = 0;  ///< of the missions together
   double seconds = 0;     ///< computing time of the diagnosis, without the bank
 };
 

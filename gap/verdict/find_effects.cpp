@@ -2,6 +2,7 @@
 #include "gap/verdict/find_effects.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "gap/inference/subset_search.h"
@@ -16,16 +17,50 @@ SearchResult search_by(const Priors& priors, const DiagnosisProblem& problem, co
   return SubsetSearch(problem.inference(nominal, priors)).run();
 }
 
-/// Priors by the null bank. Where an instrument is silent, what the others hardly show may be there unnoticed.
+/// Priors of several recordings together. The tolerance of a vehicle is the same in all of them. The error of the model is
+/// another one in each, so that the square of its mean falls with their number.
+Priors pooled(const std::vector<Priors>& priors) {
+  Priors all = priors.front();
+  if (priors.size() == 1) return all;
+  const auto count = static_cast<double>(priors.size());
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(all.spike.size());
+  for (const Priors& each : priors) square += each.model_error.cwiseAbs2() / (count * count);
+  all.model_error = square.cwiseSqrt();
+  for (Eigen::Index j = Library::kBiases; j < square.size(); ++j) {
+    all.spike[j] = std::max(std::hypot(kTolerance * all.slab[j], all.model_error[j]), all.model_error[j]);
+  }
+  return all;
+}
+
+/// Priors by the null banks. Where an instrument is silent, what the others hardly show may be there unnoticed.
 Priors priors_of(const DiagnosisProblem& problem, const Linearised& nominal) {
   const Library& library = problem.library;
-  const NullBank& bank = problem.prepared.bank;
-  Priors priors = fit_spike_widths(library, bank.gram, bank.scores);
-  if (problem.prepared.mission.silences.empty()) return priors;
+  std::vector<Priors> of_recordings{
+      fit_spike_widths(library, problem.prepared.bank.gram, problem.prepared.bank.scores)};
+  bool is_silent = !problem.prepared.mission.silences.empty();
+  for (const Prepared* other : problem.others) {
+    of_recordings.push_back(fit_spike_widths(library, other->bank.gram, other->bank.scores));
+    is_silent = is_silent || !other->mission.silences.empty();
+  }
+  Priors priors = pooled(of_recordings);
+  if (!is_silent) return priors;
   const EffectSubset hidden = hardly_shown_effects(library, nominal.gram, priors);
   priors = as_nuisance_parameters(std::move(priors), library, hidden);
   priors.not_judged = hidden;
   return priors;
+}
+
+/// The fit with the part of its linear model that belongs to the first recording: nulls with backlash are made of that.
+ModelFit of_first(const ModelFit& fit, const DiagnosisProblem& problem) {
+  if (problem.others.empty()) return fit;
+  ModelFit first = fit;
+  const Eigen::Index rows =
+      residual_at(problem.prepared.model(problem.library, problem.threads), fit.about).size();
+  first.linear.design = fit.linear.design.topRows(rows);
+  first.linear.residual = fit.linear.residual.head(rows);
+  first.linear.gram = first.linear.design.transpose() * first.linear.design;
+  first.linear.score = first.linear.design.transpose() * first.linear.residual;
+  return first;
 }
 
 /// Searches, and searches again with wider priors when backlash was found.
@@ -36,11 +71,12 @@ FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Lineari
   if (!has_backlash(library, result.found.best.effects)) return result;
   problem.progress("null missions with backlash", 0);
   BacklashNullBank bank =
-      backlash_null_bank(result.found.best, problem.repeated(), problem.prepared.model(library, problem.threads),
+      backlash_null_bank(of_first(result.found.best, problem), problem.repeated().front(),
+                         problem.prepared.model(library, problem.threads),
                          {kBacklashMissions, problem.request.bank_seed, problem.threads});
   if (bank.missions <= kBacklashMissions / 2) return result;
   // Searches again: beside a backlash, other effects are recruited for its residuals.
-  const Priors wider = widened(priors, library, result.found.best, bank);
+  const Priors wider = widened(priors, library, of_first(result.found.best, problem), bank);
   if (SearchResult again = search_by(wider, problem, nominal); has_backlash(library, again.best.effects)) {
     result.found = std::move(again);
     result.priors = wider;
@@ -50,12 +86,17 @@ FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Lineari
 }
 
 /// Whether a cell of the residual map is significant against the null bank.
-bool is_seen(const DiagnosisProblem& problem) {
-  const Innovations nominal = problem.prepared.replay->run(problem.library.model(problem.prepared.at));
+bool is_seen_in(const Prepared& prepared, const Library& library) {
+  const Innovations nominal = prepared.replay->run(library.model(prepared.at));
   const auto map =
-      residual_map(explained_rms(nominal, problem.prepared.course, problem.prepared.mission.fix_times_s()),
-                   problem.prepared.bank.explained_rms);
+      residual_map(explained_rms(nominal, prepared.course, prepared.mission.fix_times_s()), prepared.bank.explained_rms);
   return !significant_cells(map).empty();
+}
+
+bool is_seen(const DiagnosisProblem& problem) {
+  return is_seen_in(problem.prepared, problem.library) ||
+         std::any_of(problem.others.begin(), problem.others.end(),
+                     [&](const Prepared* other) { return is_seen_in(*other, problem.library); });
 }
 
 /// Whether simulated vehicles without a gap would show the effects found as well: null Bayes factors.
@@ -76,14 +117,20 @@ bool is_chance(const DiagnosisProblem& problem, const Linearised& nominal, const
 }  // namespace
 
 InferenceProblem DiagnosisProblem::inference(const Linearised& nominal, const Priors& priors) const {
-  return {prepared.model(library, threads), nominal, priors,
+  return {model(), nominal, priors,
           [report = &progress](double done) { (*report)("searching", done); }};
+}
+
+std::vector<RepeatedMission> DiagnosisProblem::repeated() const {
+  std::vector<RepeatedMission> all{{*prepared.replay, prepared.course, request.vehicle}};
+  for (const Prepared* other : others) all.push_back({*other->replay, other->course, request.vehicle});
+  return all;
 }
 
 FoundEffects find_effects(const DiagnosisProblem& problem) {
   problem.progress("linearising", 0);
   const Library& library = problem.library;
-  const Linearised nominal = linearise(problem.prepared.model(library, problem.threads), problem.prepared.at);
+  const Linearised nominal = linearise(problem.model(), problem.prepared.at);
   FoundEffects result = search_with_backlash(problem, nominal);
   if (is_chance(problem, nominal, result)) {
     result.by_chance = result.found.best.effects;

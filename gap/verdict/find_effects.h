@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "gap/inference/problem.h"
 #include "gap/inference/search.h"
@@ -13,16 +15,25 @@ namespace navcal::gap {
 /// Data that the steps of a diagnosis share once the recording is prepared. References, valid as long as the
 /// diagnosis runs.
 struct DiagnosisProblem {
-  const Prepared& prepared;
+  const Prepared& prepared;  ///< the recording, or the first of several
   const Library& library;
   const Request& request;
   const Progress& progress;
   unsigned threads = 1;
+  /// Recordings that are diagnosed together with the first one, and their parts of the joint model, in the same order.
+  std::span<const Prepared* const> others{};
+  std::span<const JoinedRecording> joined{};
 
+  /// Whitened residuals of all recordings.
+  [[nodiscard]] ResidualModel model() const {
+    ResidualModel all = prepared.model(library, threads);
+    all.others = joined;
+    return all;
+  }
   /// Problem of the search, with one linearisation about the nominal vehicle and with priors.
   [[nodiscard]] InferenceProblem inference(const Linearised& nominal, const Priors& priors) const;
-  /// Input of the null missions.
-  [[nodiscard]] RepeatedMission repeated() const { return {*prepared.replay, prepared.course, request.vehicle}; }
+  /// Input of the null missions, for each recording.
+  [[nodiscard]] std::vector<RepeatedMission> repeated() const;
 };
 
 /// The effects that a search found, and what they were compared with.

@@ -90,7 +90,7 @@ InformationResult information_of(const Request& request, const Progress& progres
   Preparation preparation(request, library, progress, threads);
   Diagnosis said;
   InformationResult result;
-  const auto prepared = preparation.prepare(request.mission, said);
+  const auto prepared = preparation.prepare(request.missions.at(0), said);
   result.remarks = said.remarks;
   if (!prepared) {
     result.shortcoming = said.remarks.empty() ? "the recording is empty" : said.remarks.back();

@@ -50,7 +50,7 @@ struct InformationResult {
   std::vector<std::string> remarks;
 };
 
-/// Computes the information of `request.mission`; hold-outs are not used. Throws as diagnose() does.
+/// Computes the information of the first of `request.missions`; others and hold-outs are not used. Throws as diagnose() does.
 [[nodiscard]] InformationResult information_of(const Request& request, const Progress& progress);
 
 }  // namespace navcal::gap

@@ -14,7 +14,7 @@ MadeBank make_bank(const Request& request, const Progress& progress) {
       request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
   Preparation preparation(request, library, progress, threads);
   Diagnosis answer;
-  const auto prepared = preparation.prepare(request.mission, answer);
+  const auto prepared = preparation.prepare(request.missions.at(0), answer);
   if (!prepared) return {0, answer.remarks.empty() ? "the recording is empty" : answer.remarks.back()};
   if (!prepared->refusal.empty()) throw std::runtime_error("the null bank cannot be kept: " + prepared->refusal);
   return {prepared->bank.missions, {}};

@@ -23,15 +23,16 @@ Preparation::Preparation(const Request& request, const Library& library, const P
       threads_(threads),
       cache_(request.cache, request.vehicle, library) {}
 
-void Preparation::expect_other_content(const std::string& name, const Mission& mission) {
+void Preparation::expect_other_content(const std::string& name, const Mission& mission, bool is_held_out) {
   SharedContent content(mission);
   for (const auto& [other, before] : contents_) {
     const double shared_s = content.shared_s(before);
     if (!(shared_s > 0)) continue;
     throw std::invalid_argument(fmt::format(
-        "--holdout {}: {:.0f} s of it are in {} as well. An answer can only be checked on a recording of "
-        "another mission.",
-        name, std::max(shared_s, 1.0), other));
+        "{}{}: {:.0f} s of it are in {} as well. {}", is_held_out ? "--holdout " : "", name, std::max(shared_s, 1.0),
+        other,
+        is_held_out ? "An answer can only be checked on a recording of another mission."
+                    : "Recordings that are diagnosed together must be of different missions."));
   }
   contents_.emplace_back(name, std::move(content));
 }
@@ -41,7 +42,8 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
   const std::string name = file.filename().string();
   prepared->mission = load_mission(
       file, [&](double done) { progress_("reading " + name, done); }, request_.settings);
-  expect_other_content(name, prepared->mission);
+  const auto& held_out = request_.holdouts;
+  expect_other_content(name, prepared->mission, std::find(held_out.begin(), held_out.end(), file) != held_out.end());
   if (!request_.without.empty()) leave_out(request_.without, prepared->mission);
   if (request_.field_uT) prepared->mission.field.set_given(*request_.field_uT);
   if (!answer.field) answer.field = prepared->mission.field;
@@ -50,7 +52,7 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
   if (!doubt.empty()) answer.remarks.push_back(name + ": " + doubt);
   const std::string shortcoming = prepared->mission.shortcoming();
   if (!shortcoming.empty()) {
-    if (file == request_.mission) answer.instruments.missing = missing_instruments(prepared->mission);
+    if (file == request_.missions.front()) answer.instruments.missing = missing_instruments(prepared->mission);
     answer.remarks.push_back(name + ": " + shortcoming);
     return nullptr;
   }

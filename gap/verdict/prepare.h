@@ -49,7 +49,7 @@ class Preparation {
   [[nodiscard]] std::unique_ptr<Prepared> prepare(const std::filesystem::path& file, Diagnosis& answer);
 
  private:
-  void expect_other_content(const std::string& name, const Mission& mission);
+  void expect_other_content(const std::string& name, const Mission& mission, bool is_held_out);
   /// Remarks on silent instruments and on commands; the facts of the first recording stand in `answer`.
   void remark_on(const Prepared& prepared, const std::string& name, Diagnosis& answer) const;
   /// Whether the commands, without reports, say what the vehicle did.

@@ -25,7 +25,7 @@ namespace navcal::gap {
 Diagnosis diagnose(const Request& request, const Progress& progress) {
   asked = request;
   progress("bank", 0.5);
-  if (request.mission == "bad.cap") throw record::BadRecording("bad.cap:3: no number");
+  if (request.missions.front() == "bad.cap") throw record::BadRecording("bad.cap:3: no number");
   return cli::test::explained_gap();
 }
 
@@ -53,12 +53,19 @@ class GapCommand : public testing::Test {
   navcal::test::TemporaryFolder folder_;
 };
 
+TEST_F(GapCommand, TakesSeveralRecordings) {
+  ASSERT_EQ(run({"a.cap", "b.cap", "--holdout", "c.cap"}).status, 0);
+  ASSERT_TRUE(asked);
+  EXPECT_EQ(asked->missions, (std::vector<std::filesystem::path>{"a.cap", "b.cap"}));
+  EXPECT_EQ(asked->holdouts, std::vector<std::filesystem::path>{"c.cap"});
+}
+
 TEST_F(GapCommand, AsksForWhatWasSaid) {
   const Outcome outcome = run({"--holdout", "b.cap", "--exclude", "hard_iron", "a.cap", "--holdout", "c.cap",
                                "--exclude", "gyro_scale", "--bank", "30", "--seed", "7", "--cache", "here"});
   ASSERT_EQ(outcome.status, 0) << outcome.message;
   ASSERT_TRUE(asked);
-  EXPECT_EQ(asked->mission, "a.cap");
+  EXPECT_EQ(asked->missions.front(), "a.cap");
   EXPECT_EQ(asked->holdouts, (std::vector<std::filesystem::path>{"b.cap", "c.cap"}));
   EXPECT_EQ(asked->excluded, (std::vector<std::string>{"hard_iron", "gyro_scale"}));
   EXPECT_EQ(asked->bank_missions, 30);
@@ -229,7 +236,7 @@ TEST_F(GapCommand, ARecordingMayBeNamedLikeTheTrial) {
   EXPECT_FALSE(asked);
   run({"./trial"});
   ASSERT_TRUE(asked);
-  EXPECT_EQ(asked->mission, "./trial");
+  EXPECT_EQ(asked->missions.front(), "./trial");
 }
 
 }  // namespace

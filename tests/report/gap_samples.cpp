@@ -186,6 +186,6 @@ gap::Diagnosis hostile_gap() {
   return diagnosis;
 }
 
-report::GapSource gap_source() { return {"dives/a.cap", {"b.cap", "c.cap"}, "", {"adc_droop"}, "found.toml"}; }
+report::GapSource gap_source() { return {{"dives/a.cap"}, {"b.cap", "c.cap"}, "", {"adc_droop"}, "found.toml"}; }
 
 }  // namespace navcal::cli::test

@@ -55,7 +55,7 @@ class AmongNulls : public testing::Test {
     return {};
   }
   [[nodiscard]] std::vector<double> gains(const EffectSubset& set) const {
-    return null_bayes_factors(set, repeated(), {{replay_, library_, bank_.whitening}, nominal_, priors_},
+    return null_bayes_factors(set, std::array{repeated()}, {{replay_, library_, bank_.whitening}, nominal_, priors_},
                               {12, 1, 2});
   }
   /// Gains of the bank's missions by the recorded mission's regressors.

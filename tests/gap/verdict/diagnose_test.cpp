@@ -18,7 +18,7 @@ class Diagnose : public testing::Test {
   Diagnosis diagnosis(const std::filesystem::path& mission, std::vector<std::filesystem::path> holdouts,
                       std::vector<std::string> excluded = {}) {
     Request request;
-    request.mission = mission;
+    request.missions = {mission};
     request.holdouts = std::move(holdouts);
     request.excluded = std::move(excluded);
     request.cache = folder_ / "banks";

@@ -18,9 +18,9 @@ class DiagnoseWithout : public testing::Test {
   Diagnosis diagnosis(std::initializer_list<const char*> instruments, std::string_view effects,
                       std::string_view mission = "identification") {
     Request request;
-    request.mission = folder_ / "a.cap";
+    request.missions = {folder_ / "a.cap"};
     request.holdouts = {folder_ / "b.cap"};
-    test::write_mission(request.mission, mission, effects, 150, 1);
+    test::write_mission(request.missions.front(), mission, effects, 150, 1);
     test::write_mission(request.holdouts.front(), mission, effects, 150, 2);
     for (const char* const name : instruments) {
       const auto quantities = quantities_named(name);
