@@ -19,6 +19,8 @@
 #include "cli/commands.h"
 #include "cli/gap_export.h"
 #include "cli/gap_layouts.h"
+#include "cli/gap_next.h"
+#include "cli/gap_request.h"
 #include "cli/gap_trial.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
@@ -39,17 +41,11 @@
 namespace navcal::cli {
 namespace {
 
-struct GapCommandOptions {
-  report::GapSource source;
-  analysis::PlaceArguments where;
+struct GapCommandOptions : GapRequestOptions {
   std::vector<std::string> nominals;
   std::string json, report;
-  std::vector<std::string> without;
   std::string saved;  ///< diagnosis to read instead of making one
   ExportOptions exports;
-  std::filesystem::path cache;
-  int bank_missions = gap::Request{}.bank_missions;
-  std::uint64_t bank_seed = gap::Request{}.bank_seed;
 
   /// File of the diagnosis: the recording, or the saved one.
   [[nodiscard]] std::string origin() const {
@@ -57,32 +53,6 @@ struct GapCommandOptions {
     return source.missions.empty() ? std::string() : source.missions.front();
   }
 };
-
-/// Where the user's caches are, after the XDG base directories; empty when there is no such place.
-std::filesystem::path usual_cache() {
-  const auto folder = [](const char* variable) {
-    const char* const value = std::getenv(variable);
-    return std::filesystem::path(value == nullptr ? "" : value);
-  };
-  if (const auto caches = folder("XDG_CACHE_HOME"); caches.is_absolute()) return caches / "navcal";
-  if (const auto home = folder("HOME"); home.is_absolute()) return home / ".cache" / "navcal";
-  return {};
-}
-
-void expect_effects(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (!sim::make_effect(name))
-      throw analysis::Failure(analysis::Exit::usage, "--exclude " + name + ": " + sim::unknown_effect(name));
-  }
-}
-
-void expect_instrument(const std::string& name) {
-  try {
-    static_cast<void>(gap::quantities_named(name));
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, std::string("--without: ") + error.what());
-  }
-}
 
 /// The diagnosis of a vehicle that a layout describes.
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layout& layout) {
@@ -105,28 +75,11 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
 }
 
 gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
-  gap::Request request;
-  if (!options.source.vehicle.empty()) {
-    const analysis::ChosenVehicle vehicle = analysis::load_chosen_vehicle(options.source.vehicle);
-    if (const auto* layout = std::get_if<config::Layout>(&vehicle)) return diagnosis_of(options, *layout);
-    request.vehicle = std::get<config::VehicleSettings>(vehicle);
-  }
+  if (const auto layout = layout_of(options)) return diagnosis_of(options, *layout);
   if (!options.nominals.empty())
     throw std::invalid_argument(
         "--nominal needs a layout (--vehicle): the floor of the reference vehicle is simulated");
-  expect_effects(options.source.excluded);
-  request.missions = {options.source.missions.begin(), options.source.missions.end()};
-  request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
-  if (!options.source.config.empty()) request.settings = config::load(options.source.config);
-  request.excluded = options.source.excluded;
-  for (const std::string& name : options.without) {
-    const auto quantities = gap::quantities_named(name);
-    request.without.insert(request.without.end(), quantities.begin(), quantities.end());
-  }
-  request.field_uT = options.where.field_uT();
-  request.cache = options.cache.empty() ? usual_cache() : options.cache;
-  request.bank_missions = options.bank_missions;
-  request.bank_seed = options.bank_seed;
+  const gap::Request request = gap_request_of(options);
   analysis::Progress progress("gap", analysis::Progress::Answer::at_the_end);
   return gap::diagnose(request, [&](std::string_view what, double done) { progress.show(what, done); });
 }
@@ -193,7 +146,7 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
 
 void find_gap(const GapCommandOptions& options) {
   try {
-    for (const std::string& name : options.without) expect_instrument(name);
+    expect_instruments(options.without);
     const std::vector<ExportFile> exports = expect_outputs(options);
     const gap::Diagnosis diagnosis =
         options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
@@ -233,14 +186,7 @@ void add_gap(CLI::App& app) {
       "gap", "diagnosis of the gap between a recording and the model: where, from which effect, how much");
   const auto options = std::make_shared<GapCommandOptions>();
   auto& source = options->source;
-  auto* const mission = command->add_option(
-      "FILE", source.missions,
-      "the mission to be diagnosed: a capture (.cap) or a log (.mcap); several of one vehicle are diagnosed together");
-  command
-      ->add_option("--holdout", source.holdouts,
-                   "another mission of the same vehicle, on which the answer is judged; repeatable")
-      ->option_text("FILE")
-      ->allow_extra_args(false);
+  auto* const mission = add_gap_request(*command, *options);
   command
       ->add_option(
           "--nominal", options->nominals,
@@ -248,46 +194,12 @@ void add_gap(CLI::App& app) {
           "repeatable")
       ->option_text("FILE")
       ->allow_extra_args(false);
-  command
-      ->add_option("--vehicle", source.vehicle,
-                   "the nominal vehicle, if it is not the reference vehicle: a vehicle file or a layout")
-      ->option_text("FILE.toml");
-  command
-      ->add_option("--config", source.config,
-                   "configuration of all recordings, instead of their own: ports and instruments")
-      ->option_text("FILE.toml");
-  command
-      ->add_option("--field", options->where.field,
-                   "the Earth's field in uT (north, east, down), instead of the World Magnetic Model's where the "
-                   "fixes are")
-      ->option_text("N,E,D");
-  command->add_option("--exclude", source.excluded, "removes this effect from the library; repeatable")
-      ->option_text("NAME")
-      ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--without", options->without,
-          "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
-          "gyros, accelerometers, depth, gps or motor; repeatable")
-      ->option_text("NAME")
-      ->allow_extra_args(false);
   command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
       ->option_text("FILE|-");
   command->add_option("--report", options->report, "page with pictures; needs no other file")
       ->option_text("FILE.html");
   command->add_option("--effects-out", source.effects_file, "the effects found, for navcal simulate --effects")
       ->option_text("FILE.toml");
-  const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  command->add_option("--bank", options->bank_missions, "so many")
-      ->check(CLI::Range(2, 10'000))
-      ->capture_default_str()
-      ->group(bank);
-  command->add_option("--seed", options->bank_seed, "seed of their noise and tolerances")
-      ->capture_default_str()
-      ->group(bank);
-  command->add_option("--cache", options->cache, "folder in which they are kept; default: ~/.cache/navcal")
-      ->option_text("DIR")
-      ->group(bank);
   add_exports(command, mission, *options);
   command->footer(
       "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"
@@ -295,6 +207,7 @@ void add_gap(CLI::App& app) {
       "  navcal gap a.cap b.cap c.cap --holdout d.cap\n"
       "  navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
   add_gap_layouts(*command);
+  add_gap_next(*command);
   add_gap_trial(*command);
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;

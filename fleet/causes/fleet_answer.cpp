@@ -96,7 +96,7 @@ Eigen::VectorXd values_in(std::size_t mission, const PooledMissions& missions, c
 bool imitates(const FoundCause& cause, const FoundCause& backlash) {
   const PossibleCause &mine = cause.acting.cause, &theirs = backlash.acting.cause;
   const bool is_own = mine.level == theirs.level && mine.of == theirs.of;
-  if (strength_of(cause) >= (is_own ? kBesideOwnBacklash : kBesideBacklash)) return false;
+  if (strength_of(cause) >= (is_own ? kBesideOwnBacklash : kBesideBacklash) * strength_of(backlash)) return false;
   return std::find_first_of(mine.missions.begin(), mine.missions.end(), theirs.missions.begin(),
                             theirs.missions.end()) != mine.missions.end();
 }
@@ -270,6 +270,9 @@ FleetAnswer answer_of_fleet(const PooledMissions& missions, unsigned threads, co
       for (Alternative& other : cause.alternatives) renumber(other.cause, pool, missions);
     }
   }
+  // What is left is what nothing that was found closes, whether its name is certain or not.
+  const std::vector<FleetMission> pooled = without(missions, answer.outliers);
+  answer.missions = gaps_of(missions, pooled.empty() ? missions : PooledMissions(pooled), result.causes);
   const std::vector<bool> imitate = imitating(missions, result.causes);
   for (std::size_t i = 0; i < result.causes.size(); ++i) {
     FoundCause& cause = result.causes[i];
@@ -277,8 +280,6 @@ FleetAnswer answer_of_fleet(const PooledMissions& missions, unsigned threads, co
     const bool is_named = cause.probability >= kCauseNamedFrom && !imitate[i];
     (is_tolerance ? answer.tolerances : is_named ? answer.causes : answer.undecided).push_back(std::move(cause));
   }
-  const std::vector<FleetMission> pooled = without(missions, answer.outliers);
-  answer.missions = gaps_of(missions, pooled.empty() ? missions : PooledMissions(pooled), answer.causes);
   for (const MissionGroup& vehicle : missions.vehicles()) {
     answer.vehicles.push_back(answer_of_vehicle(vehicle, answer));
   }

@@ -22,8 +22,8 @@ enum class FleetVerdict : std::uint8_t {
 [[nodiscard]] std::string_view name_of(FleetVerdict verdict);
 
 /// Power of the whitened residuals: 1 is the noise of the nominal vehicle. The floor is that of simulated missions
-/// without a gap; `after` has causes in the model that other missions determined (every second one of each
-/// vehicle).
+/// without a gap; `after` has all that was found in the model, as other missions determined it (every second one of
+/// each vehicle).
 struct MissionGap {
   double before = 0, after = 0, floor = 0, floor_std = 0;
 };

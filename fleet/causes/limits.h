@@ -36,10 +36,10 @@ inline constexpr int kExchangeRounds = 3;
 inline constexpr std::size_t kMostCausesPerVehicle = 3;
 /// Strength up to which an effect is a tolerance of a vehicle: 2.5 standard deviations; of a design or a day by theirs.
 inline constexpr double kToleranceDeviations = 2.5;
-/// Strength up to which a cause beside a backlash in the same missions is not named, typical values: of the same vehicle or
-/// design, and of another one. Set: inside its dead band a fin is not where the linear model has it, and small effects
-/// of other instruments imitate the difference.
-inline constexpr double kBesideOwnBacklash = 0.5, kBesideBacklash = 0.15;
+/// Strength of a cause beside a backlash in the same missions, in strengths of the backlash, up to which the cause is not
+/// named: of the same vehicle or design, and of another one. Set: inside its dead band a fin is not where the linear model
+/// has it, and effects of other instruments imitate the difference.
+inline constexpr double kBesideOwnBacklash = 2, kBesideBacklash = 0.7;
 /// Standard deviations of the floor above which the missions of a vehicle show a gap.
 inline constexpr double kFleetGap_sigma = 4;
 /// Share of its gap that the causes must close, or the vehicle has an unknown cause.

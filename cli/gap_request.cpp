@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/gap_request.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <variant>
+
+#include "analysis/chosen_vehicle.h"
+#include "analysis/failure.h"
+#include "config/load.h"
+#include "gap/data/silence.h"
+#include "sim/effects/choice.h"
+#include "sim/effects/effect_table.h"
+
+namespace navcal::cli {
+namespace {
+
+/// Where the user's caches are, after the XDG base directories; empty when there is no such place.
+std::filesystem::path usual_cache() {
+  const auto folder = [](const char* variable) {
+    const char* const value = std::getenv(variable);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  if (const auto caches = folder("XDG_CACHE_HOME"); caches.is_absolute()) return caches / "navcal";
+  if (const auto home = folder("HOME"); home.is_absolute()) return home / ".cache" / "navcal";
+  return {};
+}
+
+void expect_effects(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (!sim::make_effect(name))
+      throw analysis::Failure(analysis::Exit::usage, "--exclude " + name + ": " + sim::unknown_effect(name));
+  }
+}
+
+void expect_instrument(const std::string& name) {
+  try {
+    static_cast<void>(gap::quantities_named(name));
+  } catch (const std::invalid_argument& error) {
+    throw analysis::Failure(analysis::Exit::usage, std::string("--without: ") + error.what());
+  }
+}
+
+}  // namespace
+
+void expect_instruments(const std::vector<std::string>& names) {
+  for (const std::string& name : names) expect_instrument(name);
+}
+
+std::optional<config::Layout> layout_of(const GapRequestOptions& options) {
+  if (options.source.vehicle.empty()) return std::nullopt;
+  const analysis::ChosenVehicle vehicle = analysis::load_chosen_vehicle(options.source.vehicle);
+  const auto* layout = std::get_if<config::Layout>(&vehicle);
+  return layout == nullptr ? std::nullopt : std::optional(*layout);
+}
+
+gap::Request gap_request_of(const GapRequestOptions& options) {
+  gap::Request request;
+  if (!options.source.vehicle.empty()) {
+    request.vehicle = std::get<config::VehicleSettings>(analysis::load_chosen_vehicle(options.source.vehicle));
+  }
+  expect_effects(options.source.excluded);
+  request.missions = {options.source.missions.begin(), options.source.missions.end()};
+  request.holdouts.assign(options.source.holdouts.begin(), options.source.holdouts.end());
+  if (!options.source.config.empty()) request.settings = config::load(options.source.config);
+  request.excluded = options.source.excluded;
+  for (const std::string& name : options.without) {
+    const auto quantities = gap::quantities_named(name);
+    request.without.insert(request.without.end(), quantities.begin(), quantities.end());
+  }
+  request.field_uT = options.where.field_uT();
+  request.cache = options.cache.empty() ? usual_cache() : options.cache;
+  request.bank_missions = options.bank_missions;
+  request.bank_seed = options.bank_seed;
+  return request;
+}
+
+CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options) {
+  auto& source = options.source;
+  auto* const mission = command.add_option(
+      "FILE", source.missions,
+      "the mission to be diagnosed: a capture (.cap) or a log (.mcap); several of one vehicle are diagnosed together");
+  command
+      .add_option("--holdout", source.holdouts,
+                  "another mission of the same vehicle, on which the answer is judged; repeatable")
+      ->option_text("FILE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--vehicle", source.vehicle,
+                  "the nominal vehicle, if it is not the reference vehicle: a vehicle file or a layout")
+      ->option_text("FILE.toml");
+  command
+      .add_option("--config", source.config,
+                  "configuration of all recordings, instead of their own: ports and instruments")
+      ->option_text("FILE.toml");
+  command
+      .add_option("--field", options.where.field,
+                  "the Earth's field in uT (north, east, down), instead of the World Magnetic Model's where the "
+                  "fixes are")
+      ->option_text("N,E,D");
+  command.add_option("--exclude", source.excluded, "removes this effect from the library; repeatable")
+      ->option_text("NAME")
+      ->allow_extra_args(false);
+  command
+      .add_option("--without", options.without,
+                  "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
+                  "gyros, accelerometers, depth, gps or motor; repeatable")
+      ->option_text("NAME")
+      ->allow_extra_args(false);
+  const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
+  command.add_option("--bank", options.bank_missions, "so many")
+      ->check(CLI::Range(2, 10'000))
+      ->capture_default_str()
+      ->group(bank);
+  command.add_option("--seed", options.bank_seed, "seed of their noise and tolerances")
+      ->capture_default_str()
+      ->group(bank);
+  command.add_option("--cache", options.cache, "folder in which they are kept; default: ~/.cache/navcal")
+      ->option_text("DIR")
+      ->group(bank);
+  return mission;
+}
+
+}  // namespace navcal::cli

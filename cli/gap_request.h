@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/place_arguments.h"
+#include "config/layout.h"
+#include "gap/verdict/request.h"
+#include "report/gap_words.h"
+
+namespace navcal::cli {
+
+/// Options that every command has which diagnoses recordings.
+struct GapRequestOptions {
+  report::GapSource source;
+  analysis::PlaceArguments where;
+  std::vector<std::string> without;
+  std::filesystem::path cache;
+  int bank_missions = gap::Request{}.bank_missions;
+  std::uint64_t bank_seed = gap::Request{}.bank_seed;
+};
+
+/// Adds them; the answer is the positional option of the recordings.
+CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options);
+
+/// The layout of --vehicle, if it is one. Throws config::Error.
+[[nodiscard]] std::optional<config::Layout> layout_of(const GapRequestOptions& options);
+
+/// The request for a vehicle without a layout. Throws config::Error, analysis::Failure.
+[[nodiscard]] gap::Request gap_request_of(const GapRequestOptions& options);
+
+/// Throws analysis::Failure (usage) for a name of --without that is no instrument.
+void expect_instruments(const std::vector<std::string>& names);
+
+}  // namespace navcal::cli

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gap/design/hypotheses.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gap/inference/evidence.h"
+#include "gap/inference/model_fit.h"
+#include "gap/thresholds.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Probability below which a set is left out, and the largest number of sets: more cost time and change no plan.
+constexpr double kLeastHypothesis = 0.002;
+constexpr std::size_t kMostHypotheses = 8;
+/// Log odds with which a set is named: a probability of kNamedFrom beside rivals of kMostRivals.
+const double kNamed_nats = std::log(kNamedFrom / kMostRivals);
+
+double normal_probability(double deviation) { return 0.5 * std::erfc(-deviation / std::sqrt(2.0)); }
+
+}  // namespace
+
+std::vector<Hypothesis> probable_hypotheses(const DiagnosisProblem& problem, const FoundEffects& found) {
+  const LinearGaussianModel model{found.found.best.linear, problem.library, found.priors};
+  std::vector<Hypothesis> all;
+  bool has_none = false;
+  for (const Candidate& candidate : found.found.candidates) {
+    const bool is_none = candidate.effects.empty();
+    if (!is_none && (candidate.probability < kLeastHypothesis || all.size() + 1 >= kMostHypotheses + (has_none ? 1 : 0))) {
+      continue;
+    }
+    has_none = has_none || is_none;
+    Hypothesis hypothesis{candidate.effects, candidate.log_odds, candidate.probability,
+                          Eigen::VectorXd::Zero(found.found.best.mean.size())};
+    const auto members = parameter_indices(problem.library, candidate.effects);
+    const Eigen::VectorXd mean = candidate.effects == found.found.best.effects
+                                     ? found.found.best.mean
+                                     : bounded_posterior(model, members).mean;
+    for (const Eigen::Index j : members) hypothesis.values[j] = mean[j];
+    all.push_back(std::move(hypothesis));
+  }
+  double total = 0;
+  for (const Hypothesis& each : all) total += each.probability;
+  for (Hypothesis& each : all) each.probability /= total;
+  return all;
+}
+
+std::vector<Hypothesis> weak_hypotheses(const Library& library, const Priors& priors, double strength) {
+  std::vector<Hypothesis> all{{{}, 0, 0.5, Eigen::VectorXd::Zero(priors.spike.size())}};
+  for (std::size_t effect = 0; effect < library.size(); ++effect) {
+    if (!library.holds(effect)) continue;
+    Hypothesis hypothesis{{effect}, 0, 0.5 / static_cast<double>(library.size()), Eigen::VectorXd::Zero(priors.spike.size())};
+    const double share = strength / std::sqrt(static_cast<double>(library.count(effect)));
+    for (const Eigen::Index j : parameter_indices(library, {effect})) {
+      hypothesis.values[j] = share * library.unknowns()[static_cast<std::size_t>(j)].typical;
+    }
+    all.push_back(std::move(hypothesis));
+  }
+  return all;
+}
+
+Eigen::MatrixXd information_without_biases(const Eigen::MatrixXd& gram, const Priors& priors) {
+  constexpr Eigen::Index b = Library::kBiases;
+  const Eigen::Index n = gram.rows() - b;
+  Eigen::MatrixXd biases = gram.topLeftCorner(b, b);
+  biases.diagonal() += priors.slab.head(b).cwiseAbs2().cwiseInverse();
+  const Eigen::MatrixXd cross = gram.topRightCorner(b, n);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(gram.rows(), gram.cols());
+  information.bottomRightCorner(n, n) =
+      gram.bottomRightCorner(n, n) - cross.transpose() * biases.llt().solve(cross);
+  return information;
+}
+
+double expected_separation(const Hypothesis& a, const Hypothesis& b, const Eigen::MatrixXd& information,
+                           const Library& library, const Priors& priors) {
+  // 1/2 s^T (G - G P (1 + P G P)^-1 P G) s with the prior P of what may take the signal s over.
+  Eigen::VectorXd prior = priors.spike;
+  for (const Eigen::Index j : parameter_indices(library, b.effects)) prior[j] = priors.slab[j];
+  Eigen::MatrixXd scaled = prior.asDiagonal() * information * prior.asDiagonal();
+  scaled.diagonal().array() += 1;
+  const Eigen::VectorXd image = information * a.values;
+  const Eigen::VectorXd half = prior.cwiseProduct(image);
+  return std::max(0.0, 0.5 * (a.values.dot(image) - half.dot(scaled.llt().solve(half))));
+}
+
+double probability_of_exact_answer(const std::vector<Hypothesis>& hypotheses, const Eigen::MatrixXd& separation) {
+  double sum = 0;
+  for (std::size_t a = 0; a < hypotheses.size(); ++a) {
+    double least = 1;
+    for (std::size_t b = 0; b < hypotheses.size(); ++b) {
+      if (a == b) continue;
+      const double nats = separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+      const double margin = hypotheses[a].log_odds - hypotheses[b].log_odds + nats - kNamed_nats;
+      least = std::min(least, nats > 0 ? normal_probability(margin / std::sqrt(2 * nats)) : margin > 0 ? 1.0 : 0.0);
+    }
+    sum += hypotheses[a].probability * least;
+  }
+  return sum;
+}
+
+}  // namespace navcal::gap
