@@ -83,11 +83,13 @@ struct HeldOut {
 /// One diagnosis on its way.
 class Diagnosing {
  public:
-  Diagnosing(const LayoutRequest& request, LayoutRecordings recordings, const LayoutProgress& progress)
-      : request_(request),
-        recordings_(std::move(recordings)),
-        progress_(progress),
-        threads_(request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency())) {}
+  /// `recordings` must outlive it. `window_s`: length of the windows of the replay.
+  Diagnosing(const LayoutRequest& request, const LayoutRecordings& recordings, const LayoutProgress& progress,
+             double window_s)
+      : request_(request), recordings_(recordings), progress_(progress) {
+    settings_.window_s = window_s;
+    settings_.threads = request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
+  }
 
   Diagnosis run() {
     const auto begin = std::chrono::steady_clock::now();
@@ -111,7 +113,7 @@ class Diagnosing {
 
   FittedRecording fitted(const std::vector<RecordedMotion>& one) const {
     try {
-      return {request_.layout, library_, one, noise_, threads_};
+      return {request_.layout, library_, one, noise_, settings_};
     } catch (const std::invalid_argument& error) {
       throw CannotSay(error.what());
     }
@@ -140,6 +142,7 @@ class Diagnosing {
     try {
       return recording.fit({}, nullptr, [&](double done) { progress_(what, done); });
     } catch (const identify::UnboundedReplay& error) {
+      if (settings_.window_s > identify::kLeastWindow_s) throw;
       throw CannotSay(std::string("the layout cannot be replayed along the recording (") + error.what() +
                       "): is it this vehicle's?");
     }
@@ -367,9 +370,9 @@ class Diagnosing {
   }
 
   const LayoutRequest& request_;
-  const LayoutRecordings recordings_;
+  const LayoutRecordings& recordings_;
   const LayoutProgress& progress_;
-  unsigned threads_;
+  identify::FitSettings settings_;
   Diagnosis answer_;
   std::vector<RecordedMotion> recording_;  ///< one
   CauseLibrary library_;
@@ -383,8 +386,17 @@ class Diagnosing {
 
 }  // namespace
 
-Diagnosis diagnose(const LayoutRequest& request, LayoutRecordings recordings, const LayoutProgress& progress) {
-  return Diagnosing(request, std::move(recordings), progress).run();
+Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
+                   const LayoutProgress& progress) {
+  for (double window_s = identify::FitSettings{}.window_s;; window_s /= 2) {
+    try {
+      return Diagnosing(request, recordings, progress, window_s).run();
+    } catch (const identify::UnboundedReplay&) {
+      // The vehicle is unstable: it needs shorter windows, in all recordings alike. With the shortest ones the run itself
+      // says that it cannot be replayed.
+      if (window_s <= identify::kLeastWindow_s) throw;
+    }
+  }
 }
 
 LayoutRecordings load(const LayoutFiles& files, const LayoutProgress& progress) {

@@ -44,7 +44,7 @@ using LayoutProgress = std::function<void(std::string_view what, double done)>;
 /// Diagnoses a recording (docs/gap.md, "Vehicles with a layout"). Throws std::invalid_argument for an excluded
 /// name that is no cause. A recording that cannot be diagnosed gets the verdict `unknown` and remarks that say
 /// why.
-[[nodiscard]] gap::Diagnosis diagnose(const LayoutRequest& request, LayoutRecordings recordings,
+[[nodiscard]] gap::Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordings,
                                       const LayoutProgress& progress);
 
 /// Throws record::BadRecording for a file that is no recording.

@@ -69,12 +69,12 @@ LinearRecording LinearRecording::about(const Eigen::VectorXd& at) const {
 
 FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrary& library,
                                  const std::vector<identify::RecordedMotion>& one_recording,
-                                 const identify::NoiseModel& noise, unsigned threads)
+                                 const identify::NoiseModel& noise, const identify::FitSettings& settings)
     : layout_(layout),
       library_(library),
       recordings_(one_recording),
       noise_(noise),
-      threads_(threads),
+      settings_(settings),
       nuisance_stds_(identify::nuisance_stds(one_recording.front())) {
   for (const Cause& cause : library.causes) {
     if (!cause.is_instrument) continue;
@@ -87,7 +87,7 @@ FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrar
 
 FitProblem FittedRecording::problem_with(std::vector<identify::Parameter> parameters,
                                          const identify::Calibration& nuisance_stds) const {
-  FitProblem problem(layout_, std::move(parameters), recordings_, {.threads = threads_});
+  FitProblem problem(layout_, std::move(parameters), recordings_, settings_);
   problem.set_noise(noise_);
   problem.set_nuisance_stds(0, nuisance_stds);
   return problem;

@@ -51,7 +51,7 @@ class FittedRecording {
   /// Throws std::invalid_argument in words when commands or readings are missing.
   FittedRecording(const config::Layout& layout, const CauseLibrary& library,
                   const std::vector<identify::RecordedMotion>& one_recording, const identify::NoiseModel& noise,
-                  unsigned threads);
+                  const identify::FitSettings& settings);
 
   /// Fits the uncertain numbers of the layout, the parameters of `priors`, nuisances and states, beginning at
   /// `from` where it is given, and linearises there about all columns. The other effects are zero. Throws
@@ -75,7 +75,7 @@ class FittedRecording {
   const CauseLibrary& library_;
   const std::vector<identify::RecordedMotion>& recordings_;
   identify::NoiseModel noise_;
-  unsigned threads_;
+  identify::FitSettings settings_;
   identify::Calibration nuisance_stds_;
 };
 

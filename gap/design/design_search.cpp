@@ -24,8 +24,6 @@ constexpr std::uint64_t kDesignSeed = 1;
 constexpr int kMostExchanges = 4;
 /// Steady time at the beginning of a planned mission, s: the estimator settles.
 constexpr double kStart_s = 6;
-/// Time of the step between two manoeuvres (mission_file_of), s.
-constexpr double kBetween_s = 6;
 /// Share by which a planned mission may exceed a limit on rates and angles: an autopilot overshoots.
 constexpr double kOvershoot = 1.25;
 /// Weight of what a separation adds beyond what decides, so that equal choices are ordered.
@@ -41,19 +39,41 @@ double duration_of(const config::Mission& steps, const config::VehicleSettings& 
 
 }  // namespace
 
+namespace {
+
+/// Each effect of a test against none: only the model without effects is needed.
+void set_tested(const DesignGoal& goal, const Eigen::MatrixXd& total, SeparationTable& table) {
+  const ModelForecast none_so_far({}, goal.information, goal.library, goal.priors);
+  const ModelForecast none_after({}, total, goal.library, goal.priors);
+  for (Eigen::Index a = 1; a < table.added.rows(); ++a) {
+    const Eigen::VectorXd& values = goal.hypotheses[static_cast<std::size_t>(a)].values;
+    table.so_far(a, 0) = none_so_far.unexplained_nats(values);
+    table.added(a, 0) = std::max(0.0, none_after.unexplained_nats(values) - table.so_far(a, 0));
+  }
+}
+
+}  // namespace
+
 SeparationTable separations(const DesignGoal& goal, const Eigen::MatrixXd& planned_information) {
   const auto n = static_cast<Eigen::Index>(goal.hypotheses.size());
   const Eigen::MatrixXd total = goal.information + planned_information;
-  const bool only_none = goal.purpose == DesignPurpose::test;
   SeparationTable table{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
+  if (goal.purpose == DesignPurpose::test) {
+    set_tested(goal, total, table);
+    return table;
+  }
+  std::vector<ModelForecast> so_far, after;
+  for (const Hypothesis& each : goal.hypotheses) {
+    so_far.emplace_back(each.effects, goal.information, goal.library, goal.priors);
+    after.emplace_back(each.effects, total, goal.library, goal.priors);
+  }
   for (Eigen::Index a = 0; a < n; ++a) {
     for (Eigen::Index b = 0; b < n; ++b) {
-      if (a == b || (only_none && b != 0)) continue;
-      const Hypothesis& one = goal.hypotheses[static_cast<std::size_t>(a)];
-      const Hypothesis& other = goal.hypotheses[static_cast<std::size_t>(b)];
-      table.so_far(a, b) = expected_separation(one, other, goal.information, goal.library, goal.priors);
-      table.added(a, b) = std::max(
-          0.0, expected_separation(one, other, total, goal.library, goal.priors) - table.so_far(a, b));
+      if (a == b) continue;
+      const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
+      const Eigen::VectorXd& values = goal.hypotheses[i].values;
+      table.so_far(a, b) = so_far[i].expected_over(so_far[k], values);
+      table.added(a, b) = std::max(0.0, after[i].expected_over(after[k], values) - table.so_far(a, b));
     }
   }
   return table;

@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "gap/inference/evidence.h"
 #include "gap/inference/model_fit.h"
@@ -74,16 +73,34 @@ Eigen::MatrixXd information_without_biases(const Eigen::MatrixXd& gram, const Pr
   return information;
 }
 
-double expected_separation(const Hypothesis& a, const Hypothesis& b, const Eigen::MatrixXd& information,
-                           const Library& library, const Priors& priors) {
-  // 1/2 s^T (G - G P (1 + P G P)^-1 P G) s with the prior P of what may take the signal s over.
+// With covariances C = 1 + X P^2 X^T of the data under each model, and C_0 that of the tolerances,
+//   E[log p(r|a) - log p(r|b)] = 1/2 v^T X^T (C_b^-1 - C_a^-1) X v + 1/2 tr((C_b^-1 - C_a^-1) C_0)
+//                                + 1/2 (log det C_b - log det C_a),
+// and by Woodbury's identity X^T C^-1 X = G - G M G, tr(C^-1) = rows - tr(M G), det C = det(1 + P G P).
+ModelForecast::ModelForecast(const EffectSubset& members, const Eigen::MatrixXd& information, const Library& library,
+                             const Priors& priors) {
   Eigen::VectorXd prior = priors.spike;
-  for (const Eigen::Index j : parameter_indices(library, b.effects)) prior[j] = priors.slab[j];
+  for (const Eigen::Index j : parameter_indices(library, members)) prior[j] = priors.slab[j];
   Eigen::MatrixXd scaled = prior.asDiagonal() * information * prior.asDiagonal();
   scaled.diagonal().array() += 1;
-  const Eigen::VectorXd image = information * a.values;
-  const Eigen::VectorXd half = prior.cwiseProduct(image);
-  return std::max(0.0, 0.5 * (a.values.dot(image) - half.dot(scaled.llt().solve(half))));
+  const Eigen::LLT<Eigen::MatrixXd> factor(scaled);
+  const Eigen::MatrixXd half = prior.asDiagonal() * information;
+  const Eigen::MatrixXd solved = factor.solve(half);
+  left_ = information - half.transpose() * solved;
+  log_determinant_ = 2 * factor.matrixLLT().diagonal().array().log().sum();
+  // tr(M G) = tr((1 + P G P)^-1 P G P); the tolerances themselves add tr(S^2 (G - G M G)).
+  const auto n = static_cast<double>(prior.size());
+  const double taken = n - factor.solve(Eigen::MatrixXd::Identity(prior.size(), prior.size())).trace();
+  trace_ = -taken + left_.diagonal().dot(priors.spike.cwiseAbs2());
+}
+
+double ModelForecast::unexplained_nats(const Eigen::VectorXd& values) const {
+  return 0.5 * std::max(0.0, values.dot(left_ * values));
+}
+
+double ModelForecast::expected_over(const ModelForecast& other, const Eigen::VectorXd& values) const {
+  return other.unexplained_nats(values) - unexplained_nats(values) + 0.5 * (other.trace_ - trace_) +
+         0.5 * (other.log_determinant_ - log_determinant_);
 }
 
 double probability_of_exact_answer(const std::vector<Hypothesis>& hypotheses, const Eigen::MatrixXd& separation) {

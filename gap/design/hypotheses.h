@@ -27,10 +27,23 @@ struct Hypothesis {
 /// Information about all unknowns, Jacobian^T Jacobian, with the gyros' biases integrated out (their rows are zero).
 [[nodiscard]] Eigen::MatrixXd information_without_biases(const Eigen::MatrixXd& gram, const Priors& priors);
 
-/// Expected log evidence for `a` over `b`, nats, if `a` is true: half the squared signal of a's members that b's members
-/// and the tolerances cannot take over, under this information.
-[[nodiscard]] double expected_separation(const Hypothesis& a, const Hypothesis& b, const Eigen::MatrixXd& information,
-                                         const Library& library, const Priors& priors);
+/// What a model (the members of a hypothesis at their slabs, all others within tolerance) makes of data with this
+/// information: what separations between models are computed from.
+class ModelForecast {
+ public:
+  ModelForecast(const EffectSubset& members, const Eigen::MatrixXd& information, const Library& library,
+                const Priors& priors);
+
+  /// Half the squared signal of these values that the model cannot take over, nats.
+  [[nodiscard]] double unexplained_nats(const Eigen::VectorXd& values) const;
+  /// Expected log evidence over `other` if these values are true in this model, nats: the signal that the other model
+  /// cannot take over, and the difference of both models' Occam factors (MacKay 2003, chapter 28).
+  [[nodiscard]] double expected_over(const ModelForecast& other, const Eigen::VectorXd& values) const;
+
+ private:
+  Eigen::MatrixXd left_;  ///< G - G M G, with the posterior covariance M of the model
+  double log_determinant_ = 0, trace_ = 0;
+};
 
 /// Probability that the true set is named exactly, averaged over the hypotheses: for each, its log odds against every
 /// other one become normal deviates with mean (log odds so far + separation) and variance 2 separation, and the least

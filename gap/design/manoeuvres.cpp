@@ -148,11 +148,16 @@ std::string mission_file_of(const std::vector<const ManoeuvreChoice*>& chosen, c
       "mission.description = \"{}\"\nmission.at_end = \"hold\"\nstart.depth_m = {:.2f}\nstart.shaft_rpm = {:.0f}\n\n"
       "step = [\n  {{do = \"leg\", heading_deg = 0, seconds = {:.0f}}},\n",
       title, start_m, rpm, kSettle_s);
+  bool is_outbound = true;
   for (const ManoeuvreChoice* choice : chosen) {
     text += fmt::format("  # {}\n", choice->name);
     for (const std::string& step : choice->steps) text += fmt::format("  {},\n", step);
-    // Each manoeuvre begins from the same speed and a steady course.
-    text += fmt::format("  {{do = \"speed\", shaft_rpm = {:.0f}, seconds = {:.0f}}},\n", rpm, kSettle_s);
+    // Each manoeuvre begins from the same speed and a steady course, by turns out and back, so that the vehicle stays in
+    // its area.
+    is_outbound = !is_outbound;
+    text += fmt::format(
+        "  {{do = \"speed\", shaft_rpm = {:.0f}, seconds = 1}},\n  {{do = \"leg\", heading_deg = {}, seconds = {:.0f}}},\n",
+        rpm, is_outbound ? 0 : 180, kSettle_s + 2);
   }
   text += "]\n";
   return text;

@@ -93,7 +93,10 @@ void warn_of_fit(const FitProblem& problem, const Estimate& estimate, Identifica
 
 }  // namespace
 
-Identification identify(const IdentifyRequest& request, const FitProgress& progress) {
+namespace {
+
+/// One fit with the windows of the request.
+Identification identified(const IdentifyRequest& request, const FitProgress& progress) {
   const std::vector<Parameter> parameters = uncertain_parameters(request.prior);
   if (parameters.empty())
     throw std::invalid_argument(
@@ -134,6 +137,26 @@ Identification identify(const IdentifyRequest& request, const FitProgress& progr
   if (request.advise && !answer.directions.empty())
     answer.manoeuvres = advised_manoeuvres(problem, found, progress);
   return answer;
+}
+
+}  // namespace
+
+Identification identify(const IdentifyRequest& request, const FitProgress& progress) {
+  IdentifyRequest shorter = request;
+  while (true) {
+    try {
+      Identification answer = identified(shorter, progress);
+      if (shorter.settings.window_s < request.settings.window_s) {
+        answer.warnings.push_back(fmt::format(
+            "windows of {} s were used instead of {} s: within longer ones the vehicle leaves all bounds",
+            shorter.settings.window_s, request.settings.window_s));
+      }
+      return answer;
+    } catch (const UnboundedReplay& error) {
+      shorter.settings.window_s /= 2;
+      if (shorter.settings.window_s < kLeastWindow_s) throw std::invalid_argument(error.what());
+    }
+  }
 }
 
 }  // namespace navcal::identify

@@ -107,7 +107,7 @@ Unknowns FitProblem::initial() const {
       if (replay(vehicle, actuators, 0, window.begin_s, window.steps, state, recordings_[r].tilt_lag_s)) continue;
       state.segment<6>(6).setZero();
       if (replay(vehicle, actuators, 0, window.begin_s, window.steps, state, recordings_[r].tilt_lag_s)) continue;
-      throw std::invalid_argument(
+      throw UnboundedReplay(
           fmt::format("{}: from {:.1f} s on the vehicle of the layout leaves all bounds within a window of {:.1f} "
                       "s: pitch beyond "
                       "88 degrees or speeds beyond 50 m/s. Shorter windows help where it is unstable; navcal "
@@ -260,16 +260,25 @@ WindowEquations FitProblem::window_equations(const Vehicles& vehicles, const Unk
     const double step = i == kDelay ? kDelayStep_s : kStepPart * nuisance_stds_[recording][i];
     with[i] += step;
     if (i == kDelay) {
-      fill(parameters + i, run(vehicles.nominal, actuators, delay_of(with), begin), with, step);
+      const auto motion = replay(vehicles.nominal, actuators, delay_of(with), of.begin_s, of.steps, begin,
+                                 recordings_[recording].tilt_lag_s);
+      if (motion) fill(parameters + i, *motion, with, step);
     } else {
       fill(parameters + i, nominal, with, step);
     }
   }
   const StateVector steps = state_steps();
   for (Eigen::Index i = 0; i < kStates; ++i) {
-    StateVector state = begin;
-    state[i] += steps[i];
-    fill(at_state + i, run(vehicles.nominal, actuators, delay_of(calibration), state), calibration, steps[i]);
+    // An unstable vehicle may leave all bounds to one side only. To both, this window says nothing of the state.
+    for (const double step : {steps[i], -steps[i]}) {
+      StateVector state = begin;
+      state[i] += step;
+      const auto motion = replay(vehicles.nominal, actuators, delay_of(calibration), of.begin_s, of.steps, state,
+                                 recordings_[recording].tilt_lag_s);
+      if (!motion) continue;
+      fill(at_state + i, *motion, calibration, step);
+      break;
+    }
   }
   Eigen::MatrixXd right(rows + kStates, 1);
   right.topRows(rows) = residuals(of.readings, at_nominal);

@@ -27,6 +27,9 @@ struct UnboundedReplay : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Shortest windows that are tried for a vehicle that leaves all bounds within longer ones, s.
+inline constexpr double kLeastWindow_s = 0.5;
+
 struct FitSettings {
   double window_s = 2;
   unsigned threads = 2;
