@@ -24,6 +24,7 @@ InformationJson list_of(const Eigen::VectorXd& values) {
 InformationJson bound_json(double bound) { return std::isfinite(bound) ? InformationJson(bound) : InformationJson(); }
 
 const InformationJson& member(const InformationJson& json, const char* key) {
+  if (!json.is_object()) throw std::invalid_argument(fmt::format("{} is looked for in what is no object", key));
   const auto found = json.find(key);
   if (found == json.end()) throw std::invalid_argument(fmt::format("the key {} is missing", key));
   return *found;
@@ -55,7 +56,9 @@ Eigen::VectorXd numbers(const InformationJson& json, const char* key, Eigen::Ind
   Eigen::VectorXd values(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const InformationJson& value = list[static_cast<std::size_t>(i)];
-    if (!value.is_number()) throw std::invalid_argument(fmt::format("{}: element {} is not a number", key, i));
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      throw std::invalid_argument(fmt::format("{}: element {} is not a number", key, i));
+    }
     values[i] = value.get<double>();
   }
   return values;
@@ -124,12 +127,21 @@ gap::RecordingInformation information_from(const InformationJson& json) {
   of.measurements = number(json, "measurements");
   of.null_power = number(json, "null_power");
   of.null_power_std = number(json, "null_power_std");
-  for (const InformationJson& effect : member(json, "about")) of.about.push_back(effect.get<std::string>());
+  const InformationJson& about = member(json, "about");
+  if (!about.is_array()) throw std::invalid_argument("about is not a list");
+  for (const InformationJson& effect : about) {
+    if (!effect.is_string()) throw std::invalid_argument("about has a name that is no text");
+    of.about.push_back(effect.get<std::string>());
+  }
   if (const InformationJson& place = member(json, "place"); !place.is_null()) {
     of.place = base::GeodeticPosition{number(place, "latitude_rad"), number(place, "longitude_rad"),
                                       number(place, "height_m")};
   }
-  if (const InformationJson& utc = member(json, "utc_ns"); !utc.is_null()) of.utc_ns = utc.get<std::int64_t>();
+  if (const InformationJson& utc = member(json, "utc_ns"); utc.is_number_integer()) {
+    of.utc_ns = utc.get<std::int64_t>();
+  } else if (!utc.is_null()) {
+    throw std::invalid_argument("utc_ns is not a whole number");
+  }
   of.duration_s = number(json, "duration_s");
   return of;
 }

@@ -187,5 +187,47 @@ TEST_F(FleetProgram, WithoutSlurmTheCommandSaysSo) {
   EXPECT_NE(err_.find("not installed"), std::string::npos) << err_;
 }
 
+TEST_F(FleetProgram, TellsWhatItsMissionsSayTogether) {
+  for (const char* vehicle : {"one", "two"}) {
+    fs::create_directories(folder_.recordings() / vehicle);
+    for (int i = 0; i < 2; ++i) {
+      gap::test::write_mission(folder_.recordings() / vehicle / ("m" + std::to_string(i) + ".cap"), "identification",
+                               std::string_view(vehicle) == "one" ? "[fin_gain]\nscale = 0.12\n" : "", 80,
+                               static_cast<std::uint64_t>(10 * i + vehicle[0]));
+    }
+  }
+  EXPECT_EQ(run({"causes", folder_.plan().string()}), 3) << "no plan yet";
+  plan({"--job", "evidence,calibrate", "--bank", "12"});
+  EXPECT_EQ(run({"causes", folder_.plan().string()}), 3) << "nothing is done yet";
+  EXPECT_NE(err_.find("--job evidence"), std::string::npos) << err_;
+  ASSERT_EQ(run({"submit", folder_.plan().string(), "--local"}), 0) << err_;
+  const fs::path page = folder_ / "fleet.html";
+  ASSERT_EQ(run({"causes", folder_.plan().string(), "--json", "-", "--report", page.string()}), 0) << err_;
+  const auto answer = nlohmann::json::parse(out_);
+  EXPECT_EQ(answer.at("missions").size(), 4U);
+  EXPECT_EQ(answer.at("vehicles").size(), 2U);
+  ASSERT_EQ(answer.at("causes").size(), 1U) << answer.at("causes");
+  EXPECT_EQ(answer.at("causes")[0].at("name"), "fin_gain");
+  EXPECT_EQ(answer.at("causes")[0].at("level"), "vehicle");
+  EXPECT_EQ(answer.at("causes")[0].at("of"), "one");
+  EXPECT_NE(read_file(page).find("fin_gain of vehicle one"), std::string::npos);
+  ASSERT_EQ(run({"causes", folder_.plan().string()}), 0);
+  EXPECT_NE(out_.find("fin_gain of vehicle one"), std::string::npos) << out_;
+}
+
+TEST_F(FleetProgram, RecordsAndScoresATrial) {
+  const std::string truth = (folder_ / "truth.json").string(), missions = (folder_ / "missions").string();
+  ASSERT_EQ(run({"trial", "record", "-o", missions, "--truth", truth, "--vehicles", "2", "--days", "1", "--minutes", "3",
+                 "--seed", "5"}),
+            0)
+      << err_;
+  EXPECT_TRUE(fs::exists(missions + "/v02/day-01.cap"));
+  EXPECT_EQ(run({"trial", "record", "-o", missions, "--truth", truth, "--vehicles", "1"}), 2) << "not empty";
+  folder_.add_file("answer.json", R"({"causes":[],"undecided":[],"vehicles":[{"vehicle":"v01","verdict":"no-gap"}]})");
+  ASSERT_EQ(run({"trial", "score", (folder_.recordings() / "answer.json").string(), "--truth", truth}), 0) << err_;
+  EXPECT_NE(out_.find("missed"), std::string::npos);
+  EXPECT_EQ(run({"trial", "score", truth, "--truth", truth}), 3);
+}
+
 }  // namespace
 }  // namespace navcal::fleet
