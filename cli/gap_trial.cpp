@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,12 +15,15 @@
 #include "record/whole_file.h"
 #include "report/validation_report.h"
 #include "report/validation_words.h"
+#include "validation/active_trial.h"
 #include "validation/run.h"
 
 namespace navcal::cli {
 namespace {
 
 struct GapTrialCommandOptions {
+  bool active = false;
+  int missions = 1;
   int cases = 0, minutes = 10, places = validation::kTrialPlaces, timeout_s = 600;
   std::uint64_t seed = 1;
   std::vector<std::string> arms;
@@ -92,23 +96,66 @@ report::TrialReport report_on(const GapTrialCommandOptions& options, std::size_t
   return report;
 }
 
+/// Commitments to the truths of these cases, which are printed first.
+std::vector<validation::Commitment> sealed(const std::vector<validation::TrialCase>& cases, std::uint64_t seed,
+                                           std::FILE* out) {
+  fmt::print(out,
+             "Commitment: SHA-256 of each case's truth and salt, which are published after the last answer.\n");
+  std::vector<validation::Commitment> seals;
+  for (const validation::TrialCase& drawn : cases) {
+    seals.push_back(validation::commitment_to(validation::truth_text(drawn, seed)));
+    fmt::print(out, "case {:4} {}\n", drawn.number, seals.back().digest);
+  }
+  std::fflush(out);
+  return seals;
+}
+
+/// The trial in which each answer is followed by the mission that is planned for it.
+void run_active_trial(const GapTrialCommandOptions& options) {
+  const base::Interruptible interruptible;
+  const std::vector<validation::TrialCase> cases = cases_of(options);
+  std::optional<record::WholeFile> json;
+  if (!options.json.empty() && options.json != "-") json.emplace(options.json);
+  std::FILE* const out = options.json == "-" ? stderr : stdout;
+  const std::vector<validation::Commitment> seals = sealed(cases, options.seed, out);
+  validation::ActiveOptions active;
+  active.program = options.asking.program;
+  active.missions = options.missions;
+  active.minutes = options.minutes;
+  active.bank_missions = options.asking.bank_missions;
+  active.timeout = std::chrono::seconds(options.timeout_s);
+  std::vector<validation::ActiveResult> results;
+  {
+    analysis::Progress progress("gap trial --active");
+    for (std::size_t i = 0; i < cases.size() && !base::Interruptible::interrupted(); ++i) {
+      if (auto result = validation::run_active(cases[i], seals[i], options.seed, active)) results.push_back(std::move(*result));
+      progress.show(static_cast<double>(i + 1) / static_cast<double>(cases.size()));
+    }
+  }
+  fmt::print(out, "{}", validation::active_text(results));
+  const std::string text = validation::active_json(results, options.seed);
+  if (options.json == "-") fmt::print("{}", text);
+  if (json) {
+    json->write(text);
+    json->commit();
+  }
+  if (results.size() < cases.size()) {
+    throw analysis::Failure(analysis::Exit::failed,
+                            fmt::format("interrupted: {} of {} cases are scored", results.size(), cases.size()));
+  }
+}
+
 void run(GapTrialCommandOptions options) {
   if ((options.cases > 0) == !options.only.empty())
     throw analysis::Failure(analysis::Exit::usage, "either --cases N or --only CASE is required");
+  if (options.active) return run_active_trial(options);
   options.asking.timeout = std::chrono::seconds(options.timeout_s);
   const base::Interruptible interruptible;
   const std::vector<validation::TrialCase> cases = cases_of(options);
   Outputs outputs(options);
   std::FILE* const out = outputs.talk();
 
-  fmt::print(out,
-             "Commitment: SHA-256 of each case's truth and salt, which are published after the last answer.\n");
-  std::vector<validation::Commitment> seals;
-  for (const validation::TrialCase& drawn : cases) {
-    seals.push_back(validation::commitment_to(validation::truth_text(drawn, options.seed)));
-    fmt::print(out, "case {:4} {}\n", drawn.number, seals.back().digest);
-  }
-  std::fflush(out);
+  const std::vector<validation::Commitment> seals = sealed(cases, options.seed, out);
 
   validation::TrialRun answered;
   {
@@ -139,6 +186,12 @@ void add_gap_trial(CLI::App& gap) {
   command->add_option("--cases", options->cases, "number of cases; each has three missions of one vehicle")
       ->check(CLI::Range(1, 100000))
       ->option_text("N");
+  command->add_flag("--active", options->active,
+                    "after each answer the vehicle sails what navcal gap next plans, and is diagnosed again; controls "
+                    "sail as many minutes of survey, and of random manoeuvres");
+  command->add_option("--missions", options->missions, "missions that are sailed after the first one; with --active")
+      ->check(CLI::Range(1, validation::kMostPlannedMissions))
+      ->capture_default_str();
   command->add_option("--seed", options->seed, "seed of effects, strengths, vehicles and noise")
       ->capture_default_str();
   command->add_option("--minutes", options->minutes, "length of a mission, unless the arm has its own")

@@ -2,7 +2,6 @@
 #include "validation/case_runner.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cerrno>
@@ -13,32 +12,13 @@
 
 #include "base/interruptible.h"
 #include "validation/child.h"
+#include "validation/fresh_folder.h"
 #include "validation/recordings.h"
 
 namespace navcal::validation {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder whose name says nothing, gone with its content.
-class FreshFolder {
- public:
-  FreshFolder() {
-    std::string name = (fs::temp_directory_path() / "navcal-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::system_category(), name);
-    path_ = name;
-  }
-  FreshFolder(const FreshFolder&) = delete;
-  FreshFolder& operator=(const FreshFolder&) = delete;
-  ~FreshFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

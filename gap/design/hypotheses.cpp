@@ -15,8 +15,15 @@ namespace {
 /// Probability below which a set is left out, and the largest number of sets: more cost time and change no plan.
 constexpr double kLeastHypothesis = 0.002;
 constexpr std::size_t kMostHypotheses = 8;
-/// Log odds with which a set is named: a probability of kNamedFrom beside rivals of kMostRivals.
-const double kNamed_nats = std::log(kNamedFrom / kMostRivals);
+/// Log odds with which a set is named before a rival: a probability of kNamedFrom beside rivals of kMostRivals. Before no
+/// effect at all: a probability of no effect below kNoGapBelow.
+const double kNamed_nats = std::log(kNamedFrom / kMostRivals), kGap_nats = -std::log(kNoGapBelow);
+
+/// Log odds of `a` against `b` from which the verdict is `a`.
+double decisive_nats(const Hypothesis& a, const Hypothesis& b) {
+  if (a.effects.empty()) return -kGap_nats;
+  return b.effects.empty() ? kGap_nats : kNamed_nats;
+}
 
 double normal_probability(double deviation) { return 0.5 * std::erfc(-deviation / std::sqrt(2.0)); }
 
@@ -110,7 +117,7 @@ double probability_of_exact_answer(const std::vector<Hypothesis>& hypotheses, co
     for (std::size_t b = 0; b < hypotheses.size(); ++b) {
       if (a == b) continue;
       const double nats = separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
-      const double margin = hypotheses[a].log_odds - hypotheses[b].log_odds + nats - kNamed_nats;
+      const double margin = hypotheses[a].log_odds - hypotheses[b].log_odds + nats - decisive_nats(hypotheses[a], hypotheses[b]);
       least = std::min(least, nats > 0 ? normal_probability(margin / std::sqrt(2 * nats)) : margin > 0 ? 1.0 : 0.0);
     }
     sum += hypotheses[a].probability * least;

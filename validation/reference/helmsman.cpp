@@ -36,7 +36,7 @@ Controls Helmsman::steer(const Order& order, const Compass::Reading& compass, co
         std::clamp(0.8 * (pitch - compass.pitch_rad) - 0.4 * card.pitch_rate_rad_s, -kFinRange_rad, kFinRange_rad);
   }
   const double shaft_rev_s = order.speed_m_s ? *order.speed_m_s / kMetresPerTurn : order.shaft_rev_s;
-  return {shaft_rev_s, FinLinkage::mixed(rudder, elevator)};
+  return {shaft_rev_s, FinLinkage::mixed(rudder, elevator) + order.fins_beside_rad};
 }
 
 }  // namespace navcal::reference

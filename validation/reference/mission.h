@@ -21,6 +21,7 @@ struct Order {
   double elevator_rad = 0;              ///< positive raises the nose
   std::optional<double> speed_m_s{};    ///< by the shaft speed that should give it; else the shaft speed stays
   double shaft_rev_s = 0;
+  Vector3 fins_beside_rad = Vector3::Zero();  ///< of each fin, beside what rudder and elevator ask of it
 };
 
 /// A mission as its caller writes it down: this room reads no files.

@@ -81,6 +81,12 @@ TEST(ProbabilityOfExactAnswer, DecidesNothingWithoutSeparation) {
   EXPECT_EQ(probability_of_exact_answer(two, Eigen::MatrixXd::Zero(2, 2)), 0);
 }
 
+TEST(ProbabilityOfExactAnswer, AsksForMoreAgainstNoEffectThanAgainstARival) {
+  const Eigen::MatrixXd little = Eigen::MatrixXd::Constant(2, 2, 2);
+  const std::vector<Hypothesis> rivals{{{0}, 2, 1, {}}, {{1}, 0, 0, {}}}, none{{{0}, 2, 1, {}}, {{}, 0, 0, {}}};
+  EXPECT_GT(probability_of_exact_answer(rivals, little), probability_of_exact_answer(none, little) + 0.2);
+}
+
 TEST(WeakHypotheses, HaveTheirStrengthWhateverTheNumberOfParameters) {
   const Library library(std::vector<std::string>{});
   Priors priors;
