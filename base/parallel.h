@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -8,6 +9,11 @@
 #include <vector>
 
 namespace navcal::base {
+
+/// Threads that run at once on this machine, at least one. `wanted`: so many instead, unless it is 0.
+[[nodiscard]] inline unsigned threads_or_cores(unsigned wanted = 0) {
+  return wanted > 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
+}
 
 /// job(i) for i = 0 ... count - 1, on so many threads. The first exception ends it and is thrown on.
 template <class Job>

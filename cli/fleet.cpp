@@ -9,12 +9,12 @@
 #include <memory>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "base/parallel.h"
 #include "cli/commands.h"
 #include "cli/fleet_submit.h"
 #include "cli/fleet_trial.h"
@@ -47,7 +47,7 @@ void run_fleet_job(const std::function<void()>& job) {
 
 void make_fleet_plan(fleet::PlanRequest request) {
   const base::Interruptible interruptible;
-  request.threads = std::max(1U, std::thread::hardware_concurrency());
+  request.threads = base::threads_or_cores();
   fleet::PlanSummary summary;
   {
     analysis::Progress progress("fleet plan", analysis::Progress::Answer::at_the_end);
@@ -110,16 +110,17 @@ void tell_causes(const CausesOptions& options) {
   if (read.missions.empty()) {
     throw analysis::Failure(
         analysis::Exit::bad_input,
-        fmt::format("{}: no mission has an answer of the job evidence ({} open, {} failed); plan it with: navcal fleet "
-                    "plan FOLDER -o {} --job evidence, and do it with: navcal fleet submit {} --local",
-                    options.plan, read.open, read.failed, options.plan, options.plan));
+        fmt::format(
+            "{}: no mission has an answer of the job evidence ({} open, {} failed); plan it with: navcal fleet "
+            "plan FOLDER -o {} --job evidence, and do it with: navcal fleet submit {} --local",
+            options.plan, read.open, read.failed, options.plan, options.plan));
   }
   if (read.open > 0) {
     read.remarks.push_back(fmt::format("{} recordings have no answer yet (navcal fleet submit)", read.open));
   }
   const std::vector<fleet::CalibrationHistory> calibrations = fleet::read_calibrations(plan, results);
   const fleet::PooledMissions missions(std::move(read.missions));
-  const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned threads = base::threads_or_cores(options.threads);
   fleet::FleetAnswer answer;
   {
     analysis::Progress progress("fleet causes", analysis::Progress::Answer::at_the_end);
@@ -203,17 +204,20 @@ void add_fleet_run(CLI::App& parent) {
 
 void add_fleet_causes(CLI::App& parent) {
   auto* command = parent.add_subcommand(
-      "causes", "what the missions tell together: which causes belong to a vehicle, to the design, to a day, and when "
-                "they began");
+      "causes",
+      "what the missions tell together: which causes belong to a vehicle, to the design, to a day, and when "
+      "they began");
   const auto options = std::make_shared<CausesOptions>();
   command->add_option("PLAN", options->plan, "folder of the plan, with results of the job evidence")->required();
   command->add_option("--json", options->json, "the answer as one JSON object; - is standard output, without text")
       ->option_text("FILE|-");
-  command->add_option("--report", options->page, "page with pictures; needs no other file")->option_text("FILE.html");
+  command->add_option("--report", options->page, "page with pictures; needs no other file")
+      ->option_text("FILE.html");
   command->add_option("--threads", options->threads, "threads; default: one for each core; they change no result")
       ->check(CLI::Range(1, 1024));
   command->footer(
-      "Results of the job calibrate, where there are any, give the course of each calibration over the missions.\n\n"
+      "Results of the job calibrate, where there are any, give the course of each calibration over the "
+      "missions.\n\n"
       "Example:\n"
       "  navcal fleet plan recordings/ -o plan/ --job evidence,calibrate\n"
       "  navcal fleet submit plan/ --local\n"

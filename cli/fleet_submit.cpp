@@ -10,12 +10,12 @@
 #include <memory>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "analysis/failure.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "base/parallel.h"
 #include "fleet/local_run.h"
 #include "fleet/plan_lock.h"
 #include "fleet/slurm.h"
@@ -50,7 +50,7 @@ void conclude(const fleet::Plan& plan, const std::string& hint) {
 
 void submit_locally(const SubmitOptions& options, const fleet::Plan& plan) {
   const fleet::ResultStore results(plan.folder);
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  const unsigned cores = base::threads_or_cores();
   const unsigned jobs = options.jobs > 0 ? options.jobs : cores;
   const unsigned threads = options.threads > 0 ? options.threads : std::max(1U, cores / jobs);
   const std::size_t open = open_tasks(plan, results.states()).size();

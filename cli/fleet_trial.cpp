@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <thread>
 
 #include "analysis/failure.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "base/parallel.h"
 #include "cli/result_file.h"
 #include "validation/fleet_trial.h"
 
@@ -39,7 +39,7 @@ void record_fleet(const FleetTrialArguments& arguments) {
   try {
     const base::Interruptible interruptible;
     analysis::Progress progress("fleet trial record");
-    validation::write_fleet(fleet, arguments.folder, std::max(1U, std::thread::hardware_concurrency()),
+    validation::write_fleet(fleet, arguments.folder, base::threads_or_cores(),
                             [&](double done) { progress.show(done); });
     write_result(arguments.truth, validation::truth_text(fleet));
   } catch (const std::invalid_argument& error) {
@@ -47,8 +47,9 @@ void record_fleet(const FleetTrialArguments& arguments) {
   } catch (const std::system_error& error) {
     throw analysis::Failure(analysis::Exit::failed, error.what());
   }
-  fmt::print("{} missions of {} vehicles in {}, truth in {}\n", arguments.options.vehicles * arguments.options.days,
-             arguments.options.vehicles, arguments.folder, arguments.truth);
+  fmt::print("{} missions of {} vehicles in {}, truth in {}\n",
+             arguments.options.vehicles * arguments.options.days, arguments.options.vehicles, arguments.folder,
+             arguments.truth);
 }
 
 void score_fleet(const FleetTrialArguments& arguments) {
@@ -61,14 +62,15 @@ void score_fleet(const FleetTrialArguments& arguments) {
   };
   const validation::FleetTruth truth = named(arguments.truth, validation::read_fleet_truth);
   fmt::print("{}", validation::score_text(named(arguments.answer, [&](const std::string& text) {
-    return validation::score_of(truth, text);
-  })));
+               return validation::score_of(truth, text);
+             })));
 }
 
 }  // namespace
 
 void add_fleet_trial(CLI::App& parent) {
-  auto* trial = parent.add_subcommand("trial", "a fleet with sealed causes from the reference simulator, and its score");
+  auto* trial =
+      parent.add_subcommand("trial", "a fleet with sealed causes from the reference simulator, and its score");
   trial->require_subcommand(1);
   const auto arguments = std::make_shared<FleetTrialArguments>();
   validation::FleetTrialOptions& options = arguments->options;
@@ -79,7 +81,9 @@ void add_fleet_trial(CLI::App& parent) {
       ->required();
   record->add_option("--truth", arguments->truth, "file for the truth")->option_text("FILE.json")->required();
   record->add_option("--seed", options.seed, "seed of vehicles, causes, days and noise")->capture_default_str();
-  record->add_option("--vehicles", options.vehicles, "number of vehicles")->check(CLI::Range(1, 99))->capture_default_str();
+  record->add_option("--vehicles", options.vehicles, "number of vehicles")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
   record->add_option("--days", options.days, "number of days; each vehicle sails one mission on each")
       ->check(CLI::Range(1, 99))
       ->capture_default_str();

@@ -60,7 +60,8 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options, const config::Layo
     throw std::invalid_argument(
         "--field: the diagnosis of a layout takes the heading's offset from each recording");
   if (options.source.missions.size() > 1)
-    throw std::invalid_argument("several recordings together: not yet for a layout; diagnose one, and hold out others");
+    throw std::invalid_argument(
+        "several recordings together: not yet for a layout; diagnose one, and hold out others");
   diagnosis::LayoutFiles files{.recording = options.source.missions.front(),
                                .holdouts = {options.source.holdouts.begin(), options.source.holdouts.end()},
                                .nominals = {options.nominals.begin(), options.nominals.end()},

@@ -92,7 +92,8 @@ void plan_next(const GapNextOptions& options) {
 }  // namespace
 
 void add_gap_next(CLI::App& gap) {
-  auto* command = gap.add_subcommand("next", "plans the mission that is expected to decide what the recordings leave open");
+  auto* command =
+      gap.add_subcommand("next", "plans the mission that is expected to decide what the recordings leave open");
   const auto options = std::make_shared<GapNextOptions>();
   add_gap_request(*command, *options)->required();
   command->add_option("--minutes", options->minutes, "length of the mission; default: 3, or that of --limits")
@@ -103,12 +104,14 @@ void add_gap_next(CLI::App& gap) {
                    "bounds of the mission: minutes, least_depth_m, greatest_depth_m, radius_m, least_shaft_rpm, "
                    "greatest_shaft_rpm, greatest_turn_rate_deg_s, greatest_pitch_deg, energy_Wh, battery_V")
       ->option_text("FILE.toml");
-  command->add_option("--mission-out", options->mission, "the mission file, for navcal simulate, emulate and pilot")
+  command
+      ->add_option("--mission-out", options->mission, "the mission file, for navcal simulate, emulate and pilot")
       ->option_text("FILE.toml")
       ->required();
   command->add_option("--json", options->json, "the plan as one JSON object; - is standard output, without text")
       ->option_text("FILE|-");
-  command->add_option("--report", options->report, "page with pictures; needs no other file")->option_text("FILE.html");
+  command->add_option("--report", options->report, "page with pictures; needs no other file")
+      ->option_text("FILE.html");
   command->add_flag("--overwrite", options->overwrite, "replaces a mission file that exists");
   command->footer(
       "The exit status is 0 also when no mission within the limits is expected to decide.\n\n"

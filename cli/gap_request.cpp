@@ -77,9 +77,9 @@ gap::Request gap_request_of(const GapRequestOptions& options) {
 
 CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options) {
   auto& source = options.source;
-  auto* const mission = command.add_option(
-      "FILE", source.missions,
-      "the mission to be diagnosed: a capture (.cap) or a log (.mcap); several of one vehicle are diagnosed together");
+  auto* const mission = command.add_option("FILE", source.missions,
+                                           "the mission to be diagnosed: a capture (.cap) or a log (.mcap); "
+                                           "several of one vehicle are diagnosed together");
   command
       .add_option("--holdout", source.holdouts,
                   "another mission of the same vehicle, on which the answer is judged; repeatable")
@@ -102,9 +102,10 @@ CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options) {
       ->option_text("NAME")
       ->allow_extra_args(false);
   command
-      .add_option("--without", options.without,
-                  "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
-                  "gyros, accelerometers, depth, gps or motor; repeatable")
+      .add_option(
+          "--without", options.without,
+          "leaves an instrument out of all recordings, as if it were not there: compass, field, tilt, card, "
+          "gyros, accelerometers, depth, gps or motor; repeatable")
       ->option_text("NAME")
       ->allow_extra_args(false);
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";

@@ -128,7 +128,8 @@ void run_active_trial(const GapTrialCommandOptions& options) {
   {
     analysis::Progress progress("gap trial --active");
     for (std::size_t i = 0; i < cases.size() && !base::Interruptible::interrupted(); ++i) {
-      if (auto result = validation::run_active(cases[i], seals[i], options.seed, active)) results.push_back(std::move(*result));
+      if (auto result = validation::run_active(cases[i], seals[i], options.seed, active))
+        results.push_back(std::move(*result));
       progress.show(static_cast<double>(i + 1) / static_cast<double>(cases.size()));
     }
   }
@@ -186,10 +187,12 @@ void add_gap_trial(CLI::App& gap) {
   command->add_option("--cases", options->cases, "number of cases; each has three missions of one vehicle")
       ->check(CLI::Range(1, 100000))
       ->option_text("N");
-  command->add_flag("--active", options->active,
-                    "after each answer the vehicle sails what navcal gap next plans, and is diagnosed again; controls "
-                    "sail as many minutes of survey, and of random manoeuvres");
-  command->add_option("--missions", options->missions, "missions that are sailed after the first one; with --active")
+  command->add_flag(
+      "--active", options->active,
+      "after each answer the vehicle sails what navcal gap next plans, and is diagnosed again; controls "
+      "sail as many minutes of survey, and of random manoeuvres");
+  command
+      ->add_option("--missions", options->missions, "missions that are sailed after the first one; with --active")
       ->check(CLI::Range(1, validation::kMostPlannedMissions))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "seed of effects, strengths, vehicles and noise")

@@ -57,7 +57,8 @@ void take(const Entry& entry, MissionLimits& limits, std::vector<Problem>& probl
   }
   const auto value = number_of(entry);
   if (!value || !(*value >= key->least && *value <= key->greatest)) {
-    problems.push_back({entry.line, name, fmt::format("a number from {} to {} is expected", key->least, key->greatest)});
+    problems.push_back(
+        {entry.line, name, fmt::format("a number from {} to {} is expected", key->least, key->greatest)});
     return;
   }
   key->set(limits, *value);

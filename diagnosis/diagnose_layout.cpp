@@ -11,8 +11,8 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
-#include <thread>
 
+#include "base/parallel.h"
 #include "diagnosis/cause_search.h"
 #include "diagnosis/limits.h"
 #include "diagnosis/nominal_bank.h"
@@ -88,7 +88,7 @@ class Diagnosing {
              double window_s)
       : request_(request), recordings_(recordings), progress_(progress) {
     settings_.window_s = window_s;
-    settings_.threads = request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
+    settings_.threads = base::threads_or_cores(request.threads);
   }
 
   Diagnosis run() {
@@ -392,8 +392,8 @@ Diagnosis diagnose(const LayoutRequest& request, const LayoutRecordings& recordi
     try {
       return Diagnosing(request, recordings, progress, window_s).run();
     } catch (const identify::UnboundedReplay&) {
-      // The vehicle is unstable: it needs shorter windows, in all recordings alike. With the shortest ones the run itself
-      // says that it cannot be replayed.
+      // The vehicle is unstable: it needs shorter windows, in all recordings alike. With the shortest ones the run
+      // itself says that it cannot be replayed.
       if (window_s <= identify::kLeastWindow_s) throw;
     }
   }

@@ -133,11 +133,12 @@ OrderedJson json_of(const gap::RecordingFinding& finding) {
       values[each.name] = each.value;
       errors[each.name] = each.std_error;
     }
-    return OrderedJson{{"name", effect.name}, {"parameters", std::move(values)}, {"std_errors", std::move(errors)}};
+    return OrderedJson{
+        {"name", effect.name}, {"parameters", std::move(values)}, {"std_errors", std::move(errors)}};
   });
-  json["alone"] = finding.alone ? OrderedJson{{"effects", finding.alone->effects},
-                                              {"probability", finding.alone->probability}}
-                                : OrderedJson();
+  json["alone"] =
+      finding.alone ? OrderedJson{{"effects", finding.alone->effects}, {"probability", finding.alone->probability}}
+                    : OrderedJson();
   return json;
 }
 

@@ -55,7 +55,8 @@ Figure course_figure(const gap::NextMission& next, const char* title, const char
     line.push_back({now.time_s, value(now)});
     values.push_back(line.back().y);
   }
-  SvgPlot plot(title, {"seconds", {0, std::max(1.0, next.duration_s)}}, {label, whole_range_of(values)}, {560, 200});
+  SvgPlot plot(title, {"seconds", {0, std::max(1.0, next.duration_s)}}, {label, whole_range_of(values)},
+               {560, 200});
   plot.line(PlanInk::first, "", line);
   return {title, plot.svg(), ""};
 }
@@ -66,7 +67,8 @@ Figure separation_figure(const gap::NextMission& next) {
   SvgPlot::Axis y{"pair", {-0.7, static_cast<double>(count) - 0.3}, 0, {}};
   double most = 10;
   for (std::size_t i = 0; i < count; ++i) most = std::max(most, std::min(next.pairs[i].separation_nats, 100.0));
-  for (std::size_t i = 0; i < count; ++i) y.ticks.push_back({static_cast<double>(count - 1 - i), fmt::format("{}", i + 1)});
+  for (std::size_t i = 0; i < count; ++i)
+    y.ticks.push_back({static_cast<double>(count - 1 - i), fmt::format("{}", i + 1)});
   SvgPlot plot("Expected separation", {"nats (those above 100 end there)", {0, 1.05 * most}}, y,
                {560, std::max(160.0, 18.0 * static_cast<double>(count) + 80)});
   for (std::size_t i = 0; i < count; ++i) {
@@ -118,7 +120,8 @@ std::string next_mission_text(const gap::NextMission& next, const std::string& f
     const gap::SeparatedPair& pair = next.pairs[i];
     text += fmt::format("  {:7.1f} nats  {}  from  {}\n", pair.separation_nats, text_of(pair.a), text_of(pair.b));
   }
-  if (next.pairs.size() > kMostPairs) text += fmt::format("  and {} more, in --json\n", next.pairs.size() - kMostPairs);
+  if (next.pairs.size() > kMostPairs)
+    text += fmt::format("  and {} more, in --json\n", next.pairs.size() - kMostPairs);
   if (next.purpose == gap::DesignPurpose::test) return text;
   text += fmt::format("\nan exact answer has a probability of {:.2f} after it, of {:.2f} without it\n",
                       next.probability_exact, next.probability_so_far);
@@ -133,12 +136,13 @@ std::string next_mission_page(const gap::NextMission& next, const std::string& f
   std::vector<std::vector<std::string>> rows;
   for (const gap::ChosenManoeuvre& one : next.manoeuvres) rows.push_back({minutes_text(one.from_s), one.name});
   page.table({"from", "manoeuvre"}, rows);
-  page.figures({path_figure(next),
-                course_figure(next, "Depth", "depth, m", [](const gap::PlannedInstant& now) { return now.depth_m; }),
-                course_figure(next, "Heading", "heading, degrees",
-                              [](const gap::PlannedInstant& now) { return now.heading_rad * base::kDegreesPerRadian; }),
-                course_figure(next, "Shaft", "shaft speed, rpm",
-                              [](const gap::PlannedInstant& now) { return 60 * now.shaft_rps; })});
+  page.figures(
+      {path_figure(next),
+       course_figure(next, "Depth", "depth, m", [](const gap::PlannedInstant& now) { return now.depth_m; }),
+       course_figure(next, "Heading", "heading, degrees",
+                     [](const gap::PlannedInstant& now) { return now.heading_rad * base::kDegreesPerRadian; }),
+       course_figure(next, "Shaft", "shaft speed, rpm",
+                     [](const gap::PlannedInstant& now) { return 60 * now.shaft_rps; })});
   if (!next.pairs.empty()) {
     page.section("What it is expected to tell apart");
     page.figures({separation_figure(next)});
@@ -151,8 +155,8 @@ std::string next_mission_page(const gap::NextMission& next, const std::string& f
     page.table({"pair", "one", "other", "nats expected", "log odds so far"}, pairs);
   }
   page.section("Made from");
-  page.paragraph(fmt::format("Mission file {}: {} long, {:.1f} Wh of the motor.", file, minutes_text(next.duration_s),
-                             next.energy_J / kJoulesPerWattHour));
+  page.paragraph(fmt::format("Mission file {}: {} long, {:.1f} Wh of the motor.", file,
+                             minutes_text(next.duration_s), next.energy_J / kJoulesPerWattHour));
   return std::move(page).finish();
 }
 

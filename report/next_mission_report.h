@@ -7,8 +7,8 @@
 
 namespace navcal::report {
 
-/// What navcal gap next planned: for people, as one JSON object (docs/gap.md), and as a page with pictures. `file`: name of
-/// the mission file.
+/// What navcal gap next planned: for people, as one JSON object (docs/gap.md), and as a page with pictures.
+/// `file`: name of the mission file.
 [[nodiscard]] std::string next_mission_text(const gap::NextMission& next, const std::string& file);
 [[nodiscard]] std::string next_mission_json(const gap::NextMission& next, const std::string& file);
 [[nodiscard]] std::string next_mission_page(const gap::NextMission& next, const std::string& file);

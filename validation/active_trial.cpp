@@ -82,7 +82,8 @@ class ActiveCase {
     arguments.insert(arguments.end(), {"--json", json});
     const ChildEnd end = run_child(options_.program, arguments, errors, options_.timeout);
     if (end.how != ChildEnd::How::exited || end.status != 0) {
-      throw std::runtime_error("it ended with status " + std::to_string(end.status) + ": " + active_content(errors));
+      throw std::runtime_error("it ended with status " + std::to_string(end.status) + ": " +
+                               active_content(errors));
     }
     return active_content(json);
   }
@@ -91,8 +92,8 @@ class ActiveCase {
     return read_answer(json_of(arguments_of({"gap"}, recordings)));
   }
 
-  reference::Mission next(ActiveStrategy strategy, const std::vector<fs::path>& recordings, const std::string& name,
-                          ActiveAnswers& result) {
+  reference::Mission next(ActiveStrategy strategy, const std::vector<fs::path>& recordings,
+                          const std::string& name, ActiveAnswers& result) {
     const double seconds = 60.0 * options_.minutes;
     if (strategy == ActiveStrategy::random) return random_manoeuvres(seconds, dice_);
     if (strategy == ActiveStrategy::survey) return survey_;

@@ -24,7 +24,8 @@ enum class ActiveStrategy : std::uint8_t {
   survey,   ///< as many minutes more of an ordinary survey
   random,   ///< as many minutes of random manoeuvres
 };
-inline constexpr std::array kActiveStrategies{ActiveStrategy::planned, ActiveStrategy::survey, ActiveStrategy::random};
+inline constexpr std::array kActiveStrategies{ActiveStrategy::planned, ActiveStrategy::survey,
+                                              ActiveStrategy::random};
 /// "planned", "survey", "random".
 [[nodiscard]] std::string_view name_of(ActiveStrategy strategy);
 
@@ -52,8 +53,9 @@ struct ActiveResult {
   std::map<ActiveStrategy, ActiveAnswers> answers;
 };
 
-/// Runs one case: the reference vehicle sails a short survey and a hold-out. The program under test answers, plans, and
-/// answers again with all recordings so far; for the other strategies it only answers. Empty when it was interrupted.
+/// Runs one case: the reference vehicle sails a short survey and a hold-out. The program under test answers,
+/// plans, and answers again with all recordings so far; for the other strategies it only answers. Empty when it
+/// was interrupted.
 [[nodiscard]] std::optional<ActiveResult> run_active(const TrialCase& drawn, const Commitment& seal,
                                                      std::uint64_t seed, const ActiveOptions& options);
 

@@ -16,7 +16,8 @@ namespace {
 constexpr double kOwnTolerance = 0.02;
 /// Apart from the cases of the other trials.
 constexpr std::uint64_t kFleetStream = 11ULL << 40U;
-/// Effects of the water, or of the Earth's field at the place: a day has one of them, and a vehicle none of the last two.
+/// Effects of the water, or of the Earth's field at the place: a day has one of them, and a vehicle none of the
+/// last two.
 constexpr std::array<std::string_view, 3> kOfDay{"buoyancy", "declination", "water_current"};
 
 bool is_of_day(std::string_view name) { return std::find(kOfDay.begin(), kOfDay.end(), name) != kOfDay.end(); }
@@ -63,7 +64,8 @@ void draw_causes_of_vehicles(FleetCase& fleet, EffectDeck& deck, reference::Rng&
     const reference::EffectKind& kind = is_foreign ? foreign[dice.bits() % foreign.size()] : deck.next();
     const double strength = is_foreign ? 1 : options.strength;
     int from = 1;
-    if (begins && options.days > 3) from = 3 + static_cast<int>(dice.bits() % static_cast<std::uint64_t>(options.days - 3));
+    if (begins && options.days > 3)
+      from = 3 + static_cast<int>(dice.bits() % static_cast<std::uint64_t>(options.days - 3));
     fleet.causes.push_back(
         {FleetLevel::vehicle, chosen[i], from, strength, is_foreign, reference::drawn(kind, strength, dice)});
   }
@@ -78,8 +80,8 @@ void draw_causes_of_days(FleetCase& fleet, reference::Rng& dice) {
 }
 
 nlohmann::ordered_json json_of(const FleetCause& cause) {
-  return {{"level", name_of(cause.level)}, {"vehicle", cause.vehicle},    {"day", cause.day},
-          {"strength", cause.strength},    {"foreign", cause.is_foreign}, {"name", cause.effect.name},
+  return {{"level", name_of(cause.level)},        {"vehicle", cause.vehicle},    {"day", cause.day},
+          {"strength", cause.strength},           {"foreign", cause.is_foreign}, {"name", cause.effect.name},
           {"parameters", cause.effect.parameters}};
 }
 
@@ -122,7 +124,8 @@ FleetCase drawn_fleet(const FleetTrialOptions& options) {
   EffectDeck deck(dice);
   for (const double strength : {options.strength, options.weak}) {
     if (strength > 0) {
-      fleet.causes.push_back({FleetLevel::design, 0, 0, strength, false, reference::drawn(deck.next(), strength, dice)});
+      fleet.causes.push_back(
+          {FleetLevel::design, 0, 0, strength, false, reference::drawn(deck.next(), strength, dice)});
     }
   }
   draw_causes_of_vehicles(fleet, deck, dice);
@@ -140,7 +143,9 @@ reference::VehicleUnderTest vehicle_on(const FleetCase& fleet, int vehicle, int 
 
 std::string vehicle_name(int vehicle) { return fmt::format("v{:02}", vehicle); }
 
-std::string mission_name(int vehicle, int day) { return fmt::format("{}/day-{:02}.cap", vehicle_name(vehicle), day); }
+std::string mission_name(int vehicle, int day) {
+  return fmt::format("{}/day-{:02}.cap", vehicle_name(vehicle), day);
+}
 
 std::string truth_text(const FleetCase& fleet) {
   nlohmann::ordered_json json{{"seed", fleet.options.seed},

@@ -33,8 +33,8 @@ struct FleetCause {
 struct FleetTrialOptions {
   std::uint64_t seed = 1;
   int vehicles = 20;
-  int days = 10;       ///< each vehicle sails one mission on each
-  int minutes = 10;    ///< of a mission
+  int days = 10;     ///< each vehicle sails one mission on each
+  int minutes = 10;  ///< of a mission
   double strength = 0.2;
   double weak = 0.05;  ///< strength of a second effect of the design, which only all missions together show
 };
@@ -48,9 +48,10 @@ struct FleetCase {
   std::vector<reference::VehicleUnderTest> vehicles;
 };
 
-/// Of the vehicles, three in ten have an effect in all missions, two in ten one that begins in the course of them, one in
-/// ten an effect that no library holds. The design has one effect of `strength` and one of `weak`. Three days in ten have
-/// an effect of the water or of the Earth's field. The same options give the same fleet on every machine.
+/// Of the vehicles, three in ten have an effect in all missions, two in ten one that begins in the course of them,
+/// one in ten an effect that no library holds. The design has one effect of `strength` and one of `weak`. Three
+/// days in ten have an effect of the water or of the Earth's field. The same options give the same fleet on every
+/// machine.
 [[nodiscard]] FleetCase drawn_fleet(const FleetTrialOptions& options);
 
 /// The vehicle as it is on one day, causes and all.

@@ -33,7 +33,8 @@ reference::Mission mission_of(const FleetCase& fleet, int day) {
 }
 
 std::string date_of_day(const FleetTruth& truth, int day) {
-  const std::chrono::sys_time<std::chrono::nanoseconds> time{std::chrono::nanoseconds(truth.begin_ns + day * kDay_ns)};
+  const std::chrono::sys_time<std::chrono::nanoseconds> time{
+      std::chrono::nanoseconds(truth.begin_ns + day * kDay_ns)};
   const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(time));
   return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
                      static_cast<unsigned>(date.day()));
@@ -86,9 +87,10 @@ class Scoring {
       if (!is_there) ++score_.named_wrong;
     }
     for (const FleetAnswerJson& vehicle : answer_.at("vehicles")) {
-      const bool is_foreign = std::any_of(truth_.causes.begin(), truth_.causes.end(), [&](const FleetCause& cause) {
-        return cause.is_foreign && vehicle_name(cause.vehicle) == vehicle.at("vehicle").get<std::string>();
-      });
+      const bool is_foreign =
+          std::any_of(truth_.causes.begin(), truth_.causes.end(), [&](const FleetCause& cause) {
+            return cause.is_foreign && vehicle_name(cause.vehicle) == vehicle.at("vehicle").get<std::string>();
+          });
       ++(is_foreign ? score_.foreign : score_.sound);
       if (vehicle.at("verdict") == "unknown") ++(is_foreign ? score_.foreign_unknown : score_.sound_unknown);
     }
@@ -112,7 +114,8 @@ class Scoring {
         return one.at("name") == cause.effect.name && is_of(one, cause, truth_);
       };
       const auto& others = open.at("alternatives");
-      if (outcome == "missed" && (is_it(open) || std::any_of(others.begin(), others.end(), is_it))) outcome = "undecided";
+      if (outcome == "missed" && (is_it(open) || std::any_of(others.begin(), others.end(), is_it)))
+        outcome = "undecided";
     }
     ++score_.causes[group_of(cause, strongest_design_)][outcome];
   }
@@ -163,7 +166,8 @@ void write_fleet(const FleetCase& fleet, const std::filesystem::path& folder, un
   std::size_t done = 0;
   base::in_parallel(threads, missions.size(), [&](std::size_t i) {
     const auto& [vehicle, day, seed] = missions[i];
-    write_recording(mission_of(fleet, day), vehicle_on(fleet, vehicle, day), seed, folder / mission_name(vehicle, day));
+    write_recording(mission_of(fleet, day), vehicle_on(fleet, vehicle, day), seed,
+                    folder / mission_name(vehicle, day));
     const std::lock_guard lock(mutex);
     progress(static_cast<double>(++done) / static_cast<double>(missions.size()));
   });
@@ -182,14 +186,15 @@ std::string score_text(const FleetScore& score) {
   const auto share = [](int count, int of) {
     return fmt::format("{} of {}{}", count, of, of > 0 ? fmt::format(" ({:.0f} %)", 100.0 * count / of) : "");
   };
-  std::string text = fmt::format("{:<18}{:>8}{:>14}{:>12}{:>8}\n", "sealed causes", "right", "wrong level", "undecided", "missed");
+  std::string text = fmt::format("{:<18}{:>8}{:>14}{:>12}{:>8}\n", "sealed causes", "right", "wrong level",
+                                 "undecided", "missed");
   for (const auto& [group, outcomes] : score.causes) {
     const auto count = [&outcomes = outcomes](const char* outcome) {
       const auto found = outcomes.find(outcome);
       return found == outcomes.end() ? 0 : found->second;
     };
-    text += fmt::format("{:<18}{:>8}{:>14}{:>12}{:>8}\n", group, count("right"), count("wrong level"), count("undecided"),
-                        count("missed"));
+    text += fmt::format("{:<18}{:>8}{:>14}{:>12}{:>8}\n", group, count("right"), count("wrong level"),
+                        count("undecided"), count("missed"));
   }
   text += fmt::format("onset within one mission: {}\n", share(score.begun_right, score.begun));
   text += fmt::format("named and not there: {}\n", share(score.named_wrong, score.named));

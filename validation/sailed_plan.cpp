@@ -38,7 +38,8 @@ class PlanOrders {
       case config::StepKind::pirouette:
         return turn(angle_of(step), step.rate_rad_s.value_or(kTurnRate_rad_s), *order_.depth_m);
       case config::StepKind::spiral:
-        return turn(angle_of(step), step.rate_rad_s.value_or(kTurnRate_rad_s), step.depth_m.value_or(*order_.depth_m));
+        return turn(angle_of(step), step.rate_rad_s.value_or(kTurnRate_rad_s),
+                    step.depth_m.value_or(*order_.depth_m));
       case config::StepKind::zigzag:
         return zigzag(step);
       case config::StepKind::dive:
@@ -109,7 +110,8 @@ class PlanOrders {
         order.depth_m.reset();
         order.elevator_rad = angle_rad;
       } else {
-        order.fins_beside_rad[static_cast<Eigen::Index>(step.on) - static_cast<Eigen::Index>(config::Surface::fin1)] = angle_rad;
+        order.fins_beside_rad[static_cast<Eigen::Index>(step.on) -
+                              static_cast<Eigen::Index>(config::Surface::fin1)] = angle_rad;
       }
       give(order, seconds);
     }

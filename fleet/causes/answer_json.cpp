@@ -115,7 +115,8 @@ std::string fleet_json(const FleetStory& story) {
     json["missions"].push_back(std::move(each));
   }
   json["calibrations"] = FleetJson::array();
-  for (const CalibrationHistory& history : story.calibrations) json["calibrations"].push_back(history_json(history));
+  for (const CalibrationHistory& history : story.calibrations)
+    json["calibrations"].push_back(history_json(history));
   json["remarks"] = story.remarks;
   return json.dump(-1, ' ', false, FleetJson::error_handler_t::replace) + "\n";
 }

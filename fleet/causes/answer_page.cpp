@@ -28,8 +28,8 @@ std::vector<FleetRow> rows_of(const std::vector<FoundCause>& causes, const Poole
     std::string others;
     for (const Alternative& other : cause.alternatives) {
       others += fmt::format("{}{} of {} {} ({:.0f} %)", others.empty() ? "" : "; ",
-                            missions.effects()[other.cause.effect].name, name_of(other.cause.level), other.cause.of,
-                            100 * other.probability);
+                            missions.effects()[other.cause.effect].name, name_of(other.cause.level),
+                            other.cause.of, 100 * other.probability);
     }
     rows.push_back({std::string(name_of(cause.acting.cause.level)), text_of(cause, missions),
                     fmt::format("{:.2f}", strength_of(cause)), others});
@@ -127,16 +127,18 @@ class FleetPage {
     plot.points(FleetInk::fit, "floor", floor);
     plot.points(FleetInk::before, "nominal model", before);
     plot.points(FleetInk::after, "with the causes", after);
-    return {"Closure", plot.svg(),
-            "Mean over the missions of each vehicle. 1 is the noise of the nominal vehicle. The causes in a mission's "
-            "model were determined by other missions."};
+    return {
+        "Closure", plot.svg(),
+        "Mean over the missions of each vehicle. 1 is the noise of the nominal vehicle. The causes in a mission's "
+        "model were determined by other missions."};
   }
 
   void vehicles(report::HtmlPage& page) const {
     std::vector<FleetRow> rows;
     for (const VehicleAnswer& vehicle : story_.answer.vehicles) {
-      rows.push_back({vehicle.vehicle, std::string(name_of(vehicle.verdict)), fmt::format("{:.3f}", vehicle.gap.before),
-                      fmt::format("{:.3f}", vehicle.gap.after), fmt::format("{:.3f}", vehicle.gap.floor),
+      rows.push_back({vehicle.vehicle, std::string(name_of(vehicle.verdict)),
+                      fmt::format("{:.3f}", vehicle.gap.before), fmt::format("{:.3f}", vehicle.gap.after),
+                      fmt::format("{:.3f}", vehicle.gap.floor),
                       vehicle.closed ? fmt::format("{:.0f} %", 100 * *vehicle.closed) : "", vehicle.reason});
     }
     page.table({"vehicle", "verdict", "before", "after", "floor", "closed", "why unknown"}, rows);
@@ -182,7 +184,8 @@ class FleetPage {
       const MissionGap& gap = story_.answer.missions[m];
       return (gap.after - gap.floor) / std::max(gap.floor_std, 1e-9);
     };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return excess(a) > excess(b); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return excess(a) > excess(b); });
     std::vector<FleetRow> rows;
     for (const std::size_t m : order) {
       if (rows.size() == kMostMissions) break;
@@ -191,7 +194,8 @@ class FleetPage {
       rows.push_back({of.recording, of.vehicle, of.day, fmt::format("{:.3f}", gap.before),
                       fmt::format("{:.3f}", gap.after), fmt::format("{:.1f}", excess(m))});
     }
-    page.paragraph("Outliers first: missions whose residuals exceed the floor most, with the causes in the model.");
+    page.paragraph(
+        "Outliers first: missions whose residuals exceed the floor most, with the causes in the model.");
     page.table({"recording", "vehicle", "day", "before", "after", "excess (standard deviations)"}, rows);
     if (order.size() > kMostMissions) {
       page.paragraph(fmt::format("The first {} of {}; the JSON has all.", kMostMissions, order.size()));

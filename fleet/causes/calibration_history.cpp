@@ -77,11 +77,14 @@ std::vector<double> step_of(std::size_t count, std::size_t at) {
 /// The course with the least cost.
 Course best_course(const std::vector<CalibrationPoint>& points, double excess) {
   const auto n = static_cast<double>(points.size());
-  const auto cost = [&](const CourseFit& of, int unknowns) { return 0.5 * of.misfit + 0.5 * unknowns * std::log(n); };
+  const auto cost = [&](const CourseFit& of, int unknowns) {
+    return 0.5 * of.misfit + 0.5 * unknowns * std::log(n);
+  };
   Course best{CalibrationCourse::constant, 0, fit(points, excess, nullptr), 0, 1};
   best.cost_nats = cost(best.fit, 1);
   const double constant_nats = best.cost_nats;
-  const auto consider = [&](CalibrationCourse course, std::size_t at, const std::vector<double>& regressor, int unknowns) {
+  const auto consider = [&](CalibrationCourse course, std::size_t at, const std::vector<double>& regressor,
+                            int unknowns) {
     Course other{course, at, fit(points, excess, &regressor), 0, unknowns};
     other.cost_nats = cost(other.fit, unknowns);
     if (other.cost_nats + kDecides_nats < constant_nats && other.cost_nats < best.cost_nats) best = other;

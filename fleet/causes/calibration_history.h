@@ -31,13 +31,13 @@ enum class CalibrationCourse : std::uint8_t {
 
 /// A series of one value of one calibrator, with what its course is. Unit as in the name of the value.
 struct CalibrationHistory {
-  std::string subject;   ///< the vehicle, or the instrument by its serial number
-  std::string quantity;  ///< "gyro.scale", "compass.deviation_deg.B"
+  std::string subject;                   ///< the vehicle, or the instrument by its serial number
+  std::string quantity;                  ///< "gyro.scale", "compass.deviation_deg.B"
   std::vector<CalibrationPoint> points;  ///< in order of time
   CalibrationCourse course = CalibrationCourse::too_few;
-  double mean = 0, mean_std = 0;          ///< of constant values
+  double mean = 0, mean_std = 0;  ///< of constant values
   double drift_per_day = 0, drift_std = 0;
-  std::size_t step_at = 0;                ///< index of the first point after the step
+  std::size_t step_at = 0;  ///< index of the first point after the step
   double step = 0, step_std = 0;
   /// Standard deviation beyond the stated errors that makes the values agree with the course.
   double excess_std = 0;

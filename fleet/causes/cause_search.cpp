@@ -52,7 +52,9 @@ class CauseSearch {
   [[nodiscard]] std::vector<Scored> scored(const PooledEvidence& evidence,
                                            const std::vector<const PossibleCause*>& causes) const {
     std::vector<Scored> all(causes.size());
-    base::in_parallel(threads_, causes.size(), [&](std::size_t i) { all[i] = {causes[i], evidence.gain(*causes[i])}; });
+    base::in_parallel(threads_, causes.size(), [&](std::size_t i) {
+      all[i] = {causes[i], evidence.gain(*causes[i])};
+    });
     std::erase_if(all, [](const Scored& each) { return !each.gain.is_within_bounds; });
     std::stable_sort(all.begin(), all.end(),
                      [](const Scored& a, const Scored& b) { return a.gain.log_odds > b.gain.log_odds; });
@@ -60,7 +62,8 @@ class CauseSearch {
   }
 
   /// The same effect of the same unit at all of its possible times.
-  [[nodiscard]] std::vector<Scored> at_all_times(const PooledEvidence& evidence, const PossibleCause& cause) const {
+  [[nodiscard]] std::vector<Scored> at_all_times(const PooledEvidence& evidence,
+                                                 const PossibleCause& cause) const {
     std::vector<const PossibleCause*> times;
     for (const PossibleCause& each : possible_) {
       if (each.is_same_but_for_time(cause)) times.push_back(&each);
@@ -87,7 +90,8 @@ class CauseSearch {
   [[nodiscard]] std::string outlier_vehicle() const {
     std::map<std::string, std::size_t> counts;
     for (const ActingCause& each : acting_) {
-      if (each.cause.level == CauseLevel::vehicle && ++counts[each.cause.of] > kMostCausesPerVehicle) return each.cause.of;
+      if (each.cause.level == CauseLevel::vehicle && ++counts[each.cause.of] > kMostCausesPerVehicle)
+        return each.cause.of;
     }
     return {};
   }

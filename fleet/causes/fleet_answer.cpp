@@ -49,13 +49,13 @@ PooledMissions half_of(const PooledMissions& missions, std::size_t begin) {
 }
 
 /// The missions of `half` among those that the cause acts in.
-std::vector<std::size_t> within(const PooledMissions& half, const PooledMissions& missions, const PossibleCause& cause) {
+std::vector<std::size_t> within(const PooledMissions& half, const PooledMissions& missions,
+                                const PossibleCause& cause) {
   std::vector<std::size_t> found;
   for (std::size_t m = 0; m < half.missions().size(); ++m) {
     const FleetMission& mission = half.missions()[m];
-    const bool acts = std::any_of(cause.missions.begin(), cause.missions.end(), [&](std::size_t i) {
-      return is_same_mission(missions.missions()[i], mission);
-    });
+    const bool acts = std::any_of(cause.missions.begin(), cause.missions.end(),
+                                  [&](std::size_t i) { return is_same_mission(missions.missions()[i], mission); });
     if (acts) found.push_back(m);
   }
   return found;
@@ -81,8 +81,8 @@ std::vector<Eigen::VectorXd> fitted_to(const PooledMissions& half, const PooledM
 }
 
 /// Parameters of one mission with the causes that act in it, typical values.
-Eigen::VectorXd values_in(std::size_t mission, const PooledMissions& missions, const std::vector<FoundCause>& causes,
-                          const std::vector<Eigen::VectorXd>& values) {
+Eigen::VectorXd values_in(std::size_t mission, const PooledMissions& missions,
+                          const std::vector<FoundCause>& causes, const std::vector<Eigen::VectorXd>& values) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(missions.size());
   for (std::size_t i = 0; i < causes.size(); ++i) {
     const PossibleCause& cause = causes[i].acting.cause;
@@ -108,9 +108,10 @@ std::vector<bool> imitating(const PooledMissions& missions, const std::vector<Fo
   };
   std::vector<bool> imitate;
   for (const FoundCause& cause : causes) {
-    imitate.push_back(!is_backlash(cause) && std::any_of(causes.begin(), causes.end(), [&](const FoundCause& other) {
-      return is_backlash(other) && imitates(cause, other);
-    }));
+    imitate.push_back(!is_backlash(cause) &&
+                      std::any_of(causes.begin(), causes.end(), [&](const FoundCause& other) {
+                        return is_backlash(other) && imitates(cause, other);
+                      }));
   }
   return imitate;
 }
@@ -139,8 +140,8 @@ std::vector<MissionGap> gaps_of(const PooledMissions& missions, const PooledMiss
 
 double closed(const MissionGap& gap) { return 1 - (gap.after - gap.floor) / (gap.before - gap.floor); }
 
-/// Mean of some missions of one vehicle. The floor scatters with the tolerances of the vehicle, which all of its missions
-/// share, so the scatter does not fall with their number.
+/// Mean of some missions of one vehicle. The floor scatters with the tolerances of the vehicle, which all of its
+/// missions share, so the scatter does not fall with their number.
 MissionGap mean_of(const std::vector<MissionGap>& gaps, const std::vector<std::size_t>& missions) {
   MissionGap mean;
   const auto n = static_cast<double>(missions.size());
@@ -154,7 +155,8 @@ MissionGap mean_of(const std::vector<MissionGap>& gaps, const std::vector<std::s
 }
 
 /// 95 % interval of the closure by a bootstrap of the missions, each floor with its error.
-std::array<double, 2> closure_interval(const std::vector<MissionGap>& gaps, const std::vector<std::size_t>& missions) {
+std::array<double, 2> closure_interval(const std::vector<MissionGap>& gaps,
+                                       const std::vector<std::size_t>& missions) {
   std::mt19937_64 random(1);
   std::uniform_int_distribution<std::size_t> draw(0, missions.size() - 1);
   std::normal_distribution<double> normal;
@@ -187,9 +189,9 @@ VehicleAnswer answer_of_vehicle(const MissionGroup& vehicle, const FleetAnswer& 
   };
   const auto acts = [&](const FoundCause& cause) { return acts_in(cause, vehicle); };
   const bool has_cause = std::any_of(fleet.causes.begin(), fleet.causes.end(), acts);
-  const bool is_undecided = std::any_of(fleet.undecided.begin(), fleet.undecided.end(), [&](const FoundCause& cause) {
-    return cause.acting.cause.level == CauseLevel::vehicle && acts(cause);
-  });
+  const bool is_undecided = std::any_of(
+      fleet.undecided.begin(), fleet.undecided.end(),
+      [&](const FoundCause& cause) { return cause.acting.cause.level == CauseLevel::vehicle && acts(cause); });
   if (is_clear(answer.gap.before)) {
     answer.closed = closed(answer.gap);
     answer.closed_ci = closure_interval(fleet.missions, vehicle.missions);

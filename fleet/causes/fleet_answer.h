@@ -22,8 +22,8 @@ enum class FleetVerdict : std::uint8_t {
 [[nodiscard]] std::string_view name_of(FleetVerdict verdict);
 
 /// Power of the whitened residuals: 1 is the noise of the nominal vehicle. The floor is that of simulated missions
-/// without a gap; `after` has all that was found in the model, as other missions determined it (every second one of
-/// each vehicle).
+/// without a gap; `after` has all that was found in the model, as other missions determined it (every second one
+/// of each vehicle).
 struct MissionGap {
   double before = 0, after = 0, floor = 0, floor_std = 0;
 };
@@ -40,18 +40,18 @@ struct VehicleAnswer {
 
 /// What a fleet's missions tell: which causes belong to a vehicle, to the design, to a day, and which began when.
 struct FleetAnswer {
-  std::vector<FoundCause> causes;     ///< probable enough to be named, and no tolerance
-  std::vector<FoundCause> undecided;  ///< there is something, and what or whose is not decided
-  std::vector<FoundCause> tolerances; ///< real, and not larger than what every vehicle has
+  std::vector<FoundCause> causes;      ///< probable enough to be named, and no tolerance
+  std::vector<FoundCause> undecided;   ///< there is something, and what or whose is not decided
+  std::vector<FoundCause> tolerances;  ///< real, and not larger than what every vehicle has
   std::vector<VehicleAnswer> vehicles;
   std::vector<MissionGap> missions;  ///< in the order of PooledMissions::missions()
-  /// Vehicles whose missions were left out of the pool, because more causes would be needed than a vehicle has. Causes
-  /// hold their missions as indices into all missions.
+  /// Vehicles whose missions were left out of the pool, because more causes would be needed than a vehicle has.
+  /// Causes hold their missions as indices into all missions.
   std::vector<std::string> outliers;
 };
 
-/// Strength of a cause, typical values: the norm of its parameters without what their errors add to it. And the strength
-/// up to which a cause is a tolerance of its level.
+/// Strength of a cause, typical values: the norm of its parameters without what their errors add to it. And the
+/// strength up to which a cause is a tolerance of its level.
 [[nodiscard]] double strength_of(const FoundCause& cause);
 [[nodiscard]] double tolerance_of(CauseLevel level);
 

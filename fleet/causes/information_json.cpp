@@ -21,7 +21,9 @@ InformationJson list_of(const Eigen::VectorXd& values) {
 }
 
 /// A bound of a parameter; null: there is none.
-InformationJson bound_json(double bound) { return std::isfinite(bound) ? InformationJson(bound) : InformationJson(); }
+InformationJson bound_json(double bound) {
+  return std::isfinite(bound) ? InformationJson(bound) : InformationJson();
+}
 
 const InformationJson& member(const InformationJson& json, const char* key) {
   if (!json.is_object()) throw std::invalid_argument(fmt::format("{} is looked for in what is no object", key));

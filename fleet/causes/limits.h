@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <string_view>
 
-/// Numbers that decide what a fleet's answer names. Strengths are in typical values of an effect. "Set" is what was
-/// chosen and not derived.
+/// Numbers that decide what a fleet's answer names. Strengths are in typical values of an effect. "Set" is what
+/// was chosen and not derived.
 namespace navcal::fleet {
 
 /// Standard deviation of each parameter of one vehicle without a gap: the definition of docs/gap.md.
@@ -32,13 +32,15 @@ inline constexpr double kCauseNamedFrom = 0.9;
 inline constexpr double kReplaced_nats = 1;
 /// Rounds in which each cause is compared with all others.
 inline constexpr int kExchangeRounds = 3;
-/// Most causes of one vehicle. Set: an effect that is not in the library is imitated by one more cause after the other.
+/// Most causes of one vehicle. Set: an effect that is not in the library is imitated by one more cause after the
+/// other.
 inline constexpr std::size_t kMostCausesPerVehicle = 3;
-/// Strength up to which an effect is a tolerance of a vehicle: 2.5 standard deviations; of a design or a day by theirs.
+/// Strength up to which an effect is a tolerance of a vehicle: 2.5 standard deviations; of a design or a day by
+/// theirs.
 inline constexpr double kToleranceDeviations = 2.5;
-/// Strength of a cause beside a backlash in the same missions, in strengths of the backlash, up to which the cause is not
-/// named: of the same vehicle or design, and of another one. Set: inside its dead band a fin is not where the linear model
-/// has it, and effects of other instruments imitate the difference.
+/// Strength of a cause beside a backlash in the same missions, in strengths of the backlash, up to which the cause
+/// is not named: of the same vehicle or design, and of another one. Set: inside its dead band a fin is not where
+/// the linear model has it, and effects of other instruments imitate the difference.
 inline constexpr double kBesideOwnBacklash = 2, kBesideBacklash = 0.7;
 /// Standard deviations of the floor above which the missions of a vehicle show a gap.
 inline constexpr double kFleetGap_sigma = 4;

@@ -50,17 +50,17 @@ struct ActingCause {
 /// The hierarchical model: the parameters of mission m are
 ///   v_m = tolerance of its design + tolerance of its vehicle + of its day + the causes that act in it + error_m,
 /// all Gaussian with mean zero. With the likelihoods of the missions (gap::RecordingInformation) the evidence of a
-/// set of causes is a closed form (Gelman et al. 2013, Bayesian Data Analysis, chapters 5 and 15). The tolerances of
-/// the vehicles are integrated out first, since no cause needs them.
+/// set of causes is a closed form (Gelman et al. 2013, Bayesian Data Analysis, chapters 5 and 15). The tolerances
+/// of the vehicles are integrated out first, since no cause needs them.
 class PooledEvidence {
  public:
   /// Keeps a reference to `missions`.
   PooledEvidence(const PooledMissions& missions, const std::vector<ActingCause>& acting);
 
   struct Gain {
-    double log_odds = 0;    ///< evidence gained over the model without it, prior included, nats
-    double strength = 1;    ///< of kCauseStrengths, the one that fits best
-    Eigen::VectorXd mean;   ///< of its parameters, typical values
+    double log_odds = 0;   ///< evidence gained over the model without it, prior included, nats
+    double strength = 1;   ///< of kCauseStrengths, the one that fits best
+    Eigen::VectorXd mean;  ///< of its parameters, typical values
     Eigen::MatrixXd covariance;
     bool is_within_bounds = true;
   };

@@ -59,7 +59,8 @@ PooledMissions::PooledMissions(std::vector<FleetMission> missions) : missions_(s
       throw std::invalid_argument(fmt::format("{} and {} were compared with different libraries of effects",
                                               missions_.front().recording, mission.recording));
     }
-    // With an error e ~ N(0, E) of the model, the information I becomes I - I (E^-1 + I)^-1 I, and the score alike.
+    // With an error e ~ N(0, E) of the model, the information I becomes I - I (E^-1 + I)^-1 I, and the score
+    // alike.
     const Eigen::VectorXd& error = mission.information.model_error;
     const Eigen::MatrixXd& whole = mission.information.information;
     Eigen::MatrixXd scaled = error.asDiagonal() * whole * error.asDiagonal();

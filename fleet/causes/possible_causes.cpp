@@ -5,9 +5,9 @@
 #include "fleet/causes/limits.h"
 #include "fleet/causes/pooled_evidence.h"
 
-// The prior of a cause is shared out in steps: each level alike, each unit of the level alike, each effect that the
-// level can have alike. Half of a vehicle's share is for effects that act in all of its missions. The other half is for
-// those that begin, end, or both, in the course of them, each pair of times alike.
+// The prior of a cause is shared out in steps: each level alike, each unit of the level alike, each effect that
+// the level can have alike. Half of a vehicle's share is for effects that act in all of its missions. The other
+// half is for those that begin, end, or both, in the course of them, each pair of times alike.
 namespace navcal::fleet {
 namespace {
 
@@ -72,12 +72,17 @@ std::vector<PossibleCause> possible_causes(const PooledMissions& missions) {
         return missions.vehicle_of(m) != missions.vehicle_of(design.missions.front());
       });
       if (!is_shared) continue;  // nothing tells the design from its only vehicle
-      causes.push_back({e, CauseLevel::design, design.name, design.missions, {}, {},
-                        share(missions.designs().size(), all)});
+      causes.push_back(
+          {e, CauseLevel::design, design.name, design.missions, {}, {}, share(missions.designs().size(), all)});
     }
     if (!effects[e].is_of_surroundings) continue;
     for (const MissionGroup& day : missions.days()) {
-      causes.push_back({e, CauseLevel::day, day.name, day.missions, {}, {},
+      causes.push_back({e,
+                        CauseLevel::day,
+                        day.name,
+                        day.missions,
+                        {},
+                        {},
                         share(missions.days().size(), static_cast<double>(kOfSurroundings.size()))});
     }
   }

@@ -61,8 +61,9 @@ void set_days(std::vector<FleetMission>& missions) {
       continue;
     }
     auto& waters = dates[date_text(*of.utc_ns)];
-    auto found = std::find_if(waters.begin(), waters.end(),
-                              [&](const Water& water) { return distance_m(water.place, *of.place) < kSameWater_m; });
+    auto found = std::find_if(waters.begin(), waters.end(), [&](const Water& water) {
+      return distance_m(water.place, *of.place) < kSameWater_m;
+    });
     if (found == waters.end()) found = waters.insert(found, {*of.place, {}});
     found->missions.push_back(&mission);
   }
@@ -105,8 +106,8 @@ std::optional<FleetMission> mission_of(const Task& task, const std::string& path
 
 namespace {
 
-/// A value of a calibrator and its standard deviation: paths within the calibrator's object, and the device that is
-/// calibrated.
+/// A value of a calibrator and its standard deviation: paths within the calibrator's object, and the device that
+/// is calibrated.
 struct CalibratedValue {
   const char* calibrator;
   const char* value;
@@ -183,9 +184,9 @@ std::vector<CalibrationHistory> read_calibrations(const Plan& plan, const Result
     try {
       add_calibration(AnswerJson::parse(*text), file->second.path, histories);
     } catch (const nlohmann::json::exception& error) {
-      throw analysis::Failure(analysis::Exit::bad_input,
-                              fmt::format("the answer of task {} ({}) is damaged: {}", task->number,
-                                          file->second.path, error.what()));
+      throw analysis::Failure(
+          analysis::Exit::bad_input,
+          fmt::format("the answer of task {} ({}) is damaged: {}", task->number, file->second.path, error.what()));
     }
   }
   std::vector<CalibrationHistory> judged;

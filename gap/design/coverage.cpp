@@ -40,7 +40,8 @@ class RegimeTimes {
     }
     constexpr std::array kQuadrants{"north", "east", "south", "west"};
     const double quarter = std::remainder(now.heading_rad, 2 * M_PI) / (M_PI / 2);
-    times_[fmt::format("headings to the {}", kQuadrants[static_cast<std::size_t>(std::lround(quarter) + 4) % 4])] += seconds;
+    times_[fmt::format("headings to the {}",
+                       kQuadrants[static_cast<std::size_t>(std::lround(quarter) + 4) % 4])] += seconds;
   }
 
   [[nodiscard]] std::set<std::string> sailed() const {
@@ -59,10 +60,9 @@ class RegimeTimes {
     for (std::size_t i = 1; i + 1 < kEdges_deg_s.size(); ++i) {
       if (rate >= kEdges_deg_s[i + 1]) continue;
       const char* const side = rate_deg_s > 0 ? "starboard" : "port";
-      times_[i + 2 == kEdges_deg_s.size()
-                 ? fmt::format("turns beyond {:.0f} deg/s to {}", kEdges_deg_s[i], side)
-                 : fmt::format("turns of {:.0f} to {:.0f} deg/s to {}", kEdges_deg_s[i], kEdges_deg_s[i + 1], side)] +=
-          seconds;
+      times_[i + 2 == kEdges_deg_s.size() ? fmt::format("turns beyond {:.0f} deg/s to {}", kEdges_deg_s[i], side)
+                                          : fmt::format("turns of {:.0f} to {:.0f} deg/s to {}", kEdges_deg_s[i],
+                                                        kEdges_deg_s[i + 1], side)] += seconds;
       return;
     }
   }
@@ -90,7 +90,8 @@ std::set<std::string> regimes_sailed(const Trajectory10Hz& course, const config:
   return times.sailed();
 }
 
-std::set<std::string> regimes_sailed(const std::vector<PlannedInstant>& track, const config::MissionLimits& limits) {
+std::set<std::string> regimes_sailed(const std::vector<PlannedInstant>& track,
+                                     const config::MissionLimits& limits) {
   RegimeTimes times(limits);
   for (const PlannedInstant& now : track) {
     times.add({now.turn_rate_rad_s, now.depth_m, now.pitch_rad, now.heading_rad, now.shaft_rps}, 1);

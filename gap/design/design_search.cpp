@@ -79,7 +79,8 @@ SeparationTable separations(const DesignGoal& goal, const Eigen::MatrixXd& plann
   return table;
 }
 
-DesignSearch::DesignSearch(const DiagnosisProblem& problem, const DesignGoal& goal, const config::MissionLimits& limits)
+DesignSearch::DesignSearch(const DiagnosisProblem& problem, const DesignGoal& goal,
+                           const config::MissionLimits& limits)
     : problem_(problem), goal_(goal), limits_(limits) {}
 
 DesignedMission DesignSearch::run() {
@@ -107,13 +108,15 @@ void DesignSearch::simulate_alphabet() {
   std::size_t done = 0;
   problem_.progress("simulating manoeuvres", 0);
   base::in_parallel(problem_.threads, choices.size(), [&](std::size_t i) {
-    const config::Mission steps = config::parse_mission(mission_file_of({&choices[i]}, limits_, "one manoeuvre"), "plan");
+    const config::Mission steps =
+        config::parse_mission(mission_file_of({&choices[i]}, limits_, "one manoeuvre"), "plan");
     try {
       const double seconds = duration_of(steps, problem_.request.vehicle, limits_.duration_s);
       PlannedMission planned = planned_mission(steps, seconds, waters, kDesignSeed);
       leave_out(problem_.request.without, planned.mission);
       if (!is_within_limits(planned.track, false)) return;
-      all[i] = Simulated{choices[i], gram_of(planned, 1), seconds - kStart_s, regimes_sailed(planned.track, limits_)};
+      all[i] =
+          Simulated{choices[i], gram_of(planned, 1), seconds - kStart_s, regimes_sailed(planned.track, limits_)};
     } catch (const sim::UnstableVehicle&) {
       return;  // the vehicle cannot sail it
     }
@@ -148,8 +151,9 @@ double DesignSearch::utility(const Chosen& chosen) const {
       // What the recordings show already counts no more in a test.
       const double before = goal_.purpose == DesignPurpose::test ? table.so_far(a, b) : 0;
       const double after = before + table.added(a, b);
-      shown += weight * ((std::min(after, kObservable_nats) - std::min(before, kObservable_nats)) / kObservable_nats +
-                         kBeyond * std::log1p(table.added(a, b)));
+      shown +=
+          weight * ((std::min(after, kObservable_nats) - std::min(before, kObservable_nats)) / kObservable_nats +
+                    kBeyond * std::log1p(table.added(a, b)));
     }
   }
   switch (goal_.purpose) {
@@ -222,11 +226,10 @@ DesignedMission DesignSearch::simulated(const Chosen& chosen) const {
   const config::Mission steps = config::parse_mission(designed.toml, "plan");
   designed.duration_s = duration_of(steps, problem_.request.vehicle, limits_.duration_s);
   const Mission& recorded = problem_.prepared.mission;
-  designed.planned = planned_mission(steps, designed.duration_s,
-                                     {problem_.request.vehicle, recorded.instruments, recorded.field}, kDesignSeed);
+  designed.planned = planned_mission(
+      steps, designed.duration_s, {problem_.request.vehicle, recorded.instruments, recorded.field}, kDesignSeed);
   leave_out(problem_.request.without, designed.planned.mission);
-  designed.information =
-      information_without_biases(gram_of(designed.planned, problem_.threads), goal_.priors);
+  designed.information = information_without_biases(gram_of(designed.planned, problem_.threads), goal_.priors);
   return designed;
 }
 
@@ -235,7 +238,8 @@ bool DesignSearch::is_within_limits(const std::vector<PlannedInstant>& track, bo
   for (const PlannedInstant& now : track) {
     energy_J += now.motor_current_A * limits_.battery_V;
     if (std::hypot(now.north_m, now.east_m) > limits_.radius_m) return false;
-    if (now.depth_m > limits_.greatest_depth_m || std::abs(now.pitch_rad) > kOvershoot * limits_.greatest_pitch_rad ||
+    if (now.depth_m > limits_.greatest_depth_m ||
+        std::abs(now.pitch_rad) > kOvershoot * limits_.greatest_pitch_rad ||
         std::abs(now.turn_rate_rad_s) > kOvershoot * limits_.greatest_turn_rate_rad_s) {
       return false;
     }

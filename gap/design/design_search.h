@@ -39,9 +39,9 @@ struct DesignedMission {
   Eigen::MatrixXd information;  ///< of the planned mission, without the biases
 };
 
-/// Chooses manoeuvres one after the other, each that adds most per second, then exchanges them while that helps. The
-/// information of manoeuvres is added up for the choice. The mission that is chosen is simulated as a whole, so the
-/// numbers that are told belong to it.
+/// Chooses manoeuvres one after the other, each that adds most per second, then exchanges them while that helps.
+/// The information of manoeuvres is added up for the choice. The mission that is chosen is simulated as a whole,
+/// so the numbers that are told belong to it.
 class DesignSearch {
  public:
   /// Keeps references.

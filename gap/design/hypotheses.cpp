@@ -15,8 +15,8 @@ namespace {
 /// Probability below which a set is left out, and the largest number of sets: more cost time and change no plan.
 constexpr double kLeastHypothesis = 0.002;
 constexpr std::size_t kMostHypotheses = 8;
-/// Log odds with which a set is named before a rival: a probability of kNamedFrom beside rivals of kMostRivals. Before no
-/// effect at all: a probability of no effect below kNoGapBelow.
+/// Log odds with which a set is named before a rival: a probability of kNamedFrom beside rivals of kMostRivals.
+/// Before no effect at all: a probability of no effect below kNoGapBelow.
 const double kNamed_nats = std::log(kNamedFrom / kMostRivals), kGap_nats = -std::log(kNoGapBelow);
 
 /// Log odds of `a` against `b` from which the verdict is `a`.
@@ -35,7 +35,8 @@ std::vector<Hypothesis> probable_hypotheses(const DiagnosisProblem& problem, con
   bool has_none = false;
   for (const Candidate& candidate : found.found.candidates) {
     const bool is_none = candidate.effects.empty();
-    if (!is_none && (candidate.probability < kLeastHypothesis || all.size() + 1 >= kMostHypotheses + (has_none ? 1 : 0))) {
+    if (!is_none &&
+        (candidate.probability < kLeastHypothesis || all.size() + 1 >= kMostHypotheses + (has_none ? 1 : 0))) {
       continue;
     }
     has_none = has_none || is_none;
@@ -58,7 +59,8 @@ std::vector<Hypothesis> weak_hypotheses(const Library& library, const Priors& pr
   std::vector<Hypothesis> all{{{}, 0, 0.5, Eigen::VectorXd::Zero(priors.spike.size())}};
   for (std::size_t effect = 0; effect < library.size(); ++effect) {
     if (!library.holds(effect)) continue;
-    Hypothesis hypothesis{{effect}, 0, 0.5 / static_cast<double>(library.size()), Eigen::VectorXd::Zero(priors.spike.size())};
+    Hypothesis hypothesis{
+        {effect}, 0, 0.5 / static_cast<double>(library.size()), Eigen::VectorXd::Zero(priors.spike.size())};
     const double share = strength / std::sqrt(static_cast<double>(library.count(effect)));
     for (const Eigen::Index j : parameter_indices(library, {effect})) {
       hypothesis.values[j] = share * library.unknowns()[static_cast<std::size_t>(j)].typical;
@@ -84,8 +86,8 @@ Eigen::MatrixXd information_without_biases(const Eigen::MatrixXd& gram, const Pr
 //   E[log p(r|a) - log p(r|b)] = 1/2 v^T X^T (C_b^-1 - C_a^-1) X v + 1/2 tr((C_b^-1 - C_a^-1) C_0)
 //                                + 1/2 (log det C_b - log det C_a),
 // and by Woodbury's identity X^T C^-1 X = G - G M G, tr(C^-1) = rows - tr(M G), det C = det(1 + P G P).
-ModelForecast::ModelForecast(const EffectSubset& members, const Eigen::MatrixXd& information, const Library& library,
-                             const Priors& priors) {
+ModelForecast::ModelForecast(const EffectSubset& members, const Eigen::MatrixXd& information,
+                             const Library& library, const Priors& priors) {
   Eigen::VectorXd prior = priors.spike;
   for (const Eigen::Index j : parameter_indices(library, members)) prior[j] = priors.slab[j];
   Eigen::MatrixXd scaled = prior.asDiagonal() * information * prior.asDiagonal();
@@ -117,8 +119,11 @@ double probability_of_exact_answer(const std::vector<Hypothesis>& hypotheses, co
     for (std::size_t b = 0; b < hypotheses.size(); ++b) {
       if (a == b) continue;
       const double nats = separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
-      const double margin = hypotheses[a].log_odds - hypotheses[b].log_odds + nats - decisive_nats(hypotheses[a], hypotheses[b]);
-      least = std::min(least, nats > 0 ? normal_probability(margin / std::sqrt(2 * nats)) : margin > 0 ? 1.0 : 0.0);
+      const double margin =
+          hypotheses[a].log_odds - hypotheses[b].log_odds + nats - decisive_nats(hypotheses[a], hypotheses[b]);
+      least = std::min(least, nats > 0     ? normal_probability(margin / std::sqrt(2 * nats))
+                              : margin > 0 ? 1.0
+                                           : 0.0);
     }
     sum += hypotheses[a].probability * least;
   }

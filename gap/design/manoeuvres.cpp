@@ -22,7 +22,8 @@ class Alphabet {
     const double least = 60 * limits.least_shaft_rps, greatest = 60 * limits.greatest_shaft_rps;
     speeds_rpm_ = {least + 0.1 * (greatest - least), least + 0.6 * (greatest - least), greatest};
     for (double& rpm : speeds_rpm_) rpm = std::round(rpm);
-    shallow_m_ = std::max(limits.least_depth_m, std::min(0.8, 0.5 * (limits.least_depth_m + limits.greatest_depth_m)));
+    shallow_m_ =
+        std::max(limits.least_depth_m, std::min(0.8, 0.5 * (limits.least_depth_m + limits.greatest_depth_m)));
     deep_m_ = 0.9 * limits.greatest_depth_m;
   }
 
@@ -56,7 +57,8 @@ class Alphabet {
         const char* const word = side > 0 ? "starboard" : "port";
         add(fmt::format("circle to {} at {:.0f} deg/s, {:.1f} m deep", word, rate_deg_s, shallow_m_),
             360 / rate_deg_s + kSettle_s,
-            {dive(shallow_m_), fmt::format("{{do = \"circle\", turns = {}, rate_deg_s = {:.0f}}}", side, rate_deg_s)});
+            {dive(shallow_m_),
+             fmt::format("{{do = \"circle\", turns = {}, rate_deg_s = {:.0f}}}", side, rate_deg_s)});
       }
     }
     if (most_deg_s < 15) return;
@@ -121,8 +123,9 @@ class Alphabet {
         {"{do = \"surface\", seconds = 10}",
          "{do = \"direct\", rudder_deg = 0, elevator_deg = 0, shaft_rpm = 0, seconds = 18}"});
     for (const double heading_deg : {0.0, 90.0}) {
-      add(fmt::format("legs at the surface on {:.0f} and {:.0f} degrees, with fixes", heading_deg, heading_deg + 180), 60,
-          {"{do = \"surface\", seconds = 8}", leg(heading_deg, 22), leg(heading_deg + 180, 26)});
+      add(fmt::format("legs at the surface on {:.0f} and {:.0f} degrees, with fixes", heading_deg,
+                      heading_deg + 180),
+          60, {"{do = \"surface\", seconds = 8}", leg(heading_deg, 22), leg(heading_deg + 180, 26)});
     }
     add("legs at the surface on three headings, with fixes", 66,
         {"{do = \"surface\", seconds = 6}", leg(0, 18), leg(120, 20), leg(240, 20)});
@@ -138,25 +141,30 @@ class Alphabet {
 
 }  // namespace
 
-std::vector<ManoeuvreChoice> manoeuvre_alphabet(const config::MissionLimits& limits) { return Alphabet(limits).make(); }
+std::vector<ManoeuvreChoice> manoeuvre_alphabet(const config::MissionLimits& limits) {
+  return Alphabet(limits).make();
+}
 
 std::string mission_file_of(const std::vector<const ManoeuvreChoice*>& chosen, const config::MissionLimits& limits,
                             const std::string& title) {
   const double start_m = std::max(limits.least_depth_m, kSurface_m);
-  const double rpm = std::round(60 * (limits.least_shaft_rps + 0.6 * (limits.greatest_shaft_rps - limits.least_shaft_rps)));
+  const double rpm =
+      std::round(60 * (limits.least_shaft_rps + 0.6 * (limits.greatest_shaft_rps - limits.least_shaft_rps)));
   std::string text = fmt::format(
-      "mission.description = \"{}\"\nmission.at_end = \"hold\"\nstart.depth_m = {:.2f}\nstart.shaft_rpm = {:.0f}\n\n"
+      "mission.description = \"{}\"\nmission.at_end = \"hold\"\nstart.depth_m = {:.2f}\nstart.shaft_rpm = "
+      "{:.0f}\n\n"
       "step = [\n  {{do = \"leg\", heading_deg = 0, seconds = {:.0f}}},\n",
       title, start_m, rpm, kSettle_s);
   bool is_outbound = true;
   for (const ManoeuvreChoice* choice : chosen) {
     text += fmt::format("  # {}\n", choice->name);
     for (const std::string& step : choice->steps) text += fmt::format("  {},\n", step);
-    // Each manoeuvre begins from the same speed and a steady course, by turns out and back, so that the vehicle stays in
-    // its area.
+    // Each manoeuvre begins from the same speed and a steady course, by turns out and back, so that the vehicle
+    // stays in its area.
     is_outbound = !is_outbound;
     text += fmt::format(
-        "  {{do = \"speed\", shaft_rpm = {:.0f}, seconds = 1}},\n  {{do = \"leg\", heading_deg = {}, seconds = {:.0f}}},\n",
+        "  {{do = \"speed\", shaft_rpm = {:.0f}, seconds = 1}},\n  {{do = \"leg\", heading_deg = {}, seconds = "
+        "{:.0f}}},\n",
         rpm, is_outbound ? 0 : 180, kSettle_s + 2);
   }
   text += "]\n";

@@ -17,12 +17,12 @@ struct ManoeuvreChoice {
 };
 
 /// The alphabet of manoeuvres within the limits: legs at several headings and speeds, circles both ways at several
-/// rates, zigzags, doublets of rudder, elevator and each fin, dives and rises, steps of speed, rest at the surface, and
-/// reciprocal legs with fixes.
+/// rates, zigzags, doublets of rudder, elevator and each fin, dives and rises, steps of speed, rest at the
+/// surface, and reciprocal legs with fixes.
 [[nodiscard]] std::vector<ManoeuvreChoice> manoeuvre_alphabet(const config::MissionLimits& limits);
 
-/// A mission file of these manoeuvres, one after the other, that begins at the surface and holds its last course at the
-/// end. `title` is its description.
+/// A mission file of these manoeuvres, one after the other, that begins at the surface and holds its last course
+/// at the end. `title` is its description.
 [[nodiscard]] std::string mission_file_of(const std::vector<const ManoeuvreChoice*>& chosen,
                                           const config::MissionLimits& limits, const std::string& title);
 

@@ -52,8 +52,8 @@ class MissionDesign {
   void run() {
     const auto began = std::chrono::steady_clock::now();
     set_purpose();
-    const DesignGoal goal{next_.purpose, hypotheses_, information_so_far(), problem_.library, found_.priors,
-                          regimes_so_far()};
+    const DesignGoal goal{next_.purpose,    hypotheses_,   information_so_far(),
+                          problem_.library, found_.priors, regimes_so_far()};
     DesignSearch search(problem_, goal, limits_);
     const DesignedMission designed = search.run();
     take(designed, goal);
@@ -126,14 +126,16 @@ class MissionDesign {
         next_.sentence = separation_sentence(minutes);
         return;
       case DesignPurpose::cover:
-        next_.sentence = fmt::format(
-            "The cause may not be in the library. This mission of {:.1f} minutes {}.", minutes,
-            next_.covers.empty() ? "repeats what was sailed, because the recordings cover all that the limits allow"
-                                 : fmt::format("sails what the recordings did not: {}", fmt::join(next_.covers, ", ")));
+        next_.sentence =
+            fmt::format("The cause may not be in the library. This mission of {:.1f} minutes {}.", minutes,
+                        next_.covers.empty()
+                            ? "repeats what was sailed, because the recordings cover all that the limits allow"
+                            : fmt::format("sails what the recordings did not: {}", fmt::join(next_.covers, ", ")));
         return;
       case DesignPurpose::test: {
         next_.sentence = fmt::format(
-            "The recordings show no gap. With this mission of {:.1f} minutes they would show {} of {} effects at {} of "
+            "The recordings show no gap. With this mission of {:.1f} minutes they would show {} of {} effects at "
+            "{} of "
             "their typical strength; so far it is {}.",
             minutes, shown_after_, goal.hypotheses.size() - 1, kWeakStrength, shown_so_far_);
         return;
@@ -146,7 +148,8 @@ class MissionDesign {
     const SeparatedPair& least = next_.pairs.front();
     if (next_.decides) {
       return fmt::format(
-          "This mission of {:.1f} minutes is expected to tell {} from {} by {:.1f} nats or more; an exact answer then has "
+          "This mission of {:.1f} minutes is expected to tell {} from {} by {:.1f} nats or more; an exact answer "
+          "then has "
           "a probability of {:.2f} instead of {:.2f}.",
           minutes, text_of(least.a), text_of(least.b), least.separation_nats, next_.probability_exact,
           next_.probability_so_far);
@@ -156,7 +159,8 @@ class MissionDesign {
                          next_.probability_so_far);
     }
     return fmt::format(
-        "No mission of {:.1f} minutes within these limits is expected to decide: the best found adds {:.1f} nats between {} "
+        "No mission of {:.1f} minutes within these limits is expected to decide: the best found adds {:.1f} nats "
+        "between {} "
         "and {}, and an exact answer then has a probability of {:.2f}.",
         minutes, least.separation_nats, text_of(least.a), text_of(least.b), next_.probability_exact);
   }

@@ -14,7 +14,8 @@
 
 namespace navcal::gap {
 
-/// Two sets of effects that could be true, and the log evidence that the planned mission is expected to add between them.
+/// Two sets of effects that could be true, and the log evidence that the planned mission is expected to add
+/// between them.
 struct SeparatedPair {
   std::vector<std::string> a, b;  ///< empty: no effect
   double separation_nats = 0;     ///< the smaller of both: if a is true, and if b is
@@ -40,11 +41,11 @@ enum class DesignPurpose : std::uint8_t {
 struct NextMission {
   Diagnosis diagnosis;  ///< of the recordings so far
   DesignPurpose purpose = DesignPurpose::separate;
-  std::string toml;     ///< the mission file; empty: the recordings cannot be diagnosed
+  std::string toml;  ///< the mission file; empty: the recordings cannot be diagnosed
   double duration_s = 0;
-  bool decides = false;            ///< some pair becomes decided that is not
-  double probability_exact = 0;    ///< of an exact answer after the mission
-  double probability_so_far = 0;   ///< the same without it
+  bool decides = false;              ///< some pair becomes decided that is not
+  double probability_exact = 0;      ///< of an exact answer after the mission
+  double probability_so_far = 0;     ///< the same without it
   std::vector<SeparatedPair> pairs;  ///< least separated first
   std::vector<ChosenManoeuvre> manoeuvres;
   std::vector<PlannedInstant> track;
@@ -54,9 +55,9 @@ struct NextMission {
   double seconds = 0;  ///< computing time of the planning
 };
 
-/// Diagnoses the recordings, and designs the mission within the limits that is expected to tell most of what is still
-/// probable (Bayesian experimental design: Chaloner and Verdinelli 1995; T-optimality between models: Atkinson and
-/// Fedorov 1975). Throws as diagnose() does.
+/// Diagnoses the recordings, and designs the mission within the limits that is expected to tell most of what is
+/// still probable (Bayesian experimental design: Chaloner and Verdinelli 1995; T-optimality between models:
+/// Atkinson and Fedorov 1975). Throws as diagnose() does.
 [[nodiscard]] NextMission next_mission(const Request& request, const config::MissionLimits& limits,
                                        const Progress& progress);
 

@@ -30,9 +30,9 @@ PlannedInstant instant_of(const sim::State& state, double time_s) {
   now.heading_rad = state.euler_rad[2];
   now.speed_m_s = state.velocity_body_m_s[0];
   // psi' = (q sin phi + r cos phi) / cos theta
-  now.turn_rate_rad_s = (state.rate_rad_s[1] * std::sin(state.euler_rad[0]) +
-                         state.rate_rad_s[2] * std::cos(state.euler_rad[0])) /
-                        std::cos(state.euler_rad[1]);
+  now.turn_rate_rad_s =
+      (state.rate_rad_s[1] * std::sin(state.euler_rad[0]) + state.rate_rad_s[2] * std::cos(state.euler_rad[0])) /
+      std::cos(state.euler_rad[1]);
   now.shaft_rps = state.rpm / 60;
   now.motor_current_A = state.motor_current_A;
   return now;
@@ -69,19 +69,17 @@ PlannedMission planned_mission(const config::Mission& steps, double seconds, con
   Mission orders;
   MissionGatherer gatherer;
   {
-    const sim::MotionInField motion(
-        std::make_unique<sim::SimulatedMotion>(waters.vehicle,
-                                               std::make_unique<sim::MissionHelm>(waters.vehicle, steps),
-                                               sim::MotionOptions{kPlannedBegin_ns, &none, 20}),
-        waters.field.north_east_down_uT);
+    const sim::MotionInField motion(std::make_unique<sim::SimulatedMotion>(
+                                        waters.vehicle, std::make_unique<sim::MissionHelm>(waters.vehicle, steps),
+                                        sim::MotionOptions{kPlannedBegin_ns, &none, 20}),
+                                    waters.field.north_east_down_uT);
     sim::Recording instruments(options, motion);
     config::Settings settings;
     settings.ports = sim::recording_ports(options.instruments);
     pipeline::Pipeline pipeline(samples_only(settings));
     std::vector<sim::LineRead> reads;
     for (double until_s = 0; until_s < seconds; until_s += 1) {
-      planned.track.push_back(
-          instant_of(motion.at(kPlannedBegin_ns + std::llround(until_s * 1e9)), until_s));
+      planned.track.push_back(instant_of(motion.at(kPlannedBegin_ns + std::llround(until_s * 1e9)), until_s));
       reads.clear();
       instruments.advance(kPlannedBegin_ns + std::llround(std::min(until_s + 1, seconds) * 1e9), reads);
       for (const sim::LineRead& read : reads) {

@@ -19,7 +19,8 @@ bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
   return row < (grid + rows) / 2;  // fixes: the first half of them
 }
 
-/// Gain in log likelihood by the effects on the rows that are not learnt from, nats. `learn` is 1 in rows to learn from.
+/// Gain in log likelihood by the effects on the rows that are not learnt from, nats. `learn` is 1 in rows to learn
+/// from.
 double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, const LinearGaussianModel& model) {
   const Linearised& linear = model.linear;
   const Priors& priors = model.priors;

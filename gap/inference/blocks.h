@@ -15,9 +15,10 @@ namespace navcal::gap {
 [[nodiscard]] std::vector<double> gains_of_blocks(const EffectSubset& effects, const LinearGaussianModel& model,
                                                   const Layout& layout);
 
-/// Cross-validation among several recordings: each is predicted with parameters fitted to the others. `rows`: number of
-/// residuals of each. Returns the gain in log likelihood of each by the effects, nats.
-[[nodiscard]] std::vector<double> gains_of_recordings(const EffectSubset& effects, const LinearGaussianModel& model,
+/// Cross-validation among several recordings: each is predicted with parameters fitted to the others. `rows`:
+/// number of residuals of each. Returns the gain in log likelihood of each by the effects, nats.
+[[nodiscard]] std::vector<double> gains_of_recordings(const EffectSubset& effects,
+                                                      const LinearGaussianModel& model,
                                                       std::span<const Eigen::Index> rows);
 
 }  // namespace navcal::gap

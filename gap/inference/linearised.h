@@ -23,25 +23,25 @@ struct Linearised {
   Eigen::VectorXd score;     ///< design^T residual
 };
 
-/// Another recording of the same vehicle in a joint model. It has the effects in common with the first one, and turn-on
-/// biases of its own.
+/// Another recording of the same vehicle in a joint model. It has the effects in common with the first one, and
+/// turn-on biases of its own.
 struct JoinedRecording {
   const Replay& replay;
   const Whitening& whitening;
   Eigen::Vector4d biases_rad_s;  ///< of its gyros
-  /// Orthonormal columns: what its whitened innovations can show of the biases. That part is left out of the residuals,
-  /// so that the biases need no unknowns (Frisch and Waugh 1933).
+  /// Orthonormal columns: what its whitened innovations can show of the biases. That part is left out of the
+  /// residuals, so that the biases need no unknowns (Frisch and Waugh 1933).
   Eigen::MatrixXd bias_basis;
 };
 
 /// Whitened innovations of one recording, or of several one after the other, as a function of the values of all
-/// unknowns. The biases among the unknowns are those of the first recording. References; valid as long as what they
-/// refer to.
+/// unknowns. The biases among the unknowns are those of the first recording. References; valid as long as what
+/// they refer to.
 struct ResidualModel {
   const Replay& replay;
   const Library& library;
   const Whitening& whitening;
-  unsigned threads = 1;                        ///< for columns of the design
+  unsigned threads = 1;                       ///< for columns of the design
   std::span<const JoinedRecording> others{};  ///< recordings after the first one
 };
 

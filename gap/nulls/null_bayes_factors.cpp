@@ -117,8 +117,9 @@ std::vector<double> null_bayes_factors(const EffectSubset& set, std::span<const 
       const JoinedRecording& other = model.others[i];
       // The vehicle is the same in all missions; their noise is not.
       const std::uint64_t noise = seed + (i + 1) * kNextMission;
-      append_rows(null_seen(repeated[i + 1], {other.replay, model.library, other.whitening}, truth, columns, noise),
-                  other.bias_basis, seen);
+      append_rows(
+          null_seen(repeated[i + 1], {other.replay, model.library, other.whitening}, truth, columns, noise),
+          other.bias_basis, seen);
     }
     const Linearised null = seen_by(problem.nominal, std::move(seen.white), seen.own, columns);
     return gain_over_none(set, problem.about(null));

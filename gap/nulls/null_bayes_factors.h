@@ -13,8 +13,8 @@ namespace navcal::gap {
 [[nodiscard]] double gain_over_none(const EffectSubset& set, const LinearGaussianModel& model);
 
 /// Null Bayes factors: log evidence of a subset minus that of no effect, nats, on simulated missions that have
-/// no gap and were steered as the recorded one, or as each of several recorded ones. One value for each null vehicle.
-/// `problem` is that of the recorded missions, and `repeated` has them in the same order.
+/// no gap and were steered as the recorded one, or as each of several recorded ones. One value for each null
+/// vehicle. `problem` is that of the recorded missions, and `repeated` has them in the same order.
 ///
 /// The regressors of the members, and of the unknowns most like them, are computed for each of these missions.
 /// The instruments correct the replay, so their noise is in the regressors as well as in the innovations. Where

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "base/parallel.h"
@@ -47,8 +46,8 @@ Innovations rest_of(const Replay& replay, const Library& library, const ModelFit
   return rest;
 }
 
-/// Maps of several recordings as one: of each cell the entry with the smallest p-value, which then holds over all of the
-/// recordings (Bonferroni). The order is that of the ranks in the single maps.
+/// Maps of several recordings as one: of each cell the entry with the smallest p-value, which then holds over all
+/// of the recordings (Bonferroni). The order is that of the ranks in the single maps.
 std::vector<WhereEntry> merged(std::vector<std::vector<WhereEntry>> maps) {
   if (maps.size() == 1) return std::move(maps.front());
   std::size_t longest = 0;
@@ -73,9 +72,10 @@ std::vector<WhereEntry> merged(std::vector<std::vector<WhereEntry>> maps) {
   return all;
 }
 
-/// Significant cells of the other recordings with all that was found in the model. Beside a backlash only the first
-/// recording is judged, because the nulls with backlash repeat that one.
-std::vector<std::vector<WhereEntry>> leftover_of_others(const DiagnosisProblem& problem, const FoundEffects& result,
+/// Significant cells of the other recordings with all that was found in the model. Beside a backlash only the
+/// first recording is judged, because the nulls with backlash repeat that one.
+std::vector<std::vector<WhereEntry>> leftover_of_others(const DiagnosisProblem& problem,
+                                                        const FoundEffects& result,
                                                         const std::vector<Comparison>& others) {
   std::vector<std::vector<WhereEntry>> all;
   if (result.backlash_bank) return all;
@@ -208,9 +208,8 @@ void judge_into(const DiagnosisProblem& problem, const FoundEffects& result, Com
   PooledClosure closure_by_all;
   if (blocks) {
     const LinearGaussianModel model{best.linear, problem.library, result.priors};
-    gains_nats = problem.others.empty()
-                     ? gains_of_blocks(best.effects, model, layout_of(*problem.prepared.replay))
-                     : gains_of_recordings(best.effects, model, rows_of_recordings(problem));
+    gains_nats = problem.others.empty() ? gains_of_blocks(best.effects, model, layout_of(*problem.prepared.replay))
+                                        : gains_of_recordings(best.effects, model, rows_of_recordings(problem));
     compared.holdouts.push_back(compared.here);
     compared.holdouts.insert(compared.holdouts.end(), compared.others.begin(), compared.others.end());
   } else if (!compared.predictions.empty()) {
@@ -322,8 +321,7 @@ Diagnosis diagnose(const Request& request, const Progress& progress) {
 
 Diagnosis diagnose_further(const Request& request, const Progress& progress, const Afterwards& afterwards) {
   const Library library(request.excluded);
-  const unsigned threads =
-      request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned threads = base::threads_or_cores(request.threads);
   if (request.missions.empty()) throw std::invalid_argument("there is no recording to diagnose");
   Preparation preparation(request, library, progress, threads);
   Diagnosis answer;
@@ -357,7 +355,8 @@ Diagnosis diagnose_further(const Request& request, const Progress& progress, con
   }
   if (a && request.holdouts.empty() && !together.empty()) {
     answer.remarks.emplace_back(
-        "no mission was held out: each recording was predicted by the others, which is weaker (--holdout OTHER.cap)");
+        "no mission was held out: each recording was predicted by the others, which is weaker (--holdout "
+        "OTHER.cap)");
   } else if (a && request.holdouts.empty()) {
     answer.remarks.emplace_back(
         "no mission was held out: blocks of this one had to do, which is weaker (--holdout OTHER.cap)");

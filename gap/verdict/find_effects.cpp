@@ -17,8 +17,8 @@ SearchResult search_by(const Priors& priors, const DiagnosisProblem& problem, co
   return SubsetSearch(problem.inference(nominal, priors)).run();
 }
 
-/// Priors of several recordings together. The tolerance of a vehicle is the same in all of them. The error of the model is
-/// another one in each, so that the square of its mean falls with their number.
+/// Priors of several recordings together. The tolerance of a vehicle is the same in all of them. The error of the
+/// model is another one in each, so that the square of its mean falls with their number.
 Priors pooled(const std::vector<Priors>& priors) {
   Priors all = priors.front();
   if (priors.size() == 1) return all;
@@ -50,7 +50,8 @@ Priors priors_of(const DiagnosisProblem& problem, const Linearised& nominal) {
   return priors;
 }
 
-/// The fit with the part of its linear model that belongs to the first recording: nulls with backlash are made of that.
+/// The fit with the part of its linear model that belongs to the first recording: nulls with backlash are made of
+/// that.
 ModelFit of_first(const ModelFit& fit, const DiagnosisProblem& problem) {
   if (problem.others.empty()) return fit;
   ModelFit first = fit;
@@ -70,10 +71,9 @@ FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Lineari
   FoundEffects result{search_by(priors, problem, nominal), priors, {}, {}, {}};
   if (!has_backlash(library, result.found.best.effects)) return result;
   problem.progress("null missions with backlash", 0);
-  BacklashNullBank bank =
-      backlash_null_bank(of_first(result.found.best, problem), problem.repeated().front(),
-                         problem.prepared.model(library, problem.threads),
-                         {kBacklashMissions, problem.request.bank_seed, problem.threads});
+  BacklashNullBank bank = backlash_null_bank(of_first(result.found.best, problem), problem.repeated().front(),
+                                             problem.prepared.model(library, problem.threads),
+                                             {kBacklashMissions, problem.request.bank_seed, problem.threads});
   if (bank.missions <= kBacklashMissions / 2) return result;
   // Searches again: beside a backlash, other effects are recruited for its residuals.
   const Priors wider = widened(priors, library, of_first(result.found.best, problem), bank);
@@ -88,8 +88,8 @@ FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Lineari
 /// Whether a cell of the residual map is significant against the null bank.
 bool is_seen_in(const Prepared& prepared, const Library& library) {
   const Innovations nominal = prepared.replay->run(library.model(prepared.at));
-  const auto map =
-      residual_map(explained_rms(nominal, prepared.course, prepared.mission.fix_times_s()), prepared.bank.explained_rms);
+  const auto map = residual_map(explained_rms(nominal, prepared.course, prepared.mission.fix_times_s()),
+                                prepared.bank.explained_rms);
   return !significant_cells(map).empty();
 }
 
@@ -117,8 +117,7 @@ bool is_chance(const DiagnosisProblem& problem, const Linearised& nominal, const
 }  // namespace
 
 InferenceProblem DiagnosisProblem::inference(const Linearised& nominal, const Priors& priors) const {
-  return {model(), nominal, priors,
-          [report = &progress](double done) { (*report)("searching", done); }};
+  return {model(), nominal, priors, [report = &progress](double done) { (*report)("searching", done); }};
 }
 
 std::vector<RepeatedMission> DiagnosisProblem::repeated() const {

@@ -20,7 +20,8 @@ struct DiagnosisProblem {
   const Request& request;
   const Progress& progress;
   unsigned threads = 1;
-  /// Recordings that are diagnosed together with the first one, and their parts of the joint model, in the same order.
+  /// Recordings that are diagnosed together with the first one, and their parts of the joint model, in the same
+  /// order.
   std::span<const Prepared* const> others{};
   std::span<const JoinedRecording> joined{};
 

@@ -4,18 +4,18 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <utility>
 
+#include "base/parallel.h"
 #include "gap/inference/model_fit.h"
 #include "gap/inference/problem.h"
 #include "gap/inference/subset_evidence.h"
 #include "gap/verdict/prepare.h"
 
-// The likelihood of a recording is Gaussian in the parameters near a point of linearisation. The nominal vehicle serves
-// while the effects are weak. Where one or two effects clearly win, the point is their own estimate, because lags and
-// strong effects are not linear from zero. Score and information are referred to zero in either case, and
-// the biases are integrated out by a Schur complement (Golub and Van Loan 2013, section 3.2.6).
+// The likelihood of a recording is Gaussian in the parameters near a point of linearisation. The nominal vehicle
+// serves while the effects are weak. Where one or two effects clearly win, the point is their own estimate,
+// because lags and strong effects are not linear from zero. Score and information are referred to zero in either
+// case, and the biases are integrated out by a Schur complement (Golub and Van Loan 2013, section 3.2.6).
 namespace navcal::gap {
 namespace {
 
@@ -72,7 +72,8 @@ void set_likelihood(const Linearised& linear, const Priors& priors, RecordingInf
   const Eigen::VectorXd solved = factor.solve(score.head(b));
   Eigen::VectorXd typical(n);
   for (Eigen::Index j = 0; j < n; ++j) typical[j] = into.parameters[static_cast<std::size_t>(j)].typical;
-  const Eigen::MatrixXd information = linear.gram.bottomRightCorner(n, n) - cross.transpose() * factor.solve(cross);
+  const Eigen::MatrixXd information =
+      linear.gram.bottomRightCorner(n, n) - cross.transpose() * factor.solve(cross);
   into.information = typical.asDiagonal() * (0.5 * (information + information.transpose())) * typical.asDiagonal();
   into.score = typical.cwiseProduct(score.tail(n) - cross.transpose() * solved);
   into.model_error = priors.model_error.tail(n).cwiseQuotient(typical);
@@ -85,8 +86,7 @@ void set_likelihood(const Linearised& linear, const Priors& priors, RecordingInf
 
 InformationResult information_of(const Request& request, const Progress& progress) {
   const Library library(request.excluded);
-  const unsigned threads =
-      request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned threads = base::threads_or_cores(request.threads);
   Preparation preparation(request, library, progress, threads);
   Diagnosis said;
   InformationResult result;

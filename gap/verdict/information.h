@@ -14,8 +14,8 @@ namespace navcal::gap {
 
 /// One parameter of one effect of the library.
 struct ParameterName {
-  std::string effect, parameter;  ///< "hard_iron", "x_uT"
-  double typical = 1;             ///< value of strength 1, in the unit that the parameter's name states
+  std::string effect, parameter;   ///< "hard_iron", "x_uT"
+  double typical = 1;              ///< value of strength 1, in the unit that the parameter's name states
   double least = 0, greatest = 0;  ///< bounds of its value, in typical values; infinite where there are none
 
   bool operator==(const ParameterName&) const = default;
@@ -50,7 +50,8 @@ struct InformationResult {
   std::vector<std::string> remarks;
 };
 
-/// Computes the information of the first of `request.missions`; others and hold-outs are not used. Throws as diagnose() does.
+/// Computes the information of the first of `request.missions`; others and hold-outs are not used. Throws as
+/// diagnose() does.
 [[nodiscard]] InformationResult information_of(const Request& request, const Progress& progress);
 
 }  // namespace navcal::gap

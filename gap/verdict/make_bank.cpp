@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <stdexcept>
-#include <thread>
 
+#include "base/parallel.h"
 #include "gap/verdict/prepare.h"
 #include "gap/verdict/request.h"
 
@@ -10,8 +10,7 @@ namespace navcal::gap {
 
 MadeBank make_bank(const Request& request, const Progress& progress) {
   const Library library(request.excluded);
-  const unsigned threads =
-      request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned threads = base::threads_or_cores(request.threads);
   Preparation preparation(request, library, progress, threads);
   Diagnosis answer;
   const auto prepared = preparation.prepare(request.missions.at(0), answer);

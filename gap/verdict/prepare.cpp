@@ -28,11 +28,11 @@ void Preparation::expect_other_content(const std::string& name, const Mission& m
   for (const auto& [other, before] : contents_) {
     const double shared_s = content.shared_s(before);
     if (!(shared_s > 0)) continue;
-    throw std::invalid_argument(fmt::format(
-        "{}{}: {:.0f} s of it are in {} as well. {}", is_held_out ? "--holdout " : "", name, std::max(shared_s, 1.0),
-        other,
-        is_held_out ? "An answer can only be checked on a recording of another mission."
-                    : "Recordings that are diagnosed together must be of different missions."));
+    throw std::invalid_argument(
+        fmt::format("{}{}: {:.0f} s of it are in {} as well. {}", is_held_out ? "--holdout " : "", name,
+                    std::max(shared_s, 1.0), other,
+                    is_held_out ? "An answer can only be checked on a recording of another mission."
+                                : "Recordings that are diagnosed together must be of different missions."));
   }
   contents_.emplace_back(name, std::move(content));
 }
@@ -43,7 +43,8 @@ std::unique_ptr<Prepared> Preparation::prepare(const std::filesystem::path& file
   prepared->mission = load_mission(
       file, [&](double done) { progress_("reading " + name, done); }, request_.settings);
   const auto& held_out = request_.holdouts;
-  expect_other_content(name, prepared->mission, std::find(held_out.begin(), held_out.end(), file) != held_out.end());
+  expect_other_content(name, prepared->mission,
+                       std::find(held_out.begin(), held_out.end(), file) != held_out.end());
   if (!request_.without.empty()) leave_out(request_.without, prepared->mission);
   if (request_.field_uT) prepared->mission.field.set_given(*request_.field_uT);
   if (!answer.field) answer.field = prepared->mission.field;

@@ -5,16 +5,16 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "gap/inference/evidence.h"
 #include "gap/thresholds.h"
 
-// The estimates m_k of one effect from each recording alone, with covariances V_k, agree with their weighted mean m
-// within the errors if Q = sum (m_k - m)^T V_k^-1 (m_k - m) is one of a chi-square distribution with p (K - 1) degrees of
-// freedom (Cochran 1954). V_k holds the error of the model in one recording, too.
+// The estimates m_k of one effect from each recording alone, with covariances V_k, agree with their weighted mean
+// m within the errors if Q = sum (m_k - m)^T V_k^-1 (m_k - m) is one of a chi-square distribution with p (K - 1)
+// degrees of freedom (Cochran 1954). V_k holds the error of the model in one recording, too.
 namespace navcal::gap {
 namespace {
 
@@ -28,7 +28,8 @@ Evidence::Posterior posterior_of_rows(const ModelFit& best, const LinearGaussian
                                       Eigen::Index count, std::span<const Eigen::Index> members) {
   const Eigen::MatrixXd design = best.linear.design.middleRows(from, count);
   const Eigen::VectorXd residual = residual_at_zero(best.linear).segment(from, count);
-  return Evidence(design.transpose() * design, design.transpose() * residual, model.priors.spike, model.priors.slab)
+  return Evidence(design.transpose() * design, design.transpose() * residual, model.priors.spike,
+                  model.priors.slab)
       .posterior(members);
 }
 
@@ -40,7 +41,8 @@ OwnEstimate estimate_of(const Evidence::Posterior& posterior, std::span<const Ei
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index a = members[static_cast<std::size_t>(i)];
     own.mean[i] = posterior.mean[a];
-    for (Eigen::Index j = 0; j < n; ++j) own.covariance(i, j) = posterior.covariance(a, members[static_cast<std::size_t>(j)]);
+    for (Eigen::Index j = 0; j < n; ++j)
+      own.covariance(i, j) = posterior.covariance(a, members[static_cast<std::size_t>(j)]);
     own.covariance(i, i) += model_error[a] * model_error[a];
   }
   return own;
@@ -84,7 +86,8 @@ std::string difference_text(std::string_view effect, const std::vector<Recording
 }  // namespace
 
 std::vector<Eigen::Index> rows_of_recordings(const DiagnosisProblem& problem) {
-  std::vector<Eigen::Index> rows{residual_at(problem.prepared.model(problem.library, 1), problem.prepared.at).size()};
+  std::vector<Eigen::Index> rows{
+      residual_at(problem.prepared.model(problem.library, 1), problem.prepared.at).size()};
   for (const JoinedRecording& other : problem.joined) rows.push_back(other.bias_basis.rows());
   return rows;
 }
@@ -128,26 +131,30 @@ void compare_recordings(const DiagnosisProblem& problem, const FoundEffects& res
 void search_apart(const DiagnosisProblem& problem, Diagnosis& answer) {
   for (std::size_t k = 0; k < answer.recordings.size(); ++k) {
     const Prepared& one = k == 0 ? problem.prepared : *problem.others[k - 1];
-    const FoundEffects alone = find_effects({one, problem.library, problem.request, problem.progress, problem.threads});
+    const FoundEffects alone =
+        find_effects({one, problem.library, problem.request, problem.progress, problem.threads});
     RecordingFinding& finding = answer.recordings[k];
     finding.alone.emplace();
     const Candidate& best = alone.found.candidates.front();
     finding.alone->probability = best.probability;
-    for (const std::size_t effect : best.effects) finding.alone->effects.emplace_back(problem.library[effect].name);
-    answer.remarks.push_back(fmt::format(
-        "{} alone: {} (probability {:.2f})", finding.recording,
-        finding.alone->effects.empty() ? "no effect" : fmt::format("{}", fmt::join(finding.alone->effects, " and ")),
-        best.probability));
+    for (const std::size_t effect : best.effects)
+      finding.alone->effects.emplace_back(problem.library[effect].name);
+    answer.remarks.push_back(fmt::format("{} alone: {} (probability {:.2f})", finding.recording,
+                                         finding.alone->effects.empty()
+                                             ? "no effect"
+                                             : fmt::format("{}", fmt::join(finding.alone->effects, " and ")),
+                                         best.probability));
   }
-  const bool alike = std::all_of(answer.recordings.begin(), answer.recordings.end(), [&](const RecordingFinding& each) {
-    return each.alone->effects == answer.recordings.front().alone->effects;
-  });
+  const bool alike =
+      std::all_of(answer.recordings.begin(), answer.recordings.end(), [&](const RecordingFinding& each) {
+        return each.alone->effects == answer.recordings.front().alone->effects;
+      });
   if (alike || answer.verdict != Verdict::unknown) return;
   std::vector<std::string> parts;
   for (const RecordingFinding& each : answer.recordings) {
-    parts.push_back(fmt::format("{} {}", each.recording,
-                                each.alone->effects.empty() ? "no effect"
-                                                            : fmt::format("{}", fmt::join(each.alone->effects, " and "))));
+    parts.push_back(fmt::format(
+        "{} {}", each.recording,
+        each.alone->effects.empty() ? "no effect" : fmt::format("{}", fmt::join(each.alone->effects, " and "))));
   }
   answer.sentence = fmt::format("No effects explain all recordings together. By themselves they show: {}.",
                                 fmt::join(parts, "; "));

@@ -13,13 +13,13 @@ namespace navcal::gap {
 [[nodiscard]] std::vector<Eigen::Index> rows_of_recordings(const DiagnosisProblem& problem);
 
 /// Compares what each of several recordings says by itself of the effects that were found in all together. The
-/// estimates of one effect differ significantly if their chi-square has a small p-value. `names`: of the recordings.
-/// Fills `answer.recordings` and `answer.differences`.
+/// estimates of one effect differ significantly if their chi-square has a small p-value. `names`: of the
+/// recordings. Fills `answer.recordings` and `answer.differences`.
 void compare_recordings(const DiagnosisProblem& problem, const FoundEffects& result,
                         std::span<const std::string> names, Diagnosis& answer);
 
-/// Diagnoses each recording alone, and writes which effects it would name into `answer.recordings`: where effects do not
-/// explain all recordings together, this shows what holds in one and not in another.
+/// Diagnoses each recording alone, and writes which effects it would name into `answer.recordings`: where effects
+/// do not explain all recordings together, this shows what holds in one and not in another.
 void search_apart(const DiagnosisProblem& problem, Diagnosis& answer);
 
 }  // namespace navcal::gap

@@ -38,8 +38,8 @@ struct Request {
 using Progress = std::function<void(std::string_view what, double done)>;
 
 /// Diagnoses a recording. Throws record::BadRecording for a file that is no recording. Throws
-/// std::invalid_argument for an excluded name that is not in the library, for a request without a mission, and for a
-/// recording that shares readings with another one. A recording that cannot be diagnosed gets the verdict
+/// std::invalid_argument for an excluded name that is not in the library, for a request without a mission, and for
+/// a recording that shares readings with another one. A recording that cannot be diagnosed gets the verdict
 /// `unknown` and remarks that say why.
 [[nodiscard]] Diagnosis diagnose(const Request& request, const Progress& progress);
 
@@ -49,8 +49,8 @@ struct MadeBank {
   std::string shortcoming;  ///< why there is none; empty: it is in the cache
 };
 
-/// Makes the null bank of the first of `request.missions` and keeps it in `request.cache`, or finds one there that serves.
-/// Throws record::BadRecording, and std::runtime_error where the bank cannot be kept.
+/// Makes the null bank of the first of `request.missions` and keeps it in `request.cache`, or finds one there that
+/// serves. Throws record::BadRecording, and std::runtime_error where the bank cannot be kept.
 [[nodiscard]] MadeBank make_bank(const Request& request, const Progress& progress);
 
 }  // namespace navcal::gap

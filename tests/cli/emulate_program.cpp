@@ -33,6 +33,7 @@ Program::Program(std::vector<std::string> arguments) {
   argv.push_back(nullptr);
   pid_ = ::fork();
   if (pid_ == 0) {
+    navcal::test::die_with_parent();
     ::dup2(in[0].get(), STDIN_FILENO);
     ::dup2(out[1].get(), STDOUT_FILENO);
     ::dup2(err[1].get(), STDERR_FILENO);

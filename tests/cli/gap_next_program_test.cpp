@@ -28,7 +28,8 @@ class GapNextProgram : public testing::Test {
 
 TEST_F(GapNextProgram, PlansAMissionThatTheSimulatorSails) {
   std::ofstream(folder_ / "limits.toml") << "minutes = 1.5\ngreatest_depth_m = 2\nenergy_Wh = 5\n";
-  ASSERT_EQ(run_navcal("simulate --mission survey --seconds 80 --effect yaw_damping=0.3 --seed 3 -o a.cap"), 0) << said("err");
+  ASSERT_EQ(run_navcal("simulate --mission survey --seconds 80 --effect yaw_damping=0.3 --seed 3 -o a.cap"), 0)
+      << said("err");
   const std::string next = "gap next a.cap --bank 12 --cache banks --limits limits.toml --mission-out next.toml ";
   ASSERT_EQ(run_navcal(next + "--json next.json --report next.html"), 0) << said("err");
   const auto plan = nlohmann::json::parse(said("next.json"));

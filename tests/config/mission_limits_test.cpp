@@ -11,12 +11,15 @@
 namespace navcal::config {
 namespace {
 
-TEST(MissionLimits, HaveDefaultsForWhatTheFileDoesNotSay) { EXPECT_EQ(parse_mission_limits("", "l.toml"), MissionLimits{}); }
+TEST(MissionLimits, HaveDefaultsForWhatTheFileDoesNotSay) {
+  EXPECT_EQ(parse_mission_limits("", "l.toml"), MissionLimits{});
+}
 
 TEST(MissionLimits, AreReadInSI) {
   const MissionLimits limits = parse_mission_limits(
       "minutes = 4\nleast_depth_m = 0.5\ngreatest_depth_m = 6\nradius_m = 40\nleast_shaft_rpm = 300\n"
-      "greatest_shaft_rpm = 900\ngreatest_turn_rate_deg_s = 18\ngreatest_pitch_deg = 30\nenergy_Wh = 2\nbattery_V = 24\n",
+      "greatest_shaft_rpm = 900\ngreatest_turn_rate_deg_s = 18\ngreatest_pitch_deg = 30\nenergy_Wh = 2\nbattery_V "
+      "= 24\n",
       "l.toml");
   EXPECT_EQ(limits.duration_s, 240);
   EXPECT_EQ(limits.greatest_shaft_rps, 15);

@@ -145,8 +145,11 @@ class DaemonProcess {
 
  private:
   static pid_t spawn(const std::vector<std::string>& arguments, const std::string& output) {
+    // A daemon that outlives its test would read the pseudo-terminals of others.
+    std::vector<std::string> command{"/usr/bin/setpriv", "--pdeathsig", "KILL", "--"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
-    for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    for (const auto& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);

@@ -191,7 +191,8 @@ TEST_F(FleetProgram, TellsWhatItsMissionsSayTogether) {
   for (const char* vehicle : {"one", "two"}) {
     fs::create_directories(folder_.recordings() / vehicle);
     for (int i = 0; i < 2; ++i) {
-      gap::test::write_mission(folder_.recordings() / vehicle / ("m" + std::to_string(i) + ".cap"), "identification",
+      gap::test::write_mission(folder_.recordings() / vehicle / ("m" + std::to_string(i) + ".cap"),
+                               "identification",
                                std::string_view(vehicle) == "one" ? "[fin_gain]\nscale = 0.12\n" : "", 80,
                                static_cast<std::uint64_t>(10 * i + vehicle[0]));
     }
@@ -217,13 +218,14 @@ TEST_F(FleetProgram, TellsWhatItsMissionsSayTogether) {
 
 TEST_F(FleetProgram, RecordsAndScoresATrial) {
   const std::string truth = (folder_ / "truth.json").string(), missions = (folder_ / "missions").string();
-  ASSERT_EQ(run({"trial", "record", "-o", missions, "--truth", truth, "--vehicles", "2", "--days", "1", "--minutes", "3",
-                 "--seed", "5"}),
+  ASSERT_EQ(run({"trial", "record", "-o", missions, "--truth", truth, "--vehicles", "2", "--days", "1",
+                 "--minutes", "3", "--seed", "5"}),
             0)
       << err_;
   EXPECT_TRUE(fs::exists(missions + "/v02/day-01.cap"));
   EXPECT_EQ(run({"trial", "record", "-o", missions, "--truth", truth, "--vehicles", "1"}), 2) << "not empty";
-  folder_.add_file("answer.json", R"({"causes":[],"undecided":[],"vehicles":[{"vehicle":"v01","verdict":"no-gap"}]})");
+  folder_.add_file("answer.json",
+                   R"({"causes":[],"undecided":[],"vehicles":[{"vehicle":"v01","verdict":"no-gap"}]})");
   ASSERT_EQ(run({"trial", "score", (folder_.recordings() / "answer.json").string(), "--truth", truth}), 0) << err_;
   EXPECT_NE(out_.find("missed"), std::string::npos);
   EXPECT_EQ(run({"trial", "score", truth, "--truth", truth}), 3);

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +20,10 @@
 #include "tests/support/temporary_folder.h"
 
 namespace navcal::test {
+
+/// For a child process, before it becomes another program: it is killed when the test ends, however that ends. A
+/// daemon that outlives its test would read the pseudo-terminals of others.
+inline void die_with_parent() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
 
 /// A program of the build, with its output in files; killed when the test ends before it does.
 class Process {
@@ -61,6 +66,7 @@ class Process {
 
  private:
   [[noreturn]] void run(const std::vector<std::string>& command) const {
+    die_with_parent();
     const auto to_file = [](const std::filesystem::path& file, int descriptor) {
       ::dup2(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), descriptor);
     };

@@ -22,11 +22,12 @@ TEST(FleetCases, AreTheSameForTheSameSeed) {
 TEST(FleetCases, HaveCausesOfEachLevel) {
   const FleetTruth truth = truth_of(drawn_fleet({}));
   for (const FleetLevel level : {FleetLevel::vehicle, FleetLevel::design, FleetLevel::day}) {
-    EXPECT_TRUE(std::any_of(truth.causes.begin(), truth.causes.end(),
-                            [&](const FleetCause& cause) { return cause.level == level; }))
-        << name_of(level);
+    EXPECT_TRUE(std::any_of(truth.causes.begin(), truth.causes.end(), [&](const FleetCause& cause) {
+      return cause.level == level;
+    })) << name_of(level);
   }
-  EXPECT_TRUE(std::any_of(truth.causes.begin(), truth.causes.end(), [](const FleetCause& cause) { return cause.is_foreign; }));
+  EXPECT_TRUE(std::any_of(truth.causes.begin(), truth.causes.end(),
+                          [](const FleetCause& cause) { return cause.is_foreign; }));
 }
 
 TEST(FleetCases, ActFromTheirDayOn) {

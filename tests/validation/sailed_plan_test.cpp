@@ -12,7 +12,8 @@ namespace navcal::validation {
 namespace {
 
 reference::Mission sailed(const std::string& steps, double most_s = 1000) {
-  return sailed_plan(config::parse_mission("start.shaft_rpm = 780\nstep = [\n" + steps + "]\n", "plan.toml"), most_s);
+  return sailed_plan(config::parse_mission("start.shaft_rpm = 780\nstep = [\n" + steps + "]\n", "plan.toml"),
+                     most_s);
 }
 
 TEST(SailedPlan, TurnsACircleInTheTimeThatItsRateTakes) {
@@ -37,7 +38,8 @@ TEST(SailedPlan, EndsWhenItsTimeIsOver) {
 
 TEST(SailedPlan, HasOrdersInOrderOfTimeForEachKindOfStep) {
   const auto mission = sailed(
-      "{do = \"surface\", seconds = 5}, {do = \"dive\", depth_m = 2}, {do = \"speed\", shaft_rpm = 600, seconds = 4},\n"
+      "{do = \"surface\", seconds = 5}, {do = \"dive\", depth_m = 2}, {do = \"speed\", shaft_rpm = 600, seconds = "
+      "4},\n"
       "{do = \"zigzag\", rudder_deg = 10, reach_deg = 20, times = 3}, {do = \"spiral\", turns = 1, depth_m = 1},\n"
       "{do = \"direct\", rudder_deg = 0, elevator_deg = 0, shaft_rpm = 0, seconds = 5}");
   double before_s = -1;

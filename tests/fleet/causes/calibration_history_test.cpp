@@ -26,7 +26,8 @@ CalibrationHistory series(unsigned seed, std::size_t count, double std, double s
 TEST(CalibrationHistory, CallsEqualValuesConstantInMostSeries) {
   int constant = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    constant += series(seed, 12, 0.1, 0, [](std::size_t) { return 3.0; }).course == CalibrationCourse::constant ? 1 : 0;
+    constant +=
+        series(seed, 12, 0.1, 0, [](std::size_t) { return 3.0; }).course == CalibrationCourse::constant ? 1 : 0;
   }
   EXPECT_GE(constant, 194);
 }

@@ -40,7 +40,9 @@ TEST(FleetAnswer, TellsWhatBelongsToOneVehicleFromTheDesignAndTheDay) {
   const SimulatedFleet::Causes of_vehicle = [](std::size_t v, std::size_t, Eigen::VectorXd& values) {
     if (v == 2) values[0] += 0.2;
   };
-  const SimulatedFleet::Causes of_design = [](std::size_t, std::size_t, Eigen::VectorXd& values) { values[0] += 0.2; };
+  const SimulatedFleet::Causes of_design = [](std::size_t, std::size_t, Eigen::VectorXd& values) {
+    values[0] += 0.2;
+  };
   const SimulatedFleet::Causes of_day = [](std::size_t, std::size_t k, Eigen::VectorXd& values) {
     if (k == 3) values[4] += 0.2;
   };
@@ -68,7 +70,8 @@ TEST(FleetAnswer, FindsWhenAnEffectBegan) {
 }
 
 TEST(FleetAnswer, FindsAWeakEffectOfTheDesignThatNoMissionShows) {
-  const auto answer = answer_for(8, {10, 6}, [](std::size_t, std::size_t, Eigen::VectorXd& values) { values[2] += 0.06; });
+  const auto answer =
+      answer_for(8, {10, 6}, [](std::size_t, std::size_t, Eigen::VectorXd& values) { values[2] += 0.06; });
   EXPECT_EQ(only_cause(answer).level, CauseLevel::design);
 }
 
@@ -121,7 +124,8 @@ TEST(FleetAnswer, DoesNotDependOnTheOrderOfTheMissions) {
 }
 
 TEST(FleetAnswer, HandlesASingleMission) {
-  const auto answer = answer_for(2, {1, 1}, [](std::size_t, std::size_t, Eigen::VectorXd& values) { values[0] += 1; });
+  const auto answer =
+      answer_for(2, {1, 1}, [](std::size_t, std::size_t, Eigen::VectorXd& values) { values[0] += 1; });
   ASSERT_EQ(answer.vehicles.size(), 1U);
   EXPECT_EQ(answer.missions.size(), 1U);
 }

@@ -36,7 +36,8 @@ class SimulatedFleet {
         mission.design = "design";
         mission.day = "day " + std::to_string(k);
         mission.utc_ns = static_cast<std::int64_t>(k) * 86'400'000'000'000 + static_cast<std::int64_t>(v);
-        mission.information = information(names, tolerance, [&](Eigen::VectorXd& values) { causes(v, k, values); });
+        mission.information =
+            information(names, tolerance, [&](Eigen::VectorXd& values) { causes(v, k, values); });
         missions_.push_back(std::move(mission));
       }
     }
@@ -46,9 +47,9 @@ class SimulatedFleet {
   /// a: 1 parameter, b: a vector of 2, c: a lag, and two effects of the surroundings.
   static std::vector<gap::ParameterName> parameters() {
     constexpr double kFree = 1e9;
-    return {{"fin_gain", "scale", 1, -kFree, kFree},          {"hard_iron", "x_uT", 1, -kFree, kFree},
-            {"hard_iron", "y_uT", 1, -kFree, kFree},          {"fin_lag", "tau_s", 1, 0, kFree},
-            {"buoyancy", "force_N", 1, -kFree, kFree},        {"water_current", "north_m_s", 1, -kFree, kFree},
+    return {{"fin_gain", "scale", 1, -kFree, kFree},        {"hard_iron", "x_uT", 1, -kFree, kFree},
+            {"hard_iron", "y_uT", 1, -kFree, kFree},        {"fin_lag", "tau_s", 1, 0, kFree},
+            {"buoyancy", "force_N", 1, -kFree, kFree},      {"water_current", "north_m_s", 1, -kFree, kFree},
             {"water_current", "east_m_s", 1, -kFree, kFree}};
   }
 
@@ -58,7 +59,8 @@ class SimulatedFleet {
     for (Eigen::Index i = 0; i < n; ++i) values[i] = normal_(random_);
     return values;
   }
-  gap::RecordingInformation information(const std::vector<gap::ParameterName>& names, const Eigen::VectorXd& tolerance,
+  gap::RecordingInformation information(const std::vector<gap::ParameterName>& names,
+                                        const Eigen::VectorXd& tolerance,
                                         const std::function<void(Eigen::VectorXd&)>& add) {
     const Eigen::Index n = tolerance.size();
     gap::RecordingInformation made;
@@ -66,11 +68,13 @@ class SimulatedFleet {
     made.model_error = Eigen::VectorXd::Constant(n, 0.01);
     Eigen::VectorXd values = tolerance + made.model_error.cwiseProduct(normal(n));
     add(values);
-    // Rows of a design with some correlation between neighbours: a standard error of about 0.03 for each parameter.
+    // Rows of a design with some correlation between neighbours: a standard error of about 0.03 for each
+    // parameter.
     constexpr Eigen::Index kRows = 1200;
     Eigen::MatrixXd design(kRows, n);
     for (Eigen::Index j = 0; j < n; ++j) {
-      design.col(j) = normal(kRows) + (j > 0 ? Eigen::VectorXd(0.5 * design.col(j - 1)) : Eigen::VectorXd::Zero(kRows));
+      design.col(j) =
+          normal(kRows) + (j > 0 ? Eigen::VectorXd(0.5 * design.col(j - 1)) : Eigen::VectorXd::Zero(kRows));
     }
     const Eigen::VectorXd residual = design * values + normal(kRows);
     made.information = design.transpose() * design;

@@ -15,7 +15,8 @@ class Forecast : public testing::Test {
   Forecast() : library_(std::vector<std::string>{}) {
     const auto n = static_cast<Eigen::Index>(library_.unknowns().size());
     priors_.slab.resize(n);
-    for (Eigen::Index j = 0; j < n; ++j) priors_.slab[j] = library_.unknowns()[static_cast<std::size_t>(j)].typical;
+    for (Eigen::Index j = 0; j < n; ++j)
+      priors_.slab[j] = library_.unknowns()[static_cast<std::size_t>(j)].typical;
     priors_.spike = 0.05 * priors_.slab;
     priors_.model_error = Eigen::VectorXd::Zero(n);
     std::mt19937_64 random(3);

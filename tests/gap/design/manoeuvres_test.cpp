@@ -46,7 +46,8 @@ TEST(ManoeuvreAlphabet, KeepsToTheLimits) {
 
 TEST(ManoeuvreAlphabet, MovesEachActuatorByItself) {
   const auto alphabet = manoeuvre_alphabet({});
-  for (const char* what : {"fin 1", "fin 2", "fin 3", "rudder doublets", "elevator doublets", "steps of speed", "rest"}) {
+  for (const char* what :
+       {"fin 1", "fin 2", "fin 3", "rudder doublets", "elevator doublets", "steps of speed", "rest"}) {
     EXPECT_TRUE(std::any_of(alphabet.begin(), alphabet.end(), [&](const ManoeuvreChoice& choice) {
       return choice.name.find(what) != std::string::npos;
     })) << what;

@@ -43,9 +43,9 @@ TEST_F(PlanNextMission, KeepsToTheLimitsAndRuns) {
     EXPECT_LE(std::hypot(now.north_m, now.east_m), limits.radius_m);
   }
   EXPECT_GT(config::parse_mission(next.toml, "next.toml").steps.size(), 2U);
-  EXPECT_TRUE(std::is_sorted(next.pairs.begin(), next.pairs.end(), [](const SeparatedPair& a, const SeparatedPair& b) {
-    return a.separation_nats < b.separation_nats;
-  }));
+  EXPECT_TRUE(std::is_sorted(
+      next.pairs.begin(), next.pairs.end(),
+      [](const SeparatedPair& a, const SeparatedPair& b) { return a.separation_nats < b.separation_nats; }));
 }
 
 TEST_F(PlanNextMission, TestsWeakEffectsWhereNothingIsSeen) {

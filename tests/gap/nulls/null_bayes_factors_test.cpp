@@ -55,8 +55,8 @@ class AmongNulls : public testing::Test {
     return {};
   }
   [[nodiscard]] std::vector<double> gains(const EffectSubset& set) const {
-    return null_bayes_factors(set, std::array{repeated()}, {{replay_, library_, bank_.whitening}, nominal_, priors_},
-                              {12, 1, 2});
+    return null_bayes_factors(set, std::array{repeated()},
+                              {{replay_, library_, bank_.whitening}, nominal_, priors_}, {12, 1, 2});
   }
   /// Gains of the bank's missions by the recorded mission's regressors.
   [[nodiscard]] std::vector<double> gains_by_recorded(const EffectSubset& set) const {

@@ -16,7 +16,8 @@ constexpr std::string_view kIron = "[hard_iron]\nx_uT = 1.2\ny_uT = 0.8\n";
 
 class SeveralRecordings : public testing::Test {
  protected:
-  Diagnosis diagnosis(std::vector<std::filesystem::path> missions, std::vector<std::filesystem::path> holdouts = {}) {
+  Diagnosis diagnosis(std::vector<std::filesystem::path> missions,
+                      std::vector<std::filesystem::path> holdouts = {}) {
     Request request;
     request.missions = std::move(missions);
     request.holdouts = std::move(holdouts);
