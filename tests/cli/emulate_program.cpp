@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "ports/raw_mode.h"
+#include "tests/support/process.h"
 
 namespace navcal::cli::test {
 namespace {
