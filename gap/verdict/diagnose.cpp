@@ -14,7 +14,6 @@
 #include "gap/inference/blocks.h"
 #include "gap/thresholds.h"
 #include "gap/verdict/answer.h"
-#include "gap/verdict/diagnose_further.h"
 #include "gap/verdict/find_effects.h"
 #include "gap/verdict/holdout.h"
 #include "gap/verdict/prepare.h"
@@ -264,7 +263,7 @@ void write_map(const DiagnosisProblem& problem, const Comparisons& compared, Dia
 
 /// Runs the steps of gap/README.md from the search on. `names`: of the recordings that are diagnosed together.
 void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts,
-                       const std::vector<std::string>& names, const Afterwards& afterwards, Diagnosis& answer) {
+                       const std::vector<std::string>& names, Diagnosis& answer) {
   const Prepared& a = problem.prepared;
   FoundEffects result = find_effects(problem);
   SearchResult& found = result.found;
@@ -299,7 +298,6 @@ void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts
                                      [](const EffectDifference& each) { return each.differs; });
     if (differs || answer.verdict == Verdict::unknown) search_apart(problem, answer);
   }
-  if (afterwards) afterwards(problem, result, answer);
 }
 
 /// Reports a recording that cannot be compared with a model: its instruments are compared with each other
@@ -316,10 +314,6 @@ void say_without_causes(const Request& request, const Progress& progress, const 
 }  // namespace
 
 Diagnosis diagnose(const Request& request, const Progress& progress) {
-  return diagnose_further(request, progress, {});
-}
-
-Diagnosis diagnose_further(const Request& request, const Progress& progress, const Afterwards& afterwards) {
   const Library library(request.excluded);
   const unsigned threads = base::threads_or_cores(request.threads);
   if (request.missions.empty()) throw std::invalid_argument("there is no recording to diagnose");

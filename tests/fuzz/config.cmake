@@ -2,4 +2,3 @@
 navcal_fuzz(fuzz_toml SOURCES toml.cpp USES navcal::config)
 navcal_fuzz(fuzz_description SOURCES description.cpp USES navcal::config)
 navcal_fuzz(fuzz_mission SOURCES mission.cpp USES navcal::config)
-navcal_fuzz(fuzz_mission_limits SOURCES mission_limits.cpp USES navcal::config)
