@@ -17,6 +17,7 @@
 #include "gap/verdict/holdout.h"
 #include "gap/verdict/prepare.h"
 #include "gap/verdict/request.h"
+#include "gap/verdict/study.h"
 #include "gap/verdict/verdict.h"
 #include "gap/verdict/where.h"
 
@@ -188,8 +189,8 @@ void write_pictures(const Prepared& a, const Comparison& here, bool with_effects
   }
 }
 
-/// Runs the steps of gap/README.md from the search on.
-void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts, Diagnosis& answer) {
+/// Runs the steps of gap/README.md from the search on, and hands on what the search found.
+FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts, Diagnosis& answer) {
   const Prepared& a = problem.prepared;
   FoundEffects result = find_effects(problem);
   SearchResult& found = result.found;
@@ -219,6 +220,7 @@ void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts
     answer.sentence =
         "Nothing can be said of a gap: the instruments of this recording show none of the library's effects.";
   }
+  return result;
 }
 
 /// Reports a recording that cannot be compared with a model: its instruments are compared with each other
@@ -234,32 +236,36 @@ void say_without_causes(const Request& request, const Progress& progress, const 
 
 }  // namespace
 
-Diagnosis diagnose(const Request& request, const Progress& progress) {
-  const Library library(request.excluded);
+std::unique_ptr<Study> study(const Request& request, const Progress& progress) {
+  auto result = std::make_unique<Study>(request);
   const unsigned threads =
       request.threads > 0 ? request.threads : std::max(1U, std::thread::hardware_concurrency());
-  Preparation preparation(request, library, progress, threads);
-  Diagnosis answer;
-  const auto a = preparation.prepare(request.mission, answer);
+  Preparation preparation(result->request, result->library, progress, threads);
+  Diagnosis& answer = result->diagnosis;
+  result->prepared = preparation.prepare(request.mission, answer);
   const std::string why_not =
       answer.remarks.empty() ? std::string("the recording is empty") : answer.remarks.back();
-  HoldOuts holdouts;
   for (const auto& file : request.holdouts) {
     auto prepared = preparation.prepare(file, answer);
-    if (prepared) holdouts.push_back(std::move(prepared));
+    if (prepared) result->holdouts.push_back(std::move(prepared));
   }
   const auto began = std::chrono::steady_clock::now();
-  if (a) {
-    diagnose_prepared({*a, library, request, progress, threads}, holdouts, answer);
+  if (result->prepared) {
+    result->found = diagnose_prepared({*result->prepared, result->library, result->request, progress, threads},
+                                      result->holdouts, answer);
   } else {
     say_without_causes(request, progress, why_not, answer);
   }
-  if (a && request.holdouts.empty()) {
+  if (result->prepared && request.holdouts.empty()) {
     answer.remarks.emplace_back(
         "no mission was held out: blocks of this one had to do, which is weaker (--holdout OTHER.cap)");
   }
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  return answer;
+  return result;
+}
+
+Diagnosis diagnose(const Request& request, const Progress& progress) {
+  return std::move(study(request, progress)->diagnosis);
 }
 
 }  // namespace navcal::gap
