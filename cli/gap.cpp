@@ -19,6 +19,7 @@
 #include "cli/commands.h"
 #include "cli/gap_export.h"
 #include "cli/gap_layouts.h"
+#include "cli/gap_next.h"
 #include "cli/gap_trial.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
@@ -286,6 +287,7 @@ void add_gap(CLI::App& app) {
       "A gap without a known cause (verdict: unknown) is an answer, too: the exit status is 0.\n\n"
       "Example: navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
   add_gap_layouts(*command);
+  add_gap_next(*command, usual_cache());
   add_gap_trial(*command);
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;

@@ -16,13 +16,10 @@ constexpr Unit kWattHours{"Wh"};
 
 Option<MissionLimits> limit(std::string_view key, double MissionLimits::*value, Unit unit, double low, double high,
                             std::string_view description) {
-  OptionInfo info{.table = "limits",
-                  .key = key,
-                  .description = description,
-                  .unit = unit,
-                  .low = low,
-                  .high = high};
-  return real<MissionLimits>(std::move(info), [value](auto& limits) -> auto& { return limits.*value; });
+  OptionInfo info{
+      .table = "limits", .key = key, .description = description, .unit = unit, .low = low, .high = high};
+  return real<MissionLimits>(
+      std::move(info), [value](auto& limits) -> auto& { return limits.*value; });
 }
 
 std::vector<Option<MissionLimits>> make_mission_limit_options() {
@@ -74,7 +71,8 @@ MissionLimits load_mission_limits(const std::filesystem::path& file) {
 }
 
 std::string mission_limits_file(const MissionLimits& limits) {
-  std::string out = "# Limits of a planned mission: navcal gap next --limits FILE. What is not given is as here.\n[limits]\n";
+  std::string out =
+      "# Limits of a planned mission: navcal gap next --limits FILE. What is not given is as here.\n[limits]\n";
   for (const Option<MissionLimits>& option : mission_limit_options()) {
     out += fmt::format("\n# {} ({})\n{} = {}\n", option.description, option.allowed(), option.key,
                        option.write(option.get(limits)));

@@ -8,8 +8,8 @@
 
 namespace navcal::config {
 
-/// The mission as a file that parse_mission() reads back, numbers to four decimals. `head`: lines of comment at the
-/// top, without their `#`; may be empty.
+/// The mission as a file that parse_mission() reads back, numbers to four decimals. `head`: lines of comment at
+/// the top, without their `#`; may be empty.
 [[nodiscard]] std::string mission_text(const Mission& mission, std::string_view head = {});
 
 }  // namespace navcal::config

@@ -46,9 +46,14 @@ void add_turns(const Regime& r, std::vector<Segment>& all) {
   all.push_back({"circle to port, gentle", {circle(-1, r.gentle_rad_s)}});
   all.push_back({"two circles to starboard, brisk", {circle(2, r.brisk_rad_s)}});
   all.push_back({"two circles to port, brisk", {circle(-2, r.brisk_rad_s)}});
-  all.push_back({"circles both ways, slow", {speed(r.slow_rps, 4), circle(1, r.gentle_rad_s), circle(-1, r.gentle_rad_s), speed(r.cruise_rps, 4)}});
-  all.push_back({"circles both ways, fast", {speed(r.fast_rps, 4), circle(1, r.brisk_rad_s), circle(-1, r.brisk_rad_s), speed(r.cruise_rps, 4)}});
-  all.push_back({"spirals down and up", {spiral(1, r.brisk_rad_s, r.deep_m), spiral(-1, r.brisk_rad_s, r.working_m)}});
+  all.push_back(
+      {"circles both ways, slow",
+       {speed(r.slow_rps, 4), circle(1, r.gentle_rad_s), circle(-1, r.gentle_rad_s), speed(r.cruise_rps, 4)}});
+  all.push_back(
+      {"circles both ways, fast",
+       {speed(r.fast_rps, 4), circle(1, r.brisk_rad_s), circle(-1, r.brisk_rad_s), speed(r.cruise_rps, 4)}});
+  all.push_back(
+      {"spirals down and up", {spiral(1, r.brisk_rad_s, r.deep_m), spiral(-1, r.brisk_rad_s, r.working_m)}});
   all.push_back({"zigzag, gentle", {zigzag(6, 10, 6)}});
   all.push_back({"zigzag, hard", {zigzag(15, 20, 6)}});
 }
@@ -57,8 +62,10 @@ void add_doublets(const Regime& r, std::vector<Segment>& all) {
   all.push_back({"rudder doublets, small", {doublet(Surface::rudder, 2, 1, 6), leg(2)}});
   all.push_back({"rudder doublets, medium", {doublet(Surface::rudder, 7, 1.5, 4), leg(2)}});
   all.push_back({"rudder doublets, large", {doublet(Surface::rudder, 15, 2, 2), leg(3)}});
-  all.push_back({"rudder doublets, slow", {speed(r.slow_rps, 5), doublet(Surface::rudder, 12, 2, 3), speed(r.cruise_rps, 4)}});
-  all.push_back({"rudder doublets, fast", {speed(r.fast_rps, 5), doublet(Surface::rudder, 6, 1, 4), speed(r.cruise_rps, 4)}});
+  all.push_back({"rudder doublets, slow",
+                 {speed(r.slow_rps, 5), doublet(Surface::rudder, 12, 2, 3), speed(r.cruise_rps, 4)}});
+  all.push_back({"rudder doublets, fast",
+                 {speed(r.fast_rps, 5), doublet(Surface::rudder, 6, 1, 4), speed(r.cruise_rps, 4)}});
   all.push_back({"elevator doublets, small", {doublet(Surface::elevator, 2, 0.8, 4), leg(3)}});
   all.push_back({"elevator doublets, large", {doublet(Surface::elevator, 5, 1.5, 2), leg(4)}});
   all.push_back({"doublets of each fin",
@@ -81,7 +88,8 @@ void add_speeds_and_depths(const Regime& r, std::vector<Segment>& all) {
   all.push_back({"surface legs there and back", {surface(12), about, surface(12), dive(r.working_m)}});
   all.push_back({"surface legs on three headings",
                  {surface(10), quarter, surface(10), quarter, surface(10), dive(r.working_m)}});
-  all.push_back({"drifting at the surface", {surface(4), speed(0, 20), speed(r.cruise_rps, 5), dive(r.working_m)}});
+  all.push_back(
+      {"drifting at the surface", {surface(4), speed(0, 20), speed(r.cruise_rps, 5), dive(r.working_m)}});
 }
 
 }  // namespace
@@ -89,8 +97,8 @@ void add_speeds_and_depths(const Regime& r, std::vector<Segment>& all) {
 Regime regime_of(const config::VehicleSettings& vehicle, const config::MissionLimits& limits) {
   Regime r;
   const auto shaft = [&](double share) {
-    const double rps = autopilot::shaft_for(vehicle.propeller, vehicle.water.density_kg_m3, share * limits.speed_m_s,
-                                            autopilot::axial_drag_kg_m(vehicle));
+    const double rps = autopilot::shaft_for(vehicle.propeller, vehicle.water.density_kg_m3,
+                                            share * limits.speed_m_s, autopilot::axial_drag_kg_m(vehicle));
     return std::min({rps, 0.98 * limits.shaft_rps, vehicle.autopilot.shaft_limit_rps});
   };
   r.fast_rps = shaft(0.93);

@@ -40,7 +40,7 @@ struct ComposedMission {
   config::Mission mission;
   std::vector<std::size_t> first_step;
 };
-[[nodiscard]] ComposedMission compose(const std::vector<PlacedSegment>& placed, const std::vector<Segment>& alphabet,
-                                      const Regime& regime);
+[[nodiscard]] ComposedMission compose(const std::vector<PlacedSegment>& placed,
+                                      const std::vector<Segment>& alphabet, const Regime& regime);
 
 }  // namespace navcal::gap

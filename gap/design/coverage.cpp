@@ -8,10 +8,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/angles.h"
+
 namespace navcal::gap {
 namespace {
 
-constexpr double kDegrees_per_rad = 57.29577951308232;
 constexpr double kScale_s = 5, kSeen_s = 2;
 
 /// A quantity in bands of equal width; values beyond belong to the outermost bands.
@@ -47,13 +48,14 @@ Eigen::Index offset_of(std::size_t quantity) {
 Eigen::Index joint_offset() { return offset_of(kBands.size()); }
 
 void add(const std::array<double, 7>& values, Coverage& seconds) {
-  for (std::size_t i = 0; i < kBands.size(); ++i) seconds[offset_of(i) + kBands[i].index(values[i])] += kInterval_s;
+  for (std::size_t i = 0; i < kBands.size(); ++i)
+    seconds[offset_of(i) + kBands[i].index(values[i])] += kInterval_s;
   const int row = kBands[shaft].index(values[shaft]), column = kBands[turn].index(values[turn]);
   seconds[joint_offset() + row * kBands[turn].count + column] += kInterval_s;
 }
 
 double heading_deg(double rad) {
-  const double deg = std::fmod(rad * kDegrees_per_rad, 360);
+  const double deg = std::fmod(rad * base::kDegreesPerRadian, 360);
   return deg < 0 ? deg + 360 : deg;
 }
 
@@ -66,8 +68,8 @@ Coverage no_coverage() {
 Coverage coverage_of(const Trajectory10Hz& course) {
   Coverage seconds = no_coverage();
   for (std::size_t i = 0; i < course.time_s.size(); ++i) {
-    add({course.shaft_rps[i] * 60, course.yaw_rate_rad_s[i] * kDegrees_per_rad, course.depth_m[i],
-         course.pitch_rad[i] * kDegrees_per_rad, course.roll_rad[i] * kDegrees_per_rad,
+    add({course.shaft_rps[i] * 60, course.yaw_rate_rad_s[i] * base::kDegreesPerRadian, course.depth_m[i],
+         course.pitch_rad[i] * base::kDegreesPerRadian, course.roll_rad[i] * base::kDegreesPerRadian,
          heading_deg(course.heading_rad[i]), course.time_s[i]},
         seconds);
   }
@@ -78,8 +80,8 @@ Coverage coverage_of(const PlannedPath& path, double from_s, double until_s) {
   Coverage seconds = no_coverage();
   for (std::size_t i = 0; i < path.time_s.size(); ++i) {
     if (path.time_s[i] < from_s || path.time_s[i] >= until_s) continue;
-    add({path.shaft_rps[i] * 60, path.turn_rad_s[i] * kDegrees_per_rad, path.depth_m[i],
-         path.pitch_rad[i] * kDegrees_per_rad, path.roll_rad[i] * kDegrees_per_rad,
+    add({path.shaft_rps[i] * 60, path.turn_rad_s[i] * base::kDegreesPerRadian, path.depth_m[i],
+         path.pitch_rad[i] * base::kDegreesPerRadian, path.roll_rad[i] * base::kDegreesPerRadian,
          heading_deg(path.heading_rad[i]), path.time_s[i]},
         seconds);
   }

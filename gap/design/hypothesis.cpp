@@ -57,8 +57,7 @@ double divergence(const Hypothesis& truth, const Predictive& by_truth, const Hyp
 Hypothesis make_hypothesis(const EffectSubset& effects, double probability, const Information& so_far,
                            const Library& library, const Priors& priors) {
   const auto members = parameter_indices(library, effects);
-  auto [mean, covariance] =
-      Evidence(so_far.gram, so_far.score, priors.spike, priors.slab).posterior(members);
+  auto [mean, covariance] = Evidence(so_far.gram, so_far.score, priors.spike, priors.slab).posterior(members);
   for (Eigen::Index j = 0; j < mean.size(); ++j) {
     if (j < Library::kBiases) {
       covariance.row(j).setZero();
@@ -89,9 +88,8 @@ double log_error_bound(std::span<const Hypothesis> hypotheses, const Eigen::Matr
   std::vector<double> terms;
   for (std::size_t a = 0; a < hypotheses.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const double nats =
-          std::min(divergence(hypotheses[a], predictives[a], hypotheses[b], predictives[b], gram),
-                   divergence(hypotheses[b], predictives[b], hypotheses[a], predictives[a], gram));
+      const double nats = std::min(divergence(hypotheses[a], predictives[a], hypotheses[b], predictives[b], gram),
+                                   divergence(hypotheses[b], predictives[b], hypotheses[a], predictives[a], gram));
       const double both = hypotheses[a].probability * hypotheses[b].probability;
       terms.push_back(0.5 * std::log(std::max(both, 1e-12)) - std::max(0.0, nats) / 4);
     }
@@ -151,8 +149,7 @@ Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& gram, const Library& l
   scaled.diagonal().array() += 1;
   const Eigen::LLT<Eigen::MatrixXd> factor(scaled);
   const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd(prior.asDiagonal() * gram));
-  Eigen::VectorXd strengths =
-      Eigen::VectorXd::Constant(gram.rows(), std::numeric_limits<double>::infinity());
+  Eigen::VectorXd strengths = Eigen::VectorXd::Constant(gram.rows(), std::numeric_limits<double>::infinity());
   for (const Eigen::Index j : library.moving()) {
     if (j < Library::kBiases) continue;
     const double with = gram(j, j) - half.col(j).squaredNorm();

@@ -26,13 +26,13 @@ struct Hypothesis {
   Eigen::MatrixXd spread;
 };
 
-/// Posterior of the unknowns under a set. The scatter that a longer mission does not reduce (Priors::model_error) is
-/// added to its variances.
-[[nodiscard]] Hypothesis make_hypothesis(const EffectSubset& effects, double probability, const Information& so_far,
-                                         const Library& library, const Priors& priors);
+/// Posterior of the unknowns under a set. The scatter that a longer mission does not reduce (Priors::model_error)
+/// is added to its variances.
+[[nodiscard]] Hypothesis make_hypothesis(const EffectSubset& effects, double probability,
+                                         const Information& so_far, const Library& library, const Priors& priors);
 
-/// Expected log Bayes factor, nats, for `truth` over `rival` from a mission with this Gram matrix of its design, if
-/// `truth` holds: the Kullback-Leibler divergence of the two predictive distributions of whitened residuals,
+/// Expected log Bayes factor, nats, for `truth` over `rival` from a mission with this Gram matrix of its design,
+/// if `truth` holds: the Kullback-Leibler divergence of the two predictive distributions of whitened residuals,
 ///   N(X m, 1 + X V X^T)  with mean m and covariance V of each hypothesis
 /// (Chaloner and Verdinelli 1995, expected information). Never negative.
 [[nodiscard]] double expected_separation_nats(const Hypothesis& truth, const Hypothesis& rival,
@@ -42,8 +42,8 @@ struct Hypothesis {
 /// of sqrt(p_a p_b) exp(-B_ab) over all pairs (Bhattacharyya; here B = smaller divergence / 4), its logarithm.
 [[nodiscard]] double log_error_bound(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram);
 
-/// Probability that the mission leads to the true set and to no other: the share of simulated outcomes in which the
-/// true hypothesis has at least `named_from` of the posterior probability. Draws have a fixed seed.
+/// Probability that the mission leads to the true set and to no other: the share of simulated outcomes in which
+/// the true hypothesis has at least `named_from` of the posterior probability. Draws have a fixed seed.
 [[nodiscard]] double probability_exact(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram,
                                        double named_from);
 

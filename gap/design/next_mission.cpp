@@ -66,9 +66,8 @@ void write_strengths(const Question& question, const Contribution& planned, Next
                               shown(before[weakest]), shown(after[weakest])});
   }
   const auto value = [](const std::optional<double>& strength) { return strength.value_or(1e9); };
-  std::stable_sort(next.strengths.begin(), next.strengths.end(), [&](const auto& a, const auto& b) {
-    return value(a.before) > value(b.before);
-  });
+  std::stable_sort(next.strengths.begin(), next.strengths.end(),
+                   [&](const auto& a, const auto& b) { return value(a.before) > value(b.before); });
 }
 
 std::string separating_sentence(const NextMission& next) {
@@ -82,28 +81,32 @@ std::string separating_sentence(const NextMission& next) {
                           words_of(weakest->b), std::min(weakest->separation_nats, weakest->reverse_nats));
   }
   if (next.decides) {
-    return fmt::format("This mission of {:.1f} minutes decides between {} sets of effects: the answer is exact with "
-                       "probability {:.2f}.{}",
-                       next.minutes(), next.sets.size(), next.probability_exact, closest);
+    return fmt::format(
+        "This mission of {:.1f} minutes decides between {} sets of effects: the answer is exact with "
+        "probability {:.2f}.{}",
+        next.minutes(), next.sets.size(), next.probability_exact, closest);
   }
-  return fmt::format("No mission found within the limits decides between the {} sets of effects. This one of {:.1f} "
-                     "minutes separates them best: the answer is exact with probability {:.2f}.{}",
-                     next.sets.size(), next.minutes(), next.probability_exact, closest);
+  return fmt::format(
+      "No mission found within the limits decides between the {} sets of effects. This one of {:.1f} "
+      "minutes separates them best: the answer is exact with probability {:.2f}.{}",
+      next.sets.size(), next.minutes(), next.probability_exact, closest);
 }
 
 std::string covering_sentence(const NextMission& next) {
   if (next.newly_covered.empty()) {
-    return "A cause outside the library is likely, and the recordings have seen all regimes that the limits allow: "
+    return "A cause outside the library is likely, and the recordings have seen all regimes that the limits "
+           "allow: "
            "no mission within them shows more.";
   }
-  return fmt::format("A cause outside the library is likely. This mission of {:.1f} minutes visits {} regimes that no "
-                     "recording has seen: {}{}.",
-                     next.minutes(), next.newly_covered.size(),
-                     fmt::join(next.newly_covered.begin(),
-                               next.newly_covered.begin() +
-                                   static_cast<std::ptrdiff_t>(std::min<std::size_t>(5, next.newly_covered.size())),
-                               ", "),
-                     next.newly_covered.size() > 5 ? " and others" : "");
+  return fmt::format(
+      "A cause outside the library is likely. This mission of {:.1f} minutes visits {} regimes that no "
+      "recording has seen: {}{}.",
+      next.minutes(), next.newly_covered.size(),
+      fmt::join(next.newly_covered.begin(),
+                next.newly_covered.begin() +
+                    static_cast<std::ptrdiff_t>(std::min<std::size_t>(5, next.newly_covered.size())),
+                ", "),
+      next.newly_covered.size() > 5 ? " and others" : "");
 }
 
 std::string strength_text(const std::optional<double>& strength) {
@@ -117,8 +120,9 @@ std::string sharpening_sentence(const NextMission& next) {
     parts.push_back(fmt::format("{} ({} of typical so far, {} with this mission)", each.effect,
                                 strength_text(each.before), strength_text(each.after)));
   }
-  return fmt::format("No gap is known. This mission of {:.1f} minutes tests the effects that were tested least: {}.",
-                     next.minutes(), fmt::join(parts, ", "));
+  return fmt::format(
+      "No gap is known. This mission of {:.1f} minutes tests the effects that were tested least: {}.",
+      next.minutes(), fmt::join(parts, ", "));
 }
 
 void write_sentence(NextMission& next) {
@@ -190,8 +194,11 @@ NextMission plan_next_mission(const Study& study, const config::MissionLimits& l
       study.request.threads > 0 ? study.request.threads : std::max(1U, std::thread::hardware_concurrency());
   progress("weighing the sets", 0);
   const Question question = question_of(study);
-  const RehearsalProblem problem{study.request.vehicle, study.library, study.prepared->bank.whitening,
-                                 {study.prepared->mission.instruments, study.prepared->mission.field}, threads};
+  const RehearsalProblem problem{study.request.vehicle,
+                                 study.library,
+                                 study.prepared->bank.whitening,
+                                 {study.prepared->mission.instruments, study.prepared->mission.field},
+                                 threads};
   Planner planner(question, problem, limits, progress);
   RehearsedPlan best = planner.plan();
   NextMission next;

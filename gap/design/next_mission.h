@@ -62,9 +62,9 @@ struct NextMission {
 };
 
 /// Plans the mission within the limits that separates best what is still probable after a diagnosis. Greedy
-/// selection of manoeuvres from an alphabet by their Gram matrices, exchange of single manoeuvres, and a simulation
-/// of the whole mission, by which all numbers are stated. Throws std::invalid_argument where the recording could not
-/// be diagnosed, or no mission fits the limits.
+/// selection of manoeuvres from an alphabet by their Gram matrices, exchange of single manoeuvres, and a
+/// simulation of the whole mission, by which all numbers are stated. Throws std::invalid_argument where the
+/// recording could not be diagnosed, or no mission fits the limits.
 [[nodiscard]] NextMission plan_next_mission(const Study& study, const config::MissionLimits& limits,
                                             const Progress& progress);
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/angles.h"
 #include "base/durations.h"
 #include "gap/actuators/commanded_motor.h"
 #include "sim/motion_in_field.h"
@@ -109,17 +110,18 @@ PathExtremes extremes_of(const PlannedPath& path, const config::MissionLimits& l
 }
 
 std::vector<std::string> violations(const PathExtremes& extremes, const config::MissionLimits& limits) {
-  constexpr double kDegrees_per_rad = 57.29577951308232;
   std::vector<std::string> all;
   const auto most = [&](std::string_view what, double value, double limit, std::string_view unit) {
-    if (value > limit) all.push_back(fmt::format("{} {:.3g} {}, at most {:.3g} {}", what, value, unit, limit, unit));
+    if (value > limit)
+      all.push_back(fmt::format("{} {:.3g} {}, at most {:.3g} {}", what, value, unit, limit, unit));
   };
   most("duration", extremes.duration_s / 60, limits.duration_s / 60, "min");
   most("depth", extremes.greatest_depth_m, limits.greatest_depth_m, "m");
   most("distance", extremes.range_m, limits.range_m, "m");
   most("speed", extremes.speed_m_s, limits.speed_m_s, "m/s");
   most("shaft speed", extremes.shaft_rps * 60, limits.shaft_rps * 60, "rpm");
-  most("rate of turn", extremes.turn_rad_s * kDegrees_per_rad, limits.turn_rad_s * kDegrees_per_rad, "deg/s");
+  most("rate of turn", extremes.turn_rad_s * base::kDegreesPerRadian, limits.turn_rad_s * base::kDegreesPerRadian,
+       "deg/s");
   most("energy", extremes.energy_Wh, limits.energy_Wh, "Wh");
   if (extremes.least_depth_m < limits.least_depth_m && limits.least_depth_m > 0.2) {
     all.push_back(fmt::format("depth {:.3g} m, at least {:.3g} m", extremes.least_depth_m, limits.least_depth_m));
@@ -131,9 +133,9 @@ std::vector<std::string> violations(const PathExtremes& extremes, const config::
 Mission planned_readings(const config::VehicleSettings& vehicle, const config::Mission& mission,
                          const PlannedInstruments& with, double duration_s) {
   auto helm = std::make_unique<sim::MissionHelm>(vehicle, once(mission));
-  const sim::MotionInField motion(
-      std::make_unique<sim::SimulatedMotion>(vehicle, std::move(helm), sim::MotionOptions{kPlanBegin_ns, nullptr, 20}),
-      with.field.north_east_down_uT);
+  const sim::MotionInField motion(std::make_unique<sim::SimulatedMotion>(
+                                      vehicle, std::move(helm), sim::MotionOptions{kPlanBegin_ns, nullptr, 20}),
+                                  with.field.north_east_down_uT);
   sim::Recording::Options options{kPlanBegin_ns, false, 1, nullptr, false, false};
   options.instruments = with.instruments;
   sim::Recording instruments(options, motion);
@@ -155,7 +157,7 @@ Mission planned_readings(const config::VehicleSettings& vehicle, const config::M
       } else if (const auto command = protocols::motor_card::decode_command(read.bytes)) {
         const double time_s = static_cast<double>(read.time_ns - kPlanBegin_ns) * 1e-9;
         Order order{time_s, static_cast<double>(command->rpm), {}};
-        for (std::size_t i = 0; i < 3; ++i) order.fins_rad[i] = command->fins_deg[i] / 57.29577951308232;
+        for (std::size_t i = 0; i < 3; ++i) order.fins_rad[i] = command->fins_deg[i] / 180 / std::numbers::pi;
         orders.push_back(order);
         commanded_s.push_back(time_s);
       }

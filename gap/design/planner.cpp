@@ -11,8 +11,8 @@
 namespace navcal::gap {
 namespace {
 
-/// Error bound at which a mission that separates needs no more manoeuvres: about 80 nats between all pairs, several
-/// times what decides, because predictions are not exact.
+/// Error bound at which a mission that separates needs no more manoeuvres: about 80 nats between all pairs,
+/// several times what decides, because predictions are not exact.
 constexpr double kDecidedLog = -20;
 /// Simulated missions after the greedy selection, and exchanges in each.
 constexpr int kExchangeRounds = 2;
@@ -34,8 +34,7 @@ double heading_of_nth(std::size_t n) {
 std::vector<double> part_begins(const Plan& plan) {
   std::vector<double> begins_s;
   for (const std::size_t step : plan.composed.first_step) {
-    begins_s.push_back(step < plan.path.step_began_s.size() ? plan.path.step_began_s[step]
-                                                            : plan.path.duration_s);
+    begins_s.push_back(step < plan.path.step_began_s.size() ? plan.path.step_began_s[step] : plan.path.duration_s);
   }
   return begins_s;
 }
@@ -79,8 +78,8 @@ void Planner::learn(const std::vector<std::size_t>& segments) {
     // Distances and sums are those of the mission in which the manoeuvre was learnt.
     extremes.range_m = extremes.duration_s = extremes.energy_Wh = 0;
     if (!violations(extremes, limits_).empty() || !(duration_s > 0)) continue;
-    known_.push_back({segments[i], duration_s,
-                      {rehearsal.parts[i], coverage_of(plan.path, begins_s[i], begins_s[i + 1])}});
+    known_.push_back(
+        {segments[i], duration_s, {rehearsal.parts[i], coverage_of(plan.path, begins_s[i], begins_s[i + 1])}});
   }
 }
 

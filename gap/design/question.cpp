@@ -40,8 +40,8 @@ Information information_of(const Study& study) {
   return all;
 }
 
-/// Priors with the usual tolerance for effects that the search took as nuisance parameters: another mission may show
-/// them.
+/// Priors with the usual tolerance for effects that the search took as nuisance parameters: another mission may
+/// show them.
 Priors priors_of(const Study& study) {
   Priors priors = study.found->priors;
   for (const EffectSubset* hidden : {&study.found->unobservable, &study.found->not_judged()}) {

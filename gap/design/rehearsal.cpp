@@ -40,7 +40,8 @@ Rehearsal rehearse(const RehearsalProblem& problem, const config::Mission& missi
       return std::min<Eigen::Index>(interval - course.time_s.begin(), replay.intervals());
     };
     const Eigen::Index from = row_of(part_began_s[part]);
-    const Eigen::Index until = part + 1 < part_began_s.size() ? row_of(part_began_s[part + 1]) : replay.intervals();
+    const Eigen::Index until =
+        part + 1 < part_began_s.size() ? row_of(part_began_s[part + 1]) : replay.intervals();
     Eigen::MatrixXd& gram = rehearsal.parts[part];
     add_rows(linear.design, from * kEvidenceChannels, (until - from) * kEvidenceChannels, gram);
     const Eigen::Index fixes = replay.intervals() * kEvidenceChannels;

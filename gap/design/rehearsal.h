@@ -26,9 +26,9 @@ struct Rehearsal {
   std::vector<Eigen::MatrixXd> parts;  ///< of each part
 };
 
-/// Simulates a mission of the nominal vehicle, replays and linearises it. `part_began_s`: the begins of its parts, in
-/// order; each ends where the next begins, the last with the mission. Throws sim::UnstableVehicle.
-[[nodiscard]] Rehearsal rehearse(const RehearsalProblem& problem, const config::Mission& mission, double duration_s,
-                                 std::span<const double> part_began_s);
+/// Simulates a mission of the nominal vehicle, replays and linearises it. `part_began_s`: the begins of its parts,
+/// in order; each ends where the next begins, the last with the mission. Throws sim::UnstableVehicle.
+[[nodiscard]] Rehearsal rehearse(const RehearsalProblem& problem, const config::Mission& mission,
+                                 double duration_s, std::span<const double> part_began_s);
 
 }  // namespace navcal::gap
