@@ -86,8 +86,10 @@ std::string mission_text(const Mission& mission, std::string_view head) {
     head = end == std::string_view::npos ? std::string_view() : head.substr(end + 1);
   }
   const MissionStart& start = mission.start;
-  fmt::format_to(at, "mission.description = \"{}\"\nmission.at_end = \"{}\"\n", escaped_text(mission.description),
-                 mission.at_end == MissionEnd::repeat ? "repeat" : "hold");
+  if (!mission.description.empty()) {
+    fmt::format_to(at, "mission.description = \"{}\"\n", escaped_text(mission.description));
+  }
+  fmt::format_to(at, "mission.at_end = \"{}\"\n", mission.at_end == MissionEnd::repeat ? "repeat" : "hold");
   fmt::format_to(at, "start.heading_deg = {}\nstart.depth_m = {}\nstart.speed_m_s = {}\nstart.shaft_rpm = {}\n",
                  shown(start.heading_rad * kDegrees_per_rad), shown(start.depth_m), shown(start.speed_m_s),
                  shown(start.shaft_rps * 60));

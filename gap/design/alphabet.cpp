@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "autopilot/shaft_speed.h"
+#include "config/mission_file.h"
+#include "config/mission_text.h"
 
 namespace navcal::gap {
 namespace {
@@ -131,7 +133,11 @@ ComposedMission compose(const std::vector<PlacedSegment>& placed, const std::vec
   mission.start.depth_m = regime.surfaces ? 0.2 : regime.working_m;
   mission.start.shaft_rps = regime.cruise_rps;
   auto& steps = mission.steps;
-  if (regime.surfaces) steps.push_back(surface(15));
+  // A circle keeps the vehicle at its place while the receiver settles.
+  if (regime.surfaces) {
+    steps.push_back(surface(3));
+    steps.push_back(circle(1, regime.gentle_rad_s));
+  }
   steps.push_back(dive(regime.working_m));
   steps.push_back(leg(4));
   for (const PlacedSegment& each : placed) {
@@ -141,7 +147,14 @@ ComposedMission compose(const std::vector<PlacedSegment>& placed, const std::vec
     steps.insert(steps.end(), own.begin(), own.end());
   }
   composed.first_step.push_back(steps.size());
-  steps.push_back(regime.surfaces ? surface(15) : leg(5));
+  if (regime.surfaces) {
+    steps.push_back(surface(3));
+    steps.push_back(circle(1, regime.gentle_rad_s));
+  } else {
+    steps.push_back(leg(5));
+  }
+  // The numbers of the file, so that what is simulated is what is written.
+  mission = config::parse_mission(config::mission_text(mission), "the mission planned");
   return composed;
 }
 

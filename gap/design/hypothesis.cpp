@@ -82,6 +82,12 @@ double expected_separation_nats(const Hypothesis& truth, const Hypothesis& rival
   return std::max(0.0, divergence(truth, Predictive(truth, gram), rival, Predictive(rival, gram), gram));
 }
 
+double observed_separation_nats(const Hypothesis& one, const Hypothesis& other, const Eigen::MatrixXd& gram,
+                                const Eigen::VectorXd& score) {
+  return log_density(one, Predictive(one, gram), gram, score) -
+         log_density(other, Predictive(other, gram), gram, score);
+}
+
 double log_error_bound(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram) {
   std::vector<Predictive> predictives;
   for (const Hypothesis& each : hypotheses) predictives.emplace_back(each, gram);

@@ -18,6 +18,9 @@
 namespace navcal::gap {
 namespace {
 
+/// Probability from which a set counts as still probable.
+constexpr double kProbableFrom = 0.02;
+
 std::vector<std::string> names_of(const EffectSubset& effects, const Library& library) {
   std::vector<std::string> names;
   for (const std::size_t effect : effects) names.emplace_back(library[effect].name);
@@ -53,8 +56,8 @@ void write_strengths(const Question& question, const Contribution& planned, Next
   const Library& library = question.library;
   const Eigen::VectorXd before =
       smallest_strengths(question.so_far.gram, library, question.priors, kObservable_nats);
-  const Eigen::VectorXd after =
-      smallest_strengths(question.so_far.gram + planned.gram, library, question.priors, kObservable_nats);
+  const Eigen::VectorXd after = smallest_strengths(question.so_far.gram + without_biases(planned.gram), library,
+                                                   question.priors, kObservable_nats);
   for (std::size_t effect = 0; effect < library.size(); ++effect) {
     if (!library.holds(effect)) continue;
     Eigen::Index weakest = library.first(effect);
@@ -75,6 +78,13 @@ std::string separating_sentence(const NextMission& next) {
       std::min_element(next.pairs.begin(), next.pairs.end(), [](const PlannedPair& a, const PlannedPair& b) {
         return std::min(a.separation_nats, a.reverse_nats) < std::min(b.separation_nats, b.reverse_nats);
       });
+  const auto is_open = [](const PlannedSet& set) { return set.probability >= kProbableFrom; };
+  if (std::count_if(next.sets.begin(), next.sets.end(), is_open) < 2) {
+    return fmt::format(
+        "The recordings leave one set probable, {} ({:.2f}). This mission of {:.1f} minutes tests it "
+        "against the others: it stays the answer, if it is true, with probability {:.2f}.",
+        words_of(next.sets.front().effects), next.probability_now, next.minutes(), next.probability_exact);
+  }
   std::string closest;
   if (weakest != next.pairs.end()) {
     closest = fmt::format(" Hardest to tell apart: {} and {}, {:.0f} nats.", words_of(weakest->a),
@@ -139,6 +149,19 @@ void write_sentence(NextMission& next) {
   }
 }
 
+/// Whether each two sets that are still probable become distinguishable.
+bool probable_are_apart(const NextMission& next) {
+  const auto is_probable = [&](const std::vector<std::string>& effects) {
+    return std::any_of(next.sets.begin(), next.sets.end(), [&](const PlannedSet& set) {
+      return set.effects == effects && set.probability >= kProbableFrom;
+    });
+  };
+  return std::all_of(next.pairs.begin(), next.pairs.end(), [&](const PlannedPair& pair) {
+    return !is_probable(pair.a) || !is_probable(pair.b) ||
+           std::min(pair.separation_nats, pair.reverse_nats) >= kObservable_nats;
+  });
+}
+
 /// Whether the vehicle of each set, too, stays within the limits.
 void check_paths(const Question& question, const Study& study, NextMission& next) {
   for (const Hypothesis& set : question.hypotheses) {
@@ -194,11 +217,10 @@ NextMission plan_next_mission(const Study& study, const config::MissionLimits& l
       study.request.threads > 0 ? study.request.threads : std::max(1U, std::thread::hardware_concurrency());
   progress("weighing the sets", 0);
   const Question question = question_of(study);
-  const RehearsalProblem problem{study.request.vehicle,
-                                 study.library,
-                                 study.prepared->bank.whitening,
-                                 {study.prepared->mission.instruments, study.prepared->mission.field},
-                                 threads};
+  const RehearsalProblem problem{
+      study.request.vehicle,          study.library,
+      study.prepared->bank.whitening, {study.prepared->mission.instruments, study.prepared->mission.field},
+      question.curved_estimates(),    threads};
   Planner planner(question, problem, limits, progress);
   RehearsedPlan best = planner.plan();
   NextMission next;
@@ -213,11 +235,8 @@ NextMission plan_next_mission(const Study& study, const config::MissionLimits& l
   write_pairs(question, best.all, next);
   write_strengths(question, best.all, next);
   next.newly_covered = newly_covered(question.so_far.coverage, question.so_far.coverage + best.all.coverage);
-  const bool all_apart = std::all_of(next.pairs.begin(), next.pairs.end(), [](const PlannedPair& pair) {
-    return std::min(pair.separation_nats, pair.reverse_nats) >= kObservable_nats;
-  });
-  next.decides =
-      next.purpose == MissionPurpose::separate && all_apart && next.probability_exact >= 1 - kMostRivals;
+  next.decides = next.purpose == MissionPurpose::separate && next.probability_exact >= 1 - kMostRivals &&
+                 probable_are_apart(next);
   write_sentence(next);
   check_paths(question, study, next);
   next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

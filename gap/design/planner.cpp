@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/design/planner.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -114,7 +117,12 @@ std::optional<Plan> Planner::extended(const Plan& plan, std::size_t segment) con
 
 Plan Planner::select() {
   auto begun = within_limits({});
-  if (!begun) throw std::invalid_argument("the limits leave no time, depth or energy for a mission");
+  if (!begun) {
+    const config::Mission shortest = compose({}, alphabet_, regime_).mission;
+    const PlannedPath path = planned_path(problem_.vehicle, shortest, sim::EffectSet(), limits_.duration_s + 1);
+    throw std::invalid_argument(fmt::format("the limits are too narrow for any mission; the shortest has {}",
+                                            fmt::join(violations(extremes_of(path, limits_), limits_), "; ")));
+  }
   Plan plan = std::move(*begun);
   Contribution sum = nothing(problem_.library);
   std::vector<bool> refused(known_.size(), false);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gap/design/question.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -20,6 +21,15 @@ constexpr double kUnseenProbability = 0.05;
 constexpr double kSharpEnough = 0.05, kNotShown = 10;
 /// Weight of coverage beside the error bound while sets are to be separated: it decides between equals only.
 constexpr double kLittleCoverage = 1e-3;
+/// Weight of the error bound beside coverage where a foreign cause is suspected, and the bound (some 40 nats
+/// between all pairs) beyond which it counts no more.
+constexpr double kSomeSeparation = 0.1, kApartLog = -10;
+
+Eigen::LLT<Eigen::MatrixXd> bias_factor_of(const Eigen::MatrixXd& gram) {
+  Eigen::MatrixXd own = gram.topLeftCorner<Library::kBiases, Library::kBiases>();
+  own.diagonal().array() += 1 / (kTurnOnBiasPrior_rad_s * kTurnOnBiasPrior_rad_s);
+  return own.llt();
+}
 
 Information information_of(const Study& study) {
   const Linearised& linear = study.found->found.best.linear;
@@ -28,14 +38,10 @@ Information information_of(const Study& study) {
       study.request.threads > 0 ? study.request.threads : std::max(1U, std::thread::hardware_concurrency());
   for (const auto& other : study.holdouts) {
     const Linearised further = linearise(other->model(study.library, threads), other->at);
-    // The biases of each recording are its own: they are projected out.
-    constexpr Eigen::Index n = Library::kBiases;
-    Eigen::MatrixXd own = further.gram.topLeftCorner<n, n>();
-    own.diagonal().array() += 1 / (kTurnOnBiasPrior_rad_s * kTurnOnBiasPrior_rad_s);
+    all.gram += without_biases(further.gram);
     const Eigen::VectorXd score = further.score + further.gram * further.at;
-    const Eigen::LLT<Eigen::MatrixXd> factor(own);
-    all.gram += further.gram - further.gram.leftCols<n>() * factor.solve(further.gram.topRows<n>());
-    all.score += score - further.gram.leftCols<n>() * factor.solve(score.head<n>());
+    all.score += score - further.gram.leftCols<Library::kBiases>() *
+                             bias_factor_of(further.gram).solve(score.head<Library::kBiases>());
   }
   return all;
 }
@@ -91,10 +97,16 @@ MissionPurpose purpose_of(const Study& study) {
     }
   }
   const bool is_clear = leading >= kNamedFrom && rivals <= kMostRivals;
-  return is_clear || found.best.effects.empty() ? MissionPurpose::cover : MissionPurpose::separate;
+  // An effect that the recordings hardly show is no sign of a foreign cause: a mission that shows it is wanted.
+  const bool is_shown = unobservable_effects(found).empty();
+  return is_clear && is_shown ? MissionPurpose::cover : MissionPurpose::separate;
 }
 
 }  // namespace
+
+Eigen::MatrixXd without_biases(const Eigen::MatrixXd& gram) {
+  return gram - gram.leftCols<Library::kBiases>() * bias_factor_of(gram).solve(gram.topRows<Library::kBiases>());
+}
 
 double Question::loss(const Contribution& planned) const {
   switch (purpose) {
@@ -102,17 +114,32 @@ double Question::loss(const Contribution& planned) const {
       return log_error_bound(hypotheses, planned.gram) +
              kLittleCoverage * coverage_loss(so_far.coverage + planned.coverage);
     case MissionPurpose::cover:
-      return coverage_loss(so_far.coverage + planned.coverage);
+      return coverage_loss(so_far.coverage + planned.coverage) +
+             kSomeSeparation * std::max(kApartLog, log_error_bound(hypotheses, planned.gram));
     case MissionPurpose::sharpen:
       break;
   }
   const Eigen::VectorXd strengths =
-      smallest_strengths(so_far.gram + planned.gram, library, priors, kObservable_nats);
+      smallest_strengths(so_far.gram + without_biases(planned.gram), library, priors, kObservable_nats);
   double sum = 0;
   for (const Eigen::Index j : library.moving()) {
     if (j >= Library::kBiases) sum += std::log(std::clamp(strengths[j], kSharpEnough, kNotShown));
   }
   return sum;
+}
+
+Eigen::VectorXd Question::curved_estimates() const {
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+  // The most probable set that has an effect comes first.
+  for (const Hypothesis& set : hypotheses) {
+    for (const std::size_t effect : set.effects) {
+      if (!library.is_curved(effect)) continue;
+      for (const Eigen::Index j : parameter_indices(library, {effect})) {
+        if (at[j] == 0) at[j] = set.mean[j];
+      }
+    }
+  }
+  return at;
 }
 
 Question question_of(const Study& study) {

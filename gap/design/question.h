@@ -32,7 +32,12 @@ struct Question {
 
   /// Loss of a planned mission; smaller is better.
   [[nodiscard]] double loss(const Contribution& planned) const;
+  /// Point of linearisation of rehearsals (RehearsalProblem::at): curved members of the sets at their estimates.
+  [[nodiscard]] Eigen::VectorXd curved_estimates() const;
 };
+
+/// Gram matrix with the biases of the gyros projected out: each recording has its own.
+[[nodiscard]] Eigen::MatrixXd without_biases(const Eigen::MatrixXd& gram);
 
 [[nodiscard]] Question question_of(const Study& study);
 

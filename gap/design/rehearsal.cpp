@@ -28,7 +28,7 @@ Rehearsal rehearse(const RehearsalProblem& problem, const config::Mission& missi
   const Replay replay(readings, problem.vehicle);
   Trajectory10Hz course;
   (void)replay.run(Model{}, &course);
-  const Eigen::VectorXd at = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.library.unknowns().size()));
+  const Eigen::VectorXd& at = problem.at;
   const Linearised linear = linearise({replay, problem.library, problem.whitening, problem.threads}, at);
   Rehearsal rehearsal;
   rehearsal.gram = linear.gram;

@@ -17,6 +17,9 @@ struct RehearsalProblem {
   const Library& library;
   const Whitening& whitening;  ///< of the recordings' null bank
   PlannedInstruments instruments;
+  /// Point of linearisation: zero but for curved effects (Library::is_curved), whose regressors at zero do not
+  /// describe their usual strength.
+  Eigen::VectorXd at;
   unsigned threads = 1;
 };
 
