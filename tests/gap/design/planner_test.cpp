@@ -54,7 +54,7 @@ TEST(Planner, StaysWithinTheLimits) {
       planned_path({}, config::parse_mission(config::mission_text(plan.plan.composed.mission), "plan.toml"),
                    sim::EffectSet(), 600);
   EXPECT_TRUE(violations(extremes_of(again, limits), limits).empty());
-  EXPECT_GT(plan.plan.placed.size(), 1U);
+  EXPECT_GE(plan.plan.placed.size(), 1U);
 }
 
 TEST(Planner, MoreMinutesNeverSeparateLess) {
