@@ -19,6 +19,7 @@
 #include "cli/commands.h"
 #include "cli/gap_export.h"
 #include "cli/gap_layouts.h"
+#include "cli/gap_next.h"
 #include "cli/gap_request.h"
 #include "cli/gap_trial.h"
 #include "cli/place_options.h"
@@ -207,6 +208,7 @@ void add_gap(CLI::App& app) {
       "  navcal gap a.cap b.cap c.cap --holdout d.cap\n"
       "  navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
   add_gap_layouts(*command);
+  add_gap_next(*command);
   add_gap_trial(*command);
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;

@@ -19,6 +19,7 @@
 #include "gap/verdict/prepare.h"
 #include "gap/verdict/recordings_apart.h"
 #include "gap/verdict/request.h"
+#include "gap/verdict/study.h"
 #include "gap/verdict/verdict.h"
 #include "gap/verdict/where.h"
 
@@ -261,9 +262,10 @@ void write_map(const DiagnosisProblem& problem, const Comparisons& compared, Dia
   answer.where = significant_cells(answer.map);
 }
 
-/// Runs the steps of gap/README.md from the search on. `names`: of the recordings that are diagnosed together.
-void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts,
-                       const std::vector<std::string>& names, Diagnosis& answer) {
+/// Runs the steps of gap/README.md from the search on, and hands on what the search found. `names`: of the
+/// recordings that are diagnosed together.
+FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts,
+                               const std::vector<std::string>& names, Diagnosis& answer) {
   const Prepared& a = problem.prepared;
   FoundEffects result = find_effects(problem);
   SearchResult& found = result.found;
@@ -298,6 +300,7 @@ void diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& holdouts
                                      [](const EffectDifference& each) { return each.differs; });
     if (differs || answer.verdict == Verdict::unknown) search_apart(problem, answer);
   }
+  return result;
 }
 
 /// Reports a recording that cannot be compared with a model: its instruments are compared with each other
@@ -313,50 +316,55 @@ void say_without_causes(const Request& request, const Progress& progress, const 
 
 }  // namespace
 
-Diagnosis diagnose(const Request& request, const Progress& progress) {
-  const Library library(request.excluded);
-  const unsigned threads = base::threads_or_cores(request.threads);
+std::unique_ptr<Study> study(const Request& request, const Progress& progress) {
   if (request.missions.empty()) throw std::invalid_argument("there is no recording to diagnose");
-  Preparation preparation(request, library, progress, threads);
-  Diagnosis answer;
-  const auto a = preparation.prepare(request.missions.front(), answer);
+  auto result = std::make_unique<Study>(request);
+  const Library& library = result->library;
+  const unsigned threads = base::threads_or_cores(request.threads);
+  Preparation preparation(result->request, library, progress, threads);
+  Diagnosis& answer = result->diagnosis;
+  result->prepared = preparation.prepare(request.missions.front(), answer);
   const std::string why_not =
       answer.remarks.empty() ? std::string("the recording is empty") : answer.remarks.back();
-  HoldOuts together, holdouts;
   std::vector<std::string> names{request.missions.front().filename().string()};
   for (std::size_t i = 1; i < request.missions.size(); ++i) {
     auto prepared = preparation.prepare(request.missions[i], answer);
     if (!prepared) continue;
-    together.push_back(std::move(prepared));
+    result->together.push_back(std::move(prepared));
     names.push_back(request.missions[i].filename().string());
   }
   for (const auto& file : request.holdouts) {
     auto prepared = preparation.prepare(file, answer);
-    if (prepared) holdouts.push_back(std::move(prepared));
+    if (prepared) result->holdouts.push_back(std::move(prepared));
   }
   const auto began = std::chrono::steady_clock::now();
-  if (a) {
+  if (result->prepared) {
     std::vector<const Prepared*> others;
     std::vector<JoinedRecording> parts;
-    for (const auto& other : together) {
+    for (const auto& other : result->together) {
       others.push_back(other.get());
       parts.push_back(joined(other->model(library, threads), other->at));
     }
-    diagnose_prepared({*a, library, request, progress, threads, others, parts}, holdouts, names, afterwards,
-                      answer);
+    result->found = diagnose_prepared(
+        {*result->prepared, library, result->request, progress, threads, others, parts}, result->holdouts, names,
+        answer);
   } else {
     say_without_causes(request, progress, why_not, answer);
   }
-  if (a && request.holdouts.empty() && !together.empty()) {
+  if (result->prepared && request.holdouts.empty() && !result->together.empty()) {
     answer.remarks.emplace_back(
         "no mission was held out: each recording was predicted by the others, which is weaker (--holdout "
         "OTHER.cap)");
-  } else if (a && request.holdouts.empty()) {
+  } else if (result->prepared && request.holdouts.empty()) {
     answer.remarks.emplace_back(
         "no mission was held out: blocks of this one had to do, which is weaker (--holdout OTHER.cap)");
   }
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  return answer;
+  return result;
+}
+
+Diagnosis diagnose(const Request& request, const Progress& progress) {
+  return std::move(study(request, progress)->diagnosis);
 }
 
 }  // namespace navcal::gap

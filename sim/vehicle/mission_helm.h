@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "autopilot/mission_orders.h"
 #include "config/mission.h"
 #include "config/vehicle.h"
@@ -20,6 +22,8 @@ class MissionHelm final : public Helm {
   [[nodiscard]] Actuators actuators_at_start() const override;
   [[nodiscard]] Actuators next(double time_s, double step_s, const Body& body) override;
   [[nodiscard]] bool finished() const override { return orders_.finished(); }
+  /// The step under way, or the one that comes next.
+  [[nodiscard]] std::size_t step() const { return orders_.step(); }
 
  private:
   config::VehicleSettings vehicle_;

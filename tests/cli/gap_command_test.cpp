@@ -9,6 +9,7 @@
 
 #include "cli/gap_trial.h"
 #include "gap/verdict/request.h"
+#include "gap/verdict/study.h"
 #include "report/gap_json.h"
 #include "tests/cli/command_outcome.h"
 #include "tests/report/gap_samples.h"
@@ -27,6 +28,12 @@ Diagnosis diagnose(const Request& request, const Progress& progress) {
   progress("bank", 0.5);
   if (request.missions.front() == "bad.cap") throw record::BadRecording("bad.cap:3: no number");
   return cli::test::explained_gap();
+}
+
+std::unique_ptr<Study> study(const Request& request, const Progress& progress) {
+  auto result = std::make_unique<Study>(request);
+  result->diagnosis = diagnose(request, progress);
+  return result;
 }
 
 }  // namespace navcal::gap

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a mission and as a vehicle: an Error, or something that holds to its rules. A vehicle comes back
-// from its file.
+// Any bytes as a mission, as limits of one and as a vehicle: an Error, or something that holds to its rules. A
+// vehicle comes back from its file, a mission from its text.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
 #include "config/mission_file.h"
+#include "config/mission_limits.h"
+#include "config/mission_text.h"
 #include "config/vehicle_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -19,6 +21,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (step.kind == StepKind::swing && !step.stations) std::abort();
       if (step.line == 0) std::abort();
     }
+    if (parse_mission(mission_text(mission), "again.toml").steps.size() != mission.steps.size()) std::abort();
+  } catch (const Error& error) {
+    if (error.problems().empty()) std::abort();
+  }
+  try {
+    const MissionLimits limits = parse_mission_limits(input, "fuzz.toml");
+    if (!(limits.least_depth_m < limits.greatest_depth_m) || !(limits.duration_s > 0)) std::abort();
   } catch (const Error& error) {
     if (error.problems().empty()) std::abort();
   }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/gap_next.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "analysis/output.h"
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "cli/gap_request.h"
+#include "cli/result_file.h"
+#include "config/mission_limits.h"
+#include "config/mission_text.h"
+#include "gap/design/next_mission.h"
+#include "gap/verdict/study.h"
+#include "record/recording.h"
+#include "report/next_mission.h"
+
+namespace navcal::cli {
+namespace {
+
+struct GapNextOptions {
+  GapRequestOptions asked;
+  std::string limits, mission, json, report;
+  std::optional<double> minutes;
+  bool overwrite = false;
+  bool list_limits = false;
+
+  [[nodiscard]] report::NextMissionSource source() const {
+    return {asked.source.missions, asked.source.holdouts, asked.source.vehicle, limits, mission};
+  }
+};
+
+config::MissionLimits limits_of(const GapNextOptions& options) {
+  config::MissionLimits limits;
+  if (!options.limits.empty()) limits = config::load_mission_limits(options.limits);
+  if (options.minutes) limits.duration_s = 60 * *options.minutes;
+  return limits;
+}
+
+/// Checks before the work that the results can be written. Throws Failure.
+void expect_writable(const GapNextOptions& options) {
+  std::error_code error;
+  if (!options.overwrite && std::filesystem::exists(options.mission, error)) {
+    throw analysis::Failure(analysis::Exit::usage,
+                            options.mission + ": this mission is there already; --overwrite replaces it");
+  }
+  for (const std::string& file : {options.mission, options.json, options.report}) {
+    if (!file.empty() && file != "-") expect_folder_of(file);
+  }
+  const report::GapSource& asked = options.asked.source;
+  std::vector<std::filesystem::path> inputs(asked.missions.begin(), asked.missions.end());
+  inputs.insert(inputs.end(), asked.holdouts.begin(), asked.holdouts.end());
+  inputs.insert(inputs.end(), {asked.vehicle, asked.config, options.limits});
+  expect_no_overwriting(inputs, {options.mission, options.json, options.report});
+}
+
+void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
+  const report::NextMissionSource source = options.source();
+  write_result(options.mission, config::mission_text(next.mission, report::next_mission_head(next)));
+  if (!options.report.empty()) write_result(options.report, report::next_mission_page(next, source));
+  const std::string json = options.json.empty() ? "" : report::next_mission_json(next, source) + '\n';
+  if (!options.json.empty() && options.json != "-") write_result(options.json, json);
+  analysis::Output output(STDOUT_FILENO, "standard output");
+  output.append(options.json == "-" ? json : report::next_mission_text(next, source));
+  output.flush();
+}
+
+void plan_next(const GapNextOptions& options) {
+  try {
+    expect_instruments(options.asked.without);
+    const config::MissionLimits limits = limits_of(options);
+    expect_writable(options);
+    if (layout_of(options.asked)) {
+      throw std::invalid_argument("--vehicle: missions are planned for vehicle files only, not for layouts");
+    }
+    const base::Interruptible interruptible;
+    analysis::Progress progress("gap next", analysis::Progress::Answer::at_the_end);
+    const gap::Progress show = [&](std::string_view what, double done) {
+      if (base::Interruptible::interrupted())
+        throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
+      progress.show(what, done);
+    };
+    const auto study = gap::study(gap_request_of(options.asked), show);
+    write_plan(gap::plan_next_mission(*study, limits, show), options);
+  } catch (const record::BadRecording& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const config::Error& error) {
+    throw analysis::Failure(analysis::Exit::bad_input, error.what());
+  } catch (const std::invalid_argument& error) {
+    throw analysis::Failure(analysis::Exit::usage, error.what());
+  } catch (const std::system_error& error) {
+    throw analysis::Failure(analysis::Exit::failed, error.what());
+  }
+}
+
+}  // namespace
+
+void add_gap_next(CLI::App& gap) {
+  auto* command = gap.add_subcommand("next", "plans the mission that tells best what a diagnosis leaves open");
+  const auto options = std::make_shared<GapNextOptions>();
+  add_gap_request(*command, options->asked);
+  command->add_option("--minutes", options->minutes, "longest duration of the mission; default: 10")
+      ->check(CLI::Range(1.0, 120.0));
+  command->add_option("--limits", options->limits, "limits of depth, range, speed, rate of turn and energy")
+      ->option_text("FILE.toml");
+  command->add_flag("--list-limits", options->list_limits, "prints a file of limits with the defaults");
+  command->add_option("--mission-out", options->mission, "the mission, for navcal simulate, emulate and pilot")
+      ->option_text("FILE.toml");
+  command->add_flag("--overwrite", options->overwrite, "replaces a mission file that is there already");
+  command->add_option("--json", options->json, "the plan as one JSON object; - is standard output, without text")
+      ->option_text("FILE|-");
+  command->add_option("--report", options->report, "page with pictures; needs no other file")
+      ->option_text("FILE.html");
+  command->footer(
+      "The exit status is 0 also when no mission within the limits would decide.\n\n"
+      "Example: navcal gap next a.cap --holdout b.cap --minutes 8 --mission-out next.toml --report next.html");
+  command->callback([options] {
+    if (options->list_limits) {
+      std::fputs(config::mission_limits_file({}).c_str(), stdout);
+      return;
+    }
+    if (options->asked.source.missions.empty()) throw CLI::RequiredError("FILE");
+    if (options->mission.empty()) throw CLI::RequiredError("--mission-out");
+    plan_next(*options);
+  });
+}
+
+}  // namespace navcal::cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "gap/inference/effect_subset.h"
+#include "gap/inference/library.h"
+#include "gap/inference/spike_and_slab.h"
+
+namespace navcal::gap {
+
+/// Information of the recordings so far about all unknowns: r = X theta + e, summed over recordings.
+struct Information {
+  Eigen::MatrixXd gram;   ///< X^T X
+  Eigen::VectorXd score;  ///< X^T r, with r referred to theta = 0
+};
+
+/// A set of effects that may be the cause, with what the recordings so far say of all unknowns if it is.
+/// theta ~ N(mean, spread spread^T). The biases of the gyros are new at each power-on: they keep their prior.
+struct Hypothesis {
+  EffectSubset effects;
+  double probability = 0;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd spread;
+};
+
+/// Posterior of the unknowns under a set. The scatter that a longer mission does not reduce (Priors::model_error)
+/// is added to its variances.
+[[nodiscard]] Hypothesis make_hypothesis(const EffectSubset& effects, double probability,
+                                         const Information& so_far, const Library& library, const Priors& priors);
+
+/// Expected log Bayes factor, nats, for `truth` over `rival` from a mission with this Gram matrix of its design,
+/// if `truth` holds: the Kullback-Leibler divergence of the two predictive distributions of whitened residuals,
+///   N(X m, 1 + X V X^T)  with mean m and covariance V of each hypothesis
+/// (Chaloner and Verdinelli 1995, expected information). Never negative.
+[[nodiscard]] double expected_separation_nats(const Hypothesis& truth, const Hypothesis& rival,
+                                              const Eigen::MatrixXd& gram);
+
+/// Log Bayes factor, nats, for one hypothesis over another by a recording: the quantity whose expectation is
+/// expected_separation_nats(). `gram`, `score`: X^T X and X^T r of the recording's design, r referred to theta =
+/// 0.
+[[nodiscard]] double observed_separation_nats(const Hypothesis& one, const Hypothesis& other,
+                                              const Eigen::MatrixXd& gram, const Eigen::VectorXd& score);
+
+/// Upper bound of the probability that the most probable hypothesis is not the true one after the mission: the sum
+/// of sqrt(p_a p_b) exp(-B_ab) over all pairs (Bhattacharyya; here B = smaller divergence / 4), its logarithm.
+[[nodiscard]] double log_error_bound(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram);
+
+/// Probability that the mission leads to the true set and to no other: the share of simulated outcomes in which
+/// the true hypothesis has at least `named_from` of the posterior probability. Draws have a fixed seed.
+[[nodiscard]] double probability_exact(std::span<const Hypothesis> hypotheses, const Eigen::MatrixXd& gram,
+                                       double named_from);
+
+/// Smallest strength of each unknown, in typical values, that stands out by `nats` against all other effects of
+/// `library` within tolerance; infinite where the missions do not show it. `gram`: of all missions together.
+[[nodiscard]] Eigen::VectorXd smallest_strengths(const Eigen::MatrixXd& gram, const Library& library,
+                                                 const Priors& priors, double nats);
+
+}  // namespace navcal::gap

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gap/design/next_mission.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/parallel.h"
+#include "gap/design/planner.h"
+#include "gap/design/question.h"
+#include "gap/thresholds.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Probability from which a set counts as still probable.
+constexpr double kProbableFrom = 0.02;
+
+std::vector<std::string> names_of(const EffectSubset& effects, const Library& library) {
+  std::vector<std::string> names;
+  for (const std::size_t effect : effects) names.emplace_back(library[effect].name);
+  return names;
+}
+
+std::string words_of(const std::vector<std::string>& effects) {
+  return effects.empty() ? "no effect" : fmt::format("{}", fmt::join(effects, " + "));
+}
+
+void write_pairs(const Question& question, const Contribution& planned, NextMission& next) {
+  const auto& sets = question.hypotheses;
+  for (const Hypothesis& set : sets) {
+    next.sets.push_back({names_of(set.effects, question.library), set.probability});
+    if (next.sets.size() == 1) next.probability_now = set.probability;
+  }
+  for (std::size_t a = 0; a < sets.size(); ++a) {
+    for (std::size_t b = a + 1; b < sets.size(); ++b) {
+      next.pairs.push_back({next.sets[a].effects, next.sets[b].effects,
+                            expected_separation_nats(sets[a], sets[b], planned.gram),
+                            expected_separation_nats(sets[b], sets[a], planned.gram)});
+    }
+  }
+  next.probability_exact = probability_exact(sets, planned.gram, 1 - kMostRivals);
+}
+
+std::optional<double> shown(double strength) {
+  constexpr double kLargestTold = 20;
+  return strength < kLargestTold ? std::optional(strength) : std::nullopt;
+}
+
+void write_strengths(const Question& question, const Contribution& planned, NextMission& next) {
+  const Library& library = question.library;
+  const Eigen::VectorXd before =
+      smallest_strengths(question.so_far.gram, library, question.priors, kObservable_nats);
+  const Eigen::VectorXd after = smallest_strengths(question.so_far.gram + without_biases(planned.gram), library,
+                                                   question.priors, kObservable_nats);
+  for (std::size_t effect = 0; effect < library.size(); ++effect) {
+    if (!library.holds(effect)) continue;
+    Eigen::Index weakest = library.first(effect);
+    for (Eigen::Index k = 1; k < library.count(effect); ++k) {
+      if (before[library.first(effect) + k] > before[weakest]) weakest = library.first(effect) + k;
+    }
+    next.strengths.push_back({std::string(library[effect].name),
+                              std::string(library.unknowns()[static_cast<std::size_t>(weakest)].name),
+                              shown(before[weakest]), shown(after[weakest])});
+  }
+  const auto value = [](const std::optional<double>& strength) { return strength.value_or(1e9); };
+  std::stable_sort(next.strengths.begin(), next.strengths.end(),
+                   [&](const auto& a, const auto& b) { return value(a.before) > value(b.before); });
+}
+
+std::string separating_sentence(const NextMission& next) {
+  const auto weakest =
+      std::min_element(next.pairs.begin(), next.pairs.end(), [](const PlannedPair& a, const PlannedPair& b) {
+        return std::min(a.separation_nats, a.reverse_nats) < std::min(b.separation_nats, b.reverse_nats);
+      });
+  const auto is_open = [](const PlannedSet& set) { return set.probability >= kProbableFrom; };
+  if (std::count_if(next.sets.begin(), next.sets.end(), is_open) < 2) {
+    return fmt::format(
+        "The recordings leave one set probable, {} ({:.2f}). This mission of {:.1f} minutes tests it "
+        "against the others: it stays the answer, if it is true, with probability {:.2f}.",
+        words_of(next.sets.front().effects), next.probability_now, next.minutes(), next.probability_exact);
+  }
+  std::string closest;
+  if (weakest != next.pairs.end()) {
+    closest = fmt::format(" Hardest to tell apart: {} and {}, {:.0f} nats.", words_of(weakest->a),
+                          words_of(weakest->b), std::min(weakest->separation_nats, weakest->reverse_nats));
+  }
+  if (next.decides) {
+    return fmt::format(
+        "This mission of {:.1f} minutes decides between {} sets of effects: the answer is exact with "
+        "probability {:.2f}.{}",
+        next.minutes(), next.sets.size(), next.probability_exact, closest);
+  }
+  return fmt::format(
+      "No mission found within the limits decides between the {} sets of effects. This one of {:.1f} "
+      "minutes separates them best: the answer is exact with probability {:.2f}.{}",
+      next.sets.size(), next.minutes(), next.probability_exact, closest);
+}
+
+std::string covering_sentence(const NextMission& next) {
+  if (next.newly_covered.empty()) {
+    return "A cause outside the library is likely, and the recordings have seen all regimes that the limits "
+           "allow: "
+           "no mission within them shows more.";
+  }
+  return fmt::format(
+      "A cause outside the library is likely. This mission of {:.1f} minutes visits {} regimes that no "
+      "recording has seen: {}{}.",
+      next.minutes(), next.newly_covered.size(),
+      fmt::join(next.newly_covered.begin(),
+                next.newly_covered.begin() +
+                    static_cast<std::ptrdiff_t>(std::min<std::size_t>(5, next.newly_covered.size())),
+                ", "),
+      next.newly_covered.size() > 5 ? " and others" : "");
+}
+
+std::string strength_text(const std::optional<double>& strength) {
+  return strength ? fmt::format("{:.2f}", *strength) : "not shown";
+}
+
+std::string sharpening_sentence(const NextMission& next) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, next.strengths.size()); ++i) {
+    const DetectableStrength& each = next.strengths[i];
+    parts.push_back(fmt::format("{} ({} of typical so far, {} with this mission)", each.effect,
+                                strength_text(each.before), strength_text(each.after)));
+  }
+  return fmt::format(
+      "No gap is known. This mission of {:.1f} minutes tests the effects that were tested least: {}.",
+      next.minutes(), fmt::join(parts, ", "));
+}
+
+void write_sentence(NextMission& next) {
+  switch (next.purpose) {
+    case MissionPurpose::separate:
+      next.sentence = separating_sentence(next);
+      return;
+    case MissionPurpose::cover:
+      next.sentence = covering_sentence(next);
+      return;
+    case MissionPurpose::sharpen:
+      next.sentence = sharpening_sentence(next);
+      return;
+  }
+}
+
+/// Whether each two sets that are still probable become distinguishable.
+bool probable_are_apart(const NextMission& next) {
+  const auto is_probable = [&](const std::vector<std::string>& effects) {
+    return std::any_of(next.sets.begin(), next.sets.end(), [&](const PlannedSet& set) {
+      return set.effects == effects && set.probability >= kProbableFrom;
+    });
+  };
+  return std::all_of(next.pairs.begin(), next.pairs.end(), [&](const PlannedPair& pair) {
+    return !is_probable(pair.a) || !is_probable(pair.b) ||
+           std::min(pair.separation_nats, pair.reverse_nats) >= kObservable_nats;
+  });
+}
+
+/// Whether the vehicle of each set, too, stays within the limits.
+void check_paths(const Question& question, const Study& study, NextMission& next) {
+  for (const Hypothesis& set : question.hypotheses) {
+    if (set.effects.empty()) continue;
+    Eigen::VectorXd members = Eigen::VectorXd::Zero(set.mean.size());
+    for (const Eigen::Index j : parameter_indices(question.library, set.effects)) members[j] = set.mean[j];
+    const std::string name = words_of(names_of(set.effects, question.library));
+    try {
+      const PlannedPath path = planned_path(study.request.vehicle, next.mission,
+                                            question.library.model(members).effects, next.limits.duration_s + 60);
+      for (const std::string& text : violations(extremes_of(path, next.limits), next.limits)) {
+        next.remarks.push_back(fmt::format("a vehicle with {} would exceed a limit: {}", name, text));
+      }
+    } catch (const sim::UnstableVehicle&) {
+      next.remarks.push_back(fmt::format("a vehicle with {} could not swim this mission", name));
+    }
+  }
+}
+
+std::string description_of(const NextMission& next) {
+  switch (next.purpose) {
+    case MissionPurpose::separate:
+      return "Planned by navcal gap next to tell probable causes apart.";
+    case MissionPurpose::cover:
+      return "Planned by navcal gap next to visit regimes that no recording has seen.";
+    case MissionPurpose::sharpen:
+      break;
+  }
+  return "Planned by navcal gap next to test the effects that were tested least.";
+}
+
+}  // namespace
+
+std::string_view name_of(MissionPurpose purpose) {
+  switch (purpose) {
+    case MissionPurpose::separate:
+      return "separate";
+    case MissionPurpose::cover:
+      return "cover";
+    case MissionPurpose::sharpen:
+      break;
+  }
+  return "sharpen";
+}
+
+NextMission plan_next_mission(const Study& study, const config::MissionLimits& limits, const Progress& progress) {
+  if (!study.prepared || !study.found) {
+    throw std::invalid_argument(study.diagnosis.remarks.empty() ? "the recording cannot be diagnosed"
+                                                                : study.diagnosis.remarks.back());
+  }
+  const auto began = std::chrono::steady_clock::now();
+  const unsigned threads = base::threads_or_cores(study.request.threads);
+  progress("weighing the sets", 0);
+  const Question question = question_of(study);
+  const RehearsalProblem problem{
+      study.request.vehicle,          study.library,
+      study.prepared->bank.whitening, {study.prepared->mission.instruments, study.prepared->mission.field},
+      question.curved_estimates(),    threads};
+  Planner planner(question, problem, limits, progress);
+  RehearsedPlan best = planner.plan();
+  NextMission next;
+  next.purpose = question.purpose;
+  next.limits = limits;
+  next.mission = std::move(best.plan.composed.mission);
+  next.mission.description = description_of(next);
+  next.path = std::move(best.plan.path);
+  next.extremes = extremes_of(next.path, limits);
+  const auto segments = alphabet(regime_of(study.request.vehicle, limits));
+  for (const PlacedSegment& each : best.plan.placed) next.manoeuvres.emplace_back(segments[each.segment].name);
+  write_pairs(question, best.all, next);
+  write_strengths(question, best.all, next);
+  next.newly_covered = newly_covered(question.so_far.coverage, question.so_far.coverage + best.all.coverage);
+  next.decides = next.purpose == MissionPurpose::separate && next.probability_exact >= 1 - kMostRivals &&
+                 probable_are_apart(next);
+  write_sentence(next);
+  check_paths(question, study, next);
+  next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return next;
+}
+
+}  // namespace navcal::gap

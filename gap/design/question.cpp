@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gap/design/question.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "gap/inference/subset_evidence.h"
+#include "gap/thresholds.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Most sets that a plan tells apart, and the probability from which a set counts.
+constexpr std::size_t kMostSets = 6;
+constexpr double kCountedFrom = 0.002;
+/// Probability of a set that must be considered although the recordings cannot show it.
+constexpr double kUnseenProbability = 0.05;
+/// Probability of no effect from which nothing is left to separate.
+constexpr double kNothingFrom = 0.95;
+/// Strength beyond which a further improvement counts no more, and that of an effect which is not shown.
+constexpr double kSharpEnough = 0.05, kNotShown = 10;
+/// Weight of coverage beside the error bound while sets are to be separated: it decides between equals only.
+constexpr double kLittleCoverage = 1e-3;
+/// Weight of the error bound beside coverage where a foreign cause is suspected, and the bound (some 40 nats
+/// between all pairs) beyond which it counts no more.
+constexpr double kSomeSeparation = 0.1, kApartLog = -10;
+
+Eigen::LLT<Eigen::MatrixXd> bias_factor_of(const Eigen::MatrixXd& gram) {
+  Eigen::MatrixXd own = gram.topLeftCorner<Library::kBiases, Library::kBiases>();
+  own.diagonal().array() += 1 / (kTurnOnBiasPrior_rad_s * kTurnOnBiasPrior_rad_s);
+  return own.llt();
+}
+
+Information information_of(const Study& study) {
+  const Linearised& linear = study.found->found.best.linear;
+  Information all{linear.gram, linear.score + linear.gram * linear.at};
+  const unsigned threads = base::threads_or_cores(study.request.threads);
+  for (const auto& other : study.holdouts) {
+    const Linearised further = linearise(other->model(study.library, threads), other->at);
+    all.gram += without_biases(further.gram);
+    const Eigen::VectorXd score = further.score + further.gram * further.at;
+    all.score += score - further.gram.leftCols<Library::kBiases>() *
+                             bias_factor_of(further.gram).solve(score.head<Library::kBiases>());
+  }
+  return all;
+}
+
+/// Priors with the usual tolerance for effects that the search took as nuisance parameters: another mission may
+/// show them.
+Priors priors_of(const Study& study) {
+  Priors priors = study.found->priors;
+  for (const EffectSubset* hidden : {&study.found->unobservable, &study.found->not_judged()}) {
+    for (const Eigen::Index j : parameter_indices(study.library, *hidden)) {
+      priors.slab[j] = study.library.unknowns()[static_cast<std::size_t>(j)].typical;
+      priors.spike[j] = std::max(kTolerance * priors.slab[j], priors.model_error[j]);
+    }
+  }
+  return priors;
+}
+
+struct WeighedSet {
+  EffectSubset effects;
+  double probability;
+};
+
+/// The sets that are still probable, and those of effects that the recordings could not show.
+std::vector<WeighedSet> sets_of(const Study& study) {
+  std::vector<WeighedSet> sets;
+  const auto add = [&](const EffectSubset& effects, double probability) {
+    const bool there =
+        std::any_of(sets.begin(), sets.end(), [&](const WeighedSet& set) { return set.effects == effects; });
+    if (!there && sets.size() < kMostSets) sets.push_back({effects, probability});
+  };
+  for (const Candidate& candidate : study.found->found.candidates) {
+    if (candidate.probability >= kCountedFrom) add(candidate.effects, candidate.probability);
+  }
+  for (const std::size_t hidden : study.found->unobservable) add({hidden}, kUnseenProbability);
+  const auto none = std::find_if(sets.begin(), sets.end(), [](const auto& set) { return set.effects.empty(); });
+  if (none == sets.end()) sets.push_back({{}, 1e-6});
+  double total = 0;
+  for (const WeighedSet& set : sets) total += set.probability;
+  for (WeighedSet& set : sets) set.probability /= total;
+  return sets;
+}
+
+MissionPurpose purpose_of(const Study& study) {
+  if (study.diagnosis.verdict == Verdict::no_gap) {
+    // An effect may be probable, and too small to be named.
+    const Candidate& leader = study.found->found.candidates.front();
+    const bool shows_nothing = leader.effects.empty() && leader.probability > kNothingFrom;
+    return shows_nothing ? MissionPurpose::sharpen : MissionPurpose::separate;
+  }
+  if (study.diagnosis.verdict == Verdict::explained) return MissionPurpose::separate;
+  const auto& found = study.found->found;
+  double leading = 0, rivals = 0;
+  for (const Candidate& candidate : found.candidates) {
+    if (candidate.effects == found.best.effects) {
+      leading = candidate.probability;
+    } else if (!candidate.effects.empty()) {
+      rivals += candidate.probability;
+    }
+  }
+  const bool is_clear = leading >= kNamedFrom && rivals <= kMostRivals;
+  // An effect that the recordings hardly show is no sign of a foreign cause: a mission that shows it is wanted.
+  const bool is_shown = unobservable_effects(found).empty();
+  return is_clear && is_shown ? MissionPurpose::cover : MissionPurpose::separate;
+}
+
+}  // namespace
+
+Eigen::MatrixXd without_biases(const Eigen::MatrixXd& gram) {
+  return gram - gram.leftCols<Library::kBiases>() * bias_factor_of(gram).solve(gram.topRows<Library::kBiases>());
+}
+
+double Question::loss(const Contribution& planned) const {
+  switch (purpose) {
+    case MissionPurpose::separate:
+      return log_error_bound(hypotheses, planned.gram) +
+             kLittleCoverage * coverage_loss(so_far.coverage + planned.coverage);
+    case MissionPurpose::cover:
+      return coverage_loss(so_far.coverage + planned.coverage) +
+             kSomeSeparation * std::max(kApartLog, log_error_bound(hypotheses, planned.gram));
+    case MissionPurpose::sharpen:
+      break;
+  }
+  const Eigen::VectorXd strengths =
+      smallest_strengths(so_far.gram + without_biases(planned.gram), library, priors, kObservable_nats);
+  double sum = 0;
+  for (const Eigen::Index j : library.moving()) {
+    if (j >= Library::kBiases) sum += std::log(std::clamp(strengths[j], kSharpEnough, kNotShown));
+  }
+  return sum;
+}
+
+Eigen::VectorXd Question::curved_estimates() const {
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(library.unknowns().size()));
+  // The most probable set that has an effect comes first.
+  for (const Hypothesis& set : hypotheses) {
+    for (const std::size_t effect : set.effects) {
+      if (!library.is_curved(effect)) continue;
+      for (const Eigen::Index j : parameter_indices(library, {effect})) {
+        if (at[j] == 0) at[j] = set.mean[j];
+      }
+    }
+  }
+  return at;
+}
+
+Question question_of(const Study& study) {
+  const Library& library = study.library;
+  const Information so_far = information_of(study);
+  Question question{purpose_of(study), {}, {}, library, priors_of(study)};
+  question.so_far.gram = so_far.gram;
+  question.so_far.coverage = coverage_of(study.prepared->course);
+  for (const auto& other : study.together) question.so_far.coverage += coverage_of(other->course);
+  for (const auto& other : study.holdouts) question.so_far.coverage += coverage_of(other->course);
+  for (const WeighedSet& set : sets_of(study)) {
+    question.hypotheses.push_back(make_hypothesis(set.effects, set.probability, so_far, library, question.priors));
+  }
+  return question;
+}
+
+}  // namespace navcal::gap
