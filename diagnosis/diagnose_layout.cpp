@@ -65,7 +65,7 @@ gap::EffectFinding finding_of(const Cause& cause, double probability, const Eige
   gap::EffectFinding finding{};
   finding.name = cause.name;
   finding.of = cause.of;
-  finding.probability = probability;
+  finding.probability = std::min(probability, 1.0);  // a sum of rounded shares
   finding.manoeuvre = cause.manoeuvre;
   for (const CauseParameter& parameter : cause.parameters) {
     finding.parameters.push_back(

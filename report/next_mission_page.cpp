@@ -33,9 +33,9 @@ Figure separation_figure(const gap::NextMission& next) {
   std::string html = "<div class=\"ranks\">\n";
   for (const auto& pair : next.pairs) {
     html += plan_bar_html(set_text(pair.a) + " or " + set_text(pair.b),
-                     std::min(pair.separation_nats, pair.reverse_nats), "nats",
-                     fmt::format("{:.0f} nats if {} is true, {:.0f} if {}", pair.separation_nats, set_text(pair.a),
-                                 pair.reverse_nats, set_text(pair.b)));
+                          std::min(pair.separation_nats, pair.reverse_nats), "nats",
+                          fmt::format("{:.0f} nats if {} is true, {:.0f} if {}", pair.separation_nats,
+                                      set_text(pair.a), pair.reverse_nats, set_text(pair.b)));
   }
   html += "</div>\n";
   return {"Expected separation", std::move(html),

@@ -345,9 +345,9 @@ std::unique_ptr<Study> study(const Request& request, const Progress& progress) {
       others.push_back(other.get());
       parts.push_back(joined(other->model(library, threads), other->at));
     }
-    result->found = diagnose_prepared(
-        {*result->prepared, library, result->request, progress, threads, others, parts}, result->holdouts, names,
-        answer);
+    result->found =
+        diagnose_prepared({*result->prepared, library, result->request, progress, threads, others, parts},
+                          result->holdouts, names, answer);
   } else {
     say_without_causes(request, progress, why_not, answer);
   }

@@ -59,6 +59,19 @@ void add_oddities(const std::string& actuator, const std::string& channel, const
                               actuator, channel, std::max({longest_s, late_s, early_s})));
 }
 
+/// Pulses that move a thruster in another unit: 1100, 1500 and 1900 us are its lower limit, neutral and upper
+/// limit.
+Signal commands_of(const Signal& pulses, const config::LayoutThruster& thruster) {
+  constexpr double kNeutral_us = 1500, kHalfRange_us = 400;
+  Signal commands = pulses;
+  commands.is_pulse = false;
+  for (double& value : commands.values) {
+    const double part = (value - kNeutral_us) / kHalfRange_us, neutral = thruster.neutral();
+    value = neutral + part * (part > 0 ? thruster.high - neutral : neutral - thruster.low);
+  }
+  return commands;
+}
+
 std::string_view unit_name(config::CommandUnit unit) {
   switch (unit) {
     case config::CommandUnit::rpm:
@@ -136,7 +149,7 @@ ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator,
     const auto found = motion_.signals.find(name);
     if (found == motion_.signals.end() || found->second.empty()) continue;
     const bool is_position = name == "rpm" || (name.starts_with("fin_") && motion_.fins_are_reported);
-    return {&found->second, is_position, name};
+    return {&found->second, is_position, name, nullptr};
   }
   std::string names, there;
   for (const std::string& name : wanted) names += (names.empty() ? "" : " or ") + name;
@@ -148,8 +161,15 @@ ActuatorInputs::Input ActuatorInputs::input_of(const std::string& actuator,
 }
 
 ActuatorInputs::ActuatorInputs(const config::Layout& layout, const RecordedMotion& motion) : motion_(motion) {
-  for (std::size_t i = 0; i < layout.thrusters.size(); ++i)
-    thrusters_.push_back(input_of("thruster " + layout.thrusters[i].name, signals_of_thruster(layout, i)));
+  for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
+    const config::LayoutThruster& thruster = layout.thrusters[i];
+    Input input = input_of("thruster " + thruster.name, signals_of_thruster(layout, i));
+    if (input.signal != nullptr && input.signal->is_pulse && thruster.unit != config::CommandUnit::microseconds) {
+      input.converted = std::make_shared<const Signal>(commands_of(*input.signal, thruster));
+      input.signal = input.converted.get();
+    }
+    thrusters_.push_back(std::move(input));
+  }
   for (std::size_t i = 0; i < layout.surfaces.size(); ++i)
     surfaces_.push_back(input_of("surface " + layout.surfaces[i].name, signals_of_surface(layout, i)));
   const auto of_channel = [](const std::string& channel) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,10 @@ class ActuatorTrajectory {
 /// Which recorded signal moves which actuator of a layout, and where the actuators were.
 ///
 /// A thruster in rpm follows "rpm" of the motor card, which is its position; without it "rpm_commanded", which is
-/// a command that its lag follows. The k-th thruster in us or percent follows the quantity "output<k>", a command.
-/// The k-th movable surface follows "fin_<k>": a position where a motor card reported it, else a command. The key
-/// `channel` of the layout names another signal, which is a command. Ballasts and moving masses without `channel`
-/// stay neutral.
+/// a command that its lag follows. The k-th thruster in us or percent follows the quantity "output<k>", a command;
+/// pulses of a thruster in percent or rpm (`channel`) are converted. The k-th movable surface follows "fin_<k>": a
+/// position where a motor card reported it, else a command. The key `channel` of the layout names another signal,
+/// which is a command. Ballasts and moving masses without `channel` stay neutral.
 class ActuatorInputs {
  public:
   /// `motion` must outlive it.
@@ -62,6 +63,7 @@ class ActuatorInputs {
     const Signal* signal = nullptr;  ///< nullptr: neutral
     bool is_position = false;
     std::string name;
+    std::shared_ptr<const Signal> converted;  ///< of pulses, in the unit of the thruster
   };
   [[nodiscard]] Input input_of(const std::string& actuator, const std::vector<std::string>& wanted);
 

@@ -81,7 +81,11 @@ class MotionGatherer final : public pipeline::Sink {
   void add(const instruments::MotorSample& sample);
   void add(const instruments::DvlSample& sample);
   void add(const instruments::DepthSample& sample);
-  void add(const instruments::ScalarSample& sample) { signal(std::string(sample.quantity.view()), sample.value); }
+  void add(const instruments::ScalarSample& sample) {
+    const std::string name(sample.quantity.view());
+    signal(name, sample.value);
+    if (sample.unit.view() == "us") pulses_.insert(name);
+  }
 
   [[nodiscard]] const config::PortSettings& port() const { return settings_.ports[port_]; }
 
@@ -89,6 +93,7 @@ class MotionGatherer final : public pipeline::Sink {
   const devices::InstrumentModel& model_;
   std::vector<std::array<Source, kChannels>> sources_;
   std::map<std::string, std::pair<std::vector<std::int64_t>, std::vector<double>>> signals_;
+  std::set<std::string> pulses_;  ///< signals in us
   std::size_t port_ = 0;
   std::int64_t time_ns_ = 0;
   std::optional<base::LocalPlane> plane_;
@@ -224,6 +229,7 @@ RecordedMotion MotionGatherer::take(std::int64_t begin_ns) {
     std::stable_sort(order.begin(), order.end(),
                      [&times = signal.first](std::size_t a, std::size_t b) { return times[a] < times[b]; });
     Signal& out = motion.signals[name];
+    out.is_pulse = pulses_.contains(name);
     for (const std::size_t i : order) {
       out.times_s.push_back(static_cast<double>(signal.first[i] - begin_ns) * 1e-9);
       out.values.push_back(signal.second[i]);

@@ -24,6 +24,7 @@ struct Reading {
 /// One number that moves an actuator, as it was recorded: held from one time to the next.
 struct Signal {
   std::vector<double> times_s, values;  ///< in order of time
+  bool is_pulse = false;                ///< widths of pulses, us
 
   [[nodiscard]] bool empty() const { return times_s.empty(); }
 };
