@@ -52,7 +52,7 @@ TEST(GapPage, WhatWasNotDoneHasNoFigures) {
 
 TEST(GapPage, AFilesNameIsOnlyAName) {
   const std::string name = "<script>alert(1)</script>&\"'\xff.cap";
-  const std::string page = report::gap_page(test::explained_gap(), {name, {name}, name, {name}, name});
+  const std::string page = report::gap_page(test::explained_gap(), {{name}, {name}, name, {name}, name});
   EXPECT_EQ(flaw_in(page), "");
   EXPECT_EQ(page.find("<script"), std::string::npos);
 }

@@ -87,7 +87,7 @@ TEST(GapText, SaysAllThatAPersonNeeds) {
 }
 
 TEST(GapText, AnUnknownGapNamesNoCause) {
-  const std::string text = report::gap_text(test::unknown_gap(), {"a.cap", {}, "", {}, ""});
+  const std::string text = report::gap_text(test::unknown_gap(), {{"a.cap"}, {}, "", {}, ""});
   expect_narrow(text);
   EXPECT_EQ(text.find("unknown"), 0U);
   EXPECT_FALSE(says(text, "causes"));
@@ -155,7 +155,7 @@ TEST(GapText, ACommandCanBePasted) {
 TEST(GapText, AnAnswerWithoutHoldOutsIsCalledWeaker) {
   auto diagnosis = test::explained_gap();
   diagnosis.gap.held_out = false;
-  EXPECT_TRUE(says(report::gap_text(diagnosis, {"a.cap", {}, "", {}, ""}), "blocks of the same recording"));
+  EXPECT_TRUE(says(report::gap_text(diagnosis, {{"a.cap"}, {}, "", {}, ""}), "blocks of the same recording"));
 }
 
 TEST(GapWords, SharesAndChancesAreRoundedTowardsDoubt) {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "identify/data/actuator_inputs.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "config/layout/layout_file.h"
+#include "sim/layout/actuators.h"
+
+namespace navcal::identify {
+namespace {
+
+/// Commands of the shipped micro AUV, whose thrusters are in percent, as `value` of each of its outputs.
+RecordedMotion commanded(double first, double second, bool as_pulses) {
+  RecordedMotion motion;
+  motion.duration_s = 4;
+  for (int output = 1; output <= 4; ++output) {
+    Signal& signal = motion.signals["output" + std::to_string(output)];
+    signal.times_s = {0, 2};
+    signal.values = {first, second};
+    signal.is_pulse = as_pulses;
+  }
+  return motion;
+}
+
+TEST(ActuatorInputs, TakesPulsesForThrustersInPercent) {
+  const config::Layout layout = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/micro-auv.toml");
+  ASSERT_EQ(layout.thrusters.front().unit, config::CommandUnit::percent);
+  const RecordedMotion in_percent = commanded(50, -25, false), in_pulses = commanded(1700, 1400, true);
+  const ActuatorInputs percent(layout, in_percent), pulses(layout, in_pulses);
+  EXPECT_TRUE(pulses.missing().empty());
+  EXPECT_TRUE(pulses.oddities(layout).empty()) << pulses.oddities(layout).front();
+  const ActuatorTrajectory wanted = percent.trajectory(layout), found = pulses.trajectory(layout);
+  for (const double time_s : {0.5, 1.9, 2.2, 3.8}) {
+    sim::ActuatorValues one = sim::ActuatorValues::neutral(layout), other = one;
+    wanted.at(time_s, one);
+    found.at(time_s, other);
+    for (std::size_t i = 0; i < layout.thrusters.size(); ++i) {
+      EXPECT_NEAR(other.thrusters[i], one.thrusters[i], 1e-9) << time_s;
+      EXPECT_NE(one.thrusters[i], 0) << time_s;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace navcal::identify
