@@ -72,6 +72,10 @@ void add_fleet_trial(CLI::App& parent) {
   auto* trial =
       parent.add_subcommand("trial", "a fleet with sealed causes from the reference simulator, and its score");
   trial->require_subcommand(1);
+  trial->footer(
+      "Example:\n"
+      "  navcal fleet trial record -o recordings/ --truth truth.json\n"
+      "  navcal fleet trial score answer.json --truth truth.json");
   const auto arguments = std::make_shared<FleetTrialArguments>();
   validation::FleetTrialOptions& options = arguments->options;
 
