@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "analysis/failure.h"
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"

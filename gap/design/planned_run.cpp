@@ -11,6 +11,7 @@
 #include "base/angles.h"
 #include "base/durations.h"
 #include "gap/actuators/commanded_motor.h"
+#include "gap/data/innovations.h"
 #include "sim/motion_in_field.h"
 #include "sim/recording.h"
 #include "sim/vehicle/mission_helm.h"

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <utility>
 
 #include "gap/inference/evidence.h"
 #include "gap/thresholds.h"
@@ -134,11 +135,11 @@ void search_apart(const DiagnosisProblem& problem, Diagnosis& answer) {
     const FoundEffects alone =
         find_effects({one, problem.library, problem.request, problem.progress, problem.threads});
     RecordingFinding& finding = answer.recordings[k];
-    finding.alone.emplace();
     const Candidate& best = alone.found.candidates.front();
-    finding.alone->probability = best.probability;
-    for (const std::size_t effect : best.effects)
-      finding.alone->effects.emplace_back(problem.library[effect].name);
+    RecordingFinding::Alone shown;
+    shown.probability = best.probability;
+    for (const std::size_t effect : best.effects) shown.effects.emplace_back(problem.library[effect].name);
+    finding.alone = std::move(shown);
     answer.remarks.push_back(fmt::format("{} alone: {} (probability {:.2f})", finding.recording,
                                          finding.alone->effects.empty()
                                              ? "no effect"
