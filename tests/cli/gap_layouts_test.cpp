@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // navcal gap layouts: what it records, the programs of the same build read without a bad byte.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/cli/program_in_folder.h"
 
 namespace navcal::cli {
 namespace {
 
-class GapLayouts : public testing::Test {
+class GapLayouts : public test::ProgramInFolder {
  protected:
-  int run_navcal(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments + " > out 2> err < /dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string said(const std::string& file) const { return navcal::test::read_file(folder_ / file); }
-  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
-
   static constexpr const char* kRecord = "gap layouts record --layout '" NAVCAL_SOURCE_DIR
                                          "/share/vehicles/bluerov2.toml' --vehicles 1 --nominal 1 "
                                          "--cases 2 --minutes 0.75 --seed 11 -o recordings --truth truth.jsonl";
-  navcal::test::TemporaryFolder folder_;
 };
 
 TEST_F(GapLayouts, RecordingsAreDecodedWithoutABadByteAndScored) {

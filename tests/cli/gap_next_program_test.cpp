@@ -1,34 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // navcal gap next as a user runs it: what it writes, the simulator sails.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/cli/program_in_folder.h"
 
 namespace navcal::cli {
 namespace {
 
-class GapNextProgram : public testing::Test {
- protected:
-  int run_navcal(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments + " > out 2> err < /dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string said(const std::string& file) const { return navcal::test::read_file(folder_ / file); }
-  navcal::test::TemporaryFolder folder_;
-};
+class GapNextProgram : public test::ProgramInFolder {};
 
 TEST_F(GapNextProgram, PlansAMissionThatTheSimulatorSails) {
   std::ofstream(folder_ / "limits.toml") << "[limits]\nminutes = 1.5\nmax_depth_m = 2\nenergy_Wh = 5\n";
-  ASSERT_EQ(run_navcal("simulate --mission survey --seconds 80 --effect yaw_damping=0.3 --seed 3 -o a.cap"), 0) << said("err");
+  ASSERT_EQ(run_navcal("simulate --mission survey --seconds 80 --effect yaw_damping=0.3 --seed 3 -o a.cap"), 0)
+      << said("err");
   const std::string next = "gap next a.cap --bank 12 --cache banks --limits limits.toml --mission-out next.toml ";
   ASSERT_EQ(run_navcal(next + "--json next.json --report next.html"), 0) << said("err");
   const auto plan = nlohmann::json::parse(said("next.json"));

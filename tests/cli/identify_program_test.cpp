@@ -2,30 +2,20 @@
 // navcal identify on a capture of navcal simulate, which is a simulator of its own (sim::Vehicle and the emulated
 // instruments).
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "config/layout/layout_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/cli/program_in_folder.h"
 
 namespace navcal::cli {
 namespace {
 
-class IdentifyProgram : public testing::Test {
+class IdentifyProgram : public test::ProgramInFolder {
  protected:
-  int run_navcal(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments + " > out 2> err < /dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string said(const std::string& file) const { return navcal::test::read_file(folder_ / file); }
-
   /// The reference vehicle with drag, thrust and one mass that are wrong and uncertain.
   void write_prior() {
     config::Layout prior = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/reference.toml");
@@ -37,8 +27,6 @@ class IdentifyProgram : public testing::Test {
                            {"added_mass.matrix", {}, {}, {0.03, 0, 0, 0, 0, 0}}};
     std::ofstream(folder_ / "prior.toml") << config::layout_file(prior);
   }
-
-  navcal::test::TemporaryFolder folder_;
 };
 
 TEST_F(IdentifyProgram, FindsTheNumbersOfTheSimulatedVehicle) {

@@ -1,35 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // navcal simulate with a layout, given to the program as people give it: recording, decoding, log and export.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/cli/program_in_folder.h"
 
 namespace navcal::cli {
 namespace {
 
 constexpr const char* kVehicles = NAVCAL_SOURCE_DIR "/share/vehicles/";
 
-class SimulateLayout : public testing::Test {
+class SimulateLayout : public test::ProgramInFolder {
  protected:
-  int run_navcal(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments + " > out 2> err < /dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
   int simulate(const std::string& layout, const std::string& more) {
     return run_navcal("simulate --vehicle '" + layout + "' -o run.cap " + more);
   }
-  [[nodiscard]] std::string said(const std::string& file) const { return navcal::test::read_file(folder_ / file); }
-  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
-
-  navcal::test::TemporaryFolder folder_;
 };
 
 TEST_F(SimulateLayout, RecordsTheOutputsOfAnRov) {
