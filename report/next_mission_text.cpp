@@ -71,7 +71,6 @@ std::string next_mission_text(const gap::NextMission& next, const NextMissionSou
   constexpr std::size_t kMostLines = 8;
   std::string out;
   append_wrapped(out, 0, words_of(next.sentence), " ");
-  out += '\n';
   const auto at = std::back_inserter(out);
   if (next.purpose != gap::MissionPurpose::sharpen && !next.pairs.empty()) {
     out += "\nexpected evidence, nats (for the first if it is true, for the second if that is)\n";
@@ -92,10 +91,10 @@ std::string next_mission_text(const gap::NextMission& next, const NextMissionSou
   for (const auto& remark : next.remarks) {
     out += "remark     ";
     append_wrapped(out, 11, words_of(remark), " ");
-    out += '\n';
   }
   fmt::format_to(at, "\nmission    {} ({:.1f} min, {} manoeuvres)\n", source.mission, next.minutes(),
                  next.manoeuvres.size());
+  for (const std::string& manoeuvre : next.manoeuvres) fmt::format_to(at, "           {}\n", manoeuvre);
   const auto& most = next.extremes;
   fmt::format_to(at, "within     depth {:.2f} m, {:.0f} m away, {:.2f} m/s, {:.0f} deg/s, {:.1f} Wh\n",
                  most.greatest_depth_m, most.range_m, most.speed_m_s, most.turn_rad_s * base::kDegreesPerRadian,

@@ -162,8 +162,14 @@ bool probable_are_apart(const NextMission& next) {
   });
 }
 
+/// Share by which another vehicle may take longer than the limit before it is said.
+constexpr double kDurationLeeway = 1.05;
+
 /// Whether the vehicle of each set, too, stays within the limits.
 void check_paths(const Question& question, const Study& study, NextMission& next) {
+  // Seconds more or less depend on the vehicle, and hurt nobody.
+  config::MissionLimits with_leeway = next.limits;
+  with_leeway.duration_s *= kDurationLeeway;
   for (const Hypothesis& set : question.hypotheses) {
     if (set.effects.empty()) continue;
     Eigen::VectorXd members = Eigen::VectorXd::Zero(set.mean.size());
@@ -172,7 +178,7 @@ void check_paths(const Question& question, const Study& study, NextMission& next
     try {
       const PlannedPath path = planned_path(study.request.vehicle, next.mission,
                                             question.library.model(members).effects, next.limits.duration_s + 60);
-      for (const std::string& text : violations(extremes_of(path, next.limits), next.limits)) {
+      for (const std::string& text : violations(extremes_of(path, next.limits), with_leeway)) {
         next.remarks.push_back(fmt::format("a vehicle with {} would exceed a limit: {}", name, text));
       }
     } catch (const sim::UnstableVehicle&) {
