@@ -9,6 +9,7 @@
 #include "fleet/causes/answer_report.h"
 #include "fleet/causes/limits.h"
 #include "report/html_page.h"
+#include "report/svg_matrix.h"
 #include "report/svg_plot.h"
 
 namespace navcal::fleet {
@@ -19,6 +20,8 @@ using FleetRow = std::vector<std::string>;
 
 /// Most rows of a table and most histories with a picture: a page with more hardly scrolls. The JSON has all.
 constexpr std::size_t kMostMissions = 1000, kMostHistories = 24;
+/// Most days of the picture.
+constexpr std::size_t kMostDays = 40;
 /// Power above its floor, in the scatter of the floor, from which a mission is drawn as one with a gap.
 constexpr double kLoud_sigma = kFleetGap_sigma;
 
@@ -27,9 +30,8 @@ std::vector<FleetRow> rows_of(const std::vector<FoundCause>& causes, const Poole
   for (const FoundCause& cause : causes) {
     std::string others;
     for (const Alternative& other : cause.alternatives) {
-      others += fmt::format("{}{} of {} {} ({:.0f} %)", others.empty() ? "" : "; ",
-                            missions.effects()[other.cause.effect].name, name_of(other.cause.level),
-                            other.cause.of, 100 * other.probability);
+      others += fmt::format("{}{} ({:.0f} %)", others.empty() ? "" : "; ", text_of(other.cause, missions),
+                            100 * other.probability);
     }
     rows.push_back({std::string(name_of(cause.acting.cause.level)), text_of(cause, missions),
                     fmt::format("{:.2f}", strength_of(cause)), others});
@@ -86,28 +88,39 @@ class FleetPage {
     }
   }
 
-  /// A line for each vehicle, a dot for each mission: whether it has a gap, and whether the causes close it.
+  /// A row for each vehicle, a cell for each day: by how much its residuals exceed the floor, and whether the
+  /// causes close that.
   [[nodiscard]] report::Figure vehicles_by_time() const {
-    const auto& vehicles = missions_.vehicles();
-    report::SvgPlot::Axis y{"vehicle", {-0.7, static_cast<double>(vehicles.size()) - 0.3}, 0, {}};
-    std::vector<report::Point> quiet, closed, open;
-    for (std::size_t v = 0; v < vehicles.size(); ++v) {
-      const double row = static_cast<double>(vehicles.size() - 1 - v);
-      y.ticks.push_back({row, vehicles[v].name.substr(0, 8)});
-      for (const std::size_t m : vehicles[v].missions) {
-        const MissionGap& gap = story_.answer.missions[m];
-        const report::Point at{day(missions_.missions()[m].utc_ns), row};
-        const auto is_loud = [&](double power) { return power > gap.floor + kLoud_sigma * gap.floor_std; };
-        (is_loud(gap.after) ? open : is_loud(gap.before) ? closed : quiet).push_back(at);
-      }
+    std::vector<std::string> days;
+    for (const FleetMission& mission : missions_.missions()) {
+      if (std::find(days.begin(), days.end(), mission.day) == days.end()) days.push_back(mission.day);
     }
-    report::SvgPlot plot("Missions", {"days since the first mission", {-0.02 * last_day_, 1.02 * last_day_}}, y,
-                         {1100, std::max(200.0, 26.0 * static_cast<double>(vehicles.size()) + 80)});
-    plot.points(FleetInk::after, "no gap", quiet);
-    plot.points(FleetInk::second, "gap that the causes close", closed);
-    plot.points(FleetInk::before, "gap that is left", open);
-    return {"Vehicles by time", plot.svg(),
-            "A dot is a mission. Its gap is judged against simulated missions without a gap."};
+    const std::size_t from = days.size() > kMostDays ? days.size() - kMostDays : 0;
+    days.erase(days.begin(), days.begin() + static_cast<std::ptrdiff_t>(from));
+    report::SvgMatrix matrix;
+    matrix.columns = days;
+    for (const MissionGroup& vehicle : missions_.vehicles()) {
+      matrix.rows.push_back(vehicle.name);
+      std::vector<int> excess(days.size(), 0);
+      std::vector<bool> closed(days.size(), true);
+      for (const std::size_t m : vehicle.missions) {
+        const auto day = std::find(days.begin(), days.end(), missions_.missions()[m].day);
+        if (day == days.end()) continue;
+        const auto column = static_cast<std::size_t>(day - days.begin());
+        const MissionGap& gap = story_.answer.missions[m];
+        const double scatter = std::max(gap.floor_std, 1e-9);
+        excess[column] =
+            std::max(excess[column], static_cast<int>(std::max(0.0, (gap.before - gap.floor) / scatter)));
+        if (gap.after > gap.floor + kLoud_sigma * scatter) closed[column] = false;
+      }
+      matrix.counts.push_back(std::move(excess));
+      matrix.agreeing.push_back(std::move(closed));
+    }
+    return {
+        "Vehicles by time", matrix.svg("Excess over the floor"),
+        fmt::format("By how many standard deviations of missions without a gap the residuals of the nominal model "
+                    "exceed their mean. Blue: the causes close it; orange: it is left.{}",
+                    from > 0 ? fmt::format(" The last {} days.", kMostDays) : "")};
   }
 
   [[nodiscard]] report::Figure closure_by_vehicle() const {

@@ -23,6 +23,9 @@ struct FleetStory {
 [[nodiscard]] std::string fleet_json(const FleetStory& story);
 [[nodiscard]] std::string fleet_page(const FleetStory& story);
 
+/// "fin_gain of vehicle auv-3 since 2026-06-04 (a.cap)".
+[[nodiscard]] std::string text_of(const PossibleCause& cause, const PooledMissions& missions);
+
 /// "fin_gain 0.21 +- 0.02 of auv-3 since 2026-06-04 (v3-05.mcap), probability 0.98".
 [[nodiscard]] std::string text_of(const FoundCause& cause, const PooledMissions& missions);
 

@@ -36,11 +36,6 @@ std::string owner_text(const PossibleCause& cause) {
   return "";
 }
 
-std::string heading_of(const PossibleCause& cause, const PooledMissions& missions) {
-  return fmt::format("{} of {}{}", missions.effects()[cause.effect].name, owner_text(cause),
-                     time_text(cause, missions));
-}
-
 void append_causes(const char* title, const std::vector<FoundCause>& causes, const PooledMissions& missions,
                    std::string& text) {
   if (causes.empty()) return;
@@ -49,7 +44,7 @@ void append_causes(const char* title, const std::vector<FoundCause>& causes, con
     text += "  " + text_of(cause, missions) + "\n";
     for (const Alternative& other : cause.alternatives) {
       text += fmt::format("      or, with probability {:.2f}: {}\n", other.probability,
-                          heading_of(other.cause, missions));
+                          text_of(other.cause, missions));
     }
   }
 }
@@ -89,6 +84,11 @@ void append_calibrations(const std::vector<CalibrationHistory>& histories, std::
 
 }  // namespace
 
+std::string text_of(const PossibleCause& cause, const PooledMissions& missions) {
+  return fmt::format("{} of {}{}", missions.effects()[cause.effect].name, owner_text(cause),
+                     time_text(cause, missions));
+}
+
 std::string text_of(const FoundCause& cause, const PooledMissions& missions) {
   const PossibleCause& of = cause.acting.cause;
   const EffectColumns& effect = missions.effects()[of.effect];
@@ -99,8 +99,7 @@ std::string text_of(const FoundCause& cause, const PooledMissions& missions) {
     values += fmt::format("{}{} {:.3g} +- {:.2g}", j > 0 ? ", " : "", name.parameter, cause.mean[j] * name.typical,
                           cause.std[j] * name.typical);
   }
-  std::string text =
-      fmt::format("{}: {}; probability {:.3f}", heading_of(of, missions), values, cause.probability);
+  std::string text = fmt::format("{}: {}; probability {:.3f}", text_of(of, missions), values, cause.probability);
   if (of.since || of.until) text += fmt::format(", of these missions {:.2f}", cause.probability_of_time);
   return text;
 }
