@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -20,13 +18,6 @@
 
 namespace navcal::cli {
 namespace {
-
-std::string text_of_file(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw analysis::Failure(analysis::Exit::bad_input, file + ": it cannot be read");
-  return text;
-}
 
 struct FleetTrialArguments {
   validation::FleetTrialOptions options;
@@ -55,7 +46,7 @@ void record_fleet(const FleetTrialArguments& arguments) {
 void score_fleet(const FleetTrialArguments& arguments) {
   const auto named = [](const std::string& file, const auto& read) {
     try {
-      return read(text_of_file(file));
+      return read(read_file(file));
     } catch (const std::runtime_error& error) {
       throw analysis::Failure(analysis::Exit::bad_input, file + ": " + error.what());
     }

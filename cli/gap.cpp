@@ -4,8 +4,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,6 +20,7 @@
 #include "cli/gap_next.h"
 #include "cli/gap_request.h"
 #include "cli/gap_trial.h"
+#include "cli/gap_watch.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -120,13 +119,7 @@ void write_answers(const gap::Diagnosis& diagnosis, const GapCommandOptions& opt
   write_to_output(report::gap_text(diagnosis, source));
 }
 
-gap::Diagnosis saved_diagnosis(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::system_error(errno, std::system_category(), file);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw std::system_error(errno, std::system_category(), file);
-  return report::gap_from_json(text, file);
-}
+gap::Diagnosis saved_diagnosis(const std::string& file) { return report::gap_from_json(read_file(file), file); }
 
 /// Checks what can be checked before the work. Throws Failure.
 std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
@@ -210,6 +203,7 @@ void add_gap(CLI::App& app) {
   add_gap_layouts(*command);
   add_gap_next(*command);
   add_gap_trial(*command);
+  add_gap_watch(*command);
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;
     if (options->origin().empty()) throw CLI::RequiredError("FILE");

@@ -5,8 +5,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <system_error>
 
@@ -29,18 +27,11 @@ struct GapLayoutsRecordArguments {
   validation::LayoutRecordingsOptions options;
 };
 
-std::string whole_text(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw std::system_error(errno, std::generic_category(), file);
-  return text;
-}
-
 void record_layouts(GapLayoutsRecordArguments arguments) {
   validation::LayoutRecordingsOptions& options = arguments.options;
   try {
     for (const std::string& file : arguments.layouts)
-      options.layouts.push_back({std::filesystem::path(file).filename().string(), whole_text(file)});
+      options.layouts.push_back({std::filesystem::path(file).filename().string(), read_file(file)});
     expect_folder_of(options.truth);
     const base::Interruptible interruptible;
     analysis::Progress progress("gap layouts record");
@@ -58,7 +49,7 @@ void record_layouts(GapLayoutsRecordArguments arguments) {
 void score_layouts(const GapLayoutsScoreArguments& arguments) {
   const auto named = [](const std::string& file, const auto& read) {
     try {
-      return read(whole_text(file));
+      return read(read_file(file));
     } catch (const std::system_error& error) {
       throw analysis::Failure(analysis::Exit::failed, error.what());
     } catch (const std::runtime_error& error) {

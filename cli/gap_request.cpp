@@ -15,17 +15,6 @@
 namespace navcal::cli {
 namespace {
 
-/// Where the user's caches are, after the XDG base directories; empty when there is no such place.
-std::filesystem::path usual_cache() {
-  const auto folder = [](const char* variable) {
-    const char* const value = std::getenv(variable);
-    return std::filesystem::path(value == nullptr ? "" : value);
-  };
-  if (const auto caches = folder("XDG_CACHE_HOME"); caches.is_absolute()) return caches / "navcal";
-  if (const auto home = folder("HOME"); home.is_absolute()) return home / ".cache" / "navcal";
-  return {};
-}
-
 void expect_effects(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (!sim::make_effect(name))
@@ -42,6 +31,16 @@ void expect_instrument(const std::string& name) {
 }
 
 }  // namespace
+
+std::filesystem::path usual_cache() {
+  const auto folder = [](const char* variable) {
+    const char* const value = std::getenv(variable);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  if (const auto caches = folder("XDG_CACHE_HOME"); caches.is_absolute()) return caches / "navcal";
+  if (const auto home = folder("HOME"); home.is_absolute()) return home / ".cache" / "navcal";
+  return {};
+}
 
 void expect_instruments(const std::vector<std::string>& names) {
   for (const std::string& name : names) expect_instrument(name);

@@ -28,6 +28,9 @@ struct GapRequestOptions {
 /// Adds them; the answer is the positional option of the recordings.
 CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options);
 
+/// Where the user's null banks are, after the XDG base directories; empty when there is no such place.
+[[nodiscard]] std::filesystem::path usual_cache();
+
 /// The layout of --vehicle, if it is one. Throws config::Error.
 [[nodiscard]] std::optional<config::Layout> layout_of(const GapRequestOptions& options);
 

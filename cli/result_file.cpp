@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "cli/commands.h"
@@ -71,6 +73,14 @@ void write_result(const fs::path& file, std::string_view content) {
   record::WholeFile whole(file);
   whole.write(content);
   whole.commit();
+}
+
+std::string read_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::system_error(errno, std::system_category(), file.string());
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw std::system_error(errno, std::system_category(), file.string());
+  return text;
 }
 
 }  // namespace navcal::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,5 +24,8 @@ void expect_not_ending(const std::filesystem::path& output, std::string_view end
 
 /// Whole or not at all. Throws std::system_error.
 void write_result(const std::filesystem::path& file, std::string_view content);
+
+/// Content of a file. Throws std::system_error, which names the file.
+[[nodiscard]] std::string read_file(const std::filesystem::path& file);
 
 }  // namespace navcal::cli

@@ -17,7 +17,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::string_view kRequest = "?WATCH={\"enable\":true,\"json\":true};\n";
 constexpr auto kRetry = std::chrono::milliseconds(500);
 /// Upper limit of a line; no program that uses this protocol sends a longer one.
 constexpr std::size_t kMaxLine = 1 << 20;
@@ -29,7 +28,8 @@ int milliseconds_until(Clock::time_point until) {
 
 }  // namespace
 
-WatchStream::WatchStream(std::string host, std::string port) : host_(std::move(host)), port_(std::move(port)) {}
+WatchStream::WatchStream(std::string host, std::string port, std::string_view request)
+    : host_(std::move(host)), port_(std::move(port)), request_(request) {}
 
 WatchStream::~WatchStream() {
   if (socket_ >= 0) ::close(socket_);
@@ -57,7 +57,7 @@ bool WatchStream::connect() {
     if (candidate < 0) continue;
     const bool ready =
         ::connect(candidate, address->ai_addr, address->ai_addrlen) == 0 &&
-        ::send(candidate, kRequest.data(), kRequest.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(kRequest.size());
+        ::send(candidate, request_.data(), request_.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(request_.size());
     if (ready) {
       socket_ = candidate;
       was_connected_ = true;

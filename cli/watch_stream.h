@@ -8,10 +8,14 @@
 
 namespace navcal::cli {
 
+/// Request for the JSON reports that a daemon sends to everybody.
+inline constexpr std::string_view kWatchAll = "?WATCH={\"enable\":true,\"json\":true};\n";
+
 /// The status stream of a daemon, line by line; connects again by itself when the daemon has gone away.
 class WatchStream {
  public:
-  WatchStream(std::string host, std::string port);
+  /// `request` is sent at each connection.
+  WatchStream(std::string host, std::string port, std::string_view request = kWatchAll);
   ~WatchStream();
   WatchStream(const WatchStream&) = delete;
   WatchStream& operator=(const WatchStream&) = delete;
@@ -30,7 +34,7 @@ class WatchStream {
   bool connect();
   void disconnect(std::string problem);
 
-  std::string host_, port_;
+  std::string host_, port_, request_;
   int socket_ = -1;
   bool was_connected_ = false;
   std::string bytes_;

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/gap_watch.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "analysis/chosen_vehicle.h"
+#include "analysis/failure.h"
+#include "analysis/place_arguments.h"
+#include "analysis/progress.h"
+#include "base/interruptible.h"
+#include "base/parallel.h"
+#include "cli/gap_request.h"
+#include "cli/place_options.h"
+#include "cli/result_file.h"
+#include "cli/watch_stream.h"
+#include "config/load.h"
+#include "config/vehicle_file.h"
+#include "devices/instrument_model.h"
+#include "gap/data/mission.h"
+#include "gap/watch/live_records.h"
+#include "gap/watch/state_file.h"
+#include "gap/watch/watched_recording.h"
+#include "record/recording.h"
+#include "report/gap_watch_report.h"
+
+namespace navcal::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct GapWatchOptions {
+  std::string host = "127.0.0.1";
+  int port = 2947;
+  std::string vehicle, config, recording, state, metrics;
+  std::filesystem::path cache;
+  analysis::PlaceArguments where;
+  double false_alarms_per_h = gap::Watch::Options{}.false_alarms_per_h;
+  double status_min = 5;
+  double seconds = 0;
+  int bank_missions = 100;
+  std::uint64_t bank_seed = 1;
+};
+
+/// What a watch is made of.
+struct Setting {
+  config::VehicleSettings vehicle;
+  std::optional<config::Settings> settings;  ///< of --config
+  devices::InstrumentModel instruments;
+  gap::EarthField field;
+};
+
+void print_line(const std::string& text) {
+  std::printf("%s\n", text.c_str());
+  // Whoever reads a pipe wants to see it now.
+  if (std::fflush(stdout) != 0) throw analysis::Failure(analysis::Exit::failed, "standard output was closed");
+}
+
+/// Writes events, and keeps state and metrics.
+class Teller {
+ public:
+  Teller(const GapWatchOptions& options, std::string model) : options_(options), model_(std::move(model)) {}
+
+  void attach(const gap::Watch& watch) { watch_ = &watch; }
+  void take(const gap::WatchEvent& event) {
+    using enum gap::WatchEvent::Kind;
+    if (event.kind == gap::WatchEvent::Kind::skipped) {
+      // The same reason, window after window, is one piece of news.
+      if (event.reason == skipped_because_) return;
+      skipped_because_ = event.reason;
+    } else if (event.kind == window) {
+      skipped_because_.clear();
+      if (++since_status_ * gap::kWindow_s < 60 * options_.status_min) return keep_metrics();
+      since_status_ = 0;
+    }
+    print_line(report::watch_event_json(event, watch_->report()));
+    keep();
+  }
+  /// Writes state and metrics, where they are wanted.
+  void keep() {
+    keep_metrics();
+    if (!options_.state.empty()) write_result(options_.state, gap::state_text(watch_->state(), model_) + '\n');
+  }
+
+ private:
+  void keep_metrics() {
+    if (!options_.metrics.empty()) write_result(options_.metrics, report::watch_metrics(watch_->report()));
+  }
+
+  const GapWatchOptions& options_;
+  std::string model_;
+  const gap::Watch* watch_ = nullptr;
+  std::string skipped_because_;
+  int since_status_ = 0;
+};
+
+Clock::time_point end_of(const GapWatchOptions& options) {
+  if (options.seconds <= 0) return Clock::time_point::max();
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+}
+
+std::string address_of(const GapWatchOptions& options) { return fmt::format("{}:{}", options.host, options.port); }
+
+[[noreturn]] void fail_to_connect(const GapWatchOptions& options, const WatchStream& stream) {
+  throw analysis::Failure(
+      analysis::Exit::failed,
+      fmt::format("no connection to {} port {}: {}. Is navcald running there? Try navcal doctor.", options.host,
+                  options.port, stream.problem()));
+}
+
+/// Waits for the first fix of a daemon. Empty: the time is over, or the user has ended it.
+std::optional<gap::EarthField> field_by_fix(const GapWatchOptions& options, Clock::time_point end) {
+  constexpr auto kPatience = std::chrono::seconds(5);
+  WatchStream stream(options.host, std::to_string(options.port), gap::live_request());
+  gap::LiveRecords records;
+  const auto begin = Clock::now();
+  bool told = false;
+  while (!base::Interruptible::interrupted() && Clock::now() < end) {
+    const auto line = stream.next(std::min(end, Clock::now() + std::chrono::seconds(1)));
+    if (line) records.take(*line, nullptr);
+    if (records.field()) return records.field();
+    if (!stream.was_connected() && Clock::now() - begin > kPatience) fail_to_connect(options, stream);
+    if (!told && Clock::now() - begin > kPatience) {
+      print_line(report::watch_notice_json(
+          "waiting", "no GPS fix yet, so the Earth's field is not known; --field or --place gives it"));
+      told = true;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Setting> setting_of(const GapWatchOptions& options, Clock::time_point end) {
+  Setting setting;
+  if (!options.vehicle.empty()) {
+    const auto vehicle = analysis::load_chosen_vehicle(options.vehicle);
+    if (!std::holds_alternative<config::VehicleSettings>(vehicle))
+      throw std::invalid_argument("--vehicle: a vehicle file is needed; the watch has no model of a layout yet");
+    setting.vehicle = std::get<config::VehicleSettings>(vehicle);
+  }
+  if (!options.config.empty()) {
+    setting.settings = config::load(options.config);
+    setting.instruments = devices::without_mounting(devices::instrument_model(*setting.settings));
+  }
+  const auto now_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                          std::chrono::system_clock::now().time_since_epoch())
+                          .count();
+  const auto given = analysis::chosen_field_uT(options.where, now_ns);
+  if (!options.recording.empty()) {
+    analysis::Progress progress("gap watch", analysis::Progress::Answer::at_the_end);
+    const gap::Mission mission = gap::load_mission(
+        options.recording, [&](double done) { progress.show("reading", done); }, setting.settings);
+    if (const auto problem = mission.shortcoming(); !problem.empty())
+      throw record::BadRecording(options.recording + ": " + problem);
+    setting.instruments = mission.instruments;
+    setting.field = mission.field;
+  } else if (!given) {
+    const auto field = field_by_fix(options, end);
+    if (!field) return std::nullopt;
+    setting.field = *field;
+  }
+  if (given) setting.field.set_given(*given);
+  return setting;
+}
+
+/// Takes up the state of an earlier run. Returns why that was not possible; empty: it was, or there is none.
+std::string restore(const GapWatchOptions& options, std::string_view model, gap::Watch& watch) {
+  std::error_code error;
+  if (options.state.empty() || !std::filesystem::exists(options.state, error)) return {};
+  auto state = gap::read_state(read_file(options.state), model);
+  if (!state) return options.state + ": a state of another version, vehicle or reference, or damaged; begun anew";
+  try {
+    watch.restore(std::move(*state));
+  } catch (const std::invalid_argument& problem) {
+    return options.state + ": " + problem.what() + "; begun anew";
+  }
+  return {};
+}
+
+/// Hands the stream of a daemon to a watch until the time is over or the user ends it.
+void watch_daemon(const GapWatchOptions& options, gap::Watch& watch, Clock::time_point end) {
+  WatchStream stream(options.host, std::to_string(options.port), gap::live_request());
+  gap::LiveRecords records;
+  bool was_connected = true;
+  std::uint64_t dropped = 0;
+  while (!base::Interruptible::interrupted() && Clock::now() < end) {
+    if (const auto line = stream.next(std::min(end, Clock::now() + std::chrono::seconds(1))))
+      records.take(*line, &watch);
+    if (stream.connected() != was_connected) {
+      was_connected = stream.connected();
+      print_line(report::watch_notice_json(was_connected ? "connected" : "disconnected", stream.problem()));
+    }
+    if (records.dropped() != dropped) {
+      dropped = records.dropped();
+      print_line(report::watch_notice_json(
+          "dropped", fmt::format("navcald left out {} reports because this program was slow", dropped)));
+    }
+  }
+}
+
+gap::WatchReference reference_of(const gap::ReferenceRequest& request) {
+  analysis::Progress progress("gap watch", analysis::Progress::Answer::at_the_end);
+  return gap::make_reference(request, [&](double done) {
+    if (base::Interruptible::interrupted())
+      throw analysis::Failure(analysis::Exit::failed, "interrupted before the watch began");
+    progress.show("null missions", done);
+  });
+}
+
+void watch_gap(const GapWatchOptions& options) {
+  const base::Interruptible interruptible;
+  std::signal(SIGPIPE, SIG_IGN);
+  const auto end = end_of(options);
+  for (const std::string& file : {options.state, options.metrics}) {
+    if (!file.empty()) expect_folder_of(file);
+  }
+  expect_no_overwriting({options.recording, options.vehicle, options.config}, {options.state, options.metrics});
+  const auto setting = setting_of(options, end);
+  if (!setting) return;
+
+  const gap::Library library({});
+  const gap::ReferenceRequest request{setting->vehicle,
+                                      library,
+                                      setting->instruments,
+                                      setting->field,
+                                      options.cache.empty() ? usual_cache() : options.cache,
+                                      {options.bank_missions, options.bank_seed, base::threads_or_cores(0)}};
+  const gap::WatchReference reference = reference_of(request);
+
+  const std::string model = gap::watch_model(setting->vehicle, library, request.bank);
+  Teller teller(options, model);
+  gap::Watch watch(setting->vehicle, library, reference, request, {options.false_alarms_per_h},
+                   [&](const gap::WatchEvent& event) { teller.take(event); });
+  teller.attach(watch);
+  report::WatchStart start;
+  start.vehicle = options.vehicle;
+  start.source = options.recording.empty() ? address_of(options) : options.recording;
+  start.false_alarms_per_h = options.false_alarms_per_h;
+  start.threshold_nats = watch.report().threshold_nats;
+  start.reference_missions = reference.bank.missions;
+  start.reference_windows = reference.windows;
+  start.state_refused = restore(options, model, watch);
+  start.restored_windows = watch.report().windows;
+  print_line(report::watch_began_json(start));
+  if (options.recording.empty()) {
+    watch_daemon(options, watch, end);
+  } else {
+    gap::watch_recording(options.recording, setting->settings, watch,
+                         [&](double) { return !base::Interruptible::interrupted(); });
+  }
+  teller.keep();
+  print_line(report::watch_event_json({gap::WatchEvent::Kind::window, watch.report().newest_ns, {}}, watch.report()));
+}
+
+}  // namespace
+
+void add_gap_watch(CLI::App& gap) {
+  auto* command = gap.add_subcommand("watch", "judges a mission while it is sailed: alarm, place and cause of a gap");
+  const auto options = std::make_shared<GapWatchOptions>();
+  command->add_option("--host", options->host, "host of navcald")->capture_default_str();
+  command->add_option("--port", options->port, "its status port")->check(CLI::Range(1, 65535))->capture_default_str();
+  command->add_option("--vehicle", options->vehicle, "the identified vehicle (navcal vehicle prints the usual one)")
+      ->option_text("FILE.toml");
+  command->add_option("--config", options->config, "configuration of navcald, for the noise of its instruments")
+      ->option_text("FILE.toml");
+  command->add_option("--recording", options->recording, "a capture or log, as if it came now, instead of navcald")
+      ->option_text("FILE");
+  add_place_and_field(command, options->where);
+  command->add_option("--cache", options->cache, "folder of null banks; default: ~/.cache/navcal")
+      ->option_text("DIR");
+  command->add_option("--false-alarms-per-hour", options->false_alarms_per_h, "at most so many, on average")
+      ->check(CLI::Range(1e-9, 1.0))
+      ->capture_default_str();
+  command->add_option("--state", options->state, "what was seen so far; read at the start, written after each event")
+      ->option_text("FILE.json");
+  command->add_option("--metrics", options->metrics, "numbers for Prometheus' textfile collector")
+      ->option_text("FILE.prom");
+  command->add_option("--status-minutes", options->status_min, "time between two status events")
+      ->check(CLI::Range(0.0, 1440.0))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
+  command->footer("Example: navcal gap watch --vehicle vehicle.toml --config /etc/navcal/navcald.toml");
+  command->callback([options] {
+    try {
+      watch_gap(*options);
+    } catch (const record::BadRecording& error) {
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
+    } catch (const config::Error& error) {
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
+    } catch (const std::invalid_argument& error) {
+      throw analysis::Failure(analysis::Exit::usage, error.what());
+    } catch (const std::runtime_error& error) {
+      throw analysis::Failure(analysis::Exit::failed, error.what());
+    }
+  });
+}
+
+}  // namespace navcal::cli

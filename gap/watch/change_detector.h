@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "gap/inference/effect_subset.h"
+#include "gap/inference/library.h"
+#include "gap/inference/spike_and_slab.h"
+
+namespace navcal::gap {
+
+/// Sequential test whether an effect of the library began at some window.
+///
+/// For an onset j and an effect e, the Bayes factor of all windows since j, "e changed at j" against "nothing
+/// changed", has expectation 1 under the second at any time, if tolerances and noise are those of the null
+/// missions. The statistic is the sum over onsets of the mean over effects: the Shiryaev-Roberts statistic, whose
+/// expectation after n windows is at most n without a change. The first time at which it exceeds c is therefore
+/// after c windows on average, or later (Pollak 1985; e-detectors, Shin, Ramdas and Rinaldo 2023). Onsets are
+/// thinned out with their age, which only lowers the statistic.
+class ChangeDetector {
+ public:
+  /// `effects`: candidates. `noise_factor`: variance of whitened residuals without a gap. `library` must outlive it.
+  ChangeDetector(const Library& library, const Priors& priors, EffectSubset effects, double noise_factor);
+
+  /// Takes the evidence of the next window (WindowEvidence).
+  void take(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score);
+
+  /// Logarithm of the statistic, nats; minus infinity before the first window.
+  [[nodiscard]] double log_statistic() const { return log_statistic_; }
+  [[nodiscard]] std::uint64_t windows() const { return windows_; }
+
+  struct Cause {
+    std::size_t effect = 0;
+    double probability = 0;   ///< among the candidates, if one of them is the cause
+    std::uint64_t onset = 0;  ///< the most probable first window
+  };
+  /// All candidates, the most probable first.
+  [[nodiscard]] std::vector<Cause> causes() const;
+  /// Posterior mean of all unknowns if this effect acts since its most probable onset. The part of the effect that
+  /// a tolerance may explain is in it.
+  [[nodiscard]] Eigen::VectorXd mean_with(const Cause& cause) const;
+  /// Posterior mean of all unknowns if every candidate may act, at its typical strength, since the leading
+  /// cause's onset.
+  [[nodiscard]] Eigen::VectorXd mean_with_all() const;
+  /// Estimated strength of a cause, in typical values.
+  [[nodiscard]] double strength(const Cause& cause) const;
+
+  /// What the detector knows, to be kept over a restart. Matrices are n x n and symmetric.
+  struct State {
+    std::uint64_t windows = 0;
+    Eigen::MatrixXd gram;
+    Eigen::VectorXd score;
+    struct Onset {
+      std::uint64_t window = 0;  ///< number of windows before it
+      Eigen::MatrixXd gram;      ///< of the windows before it
+      Eigen::VectorXd score;
+    };
+    std::vector<Onset> onsets;
+  };
+  [[nodiscard]] State state() const { return {windows_, gram_, score_, onsets_}; }
+  /// Throws std::invalid_argument for a state of another size.
+  void restore(State state);
+
+ private:
+  struct Scored {
+    std::size_t effect = 0;
+    std::uint64_t onset = 0;
+    double log_factor = 0;
+    Eigen::VectorXd change;  ///< posterior mean of the effect's parameters since the onset
+  };
+  void thin_out();
+  void score_onsets();
+
+  const Library& library_;
+  Eigen::VectorXd spike_;
+  EffectSubset effects_;
+  double noise_factor_;
+  std::uint64_t windows_ = 0;
+  Eigen::MatrixXd gram_;   ///< of all windows
+  Eigen::VectorXd score_;  ///< of all windows
+  std::vector<State::Onset> onsets_;
+  double log_statistic_;
+  Eigen::VectorXd mean_;        ///< of all unknowns, nothing changed
+  std::vector<Scored> scored_;  ///< of each onset and effect
+};
+
+/// Sequential test whether the power of a channel rose, whatever the cause. The alternative is gamma-distributed
+/// power with kRise times the mean of the nulls. The statistic is the mean of the channels' Shiryaev-Roberts
+/// statistics.
+class PowerDetector {
+ public:
+  /// Factor on the power that the test is made for. Power below 1.3 times that of the nulls is evidence against a
+  /// rise: an instrument that is a little noisier than nominal is no gap.
+  static constexpr double kRise = 1.69;
+
+  PowerDetector() = default;
+  /// Mean and standard deviation of each channel's power over windows of null missions.
+  PowerDetector(Eigen::VectorXd mean, const Eigen::VectorXd& scatter);
+
+  /// Takes the powers of the next window; NaN: not measured.
+  void take(const Eigen::VectorXd& power);
+  [[nodiscard]] double log_statistic() const;
+  /// Channel with the greatest statistic.
+  [[nodiscard]] Eigen::Index loudest() const;
+  void restart() { log_channels_.setConstant(kNothing); }
+
+  [[nodiscard]] const Eigen::VectorXd& log_channels() const { return log_channels_; }
+  /// Throws std::invalid_argument for another number of channels.
+  void restore(const Eigen::VectorXd& log_channels);
+
+ private:
+  static constexpr double kNothing = -1e9;  ///< logarithm of zero, finite so that files can hold it
+
+  Eigen::VectorXd mean_, shape_;
+  Eigen::VectorXd log_channels_;
+};
+
+}  // namespace navcal::gap

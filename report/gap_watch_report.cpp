@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/gap_watch_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace navcal::report {
+namespace {
+
+using EventJson = nlohmann::ordered_json;
+
+double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns / 1'000'000) * 1e-3; }
+
+std::string_view event_name(gap::WatchEvent::Kind kind) {
+  switch (kind) {
+    case gap::WatchEvent::Kind::window:
+      return "status";
+    case gap::WatchEvent::Kind::skipped:
+      return "skipped";
+    case gap::WatchEvent::Kind::alarm:
+      return "alarm";
+    case gap::WatchEvent::Kind::cause:
+      return "cause";
+    case gap::WatchEvent::Kind::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+EventJson list_of_where(const gap::WatchReport& report) {
+  EventJson list = EventJson::array();
+  for (const gap::WhereEntry& where : report.where) {
+    list.push_back({{"channel", where.channel},
+                    {"regime", where.regime},
+                    {"gap", where.gap},
+                    {"unit", where.unit},
+                    {"floor", where.floor},
+                    {"p_value", where.p_value}});
+  }
+  return list;
+}
+
+EventJson list_of_causes(const gap::WatchReport& report) {
+  EventJson list = EventJson::array();
+  for (const gap::WatchReport::Cause& cause : report.causes) {
+    list.push_back({{"name", cause.effect},
+                    {"probability", std::min(1.0, cause.probability)},
+                    {"strength", cause.strength},
+                    {"since", seconds(cause.since_ns)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string watch_began_json(const WatchStart& start) {
+  EventJson json{{"event", "began"},
+                 {"vehicle", start.vehicle},
+                 {"source", start.source},
+                 {"window_s", gap::kWindow_s},
+                 {"false_alarms_per_h", start.false_alarms_per_h},
+                 {"threshold_nats", start.threshold_nats},
+                 {"reference", {{"missions", start.reference_missions}, {"windows", start.reference_windows}}},
+                 {"restored_windows", start.restored_windows}};
+  if (!start.state_refused.empty()) json["state_refused"] = start.state_refused;
+  return json.dump(-1, ' ', false, EventJson::error_handler_t::replace);
+}
+
+std::string watch_event_json(const gap::WatchEvent& event, const gap::WatchReport& report) {
+  EventJson json{{"event", event_name(event.kind)}, {"time", seconds(event.time_ns)}};
+  if (event.kind == gap::WatchEvent::Kind::skipped) json["reason"] = event.reason;
+  json["verdict"] = gap::name_of(report.verdict);
+  json["windows"] = report.windows;
+  json["skipped"] = report.skipped;
+  json["evidence_nats"] = report.evidence_nats;
+  json["threshold_nats"] = report.threshold_nats;
+  if (report.alarm_ns) {
+    json["alarm"] = seconds(*report.alarm_ns);
+    json["effects"] = list_of_causes(report);
+    json["where"] = list_of_where(report);
+    json["unexplained"] = nullptr;
+    if (!report.unexplained.empty()) json["unexplained"] = report.unexplained;
+  }
+  return json.dump(-1, ' ', false, EventJson::error_handler_t::replace);
+}
+
+std::string watch_notice_json(std::string_view event, std::string_view reason) {
+  EventJson json{{"event", event}};
+  if (!reason.empty()) json["reason"] = reason;
+  return json.dump(-1, ' ', false, EventJson::error_handler_t::replace);
+}
+
+std::string watch_metrics(const gap::WatchReport& report) {
+  std::string text;
+  const auto add = [&](std::string_view name, std::string_view type, std::string_view help, double value) {
+    fmt::format_to(std::back_inserter(text), "# HELP {0} {2}\n# TYPE {0} {1}\n{0} {3}\n", name, type, help, value);
+  };
+  add("navcal_gap_watch_windows_total", "counter", "Windows of the mission that were judged.",
+      static_cast<double>(report.windows));
+  add("navcal_gap_watch_skipped_total", "counter", "Windows of the mission that could not be judged.",
+      static_cast<double>(report.skipped));
+  add("navcal_gap_watch_evidence_nats", "gauge", "Logarithm of the test's statistic.", report.evidence_nats);
+  add("navcal_gap_watch_threshold_nats", "gauge", "Statistic from which the alarm is raised.",
+      report.threshold_nats);
+  add("navcal_gap_watch_alarm", "gauge", "1 while an alarm stands.", report.alarm_ns ? 1 : 0);
+  return text;
+}
+
+}  // namespace navcal::report
