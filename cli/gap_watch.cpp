@@ -109,7 +109,8 @@ class Teller {
 
 Clock::time_point end_of(const GapWatchOptions& options) {
   if (options.seconds <= 0) return Clock::time_point::max();
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
 }
 
 std::string address_of(const GapWatchOptions& options) { return fmt::format("{}:{}", options.host, options.port); }
@@ -154,9 +155,9 @@ std::optional<Setting> setting_of(const GapWatchOptions& options, Clock::time_po
     setting.settings = config::load(options.config);
     setting.instruments = devices::without_mounting(devices::instrument_model(*setting.settings));
   }
-  const auto now_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                          std::chrono::system_clock::now().time_since_epoch())
-                          .count();
+  const auto now_ns =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
   const auto given = analysis::chosen_field_uT(options.where, now_ns);
   if (!options.recording.empty()) {
     analysis::Progress progress("gap watch", analysis::Progress::Answer::at_the_end);
@@ -223,10 +224,10 @@ void watch_gap(const GapWatchOptions& options) {
   const base::Interruptible interruptible;
   std::signal(SIGPIPE, SIG_IGN);
   const auto end = end_of(options);
+  expect_no_overwriting({options.recording, options.vehicle, options.config}, {options.state, options.metrics});
   for (const std::string& file : {options.state, options.metrics}) {
     if (!file.empty()) expect_folder_of(file);
   }
-  expect_no_overwriting({options.recording, options.vehicle, options.config}, {options.state, options.metrics});
   const auto setting = setting_of(options, end);
   if (!setting) return;
 
@@ -261,17 +262,22 @@ void watch_gap(const GapWatchOptions& options) {
                          [&](double) { return !base::Interruptible::interrupted(); });
   }
   teller.keep();
-  print_line(report::watch_event_json({gap::WatchEvent::Kind::window, watch.report().newest_ns, {}}, watch.report()));
+  print_line(
+      report::watch_event_json({gap::WatchEvent::Kind::window, watch.report().newest_ns, {}}, watch.report()));
 }
 
 }  // namespace
 
 void add_gap_watch(CLI::App& gap) {
-  auto* command = gap.add_subcommand("watch", "judges a mission while it is sailed: alarm, place and cause of a gap");
+  auto* command =
+      gap.add_subcommand("watch", "judges a mission while it is sailed: alarm, place and cause of a gap");
   const auto options = std::make_shared<GapWatchOptions>();
   command->add_option("--host", options->host, "host of navcald")->capture_default_str();
-  command->add_option("--port", options->port, "its status port")->check(CLI::Range(1, 65535))->capture_default_str();
-  command->add_option("--vehicle", options->vehicle, "the identified vehicle (navcal vehicle prints the usual one)")
+  command->add_option("--port", options->port, "its status port")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
+  command
+      ->add_option("--vehicle", options->vehicle, "the identified vehicle (navcal vehicle prints the usual one)")
       ->option_text("FILE.toml");
   command->add_option("--config", options->config, "configuration of navcald, for the noise of its instruments")
       ->option_text("FILE.toml");
@@ -283,13 +289,22 @@ void add_gap_watch(CLI::App& gap) {
   command->add_option("--false-alarms-per-hour", options->false_alarms_per_h, "at most so many, on average")
       ->check(CLI::Range(1e-9, 1.0))
       ->capture_default_str();
-  command->add_option("--state", options->state, "what was seen so far; read at the start, written after each event")
+  command
+      ->add_option("--state", options->state, "what was seen so far; read at the start, written after each event")
       ->option_text("FILE.json");
   command->add_option("--metrics", options->metrics, "numbers for Prometheus' textfile collector")
       ->option_text("FILE.prom");
   command->add_option("--status-minutes", options->status_min, "time between two status events")
       ->check(CLI::Range(0.0, 1440.0))
       ->capture_default_str();
+  const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
+  command->add_option("--bank", options->bank_missions, "so many")
+      ->check(CLI::Range(12, 10'000))
+      ->capture_default_str()
+      ->group(bank);
+  command->add_option("--seed", options->bank_seed, "seed of their noise and tolerances")
+      ->capture_default_str()
+      ->group(bank);
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
   command->footer("Example: navcal gap watch --vehicle vehicle.toml --config /etc/navcal/navcald.toml");
@@ -302,7 +317,7 @@ void add_gap_watch(CLI::App& gap) {
       throw analysis::Failure(analysis::Exit::bad_input, error.what());
     } catch (const std::invalid_argument& error) {
       throw analysis::Failure(analysis::Exit::usage, error.what());
-    } catch (const std::runtime_error& error) {
+    } catch (const std::system_error& error) {
       throw analysis::Failure(analysis::Exit::failed, error.what());
     }
   });

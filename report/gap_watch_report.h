@@ -10,8 +10,8 @@ namespace navcal::report {
 
 /// Facts of a watch that every reader of its events needs once.
 struct WatchStart {
-  std::string vehicle;     ///< file
-  std::string source;      ///< recording, or address of the daemon
+  std::string vehicle;  ///< file
+  std::string source;   ///< recording, or address of the daemon
   double false_alarms_per_h = 0;
   double threshold_nats = 0;
   int reference_missions = 0, reference_windows = 0;

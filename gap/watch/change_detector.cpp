@@ -41,10 +41,11 @@ ChangeDetector::ChangeDetector(const Library& library, const Priors& priors, Eff
       log_statistic_(kMinusInfinity),
       mean_(Eigen::VectorXd::Zero(spike_.size())) {}
 
-void ChangeDetector::take(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score) {
-  onsets_.push_back({windows_, gram_, score_});
+void ChangeDetector::take(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score, double measurements) {
+  onsets_.push_back({windows_, gram_, score_, measurements_});
   gram_ += gram / noise_factor_;
   score_ += score / noise_factor_;
+  measurements_ += measurements;
   ++windows_;
   thin_out();
   score_onsets();
@@ -77,6 +78,7 @@ void ChangeDetector::score_onsets() {
     const Eigen::VectorXd score = spike_.cwiseProduct(score_ - onset.score) - since * mean;
     // Information about a change, less what the unknowns of all windows can take up.
     const Eigen::MatrixXd left = since - since * factor.solve(since);
+    const double allowed = kModelError * std::sqrt(0.5 * (measurements_ - onset.measurements));
     for (const std::size_t effect : effects_) {
       const Eigen::Index first = library_.first(effect), count = library_.count(effect);
       const Eigen::MatrixXd information = left.block(first, first, count, count);
@@ -86,15 +88,17 @@ void ChangeDetector::score_onsets() {
       for (const double strength : kMemberStrengths) {
         Eigen::VectorXd slab(count);
         for (Eigen::Index i = 0; i < count; ++i) {
-          slab[i] = strength * library_.unknowns()[static_cast<std::size_t>(first + i)].typical / spike_[first + i];
+          slab[i] =
+              strength * library_.unknowns()[static_cast<std::size_t>(first + i)].typical / spike_[first + i];
         }
         Eigen::MatrixXd scaled = slab.asDiagonal() * information * slab.asDiagonal();
         scaled.diagonal().array() += 1;
         const Eigen::LLT<Eigen::MatrixXd> own_factor(scaled);
         const Eigen::VectorXd half = slab.cwiseProduct(own);
         const Eigen::VectorXd solved = own_factor.solve(half);
-        const double log_factor =
-            0.5 * half.dot(solved) - own_factor.matrixLLT().diagonal().array().log().sum();
+        // Half the square of what the effect explains, less the error that the model may have.
+        const double explained = std::max(0.0, std::sqrt(0.5 * half.dot(solved)) - allowed);
+        const double log_factor = explained * explained - own_factor.matrixLLT().diagonal().array().log().sum();
         scored.log_factor = log_sum(scored.log_factor, log_factor);
         if (log_factor > best) {
           best = log_factor;
@@ -102,6 +106,10 @@ void ChangeDetector::score_onsets() {
         }
       }
       scored.log_factor -= std::log(static_cast<double>(kMemberStrengths.size()));
+      // Where the mission hardly shows an effect, only an impossible amount of it explains an error of the model.
+      Eigen::VectorXd values = Eigen::VectorXd::Zero(spike_.size());
+      values.segment(first, count) = scored.change;
+      if (strength_of(library_, effect, values) > kLargestStrength) scored.log_factor = kMinusInfinity;
       log_statistic_ = log_sum(log_statistic_, scored.log_factor - log_effects);
       scored_.push_back(std::move(scored));
     }
@@ -126,7 +134,7 @@ std::vector<ChangeDetector::Cause> ChangeDetector::causes() const {
   }
   std::vector<Cause> causes;
   for (const auto& [effect, sum] : sums) {
-    causes.push_back({effect, std::exp(sum.log_all - log_total), sum.onset});
+    causes.push_back({effect, log_total > kMinusInfinity ? std::exp(sum.log_all - log_total) : 0, sum.onset});
   }
   std::stable_sort(causes.begin(), causes.end(),
                    [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
@@ -145,8 +153,8 @@ Eigen::VectorXd ChangeDetector::mean_with(const Cause& cause) const {
 
 Eigen::VectorXd ChangeDetector::mean_with_all() const {
   const std::uint64_t onset = causes().front().onset;
-  const auto since = std::find_if(onsets_.begin(), onsets_.end(),
-                                  [&](const State::Onset& one) { return one.window == onset; });
+  const auto since =
+      std::find_if(onsets_.begin(), onsets_.end(), [&](const State::Onset& one) { return one.window == onset; });
   Eigen::VectorXd prior = spike_;
   for (const Eigen::Index j : parameter_indices(library_, effects_)) {
     prior[j] = library_.unknowns()[static_cast<std::size_t>(j)].typical;
@@ -169,6 +177,7 @@ void ChangeDetector::restore(State state) {
   }
   if (!fits) throw std::invalid_argument("the state is of another library");
   windows_ = state.windows;
+  measurements_ = state.measurements;
   gram_ = std::move(state.gram);
   score_ = std::move(state.score);
   onsets_ = std::move(state.onsets);
@@ -176,7 +185,9 @@ void ChangeDetector::restore(State state) {
 }
 
 PowerDetector::PowerDetector(Eigen::VectorXd mean, const Eigen::VectorXd& scatter)
-    : mean_(std::move(mean)), shape_(mean_.size()), log_channels_(Eigen::VectorXd::Constant(mean_.size(), kNothing)) {
+    : mean_(std::move(mean)),
+      shape_(mean_.size()),
+      log_channels_(Eigen::VectorXd::Constant(mean_.size(), kNothing)) {
   for (Eigen::Index c = 0; c < mean_.size(); ++c) {
     const double ratio = mean_[c] / (kScatterFactor * scatter[c]);
     shape_[c] = std::isfinite(ratio) ? ratio * ratio : 0;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -27,24 +28,39 @@ namespace {
 /// Null missions whose windows are taken apart.
 constexpr int kWindowMissions = 24;
 constexpr double kLongest_s = 900;
+constexpr std::string_view kPirouettes = "pirouettes both ways";
 
-/// Manoeuvres of the reference mission, and the headings at which they begin: all quarters of the compass.
-constexpr std::array<std::string_view, 10> kManoeuvres{
+/// Manoeuvres of the reference mission, gentle ones and the hardest that the vehicle can do, and the headings at
+/// which they begin: all quarters of the compass.
+constexpr std::array<std::string_view, 13> kManoeuvres{
     "leg",
     "circle to starboard, gentle",
     "leg",
     "two circles to port, brisk",
     "zigzag, gentle",
+    "zigzag, hard",
     "dive and climb",
     "speed steps",
+    "circles both ways, fast",
     "surface legs there and back",
-    "rudder doublets, medium",
+    "rudder doublets, large",
+    kPirouettes,
     "leg",
 };
 
+/// As tight as the rudder turns.
+Segment pirouettes(double rudder_limit_rad) {
+  const auto turn = [&](double turns) {
+    return config::MissionStep{
+        .kind = config::StepKind::pirouette, .turns = turns, .rudder_rad = 0.9 * rudder_limit_rad};
+  };
+  return {kPirouettes, {turn(4), turn(-4)}};
+}
+
 config::Mission reference_mission(const config::VehicleSettings& vehicle) {
   const Regime regime = regime_of(vehicle, config::MissionLimits{});
-  const auto segments = alphabet(regime);
+  auto segments = alphabet(regime);
+  segments.push_back(pirouettes(vehicle.fins.limit_rad));
   std::vector<PlacedSegment> placed;
   for (std::size_t i = 0; i < kManoeuvres.size(); ++i) {
     const auto found = std::find_if(segments.begin(), segments.end(),
@@ -72,34 +88,37 @@ std::vector<WindowEvidence> windows_of(const WindowProblem& problem, const Missi
   return windows;
 }
 
-/// Mean and standard deviation of each channel's power; zero scatter: never measured.
+/// Power that this share of the windows stays below stands for the null: the hardest manoeuvres have more power
+/// than the mean, because tolerances act more there. Set.
+constexpr double kQuantile = 0.95;
+
+/// Powers of the evidence channels without a gap, and their standard deviation; zero scatter: not to be tested.
+/// The powers of fixes are not tested: a window has few of them, and their errors last longer than it.
 void set_statistics(const std::vector<WindowEvidence>& windows, WatchReference& reference) {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(kPowerChannels), square = mean, counts = mean;
+  Eigen::VectorXd high = Eigen::VectorXd::Ones(kPowerChannels), scatter = Eigen::VectorXd::Zero(kPowerChannels);
   std::vector<Eigen::MatrixXd> explained;
-  double power = 0, channels = 0;
-  for (const WindowEvidence& window : windows) {
-    explained.push_back(window.explained_rms);
-    for (Eigen::Index c = 0; c < kPowerChannels; ++c) {
-      const double value = window.power[c];
-      if (!std::isfinite(value)) continue;
-      mean[c] += value;
-      square[c] += value * value;
-      counts[c] += 1;
-      if (c < kEvidenceChannels) {
-        power += value;
-        channels += 1;
-      }
+  for (const WindowEvidence& window : windows) explained.push_back(window.explained_rms);
+  double sum = 0, count = 0;
+  for (Eigen::Index c = 0; c < kEvidenceChannels; ++c) {
+    std::vector<double> powers;
+    for (const WindowEvidence& window : windows) {
+      if (std::isfinite(window.power[c])) powers.push_back(window.power[c]);
     }
+    constexpr std::size_t kFewest = 20;
+    if (powers.size() < kFewest) continue;
+    std::sort(powers.begin(), powers.end());
+    const auto n = static_cast<double>(powers.size());
+    const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / n;
+    double square = 0;
+    for (const double power : powers) square += (power - mean) * (power - mean);
+    high[c] = std::max(mean, powers[static_cast<std::size_t>(kQuantile * n)]);
+    scatter[c] = std::sqrt(square / n);
+    sum += mean;
+    count += 1;
   }
-  reference.noise_factor = channels > 0 ? std::max(1.0, power / channels) : 1;
+  reference.noise_factor = count > 0 ? std::max(1.0, sum / count) : 1;
   reference.explained_rms = RegimeStatistics(explained);
-  mean = mean.cwiseQuotient(counts);
-  Eigen::VectorXd scatter = Eigen::VectorXd::Zero(kPowerChannels);
-  for (Eigen::Index c = 0; c < kPowerChannels; ++c) {
-    constexpr double kFewest = 10;
-    if (counts[c] >= kFewest) scatter[c] = std::sqrt(std::max(0.0, square[c] / counts[c] - mean[c] * mean[c]));
-  }
-  reference.power = PowerDetector(mean, scatter);
+  reference.power = PowerDetector(high, scatter);
   reference.windows = static_cast<int>(windows.size());
 }
 
@@ -111,7 +130,8 @@ WatchReference make_reference(const ReferenceRequest& request, const std::functi
   const BankOptions& options = request.bank;
   const config::Mission mission = reference_mission(vehicle);
   const PlannedPath path = planned_path(vehicle, mission, sim::EffectSet(), kLongest_s);
-  const Mission readings = planned_readings(vehicle, mission, {request.instruments, request.field}, path.duration_s);
+  const Mission readings =
+      planned_readings(vehicle, mission, {request.instruments, request.field}, path.duration_s);
   const Replay replay(readings, vehicle);
   Trajectory10Hz course;
   (void)replay.run(Model{}, &course);

@@ -19,12 +19,12 @@ namespace navcal::gap {
 /// What a watch compares windows with: the residuals of simulated vehicles without a gap. Their mission contains
 /// straight legs, turns, changes of speed, dives and surfacings, because the mission to be watched is not known.
 struct WatchReference {
-  NullBank bank;                  ///< of the reference mission
+  NullBank bank;  ///< of the reference mission
   Priors priors;
-  double noise_factor = 1;        ///< mean power of the windows of null missions
-  PowerDetector power;            ///< before its first window
-  RegimeStatistics explained_rms; ///< of single windows
-  int windows = 0;                ///< on which these statistics rest
+  double noise_factor = 1;         ///< mean power of the windows of null missions
+  PowerDetector power;             ///< before its first window
+  RegimeStatistics explained_rms;  ///< of single windows
+  int windows = 0;                 ///< on which these statistics rest
 };
 
 /// Input of a reference. References; valid as long as what they refer to.

@@ -49,11 +49,15 @@ Eigen::MatrixXd symmetric(const Json& from, Eigen::Index size) {
 std::string state_text(const Watch::State& state, std::string_view model) {
   Json onsets = Json::array();
   for (const auto& onset : state.change.onsets) {
-    onsets.push_back({{"window", onset.window}, {"gram", triangle(onset.gram)}, {"score", numbers(onset.score)}});
+    onsets.push_back({{"window", onset.window},
+                      {"measurements", onset.measurements},
+                      {"gram", triangle(onset.gram)},
+                      {"score", numbers(onset.score)}});
   }
   Json all{{"format", kFormat},
            {"model", model},
            {"windows", state.change.windows},
+           {"measurements", state.change.measurements},
            {"gram", triangle(state.change.gram)},
            {"score", numbers(state.change.score)},
            {"onsets", std::move(onsets)},
@@ -72,12 +76,13 @@ std::optional<Watch::State> read_state(std::string_view text, std::string_view m
     if (all.at("format") != kFormat || all.at("model") != model) return std::nullopt;
     Watch::State state;
     state.change.windows = all.at("windows").get<std::uint64_t>();
+    state.change.measurements = all.at("measurements").get<double>();
     state.change.score = vector(all.at("score"));
     const Eigen::Index size = state.change.score.size();
     state.change.gram = symmetric(all.at("gram"), size);
     for (const Json& onset : all.at("onsets")) {
-      state.change.onsets.push_back(
-          {onset.at("window").get<std::uint64_t>(), symmetric(onset.at("gram"), size), vector(onset.at("score"))});
+      state.change.onsets.push_back({onset.at("window").get<std::uint64_t>(), symmetric(onset.at("gram"), size),
+                                     vector(onset.at("score")), onset.at("measurements").get<double>()});
     }
     state.log_power = vector(all.at("log_power"));
     state.begins_ns = all.at("begins_ns").get<std::vector<std::int64_t>>();

@@ -150,8 +150,8 @@ double Watch::evidence_nats() const {
 void Watch::take(Window& window, std::int64_t end_ns) {
   WindowEvidence evidence = window.evidence();
   bias_rad_s_ = evidence.bias_rad_s;
-  change_.take(evidence.gram, evidence.score);
-  power_.take(evidence.power);
+  change_.take(evidence.gram, evidence.score, evidence.measurements);
+  power_.take(window.power_with(change_.mean()));
   explained_.push_back({change_.windows() - 1, std::move(evidence.explained_rms)});
   if (explained_.size() > kMapWindows) explained_.pop_front();
   report_.windows = change_.windows();
@@ -194,10 +194,9 @@ void Watch::look_for_cause(const Window& window) {
   const bool is_explained = rest_of_leader_.log_statistic() < kForeign_nats;
   report_.unexplained =
       is_explained ? std::string() : std::string(kPowerNames[static_cast<std::size_t>(rest_of_leader_.loudest())]);
-  const bool is_plausible = change_.strength(first) <= kLargestStrength;
   if (!is_explained && rest_of_all_.log_statistic() > kForeign_nats) {
     report_.verdict = WatchReport::Verdict::unknown;
-  } else if (has_effect && is_explained && is_plausible && first.probability >= kCauseNamedFrom &&
+  } else if (has_effect && is_explained && first.probability >= kCauseNamedFrom &&
              change_.windows() - first.onset >= kLeastWindows) {
     report_.verdict = WatchReport::Verdict::named;
   } else {

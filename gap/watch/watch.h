@@ -23,8 +23,8 @@ struct WatchReport {
   struct Cause {
     std::string effect;
     double probability = 0;
-    double strength = 0;       ///< typical values
-    std::int64_t since_ns = 0; ///< begin of the window at which it most probably began, UTC
+    double strength = 0;        ///< typical values
+    std::int64_t since_ns = 0;  ///< begin of the window at which it most probably began, UTC
   };
   Verdict verdict = Verdict::no_gap;
   std::uint64_t windows = 0, skipped = 0;  ///< judged; not judged
@@ -55,8 +55,8 @@ struct WatchEvent {
   std::string reason;
 };
 
-/// Watches a mission while it is sailed: takes samples as they come, judges a window every kWindow_s, and raises an
-/// alarm when the evidence of a gap exceeds a threshold that does not depend on how long one has watched.
+/// Watches a mission while it is sailed: takes samples as they come, judges a window every kWindow_s, and raises
+/// an alarm when the evidence of a gap exceeds a threshold that does not depend on how long one has watched.
 class Watch final : public pipeline::Sink {
  public:
   struct Options {
@@ -102,7 +102,7 @@ class Watch final : public pipeline::Sink {
   EarthField field_;
   Listener listener_;
   ChangeDetector change_;
-  PowerDetector power_;           ///< of the nominal vehicle
+  PowerDetector power_;           ///< of the vehicle with its tolerances
   PowerDetector rest_of_leader_;  ///< with the leading cause in the model, since it leads
   PowerDetector rest_of_all_;     ///< with all effects in the model, since the alarm
   WindowProblem problem_;

@@ -77,8 +77,7 @@ Eigen::VectorXd Window::power_of(const Eigen::VectorXd& left) const {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(kPowerChannels), counts = sums;
   for (Eigen::Index i = 0; i < left.size(); ++i) {
     if (measured_[i] == 0) continue;
-    const Eigen::Index channel =
-        i < grid ? i % kEvidenceChannels : kEvidenceChannels + (i - grid) % kFixChannels;
+    const Eigen::Index channel = i < grid ? i % kEvidenceChannels : kEvidenceChannels + (i - grid) % kFixChannels;
     sums[channel] += left[i] * left[i];
     counts[channel] += 1;
   }
@@ -130,6 +129,7 @@ WindowEvidence Window::evidence() {
     at_[i] += prior[i] * fitted[i];
     window.bias_rad_s[static_cast<std::size_t>(i)] = at_[i];
   }
+  window.measurements = static_cast<double>(Whitening::count(measured_));
   window.power = power_of(left);
   Trajectory10Hz course;
   const Innovations innovations = replay_->run(library.model(at_), &course);

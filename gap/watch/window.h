@@ -39,6 +39,7 @@ struct WindowProblem {
 struct WindowEvidence {
   Eigen::MatrixXd gram;           ///< n x n, of all unknowns; rows of what was integrated out are zero
   Eigen::VectorXd score;          ///< n
+  double measurements = 0;        ///< number of whitened residuals
   Eigen::VectorXd power;          ///< kPowerChannels: mean square of whitened residuals; NaN: not measured
   Eigen::MatrixXd explained_rms;  ///< channels x regimes (explained_rms()), biases fitted
   GyroBias bias_rad_s{};          ///< estimate, for the next window
@@ -60,8 +61,8 @@ class Window {
   [[nodiscard]] bool can_be_judged() const;
   /// Computes the evidence. To be called once, before power_with().
   [[nodiscard]] WindowEvidence evidence();
-  /// Power of the channels when the vehicle is replayed with these values of all unknowns. Biases are this window's
-  /// own, and the current is fitted.
+  /// Power of the channels when the vehicle is replayed with these values of all unknowns. Biases are this
+  /// window's own, and the current is fitted.
   [[nodiscard]] Eigen::VectorXd power_with(Eigen::VectorXd values) const;
 
  private:

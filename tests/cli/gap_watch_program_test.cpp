@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// navcal gap watch as a user runs it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program_in_folder.h"
+
+namespace navcal::cli {
+namespace {
+
+class GapWatchProgram : public test::ProgramInFolder {
+ protected:
+  [[nodiscard]] std::vector<nlohmann::json> events() const {
+    std::vector<nlohmann::json> all;
+    std::istringstream lines(said("out"));
+    for (std::string line; std::getline(lines, line);) all.push_back(nlohmann::json::parse(line));
+    return all;
+  }
+};
+
+TEST_F(GapWatchProgram, RaisesTheAlarmAfterAChangeAndNotBefore) {
+  std::ofstream(folder_ / "late.toml") << "[hard_iron]\nx_uT = 3\nfrom_s = 70\n";
+  ASSERT_EQ(run_navcal("simulate --mission survey --seconds 160 --effects late.toml --seed 3 -o a.cap"), 0)
+      << said("err");
+  ASSERT_EQ(run_navcal("gap watch --recording a.cap --bank 12 --cache banks --state s.json --metrics m.prom"), 0)
+      << said("err");
+  const auto all = events();
+  EXPECT_EQ(all.front().at("event"), "began");
+  const auto& last = all.back();
+  EXPECT_EQ(last.at("windows"), 4);
+  EXPECT_NE(last.at("verdict"), "no_gap");
+  EXPECT_GT(last.at("alarm").get<double>(), 1767225600.0 + 70);
+  EXPECT_FALSE(last.at("where").empty());
+  EXPECT_NE(said("m.prom").find("navcal_gap_watch_alarm 1"), std::string::npos);
+
+  // The state holds over a restart, and the alarm comes once.
+  ASSERT_EQ(run_navcal("gap watch --recording a.cap --bank 12 --cache banks --state s.json"), 0) << said("err");
+  EXPECT_EQ(events().front().at("restored_windows"), 4);
+  for (const auto& event : events()) EXPECT_NE(event.at("event"), "alarm");
+}
+
+TEST_F(GapWatchProgram, SaysWhatIsWrong) {
+  std::ofstream(folder_ / "x.cap") << "nothing\n";
+  std::ofstream(folder_ / "v.toml") << "[hull]\nmas_kg = 3\n";
+  EXPECT_EQ(run_navcal("gap watch --recording x.cap"), 3) << said("err");
+  EXPECT_EQ(run_navcal("gap watch --recording x.cap --vehicle v.toml"), 3) << said("err");
+  EXPECT_EQ(run_navcal("gap watch --recording x.cap --state x.cap"), 2) << "an input is never overwritten";
+  EXPECT_EQ(run_navcal("gap watch --port 1 --seconds 8"), 1) << said("err");
+  EXPECT_NE(said("err").find("no connection"), std::string::npos) << said("err");
+}
+
+}  // namespace
+}  // namespace navcal::cli
