@@ -46,6 +46,11 @@ std::optional<Order> order_of(const Json& command) {
   return order;
 }
 
+/// Times beyond this are none of a vehicle, and do not fit into nanoseconds.
+constexpr double kLatest_s = 9e9;
+
+bool is_time(double seconds) { return seconds > 0 && seconds <= kLatest_s; }
+
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
 }  // namespace
@@ -114,13 +119,17 @@ void LiveRecords::take_record(std::string_view line, Watch* watch) {
     const Json& command = json.at("message");
     const auto order = order_of(command);
     const auto sent = command.find("sent");
-    if (order && sent != command.end() && sent->is_number() && watch != nullptr)
-      watch->on_order(nanoseconds(sent->get<double>()), *order);
+    if (!order || sent == command.end() || !sent->is_number()) return;  // a refused order moves nothing
+    const double sent_s = sent->get<double>();
+    if (!is_time(sent_s)) {
+      ++bad_;
+    } else if (watch != nullptr) {
+      watch->on_order(nanoseconds(sent_s), *order);
+    }
     return;
   }
   const double time_s = json.at("time").get<double>();
-  constexpr double kLatest_s = 9e9;
-  if (!(time_s > 0) || time_s > kLatest_s) {
+  if (!is_time(time_s)) {
     ++bad_;
     return;
   }

@@ -231,6 +231,8 @@ Watch::State Watch::state() const {
 void Watch::restore(State state) {
   if (state.begins_ns.size() != state.change.windows)
     throw std::invalid_argument("the state has another number of windows than it says");
+  if (state.log_power.size() != kPowerChannels || !state.log_power.allFinite())
+    throw std::invalid_argument("the state is of other channels");
   change_.restore(std::move(state.change));
   power_.restore(state.log_power);
   begins_ns_ = std::move(state.begins_ns);

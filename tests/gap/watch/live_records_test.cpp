@@ -39,13 +39,15 @@ TEST(LiveRecords, PassesOverOtherClassesAndCountsWhatTheDaemonLeftOut) {
 
 TEST(LiveRecords, CountsLinesThatCannotBeRead) {
   LiveRecords records;
-  for (const std::string_view line :
-       {"", "no JSON", "[1]", R"({"class":"RECORD"})", R"({"class":"RECORD","topic":"/imu"})",
-        R"({"class":"RECORD","topic":"/imu","time":-1,"message":{}})",
-        R"({"class":"RECORD","topic":"/imu","time":1e300,"message":{}})",
-        R"({"class":"RECORD","topic":"/imu","time":1700000000,"message":7})",
-        R"({"class":"RECORD","topic":"/imu","time":1700000000,"message":{"class":"IMU","depth_m":"deep"}})",
-        R"({"class":["RECORD"]})"}) {
+  for (
+      const std::string_view line :
+      {"", "no JSON", "[1]", R"({"class":"RECORD"})", R"({"class":"RECORD","topic":"/imu"})",
+       R"({"class":"RECORD","topic":"/imu","time":-1,"message":{}})",
+       R"({"class":"RECORD","topic":"/imu","time":1e300,"message":{}})",
+       R"({"class":"RECORD","topic":"/imu","time":1700000000,"message":7})",
+       R"({"class":"RECORD","topic":"/imu","time":1700000000,"message":{"class":"IMU","depth_m":"deep"}})",
+       R"({"class":"RECORD","topic":"/command","time":1,"message":{"sent":1e300,"shaft_sent_rpm":1,"fins_sent_deg":[0,0,0]}})",
+       R"({"class":["RECORD"]})"}) {
     const std::uint64_t before = records.bad();
     records.take(line, nullptr);
     EXPECT_EQ(records.bad(), before + 1) << line;
