@@ -60,10 +60,10 @@ ChangeDetector detector_of(const Library& library, const Windows& windows) {
 TEST(ChangeDetector, StaysBelowTheNumberOfWindowsWhenNothingChanges) {
   const Library library({});
   Windows windows(library);
-  for (int vehicle = 0; vehicle < 5; ++vehicle) {
+  for (int vehicle = 0; vehicle < 2; ++vehicle) {
     const Eigen::VectorXd values = windows.within_tolerance();
     ChangeDetector detector = detector_of(library, windows);
-    for (int i = 1; i <= 60; ++i) {
+    for (int i = 1; i <= 40; ++i) {
       detector.take(windows.gram(), windows.score(values), kMeasurements);
       EXPECT_LT(detector.log_statistic(), std::log(20.0 * i));
     }
@@ -96,8 +96,8 @@ TEST(ChangeDetector, AnErrorFarBelowTheNoiseIsNoChangeHoweverLong) {
   // A signal of 0.04 standard deviations in each residual.
   values[j] = 0.04 * std::sqrt(kMeasurements / windows.gram()(j, j));
   ChangeDetector detector = detector_of(library, windows);
-  for (int i = 0; i < 300; ++i) detector.take(windows.gram(), windows.score(values), kMeasurements);
-  EXPECT_LT(detector.log_statistic(), std::log(20.0 * 300));
+  for (int i = 0; i < 100; ++i) detector.take(windows.gram(), windows.score(values), kMeasurements);
+  EXPECT_LT(detector.log_statistic(), std::log(20.0 * 100));
 }
 
 TEST(ChangeDetector, GoesOnFromItsState) {
@@ -120,7 +120,7 @@ TEST(ChangeDetector, KeepsFewOnsets) {
   Windows windows(library);
   const Eigen::VectorXd values = windows.within_tolerance();
   ChangeDetector detector = detector_of(library, windows);
-  for (int i = 0; i < 200; ++i) detector.take(windows.gram(), windows.score(values), kMeasurements);
+  for (int i = 0; i < 100; ++i) detector.take(windows.gram(), windows.score(values), kMeasurements);
   EXPECT_LE(detector.state().onsets.size(), 30U);
   EXPECT_EQ(detector.state().onsets.front().window, 0U);
 }
