@@ -139,24 +139,18 @@ std::vector<ExportFile> expect_outputs(const GapCommandOptions& options) {
 }
 
 void find_gap(const GapCommandOptions& options) {
-  try {
+  with_exit_statuses([&] {
     expect_instruments(options.without);
     const std::vector<ExportFile> exports = expect_outputs(options);
-    const gap::Diagnosis diagnosis =
-        options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
-    write_models(diagnosis, options, exports);
-    if (options.saved.empty()) write_answers(diagnosis, options);
-  } catch (const report::BadDiagnosis& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
+    try {
+      const gap::Diagnosis diagnosis =
+          options.saved.empty() ? diagnosis_of(options) : saved_diagnosis(options.saved);
+      write_models(diagnosis, options, exports);
+      if (options.saved.empty()) write_answers(diagnosis, options);
+    } catch (const report::BadDiagnosis& error) {
+      throw analysis::Failure(analysis::Exit::bad_input, error.what());
+    }
+  });
 }
 
 /// Adds the options by which found effects become files for simulators, also of a diagnosis that is saved.

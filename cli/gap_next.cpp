@@ -77,31 +77,21 @@ void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
 }
 
 void plan_next(const GapNextOptions& options) {
-  try {
-    expect_instruments(options.asked.without);
-    const config::MissionLimits limits = limits_of(options);
-    expect_writable(options);
-    if (layout_of(options.asked)) {
-      throw std::invalid_argument("--vehicle: missions are planned for vehicle files only, not for layouts");
-    }
-    const base::Interruptible interruptible;
-    analysis::Progress progress("gap next", analysis::Progress::Answer::at_the_end);
-    const gap::Progress show = [&](std::string_view what, double done) {
-      if (base::Interruptible::interrupted())
-        throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
-      progress.show(what, done);
-    };
-    const auto study = gap::study(gap_request_of(options.asked), show);
-    write_plan(gap::plan_next_mission(*study, limits, show), options);
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
+  expect_instruments(options.asked.without);
+  const config::MissionLimits limits = limits_of(options);
+  expect_writable(options);
+  if (layout_of(options.asked)) {
+    throw std::invalid_argument("--vehicle: missions are planned for vehicle files only, not for layouts");
   }
+  const base::Interruptible interruptible;
+  analysis::Progress progress("gap next", analysis::Progress::Answer::at_the_end);
+  const gap::Progress show = [&](std::string_view what, double done) {
+    if (base::Interruptible::interrupted())
+      throw analysis::Failure(analysis::Exit::failed, "interrupted: nothing was written");
+    progress.show(what, done);
+  };
+  const auto study = gap::study(gap_request_of(options.asked), show);
+  write_plan(gap::plan_next_mission(*study, limits, show), options);
 }
 
 }  // namespace
@@ -132,7 +122,7 @@ void add_gap_next(CLI::App& gap) {
     }
     if (options->asked.source.missions.empty()) throw CLI::RequiredError("FILE");
     if (options->mission.empty()) throw CLI::RequiredError("--mission-out");
-    plan_next(*options);
+    with_exit_statuses([&] { plan_next(*options); });
   });
 }
 

@@ -308,19 +308,7 @@ void add_gap_watch(CLI::App& gap) {
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
   command->footer("Example: navcal gap watch --vehicle vehicle.toml --config /etc/navcal/navcald.toml");
-  command->callback([options] {
-    try {
-      watch_gap(*options);
-    } catch (const record::BadRecording& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    } catch (const config::Error& error) {
-      throw analysis::Failure(analysis::Exit::bad_input, error.what());
-    } catch (const std::invalid_argument& error) {
-      throw analysis::Failure(analysis::Exit::usage, error.what());
-    } catch (const std::system_error& error) {
-      throw analysis::Failure(analysis::Exit::failed, error.what());
-    }
-  });
+  command->callback([options] { with_exit_statuses([&] { watch_gap(*options); }); });
 }
 
 }  // namespace navcal::cli
