@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "record/json/calibration_json.h"
+#include "report/where_json.h"
 
 namespace navcal::report {
 namespace {
@@ -20,11 +21,6 @@ OrderedJson list_of(const std::vector<Element>& elements, Convert convert) {
   OrderedJson list = OrderedJson::array();
   for (const Element& element : elements) list.push_back(convert(element));
   return list;
-}
-
-OrderedJson json_of(const gap::WhereEntry& where) {
-  return {{"channel", where.channel}, {"regime", where.regime}, {"gap", where.gap},
-          {"unit", where.unit},       {"floor", where.floor},   {"p_value", where.p_value}};
 }
 
 OrderedJson json_of(const gap::Confusion& confusion) {
@@ -154,7 +150,7 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
   OrderedJson json{
       {"verdict", gap::name_of(diagnosis.verdict)},
       {"sentence", diagnosis.sentence},
-      {"where", list_of(diagnosis.where, convert)},
+      {"where", list_of(diagnosis.where, where_json)},
       {"effects", list_of(diagnosis.effects, convert)},
       {"gap", json_of(diagnosis.gap)},
       {"unexplained", diagnosis.unexplained},

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "report/where_json.h"
+
 namespace navcal::report {
 namespace {
 
@@ -32,14 +34,7 @@ std::string_view event_name(gap::WatchEvent::Kind kind) {
 
 EventJson list_of_where(const gap::WatchReport& report) {
   EventJson list = EventJson::array();
-  for (const gap::WhereEntry& where : report.where) {
-    list.push_back({{"channel", where.channel},
-                    {"regime", where.regime},
-                    {"gap", where.gap},
-                    {"unit", where.unit},
-                    {"floor", where.floor},
-                    {"p_value", where.p_value}});
-  }
+  for (const gap::WhereEntry& where : report.where) list.push_back(where_json(where));
   return list;
 }
 

@@ -107,6 +107,8 @@ struct Mission {
 class MissionGatherer final : public pipeline::Sink {
  public:
   void on_sample(const instruments::Sample& sample) override;
+  /// A command to the motor card. Its own time is not used.
+  void on_order(const Order& order, std::int64_t time_ns) { orders_.add(order, time_ns); }
   /// Statements of the recording beside its readings.
   struct Said {
     std::optional<Vector3> field_uT{};     ///< the Earth's

@@ -18,8 +18,8 @@ namespace {
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 /// Onsets are kept so that two are apart by at most this share of their age.
 constexpr double kThinning = 0.5;
-/// Greatest factor of a channel's scatter among windows to which the power test is tuned. Powers are not exactly
-/// gamma-distributed, and a wider distribution is the careful choice.
+/// Factor on the scatter of a channel's power among windows. Powers are not exactly gamma-distributed, and a wider
+/// distribution is the careful choice.
 constexpr double kScatterFactor = 2;
 
 double log_sum(double a, double b) {

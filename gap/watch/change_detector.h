@@ -13,12 +13,12 @@ namespace navcal::gap {
 
 /// Sequential test whether an effect of the library began at some window.
 ///
-/// For an onset j and an effect e, the Bayes factor of all windows since j, "e changed at j" against "nothing
-/// changed", has expectation 1 under the second at any time, if tolerances and noise are those of the null
-/// missions. The statistic is the sum over onsets of the mean over effects: the Shiryaev-Roberts statistic, whose
-/// expectation after n windows is at most n without a change. The first time at which it exceeds c is therefore
-/// after c windows on average, or later (Pollak 1985; e-detectors, Shin, Ramdas and Rinaldo 2023). Onsets are
-/// thinned out with their age, which only lowers the statistic.
+/// A Bayes factor compares two statements about all windows since an onset: "this effect changed at the onset" and
+/// "nothing changed". If nothing changed, and tolerances and noise are those of the null missions, its expectation
+/// is 1 at any time. The statistic is the sum over onsets of the mean over effects: the Shiryaev-Roberts
+/// statistic, whose expectation after n windows is at most n without a change. The first time at which it exceeds
+/// c is therefore after c windows on average, or later (Pollak 1985; e-detectors, Shin, Ramdas and Rinaldo 2023).
+/// Onsets are thinned out with their age, which only lowers the statistic.
 ///
 /// No model is exact. An error of kModelError standard deviations of the noise in each residual, in whatever
 /// direction, counts as no change: an effect must explain more than that error could. Otherwise the evidence of an

@@ -106,19 +106,15 @@ void Watch::judge_window() {
   for (const instruments::Sample& sample : samples_) {
     if (sample.stamp.validity_ns >= begin_ns && sample.stamp.validity_ns < end_ns) gatherer.on_sample(sample);
   }
+  for (const auto& [time_ns, order] : orders_) {
+    if (time_ns >= begin_ns && time_ns < end_ns) gatherer.on_order(order, time_ns);
+  }
   Mission mission = gatherer.take(begin_ns, {});
   mission.instruments = instruments_;
   mission.field = field_;
   mission.duration_s = kSettling_s + kWindow_s;
-  for (const auto& [time_ns, order] : orders_) {
-    if (time_ns < begin_ns || time_ns >= end_ns) continue;
-    const double time_s = static_cast<double>(time_ns - begin_ns) * 1e-9;
-    mission.commanded_s.push_back(time_s);
-    const bool is_repeated = !mission.orders.empty() && mission.orders.back().rpm == order.rpm &&
-                             mission.orders.back().fins_rad == order.fins_rad;
-    if (is_repeated) continue;
-    mission.orders.push_back({time_s, order.rpm, order.fins_rad});
-    mission.order_times_s.push_back(time_s);
+  for (const Order& order : mission.orders) {
+    mission.order_times_s.push_back(order.time_s);
     mission.ordered_fins_rad.push_back(order.fins_rad);
   }
   find_silences(mission);

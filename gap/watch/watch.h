@@ -75,7 +75,7 @@ class Watch final : public pipeline::Sink {
 
   [[nodiscard]] const WatchReport& report() const { return report_; }
 
-  /// What is kept over a restart.
+  /// What the watch has learnt so far. A later run goes on from it.
   struct State {
     ChangeDetector::State change;
     Eigen::VectorXd log_power;
