@@ -36,7 +36,7 @@ set(NAVCAL_MAY_INCLUDE_cli base protocols config devices record ports link autop
 # The order of the folders within a room: each may include itself, those before it, and what lies in the room's own folder.
 # What lies there may include all of them only from a .cpp. Folders that are not named (calib/thesis) are free.
 set(NAVCAL_ORDER_calib turn magnetometer gps delay swing reference suite)
-set(NAVCAL_ORDER_gap data actuators replay inference nulls verdict design watch)
+set(NAVCAL_ORDER_gap data actuators replay inference nulls sources verdict design watch)
 set(NAVCAL_ORDER_identify data replay fit answer)
 
 # The rooms of the shared library: api and all that it uses, directly or not. Their code is independent of its position and

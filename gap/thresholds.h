@@ -78,6 +78,13 @@ inline constexpr double kLeastCandidate = 1e-4;
 /// Log evidence above which two effects, or an effect and none, are distinguishable, nats. Set.
 inline constexpr double kObservable_nats = 10;
 
+// ---- sources of an error
+
+/// Most terms by which the error of one source is described.
+inline constexpr std::size_t kMostErrorTerms = 5;
+/// Leading sources whose errors are described by all covariates, where the gap is unknown.
+inline constexpr std::size_t kSourcesInFull = 3;
+
 // ---- null missions
 
 /// Null missions whose noise the whitening filter is fitted to. Set.

@@ -138,6 +138,22 @@ OrderedJson json_of(const gap::RecordingFinding& finding) {
   return json;
 }
 
+OrderedJson json_of(const gap::ErrorFinding& error) {
+  return {{"component", error.component},
+          {"channel", error.channel.empty() ? OrderedJson() : OrderedJson(error.channel)},
+          {"follows", error.follows},
+          {"families", error.families},
+          {"rms", error.rms},
+          {"std_error", error.std_error},
+          {"unit", error.unit}};
+}
+
+OrderedJson json_of(const gap::SourceFinding& source) {
+  return {{"source", source.name},
+          {"gain_nats", source.gain_nats},
+          {"errors", list_of(source.errors, [](const auto& error) { return json_of(error); })}};
+}
+
 OrderedJson json_of(const gap::EffectDifference& difference) {
   return {{"name", difference.name}, {"p_value", difference.p_value}, {"differs", difference.differs}};
 }
@@ -151,6 +167,7 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"verdict", gap::name_of(diagnosis.verdict)},
       {"sentence", diagnosis.sentence},
       {"where", list_of(diagnosis.where, where_json)},
+      {"sources", list_of(diagnosis.sources, convert)},
       {"effects", list_of(diagnosis.effects, convert)},
       {"gap", json_of(diagnosis.gap)},
       {"unexplained", diagnosis.unexplained},

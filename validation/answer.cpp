@@ -85,6 +85,8 @@ TrialAnswer read_answer(std::string_view text) {
     const Json object = Json::parse(text);
     answer.verdict = verdict_of(object.at("verdict").get<std::string>());
     for (const Json& entry : object.at("where")) answer.channels.push_back(entry.at("channel").get<std::string>());
+    for (const Json& entry : object.value("sources", Json::array()))
+      answer.sources.push_back(entry.at("source").get<std::string>());
     answer.effects = findings_of(object.at("effects"), answer.twins);
     answer.candidates = findings_of(object.value("candidates", Json::array()), answer.twins);
     read_closure(object.at("gap"), answer);

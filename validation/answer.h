@@ -30,6 +30,7 @@ struct TrialFinding {
 struct TrialAnswer {
   TrialVerdict verdict = TrialVerdict::unknown;
   std::vector<std::string> channels;     ///< strongest excess first
+  std::vector<std::string> sources;      ///< where the error enters, most probable first; as far as it was told
   std::vector<TrialFinding> effects;     ///< on which the verdict rests, most probable first
   std::vector<TrialFinding> candidates;  ///< what was considered besides; as far as it was told
   std::vector<std::string> twins;        ///< with which effects and candidates are said to be confused

@@ -19,6 +19,7 @@ std::span<const std::string_view> channels_of(Trace trace) {
       {Trace::field, {"compass.field", "compass.heading"}},
       {Trace::heading, {"compass.heading", "compass.field", "gps.velocity", "gps.position"}},
       {Trace::tilt, {"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}},
+      {Trace::roll, {"compass.tilt", "compass.heading", "compass.field", "imu.accel", "imu.gyro"}},
       {Trace::rates,
        {"imu.gyro", "compass.heading", "compass.tilt", "compass.field", "vehicle.yaw_rate", "vehicle.pitch_rate"}},
       {Trace::force, {"imu.accel", "compass.tilt", "vehicle.speed", "gps.velocity", "gps.position"}},
@@ -41,17 +42,42 @@ std::span<const std::string_view> channels_of(Trace trace) {
   return kAll.at(trace);
 }
 
+/// Sources of which an enumerator of reference::Trace is an error, by the equations. A lag of the field or a
+/// turned magnetometer is an error of both field and heading. What acts on the whole inertial card is one of each
+/// of its instruments.
+std::span<const std::string_view> sources_of(Trace trace) {
+  using Sources = std::vector<std::string_view>;
+  static const std::map<Trace, Sources> kAll{
+      {Trace::field, {"compass.field"}},
+      {Trace::heading, {"compass.heading", "compass.field"}},
+      {Trace::tilt, {"compass.tilt"}},
+      {Trace::roll, {"vehicle.moments"}},
+      {Trace::rates, {"imu.gyro"}},
+      {Trace::force, {"imu.accel"}},
+      {Trace::card, {"imu.gyro", "imu.accel", "imu.depth"}},
+      {Trace::depth, {"imu.depth"}},
+      {Trace::fixes, {"gps"}},
+      {Trace::drift, {"water.current"}},
+      {Trace::thrust, {"vehicle.thrust"}},
+      {Trace::fins, {"vehicle.moments"}},
+      {Trace::rise, {"vehicle.heave"}},
+      {Trace::supply, {"vehicle.thrust", "imu.gyro", "imu.accel", "imu.depth"}},
+      {Trace::waves, {"vehicle.moments", "vehicle.heave"}},
+  };
+  return kAll.at(trace);
+}
+
 std::vector<TrialSignature> all_signatures() {
   std::vector<TrialSignature> all;
   for (const reference::EffectKind& kind : reference::library_effects()) {
-    all.push_back({kind.name, {}, channels_of(kind.trace)});
+    all.push_back({kind.name, {}, channels_of(kind.trace), sources_of(kind.trace)});
     if (const auto effect = sim::make_effect(kind.name)) {
       const auto confounders = effect->description().confounders;
       all.back().confounders.assign(confounders.begin(), confounders.end());
     }
   }
   for (const reference::EffectKind& kind : reference::foreign_effects()) {
-    all.push_back({kind.name, {}, channels_of(kind.trace)});
+    all.push_back({kind.name, {}, channels_of(kind.trace), sources_of(kind.trace)});
   }
   return all;
 }

@@ -16,6 +16,8 @@ struct TrialSignature {
   std::vector<std::string_view> confounders;
   /// Channels in which it may well be the strongest excess, by its reference::Trace.
   std::span<const std::string_view> channels;
+  /// Instruments and forces whose error it is, strictly: where it enters, not where that leads (docs/trial.md).
+  std::span<const std::string_view> sources;
 };
 
 /// Signatures of all effects of the reference simulator: those of the library, then the foreign ones.

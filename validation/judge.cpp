@@ -68,14 +68,17 @@ void judge_names(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
   });
 }
 
-void judge_channel(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgement& judgement) {
+void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgement& judgement) {
   if (answer.verdict == TrialVerdict::no_gap) return;
-  judgement.channel_right =
-      !answer.channels.empty() &&
-      std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const reference::Effect& effect) {
-        const TrialSignature* signature = signature_of(effect.name);
-        return signature != nullptr && contains(signature->channels, answer.channels.front());
-      });
+  const auto is_first = [&](const std::vector<std::string>& named, auto TrialSignature::*right) {
+    return !named.empty() &&
+           std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const reference::Effect& effect) {
+             const TrialSignature* signature = signature_of(effect.name);
+             return signature != nullptr && contains(signature->*right, named.front());
+           });
+  };
+  judgement.channel_right = is_first(answer.channels, &TrialSignature::channels);
+  judgement.source_right = is_first(answer.sources, &TrialSignature::sources);
 }
 
 void judge_parameters(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgement& judgement) {
@@ -116,7 +119,7 @@ TrialJudgement judged(const TrialResult& result) {
   judgement.outcome = outcome_of(drawn, answer);
   if (!drawn.effects.empty()) {
     if (drawn.in_library()) judge_names(drawn, answer, judgement);
-    judge_channel(drawn, answer, judgement);
+    judge_where(drawn, answer, judgement);
   }
   if (judgement.outcome == TrialOutcome::exact) {
     judgement.closed = answer.closed;

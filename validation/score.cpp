@@ -171,6 +171,11 @@ void score_numbers(const std::vector<Judged>& all, const TrialScores& scores, Ta
               [](const Judged& one) { return one.judgement.covered; });
   table.share("strongest channel right", at_least(0.95),
               [](const Judged& one) { return one.judgement.channel_right; });
+  const auto foreign = [](const Judged& one) { return one.result->drawn.arm == TrialArm::foreign; };
+  table.share("source right: effects of the library", at_least(0.95),
+              [&](const Judged& one) { return foreign(one) ? std::nullopt : one.judgement.source_right; });
+  table.share("source right: outside the library", at_least(0.95),
+              [&](const Judged& one) { return foreign(one) ? one.judgement.source_right : std::nullopt; });
   table.parts("parameters within 2 standard errors", at_least(0.95), [](const Judged& one) {
     return std::array{one.judgement.parameters_within, one.judgement.parameters};
   });

@@ -12,6 +12,10 @@
 namespace navcal::gap {
 namespace {
 
+/// Longest integration step of the vehicle model. With one step for each frame of the card, a vehicle identical
+/// to its model would appear to have quicker fins and a late card, by ten standard errors on a zigzag.
+constexpr double kLongestPart_s = 0.026;
+
 constexpr double kReference_C = base::reference::kTemperature_C;
 constexpr double kTemperatureGain = 0.005;  ///< a reading; the electronics settle within 200 s
 
@@ -74,11 +78,19 @@ Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
              std::floor((std::min(mission.card.back().time_s, mission.judged_until_s) - begin_s_) / kInterval_s)));
 }
 
-Innovations Replay::run(const Model& model, Trajectory10Hz* course) const {
+Innovations Replay::run_in_steps(const Model& model, double longest_part_s, Trajectory10Hz* course) const {
   return ReplayRun({mission_, settings_, vehicle_, track_.rows(), current_A_, electronics_C_, begin_s_,
-                    compass_shift_s_, intervals_},
+                    compass_shift_s_, intervals_, longest_part_s},
                    model)
       .innovations(course);
+}
+
+Innovations Replay::run(const Model& model, Trajectory10Hz* course) const {
+  return run_in_steps(model, kLongestPart_s, course);
+}
+
+Innovations Replay::run_coarsely(const Model& model) const {
+  return run_in_steps(model, std::numeric_limits<double>::infinity(), nullptr);
 }
 
 }  // namespace navcal::gap

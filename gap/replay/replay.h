@@ -38,12 +38,17 @@ class Replay {
 
   /// Fills in `course`, where given.
   [[nodiscard]] Innovations run(const Model& model, Trajectory10Hz* course = nullptr) const;
+  /// The same with one integration step for each frame of the card. Its innovations are biased, but the difference
+  /// of two such runs is as good as that of two others, and costs half.
+  [[nodiscard]] Innovations run_coarsely(const Model& model) const;
 
   [[nodiscard]] Eigen::Index intervals() const { return intervals_; }
   [[nodiscard]] const Mission& mission() const { return mission_; }
   [[nodiscard]] const ActuatorTrack& actuators() const { return track_; }
 
  private:
+  [[nodiscard]] Innovations run_in_steps(const Model& model, double longest_part_s, Trajectory10Hz* course) const;
+
   const Mission& mission_;
   config::VehicleSettings settings_;
   sim::Vehicle vehicle_;

@@ -30,9 +30,6 @@ constexpr double kDriftVariance_m2_s = 0.02;
 /// After a longer silence the card has been off, and the estimator begins anew.
 constexpr double kRestart_s = 5;
 constexpr double kLongestStep_s = 0.06;
-/// Longest integration step of the vehicle model. With one step for each frame of the card, a vehicle identical
-/// to its model would appear to have quicker fins and a late card, by ten standard errors on a zigzag.
-constexpr double kLongestPart_s = 0.026;
 constexpr double kSubmerged_s = 10;
 
 Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
@@ -161,7 +158,7 @@ void ReplayRun::step(double from_s, double until_s, const Vector3& gyro_rad_s) {
   effects_.influence(from_s, influences_);
   const Eigen::Vector3d euler = body_.euler_rad;
   const Eigen::Vector3d rate = base::vector_of(gyro_rad_s);
-  const int parts = std::max(1, static_cast<int>(std::ceil(step_s / kLongestPart_s)));
+  const int parts = std::max(1, static_cast<int>(std::ceil(step_s / in_.longest_part_s)));
   const double part_s = step_s / parts;
   for (int i = 0; i < parts; ++i) {
     const double at_s = from_s + i * part_s;

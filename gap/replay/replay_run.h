@@ -22,6 +22,7 @@ struct ReplayInput {
   std::span<const double> electronics_C;  ///< at each compass reading
   double begin_s = 0, compass_shift_s = 0;
   Eigen::Index intervals = 0;
+  double longest_part_s = 0;  ///< longest integration step of the vehicle model
 };
 
 /// One replay with one model. Used once.

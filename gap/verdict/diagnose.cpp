@@ -19,6 +19,7 @@
 #include "gap/verdict/prepare.h"
 #include "gap/verdict/recordings_apart.h"
 #include "gap/verdict/request.h"
+#include "gap/verdict/sources.h"
 #include "gap/verdict/study.h"
 #include "gap/verdict/verdict.h"
 #include "gap/verdict/where.h"
@@ -280,6 +281,11 @@ FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& 
     const Eigen::MatrixXd with_members = explained_rms(here.improved, here.course, here.fix_times_s);
     answer.where.push_back(most_changed(answer.map, nominal_rms, with_members, a.bank.explained_rms));
   }
+  if (answer.verdict != Verdict::no_gap) {
+    write_sources(problem, result, answer);
+    put_source_first(answer);
+  }
+  result.nominal = {};  // large, and no longer needed
   answer.duration_s = a.mission.duration_s;
   for (const Prepared* other : problem.others) answer.duration_s += other->mission.duration_s;
   for (Eigen::Index i = 0; i < Library::kBiases; ++i) {

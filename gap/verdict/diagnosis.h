@@ -36,6 +36,25 @@ struct WhereEntry {
   double p_value = 1;   ///< probability of such a value among nulls, over all channels and regimes together
 };
 
+/// An error of one component of a source that follows a quantity of the mission.
+struct ErrorFinding {
+  std::string component;              ///< "x"
+  std::string channel;                ///< of the residual map; empty: none belongs to it
+  std::string regime;                 ///< of the residual map, nearest to the quantity
+  std::string follows;                ///< the quantity: "yaw_rate x speed"
+  std::vector<std::string> families;  ///< kinds of quantities in it: "rate", "speed"
+  double rms = 0, std_error = 0;      ///< size of the error; negative: against the quantity
+  std::string unit;
+};
+
+/// An instrument or force by whose error the residuals can be described.
+struct SourceFinding {
+  std::string name;      ///< "compass.tilt"
+  std::string words;     ///< "the inclinometer"
+  double gain_nats = 0;  ///< log evidence over that of a vehicle within tolerance
+  std::vector<ErrorFinding> errors;
+};
+
 struct EffectParameterEstimate {
   std::string name;  ///< with its unit: "x_uT_per_A"
   double value = 0, std_error = 0;
@@ -135,6 +154,7 @@ struct Diagnosis {
   std::string sentence;                   ///< the verdict for people
   std::vector<WhereEntry> where;          ///< significant cells, strongest first
   std::vector<WhereEntry> map;            ///< every channel and regime, for the figure
+  std::vector<SourceFinding> sources;     ///< where the error enters, best description first
   std::vector<EffectFinding> effects;     ///< the set on which the verdict rests
   std::vector<EffectFinding> candidates;  ///< all that were considered likely, most probable first
   Gap gap;

@@ -68,7 +68,7 @@ ModelFit of_first(const ModelFit& fit, const DiagnosisProblem& problem) {
 FoundEffects search_with_backlash(const DiagnosisProblem& problem, const Linearised& nominal) {
   const Library& library = problem.library;
   const Priors priors = priors_of(problem, nominal);
-  FoundEffects result{search_by(priors, problem, nominal), priors, {}, {}, {}};
+  FoundEffects result{search_by(priors, problem, nominal), priors, {}, {}, {}, {}};
   if (!has_backlash(library, result.found.best.effects)) return result;
   problem.progress("null missions with backlash", 0);
   BacklashNullBank bank = backlash_null_bank(of_first(result.found.best, problem), problem.repeated().front(),
@@ -114,6 +114,27 @@ bool is_chance(const DiagnosisProblem& problem, const Linearised& nominal, const
                                               {kBacklashMissions, problem.request.bank_seed, problem.threads}));
 }
 
+FoundEffects searched(const DiagnosisProblem& problem, const Linearised& nominal) {
+  const Library& library = problem.library;
+  FoundEffects result = search_with_backlash(problem, nominal);
+  if (is_chance(problem, nominal, result)) {
+    result.by_chance = result.found.best.effects;
+    result.found = nothing_found(problem.inference(nominal, result.priors));
+    result.backlash_bank.reset();
+    return result;
+  }
+  // An effect that this mission could not show may be there unnoticed, and absorbs what belongs to others. It
+  // cannot be named, so it becomes a nuisance parameter of a second search. No second backlash null bank is made.
+  const EffectSubset hidden = unobservable_effects(result.found);
+  if (hidden.empty()) return result;
+  FoundEffects again{{}, as_nuisance_parameters(result.priors, library, hidden), {}, result.backlash_bank, hidden,
+                     {}};
+  again.found = search_by(again.priors, problem, nominal);
+  const bool can_be_told = !again.found.best.effects.empty() && unobservable_effects(again.found).empty() &&
+                           has_backlash(library, again.found.best.effects) == result.backlash_bank.has_value();
+  return can_be_told && !is_chance(problem, nominal, again) ? again : result;
+}
+
 }  // namespace
 
 InferenceProblem DiagnosisProblem::inference(const Linearised& nominal, const Priors& priors) const {
@@ -128,24 +149,10 @@ std::vector<RepeatedMission> DiagnosisProblem::repeated() const {
 
 FoundEffects find_effects(const DiagnosisProblem& problem) {
   problem.progress("linearising", 0);
-  const Library& library = problem.library;
-  const Linearised nominal = linearise(problem.model(), problem.prepared.at);
-  FoundEffects result = search_with_backlash(problem, nominal);
-  if (is_chance(problem, nominal, result)) {
-    result.by_chance = result.found.best.effects;
-    result.found = nothing_found(problem.inference(nominal, result.priors));
-    result.backlash_bank.reset();
-    return result;
-  }
-  // An effect that this mission could not show may be there unnoticed, and absorbs what belongs to others. It
-  // cannot be named, so it becomes a nuisance parameter of a second search. No second backlash null bank is made.
-  const EffectSubset hidden = unobservable_effects(result.found);
-  if (hidden.empty()) return result;
-  FoundEffects again{{}, as_nuisance_parameters(result.priors, library, hidden), result.backlash_bank, hidden, {}};
-  again.found = search_by(again.priors, problem, nominal);
-  const bool can_be_told = !again.found.best.effects.empty() && unobservable_effects(again.found).empty() &&
-                           has_backlash(library, again.found.best.effects) == result.backlash_bank.has_value();
-  return can_be_told && !is_chance(problem, nominal, again) ? again : result;
+  Linearised nominal = linearise(problem.model(), problem.prepared.at);
+  FoundEffects result = searched(problem, nominal);
+  result.nominal = std::move(nominal);
+  return result;
 }
 
 }  // namespace navcal::gap

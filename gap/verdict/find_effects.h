@@ -41,6 +41,7 @@ struct DiagnosisProblem {
 struct FoundEffects {
   SearchResult found;
   Priors priors;
+  Linearised nominal;                             ///< about the nominal vehicle, of all recordings
   std::optional<BacklashNullBank> backlash_bank;  ///< when backlash was found
   EffectSubset unobservable;  ///< effects that the mission hardly shows: nuisance parameters of the search
   EffectSubset by_chance;     ///< effects that were found, and that null missions show as well

@@ -45,8 +45,8 @@ class Effect {
   virtual void antenna(const Instant&, AntennaMotion&) {}
   virtual void delays(Delays&) {}
   // Vehicle (sim/vehicle/influences.h).
-  virtual void influence(Influences&) {}
-  virtual void link_fins(double /*step_s*/, Vector3& /*fins_rad*/) {}
+  virtual void influence(double /*time_s*/, Influences&) {}
+  virtual void link_fins(double /*time_s*/, double /*step_s*/, Vector3& /*fins_rad*/) {}
   // Noise, clocks and lines.
   virtual void noise(Instrument, double& /*factor*/) {}
   virtual void clock(Instrument, double& /*slow_ppm*/) {}

@@ -76,11 +76,11 @@ Delays EffectSet::delays(double time_s) {
 }
 
 void EffectSet::influence(double time_s, Influences& on) {
-  each(time_s, [&](Effect& effect) { effect.influence(on); });
+  each(time_s, [&](Effect& effect) { effect.influence(time_s, on); });
 }
 
 void EffectSet::link_fins(double time_s, double step_s, Vector3& fins_rad) {
-  each(time_s, [&](Effect& effect) { effect.link_fins(step_s, fins_rad); });
+  each(time_s, [&](Effect& effect) { effect.link_fins(time_s, step_s, fins_rad); });
 }
 
 void EffectSet::change_layout(double time_s, config::Layout& layout) {

@@ -37,6 +37,7 @@ enum class Trace : std::uint8_t {
   field,
   heading,
   tilt,
+  roll,  ///< a moment about x
   rates,
   force,
   card,  ///< all that the inertial card measures

@@ -13,7 +13,7 @@ std::span<const EffectKind> foreign_effects() {
        {"per_m2"},
        {.typical = 0.05, .sign = Sign::positive},
        [](D& d) { return &d.vehicle.crossflow_per_m2; }},
-      {"torque_leak", Trace::tilt, {"share"}, {.typical = 0.6}, [](D& d) { return &d.vehicle.torque_leak; }},
+      {"torque_leak", Trace::roll, {"share"}, {.typical = 0.6}, [](D& d) { return &d.vehicle.torque_leak; }},
       {"tidal_current",
        Trace::drift,
        {"north_m_s", "east_m_s"},

@@ -19,7 +19,7 @@ constexpr EffectDescription kBuoyancy{.name = "buoyancy",
 class Buoyancy final : public EffectOf<Buoyancy, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kBuoyancy; }
-  void influence(Influences& on) override { on.buoyancy_N += p_[0]; }
+  void influence(double /*time_s*/, Influences& on) override { on.buoyancy_N += p_[0]; }
 };
 
 }  // namespace

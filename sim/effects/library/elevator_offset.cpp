@@ -21,7 +21,7 @@ constexpr EffectDescription kElevatorOffset{.name = "elevator_offset",
 class ElevatorOffset final : public EffectOf<ElevatorOffset, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kElevatorOffset; }
-  void link_fins(double, Vector3& fins_rad) override {
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     const double elevator_rad = p_[0] * std::numbers::pi / 180;
     constexpr double kShare = std::numbers::sqrt3 / 2;  // docs/simulator.md: how rudder and elevator mix
     add_scaled(fins_rad, elevator_rad, {0, kShare, -kShare});

@@ -23,7 +23,7 @@ constexpr EffectDescription kFinBacklash{.name = "fin_backlash",
 class FinBacklash final : public EffectOf<FinBacklash, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kFinBacklash; }
-  void link_fins(double, Vector3& fins_rad) override {
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     if (!begun_) fins_rad_ = fins_rad;
     begun_ = true;
     const double half_rad = p_[0] * std::numbers::pi / 360;

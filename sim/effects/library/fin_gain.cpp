@@ -20,7 +20,7 @@ constexpr EffectDescription kFinGain{.name = "fin_gain",
 class FinGain final : public EffectOf<FinGain, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kFinGain; }
-  void link_fins(double, Vector3& fins_rad) override {
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     for (double& fin_rad : fins_rad) fin_rad *= 1 + p_[0];
   }
 };

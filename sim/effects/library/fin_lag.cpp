@@ -23,7 +23,7 @@ constexpr EffectDescription kFinLag{.name = "fin_lag",
 class FinLag final : public EffectOf<FinLag, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kFinLag; }
-  void link_fins(double step_s, Vector3& fins_rad) override {
+  void link_fins(double /*time_s*/, double step_s, Vector3& fins_rad) override {
     elapsed_s_ += step_s;
     fins_rad = filter_.at(elapsed_s_, fins_rad, p_[0]);
   }

@@ -21,7 +21,7 @@ constexpr EffectDescription kFinOffset{.name = "fin_offset",
 class FinOffset final : public EffectOf<FinOffset, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kFinOffset; }
-  void link_fins(double, Vector3& fins_rad) override {
+  void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     const double rudder_rad = p_[0] * std::numbers::pi / 180;
     add_scaled(fins_rad, rudder_rad, {-1, 0.5, 0.5});  // docs/simulator.md: how rudder and elevator mix
   }

@@ -19,7 +19,7 @@ constexpr EffectDescription kThrustScale{.name = "thrust_scale",
 class ThrustScale final : public EffectOf<ThrustScale, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kThrustScale; }
-  void influence(Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
+  void influence(double /*time_s*/, Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ constexpr EffectDescription kWaterCurrent{.name = "water_current",
 class WaterCurrent final : public EffectOf<WaterCurrent, 2> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kWaterCurrent; }
-  void influence(Influences& on) override {
+  void influence(double /*time_s*/, Influences& on) override {
     on.current_m_s[0] += p_[0];
     on.current_m_s[1] += p_[1];
   }

@@ -19,7 +19,7 @@ constexpr EffectDescription kYawDamping{.name = "yaw_damping",
 class YawDamping final : public EffectOf<YawDamping, 1> {
  public:
   [[nodiscard]] const EffectDescription& description() const override { return kYawDamping; }
-  void influence(Influences& on) override { on.yaw_damping_per_s += p_[0]; }
+  void influence(double /*time_s*/, Influences& on) override { on.yaw_damping_per_s += p_[0]; }
 };
 
 }  // namespace

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gap/sources/source_evidence.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/parallel.h"
+#include "gap/thresholds.h"
+
+namespace navcal::gap {
+namespace {
+
+/// Standard deviations of the prior of a coefficient, in typical values of its component.
+constexpr std::array<double, 3> kCoefficients{0.1, 0.5, 2.5};
+/// Step of the finite difference, typical values.
+constexpr double kErrorStep = 0.2;
+
+/// All terms of one source: Gram matrix and score of their traces, with the tolerances marginalised out.
+struct Terms {
+  std::vector<ErrorTerm> all;
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd score;
+};
+
+/// What the vehicle's tolerances can explain, to be taken out of Gram matrices and scores.
+class Tolerances {
+ public:
+  Tolerances(const Linearised& nominal, const Priors& priors)
+      : scaled_design_(nominal.design * priors.spike.asDiagonal()), residual_(residual_at_zero(nominal)) {
+    Eigen::MatrixXd inner = scaled_design_.transpose() * scaled_design_;
+    inner.diagonal().array() += 1;
+    factor_.compute(inner);
+    scaled_score_ = scaled_design_.transpose() * residual_;
+  }
+
+  /// Z^T (1 + X D^2 X^T)^-1 Z and Z^T (1 + X D^2 X^T)^-1 r.
+  void marginalise(const Eigen::MatrixXd& traces, Terms& terms) const {
+    const Eigen::MatrixXd shared = scaled_design_.transpose() * traces;
+    const Eigen::MatrixXd solved = factor_.solve(shared);
+    terms.gram = traces.transpose() * traces - shared.transpose() * solved;
+    terms.score = traces.transpose() * residual_ - solved.transpose() * scaled_score_;
+  }
+
+ private:
+  Eigen::MatrixXd scaled_design_;
+  Eigen::VectorXd residual_, scaled_score_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+/// Terms that were chosen, and the standard deviations of their priors.
+struct Choice {
+  std::vector<Eigen::Index> terms;
+  std::vector<double> widths;
+  double evidence = 0;
+};
+
+struct ChoicePosterior {
+  Eigen::VectorXd mean, std;
+};
+
+/// Matrix T G T + 1 and vector T s of chosen terms with prior standard deviations T.
+std::pair<Eigen::MatrixXd, Eigen::VectorXd> scaled(const Terms& terms, const Choice& choice) {
+  const auto n = static_cast<Eigen::Index>(choice.terms.size());
+  Eigen::MatrixXd gram(n, n);
+  Eigen::VectorXd score(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    score[i] = choice.widths[a] * terms.score[choice.terms[a]];
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto b = static_cast<std::size_t>(j);
+      gram(i, j) = choice.widths[a] * choice.widths[b] * terms.gram(choice.terms[a], choice.terms[b]);
+    }
+    gram(i, i) += 1;
+  }
+  return {gram, score};
+}
+
+double evidence_of(const Terms& terms, const Choice& choice) {
+  const auto [gram, score] = scaled(terms, choice);
+  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+  return 0.5 * score.dot(factor.solve(score)) - factor.matrixLLT().diagonal().array().log().sum();
+}
+
+ChoicePosterior posterior_of(const Terms& terms, const Choice& choice) {
+  const auto [gram, score] = scaled(terms, choice);
+  const Eigen::MatrixXd inverse = gram.llt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
+  const Eigen::Map<const Eigen::VectorXd> width(choice.widths.data(), gram.rows());
+  return {width.cwiseProduct(inverse * score), width.cwiseProduct(inverse.diagonal().cwiseSqrt())};
+}
+
+/// Chooses one term after the other, as long as the evidence grows by more than the choice costs.
+Choice chosen(const Terms& terms) {
+  Choice best;
+  const auto count = static_cast<double>(terms.all.size() * kCoefficients.size());
+  const double cost = std::log(std::max(1.0, count));
+  while (best.terms.size() < kMostErrorTerms) {
+    Choice leader;
+    leader.evidence = best.evidence;
+    for (Eigen::Index j = 0; j < terms.score.size(); ++j) {
+      if (std::find(best.terms.begin(), best.terms.end(), j) != best.terms.end()) continue;
+      for (const double coefficient : kCoefficients) {
+        Choice next = best;
+        next.terms.push_back(j);
+        next.widths.push_back(coefficient * terms.all[static_cast<std::size_t>(j)].component->typical);
+        next.evidence = evidence_of(terms, next) - cost * static_cast<double>(next.terms.size());
+        if (next.evidence > leader.evidence) leader = std::move(next);
+      }
+    }
+    if (leader.terms.empty()) break;
+    best = std::move(leader);
+  }
+  return best;
+}
+
+/// Sources whose errors are simulated in one replay for all components: the estimator does not feed them back, so
+/// that each stays in channels of its own.
+using SourcesTogether = std::vector<const ErrorSource*>;
+
+/// The columns of the innovations in which an error stays. Empty: the estimator spreads it over all of them.
+struct OwnChannels {
+  std::vector<Eigen::Index> grid, fixes;
+};
+OwnChannels own_channels(ErrorPlace place) {
+  const auto from = [place](ErrorPlace first) {
+    return static_cast<Eigen::Index>(place) - static_cast<Eigen::Index>(first);
+  };
+  switch (place) {
+    case ErrorPlace::force_x:
+    case ErrorPlace::force_y:
+    case ErrorPlace::force_z:
+      return {{force_x + from(ErrorPlace::force_x)}, {}};
+    case ErrorPlace::depth:
+      return {{Channel::depth}, {}};
+    case ErrorPlace::position_north:
+    case ErrorPlace::position_east:
+      return {{}, {fix_north + from(ErrorPlace::position_north)}};
+    case ErrorPlace::velocity_north:
+    case ErrorPlace::velocity_east:
+      return {{}, {velocity_north + from(ErrorPlace::velocity_north)}};
+    case ErrorPlace::current_north:
+    case ErrorPlace::current_east:
+      return {{}, {fix_north + from(ErrorPlace::current_north), velocity_north + from(ErrorPlace::current_north)}};
+    default:
+      return {};
+  }
+}
+
+/// Sources by the replays that they share. Without a compass, accelerometers and fixes steer the estimator, too.
+std::vector<SourcesTogether> by_replays(const SourceProblem& problem) {
+  const bool steered_by_compass = problem.model.replay.mission().silences.empty();
+  std::vector<SourcesTogether> all;
+  SourcesTogether followers;
+  for (const ErrorSource& source : error_sources()) {
+    const bool spreads = own_channels(source.components.front().place).grid.empty() &&
+                         own_channels(source.components.front().place).fixes.empty();
+    const bool moves = source.components.front().place == ErrorPlace::current_north;
+    if (spreads || moves || !steered_by_compass) {
+      all.push_back({&source});
+    } else {
+      followers.push_back(&source);
+    }
+  }
+  if (!followers.empty()) all.push_back(std::move(followers));
+  return all;
+}
+
+/// The part of a difference of innovations that belongs to some columns.
+Innovations only(const Innovations& difference, const OwnChannels& own) {
+  Innovations part = difference;
+  const auto keep = [](Eigen::MatrixXd& values, const std::vector<Eigen::Index>& columns) {
+    for (Eigen::Index c = 0; c < values.cols(); ++c) {
+      if (std::find(columns.begin(), columns.end(), c) == columns.end()) values.col(c) *= 0;  // keeps NaN
+    }
+  };
+  keep(part.grid, own.grid);
+  keep(part.fixes, own.fixes);
+  return part;
+}
+
+/// Innovations of the nominal vehicle less those with the errors of some components, for one step of each.
+Innovations difference_by(const SourceProblem& problem, const Innovations& nominal,
+                          std::span<const ErrorComponent* const> components,
+                          const std::shared_ptr<const Eigen::VectorXd>& series) {
+  const ResidualModel& of = problem.model;
+  Model model = of.library.model(problem.nominal.at);
+  for (const ErrorComponent* component : components) {
+    const double amplitude = kErrorStep * component->typical;
+    model.effects.add(std::make_unique<TimedError>(component->place, series, problem.begin_s))
+        .set_parameters(std::span(&amplitude, 1));
+  }
+  Innovations with = of.replay.run_coarsely(model);
+  with.grid = nominal.grid - with.grid;
+  with.fixes = nominal.fixes - with.fixes;
+  return with;
+}
+
+/// A covariate that may be a term.
+struct Series {
+  std::size_t covariate;
+  std::shared_ptr<const Eigen::VectorXd> values;
+};
+
+/// The covariates that an error of these sources may follow.
+std::vector<Series> series_for(const SourcesTogether& sources, std::span<const Covariate> covariates,
+                               CovariateSet set) {
+  const bool heading =
+      std::any_of(sources.begin(), sources.end(), [](auto* each) { return each->follows_heading; });
+  const bool orders = std::any_of(sources.begin(), sources.end(), [](auto* each) { return each->follows_orders; });
+  std::vector<Series> series;
+  for (std::size_t k = 0; k < covariates.size(); ++k) {
+    const Covariate& covariate = covariates[k];
+    const auto has = [&](std::string_view family) {
+      return std::find(covariate.families.begin(), covariate.families.end(), family) != covariate.families.end();
+    };
+    if (!covariate.varies || (set == CovariateSet::basic && !covariate.is_basic)) continue;
+    if ((has("heading") && !heading) || (has("command") && !orders)) continue;
+    series.push_back({k, std::make_shared<const Eigen::VectorXd>(covariate.values)});
+  }
+  return series;
+}
+
+/// Traces of all components of some sources with all series: a column for each, components by series.
+Eigen::MatrixXd traces_of(const SourceProblem& problem, const Innovations& nominal,
+                          const std::vector<const ErrorComponent*>& components, bool in_one_replay,
+                          const std::vector<Series>& series) {
+  const ResidualModel& of = problem.model;
+  const Layout layout = layout_of(of.replay);
+  const auto count = static_cast<Eigen::Index>(series.size());
+  Eigen::MatrixXd traces(problem.nominal.residual.size(), static_cast<Eigen::Index>(components.size()) * count);
+  const auto write = [&](const Innovations& difference, std::size_t component, std::size_t k) {
+    traces.col(static_cast<Eigen::Index>(component) * count + static_cast<Eigen::Index>(k)) =
+        of.whitening(difference, layout) / (kErrorStep * components[component]->typical);
+  };
+  const std::size_t replays = in_one_replay ? 1 : components.size();
+  base::in_parallel(of.threads, replays * series.size(), [&](std::size_t i) {
+    const std::size_t k = i % series.size(), c = i / series.size();
+    if (!in_one_replay) {
+      write(difference_by(problem, nominal, std::span(&components[c], 1), series[k].values), c, k);
+      return;
+    }
+    const Innovations together = difference_by(problem, nominal, components, series[k].values);
+    for (std::size_t each = 0; each < components.size(); ++each) {
+      write(only(together, own_channels(components[each]->place)), each, k);
+    }
+  });
+  return traces;
+}
+
+/// The best description by one source. `traces`: of its components.
+std::optional<SourceFit> fit_of(const ErrorSource& source, const std::vector<Series>& series,
+                                const Eigen::MatrixXd& traces, const Tolerances& tolerances) {
+  Terms terms;
+  for (const ErrorComponent& component : source.components) {
+    for (const Series& each : series) terms.all.push_back({&component, each.covariate, 0, 0});
+  }
+  tolerances.marginalise(traces, terms);
+  const Choice choice = chosen(terms);
+  if (choice.terms.empty()) return std::nullopt;
+  const ChoicePosterior posterior = posterior_of(terms, choice);
+  SourceFit fit{&source, choice.evidence, {}};
+  for (std::size_t i = 0; i < choice.terms.size(); ++i) {
+    ErrorTerm term = terms.all[static_cast<std::size_t>(choice.terms[i])];
+    term.coefficient = posterior.mean[static_cast<Eigen::Index>(i)];
+    term.std_error = posterior.std[static_cast<Eigen::Index>(i)];
+    fit.terms.push_back(term);
+  }
+  return fit;
+}
+
+/// Fits of sources that share their replays.
+std::vector<SourceFit> fits_of(const SourcesTogether& sources, const SourceProblem& problem,
+                               const Innovations& nominal, const std::vector<Series>& series,
+                               const Tolerances& tolerances) {
+  std::vector<const ErrorComponent*> components;
+  for (const ErrorSource* source : sources) {
+    for (const ErrorComponent& component : source->components) components.push_back(&component);
+  }
+  const Eigen::MatrixXd traces = traces_of(problem, nominal, components, sources.size() > 1, series);
+  std::vector<SourceFit> fits;
+  Eigen::Index column = 0;
+  for (const ErrorSource* source : sources) {
+    const auto columns = static_cast<Eigen::Index>(source->components.size() * series.size());
+    if (auto fit = fit_of(*source, series, traces.middleCols(column, columns), tolerances))
+      fits.push_back(std::move(*fit));
+    column += columns;
+  }
+  return fits;
+}
+
+}  // namespace
+
+std::vector<SourceFit> rank_sources(const SourceProblem& problem, CovariateSet set,
+                                    const std::function<void(double)>& progress) {
+  const Tolerances tolerances(problem.nominal, problem.priors);
+  const Innovations nominal = problem.model.replay.run_coarsely(problem.model.library.model(problem.nominal.at));
+  const auto by_gain = [](const SourceFit& a, const SourceFit& b) { return a.gain_nats > b.gain_nats; };
+  std::vector<SourceFit> fits;
+  const std::vector<SourcesTogether> groups = by_replays(problem);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    progress(static_cast<double>(i) / static_cast<double>(groups.size()));
+    const auto series = series_for(groups[i], problem.covariates, CovariateSet::basic);
+    for (SourceFit& fit : fits_of(groups[i], problem, nominal, series, tolerances)) fits.push_back(std::move(fit));
+  }
+  std::stable_sort(fits.begin(), fits.end(), by_gain);
+  if (set == CovariateSet::basic) return fits;
+  for (std::size_t i = 0; i < std::min(fits.size(), kSourcesInFull); ++i) {
+    const SourcesTogether alone{fits[i].source};
+    const auto series = series_for(alone, problem.covariates, CovariateSet::full);
+    for (SourceFit& fit : fits_of(alone, problem, nominal, series, tolerances)) {
+      if (fit.gain_nats > fits[i].gain_nats) fits[i] = std::move(fit);
+    }
+  }
+  std::stable_sort(fits.begin(), fits.end(), by_gain);
+  return fits;
+}
+
+void add_errors(const SourceFit& fit, std::span<const Covariate> covariates, std::span<const Covariate> scaled_by,
+                double begin_s, Model& model) {
+  for (const ErrorTerm& term : fit.terms) {
+    auto series = std::make_shared<const Eigen::VectorXd>(
+        covariates[term.covariate].as_scaled_by(scaled_by[term.covariate]));
+    model.effects.add(std::make_unique<TimedError>(term.component->place, std::move(series), begin_s))
+        .set_parameters(std::span(&term.coefficient, 1));
+  }
+}
+
+}  // namespace navcal::gap

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "gap/inference/linearised.h"
+#include "gap/inference/spike_and_slab.h"
+#include "gap/sources/covariates.h"
+#include "gap/sources/error_source.h"
+
+namespace navcal::gap {
+
+/// An error of one component that follows one covariate.
+struct ErrorTerm {
+  const ErrorComponent* component = nullptr;
+  std::size_t covariate = 0;  ///< index into the covariates
+  double coefficient = 0;     ///< root mean square of the error, in the unit of the component's place
+  double std_error = 0;
+};
+
+/// The best description of the residuals by an error of one source.
+struct SourceFit {
+  const ErrorSource* source = nullptr;
+  /// Log evidence over that of a vehicle within tolerance, nats. Each term has paid for the choice among all terms
+  /// of the source.
+  double gain_nats = 0;
+  std::vector<ErrorTerm> terms;  ///< in the order of their gain
+};
+
+/// What the sources are compared on. References; valid as long as what they refer to.
+struct SourceProblem {
+  const ResidualModel& model;  ///< of one recording
+  const Linearised& nominal;   ///< about the nominal vehicle; its unknowns are tolerances here
+  const Priors& priors;
+  std::span<const Covariate> covariates;  ///< of the recording's course
+  double begin_s = 0;                     ///< mission time of their first value
+};
+
+/// Which covariates the errors may follow.
+enum class CovariateSet : std::uint8_t {
+  basic,  ///< those that tell sources apart
+  full,   ///< all, for the leading sources
+};
+
+/// Describes the residuals by each source in turn, largest gain first. Each component of a source may have an
+/// error that follows any covariate. Its trace in all channels comes from replaying the mission with it, so that a
+/// source is found although the estimator moves its error into other channels. Terms are chosen one after the
+/// other, as long as the evidence grows (Gaussian marginal likelihood with the tolerances as nuisance parameters).
+/// Sources that gain nothing are left out. `progress` is called with the share that is done.
+[[nodiscard]] std::vector<SourceFit> rank_sources(const SourceProblem& problem, CovariateSet set,
+                                                  const std::function<void(double)>& progress);
+
+/// Adds the errors of a fit to a model. `covariates`: of the course to be simulated, in the order in which the fit
+/// knows them, `scaled_by` those of the course of the fit.
+void add_errors(const SourceFit& fit, std::span<const Covariate> covariates, std::span<const Covariate> scaled_by,
+                double begin_s, Model& model);
+
+}  // namespace navcal::gap
