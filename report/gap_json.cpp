@@ -154,6 +154,16 @@ OrderedJson json_of(const gap::SourceFinding& source) {
           {"errors", list_of(source.errors, [](const auto& error) { return json_of(error); })}};
 }
 
+OrderedJson json_of(const gap::Proposal& proposal) {
+  OrderedJson json = json_of(proposal.source);
+  json.erase("gain_nats");
+  json["held_out"] = proposal.held_out;
+  json["held_out_gain_nats"] = proposal.held_out_gain_nats;
+  json["closed"] = proposal.closed ? OrderedJson(*proposal.closed) : OrderedJson();
+  json["warning"] = kDescriptionNotCause;
+  return json;
+}
+
 OrderedJson json_of(const gap::EffectDifference& difference) {
   return {{"name", difference.name}, {"p_value", difference.p_value}, {"differs", difference.differs}};
 }
@@ -168,6 +178,7 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"sentence", diagnosis.sentence},
       {"where", list_of(diagnosis.where, where_json)},
       {"sources", list_of(diagnosis.sources, convert)},
+      {"proposal", diagnosis.proposal ? json_of(*diagnosis.proposal) : OrderedJson()},
       {"effects", list_of(diagnosis.effects, convert)},
       {"gap", json_of(diagnosis.gap)},
       {"unexplained", diagnosis.unexplained},

@@ -51,6 +51,13 @@ void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {
     }
     page.table({"Channel", "Follows", "Gap", "Nominal vehicle", "By chance"}, rows);
   }
+  if (const std::string from = source_text(diagnosis); !from.empty())
+    page.paragraph("The error enters at: " + from + ".");
+  if (const auto lines = proposal_lines(diagnosis, kPlusMinus); !lines.empty()) {
+    std::vector<std::vector<std::string>> rows;
+    for (const std::string& line : lines) rows.push_back({line});
+    page.table({"Description of what no effect explains"}, rows);
+  }
   // In two columns the map would be cut off.
   if (auto figure = map_figure(diagnosis)) page.figures({std::move(*figure)});
   if (auto figure = track_figure(diagnosis)) page.figures({std::move(*figure)});

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "gap/thresholds.h"
 #include "report/calibrate_words.h"
 #include "report/gap_units.h"
 #include "report/shown_number.h"
@@ -55,6 +56,38 @@ std::vector<std::string> further_remarks(const gap::Diagnosis& diagnosis) {
 std::string nowhere_text(const gap::Diagnosis& diagnosis) {
   return diagnosis.map.empty() ? "There was no comparison with the nominal vehicle."
                                : "Nowhere: no residuals differ significantly from those of the nominal vehicle.";
+}
+
+std::string source_text(const gap::Diagnosis& diagnosis) {
+  const auto& sources = diagnosis.sources;
+  if (sources.empty() || sources.front().gain_nats < gap::kObservable_nats) return {};
+  const auto named = [](const gap::SourceFinding& source) {
+    return fmt::format("{} ({})", source.words, source.name);
+  };
+  if (sources.size() == 1) return fmt::format("{}; no other source describes it", named(sources[0]));
+  const double apart = sources[0].gain_nats - sources[1].gain_nats;
+  if (apart < gap::kObservable_nats) {
+    return fmt::format("{} or {}: they cannot be told apart here ({:.1f} nats)", named(sources[0]),
+                       named(sources[1]), apart);
+  }
+  return fmt::format("{}; next best, {:.0f} nats worse: {}", named(sources[0]), apart, named(sources[1]));
+}
+
+std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis, std::string_view plus_minus) {
+  if (!diagnosis.proposal) return {};
+  const gap::Proposal& proposal = *diagnosis.proposal;
+  std::vector<std::string> lines;
+  for (const gap::ErrorFinding& error : proposal.source.errors) {
+    lines.push_back(fmt::format("{} of {} is off by {} {} {} and follows {}", error.component,
+                                proposal.source.words, amount(error.rms), plus_minus,
+                                amount(error.std_error, error.unit), spaced(error.follows)));
+  }
+  const std::string on = proposal.held_out ? "on the recordings held out" : "on minutes of this recording";
+  lines.push_back(fmt::format(
+      "{}, it gains {:.0f} nats{}", on, proposal.held_out_gain_nats,
+      proposal.closed ? fmt::format(" and closes {} of the gap", share_text(*proposal.closed)) : std::string()));
+  lines.emplace_back(kDescriptionNotCause);
+  return lines;
 }
 
 std::string spaced(std::string_view name) {

@@ -31,6 +31,17 @@ struct GapSource {
 /// Text for "where" if no place can be named.
 [[nodiscard]] std::string nowhere_text(const gap::Diagnosis& diagnosis);
 
+/// Where the error enters: the leading source, and the next best with its distance. Empty if no source describes
+/// the gap clearly.
+[[nodiscard]] std::string source_text(const gap::Diagnosis& diagnosis);
+/// Warning with each description of an unknown gap.
+inline constexpr std::string_view kDescriptionNotCause =
+    "This describes the residuals. It is no cause: another effect may leave the same trace.";
+/// Description of an unknown gap, a line for each error, then what it predicts of other data and the warning.
+/// Empty if there is none.
+[[nodiscard]] std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis,
+                                                      std::string_view plus_minus);
+
 /// Name as words: "motor_current" as "motor current".
 [[nodiscard]] std::string spaced(std::string_view name);
 /// Three digits and the unit; "-" if the value is not finite.

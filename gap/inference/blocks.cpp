@@ -10,15 +10,6 @@
 namespace navcal::gap {
 namespace {
 
-bool even(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
-  const Eigen::Index grid = layout.intervals * kEvidenceChannels;
-  if (row < grid) {
-    const Eigen::Index interval = row / kEvidenceChannels;
-    return static_cast<long>(static_cast<double>(interval) * kInterval_s / kPieceOfMission_s) % 2 == 0;
-  }
-  return row < (grid + rows) / 2;  // fixes: the first half of them
-}
-
 /// Gain in log likelihood by the effects on the rows that are not learnt from, nats. `learn` is 1 in rows to learn
 /// from.
 double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, const LinearGaussianModel& model) {
@@ -41,11 +32,20 @@ double gain_beyond(const Eigen::VectorXd& learn, const EffectSubset& effects, co
 
 }  // namespace
 
+bool is_in_even_minute(Eigen::Index row, const Layout& layout, Eigen::Index rows) {
+  const Eigen::Index grid = layout.intervals * kEvidenceChannels;
+  if (row < grid) {
+    const Eigen::Index interval = row / kEvidenceChannels;
+    return static_cast<long>(static_cast<double>(interval) * kInterval_s / kPieceOfMission_s) % 2 == 0;
+  }
+  return row < (grid + rows) / 2;
+}
+
 std::vector<double> gains_of_blocks(const EffectSubset& effects, const LinearGaussianModel& model,
                                     const Layout& layout) {
   const Eigen::Index rows = model.linear.residual.size();
   Eigen::VectorXd mask(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) mask[i] = even(i, layout, rows) ? 1 : 0;
+  for (Eigen::Index i = 0; i < rows; ++i) mask[i] = is_in_even_minute(i, layout, rows) ? 1 : 0;
   std::vector<double> gains;
   for (const bool learn_from_even : {true, false}) {
     gains.push_back(

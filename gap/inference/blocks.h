@@ -9,6 +9,10 @@
 
 namespace navcal::gap {
 
+/// Whether a row of `rows` whitened residuals is from an even minute of the mission; of fixes, whether it is from
+/// their first half.
+[[nodiscard]] bool is_in_even_minute(Eigen::Index row, const Layout& layout, Eigen::Index rows);
+
 /// Cross-validation within one mission, where no other one was held out. The mission is cut into pieces of a
 /// minute. The even pieces are predicted with parameters fitted to the odd ones, and the other way round.
 /// Returns the gain in log likelihood of each half by the effects, nats.

@@ -20,11 +20,6 @@ struct Covariate {
   bool varies = false;                     ///< enough in this course for anything to be said of it
   double mean = 0, scale = 1;              ///< of the quantity, SI
   Eigen::VectorXd values;
-
-  /// The same covariate of another course with the mean and scale of this one.
-  [[nodiscard]] Eigen::VectorXd as_scaled_by(const Covariate& other) const {
-    return (scale * values.array() + mean - other.mean) / other.scale;
-  }
 };
 
 /// Families of covariates: constant, heading, rate, tilt, speed, current, temperature, depth, command, time, step

@@ -2,6 +2,7 @@
 #include "gap/sources/source_evidence.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,26 +32,31 @@ struct Terms {
 /// What the vehicle's tolerances can explain, to be taken out of Gram matrices and scores.
 class Tolerances {
  public:
-  Tolerances(const Linearised& nominal, const Priors& priors)
-      : scaled_design_(nominal.design * priors.spike.asDiagonal()), residual_(residual_at_zero(nominal)) {
-    Eigen::MatrixXd inner = scaled_design_.transpose() * scaled_design_;
-    inner.diagonal().array() += 1;
-    factor_.compute(inner);
-    scaled_score_ = scaled_design_.transpose() * residual_;
+  Tolerances(const Linearised& nominal, const Priors& priors) : residual_(residual_at_zero(nominal)) {
+    const Eigen::MatrixXd inner = priors.spike.asDiagonal() * nominal.gram * priors.spike.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inner);
+    // Directions in which the tolerances show less than a twentieth of the noise explain nothing.
+    constexpr double kLeast = 1.0 / 400;
+    Eigen::Index first = 0;
+    while (first < inner.rows() && eigen.eigenvalues()[first] < kLeast) ++first;
+    const Eigen::VectorXd power = eigen.eigenvalues().tail(inner.rows() - first);
+    const Eigen::MatrixXd directions = priors.spike.asDiagonal() * eigen.eigenvectors().rightCols(power.size()) *
+                                       power.cwiseSqrt().cwiseInverse().asDiagonal();
+    basis_ = nominal.design * directions;
+    share_ = power.array() / (1 + power.array());
+    scaled_score_ = share_.cwiseProduct(basis_.transpose() * residual_);
   }
 
   /// Z^T (1 + X D^2 X^T)^-1 Z and Z^T (1 + X D^2 X^T)^-1 r.
   void marginalise(const Eigen::MatrixXd& traces, Terms& terms) const {
-    const Eigen::MatrixXd shared = scaled_design_.transpose() * traces;
-    const Eigen::MatrixXd solved = factor_.solve(shared);
-    terms.gram = traces.transpose() * traces - shared.transpose() * solved;
-    terms.score = traces.transpose() * residual_ - solved.transpose() * scaled_score_;
+    const Eigen::MatrixXd shared = basis_.transpose() * traces;
+    terms.gram = traces.transpose() * traces - shared.transpose() * share_.asDiagonal() * shared;
+    terms.score = traces.transpose() * residual_ - shared.transpose() * scaled_score_;
   }
 
  private:
-  Eigen::MatrixXd scaled_design_;
-  Eigen::VectorXd residual_, scaled_score_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd residual_, share_, scaled_score_;
+  Eigen::MatrixXd basis_;  ///< orthonormal: what tolerances can show
 };
 
 /// Terms that were chosen, and the standard deviations of their priors.
@@ -152,52 +158,41 @@ OwnChannels own_channels(ErrorPlace place) {
 }
 
 /// Sources by the replays that they share. Without a compass, accelerometers and fixes steer the estimator, too.
-std::vector<SourcesTogether> by_replays(const SourceProblem& problem) {
-  const bool steered_by_compass = problem.model.replay.mission().silences.empty();
+std::vector<SourcesTogether> by_replays(std::span<const ErrorSource* const> sources, const Mission& mission) {
   std::vector<SourcesTogether> all;
   SourcesTogether followers;
-  for (const ErrorSource& source : error_sources()) {
-    const bool spreads = own_channels(source.components.front().place).grid.empty() &&
-                         own_channels(source.components.front().place).fixes.empty();
-    const bool moves = source.components.front().place == ErrorPlace::current_north;
-    if (spreads || moves || !steered_by_compass) {
-      all.push_back({&source});
+  for (const ErrorSource* source : sources) {
+    const ErrorPlace place = source->components.front().place;
+    const OwnChannels own = own_channels(place);
+    // A current shows in the channels in which the receiver's errors show.
+    const bool alone = (own.grid.empty() && own.fixes.empty()) || place == ErrorPlace::current_north;
+    if (alone || !mission.silences.empty()) {
+      all.push_back({source});
     } else {
-      followers.push_back(&source);
+      followers.push_back(source);
     }
   }
   if (!followers.empty()) all.push_back(std::move(followers));
   return all;
 }
 
-/// The part of a difference of innovations that belongs to some columns.
-Innovations only(const Innovations& difference, const OwnChannels& own) {
-  Innovations part = difference;
-  const auto keep = [](Eigen::MatrixXd& values, const std::vector<Eigen::Index>& columns) {
-    for (Eigen::Index c = 0; c < values.cols(); ++c) {
-      if (std::find(columns.begin(), columns.end(), c) == columns.end()) values.col(c) *= 0;  // keeps NaN
-    }
-  };
-  keep(part.grid, own.grid);
-  keep(part.fixes, own.fixes);
-  return part;
+/// Innovations of the nominal vehicle, with those of another one in some columns.
+Innovations with_columns_of(const Innovations& other, const OwnChannels& own, Innovations nominal) {
+  for (const Eigen::Index c : own.grid) nominal.grid.col(c) = other.grid.col(c);
+  for (const Eigen::Index c : own.fixes) nominal.fixes.col(c) = other.fixes.col(c);
+  return nominal;
 }
 
-/// Innovations of the nominal vehicle less those with the errors of some components, for one step of each.
-Innovations difference_by(const SourceProblem& problem, const Innovations& nominal,
-                          std::span<const ErrorComponent* const> components,
-                          const std::shared_ptr<const Eigen::VectorXd>& series) {
-  const ResidualModel& of = problem.model;
-  Model model = of.library.model(problem.nominal.at);
+/// Innovations of the nominal vehicle with one step of an error in each of some components.
+Innovations innovations_with(const SourceProblem& problem, std::span<const ErrorComponent* const> components,
+                             const std::shared_ptr<const Eigen::VectorXd>& series) {
+  Model model = problem.model.library.model(problem.nominal.at);
   for (const ErrorComponent* component : components) {
     const double amplitude = kErrorStep * component->typical;
     model.effects.add(std::make_unique<TimedError>(component->place, series, problem.begin_s))
         .set_parameters(std::span(&amplitude, 1));
   }
-  Innovations with = of.replay.run_coarsely(model);
-  with.grid = nominal.grid - with.grid;
-  with.fixes = nominal.fixes - with.fixes;
-  return with;
+  return problem.model.replay.run_coarsely(model);
 }
 
 /// A covariate that may be a term.
@@ -231,22 +226,23 @@ Eigen::MatrixXd traces_of(const SourceProblem& problem, const Innovations& nomin
                           const std::vector<Series>& series) {
   const ResidualModel& of = problem.model;
   const Layout layout = layout_of(of.replay);
+  const Eigen::VectorXd white = of.whitening(nominal, layout);
   const auto count = static_cast<Eigen::Index>(series.size());
-  Eigen::MatrixXd traces(problem.nominal.residual.size(), static_cast<Eigen::Index>(components.size()) * count);
-  const auto write = [&](const Innovations& difference, std::size_t component, std::size_t k) {
+  Eigen::MatrixXd traces(white.size(), static_cast<Eigen::Index>(components.size()) * count);
+  const auto write = [&](const Innovations& with, std::size_t component, std::size_t k) {
     traces.col(static_cast<Eigen::Index>(component) * count + static_cast<Eigen::Index>(k)) =
-        of.whitening(difference, layout) / (kErrorStep * components[component]->typical);
+        (white - of.whitening(with, layout)) / (kErrorStep * components[component]->typical);
   };
   const std::size_t replays = in_one_replay ? 1 : components.size();
   base::in_parallel(of.threads, replays * series.size(), [&](std::size_t i) {
     const std::size_t k = i % series.size(), c = i / series.size();
     if (!in_one_replay) {
-      write(difference_by(problem, nominal, std::span(&components[c], 1), series[k].values), c, k);
+      write(innovations_with(problem, std::span(&components[c], 1), series[k].values), c, k);
       return;
     }
-    const Innovations together = difference_by(problem, nominal, components, series[k].values);
+    const Innovations together = innovations_with(problem, components, series[k].values);
     for (std::size_t each = 0; each < components.size(); ++each) {
-      write(only(together, own_channels(components[each]->place)), each, k);
+      write(with_columns_of(together, own_channels(components[each]->place), nominal), each, k);
     }
   });
   return traces;
@@ -295,39 +291,20 @@ std::vector<SourceFit> fits_of(const SourcesTogether& sources, const SourceProbl
 
 }  // namespace
 
-std::vector<SourceFit> rank_sources(const SourceProblem& problem, CovariateSet set,
-                                    const std::function<void(double)>& progress) {
+std::vector<SourceFit> rank_sources(const SourceProblem& problem, std::span<const ErrorSource* const> candidates,
+                                    CovariateSet set, const std::function<void(double)>& progress) {
   const Tolerances tolerances(problem.nominal, problem.priors);
   const Innovations nominal = problem.model.replay.run_coarsely(problem.model.library.model(problem.nominal.at));
-  const auto by_gain = [](const SourceFit& a, const SourceFit& b) { return a.gain_nats > b.gain_nats; };
   std::vector<SourceFit> fits;
-  const std::vector<SourcesTogether> groups = by_replays(problem);
+  const std::vector<SourcesTogether> groups = by_replays(candidates, problem.model.replay.mission());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(groups.size()));
-    const auto series = series_for(groups[i], problem.covariates, CovariateSet::basic);
+    const auto series = series_for(groups[i], problem.covariates, set);
     for (SourceFit& fit : fits_of(groups[i], problem, nominal, series, tolerances)) fits.push_back(std::move(fit));
   }
-  std::stable_sort(fits.begin(), fits.end(), by_gain);
-  if (set == CovariateSet::basic) return fits;
-  for (std::size_t i = 0; i < std::min(fits.size(), kSourcesInFull); ++i) {
-    const SourcesTogether alone{fits[i].source};
-    const auto series = series_for(alone, problem.covariates, CovariateSet::full);
-    for (SourceFit& fit : fits_of(alone, problem, nominal, series, tolerances)) {
-      if (fit.gain_nats > fits[i].gain_nats) fits[i] = std::move(fit);
-    }
-  }
-  std::stable_sort(fits.begin(), fits.end(), by_gain);
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const SourceFit& a, const SourceFit& b) { return a.gain_nats > b.gain_nats; });
   return fits;
-}
-
-void add_errors(const SourceFit& fit, std::span<const Covariate> covariates, std::span<const Covariate> scaled_by,
-                double begin_s, Model& model) {
-  for (const ErrorTerm& term : fit.terms) {
-    auto series = std::make_shared<const Eigen::VectorXd>(
-        covariates[term.covariate].as_scaled_by(scaled_by[term.covariate]));
-    model.effects.add(std::make_unique<TimedError>(term.component->place, std::move(series), begin_s))
-        .set_parameters(std::span(&term.coefficient, 1));
-  }
 }
 
 }  // namespace navcal::gap

@@ -42,20 +42,16 @@ struct SourceProblem {
 /// Which covariates the errors may follow.
 enum class CovariateSet : std::uint8_t {
   basic,  ///< those that tell sources apart
-  full,   ///< all, for the leading sources
+  full,   ///< all
 };
 
-/// Describes the residuals by each source in turn, largest gain first. Each component of a source may have an
-/// error that follows any covariate. Its trace in all channels comes from replaying the mission with it, so that a
-/// source is found although the estimator moves its error into other channels. Terms are chosen one after the
-/// other, as long as the evidence grows (Gaussian marginal likelihood with the tolerances as nuisance parameters).
-/// Sources that gain nothing are left out. `progress` is called with the share that is done.
-[[nodiscard]] std::vector<SourceFit> rank_sources(const SourceProblem& problem, CovariateSet set,
+/// Describes the residuals by each of some sources in turn, largest gain first. Each component of a source may
+/// have an error that follows any covariate. Its trace in all channels comes from replaying the mission with it,
+/// so that a source is found although the estimator moves its error into other channels. Terms are chosen one
+/// after the other, as long as the evidence grows (Gaussian marginal likelihood with the tolerances as nuisance
+/// parameters). Sources that gain nothing are left out. `progress` is called with the share that is done.
+[[nodiscard]] std::vector<SourceFit> rank_sources(const SourceProblem& problem,
+                                                  std::span<const ErrorSource* const> candidates, CovariateSet set,
                                                   const std::function<void(double)>& progress);
-
-/// Adds the errors of a fit to a model. `covariates`: of the course to be simulated, in the order in which the fit
-/// knows them, `scaled_by` those of the course of the fit.
-void add_errors(const SourceFit& fit, std::span<const Covariate> covariates, std::span<const Covariate> scaled_by,
-                double begin_s, Model& model);
 
 }  // namespace navcal::gap

@@ -282,7 +282,7 @@ FoundEffects diagnose_prepared(const DiagnosisProblem& problem, const HoldOuts& 
     answer.where.push_back(most_changed(answer.map, nominal_rms, with_members, a.bank.explained_rms));
   }
   if (answer.verdict != Verdict::no_gap) {
-    write_sources(problem, result, answer);
+    write_sources(problem, result, holdouts, answer);
     put_source_first(answer);
   }
   result.nominal = {};  // large, and no longer needed

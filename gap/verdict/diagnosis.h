@@ -55,6 +55,15 @@ struct SourceFinding {
   std::vector<ErrorFinding> errors;
 };
 
+/// Description of what no effect explains, by the errors of the leading source. It is no cause.
+struct Proposal {
+  SourceFinding source;
+  bool held_out = false;  ///< judged on other recordings; else on minutes of this one, which is weaker
+  double held_out_gain_nats = 0;
+  /// Share of the power above that of the nulls that goes away on the same data. Empty where there was none.
+  std::optional<double> closed;
+};
+
 struct EffectParameterEstimate {
   std::string name;  ///< with its unit: "x_uT_per_A"
   double value = 0, std_error = 0;
@@ -155,6 +164,7 @@ struct Diagnosis {
   std::vector<WhereEntry> where;          ///< significant cells, strongest first
   std::vector<WhereEntry> map;            ///< every channel and regime, for the figure
   std::vector<SourceFinding> sources;     ///< where the error enters, best description first
+  std::optional<Proposal> proposal;       ///< only where the verdict is unknown
   std::vector<EffectFinding> effects;     ///< the set on which the verdict rests
   std::vector<EffectFinding> candidates;  ///< all that were considered likely, most probable first
   Gap gap;

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <utility>
 
+#include "gap/data/mission_piece.h"
+#include "gap/sources/held_out_error.h"
 #include "gap/sources/source_evidence.h"
+#include "gap/sources/telling_piece.h"
 #include "gap/thresholds.h"
 
 namespace navcal::gap {
@@ -28,45 +33,155 @@ SourceFinding finding_of(const SourceFit& fit, const std::vector<Covariate>& cov
   return finding;
 }
 
-/// The sources of one recording by itself.
-std::vector<SourceFinding> sources_of(const Prepared& recording, const DiagnosisProblem& problem,
-                                      const Linearised& nominal, const Priors& priors, CovariateSet set) {
-  const std::vector<Covariate> covariates = covariates_of(recording.course);
-  const ResidualModel model = recording.model(problem.library, problem.threads);
-  const SourceProblem of{model, nominal, priors, covariates, recording.course.time_s.front()};
+const ErrorSource& source_named(std::string_view name) {
+  return *std::find_if(error_sources().begin(), error_sources().end(),
+                       [&](const ErrorSource& source) { return source.name == name; });
+}
+
+/// Shows how far the search for the source is.
+std::function<void(double)> shown_by(const Progress& progress) {
+  return [&progress](double done) { progress("looking for the source", done); };
+}
+
+std::vector<const ErrorSource*> all_sources() {
+  std::vector<const ErrorSource*> all;
+  for (const ErrorSource& source : error_sources()) all.push_back(&source);
+  return all;
+}
+
+/// Whether the first of some fits is so far ahead that more data would not change it.
+bool is_clear(const std::vector<SourceFit>& fits) {
+  if (fits.empty() || fits[0].gain_nats < kClearSource_nats) return false;
+  return fits.size() == 1 || fits[0].gain_nats - fits[1].gain_nats > kClearLead_nats;
+}
+
+/// The sources of a recording in the piece of it that shows the gap best; empty if it has to be judged as a whole.
+std::vector<SourceFinding> findings_in_piece(const Prepared& recording, const DiagnosisProblem& problem,
+                                             const Linearised& nominal, const Priors& priors) {
+  constexpr double kWorthwhile = 1.5;
+  const Mission& whole = recording.mission;
+  if (!whole.silences.empty() || whole.duration_s < kWorthwhile * kSourcePiece_s) return {};
+  const double begin_s = recording.course.time_s.front();
+  std::vector<double> fix_times_s = whole.fix_times_s();
+  for (double& time_s : fix_times_s) time_s -= begin_s;
+  const double from_s =
+      begin_s + loudest_piece_s(nominal.residual, layout_of(*recording.replay), fix_times_s, kSourcePiece_s);
+  const Mission piece = piece_of(whole, from_s, from_s + kSourcePiece_s);
+  if (!piece.silences.empty() || !piece.shortcoming().empty()) return {};
+  const Replay replay(piece, problem.request.vehicle);
+  const ResidualModel model{replay, problem.library, recording.bank.whitening, problem.threads};
+  Trajectory10Hz course;
+  (void)replay.run(problem.library.model(recording.at), &course);
+  const Linearised of_piece = linearise(model, recording.at);
+  const std::vector<Covariate> covariates = covariates_of(course);
+  const auto fits = rank_sources({model, of_piece, priors, covariates, course.time_s.front()}, all_sources(),
+                                 CovariateSet::basic, shown_by(problem.progress));
   std::vector<SourceFinding> findings;
-  for (const SourceFit& fit :
-       rank_sources(of, set, [&](double done) { problem.progress("looking for the source", done); })) {
-    findings.push_back(finding_of(fit, covariates));
-  }
+  if (!is_clear(fits)) return findings;
+  for (const SourceFit& fit : fits) findings.push_back(finding_of(fit, covariates));
   return findings;
+}
+
+/// The sources of a recording as a whole.
+class WholeRecording {
+ public:
+  /// `nominal`: of this recording alone. References must outlive it.
+  WholeRecording(const Prepared& recording, const DiagnosisProblem& problem, const Linearised& nominal,
+                 const Priors& priors)
+      : problem_(problem),
+        recording_(recording),
+        model_(recording.model(problem.library, problem.threads)),
+        covariates_(covariates_of(recording.course)),
+        of_{model_, nominal, priors, covariates_, recording.course.time_s.front()} {}
+  WholeRecording(const WholeRecording&) = delete;
+  WholeRecording& operator=(const WholeRecording&) = delete;
+
+  [[nodiscard]] std::vector<SourceFinding> findings() const {
+    std::vector<SourceFinding> findings;
+    for (const SourceFit& fit :
+         rank_sources(of_, all_sources(), CovariateSet::basic, shown_by(problem_.progress))) {
+      findings.push_back(finding_of(fit, covariates_));
+    }
+    return findings;
+  }
+
+  /// The best description by one of some sources with all covariates, judged on the recordings held out.
+  [[nodiscard]] std::optional<Proposal> proposal(std::span<const ErrorSource* const> sources,
+                                                 const std::vector<std::unique_ptr<Prepared>>& holdouts) const {
+    const auto fits = rank_sources(of_, sources, CovariateSet::full, shown_by(problem_.progress));
+    if (fits.empty()) return std::nullopt;
+    const SourceFit& fit = fits.front();
+    Proposal proposal{finding_of(fit, covariates_), !holdouts.empty(), 0, {}};
+    double before = 0, after = 0, floor = 0;
+    const auto judge_on = [&](const Prepared& judged, const HeldOutError& error) {
+      proposal.held_out_gain_nats += error.gain_nats;
+      before += error.before;
+      after += error.after;
+      const auto& powers = judged.bank.powers;
+      floor += error.measurements * std::accumulate(powers.begin(), powers.end(), 0.0) /
+               static_cast<double>(powers.size());
+    };
+    for (const auto& other : holdouts) {
+      judge_on(*other, predict_other(fit, of_, other->model(problem_.library, problem_.threads), other->at,
+                                     other->course));
+    }
+    if (holdouts.empty()) judge_on(recording_, predict_blocks(fit, of_));
+    if (before > floor) proposal.closed = (before - after) / (before - floor);
+    return proposal;
+  }
+
+ private:
+  const DiagnosisProblem& problem_;
+  const Prepared& recording_;
+  ResidualModel model_;
+  std::vector<Covariate> covariates_;
+  SourceProblem of_;
+};
+
+/// Adds the findings of another recording.
+void add(std::vector<SourceFinding> findings, std::vector<SourceFinding>& all) {
+  for (SourceFinding& finding : findings) {
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const SourceFinding& each) { return each.name == finding.name; });
+    if (same == all.end()) {
+      all.push_back(std::move(finding));
+    } else {
+      same->gain_nats += finding.gain_nats;
+    }
+  }
 }
 
 }  // namespace
 
-void write_sources(const DiagnosisProblem& problem, const FoundEffects& found, Diagnosis& answer) {
-  const CovariateSet set = answer.verdict == Verdict::unknown ? CovariateSet::full : CovariateSet::basic;
+void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
+                   const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer) {
   // What was linearised for several recordings together has left out their biases.
-  const auto of = [&](const Prepared& recording) {
-    return sources_of(recording, problem,
-                      linearise(recording.model(problem.library, problem.threads), recording.at), found.priors,
-                      set);
+  std::optional<Linearised> own;
+  const auto nominal_of = [&](const Prepared& recording) -> const Linearised& {
+    if (problem.others.empty()) return found.nominal;
+    return own.emplace(linearise(recording.model(problem.library, problem.threads), recording.at));
   };
-  answer.sources = problem.others.empty() ? sources_of(problem.prepared, problem, found.nominal, found.priors, set)
-                                          : of(problem.prepared);
-  for (const Prepared* other : problem.others) {
-    for (SourceFinding& finding : of(*other)) {
-      const auto same = std::find_if(answer.sources.begin(), answer.sources.end(),
-                                     [&](const SourceFinding& each) { return each.name == finding.name; });
-      if (same == answer.sources.end()) {
-        answer.sources.push_back(std::move(finding));
-      } else {
-        same->gain_nats += finding.gain_nats;
-      }
-    }
-  }
+  const auto findings_of = [&](const Prepared& recording) {
+    const Linearised& nominal = nominal_of(recording);
+    auto findings = findings_in_piece(recording, problem, nominal, found.priors);
+    if (findings.empty()) findings = WholeRecording(recording, problem, nominal, found.priors).findings();
+    return findings;
+  };
+  for (const Prepared* other : problem.others) add(findings_of(*other), answer.sources);
+  add(findings_of(problem.prepared), answer.sources);
   std::stable_sort(answer.sources.begin(), answer.sources.end(),
                    [](const SourceFinding& a, const SourceFinding& b) { return a.gain_nats > b.gain_nats; });
+  if (answer.verdict != Verdict::unknown) return;
+  std::vector<const ErrorSource*> leaders;
+  for (const SourceFinding& finding : answer.sources) {
+    if (leaders.size() < kSourcesInFull &&
+        (leaders.empty() || finding.gain_nats > kLeastRival * answer.sources.front().gain_nats)) {
+      leaders.push_back(&source_named(finding.name));
+    }
+  }
+  if (leaders.empty()) return;
+  answer.proposal = WholeRecording(problem.prepared, problem, nominal_of(problem.prepared), found.priors)
+                        .proposal(leaders, holdouts);
 }
 
 void put_source_first(Diagnosis& answer) {

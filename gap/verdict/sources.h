@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "gap/verdict/diagnosis.h"
 #include "gap/verdict/find_effects.h"
 
 namespace navcal::gap {
 
 /// Finds the instruments and forces whose error describes the residuals of all recordings best, and writes them to
-/// `answer.sources`. Of several recordings each has an error of its own, and the gains add up.
-void write_sources(const DiagnosisProblem& problem, const FoundEffects& found, Diagnosis& answer);
+/// `answer.sources`. Of several recordings each has an error of its own, and the gains add up. If the verdict is
+/// unknown, the first one becomes `answer.proposal`, judged on the recordings held out.
+void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
+                   const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer);
 
 /// Sorts `answer.where`: cells of the channel in which the error enters come first. If that channel has no
 /// significant cell, the error itself becomes the first entry. Nothing changes where no source describes the
