@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "record/json/calibration_json.h"
+#include "report/gap_words.h"
 #include "report/where_json.h"
 
 namespace navcal::report {
@@ -159,7 +160,8 @@ OrderedJson json_of(const gap::Proposal& proposal) {
   json.erase("gain_nats");
   json["held_out"] = proposal.held_out;
   json["held_out_gain_nats"] = proposal.held_out_gain_nats;
-  json["closed"] = proposal.closed ? OrderedJson(*proposal.closed) : OrderedJson();
+  json["power"] = {
+      {"before", proposal.power.before}, {"after", proposal.power.after}, {"floor", proposal.power.floor}};
   json["warning"] = kDescriptionNotCause;
   return json;
 }

@@ -53,7 +53,7 @@ void append_where(HtmlPage& page, const gap::Diagnosis& diagnosis) {
   }
   if (const std::string from = source_text(diagnosis); !from.empty())
     page.paragraph("The error enters at: " + from + ".");
-  if (const auto lines = proposal_lines(diagnosis, kPlusMinus); !lines.empty()) {
+  if (const auto lines = proposal_lines(diagnosis, kPlusMinus, kArrow); !lines.empty()) {
     std::vector<std::vector<std::string>> rows;
     for (const std::string& line : lines) rows.push_back({line});
     page.table({"Description of what no effect explains"}, rows);

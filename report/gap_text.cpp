@@ -94,7 +94,7 @@ std::string gap_text(const gap::Diagnosis& diagnosis, const GapSource& source) {
   }
   append_where(out, diagnosis);
   if (const std::string from = source_text(diagnosis); !from.empty()) append_lines(out, "enters at", {from});
-  append_lines(out, "description", proposal_lines(diagnosis, kPlusMinusText));
+  append_lines(out, "description", proposal_lines(diagnosis, kPlusMinusText, kArrowText));
   if (!diagnosis.effects.empty()) {
     append_effects(out, "causes", diagnosis.effects, diagnosis.effects.size(), true);
     append_closure(out, diagnosis.gap, source);

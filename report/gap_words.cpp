@@ -73,7 +73,8 @@ std::string source_text(const gap::Diagnosis& diagnosis) {
   return fmt::format("{}; next best, {:.0f} nats worse: {}", named(sources[0]), apart, named(sources[1]));
 }
 
-std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis, std::string_view plus_minus) {
+std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis, std::string_view plus_minus,
+                                        std::string_view arrow) {
   if (!diagnosis.proposal) return {};
   const gap::Proposal& proposal = *diagnosis.proposal;
   std::vector<std::string> lines;
@@ -83,9 +84,9 @@ std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis, std::st
                                 amount(error.std_error, error.unit), spaced(error.follows)));
   }
   const std::string on = proposal.held_out ? "on the recordings held out" : "on minutes of this recording";
-  lines.push_back(fmt::format(
-      "{}, it gains {:.0f} nats{}", on, proposal.held_out_gain_nats,
-      proposal.closed ? fmt::format(" and closes {} of the gap", share_text(*proposal.closed)) : std::string()));
+  lines.push_back(fmt::format("{} it gains {:.0f} nats: noise power {} {} {}, of the nominal vehicle {}", on,
+                              proposal.held_out_gain_nats, amount(proposal.power.before), arrow,
+                              amount(proposal.power.after), amount(proposal.power.floor)));
   lines.emplace_back(kDescriptionNotCause);
   return lines;
 }

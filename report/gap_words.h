@@ -39,8 +39,8 @@ inline constexpr std::string_view kDescriptionNotCause =
     "This describes the residuals. It is no cause: another effect may leave the same trace.";
 /// Description of an unknown gap, a line for each error, then what it predicts of other data and the warning.
 /// Empty if there is none.
-[[nodiscard]] std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis,
-                                                      std::string_view plus_minus);
+[[nodiscard]] std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis, std::string_view plus_minus,
+                                                      std::string_view arrow);
 
 /// Name as words: "motor_current" as "motor current".
 [[nodiscard]] std::string spaced(std::string_view name);

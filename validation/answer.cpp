@@ -65,6 +65,15 @@ void read_closure(const Json& gap, TrialAnswer& answer) {
   answer.closed_ci = interval->get<std::array<double, 2>>();
 }
 
+std::vector<std::string> families_of(const Json& proposal) {
+  if (proposal.is_null()) return {};
+  for (const Json& error : proposal.at("errors")) {
+    auto families = error.at("families").get<std::vector<std::string>>();
+    if (families != std::vector<std::string>{"constant"}) return families;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string_view name_of(TrialVerdict verdict) {
@@ -87,6 +96,7 @@ TrialAnswer read_answer(std::string_view text) {
     for (const Json& entry : object.at("where")) answer.channels.push_back(entry.at("channel").get<std::string>());
     for (const Json& entry : object.value("sources", Json::array()))
       answer.sources.push_back(entry.at("source").get<std::string>());
+    answer.families = families_of(object.value("proposal", Json()));
     answer.effects = findings_of(object.at("effects"), answer.twins);
     answer.candidates = findings_of(object.value("candidates", Json::array()), answer.twins);
     read_closure(object.at("gap"), answer);

@@ -29,8 +29,11 @@ struct TrialFinding {
 /// The scored part of the answer of `navcal gap --json`.
 struct TrialAnswer {
   TrialVerdict verdict = TrialVerdict::unknown;
-  std::vector<std::string> channels;     ///< strongest excess first
-  std::vector<std::string> sources;      ///< where the error enters, most probable first; as far as it was told
+  std::vector<std::string> channels;  ///< strongest excess first
+  std::vector<std::string> sources;   ///< where the error enters, most probable first; as far as it was told
+  /// Families of the quantities that the proposal's leading error follows, other than a constant one; as far as it
+  /// was told.
+  std::vector<std::string> families;
   std::vector<TrialFinding> effects;     ///< on which the verdict rests, most probable first
   std::vector<TrialFinding> candidates;  ///< what was considered besides; as far as it was told
   std::vector<std::string> twins;        ///< with which effects and candidates are said to be confused

@@ -67,6 +67,27 @@ std::span<const std::string_view> sources_of(Trace trace) {
   return kAll.at(trace);
 }
 
+/// Families of the quantities in a foreign effect's equation (docs/trial.md).
+std::span<const std::string_view> families_of(std::string_view foreign) {
+  using Families = std::vector<std::string_view>;
+  static const std::map<std::string_view, Families> kAll{
+      {"crossflow_depth", {"depth"}},
+      {"torque_leak", {"command", "speed", "current"}},
+      {"tidal_current", {"time"}},
+      {"battery_sag", {"time", "current"}},
+      {"fin_stall", {"command", "rate"}},
+      {"fouling", {"time"}},
+      {"surface_waves", {"depth", "time"}},
+      {"heading_lag", {"rate"}},
+      {"magnetometer_saturation", {"heading"}},
+      {"gyro_thermal_twist", {"temperature", "rate"}},
+      {"gyro_popcorn", {"time"}},
+      {"depth_hysteresis", {"depth", "lag"}},
+      {"gps_multipath", {"heading"}},
+  };
+  return kAll.at(foreign);
+}
+
 std::vector<TrialSignature> all_signatures() {
   std::vector<TrialSignature> all;
   for (const reference::EffectKind& kind : reference::library_effects()) {
@@ -77,7 +98,7 @@ std::vector<TrialSignature> all_signatures() {
     }
   }
   for (const reference::EffectKind& kind : reference::foreign_effects()) {
-    all.push_back({kind.name, {}, channels_of(kind.trace), sources_of(kind.trace)});
+    all.push_back({kind.name, {}, channels_of(kind.trace), sources_of(kind.trace), families_of(kind.name)});
   }
   return all;
 }

@@ -18,6 +18,8 @@ struct TrialSignature {
   std::span<const std::string_view> channels;
   /// Instruments and forces whose error it is, strictly: where it enters, not where that leads (docs/trial.md).
   std::span<const std::string_view> sources;
+  /// Of a foreign effect: families of the quantities that it follows, as an answer names them (docs/gap.md).
+  std::span<const std::string_view> families{};
 };
 
 /// Signatures of all effects of the reference simulator: those of the library, then the foreign ones.

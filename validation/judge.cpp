@@ -78,6 +78,15 @@ void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
            });
   };
   judgement.channel_right = is_first(answer.channels, &TrialSignature::channels);
+  if (!drawn.in_library()) {
+    judgement.family_right =
+        std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const reference::Effect& effect) {
+          const TrialSignature* signature = signature_of(effect.name);
+          return signature != nullptr &&
+                 std::any_of(answer.families.begin(), answer.families.end(),
+                             [&](const std::string& family) { return contains(signature->families, family); });
+        });
+  }
   judgement.source_right = is_first(answer.sources, &TrialSignature::sources);
 }
 

@@ -50,6 +50,7 @@ struct TrialJudgement {
   std::optional<bool> truth_considered;  ///< all that is there is named, a candidate, or said to be a twin of one
   std::optional<bool> channel_right;     ///< the strongest excess lies where one of the effects can show
   std::optional<bool> source_right;      ///< the first source is that of one of the effects
+  std::optional<bool> family_right;      ///< of a foreign effect: its proposal follows such a quantity
   std::optional<double> closed;          ///< where the outcome is exact
   std::optional<bool> covered;           ///< its interval holds the true closure
   int parameters = 0, parameters_within = 0;  ///< of exact outcomes: within two standard errors of the truth

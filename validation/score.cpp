@@ -176,6 +176,8 @@ void score_numbers(const std::vector<Judged>& all, const TrialScores& scores, Ta
               [&](const Judged& one) { return foreign(one) ? std::nullopt : one.judgement.source_right; });
   table.share("source right: outside the library", at_least(0.95),
               [&](const Judged& one) { return foreign(one) ? one.judgement.source_right : std::nullopt; });
+  table.share("proposal follows the right quantity: outside the library", at_least(0.6),
+              [](const Judged& one) { return one.judgement.family_right; });
   table.parts("parameters within 2 standard errors", at_least(0.95), [](const Judged& one) {
     return std::array{one.judgement.parameters_within, one.judgement.parameters};
   });

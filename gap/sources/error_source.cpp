@@ -54,14 +54,14 @@ constexpr std::array<ErrorSource, 11> kSources{
     {{"compass.field", "the compass's magnetic field", kField, true},
      {"compass.heading", "the compass's heading", kHeading, true},
      {"compass.tilt", "the inclinometer", kTilt},
-     {"imu.gyro", "the rate gyros", kGyro},
+     {"imu.gyro", "the rate gyros", kGyro, false, true},
      {"imu.accel", "the accelerometers", kAccel},
      {"imu.depth", "the depth gauge", kDepth},
      {"gps", "the GPS receiver", kReceiver, true},
      {"water.current", "the current of the water", kCurrent},
-     {"vehicle.thrust", "the force along the vehicle", kThrust, false, true},
-     {"vehicle.moments", "the moments on the vehicle", kFins, false, true},
-     {"vehicle.heave", "the vertical force on the vehicle", kHeave, false, true}}};
+     {"vehicle.thrust", "the force along the vehicle", kThrust, false, false, true},
+     {"vehicle.moments", "the moments on the vehicle", kFins, false, false, true},
+     {"vehicle.heave", "the vertical force on the vehicle", kHeave, false, false, true}}};
 
 constexpr std::array<sim::EffectParameter, 1> kParameters{{{"amplitude", 1}}};
 constexpr sim::EffectDescription kDescription{.name = "timed_error",

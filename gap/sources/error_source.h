@@ -56,6 +56,7 @@ struct ErrorSource {
   std::string_view words;  ///< "the compass's magnetic field"
   std::span<const ErrorComponent> components;
   bool follows_heading = false;  ///< whether its error may depend on the heading
+  bool is_biased = false;        ///< whether its constant error is a nuisance: turn-on biases
   bool follows_orders = false;   ///< whether its error may depend on what the fins do
 };
 [[nodiscard]] std::span<const ErrorSource> error_sources();

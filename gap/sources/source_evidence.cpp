@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
@@ -100,18 +99,20 @@ ChoicePosterior posterior_of(const Terms& terms, const Choice& choice) {
   return {width.cwiseProduct(inverse * score), width.cwiseProduct(inverse.diagonal().cwiseSqrt())};
 }
 
-/// Chooses one term after the other, as long as the evidence grows by more than the choice costs.
-Choice chosen(const Terms& terms) {
-  Choice best;
+/// Chooses one term after the other, as long as the evidence grows by more than the choice costs. Returns the
+/// choices of one term, of two and so on; the last one has the largest evidence.
+std::vector<Choice> chosen(const Terms& terms) {
+  std::vector<Choice> path;
   const auto count = static_cast<double>(terms.all.size() * kCoefficients.size());
   const double cost = std::log(std::max(1.0, count));
-  while (best.terms.size() < kMostErrorTerms) {
+  while (path.size() < kMostErrorTerms) {
+    const Choice before = path.empty() ? Choice() : path.back();
     Choice leader;
-    leader.evidence = best.evidence;
+    leader.evidence = before.evidence;
     for (Eigen::Index j = 0; j < terms.score.size(); ++j) {
-      if (std::find(best.terms.begin(), best.terms.end(), j) != best.terms.end()) continue;
+      if (std::find(before.terms.begin(), before.terms.end(), j) != before.terms.end()) continue;
       for (const double coefficient : kCoefficients) {
-        Choice next = best;
+        Choice next = before;
         next.terms.push_back(j);
         next.widths.push_back(coefficient * terms.all[static_cast<std::size_t>(j)].component->typical);
         next.evidence = evidence_of(terms, next) - cost * static_cast<double>(next.terms.size());
@@ -119,9 +120,22 @@ Choice chosen(const Terms& terms) {
       }
     }
     if (leader.terms.empty()) break;
-    best = std::move(leader);
+    path.push_back(std::move(leader));
   }
-  return best;
+  return path;
+}
+
+/// The description by a choice of terms.
+SourceFit fit_of(const ErrorSource& source, const Terms& terms, const Choice& choice) {
+  const ChoicePosterior posterior = posterior_of(terms, choice);
+  SourceFit fit{&source, choice.evidence, {}};
+  for (std::size_t i = 0; i < choice.terms.size(); ++i) {
+    ErrorTerm term = terms.all[static_cast<std::size_t>(choice.terms[i])];
+    term.coefficient = posterior.mean[static_cast<Eigen::Index>(i)];
+    term.std_error = posterior.std[static_cast<Eigen::Index>(i)];
+    fit.terms.push_back(term);
+  }
+  return fit;
 }
 
 /// Sources whose errors are simulated in one replay for all components: the estimator does not feed them back, so
@@ -201,21 +215,31 @@ struct Series {
   std::shared_ptr<const Eigen::VectorXd> values;
 };
 
-/// The covariates that an error of these sources may follow.
+/// Which covariates the errors may follow.
+enum class CovariateSet : std::uint8_t {
+  basic,  ///< those that tell sources apart
+  full,   ///< all
+};
+
+/// Whether an error of a source may follow a covariate.
+bool may_follow(const ErrorSource& source, const Covariate& covariate, CovariateSet set) {
+  const auto has = [&](std::string_view family) {
+    return std::find(covariate.families.begin(), covariate.families.end(), family) != covariate.families.end();
+  };
+  if (!covariate.varies || (set == CovariateSet::basic && !covariate.is_basic)) return false;
+  if (has("constant") && source.is_biased) return false;
+  return (!has("heading") || source.follows_heading) && (!has("command") || source.follows_orders);
+}
+
+/// The covariates that an error of any of these sources may follow.
 std::vector<Series> series_for(const SourcesTogether& sources, std::span<const Covariate> covariates,
                                CovariateSet set) {
-  const bool heading =
-      std::any_of(sources.begin(), sources.end(), [](auto* each) { return each->follows_heading; });
-  const bool orders = std::any_of(sources.begin(), sources.end(), [](auto* each) { return each->follows_orders; });
   std::vector<Series> series;
   for (std::size_t k = 0; k < covariates.size(); ++k) {
-    const Covariate& covariate = covariates[k];
-    const auto has = [&](std::string_view family) {
-      return std::find(covariate.families.begin(), covariate.families.end(), family) != covariate.families.end();
-    };
-    if (!covariate.varies || (set == CovariateSet::basic && !covariate.is_basic)) continue;
-    if ((has("heading") && !heading) || (has("command") && !orders)) continue;
-    series.push_back({k, std::make_shared<const Eigen::VectorXd>(covariate.values)});
+    const bool serves = std::any_of(sources.begin(), sources.end(), [&](const ErrorSource* source) {
+      return may_follow(*source, covariates[k], set);
+    });
+    if (serves) series.push_back({k, std::make_shared<const Eigen::VectorXd>(covariates[k].values)});
   }
   return series;
 }
@@ -248,63 +272,61 @@ Eigen::MatrixXd traces_of(const SourceProblem& problem, const Innovations& nomin
   return traces;
 }
 
-/// The best description by one source. `traces`: of its components.
-std::optional<SourceFit> fit_of(const ErrorSource& source, const std::vector<Series>& series,
-                                const Eigen::MatrixXd& traces, const Tolerances& tolerances) {
-  Terms terms;
-  for (const ErrorComponent& component : source.components) {
-    for (const Series& each : series) terms.all.push_back({&component, each.covariate, 0, 0});
-  }
-  tolerances.marginalise(traces, terms);
-  const Choice choice = chosen(terms);
-  if (choice.terms.empty()) return std::nullopt;
-  const ChoicePosterior posterior = posterior_of(terms, choice);
-  SourceFit fit{&source, choice.evidence, {}};
-  for (std::size_t i = 0; i < choice.terms.size(); ++i) {
-    ErrorTerm term = terms.all[static_cast<std::size_t>(choice.terms[i])];
-    term.coefficient = posterior.mean[static_cast<Eigen::Index>(i)];
-    term.std_error = posterior.std[static_cast<Eigen::Index>(i)];
-    fit.terms.push_back(term);
-  }
-  return fit;
-}
-
-/// Fits of sources that share their replays.
-std::vector<SourceFit> fits_of(const SourcesTogether& sources, const SourceProblem& problem,
-                               const Innovations& nominal, const std::vector<Series>& series,
-                               const Tolerances& tolerances) {
+/// The descriptions by each of some sources that share their replays: with one term, with two and so on.
+std::vector<std::vector<SourceFit>> paths_of(const SourcesTogether& sources, const SourceProblem& problem,
+                                             CovariateSet set, const Innovations& nominal,
+                                             const Tolerances& tolerances) {
+  const std::vector<Series> series = series_for(sources, problem.covariates, set);
   std::vector<const ErrorComponent*> components;
   for (const ErrorSource* source : sources) {
     for (const ErrorComponent& component : source->components) components.push_back(&component);
   }
   const Eigen::MatrixXd traces = traces_of(problem, nominal, components, sources.size() > 1, series);
-  std::vector<SourceFit> fits;
+  std::vector<std::vector<SourceFit>> paths;
   Eigen::Index column = 0;
   for (const ErrorSource* source : sources) {
-    const auto columns = static_cast<Eigen::Index>(source->components.size() * series.size());
-    if (auto fit = fit_of(*source, series, traces.middleCols(column, columns), tolerances))
-      fits.push_back(std::move(*fit));
-    column += columns;
+    Terms terms;
+    std::vector<Eigen::Index> columns;
+    for (const ErrorComponent& component : source->components) {
+      for (const Series& each : series) {
+        if (may_follow(*source, problem.covariates[each.covariate], set)) {
+          terms.all.push_back({&component, each.covariate, 0, 0});
+          columns.push_back(column);
+        }
+        ++column;
+      }
+    }
+    tolerances.marginalise(traces(Eigen::all, columns), terms);
+    std::vector<SourceFit> path;
+    for (const Choice& choice : chosen(terms)) path.push_back(fit_of(*source, terms, choice));
+    if (!path.empty()) paths.push_back(std::move(path));
   }
-  return fits;
+  return paths;
 }
 
 }  // namespace
 
 std::vector<SourceFit> rank_sources(const SourceProblem& problem, std::span<const ErrorSource* const> candidates,
-                                    CovariateSet set, const std::function<void(double)>& progress) {
+                                    const std::function<void(double)>& progress) {
   const Tolerances tolerances(problem.nominal, problem.priors);
   const Innovations nominal = problem.model.replay.run_coarsely(problem.model.library.model(problem.nominal.at));
   std::vector<SourceFit> fits;
   const std::vector<SourcesTogether> groups = by_replays(candidates, problem.model.replay.mission());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(groups.size()));
-    const auto series = series_for(groups[i], problem.covariates, set);
-    for (SourceFit& fit : fits_of(groups[i], problem, nominal, series, tolerances)) fits.push_back(std::move(fit));
+    for (auto& path : paths_of(groups[i], problem, CovariateSet::basic, nominal, tolerances))
+      fits.push_back(std::move(path.back()));
   }
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SourceFit& a, const SourceFit& b) { return a.gain_nats > b.gain_nats; });
   return fits;
+}
+
+std::vector<SourceFit> describe(const SourceProblem& problem, const ErrorSource& source) {
+  const Tolerances tolerances(problem.nominal, problem.priors);
+  const Innovations nominal = problem.model.replay.run_coarsely(problem.model.library.model(problem.nominal.at));
+  const auto paths = paths_of({&source}, problem, CovariateSet::full, nominal, tolerances);
+  return paths.empty() ? std::vector<SourceFit>() : paths.front();
 }
 
 }  // namespace navcal::gap

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -39,19 +38,18 @@ struct SourceProblem {
   double begin_s = 0;                     ///< mission time of their first value
 };
 
-/// Which covariates the errors may follow.
-enum class CovariateSet : std::uint8_t {
-  basic,  ///< those that tell sources apart
-  full,   ///< all
-};
-
 /// Describes the residuals by each of some sources in turn, largest gain first. Each component of a source may
-/// have an error that follows any covariate. Its trace in all channels comes from replaying the mission with it,
-/// so that a source is found although the estimator moves its error into other channels. Terms are chosen one
-/// after the other, as long as the evidence grows (Gaussian marginal likelihood with the tolerances as nuisance
-/// parameters). Sources that gain nothing are left out. `progress` is called with the share that is done.
+/// have an error that follows any of the basic covariates. Its trace in all channels comes from replaying the
+/// mission with it, so that a source is found although the estimator moves its error into other channels. Terms
+/// are chosen one after the other, as long as the evidence grows (Gaussian marginal likelihood with the tolerances
+/// as nuisance parameters). Sources that gain nothing are left out. `progress` is called with the share that is
+/// done.
 [[nodiscard]] std::vector<SourceFit> rank_sources(const SourceProblem& problem,
-                                                  std::span<const ErrorSource* const> candidates, CovariateSet set,
+                                                  std::span<const ErrorSource* const> candidates,
                                                   const std::function<void(double)>& progress);
+
+/// Describes the residuals by one source with all covariates: by one term, by two and so on, each with more
+/// evidence than the one before.
+[[nodiscard]] std::vector<SourceFit> describe(const SourceProblem& problem, const ErrorSource& source);
 
 }  // namespace navcal::gap

@@ -55,15 +55,6 @@ struct SourceFinding {
   std::vector<ErrorFinding> errors;
 };
 
-/// Description of what no effect explains, by the errors of the leading source. It is no cause.
-struct Proposal {
-  SourceFinding source;
-  bool held_out = false;  ///< judged on other recordings; else on minutes of this one, which is weaker
-  double held_out_gain_nats = 0;
-  /// Share of the power above that of the nulls that goes away on the same data. Empty where there was none.
-  std::optional<double> closed;
-};
-
 struct EffectParameterEstimate {
   std::string name;  ///< with its unit: "x_uT_per_A"
   double value = 0, std_error = 0;
@@ -91,6 +82,14 @@ struct Closure {
   std::optional<double> closed;
   std::optional<std::array<double, 2>> closed_ci;  ///< 95 %
 };
+/// Description of what no effect explains, by the errors of the leading source. It is no cause.
+struct Proposal {
+  SourceFinding source;
+  bool held_out = false;  ///< judged on other recordings; else on minutes of this one, which is weaker
+  double held_out_gain_nats = 0;
+  Closure power;  ///< of the whitened residuals on the same data, without and with the errors; `closed` is empty
+};
+
 struct ChannelClosure {
   std::string channel, unit;  ///< root mean square of the innovations, in the unit
   Closure closure;

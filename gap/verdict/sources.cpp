@@ -75,7 +75,7 @@ std::vector<SourceFinding> findings_in_piece(const Prepared& recording, const Di
   const Linearised of_piece = linearise(model, recording.at);
   const std::vector<Covariate> covariates = covariates_of(course);
   const auto fits = rank_sources({model, of_piece, priors, covariates, course.time_s.front()}, all_sources(),
-                                 CovariateSet::basic, shown_by(problem.progress));
+                                 shown_by(problem.progress));
   std::vector<SourceFinding> findings;
   if (!is_clear(fits)) return findings;
   for (const SourceFit& fit : fits) findings.push_back(finding_of(fit, covariates));
@@ -98,39 +98,49 @@ class WholeRecording {
 
   [[nodiscard]] std::vector<SourceFinding> findings() const {
     std::vector<SourceFinding> findings;
-    for (const SourceFit& fit :
-         rank_sources(of_, all_sources(), CovariateSet::basic, shown_by(problem_.progress))) {
+    for (const SourceFit& fit : rank_sources(of_, all_sources(), shown_by(problem_.progress))) {
       findings.push_back(finding_of(fit, covariates_));
     }
     return findings;
   }
 
-  /// The best description by one of some sources with all covariates, judged on the recordings held out.
-  [[nodiscard]] std::optional<Proposal> proposal(std::span<const ErrorSource* const> sources,
+  /// The description by one source whose number of terms predicts the recordings held out best. Empty where none
+  /// predicts anything.
+  [[nodiscard]] std::optional<Proposal> proposal(const ErrorSource& source,
                                                  const std::vector<std::unique_ptr<Prepared>>& holdouts) const {
-    const auto fits = rank_sources(of_, sources, CovariateSet::full, shown_by(problem_.progress));
-    if (fits.empty()) return std::nullopt;
-    const SourceFit& fit = fits.front();
+    problem_.progress("describing what is unknown", 0);
+    std::optional<Proposal> best;
+    for (const SourceFit& fit : describe(of_, source)) {
+      Proposal proposal = judged(fit, holdouts);
+      if (proposal.held_out_gain_nats > (best ? best->held_out_gain_nats : 0)) best = std::move(proposal);
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] Proposal judged(const SourceFit& fit,
+                                const std::vector<std::unique_ptr<Prepared>>& holdouts) const {
     Proposal proposal{finding_of(fit, covariates_), !holdouts.empty(), 0, {}};
-    double before = 0, after = 0, floor = 0;
+    double measurements = 0;
     const auto judge_on = [&](const Prepared& judged, const HeldOutError& error) {
-      proposal.held_out_gain_nats += error.gain_nats;
-      before += error.before;
-      after += error.after;
       const auto& powers = judged.bank.powers;
-      floor += error.measurements * std::accumulate(powers.begin(), powers.end(), 0.0) /
-               static_cast<double>(powers.size());
+      proposal.held_out_gain_nats += error.gain_nats;
+      proposal.power.before += error.before;
+      proposal.power.after += error.after;
+      proposal.power.floor += error.measurements * std::accumulate(powers.begin(), powers.end(), 0.0) /
+                              static_cast<double>(powers.size());
+      measurements += error.measurements;
     };
     for (const auto& other : holdouts) {
       judge_on(*other, predict_other(fit, of_, other->model(problem_.library, problem_.threads), other->at,
                                      other->course));
     }
     if (holdouts.empty()) judge_on(recording_, predict_blocks(fit, of_));
-    if (before > floor) proposal.closed = (before - after) / (before - floor);
+    for (double* each : {&proposal.power.before, &proposal.power.after, &proposal.power.floor})
+      *each /= measurements;
     return proposal;
   }
 
- private:
   const DiagnosisProblem& problem_;
   const Prepared& recording_;
   ResidualModel model_;
@@ -172,16 +182,9 @@ void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
   std::stable_sort(answer.sources.begin(), answer.sources.end(),
                    [](const SourceFinding& a, const SourceFinding& b) { return a.gain_nats > b.gain_nats; });
   if (answer.verdict != Verdict::unknown) return;
-  std::vector<const ErrorSource*> leaders;
-  for (const SourceFinding& finding : answer.sources) {
-    if (leaders.size() < kSourcesInFull &&
-        (leaders.empty() || finding.gain_nats > kLeastRival * answer.sources.front().gain_nats)) {
-      leaders.push_back(&source_named(finding.name));
-    }
-  }
-  if (leaders.empty()) return;
+  if (answer.sources.empty()) return;
   answer.proposal = WholeRecording(problem.prepared, problem, nominal_of(problem.prepared), found.priors)
-                        .proposal(leaders, holdouts);
+                        .proposal(source_named(answer.sources.front().name), holdouts);
 }
 
 void put_source_first(Diagnosis& answer) {

@@ -20,12 +20,16 @@ constexpr std::string_view kExplained = R"({
   "candidates": [{"name": "fin_lag", "probability": 0.07}],
   "gap": {"before": 3, "after": 1.1, "floor": 1, "closed": 0.95, "closed_ci": [0.9, 1.02], "unit": "noise power",
           "channels": []},
+  "sources": [{"source": "compass.field", "gain_nats": 40, "errors": []}, {"source": "imu.gyro", "errors": []}],
+  "proposal": {"errors": [{"families": ["constant"]}, {"families": ["rate", "speed"]}]},
   "unexplained": [], "seconds": 4.5})";
 
 TEST(GapTrialAnswer, ReadsWhatIsScored) {
   const validation::TrialAnswer answer = validation::read_answer(kExplained);
   EXPECT_EQ(answer.verdict, validation::TrialVerdict::explained);
   EXPECT_EQ(answer.channels, (std::vector<std::string>{"compass.field", "compass.heading"}));
+  EXPECT_EQ(answer.sources, (std::vector<std::string>{"compass.field", "imu.gyro"}));
+  EXPECT_EQ(answer.families, (std::vector<std::string>{"rate", "speed"}));  // the constant part says nothing
   ASSERT_EQ(answer.effects.size(), 2U);
   EXPECT_EQ(answer.effects[0].name, "motor_field");  // the more probable first
   EXPECT_EQ(answer.effects[0].parameters.at("x_uT_per_A").value, 1.5);
@@ -44,6 +48,8 @@ TEST(GapTrialAnswer, WhatCannotBeSaidIsNull) {
   EXPECT_EQ(answer.verdict, validation::TrialVerdict::no_gap);
   EXPECT_FALSE(answer.closed);
   EXPECT_FALSE(answer.closed_ci);
+  EXPECT_TRUE(answer.sources.empty());
+  EXPECT_TRUE(answer.families.empty());
 }
 
 TEST(GapTrialAnswer, WhatIsMalformedIsRefusedWithTheReason) {

@@ -143,6 +143,9 @@ TEST(GapTrialTwins, EveryEffectHasChannelsAndTwinsAreInTheLibrary) {
       const validation::TrialSignature* signature = validation::signature_of(kind.name);
       ASSERT_NE(signature, nullptr) << kind.name;
       EXPECT_FALSE(signature->channels.empty()) << kind.name;
+      EXPECT_FALSE(signature->sources.empty()) << kind.name;
+      const bool is_foreign = kinds.data() == reference::foreign_effects().data();
+      EXPECT_EQ(signature->families.empty(), !is_foreign) << kind.name;
     }
   }
   EXPECT_EQ(validation::trial_signatures().size(),

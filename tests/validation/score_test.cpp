@@ -172,6 +172,30 @@ TEST(GapTrialScore, TheStrongestChannelMustBeOneWhereAnEffectCanShow) {
             std::nullopt);
 }
 
+// A sloshing inclinometer shows in the gyros: a channel in which it may show, and not where it enters.
+TEST(GapTrialScore, TheFirstSourceMustBeWhereAnEffectEnters) {
+  const validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"tilt_slosh"});
+  for (const auto& [source, right] : {std::pair{"compass.tilt", true}, {"imu.gyro", false}}) {
+    validation::TrialAnswer answer = verdict(validation::TrialVerdict::unknown);
+    answer.channels = {"imu.gyro"};
+    answer.sources = {source, "compass.tilt"};
+    EXPECT_EQ(validation::judged(answered(drawn, answer)).source_right, right);
+    EXPECT_EQ(validation::judged(answered(drawn, answer)).channel_right, true);
+    EXPECT_EQ(validation::judged(answered(drawn, answer)).family_right, std::nullopt);
+  }
+  EXPECT_EQ(validation::judged(answered(drawn, verdict(validation::TrialVerdict::unknown))).source_right, false);
+}
+
+TEST(GapTrialScore, TheProposalOfAForeignEffectMustFollowItsQuantity) {
+  const validation::TrialCase drawn = made_up_case(validation::TrialArm::foreign, {"gps_multipath"});
+  for (const auto& [family, right] : {std::pair{"heading", true}, {"depth", false}}) {
+    validation::TrialAnswer answer = verdict(validation::TrialVerdict::unknown);
+    answer.families = {family};
+    EXPECT_EQ(validation::judged(answered(drawn, answer)).family_right, right);
+  }
+  EXPECT_EQ(validation::judged(answered(drawn, verdict(validation::TrialVerdict::unknown))).family_right, false);
+}
+
 TEST(GapTrialScore, CalibrationErrorIsTheMeanDistanceByBets) {
   const validation::TrialCase drawn = made_up_case(validation::TrialArm::single, {"motor_field"});
   validation::TrialAnswer right = named({"motor_field"}, 0.8);
