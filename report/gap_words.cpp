@@ -67,10 +67,10 @@ std::string source_text(const gap::Diagnosis& diagnosis) {
   if (sources.size() == 1) return fmt::format("{}; no other source describes it", named(sources[0]));
   const double apart = sources[0].gain_nats - sources[1].gain_nats;
   if (apart < gap::kObservable_nats) {
-    return fmt::format("{} or {}: they cannot be told apart here ({:.1f} nats)", named(sources[0]),
-                       named(sources[1]), apart);
+    return fmt::format("{} or {}: they cannot be told apart here ({} nats)", named(sources[0]), named(sources[1]),
+                       amount(apart));
   }
-  return fmt::format("{}; next best, {:.0f} nats worse: {}", named(sources[0]), apart, named(sources[1]));
+  return fmt::format("{}; next best, {} nats worse: {}", named(sources[0]), amount(apart), named(sources[1]));
 }
 
 std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis, std::string_view plus_minus,
@@ -84,8 +84,8 @@ std::vector<std::string> proposal_lines(const gap::Diagnosis& diagnosis, std::st
                                 amount(error.std_error, error.unit), spaced(error.follows)));
   }
   const std::string on = proposal.held_out ? "on the recordings held out" : "on minutes of this recording";
-  lines.push_back(fmt::format("{} it gains {:.0f} nats: noise power {} {} {}, of the nominal vehicle {}", on,
-                              proposal.held_out_gain_nats, amount(proposal.power.before), arrow,
+  lines.push_back(fmt::format("{} it gains {} nats: noise power {} {} {}, of the nominal vehicle {}", on,
+                              amount(proposal.held_out_gain_nats), amount(proposal.power.before), arrow,
                               amount(proposal.power.after), amount(proposal.power.floor)));
   lines.emplace_back(kDescriptionNotCause);
   return lines;

@@ -21,9 +21,10 @@ std::vector<std::string> keys_of(const Json& object) {
 TEST(GapJson, HasTheKeysOfTheContract) {
   const Json json = Json::parse(report::gap_json(test::explained_gap()));
   EXPECT_EQ(keys_of(json),
-            (std::vector<std::string>{"verdict", "sentence", "where", "effects", "gap", "unexplained",
-                                      "candidates", "next", "remarks", "gyro_bias", "instruments", "commands",
-                                      "least_ratio", "changes", "field", "bank", "duration_s", "seconds"}));
+            (std::vector<std::string>{"verdict", "sentence",  "where",       "sources",    "proposal",
+                                      "effects", "gap",       "unexplained", "candidates", "next",
+                                      "remarks", "gyro_bias", "instruments", "commands",   "least_ratio",
+                                      "changes", "field",     "bank",        "duration_s", "seconds"}));
   EXPECT_EQ(json["verdict"], "explained");
   EXPECT_EQ(keys_of(json["where"][0]),
             (std::vector<std::string>{"channel", "regime", "gap", "unit", "floor", "p_value"}));
@@ -35,6 +36,27 @@ TEST(GapJson, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys_of(json["gap"]["channels"][0]),
             (std::vector<std::string>{"channel", "before", "after", "floor", "closed", "closed_ci", "unit"}));
   EXPECT_EQ(keys_of(json["bank"]), (std::vector<std::string>{"missions", "seed", "from_cache", "seconds"}));
+}
+
+TEST(GapJson, SaysWhereTheErrorEntersAndDescribesWhatIsUnknown) {
+  EXPECT_EQ(Json::parse(report::gap_json(test::explained_gap()))["sources"], Json::array());
+  EXPECT_TRUE(Json::parse(report::gap_json(test::explained_gap()))["proposal"].is_null());
+  auto diagnosis = test::unknown_gap();
+  diagnosis.sources.push_back({"vehicle.moments",
+                               "the moments on the vehicle",
+                               11,
+                               {{"roll", "", "speed", "speed", {"speed"}, 0.5, 0.01, "deg of fin"}}});
+  const Json json = Json::parse(report::gap_json(diagnosis));
+  EXPECT_EQ(keys_of(json["sources"][0]), (std::vector<std::string>{"source", "gain_nats", "errors"}));
+  EXPECT_EQ(json["sources"][0]["source"], "compass.field");
+  EXPECT_EQ(keys_of(json["sources"][0]["errors"][0]),
+            (std::vector<std::string>{"component", "channel", "follows", "families", "rms", "std_error", "unit"}));
+  EXPECT_EQ(json["sources"][0]["errors"][0]["families"], Json::array({"current"}));
+  EXPECT_TRUE(json["sources"].back()["errors"][0]["channel"].is_null());
+  EXPECT_EQ(keys_of(json["proposal"]),
+            (std::vector<std::string>{"source", "errors", "held_out", "held_out_gain_nats", "power", "warning"}));
+  EXPECT_EQ(keys_of(json["proposal"]["power"]), (std::vector<std::string>{"before", "after", "floor"}));
+  EXPECT_EQ(json["proposal"]["held_out"], true);
 }
 
 TEST(GapJson, SaysWhichInstrumentsAreMissing) {

@@ -147,6 +147,11 @@ gap::Diagnosis unknown_gap() {
   diagnosis.next = {"Step the shaft speed at constant heading, slow to full, both ways round."};
   diagnosis.remarks = {"Without --holdout the answer rests on blocks of one recording."};
   fill_courses(diagnosis, false);
+  const gap::ErrorFinding error{
+      "x", "compass.field", "motor_current", "motor_current x motor_current", {"current"}, 0.4, 0.02, "uT"};
+  diagnosis.sources = {{"compass.field", "the compass's magnetic field", 90, {error}},
+                       {"compass.heading", "the compass's heading", 30, {}}};
+  diagnosis.proposal = gap::Proposal{diagnosis.sources.front(), true, 73, {4.2, 1.3, 1.05, {}, {}}};
   return diagnosis;
 }
 
@@ -183,6 +188,9 @@ gap::Diagnosis hostile_gap() {
                        {"x", "y", {0, kNan, 2}, {kNan, kNan, kNan}, {1, kInfinity, 1e300}}};
   diagnosis.bank.missions = -1;
   diagnosis.duration_s = diagnosis.seconds = diagnosis.bank.seconds = kNan;
+  const gap::ErrorFinding error{"<x>", "", "", "a & b", {}, kNan, kInfinity, "<uT>"};
+  diagnosis.sources = {{"<source>", "\"words\" & <more>", kInfinity, {error}}, {"b", "", kNan, {}}};
+  diagnosis.proposal = gap::Proposal{diagnosis.sources.front(), false, kNan, {kNan, kInfinity, -1, {}, {}}};
   return diagnosis;
 }
 

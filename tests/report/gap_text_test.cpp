@@ -99,6 +99,25 @@ TEST(GapText, AnUnknownGapNamesNoCause) {
   }
 }
 
+TEST(GapText, SaysWhereTheErrorEnters) {
+  auto diagnosis = test::unknown_gap();
+  const std::string text = report::gap_text(diagnosis, gap_source());
+  expect_narrow(text);
+  for (const char* part :
+       {"the compass's magnetic field (compass.field); next best, 60 nats worse: the compass's heading",
+        "x of the compass's magnetic field is off by 0.4 +- 0.02 uT and follows motor current x motor current",
+        "on the recordings held out it gains 73 nats: noise power 4.2 -> 1.3, of the nominal vehicle 1.05",
+        "It is no cause"}) {
+    EXPECT_TRUE(says(text, part)) << part << '\n' << text;
+  }
+  diagnosis.sources[1].gain_nats = 85;
+  EXPECT_TRUE(says(report::gap_text(diagnosis, gap_source()), "they cannot be told apart here (5 nats)"));
+  diagnosis.sources.resize(1);
+  EXPECT_TRUE(says(report::gap_text(diagnosis, gap_source()), "no other source describes it"));
+  diagnosis.sources[0].gain_nats = 4;
+  EXPECT_FALSE(says(report::gap_text(diagnosis, gap_source()), "enters at"));
+}
+
 TEST(GapText, CandidatesOfAnUnknownGapHaveNoProbability) {
   auto diagnosis = test::unknown_gap();
   diagnosis.candidates.front().probability = 1;

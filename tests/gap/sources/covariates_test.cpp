@@ -43,7 +43,9 @@ TEST(Covariates, AreScaledAndNamedOnce) {
     ASSERT_EQ(each.values.size(), static_cast<Eigen::Index>(kIntervals)) << each.name;
     ASSERT_TRUE(each.values.allFinite()) << each.name;
     EXPECT_TRUE(each.varies) << each.name;
-    if (each.name != "constant") EXPECT_NEAR(each.values.mean(), 0, 1e-9) << each.name;
+    if (each.name != "constant") {
+      EXPECT_NEAR(each.values.mean(), 0, 1e-9) << each.name;
+    }
     EXPECT_NEAR(each.values.squaredNorm() / static_cast<double>(kIntervals), 1, 1e-9) << each.name;
     ASSERT_FALSE(each.families.empty()) << each.name;
     for (const std::string_view family : each.families) {

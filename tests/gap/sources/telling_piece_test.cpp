@@ -37,7 +37,9 @@ TEST(LoudestPiece, OfAShortMissionBeginsWithIt) {
 
 TEST(LoudestPiece, IgnoresFixesOutsideTheMission) {
   const Layout layout{300, {0, 1}};
-  EXPECT_EQ(loudest_piece_s(quiet(layout), layout, {-5.0, 1000.0}, 10), 0);
+  Eigen::VectorXd residual = Eigen::VectorXd::Zero(quiet(layout).size());
+  residual.tail(2 * kFixChannels).setConstant(20);
+  EXPECT_EQ(loudest_piece_s(residual, layout, {-5.0, 1000.0}, 10), 0);
 }
 
 }  // namespace
