@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/gap_json.h"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -139,6 +140,14 @@ OrderedJson json_of(const gap::RecordingFinding& finding) {
   return json;
 }
 
+/// The smallest p-value of the residual map; null without a map.
+OrderedJson least_p_value(const gap::Diagnosis& diagnosis) {
+  if (diagnosis.map.empty()) return {};
+  return std::min_element(diagnosis.map.begin(), diagnosis.map.end(),
+                          [](const auto& a, const auto& b) { return a.p_value < b.p_value; })
+      ->p_value;
+}
+
 OrderedJson json_of(const gap::ErrorFinding& error) {
   return {{"component", error.component},
           {"channel", error.channel.empty() ? OrderedJson() : OrderedJson(error.channel)},
@@ -179,6 +188,7 @@ std::string gap_json(const gap::Diagnosis& diagnosis) {
       {"verdict", gap::name_of(diagnosis.verdict)},
       {"sentence", diagnosis.sentence},
       {"where", list_of(diagnosis.where, where_json)},
+      {"least_p_value", least_p_value(diagnosis)},
       {"sources", list_of(diagnosis.sources, convert)},
       {"proposal", diagnosis.proposal ? json_of(*diagnosis.proposal) : OrderedJson()},
       {"effects", list_of(diagnosis.effects, convert)},

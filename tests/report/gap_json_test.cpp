@@ -21,10 +21,10 @@ std::vector<std::string> keys_of(const Json& object) {
 TEST(GapJson, HasTheKeysOfTheContract) {
   const Json json = Json::parse(report::gap_json(test::explained_gap()));
   EXPECT_EQ(keys_of(json),
-            (std::vector<std::string>{"verdict", "sentence",  "where",       "sources",    "proposal",
-                                      "effects", "gap",       "unexplained", "candidates", "next",
-                                      "remarks", "gyro_bias", "instruments", "commands",   "least_ratio",
-                                      "changes", "field",     "bank",        "duration_s", "seconds"}));
+            (std::vector<std::string>{
+                "verdict",  "sentence",    "where",      "least_p_value", "sources", "proposal",   "effects",
+                "gap",      "unexplained", "candidates", "next",          "remarks", "gyro_bias",  "instruments",
+                "commands", "least_ratio", "changes",    "field",         "bank",    "duration_s", "seconds"}));
   EXPECT_EQ(json["verdict"], "explained");
   EXPECT_EQ(keys_of(json["where"][0]),
             (std::vector<std::string>{"channel", "regime", "gap", "unit", "floor", "p_value"}));
@@ -36,6 +36,12 @@ TEST(GapJson, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys_of(json["gap"]["channels"][0]),
             (std::vector<std::string>{"channel", "before", "after", "floor", "closed", "closed_ci", "unit"}));
   EXPECT_EQ(keys_of(json["bank"]), (std::vector<std::string>{"missions", "seed", "from_cache", "seconds"}));
+}
+
+TEST(GapJson, SaysTheSmallestProbabilityOfTheMap) {
+  EXPECT_EQ(Json::parse(report::gap_json(test::explained_gap()))["least_p_value"], 1e-14);
+  EXPECT_EQ(Json::parse(report::gap_json(test::no_gap()))["least_p_value"], 0.9);
+  EXPECT_TRUE(Json::parse(report::gap_json({}))["least_p_value"].is_null());
 }
 
 TEST(GapJson, SaysWhereTheErrorEntersAndDescribesWhatIsUnknown) {
