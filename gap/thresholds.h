@@ -82,10 +82,15 @@ inline constexpr double kObservable_nats = 10;
 
 /// Most terms by which the error of one source is described.
 inline constexpr std::size_t kMostErrorTerms = 5;
-/// Length of the piece of a mission on which sources are told apart first, s. Set: a third of the time, and most gaps
-/// are clear in it.
+/// Most leading sources that are described by all covariates, where the gap is unknown, and the share of the first
+/// one's gain that the next one must have.
+inline constexpr std::size_t kSourcesInFull = 2;
+inline constexpr double kLeastRival = 0.5;
+/// Length of the piece of a mission on which sources are told apart first, s. Set: a third of the time, and most
+/// gaps are clear in it.
 inline constexpr double kSourcePiece_s = 200;
-/// Gain of the leading source in that piece, and its lead over the next one, from which the piece decides, nats. Set.
+/// Gain of the leading source in that piece, and its lead over the next one, from which the piece decides, nats.
+/// Set.
 inline constexpr double kClearSource_nats = 100, kClearLead_nats = 30;
 
 // ---- null missions

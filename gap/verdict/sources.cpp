@@ -104,13 +104,18 @@ class WholeRecording {
     return findings;
   }
 
-  /// The description by one source whose number of terms predicts the recordings held out best. Empty where none
-  /// predicts anything.
-  [[nodiscard]] std::optional<Proposal> proposal(const ErrorSource& source,
-                                                 const std::vector<std::unique_ptr<Prepared>>& holdouts) const {
+  /// Descriptions by one source with all covariates: by one term, by two and so on.
+  [[nodiscard]] std::vector<SourceFit> descriptions(const ErrorSource& source) const {
     problem_.progress("describing what is unknown", 0);
+    return describe(of_, source);
+  }
+  [[nodiscard]] SourceFinding finding(const SourceFit& fit) const { return finding_of(fit, covariates_); }
+
+  /// The one of some descriptions that predicts the recordings held out best. Empty where none predicts anything.
+  [[nodiscard]] std::optional<Proposal> proposal(const std::vector<SourceFit>& descriptions,
+                                                 const std::vector<std::unique_ptr<Prepared>>& holdouts) const {
     std::optional<Proposal> best;
-    for (const SourceFit& fit : describe(of_, source)) {
+    for (const SourceFit& fit : descriptions) {
       Proposal proposal = judged(fit, holdouts);
       if (proposal.held_out_gain_nats > (best ? best->held_out_gain_nats : 0)) best = std::move(proposal);
     }
@@ -161,6 +166,11 @@ void add(std::vector<SourceFinding> findings, std::vector<SourceFinding>& all) {
   }
 }
 
+void sort_by_gain(std::vector<SourceFinding>& findings) {
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const SourceFinding& a, const SourceFinding& b) { return a.gain_nats > b.gain_nats; });
+}
+
 }  // namespace
 
 void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
@@ -177,14 +187,27 @@ void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
     if (findings.empty()) findings = WholeRecording(recording, problem, nominal, found.priors).findings();
     return findings;
   };
-  for (const Prepared* other : problem.others) add(findings_of(*other), answer.sources);
-  add(findings_of(problem.prepared), answer.sources);
-  std::stable_sort(answer.sources.begin(), answer.sources.end(),
-                   [](const SourceFinding& a, const SourceFinding& b) { return a.gain_nats > b.gain_nats; });
-  if (answer.verdict != Verdict::unknown) return;
-  if (answer.sources.empty()) return;
-  answer.proposal = WholeRecording(problem.prepared, problem, nominal_of(problem.prepared), found.priors)
-                        .proposal(source_named(answer.sources.front().name), holdouts);
+  std::vector<SourceFinding>& sources = answer.sources;
+  add(findings_of(problem.prepared), sources);
+  for (const Prepared* other : problem.others) add(findings_of(*other), sources);
+  sort_by_gain(sources);
+  if (answer.verdict != Verdict::unknown || sources.empty()) return;
+  // Close rivals are compared by their best descriptions.
+  const WholeRecording whole(problem.prepared, problem, nominal_of(problem.prepared), found.priors);
+  std::vector<std::vector<SourceFit>> descriptions;
+  const double least_nats = kLeastRival * sources.front().gain_nats;
+  for (std::size_t i = 0; i < std::min(sources.size(), kSourcesInFull); ++i) {
+    if (sources[i].gain_nats < least_nats) break;
+    descriptions.push_back(whole.descriptions(source_named(sources[i].name)));
+    if (descriptions.back().empty()) continue;
+    SourceFinding full = whole.finding(descriptions.back().back());
+    if (full.gain_nats > sources[i].gain_nats) sources[i] = std::move(full);
+  }
+  sort_by_gain(sources);
+  const auto leader = std::find_if(descriptions.begin(), descriptions.end(), [&](const auto& fits) {
+    return !fits.empty() && fits.front().source->name == sources.front().name;
+  });
+  if (leader != descriptions.end()) answer.proposal = whole.proposal(*leader, holdouts);
 }
 
 void put_source_first(Diagnosis& answer) {
@@ -194,9 +217,11 @@ void put_source_first(Diagnosis& answer) {
   if (error.channel.empty()) return;
   const auto is_there = [&](const WhereEntry& entry) { return entry.channel == error.channel; };
   if (std::none_of(answer.where.begin(), answer.where.end(), is_there)) {
-    // Where the data are noise, evidence of exp(g) has at most the probability exp(-g) (Markov's inequality).
+    // Without a gap, evidence of exp(g) has at most the probability exp(-g) (Markov's inequality), for each
+    // source.
+    const double chance = static_cast<double>(error_sources().size()) * std::exp(-source.gain_nats);
     answer.where.insert(answer.where.begin(), {error.channel, error.regime, std::abs(error.rms), error.std_error,
-                                               error.unit, std::exp(-source.gain_nats)});
+                                               error.unit, std::min(1.0, chance)});
     return;
   }
   std::stable_partition(answer.where.begin(), answer.where.end(), is_there);
