@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/parallel.h"
+#include "gap/sources/error_traces.h"
 #include "gap/thresholds.h"
 
 namespace navcal::gap {
@@ -18,9 +18,6 @@ namespace {
 
 /// Standard deviations of the prior of a coefficient, in typical values of its component.
 constexpr std::array<double, 3> kCoefficients{0.1, 0.5, 2.5};
-/// Step of the finite difference, typical values.
-constexpr double kErrorStep = 0.2;
-
 /// All terms of one source: Gram matrix and score of their traces, with the tolerances marginalised out.
 struct Terms {
   std::vector<ErrorTerm> all;
@@ -86,7 +83,7 @@ std::pair<Eigen::MatrixXd, Eigen::VectorXd> scaled(const Terms& terms, const Cho
   return {gram, score};
 }
 
-double evidence_of(const Terms& terms, const Choice& choice) {
+double choice_evidence(const Terms& terms, const Choice& choice) {
   const auto [gram, score] = scaled(terms, choice);
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   return 0.5 * score.dot(factor.solve(score)) - factor.matrixLLT().diagonal().array().log().sum();
@@ -115,7 +112,7 @@ std::vector<Choice> chosen(const Terms& terms) {
         Choice next = before;
         next.terms.push_back(j);
         next.widths.push_back(coefficient * terms.all[static_cast<std::size_t>(j)].component->typical);
-        next.evidence = evidence_of(terms, next) - cost * static_cast<double>(next.terms.size());
+        next.evidence = choice_evidence(terms, next) - cost * static_cast<double>(next.terms.size());
         if (next.evidence > leader.evidence) leader = std::move(next);
       }
     }
@@ -137,83 +134,6 @@ SourceFit fit_of(const ErrorSource& source, const Terms& terms, const Choice& ch
   }
   return fit;
 }
-
-/// Sources whose errors are simulated in one replay for all components: the estimator does not feed them back, so
-/// that each stays in channels of its own.
-using SourcesTogether = std::vector<const ErrorSource*>;
-
-/// The columns of the innovations in which an error stays. Empty: the estimator spreads it over all of them.
-struct OwnChannels {
-  std::vector<Eigen::Index> grid, fixes;
-};
-OwnChannels own_channels(ErrorPlace place) {
-  const auto from = [place](ErrorPlace first) {
-    return static_cast<Eigen::Index>(place) - static_cast<Eigen::Index>(first);
-  };
-  switch (place) {
-    case ErrorPlace::force_x:
-    case ErrorPlace::force_y:
-    case ErrorPlace::force_z:
-      return {{force_x + from(ErrorPlace::force_x)}, {}};
-    case ErrorPlace::depth:
-      return {{Channel::depth}, {}};
-    case ErrorPlace::position_north:
-    case ErrorPlace::position_east:
-      return {{}, {fix_north + from(ErrorPlace::position_north)}};
-    case ErrorPlace::velocity_north:
-    case ErrorPlace::velocity_east:
-      return {{}, {velocity_north + from(ErrorPlace::velocity_north)}};
-    case ErrorPlace::current_north:
-    case ErrorPlace::current_east:
-      return {{}, {fix_north + from(ErrorPlace::current_north), velocity_north + from(ErrorPlace::current_north)}};
-    default:
-      return {};
-  }
-}
-
-/// Sources by the replays that they share. Without a compass, accelerometers and fixes steer the estimator, too.
-std::vector<SourcesTogether> by_replays(std::span<const ErrorSource* const> sources, const Mission& mission) {
-  std::vector<SourcesTogether> all;
-  SourcesTogether followers;
-  for (const ErrorSource* source : sources) {
-    const ErrorPlace place = source->components.front().place;
-    const OwnChannels own = own_channels(place);
-    // A current shows in the channels in which the receiver's errors show.
-    const bool alone = (own.grid.empty() && own.fixes.empty()) || place == ErrorPlace::current_north;
-    if (alone || !mission.silences.empty()) {
-      all.push_back({source});
-    } else {
-      followers.push_back(source);
-    }
-  }
-  if (!followers.empty()) all.push_back(std::move(followers));
-  return all;
-}
-
-/// Innovations of the nominal vehicle, with those of another one in some columns.
-Innovations with_columns_of(const Innovations& other, const OwnChannels& own, Innovations nominal) {
-  for (const Eigen::Index c : own.grid) nominal.grid.col(c) = other.grid.col(c);
-  for (const Eigen::Index c : own.fixes) nominal.fixes.col(c) = other.fixes.col(c);
-  return nominal;
-}
-
-/// Innovations of the nominal vehicle with one step of an error in each of some components.
-Innovations innovations_with(const SourceProblem& problem, std::span<const ErrorComponent* const> components,
-                             const std::shared_ptr<const Eigen::VectorXd>& series) {
-  Model model = problem.model.library.model(problem.nominal.at);
-  for (const ErrorComponent* component : components) {
-    const double amplitude = kErrorStep * component->typical;
-    model.effects.add(std::make_unique<TimedError>(component->place, series, problem.begin_s))
-        .set_parameters(std::span(&amplitude, 1));
-  }
-  return problem.model.replay.run_coarsely(model);
-}
-
-/// A covariate that may be a term.
-struct Series {
-  std::size_t covariate;
-  std::shared_ptr<const Eigen::VectorXd> values;
-};
 
 /// Which covariates the errors may follow.
 enum class CovariateSet : std::uint8_t {
@@ -244,44 +164,16 @@ std::vector<Series> series_for(const SourcesTogether& sources, std::span<const C
   return series;
 }
 
-/// Traces of all components of some sources with all series: a column for each, components by series.
-Eigen::MatrixXd traces_of(const SourceProblem& problem, const Innovations& nominal,
-                          const std::vector<const ErrorComponent*>& components, bool in_one_replay,
-                          const std::vector<Series>& series) {
-  const ResidualModel& of = problem.model;
-  const Layout layout = layout_of(of.replay);
-  const Eigen::VectorXd white = of.whitening(nominal, layout);
-  const auto count = static_cast<Eigen::Index>(series.size());
-  Eigen::MatrixXd traces(white.size(), static_cast<Eigen::Index>(components.size()) * count);
-  const auto write = [&](const Innovations& with, std::size_t component, std::size_t k) {
-    traces.col(static_cast<Eigen::Index>(component) * count + static_cast<Eigen::Index>(k)) =
-        (white - of.whitening(with, layout)) / (kErrorStep * components[component]->typical);
-  };
-  const std::size_t replays = in_one_replay ? 1 : components.size();
-  base::in_parallel(of.threads, replays * series.size(), [&](std::size_t i) {
-    const std::size_t k = i % series.size(), c = i / series.size();
-    if (!in_one_replay) {
-      write(innovations_with(problem, std::span(&components[c], 1), series[k].values), c, k);
-      return;
-    }
-    const Innovations together = innovations_with(problem, components, series[k].values);
-    for (std::size_t each = 0; each < components.size(); ++each) {
-      write(with_columns_of(together, own_channels(components[each]->place), nominal), each, k);
-    }
-  });
-  return traces;
-}
-
 /// The descriptions by each of some sources that share their replays: with one term, with two and so on.
 std::vector<std::vector<SourceFit>> paths_of(const SourcesTogether& sources, const SourceProblem& problem,
-                                             CovariateSet set, const Innovations& nominal,
+                                             CovariateSet set, const ErrorTraces& replayed,
                                              const Tolerances& tolerances) {
   const std::vector<Series> series = series_for(sources, problem.covariates, set);
   std::vector<const ErrorComponent*> components;
   for (const ErrorSource* source : sources) {
     for (const ErrorComponent& component : source->components) components.push_back(&component);
   }
-  const Eigen::MatrixXd traces = traces_of(problem, nominal, components, sources.size() > 1, series);
+  const Eigen::MatrixXd traces = replayed.of(components, sources.size() > 1, series);
   std::vector<std::vector<SourceFit>> paths;
   Eigen::Index column = 0;
   for (const ErrorSource* source : sources) {
@@ -309,12 +201,12 @@ std::vector<std::vector<SourceFit>> paths_of(const SourcesTogether& sources, con
 std::vector<SourceFit> rank_sources(const SourceProblem& problem, std::span<const ErrorSource* const> candidates,
                                     const std::function<void(double)>& progress) {
   const Tolerances tolerances(problem.nominal, problem.priors);
-  const Innovations nominal = problem.model.replay.run_coarsely(problem.model.library.model(problem.nominal.at));
+  const ErrorTraces replayed(problem.model, problem.nominal.at, problem.begin_s);
   std::vector<SourceFit> fits;
   const std::vector<SourcesTogether> groups = by_replays(candidates, problem.model.replay.mission());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(groups.size()));
-    for (auto& path : paths_of(groups[i], problem, CovariateSet::basic, nominal, tolerances))
+    for (auto& path : paths_of(groups[i], problem, CovariateSet::basic, replayed, tolerances))
       fits.push_back(std::move(path.back()));
   }
   std::stable_sort(fits.begin(), fits.end(),
@@ -324,8 +216,8 @@ std::vector<SourceFit> rank_sources(const SourceProblem& problem, std::span<cons
 
 std::vector<SourceFit> describe(const SourceProblem& problem, const ErrorSource& source) {
   const Tolerances tolerances(problem.nominal, problem.priors);
-  const Innovations nominal = problem.model.replay.run_coarsely(problem.model.library.model(problem.nominal.at));
-  const auto paths = paths_of({&source}, problem, CovariateSet::full, nominal, tolerances);
+  const ErrorTraces replayed(problem.model, problem.nominal.at, problem.begin_s);
+  const auto paths = paths_of({&source}, problem, CovariateSet::full, replayed, tolerances);
   return paths.empty() ? std::vector<SourceFit>() : paths.front();
 }
 
