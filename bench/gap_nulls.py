@@ -4,7 +4,7 @@
 
     python3 bench/gap_nulls.py BUILD [--each 18] [--bank 100] [--seed 1] [--missions LIST] [--minutes M] [--csv FILE]
 
-BUILD is a build folder (build/release). A null is a vehicle of which each parameter is within tolerance (2 % of its typical
+BUILD is a build folder with the benchmarks (build/bench). A null is a vehicle of which each parameter is within tolerance (2 % of its typical
 value, normal). The first simulator is the program's own; the second one is independent (docs/trial.md). Each null gets a line of
 the CSV: mission, simulator, number, verdict, what is named, the smallest p-value of the residual map, the largest probability
 of a candidate, and the noise power. At the end the rate of false alarms is printed as a function of each threshold, with its

@@ -166,6 +166,9 @@ Eigen::MatrixXd explained_rms(const Innovations& innovations, const Trajectory10
         for (Eigen::Index i = 0; i < n; ++i) {
           here.row(i) = driver.row(static_cast<Eigen::Index>(series.rows[static_cast<std::size_t>(i)]));
         }
+        // The rows of a channel have another mean than the course. A driver that hardly varies in them would
+        // otherwise stand for a constant.
+        if (static_cast<std::size_t>(k) != constant) here = without_mean(std::move(here));
         square = fitted_mean_square(series.values, here);
       } else {
         square = values_square(series.values, static_cast<std::size_t>(k));
