@@ -58,7 +58,7 @@ std::vector<CostItem> turn_costs() {
              return std::function<void(std::size_t)>([state](std::size_t sample) {
                RateReading rate;
                rate.time_s = 0.05 * static_cast<double>(sample);
-               rate.rate_rad_s.z() = rate.yaw_rate_b_rad_s = std::sin(rate.time_s);
+               rate.yaw_rate_b_rad_s = rate.rate_rad_s.z() = std::sin(rate.time_s);
                state->update(rate);
              });
            }}};

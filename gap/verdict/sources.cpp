@@ -72,6 +72,7 @@ std::vector<SourceFinding> findings_in_piece(const Prepared& recording, const Di
   const ResidualModel model{replay, problem.library, recording.bank.whitening, problem.threads};
   Trajectory10Hz course;
   (void)replay.run(problem.library.model(recording.at), &course);
+  if (course.time_s.empty()) return {};
   const Linearised of_piece = linearise(model, recording.at);
   const std::vector<Covariate> covariates = covariates_of(course);
   const auto fits = rank_sources({model, of_piece, priors, covariates, course.time_s.front()}, all_sources(),
