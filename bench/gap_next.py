@@ -39,6 +39,16 @@ def effects_of(navcal):
     return effects
 
 
+# Parameters that cannot be negative.
+POSITIVE = {"compass_lag", "fin_backlash", "fin_lag", "imu_latency", "gps_latency", "tilt_slosh"}
+
+
+def within_tolerance(dice, name, parameters):
+    """Values of an effect's parameters on a vehicle without a gap: normal, 2 % of the typical value."""
+    values = {each: dice.gauss(0, 0.02) * typical for each, typical in parameters.items()}
+    return {each: abs(value) for each, value in values.items()} if name in POSITIVE else values
+
+
 def navcal_json(command):
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:

@@ -4,8 +4,8 @@
 
     python3 bench/gap_nulls.py BUILD [--each 18] [--bank 100] [--seed 1] [--missions LIST] [--minutes M] [--csv FILE]
 
-BUILD is a build folder with the benchmarks (build/bench). A null is a vehicle of which each parameter is within tolerance (2 % of its typical
-value, normal). The first simulator is the program's own; the second one is independent (docs/trial.md). Each null gets a line of
+BUILD is a build folder with the benchmarks (build/bench). A null is a vehicle of which each parameter is within tolerance
+(2 % of its typical value, normal). The first simulator is the program's own; the second one is independent (docs/trial.md). Each null gets a line of
 the CSV: mission, simulator, number, verdict, what is named, the smallest p-value of the residual map, the largest probability
 of a candidate, and the noise power. At the end the rate of false alarms is printed as a function of each threshold, with its
 95 % interval (Wilson). --minutes ends the run after so many minutes; what was judged until then is printed. The program
@@ -26,8 +26,6 @@ import gap_next
 
 MISSIONS = ["thesis1", "thesis2", "thesis3", "thesis4", "thesis5", "thesis6", "thesis7", "thesis8", "identification", "survey",
             "calibration_swing"]
-# Parameters that cannot be negative.
-POSITIVE = {"compass_lag", "fin_backlash", "fin_lag", "imu_latency", "gps_latency", "tilt_slosh"}
 COLUMNS = ["mission", "simulator", "number", "verdict", "named", "least_p_value", "candidate", "power", "floor"]
 
 
@@ -35,9 +33,7 @@ def tolerances(dice, effects):
     lines = []
     for name, parameters in effects.items():
         lines.append(f"[{name}]")
-        for each, typical in parameters.items():
-            value = dice.gauss(0, 0.02) * typical
-            lines.append(f"{each} = {abs(value) if name in POSITIVE else value:.9g}")
+        lines += [f"{each} = {value:.9g}" for each, value in gap_next.within_tolerance(dice, name, parameters).items()]
     return "\n".join(lines) + "\n"
 
 

@@ -24,8 +24,6 @@ MISSIONS = ["survey", "identification", "thesis1", "thesis2", "thesis3", "thesis
 BEGIN_S = 1767225600  # of a simulated recording without --date
 # Not watched for: they build up over minutes, or change from day to day.
 UNWATCHED = {"water_current", "gyro_drift", "gyro_random_walk", "magnetic_hysteresis"}
-# Parameters that cannot be negative.
-POSITIVE = {"compass_lag", "fin_backlash", "fin_lag", "imu_latency", "gps_latency", "tilt_slosh"}
 
 
 def direction(dice, parameters, positive):
@@ -39,11 +37,9 @@ def effects_toml(dice, effects, cause, strength, seconds):
     for name, parameters in effects.items():
         if name in UNWATCHED:
             continue
-        values = {each: dice.gauss(0, 0.02) * typical for each, typical in parameters.items()}
-        if name in POSITIVE:
-            values = {each: abs(value) for each, value in values.items()}
+        values = gap_next.within_tolerance(dice, name, parameters)
         if name == cause:
-            shares = direction(dice, parameters, name in POSITIVE)
+            shares = direction(dice, parameters, name in gap_next.POSITIVE)
             values = {each: strength * shares[each] * typical for each, typical in parameters.items()}
             lines += [f"[{name}]", f"from_s = {seconds / 3}"]
         else:

@@ -18,7 +18,8 @@ struct TrialSignature {
   std::span<const std::string_view> channels;
   /// Instruments and forces whose error it is, strictly: where it enters, not where that leads (docs/trial.md).
   std::span<const std::string_view> sources;
-  /// Of a foreign effect: families of the quantities that it follows, as an answer names them (docs/gap.md).
+  /// Families of the quantities that a foreign effect follows, as an answer names them (docs/gap.md); empty for an
+  /// effect of the library.
   std::span<const std::string_view> families{};
 };
 

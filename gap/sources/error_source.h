@@ -81,7 +81,8 @@ class TimedError final : public sim::EffectOf<TimedError, 1> {
 
  private:
   [[nodiscard]] double at(double time_s) const;
-  /// Index of the component, if this error is one of `count` places from `first` on.
+  /// Index of the component among the places from `first` on. Places before it give a number that is too large to
+  /// be one.
   [[nodiscard]] std::size_t index_from(ErrorPlace first) const {
     return static_cast<std::size_t>(place_) - static_cast<std::size_t>(first);
   }

@@ -18,6 +18,7 @@ namespace {
 
 /// Standard deviations of the prior of a coefficient, in typical values of its component.
 constexpr std::array<double, 3> kCoefficients{0.1, 0.5, 2.5};
+
 /// All terms of one source: Gram matrix and score of their traces, with the tolerances marginalised out.
 struct Terms {
   std::vector<ErrorTerm> all;

@@ -82,6 +82,7 @@ struct Closure {
   std::optional<double> closed;
   std::optional<std::array<double, 2>> closed_ci;  ///< 95 %
 };
+
 /// Description of what no effect explains, by the errors of the leading source. It is no cause.
 struct Proposal {
   SourceFinding source;
