@@ -31,20 +31,26 @@ void add_error(const ErrorTerm& term, Eigen::VectorXd series, double begin_s, Mo
 
 }  // namespace
 
-HeldOutError predict_other(const SourceFit& fit, const SourceProblem& problem, const ResidualModel& other,
-                           const Eigen::VectorXd& at, const Trajectory10Hz& course) {
+std::vector<HeldOutError> predict_other(std::span<const SourceFit> fits, const SourceProblem& problem,
+                                        const ResidualModel& other, const Eigen::VectorXd& at,
+                                        const Trajectory10Hz& course) {
   const std::vector<Covariate> covariates = covariates_of(course);
-  Model model = other.library.model(at);
-  const Eigen::VectorXd without = whitened(other, model);
-  for (const ErrorTerm& term : fit.terms) {
-    add_error(
-        term,
-        values_in(covariates[term.covariate], problem.covariates[term.covariate], is_gyro(term.component->place)),
-        course.time_s.front(), model);
+  const Model nominal = other.library.model(at);
+  const Eigen::VectorXd residual = whitened(other, nominal);
+  const double before = residual.squaredNorm();
+  std::vector<HeldOutError> errors;
+  for (const SourceFit& fit : fits) {
+    Model model = nominal;
+    for (const ErrorTerm& term : fit.terms) {
+      add_error(term,
+                values_in(covariates[term.covariate], problem.covariates[term.covariate],
+                          is_gyro(term.component->place)),
+                course.time_s.front(), model);
+    }
+    const double after = whitened(other, model).squaredNorm();
+    errors.push_back({0.5 * (before - after), before, after, static_cast<double>(Whitening::count(residual))});
   }
-  const Eigen::VectorXd with = whitened(other, model);
-  return {0.5 * (without.squaredNorm() - with.squaredNorm()), without.squaredNorm(), with.squaredNorm(),
-          static_cast<double>(Whitening::count(without))};
+  return errors;
 }
 
 HeldOutError predict_blocks(const SourceFit& fit, const SourceProblem& problem) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "gap/sources/source_evidence.h"
 
@@ -14,12 +15,12 @@ struct HeldOutError {
   double measurements = 0;
 };
 
-/// Predicts another recording of the same vehicle. `problem`: that of the fit. `at`: biases of the other recording
-/// about the nominal vehicle. The turn-on bias of a gyro is another one in each recording, so that the error of a
-/// gyro has mean zero in both.
-[[nodiscard]] HeldOutError predict_other(const SourceFit& fit, const SourceProblem& problem,
-                                         const ResidualModel& other, const Eigen::VectorXd& at,
-                                         const Trajectory10Hz& course);
+/// Predicts another recording of the same vehicle by each of some descriptions. `problem`: that of the fits. `at`:
+/// biases of the other recording about the nominal vehicle. The turn-on bias of a gyro is another one in each
+/// recording, so that the error of a gyro has mean zero in both.
+[[nodiscard]] std::vector<HeldOutError> predict_other(std::span<const SourceFit> fits,
+                                                      const SourceProblem& problem, const ResidualModel& other,
+                                                      const Eigen::VectorXd& at, const Trajectory10Hz& course);
 
 /// Predicts the even minutes of the recording by coefficients that are fitted to the odd ones, and the other way
 /// round. Weaker than another recording, because the terms were chosen on the whole of this one.

@@ -115,38 +115,38 @@ class WholeRecording {
   /// The one of some descriptions that predicts the recordings held out best. Empty where none predicts anything.
   [[nodiscard]] std::optional<Proposal> proposal(const std::vector<SourceFit>& descriptions,
                                                  const std::vector<std::unique_ptr<Prepared>>& holdouts) const {
+    std::vector<Proposal> all;
+    for (const SourceFit& fit : descriptions) all.push_back({finding(fit), !holdouts.empty(), 0, {}});
+    double measurements = 0;
+    const auto judge_on = [&](const Prepared& judged, const std::vector<HeldOutError>& errors) {
+      const auto& powers = judged.bank.powers;
+      const double floor = std::accumulate(powers.begin(), powers.end(), 0.0) / static_cast<double>(powers.size());
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].held_out_gain_nats += errors[i].gain_nats;
+        all[i].power.before += errors[i].before;
+        all[i].power.after += errors[i].after;
+        all[i].power.floor += errors[i].measurements * floor;
+      }
+      if (!errors.empty()) measurements += errors.front().measurements;
+    };
+    for (const auto& other : holdouts) {
+      judge_on(*other, predict_other(descriptions, of_, other->model(problem_.library, problem_.threads),
+                                     other->at, other->course));
+    }
+    if (holdouts.empty()) {
+      std::vector<HeldOutError> errors;
+      for (const SourceFit& fit : descriptions) errors.push_back(predict_blocks(fit, of_));
+      judge_on(recording_, errors);
+    }
     std::optional<Proposal> best;
-    for (const SourceFit& fit : descriptions) {
-      Proposal proposal = judged(fit, holdouts);
-      if (proposal.held_out_gain_nats > (best ? best->held_out_gain_nats : 0)) best = std::move(proposal);
+    for (Proposal& each : all) {
+      for (double* power : {&each.power.before, &each.power.after, &each.power.floor}) *power /= measurements;
+      if (each.held_out_gain_nats > (best ? best->held_out_gain_nats : 0)) best = std::move(each);
     }
     return best;
   }
 
  private:
-  [[nodiscard]] Proposal judged(const SourceFit& fit,
-                                const std::vector<std::unique_ptr<Prepared>>& holdouts) const {
-    Proposal proposal{finding_of(fit, covariates_), !holdouts.empty(), 0, {}};
-    double measurements = 0;
-    const auto judge_on = [&](const Prepared& judged, const HeldOutError& error) {
-      const auto& powers = judged.bank.powers;
-      proposal.held_out_gain_nats += error.gain_nats;
-      proposal.power.before += error.before;
-      proposal.power.after += error.after;
-      proposal.power.floor += error.measurements * std::accumulate(powers.begin(), powers.end(), 0.0) /
-                              static_cast<double>(powers.size());
-      measurements += error.measurements;
-    };
-    for (const auto& other : holdouts) {
-      judge_on(*other, predict_other(fit, of_, other->model(problem_.library, problem_.threads), other->at,
-                                     other->course));
-    }
-    if (holdouts.empty()) judge_on(recording_, predict_blocks(fit, of_));
-    for (double* each : {&proposal.power.before, &proposal.power.after, &proposal.power.floor})
-      *each /= measurements;
-    return proposal;
-  }
-
   const DiagnosisProblem& problem_;
   const Prepared& recording_;
   ResidualModel model_;

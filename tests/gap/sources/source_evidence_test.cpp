@@ -96,8 +96,8 @@ TEST(HeldOutError, TheErrorOfOneRecordingPredictsAnotherAndItsOwnMinutes) {
   const auto fits = first.fits({"imu.depth"});
   ASSERT_EQ(fits.size(), 1U);
   const auto predicted = [&](const Recording& other) {
-    return predict_other(fits.front(), first.problem(), other.model(), other.prepared().at,
-                         other.prepared().course);
+    return predict_other(fits, first.problem(), other.model(), other.prepared().at, other.prepared().course)
+        .front();
   };
   const HeldOutError same = predicted(second), none = predicted(without),
                      minutes = predict_blocks(fits.front(), first.problem());
