@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Language, warnings and the flags that were found necessary (each with its reason).
 option(NAVCAL_TESTS "build the tests" ON)
+# functions: call functions of the libraries. long: the same, but they take minutes where every access is checked, or cannot run
+# there. daemon: navcald on pseudo-terminals and under faults. programs: run the programs, or check what would be installed.
+# tools/test runs each kind in the build where it finds most (docs/building.md).
+set(NAVCAL_TEST_KINDS functions long daemon programs CACHE STRING "kinds of tests to build: functions, long, daemon, programs")
 option(NAVCAL_BENCH "build the benchmarks" OFF)
 option(NAVCAL_FUZZ "build the libFuzzer targets (needs clang)" OFF)
 option(NAVCAL_PRECOMPILE "precompile the large headers of libraries; off in the fuzz build, where a missing include shows" ON)
@@ -9,6 +13,8 @@ set(NAVCAL_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,unde
 # The preset "sanitize" leaves out those of pointers, which doubled the time to build and to run and which the address
 # sanitizer mostly makes again at the access itself; the preset "fuzz" has them all.
 set(NAVCAL_SANITIZE_WITHOUT "" CACHE STRING "checks of theirs to leave out")
+# With sanitizers, optimising takes most of the time of a compilation. Rooms that compute little are tested sooner without it.
+set(NAVCAL_UNOPTIMISED_ROOMS "" CACHE STRING "rooms whose sources and tests are compiled with -O0")
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -58,7 +64,8 @@ if(NAVCAL_SANITIZE)
 endif()
 
 # Coverage of these libraries too: without it the fuzzer sees nothing of what it feeds.
-set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record link autopilot sim gap report runs daemon web)
+set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record link autopilot sim gap report runs daemon web
+  CACHE STRING "rooms that tell the fuzzer what was reached")
 
 # navcal_batches(TARGET SIZE): compiles the sources of a target in batches of that size, in the order in which they are listed.
 # Most of the time of a build is spent on headers, which a batch reads once (docs/building.md). Names in anonymous namespaces
@@ -95,6 +102,9 @@ function(navcal_room name)
   if(NAVCAL_FUZZ AND name IN_LIST NAVCAL_FUZZED_ROOMS)
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
   endif()
+  if(ROOM_FOLDER IN_LIST NAVCAL_UNOPTIMISED_ROOMS)
+    target_compile_options(${target} PRIVATE -O0)
+  endif()
 endfunction()
 
 # navcal_precompile(TARGET <header>...): half of the time of a build is spent on reading such headers. Only where all sources
@@ -105,19 +115,35 @@ function(navcal_precompile target)
   endif()
 endfunction()
 
-# navcal_test(NAME SOURCES... USES...): one GoogleTest program, every case a ctest of its own. Its sources are compiled in batches, so
-# names in anonymous namespaces must be unique within a program. A room has one program: a program of its own costs a batch and a link.
+# navcal_test(NAME [KIND kind] SOURCES... USES... [RUNS program...]): one GoogleTest program, every case a ctest of its own. Its sources
+# are compiled in batches, so names in anonymous namespaces must be unique within a program. A room has one program of each kind
+# ("functions" unless given): a program of its own costs a batch and a link. RUNS: programs whose paths the test finds in
+# NAVCAL_PROGRAM and NAVCALD.
 function(navcal_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(TEST "" "KIND" "SOURCES;USES;RUNS" ${ARGN})
+  if(NOT TEST_KIND)
+    set(TEST_KIND functions)
+  endif()
+  if(NOT TEST_KIND IN_LIST NAVCAL_TEST_KINDS)
+    return()
+  endif()
   add_executable(${name} ${TEST_SOURCES})
   navcal_batches(${name} 16)
   target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest_main)
-  if(NAVCAL_PRECOMPILE)
+  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REGEX REPLACE "/.*" "" folder ${folder})
+  if(folder IN_LIST NAVCAL_UNOPTIMISED_ROOMS)
+    target_compile_options(${name} PRIVATE -O0)  # clang refuses precompiled headers of another level
+  elseif(NAVCAL_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM navcal_test_headers)
   endif()
   target_compile_definitions(${name} PRIVATE
     NAVCAL_SOURCE_DIR="${CMAKE_SOURCE_DIR}" NAVCAL_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared"
     NAVCAL_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  if(TEST_RUNS)
+    add_dependencies(${name} ${TEST_RUNS})
+    target_compile_definitions(${name} PRIVATE NAVCAL_PROGRAM="$<TARGET_FILE:navcal>" NAVCALD="$<TARGET_FILE:navcald>")
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()
 

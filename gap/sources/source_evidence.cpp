@@ -2,15 +2,12 @@
 #include "gap/sources/source_evidence.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <utility>
 
-#include "gap/sources/error_traces.h"
 #include "gap/thresholds.h"
 
 namespace navcal::gap {
@@ -19,41 +16,10 @@ namespace {
 /// Standard deviations of the prior of a coefficient, in typical values of its component.
 constexpr std::array<double, 3> kCoefficients{0.1, 0.5, 2.5};
 
-/// All terms of one source: Gram matrix and score of their traces, with the tolerances marginalised out.
+/// All terms of one source, and their traces.
 struct Terms {
   std::vector<ErrorTerm> all;
-  Eigen::MatrixXd gram;
-  Eigen::VectorXd score;
-};
-
-/// What the vehicle's tolerances can explain, to be taken out of Gram matrices and scores.
-class Tolerances {
- public:
-  Tolerances(const Linearised& nominal, const Priors& priors) : residual_(residual_at_zero(nominal)) {
-    const Eigen::MatrixXd inner = priors.spike.asDiagonal() * nominal.gram * priors.spike.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inner);
-    // Directions in which the tolerances show less than a twentieth of the noise explain nothing.
-    constexpr double kLeast = 1.0 / 400;
-    Eigen::Index first = 0;
-    while (first < inner.rows() && eigen.eigenvalues()[first] < kLeast) ++first;
-    const Eigen::VectorXd power = eigen.eigenvalues().tail(inner.rows() - first);
-    const Eigen::MatrixXd directions = priors.spike.asDiagonal() * eigen.eigenvectors().rightCols(power.size()) *
-                                       power.cwiseSqrt().cwiseInverse().asDiagonal();
-    basis_ = nominal.design * directions;
-    share_ = power.array() / (1 + power.array());
-    scaled_score_ = share_.cwiseProduct(basis_.transpose() * residual_);
-  }
-
-  /// Z^T (1 + X D^2 X^T)^-1 Z and Z^T (1 + X D^2 X^T)^-1 r.
-  void marginalise(const Eigen::MatrixXd& traces, Terms& terms) const {
-    const Eigen::MatrixXd shared = basis_.transpose() * traces;
-    terms.gram = traces.transpose() * traces - shared.transpose() * share_.asDiagonal() * shared;
-    terms.score = traces.transpose() * residual_ - shared.transpose() * scaled_score_;
-  }
-
- private:
-  Eigen::VectorXd residual_, share_, scaled_score_;
-  Eigen::MatrixXd basis_;  ///< orthonormal: what tolerances can show
+  MarginalTraces traces;
 };
 
 /// Terms that were chosen, and the standard deviations of their priors.
@@ -74,10 +40,10 @@ std::pair<Eigen::MatrixXd, Eigen::VectorXd> scaled(const Terms& terms, const Cho
   Eigen::VectorXd score(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto a = static_cast<std::size_t>(i);
-    score[i] = choice.widths[a] * terms.score[choice.terms[a]];
+    score[i] = choice.widths[a] * terms.traces.score[choice.terms[a]];
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto b = static_cast<std::size_t>(j);
-      gram(i, j) = choice.widths[a] * choice.widths[b] * terms.gram(choice.terms[a], choice.terms[b]);
+      gram(i, j) = choice.widths[a] * choice.widths[b] * terms.traces.gram(choice.terms[a], choice.terms[b]);
     }
     gram(i, i) += 1;
   }
@@ -107,7 +73,7 @@ std::vector<Choice> chosen(const Terms& terms) {
     const Choice before = path.empty() ? Choice() : path.back();
     Choice leader;
     leader.evidence = before.evidence;
-    for (Eigen::Index j = 0; j < terms.score.size(); ++j) {
+    for (Eigen::Index j = 0; j < terms.traces.score.size(); ++j) {
       if (std::find(before.terms.begin(), before.terms.end(), j) != before.terms.end()) continue;
       for (const double coefficient : kCoefficients) {
         Choice next = before;
@@ -136,12 +102,6 @@ SourceFit fit_of(const ErrorSource& source, const Terms& terms, const Choice& ch
   return fit;
 }
 
-/// Which covariates the errors may follow.
-enum class CovariateSet : std::uint8_t {
-  basic,  ///< those that tell sources apart
-  full,   ///< all
-};
-
 /// Whether an error of a source may follow a covariate.
 bool may_follow(const ErrorSource& source, const Covariate& covariate, CovariateSet set) {
   const auto has = [&](std::string_view family) {
@@ -165,16 +125,21 @@ std::vector<Series> series_for(const SourcesTogether& sources, std::span<const C
   return series;
 }
 
-/// The descriptions by each of some sources that share their replays: with one term, with two and so on.
-std::vector<std::vector<SourceFit>> paths_of(const SourcesTogether& sources, const SourceProblem& problem,
-                                             CovariateSet set, const ErrorTraces& replayed,
-                                             const Tolerances& tolerances) {
-  const std::vector<Series> series = series_for(sources, problem.covariates, set);
+}  // namespace
+
+SourceEvidence::SourceEvidence(const SourceProblem& problem)
+    : problem_(problem),
+      tolerances_(problem.nominal, problem.priors),
+      replayed_(problem.model, problem.nominal.at, problem.begin_s) {}
+
+std::vector<std::vector<SourceFit>> SourceEvidence::paths_of(const SourcesTogether& sources,
+                                                             CovariateSet set) const {
+  const std::vector<Series> series = series_for(sources, problem_.covariates, set);
   std::vector<const ErrorComponent*> components;
   for (const ErrorSource* source : sources) {
     for (const ErrorComponent& component : source->components) components.push_back(&component);
   }
-  const Eigen::MatrixXd traces = replayed.of(components, sources.size() > 1, series);
+  const Eigen::MatrixXd traces = replayed_.of(components, sources.size() > 1, series);
   std::vector<std::vector<SourceFit>> paths;
   Eigen::Index column = 0;
   for (const ErrorSource* source : sources) {
@@ -182,14 +147,14 @@ std::vector<std::vector<SourceFit>> paths_of(const SourcesTogether& sources, con
     std::vector<Eigen::Index> columns;
     for (const ErrorComponent& component : source->components) {
       for (const Series& each : series) {
-        if (may_follow(*source, problem.covariates[each.covariate], set)) {
+        if (may_follow(*source, problem_.covariates[each.covariate], set)) {
           terms.all.push_back({&component, each.covariate, 0, 0});
           columns.push_back(column);
         }
         ++column;
       }
     }
-    tolerances.marginalise(traces(Eigen::all, columns), terms);
+    terms.traces = tolerances_.marginalised(traces(Eigen::all, columns));
     std::vector<SourceFit> path;
     for (const Choice& choice : chosen(terms)) path.push_back(fit_of(*source, terms, choice));
     if (!path.empty()) paths.push_back(std::move(path));
@@ -197,28 +162,21 @@ std::vector<std::vector<SourceFit>> paths_of(const SourcesTogether& sources, con
   return paths;
 }
 
-}  // namespace
-
-std::vector<SourceFit> rank_sources(const SourceProblem& problem, std::span<const ErrorSource* const> candidates,
-                                    const std::function<void(double)>& progress) {
-  const Tolerances tolerances(problem.nominal, problem.priors);
-  const ErrorTraces replayed(problem.model, problem.nominal.at, problem.begin_s);
+std::vector<SourceFit> SourceEvidence::ranked(std::span<const ErrorSource* const> candidates,
+                                              const std::function<void(double)>& progress) const {
   std::vector<SourceFit> fits;
-  const std::vector<SourcesTogether> groups = by_replays(candidates, problem.model.replay.mission());
+  const std::vector<SourcesTogether> groups = by_replays(candidates, problem_.model.replay.mission());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(groups.size()));
-    for (auto& path : paths_of(groups[i], problem, CovariateSet::basic, replayed, tolerances))
-      fits.push_back(std::move(path.back()));
+    for (auto& path : paths_of(groups[i], CovariateSet::basic)) fits.push_back(std::move(path.back()));
   }
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SourceFit& a, const SourceFit& b) { return a.gain_nats > b.gain_nats; });
   return fits;
 }
 
-std::vector<SourceFit> describe(const SourceProblem& problem, const ErrorSource& source) {
-  const Tolerances tolerances(problem.nominal, problem.priors);
-  const ErrorTraces replayed(problem.model, problem.nominal.at, problem.begin_s);
-  const auto paths = paths_of({&source}, problem, CovariateSet::full, replayed, tolerances);
+std::vector<SourceFit> SourceEvidence::descriptions(const ErrorSource& source) const {
+  const auto paths = paths_of({&source}, CovariateSet::full);
   return paths.empty() ? std::vector<SourceFit>() : paths.front();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "gap/inference/spike_and_slab.h"
 #include "gap/sources/covariates.h"
 #include "gap/sources/error_source.h"
+#include "gap/sources/error_traces.h"
+#include "gap/sources/tolerance_space.h"
 
 namespace navcal::gap {
 
@@ -38,18 +41,39 @@ struct SourceProblem {
   double begin_s = 0;                     ///< mission time of their first value
 };
 
-/// Describes the residuals by each of some sources in turn, largest gain first. Each component of a source may
-/// have an error that follows any of the basic covariates. Its trace in all channels comes from replaying the
-/// mission with it, so that a source is found although the estimator moves its error into other channels. Terms
-/// are chosen one after the other, as long as the evidence grows (Gaussian marginal likelihood with the tolerances
-/// as nuisance parameters). Sources that gain nothing are left out. `progress` is called with the share that is
-/// done.
-[[nodiscard]] std::vector<SourceFit> rank_sources(const SourceProblem& problem,
-                                                  std::span<const ErrorSource* const> candidates,
-                                                  const std::function<void(double)>& progress);
+/// Which covariates an error may follow.
+enum class CovariateSet : std::uint8_t {
+  basic,  ///< those that tell sources apart
+  full,   ///< all
+};
 
-/// Describes the residuals by one source with all covariates: by one term, by two and so on, each with more
-/// evidence than the one before.
-[[nodiscard]] std::vector<SourceFit> describe(const SourceProblem& problem, const ErrorSource& source);
+/// Compares sources of errors by how well they describe the residuals of one recording. Each component of a source
+/// may have an error that follows any covariate. Its trace in all channels comes from replaying the mission with
+/// it, so that a source is found although the estimator moves its error into other channels. Terms are chosen one
+/// after the other, as long as the evidence grows (Gaussian marginal likelihood with the tolerances as nuisance
+/// parameters).
+class SourceEvidence {
+ public:
+  /// Replays the recording. What `problem` refers to must outlive it.
+  explicit SourceEvidence(const SourceProblem& problem);
+
+  /// The best description by each of some sources with the basic covariates, largest gain first. Sources that gain
+  /// nothing are left out. `progress` is called with the share that is done.
+  [[nodiscard]] std::vector<SourceFit> ranked(std::span<const ErrorSource* const> candidates,
+                                              const std::function<void(double)>& progress) const;
+
+  /// Descriptions by one source with all covariates: by one term, by two and so on, each with more evidence than
+  /// the one before.
+  [[nodiscard]] std::vector<SourceFit> descriptions(const ErrorSource& source) const;
+
+ private:
+  /// Descriptions by each of some sources that share their replays: by one term, by two and so on.
+  [[nodiscard]] std::vector<std::vector<SourceFit>> paths_of(const SourcesTogether& sources,
+                                                             CovariateSet set) const;
+
+  SourceProblem problem_;
+  ToleranceSpace tolerances_;
+  ErrorTraces replayed_;
+};
 
 }  // namespace navcal::gap

@@ -75,31 +75,35 @@ std::vector<SourceFinding> findings_in_piece(const Prepared& recording, const Di
   if (course.time_s.empty()) return {};
   const Linearised of_piece = linearise(model, recording.at);
   const std::vector<Covariate> covariates = covariates_of(course);
-  const auto fits = rank_sources({model, of_piece, priors, covariates, course.time_s.front()}, all_sources(),
-                                 shown_by(problem.progress));
+  const auto fits = SourceEvidence({model, of_piece, priors, covariates, course.time_s.front()})
+                        .ranked(all_sources(), shown_by(problem.progress));
   std::vector<SourceFinding> findings;
   if (!is_clear(fits)) return findings;
   for (const SourceFit& fit : fits) findings.push_back(finding_of(fit, covariates));
   return findings;
 }
 
-/// The sources of a recording as a whole.
-class WholeRecording {
+/// The sources of one recording.
+class RecordingSources {
  public:
-  /// `nominal`: of this recording alone. References must outlive it.
-  WholeRecording(const Prepared& recording, const DiagnosisProblem& problem, const Linearised& nominal,
-                 const Priors& priors)
+  /// References must outlive it.
+  RecordingSources(const Prepared& recording, const DiagnosisProblem& problem, const FoundEffects& found)
       : problem_(problem),
         recording_(recording),
         model_(recording.model(problem.library, problem.threads)),
+        // What was linearised for several recordings together has left out their biases.
+        nominal_(problem.others.empty() ? found.nominal : linearise(model_, recording.at)),
         covariates_(covariates_of(recording.course)),
-        of_{model_, nominal, priors, covariates_, recording.course.time_s.front()} {}
-  WholeRecording(const WholeRecording&) = delete;
-  WholeRecording& operator=(const WholeRecording&) = delete;
+        of_{model_, nominal_, found.priors, covariates_, recording.course.time_s.front()},
+        evidence_(of_) {}
+  RecordingSources(const RecordingSources&) = delete;
+  RecordingSources& operator=(const RecordingSources&) = delete;
 
+  /// By the piece of the recording that shows the gap best; by the whole of it if the piece does not decide.
   [[nodiscard]] std::vector<SourceFinding> findings() const {
-    std::vector<SourceFinding> findings;
-    for (const SourceFit& fit : rank_sources(of_, all_sources(), shown_by(problem_.progress))) {
+    std::vector<SourceFinding> findings = findings_in_piece(recording_, problem_, nominal_, of_.priors);
+    if (!findings.empty()) return findings;
+    for (const SourceFit& fit : evidence_.ranked(all_sources(), shown_by(problem_.progress))) {
       findings.push_back(finding_of(fit, covariates_));
     }
     return findings;
@@ -108,7 +112,7 @@ class WholeRecording {
   /// Descriptions by one source with all covariates: by one term, by two and so on.
   [[nodiscard]] std::vector<SourceFit> descriptions(const ErrorSource& source) const {
     problem_.progress("describing what is unknown", 0);
-    return describe(of_, source);
+    return evidence_.descriptions(source);
   }
   [[nodiscard]] SourceFinding finding(const SourceFit& fit) const { return finding_of(fit, covariates_); }
 
@@ -150,8 +154,10 @@ class WholeRecording {
   const DiagnosisProblem& problem_;
   const Prepared& recording_;
   ResidualModel model_;
+  Linearised nominal_;
   std::vector<Covariate> covariates_;
   SourceProblem of_;
+  SourceEvidence evidence_;
 };
 
 /// Adds the findings of another recording.
@@ -176,39 +182,27 @@ void sort_by_gain(std::vector<SourceFinding>& findings) {
 
 void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
                    const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer) {
-  // What was linearised for several recordings together has left out their biases.
-  std::optional<Linearised> own;
-  const auto nominal_of = [&](const Prepared& recording) -> const Linearised& {
-    if (problem.others.empty()) return found.nominal;
-    return own.emplace(linearise(recording.model(problem.library, problem.threads), recording.at));
-  };
-  const auto findings_of = [&](const Prepared& recording) {
-    const Linearised& nominal = nominal_of(recording);
-    auto findings = findings_in_piece(recording, problem, nominal, found.priors);
-    if (findings.empty()) findings = WholeRecording(recording, problem, nominal, found.priors).findings();
-    return findings;
-  };
   std::vector<SourceFinding>& sources = answer.sources;
-  add(findings_of(problem.prepared), sources);
-  for (const Prepared* other : problem.others) add(findings_of(*other), sources);
+  const RecordingSources first(problem.prepared, problem, found);
+  add(first.findings(), sources);
+  for (const Prepared* other : problem.others) add(RecordingSources(*other, problem, found).findings(), sources);
   sort_by_gain(sources);
   if (answer.verdict != Verdict::unknown || sources.empty()) return;
   // Close rivals are compared by their best descriptions.
-  const WholeRecording whole(problem.prepared, problem, nominal_of(problem.prepared), found.priors);
   std::vector<std::vector<SourceFit>> descriptions;
   const double least_nats = kLeastRival * sources.front().gain_nats;
   for (std::size_t i = 0; i < std::min(sources.size(), kSourcesInFull); ++i) {
     if (sources[i].gain_nats < least_nats) break;
-    descriptions.push_back(whole.descriptions(source_named(sources[i].name)));
+    descriptions.push_back(first.descriptions(source_named(sources[i].name)));
     if (descriptions.back().empty()) continue;
-    SourceFinding full = whole.finding(descriptions.back().back());
+    SourceFinding full = first.finding(descriptions.back().back());
     if (full.gain_nats > sources[i].gain_nats) sources[i] = std::move(full);
   }
   sort_by_gain(sources);
   const auto leader = std::find_if(descriptions.begin(), descriptions.end(), [&](const auto& fits) {
     return !fits.empty() && fits.front().source->name == sources.front().name;
   });
-  if (leader != descriptions.end()) answer.proposal = whole.proposal(*leader, holdouts);
+  if (leader != descriptions.end()) answer.proposal = first.proposal(*leader, holdouts);
 }
 
 void put_source_first(Diagnosis& answer) {

@@ -33,7 +33,7 @@ class Recording {
     return {model_, nominal_, priors_, covariates_, prepared_->course.time_s.front()};
   }
   [[nodiscard]] std::vector<SourceFit> fits(const std::vector<std::string_view>& names = {}) const {
-    return rank_sources(problem(), sources_named(names), [](double) {});
+    return SourceEvidence(problem()).ranked(sources_named(names), [](double) {});
   }
   [[nodiscard]] const Prepared& prepared() const { return *prepared_; }
   [[nodiscard]] const ResidualModel& model() const { return model_; }
