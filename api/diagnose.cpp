@@ -1,46 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
 #include <navcal/diagnose.h>
 
-#include "analysis/place_arguments.h"
+#include "api/diagnosis_request.h"
 #include "api/guard.h"
-#include "config/load.h"
-#include "config/vehicle_file.h"
-#include "gap/verdict/request.h"
 #include "report/gap_effects_file.h"
 #include "report/gap_json.h"
-#include "sim/effects/choice.h"
-#include "sim/effects/effect_table.h"
 
 namespace navcal::api {
 namespace {
-
-constexpr int kLeastBank = 2, kMostBank = 10'000;
-
-gap::Request request_of(const std::filesystem::path& mission, const DiagnoseOptions& options) {
-  for (const std::string& name : options.exclude) {
-    if (!sim::make_effect(name))
-      throw Error(ErrorKind::bad_argument, fmt::format("exclude {}: {}", name, sim::unknown_effect(name)));
-  }
-  if (options.bank < kLeastBank || options.bank > kMostBank)
-    throw Error(ErrorKind::bad_argument, fmt::format("bank: must be 2 to 10000, not {}", options.bank));
-  gap::Request request;
-  request.missions = {mission};
-  request.holdouts = options.holdouts;
-  if (!options.config.empty()) request.settings = config::load(options.config);
-  if (!options.vehicle.empty()) request.vehicle = config::load_vehicle(options.vehicle);
-  request.excluded = options.exclude;
-  if (const auto& field = options.field_uT) {
-    analysis::PlaceArguments where;
-    where.field = fmt::format("{},{},{}", (*field)[0], (*field)[1], (*field)[2]);
-    request.field_uT = where.field_uT();
-  }
-  request.cache = options.cache;
-  request.bank_missions = options.bank;
-  request.bank_seed = options.seed;
-  request.threads = options.threads;
-  return request;
-}
 
 Verdict verdict_of(gap::Verdict verdict) {
   switch (verdict) {
@@ -103,8 +70,12 @@ Diagnosis diagnosis_of(const gap::Diagnosis& found) {
 }  // namespace
 
 Diagnosis diagnose(const std::filesystem::path& mission, const DiagnoseOptions& options) {
+  return diagnose_together({mission}, options);
+}
+
+Diagnosis diagnose_together(const std::vector<std::filesystem::path>& missions, const DiagnoseOptions& options) {
   return guarded_with_progress(options.progress, [&](ProgressRelay& relay) {
-    const gap::Request request = request_of(mission, options);
+    const gap::Request request = request_of(missions, options);
     return diagnosis_of(gap::diagnose(request, [&](std::string_view step, double share) { relay(step, share); }));
   });
 }

@@ -15,6 +15,7 @@ set(NAVCAL_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,unde
 set(NAVCAL_SANITIZE_WITHOUT "" CACHE STRING "checks of theirs to leave out")
 # With sanitizers, optimising takes most of the time of a compilation. Rooms that compute little are tested sooner without it.
 set(NAVCAL_UNOPTIMISED_ROOMS "" CACHE STRING "rooms whose sources and tests are compiled with -O0")
+set(NAVCAL_UNOPTIMISED_TESTS "" CACHE STRING "rooms of which the tests alone are compiled with -O0")
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -132,7 +133,7 @@ function(navcal_test name)
   target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest_main)
   file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   string(REGEX REPLACE "/.*" "" folder ${folder})
-  if(folder IN_LIST NAVCAL_UNOPTIMISED_ROOMS)
+  if(folder IN_LIST NAVCAL_UNOPTIMISED_ROOMS OR folder IN_LIST NAVCAL_UNOPTIMISED_TESTS)
     target_compile_options(${name} PRIVATE -O0)  # clang refuses precompiled headers of another level
   elseif(NAVCAL_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM navcal_test_headers)

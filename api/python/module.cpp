@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Python module navcal: the public interface of libnavcal, with samples as numpy arrays (docs/python.md).
+// The compiled part of the Python package navcal: the public interface of libnavcal, with samples as numpy arrays
+// (docs/python.md).
 #include <navcal/navcal.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -205,6 +206,26 @@ void bind_simulation(py::module_& module) {
       "are dictionaries, place is (latitude_deg, longitude_deg, height_m). Returns remarks.");
 }
 
+/// One recording, or a sequence of them.
+std::vector<std::filesystem::path> recordings_of(const py::object& given) {
+  const bool is_one = py::isinstance<py::str>(given) || py::hasattr(given, "__fspath__");
+  if (is_one) return {given.cast<std::filesystem::path>()};
+  return given.cast<std::vector<std::filesystem::path>>();
+}
+
+void take_diagnosis(py::kwargs& keywords, api::DiagnoseOptions& options) {
+  take(keywords, "holdouts", options.holdouts);
+  take(keywords, "vehicle", options.vehicle);
+  take(keywords, "config", options.config);
+  take(keywords, "field_uT", options.field_uT);
+  take(keywords, "exclude", options.exclude);
+  take(keywords, "without", options.without);
+  take(keywords, "bank", options.bank);
+  take(keywords, "seed", options.seed);
+  take(keywords, "cache", options.cache);
+  take(keywords, "threads", options.threads);
+}
+
 void bind_diagnosis(py::module_& module) {
   py::class_<api::EffectParameter>(module, "EffectParameter", "A parameter of an effect.")
       .def_readonly("name", &api::EffectParameter::name)
@@ -233,29 +254,56 @@ void bind_diagnosis(py::module_& module) {
       .def("as_dict", [](const api::Diagnosis& answer) { return loads(answer.json); });
   module.def(
       "diagnose",
-      [](const std::filesystem::path& mission, const py::object& progress, py::kwargs keywords) {
+      [](const py::object& missions, const py::object& progress, py::kwargs keywords) {
+        const std::vector<std::filesystem::path> recordings = recordings_of(missions);
         api::DiagnoseOptions options;
-        take(keywords, "holdouts", options.holdouts);
-        take(keywords, "vehicle", options.vehicle);
-        take(keywords, "config", options.config);
-        take(keywords, "field_uT", options.field_uT);
-        take(keywords, "exclude", options.exclude);
-        take(keywords, "bank", options.bank);
-        take(keywords, "seed", options.seed);
-        take(keywords, "cache", options.cache);
-        take(keywords, "threads", options.threads);
+        take_diagnosis(keywords, options);
         expect_none_left(keywords, "diagnose");
         options.progress = relay_to(progress);
         const py::gil_scoped_release unlocked;
-        return api::diagnose(mission, options);
+        return api::diagnose_together(recordings, options);
       },
-      py::arg("mission"), py::arg("progress") = py::none(),
-      "Diagnoses where and why a recording departs from the model. Keywords: the members of DiagnoseOptions.");
+      py::arg("missions"), py::arg("progress") = py::none(),
+      "Diagnoses where and why a recording departs from the model; several of one vehicle are diagnosed together. "
+      "Keywords: the members of DiagnoseOptions.");
+}
+
+void bind_next_mission(py::module_& module) {
+  py::class_<api::NextMission>(module, "NextMission", "The answer of plan_next_mission().")
+      .def_readonly("decides", &api::NextMission::decides)
+      .def_readonly("probability_now", &api::NextMission::probability_now)
+      .def_readonly("probability_exact", &api::NextMission::probability_exact)
+      .def_readonly("duration_s", &api::NextMission::duration_s)
+      .def_readonly("manoeuvres", &api::NextMission::manoeuvres)
+      .def_readonly("sentence", &api::NextMission::sentence)
+      .def_readonly("remarks", &api::NextMission::remarks)
+      .def_readonly("mission_toml", &api::NextMission::mission_toml)
+      .def_readonly("json", &api::NextMission::json)
+      .def_readonly("page", &api::NextMission::page)
+      .def("as_dict", [](const api::NextMission& answer) { return loads(answer.json); });
+  module.def(
+      "plan_next_mission",
+      [](const py::object& missions, const py::object& progress, py::kwargs keywords) {
+        const std::vector<std::filesystem::path> recordings = recordings_of(missions);
+        api::NextMissionOptions options;
+        take_diagnosis(keywords, options.diagnosis);
+        take(keywords, "minutes", options.minutes);
+        take(keywords, "limits", options.limits);
+        take(keywords, "mission_out", options.mission_out);
+        expect_none_left(keywords, "plan_next_mission");
+        options.diagnosis.progress = relay_to(progress);
+        const py::gil_scoped_release unlocked;
+        return api::plan_next_mission(recordings, options);
+      },
+      py::arg("missions"), py::arg("progress") = py::none(),
+      "Plans the mission that tells best what a diagnosis leaves open. Keywords: the members of DiagnoseOptions "
+      "and "
+      "NextMissionOptions.");
 }
 
 }  // namespace
 
-PYBIND11_MODULE(navcal, module) {
+PYBIND11_MODULE(_core, module) {
   module.doc() =
       "Recordings of small underwater vehicles: samples, calibration, simulation, diagnosis (libnavcal).";
   module.attr("__version__") = api::version();
@@ -264,4 +312,5 @@ PYBIND11_MODULE(navcal, module) {
   bind_calibration(module);
   bind_simulation(module);
   bind_diagnosis(module);
+  bind_next_mission(module);
 }

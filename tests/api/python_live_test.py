@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""navcal_live against a real navcald that reads emulated instruments."""
+"""navcal.live against a real navcald that reads emulated instruments."""
 import os
 import pathlib
 import socket
@@ -9,7 +9,7 @@ import threading
 import time
 import unittest
 
-import navcal_live
+import navcal.live
 
 
 def free_port():
@@ -49,7 +49,7 @@ class Live(unittest.TestCase):
 
     def test_yields_what_was_asked_for(self):
         seen = []
-        for report in navcal_live.reports(port=self.port, classes=["RECORD"], topics=["/imu", "/compass"]):
+        for report in navcal.live.reports(port=self.port, classes=["RECORD"], topics=["/imu", "/compass"]):
             self.assertEqual(report["class"], "RECORD")
             seen.append(report["topic"])
             if len(seen) > 20 and len(set(seen)) == 2:
@@ -57,19 +57,19 @@ class Live(unittest.TestCase):
         self.assertEqual(set(seen), {"/imu", "/compass"})
 
     def test_a_refusal_names_the_reason(self):
-        with self.assertRaisesRegex(navcal_live.NavcalError, "class that is not known"):
-            next(navcal_live.reports(port=self.port, classes=["WIND"]))
+        with self.assertRaisesRegex(navcal.live.NavcalError, "class that is not known"):
+            next(navcal.live.reports(port=self.port, classes=["WIND"]))
 
 
 class NoDaemon(unittest.TestCase):
     def test_no_connection_is_an_error_at_once(self):
         with self.assertRaises(OSError):
-            next(navcal_live.reports(port=free_port(), reconnect_s=0.1))
+            next(navcal.live.reports(port=free_port(), reconnect_s=0.1))
 
     def test_a_peer_that_goes_ends_the_iterator_and_garbage_is_told(self):
         with socket.create_server(("127.0.0.1", 0)) as server:
             for answer, expected in ((b'{"class":"TPV"}\n{"class":', None), (b"no JSON\n", ValueError)):
-                iterator = navcal_live.reports(port=server.getsockname()[1])
+                iterator = navcal.live.reports(port=server.getsockname()[1])
                 def speak():
                     connection, _ = server.accept()
                     with connection:

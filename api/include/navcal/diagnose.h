@@ -22,11 +22,14 @@ struct DiagnoseOptions {
   std::optional<std::array<double, 3>>
       field_uT;                      ///< the Earth's: north, east, down; nullopt: as the recording states
   std::vector<std::string> exclude;  ///< effects that the library is to be without
-  int bank = 100;                    ///< simulated null missions, 2 to 10000
-  std::uint64_t seed = 1;            ///< of their noise and tolerances
-  std::filesystem::path cache;       ///< folder in which null banks are kept; empty: none are kept
-  unsigned threads = 0;              ///< 0: as many as there are processors
-  Progress progress;                 ///< its steps are those of the diagnosis, several with shares of their own
+  /// Instruments to be left out of all recordings, as if they were not there: compass, field, tilt, card, gyros,
+  /// accelerometers, depth, gps or motor.
+  std::vector<std::string> without;
+  int bank = 100;               ///< simulated null missions, 2 to 10000
+  std::uint64_t seed = 1;       ///< of their noise and tolerances
+  std::filesystem::path cache;  ///< folder in which null banks are kept; empty: none are kept
+  unsigned threads = 0;         ///< 0: as many as there are processors
+  Progress progress;            ///< its steps are those of the diagnosis, several with shares of their own
 };
 
 /// Verdict of a diagnosis.
@@ -125,5 +128,11 @@ struct Diagnosis {
 /// file. Source: docs/gap.md.
 [[nodiscard]] NAVCAL_API Diagnosis diagnose(const std::filesystem::path& mission,
                                             const DiagnoseOptions& options = {});
+
+/// Diagnoses several recordings of one vehicle together: effects are common to all, biases and currents are each
+/// recording's own. At least one. Throws as diagnose() does, and Error of the kind bad_argument without a
+/// recording.
+[[nodiscard]] NAVCAL_API Diagnosis diagnose_together(const std::vector<std::filesystem::path>& missions,
+                                                     const DiagnoseOptions& options = {});
 
 }  // namespace navcal::api

@@ -7,6 +7,7 @@
 #include <navcal/calibrate.h>
 #include <navcal/diagnose.h>
 #include <navcal/error.h>
+#include <navcal/next_mission.h>
 #include <navcal/pipeline.h>
 #include <navcal/progress.h>
 #include <navcal/recording.h>

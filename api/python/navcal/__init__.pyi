@@ -4,6 +4,8 @@ from os import PathLike
 from typing import Any
 
 import numpy
+import pandas
+import xarray
 
 __version__: str
 
@@ -106,7 +108,7 @@ def simulate(
     truth: _Path | None = None,
 ) -> list[str]: ...
 def diagnose(
-    mission: _Path,
+    missions: _Path | Sequence[_Path],
     progress: _Progress = None,
     *,
     holdouts: Sequence[_Path] | None = None,
@@ -114,8 +116,44 @@ def diagnose(
     config: _Path | None = None,
     field_uT: Sequence[float] | None = None,
     exclude: Sequence[str] | None = None,
+    without: Sequence[str] | None = None,
     bank: int | None = None,
     seed: int | None = None,
     cache: _Path | None = None,
     threads: int | None = None,
 ) -> Diagnosis: ...
+
+class NextMission:
+    decides: bool
+    probability_now: float
+    probability_exact: float
+    duration_s: float
+    manoeuvres: list[str]
+    sentence: str
+    remarks: list[str]
+    mission_toml: str
+    json: str
+    page: str
+    def as_dict(self) -> dict[str, Any]: ...
+
+def plan_next_mission(
+    missions: _Path | Sequence[_Path],
+    progress: _Progress = None,
+    *,
+    minutes: float | None = None,
+    limits: _Path | None = None,
+    mission_out: str | None = None,
+    holdouts: Sequence[_Path] | None = None,
+    vehicle: _Path | None = None,
+    config: _Path | None = None,
+    field_uT: Sequence[float] | None = None,
+    exclude: Sequence[str] | None = None,
+    without: Sequence[str] | None = None,
+    bank: int | None = None,
+    seed: int | None = None,
+    cache: _Path | None = None,
+    threads: int | None = None,
+) -> NextMission: ...
+def frames(arrays: _Arrays) -> dict[str, pandas.DataFrame]: ...
+def datasets(arrays: _Arrays) -> dict[str, xarray.Dataset]: ...
+def columns(table: pandas.DataFrame | xarray.Dataset) -> dict[str, numpy.ndarray | list[str]]: ...

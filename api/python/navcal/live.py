@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reports of a running navcald, one dictionary after the other, while they come.
 
-    import navcal_live
+    import navcal.live
 
-    for state in navcal_live.reports(classes=["STATE"], rate_Hz={"STATE": 2}):
+    for state in navcal.live.reports(classes=["STATE"], rate_Hz={"STATE": 2}):
         print(state["depth_m"], state["heading_rad"])
 
-The classes and their keys stand in the document of the status protocol. The module needs nothing but Python.
+The classes and their keys stand in the document of the status protocol.
 """
 from __future__ import annotations
 
