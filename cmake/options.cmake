@@ -116,14 +116,17 @@ function(navcal_precompile target)
   endif()
 endfunction()
 
-# navcal_test(NAME [KIND kind] SOURCES... USES... [RUNS program...]): one GoogleTest program, every case a ctest of its own. Its sources
+# navcal_test(NAME [KIND kind] [TIMEOUT s] SOURCES... USES... [RUNS program...]): one GoogleTest program, every case a ctest of its own. Its sources
 # are compiled in batches, so names in anonymous namespaces must be unique within a program. A room has one program of each kind
 # ("functions" unless given): a program of its own costs a batch and a link. RUNS: programs whose paths the test finds in
 # NAVCAL_PROGRAM and NAVCALD.
 function(navcal_test name)
-  cmake_parse_arguments(TEST "" "KIND" "SOURCES;USES;RUNS" ${ARGN})
+  cmake_parse_arguments(TEST "" "KIND;TIMEOUT" "SOURCES;USES;RUNS" ${ARGN})
   if(NOT TEST_KIND)
     set(TEST_KIND functions)
+  endif()
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 300)
   endif()
   if(NOT TEST_KIND IN_LIST NAVCAL_TEST_KINDS)
     return()
@@ -145,7 +148,7 @@ function(navcal_test name)
     add_dependencies(${name} ${TEST_RUNS})
     target_compile_definitions(${name} PRIVATE NAVCAL_PROGRAM="$<TARGET_FILE:navcal>" NAVCALD="$<TARGET_FILE:navcald>")
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${TEST_TIMEOUT})
 endfunction()
 
 # navcal_fuzz(NAME SOURCES... USES...): one libFuzzer program.

@@ -19,7 +19,7 @@ namespace {
 using test::eventually;
 using test::Process;
 
-constexpr std::chrono::seconds kWatchPatience{150};
+constexpr std::chrono::seconds kWatchPatience{280};
 
 class GapWatchLive : public testing::Test {
  protected:
