@@ -1,23 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time in which navcal fleet lists a plan of very many recordings.
 
-usage: large_catalogue.py NAVCAL [RECORDINGS]
-
 Plans that many captures of a hundred bytes (default 100000), does the first thousand, and prints the times of plan, of plan once
 more, of list and of merge.
 """
 
+import argparse
 import pathlib
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 
 
 def main():
-    navcal = str(pathlib.Path(sys.argv[1]).resolve())
-    count = int(sys.argv[2]) if len(sys.argv) > 2 else 100_000
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("navcal", type=pathlib.Path)
+    parser.add_argument("recordings", type=int, nargs="?", default=100_000)
+    arguments = parser.parse_args()
+    navcal, count = str(arguments.navcal.resolve()), arguments.recordings
     folder = pathlib.Path(tempfile.mkdtemp(prefix="navcal-fleet-"))
     recordings, plan = folder / "recordings", folder / "plan"
     for i in range(count):
