@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "gap/data/mission_piece.h"
@@ -91,28 +92,26 @@ class RecordingSources {
       : problem_(problem),
         recording_(recording),
         model_(recording.model(problem.library, problem.threads)),
-        // What was linearised for several recordings together has left out their biases.
-        nominal_(problem.others.empty() ? found.nominal : linearise(model_, recording.at)),
+        nominal_(problem.others.empty() ? found.nominal : own_.emplace(linearise(model_, recording.at))),
         covariates_(covariates_of(recording.course)),
-        of_{model_, nominal_, found.priors, covariates_, recording.course.time_s.front()},
-        evidence_(of_) {}
+        of_{model_, nominal_, found.priors, covariates_, recording.course.time_s.front()} {}
   RecordingSources(const RecordingSources&) = delete;
   RecordingSources& operator=(const RecordingSources&) = delete;
 
-  /// By the piece of the recording that shows the gap best; by the whole of it if the piece does not decide.
-  [[nodiscard]] std::vector<SourceFinding> findings() const {
+  /// Judges the piece of the recording that shows the gap best, and all of it where the piece does not decide.
+  [[nodiscard]] std::vector<SourceFinding> findings() {
     std::vector<SourceFinding> findings = findings_in_piece(recording_, problem_, nominal_, of_.priors);
     if (!findings.empty()) return findings;
-    for (const SourceFit& fit : evidence_.ranked(all_sources(), shown_by(problem_.progress))) {
+    for (const SourceFit& fit : evidence().ranked(all_sources(), shown_by(problem_.progress))) {
       findings.push_back(finding_of(fit, covariates_));
     }
     return findings;
   }
 
   /// Descriptions by one source with all covariates: by one term, by two and so on.
-  [[nodiscard]] std::vector<SourceFit> descriptions(const ErrorSource& source) const {
+  [[nodiscard]] std::vector<SourceFit> descriptions(const ErrorSource& source) {
     problem_.progress("describing what is unknown", 0);
-    return evidence_.descriptions(source);
+    return evidence().descriptions(source);
   }
   [[nodiscard]] SourceFinding finding(const SourceFit& fit) const { return finding_of(fit, covariates_); }
 
@@ -151,13 +150,20 @@ class RecordingSources {
   }
 
  private:
+  /// Of the whole recording; replays it when it is first needed.
+  [[nodiscard]] const SourceEvidence& evidence() {
+    if (!evidence_) evidence_.emplace(of_);
+    return *evidence_;
+  }
+
   const DiagnosisProblem& problem_;
   const Prepared& recording_;
   ResidualModel model_;
-  Linearised nominal_;
+  std::optional<Linearised> own_;  ///< where several recordings were linearised together, without their biases
+  const Linearised& nominal_;
   std::vector<Covariate> covariates_;
   SourceProblem of_;
-  SourceEvidence evidence_;
+  std::optional<SourceEvidence> evidence_;
 };
 
 /// Adds the findings of another recording.
@@ -183,7 +189,7 @@ void sort_by_gain(std::vector<SourceFinding>& findings) {
 void write_sources(const DiagnosisProblem& problem, const FoundEffects& found,
                    const std::vector<std::unique_ptr<Prepared>>& holdouts, Diagnosis& answer) {
   std::vector<SourceFinding>& sources = answer.sources;
-  const RecordingSources first(problem.prepared, problem, found);
+  RecordingSources first(problem.prepared, problem, found);
   add(first.findings(), sources);
   for (const Prepared* other : problem.others) add(RecordingSources(*other, problem, found).findings(), sources);
   sort_by_gain(sources);

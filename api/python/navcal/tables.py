@@ -18,6 +18,13 @@ def _axis_of(name):
     return ("fin", ["1", "2", "3"]) if name.startswith("fins_") else ("axis", ["x", "y", "z"])
 
 
+def _measured(table):
+    """Name, values and whether they are vectors, of each column but the time."""
+    for name, values in table.items():
+        if name != _TIME:
+            yield name, values, getattr(values, "ndim", 1) == 2
+
+
 def frames(arrays):
     """DataFrames of the kinds of samples in `arrays` (Recording.arrays()).
 
@@ -29,10 +36,8 @@ def frames(arrays):
     made = {}
     for kind, table in arrays.items():
         series = {}
-        for name, values in table.items():
-            if name == _TIME:
-                continue
-            if getattr(values, "ndim", 1) == 2:
+        for name, values, are_vectors in _measured(table):
+            if are_vectors:
                 for at, component in enumerate(_axis_of(name)[1]):
                     series[f"{name}_{component}"] = values[:, at]
             else:
@@ -52,10 +57,8 @@ def datasets(arrays):
     made = {}
     for kind, table in arrays.items():
         variables, coordinates = {}, {"time": table[_TIME].view("datetime64[ns]")}
-        for name, values in table.items():
-            if name == _TIME:
-                continue
-            if getattr(values, "ndim", 1) == 2:
+        for name, values, are_vectors in _measured(table):
+            if are_vectors:
                 axis, components = _axis_of(name)
                 coordinates[axis] = components
                 variables[name] = (("time", axis), values)
