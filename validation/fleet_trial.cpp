@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/utc_text.h"
 #include "record/whole_file.h"
 #include "validation/missions.h"
 #include "validation/recordings.h"
@@ -33,11 +33,7 @@ reference::Mission mission_of(const FleetCase& fleet, int day) {
 }
 
 std::string date_of_day(const FleetTruth& truth, int day) {
-  const std::chrono::sys_time<std::chrono::nanoseconds> time{
-      std::chrono::nanoseconds(truth.begin_ns + day * kDay_ns)};
-  const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(time));
-  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
-                     static_cast<unsigned>(date.day()));
+  return base::utc_date_text(truth.begin_ns + day * kDay_ns);
 }
 
 bool is_of(const FleetAnswerJson& named, const FleetCause& cause, const FleetTruth& truth) {

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
+
+#include "base/utc_text.h"
 
 namespace navcal::calib {
 
@@ -32,19 +33,7 @@ std::string_view name_of(Outcome outcome) {
   return "refused";
 }
 
-std::string utc_text(std::int64_t utc_ns) {
-  if (utc_ns == 0) return "an unknown time";
-  const std::chrono::sys_time<std::chrono::nanoseconds> utc{std::chrono::nanoseconds(utc_ns)};
-  const auto day = std::chrono::floor<std::chrono::days>(utc);
-  const std::chrono::year_month_day date(day);
-  const std::chrono::hh_mm_ss time(std::chrono::floor<std::chrono::milliseconds>(utc - day));
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%04d-%02u-%02uT%02d:%02d:%02d.%03dZ", static_cast<int>(date.year()),
-                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                static_cast<int>(time.hours().count()), static_cast<int>(time.minutes().count()),
-                static_cast<int>(time.seconds().count()), static_cast<int>(time.subseconds().count()));
-  return text.data();
-}
+std::string utc_text(std::int64_t utc_ns) { return utc_ns == 0 ? "an unknown time" : base::utc_text(utc_ns); }
 
 std::string words_of(const FieldStep& step) {
   const auto& size = step.size_uT;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/utc_text.h"
 #include "fleet/causes/answer_report.h"
 
 namespace navcal::fleet {
@@ -16,7 +17,7 @@ constexpr std::size_t kMostLines = 40;
 std::string time_text(const PossibleCause& cause, const PooledMissions& missions) {
   const auto mission = [&](std::size_t m) {
     const FleetMission& of = missions.missions()[m];
-    return fmt::format("{} ({})", date_text(of.utc_ns), of.recording);
+    return fmt::format("{} ({})", base::utc_date_text(of.utc_ns), of.recording);
   };
   std::string text;
   if (cause.since) text += " since " + mission(cause.missions.front());
@@ -56,7 +57,7 @@ std::string course_text(const CalibrationHistory& history) {
     case CalibrationCourse::step: {
       const CalibrationPoint& at = history.points[history.step_at];
       return fmt::format("changes by {:.3g} +- {:.2g} on {} ({}, vehicle {})", history.step, history.step_std,
-                         date_text(at.utc_ns), at.recording, at.vehicle);
+                         base::utc_date_text(at.utc_ns), at.recording, at.vehicle);
     }
     case CalibrationCourse::scatter:
       return fmt::format("scatters by {:.3g} beyond the stated errors", history.excess_std);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -40,13 +39,6 @@ std::vector<MissionGroup> grouped(const std::vector<FleetMission>& missions, std
 }
 
 }  // namespace
-
-std::string date_text(std::int64_t utc_ns) {
-  const std::chrono::sys_time<std::chrono::nanoseconds> time{std::chrono::nanoseconds(utc_ns)};
-  const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(time));
-  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
-                     static_cast<unsigned>(date.day()));
-}
 
 PooledMissions::PooledMissions(std::vector<FleetMission> missions) : missions_(std::move(missions)) {
   if (missions_.empty()) throw std::invalid_argument("there is no mission to pool");

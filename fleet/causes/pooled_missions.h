@@ -23,9 +23,6 @@ struct FleetMission {
   gap::RecordingInformation information;
 };
 
-/// "2026-06-04", UTC.
-[[nodiscard]] std::string date_text(std::int64_t utc_ns);
-
 /// Missions that belong together: indices into PooledMissions::missions(), ascending.
 struct MissionGroup {
   std::string name;

@@ -14,6 +14,7 @@
 
 #include "analysis/failure.h"
 #include "base/angles.h"
+#include "base/utc_text.h"
 #include "fleet/causes/information_json.h"
 #include "fleet/causes/limits.h"
 
@@ -60,7 +61,7 @@ void set_days(std::vector<FleetMission>& missions) {
       mission.day = "day of " + mission.recording;
       continue;
     }
-    auto& waters = dates[date_text(*of.utc_ns)];
+    auto& waters = dates[base::utc_date_text(*of.utc_ns)];
     auto found = std::find_if(waters.begin(), waters.end(), [&](const Water& water) {
       return distance_m(water.place, *of.place) < kSameWater_m;
     });

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <netcdf.h>
 
@@ -8,6 +7,7 @@
 #include <limits>
 
 #include "base/durations.h"
+#include "base/utc_text.h"
 #include "record/export/export.h"
 #include "record/export/field_meaning.h"
 #include "record/export/log_tables.h"
@@ -27,7 +27,7 @@ std::int64_t reference_of(const std::vector<TopicTable>& tables) {
 }
 
 std::string units_since(std::int64_t reference_ns) {
-  return fmt::format("seconds since {:%Y-%m-%d} 00:00:00", fmt::gmtime(reference_ns / base::kSecond_ns));
+  return fmt::format("seconds since {} 00:00:00", base::utc_date_text(reference_ns));
 }
 
 int netcdf_type(const TopicTable::Values& values) {

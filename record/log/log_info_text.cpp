@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "base/durations.h"
+#include "base/utc_text.h"
 #include "record/json/json_object.h"
 #include "record/log/log_info.h"
 
@@ -18,9 +17,7 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 std::string when(std::int64_t utc_ns) {
   constexpr std::int64_t kYear2000_ns = 946'684'800LL * base::kSecond_ns;
   if (utc_ns < kYear2000_ns) return fmt::format("{:.3f} s (monotonic: UTC was not known)", seconds(utc_ns));
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
-                     fmt::gmtime(static_cast<std::time_t>(utc_ns / base::kSecond_ns)),
-                     utc_ns % base::kSecond_ns / 1'000'000);
+  return base::utc_text(utc_ns);
 }
 
 std::string exact(std::int64_t ns) {

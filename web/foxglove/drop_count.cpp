@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/foxglove/drop_count.h"
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 
-#include <chrono>
+#include "base/utc_text.h"
 
 namespace navcal::web::foxglove {
 namespace {
 
 constexpr std::int64_t kBetweenReports_ns = 1'000'000'000;
-
-std::string utc_text(std::int64_t time_ns) {
-  const std::chrono::sys_time<std::chrono::nanoseconds> time{std::chrono::nanoseconds(time_ns)};
-  const auto ms = std::chrono::floor<std::chrono::milliseconds>(time);
-  return fmt::format(
-      "{:%FT%T}.{:03}Z",
-      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::floor<std::chrono::seconds>(time))),
-      (ms.time_since_epoch() % std::chrono::seconds(1)).count());
-}
 
 }  // namespace
 
@@ -34,7 +25,7 @@ std::optional<std::string> DropCount::report(std::int64_t now_ns) {
   std::string words = fmt::format(
       "{} messages were dropped from {} to {}, because this program did not read them in "
       "time; {} since it connected",
-      since_report_, utc_text(first_ns_), utc_text(last_ns_), total_);
+      since_report_, base::utc_text(first_ns_), base::utc_text(last_ns_), total_);
   since_report_ = 0;
   reported_ns_ = now_ns;
   return words;

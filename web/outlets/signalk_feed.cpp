@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/utc_text.h"
 #include "web/http.h"
 
 namespace navcal::web {
@@ -17,7 +18,7 @@ constexpr double kSignalKRate_Hz = 10;
 
 std::string signalk_now() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return signalk_timestamp(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+  return base::utc_text(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
 json signalk_source(const std::string& device) {
@@ -68,7 +69,7 @@ void SignalKPeer::offer(const std::vector<SignalKUpdate>& updates) {
     }
     if (values.empty()) continue;
     json entry{{"source", signalk_source(update.device)}, {"values", std::move(values)}};
-    if (update.utc_ns) entry["timestamp"] = signalk_timestamp(*update.utc_ns);
+    if (update.utc_ns) entry["timestamp"] = base::utc_text(*update.utc_ns);
     if (!metas.empty()) entry["meta"] = std::move(metas);
     sent.push_back(std::move(entry));
   }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/outlets/signalk_model.h"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 
 #include "base/angles.h"
 #include "web/outlets/json_members.h"
@@ -125,12 +121,6 @@ json signalk_meta(std::string_view path) {
   const auto instance_end = path.find('.', kBatteries.size());
   return instance_end == std::string_view::npos ? json(nullptr)
                                                 : meta_in(kBatteryMetas, path.substr(instance_end + 1));
-}
-
-std::string signalk_timestamp(std::int64_t utc_ns) {
-  constexpr std::int64_t kNanoseconds = 1'000'000'000, kNanosecondsInMs = 1'000'000;
-  const auto second = static_cast<std::time_t>(utc_ns / kNanoseconds);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(second), utc_ns % kNanoseconds / kNanosecondsInMs);
 }
 
 SignalKUpdate SignalKModel::take(const Record& record) {

@@ -29,9 +29,6 @@ struct SignalKUpdate {
 /// Units and description of a path (`meta`). Null for a path that this program does not send.
 [[nodiscard]] nlohmann::json signalk_meta(std::string_view path);
 
-/// "2026-11-24T17:00:00.123Z". Nanoseconds since 1970, UTC.
-[[nodiscard]] std::string signalk_timestamp(std::int64_t utc_ns);
-
 /// Turns records of the log into values of Signal K, and keeps the newest of each path. A path whose value has
 /// gone is told once, with null.
 class SignalKModel {

@@ -22,11 +22,6 @@ json values_of(const SignalKUpdate& update) {
   return values;
 }
 
-TEST(SignalKTimestamp, HasMillisecondsOfUtc) {
-  EXPECT_EQ(signalk_timestamp(kUtc_ns), "2025-11-24T16:00:00.123Z");
-  EXPECT_EQ(signalk_timestamp(0), "1970-01-01T00:00:00.000Z");
-}
-
 TEST(SignalKModel, TheHeadingIsTrueOnlyWithADeclination) {
   SignalKModel model;
   constexpr std::string_view kNav = R"({"heading_rad":1.5,"heading_std_rad":0.1,"pitch_rad":0.1,"roll_rad":0})";
