@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "analysis/output.h"
@@ -16,10 +14,10 @@
 #include "base/interruptible.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/fleet_submit.h"
 #include "cli/fleet_trial.h"
 #include "cli/result_file.h"
-#include "config/error.h"
 #include "fleet/causes/answer_report.h"
 #include "fleet/causes/read_missions.h"
 #include "fleet/jobs.h"
@@ -33,17 +31,6 @@ namespace navcal::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Runs a part of the command and turns its errors into statuses.
-void run_fleet_job(const std::function<void()>& job) {
-  try {
-    job();
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
-}
 
 void make_fleet_plan(fleet::PlanRequest request) {
   const base::Interruptible interruptible;
@@ -172,7 +159,7 @@ void add_fleet_plan(CLI::App& parent) {
   command->footer(
       "A recording is known by its content: one that was moved or renamed is not done again.\n\n"
       "Example: navcal fleet plan recordings/ -o plan/ --job gap,calibrate");
-  command->callback([request] { run_fleet_job([&] { make_fleet_plan(*request); }); });
+  command->callback([request] { with_exit_statuses([&] { make_fleet_plan(*request); }); });
 }
 
 void add_fleet_run(CLI::App& parent) {
@@ -198,7 +185,7 @@ void add_fleet_run(CLI::App& parent) {
       "Example: navcal fleet run plan/ --task 17\n"
       "         seq 200 | parallel navcal fleet run plan/ --task {}");
   command->callback([options] {
-    run_fleet_job([&] { run_fleet_tasks(options->plan, options->tasks, options->again, options->threads); });
+    with_exit_statuses([&] { run_fleet_tasks(options->plan, options->tasks, options->again, options->threads); });
   });
 }
 
@@ -222,7 +209,7 @@ void add_fleet_causes(CLI::App& parent) {
       "  navcal fleet plan recordings/ -o plan/ --job evidence,calibrate\n"
       "  navcal fleet submit plan/ --local\n"
       "  navcal fleet causes plan/ --report fleet.html");
-  command->callback([options] { run_fleet_job([&] { tell_causes(*options); }); });
+  command->callback([options] { with_exit_statuses([&] { tell_causes(*options); }); });
 }
 
 void add_fleet_merge(CLI::App& parent) {
@@ -240,7 +227,7 @@ void add_fleet_merge(CLI::App& parent) {
       "The same results give the same bytes, in whatever order and wherever the tasks were done.\n\n"
       "Example: navcal fleet merge plan/ --report fleet.html");
   command->callback(
-      [options] { run_fleet_job([&] { merge_fleet(options->plan, options->output, options->page); }); });
+      [options] { with_exit_statuses([&] { merge_fleet(options->plan, options->output, options->page); }); });
 }
 
 void add_fleet_list(CLI::App& parent) {
@@ -253,7 +240,7 @@ void add_fleet_list(CLI::App& parent) {
   command->add_option("PLAN", options->plan, "folder of the plan")->required();
   command->add_flag("--json", options->json, "one JSON object a line instead of text");
   command->footer("Example: navcal fleet list plan/");
-  command->callback([options] { run_fleet_job([&] { list_fleet(options->plan, options->json); }); });
+  command->callback([options] { with_exit_statuses([&] { list_fleet(options->plan, options->json); }); });
 }
 
 }  // namespace

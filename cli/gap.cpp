@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "analysis/chosen_vehicle.h"
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "cli/commands.h"
+#include "cli/exit_statuses.h"
 #include "cli/gap_export.h"
 #include "cli/gap_layouts.h"
 #include "cli/gap_next.h"

@@ -10,20 +10,19 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "analysis/failure.h"
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "cli/exit_statuses.h"
 #include "cli/gap_request.h"
 #include "cli/result_file.h"
 #include "config/mission_limits.h"
 #include "config/mission_text.h"
 #include "gap/design/next_mission.h"
 #include "gap/verdict/study.h"
-#include "record/recording.h"
 #include "report/next_mission.h"
 
 namespace navcal::cli {

@@ -3,14 +3,12 @@
 
 #include <cstdlib>
 #include <stdexcept>
-#include <system_error>
 #include <variant>
 
 #include "analysis/chosen_vehicle.h"
 #include "analysis/failure.h"
 #include "config/load.h"
 #include "gap/data/silence.h"
-#include "record/recording.h"
 #include "sim/effects/choice.h"
 #include "sim/effects/effect_table.h"
 
@@ -121,20 +119,6 @@ CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options) {
       ->option_text("DIR")
       ->group(bank);
   return mission;
-}
-
-void with_exit_statuses(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const record::BadRecording& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const config::Error& error) {
-    throw analysis::Failure(analysis::Exit::bad_input, error.what());
-  } catch (const std::invalid_argument& error) {
-    throw analysis::Failure(analysis::Exit::usage, error.what());
-  } catch (const std::system_error& error) {
-    throw analysis::Failure(analysis::Exit::failed, error.what());
-  }
 }
 
 }  // namespace navcal::cli

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +39,5 @@ CLI::Option* add_gap_request(CLI::App& command, GapRequestOptions& options);
 
 /// Throws analysis::Failure (usage) for a name of --without that is no instrument.
 void expect_instruments(const std::vector<std::string>& names);
-
-/// Runs a diagnosis. What it throws becomes a Failure with the exit status of docs/cli.md.
-void with_exit_statuses(const std::function<void()>& work);
 
 }  // namespace navcal::cli

@@ -11,7 +11,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "analysis/chosen_vehicle.h"
@@ -20,6 +19,7 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
+#include "cli/exit_statuses.h"
 #include "cli/gap_request.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
