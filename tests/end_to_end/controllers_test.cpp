@@ -22,9 +22,7 @@ using test::Process;
 using test::TemporaryFolder;
 using Json = nlohmann::json;
 
-constexpr std::chrono::seconds kPatience{90};
-
-std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
+constexpr std::chrono::seconds kControllerPatience{90};
 
 /// The emulated instruments and their navcald.
 class ControlledVehicle : public testing::Test {
@@ -38,19 +36,20 @@ class ControlledVehicle : public testing::Test {
       if (std::string_view(port) == "compass") config << "baud = 38400\n";
     }
     config.close();
-    emulator_ = std::make_unique<Process>(std::vector<std::string>{tool("cli/navcal"), "emulate", "--dir",
-                                                                   (folder_ / "ports").string(), "--seed", "5"},
-                                          folder_ / "emulate");
-    ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kPatience))
+    emulator_ = std::make_unique<Process>(
+        std::vector<std::string>{NAVCAL_PROGRAM, "emulate", "--dir", (folder_ / "ports").string(), "--seed", "5"},
+        folder_ / "emulate");
+    ASSERT_TRUE(
+        eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kControllerPatience))
         << emulator_->err();
     status_port_ = free_port();
     daemon_ = std::make_unique<Process>(
         std::vector<std::string>{
-            tool("daemon/navcald"), "--config", (folder_ / "navcald.toml").string(), "--set",
+            NAVCALD, "--config", (folder_ / "navcald.toml").string(), "--set",
             "log.directory=" + (folder_ / "logs").string(), "--set", "status.port=" + std::to_string(status_port_),
             "--set", "control.socket=" + (folder_ / "control").string(), "--set", "log.free_floor_MB=0"},
         folder_ / "navcald");
-    ASSERT_TRUE(eventually([&] { return !state("1").is_null(); }, kPatience)) << daemon_->err();
+    ASSERT_TRUE(eventually([&] { return !state("1").is_null(); }, kControllerPatience)) << daemon_->err();
   }
   /// A STATE that has the motor's and the compass's measurements; null while there is none.
   [[nodiscard]] Json state(const std::string& rate_Hz) const {
@@ -67,7 +66,7 @@ class ControlledVehicle : public testing::Test {
   /// Runs a controller for some seconds, and what it says.
   std::string run(std::vector<std::string> command) {
     Process controller(command, folder_ / "controller");
-    EXPECT_EQ(controller.wait(kPatience), 0) << controller.err();
+    EXPECT_EQ(controller.wait(kControllerPatience), 0) << controller.err();
     return controller.out();
   }
   std::string run_python(double seconds, double rpm) {
@@ -82,13 +81,13 @@ class ControlledVehicle : public testing::Test {
   /// Ends the daemon; COMMAND lines of the replay of its log.
   std::vector<Json> replayed_commands() {
     daemon_->signal(SIGTERM);
-    EXPECT_EQ(daemon_->wait(kPatience), 0) << daemon_->err();
+    EXPECT_EQ(daemon_->wait(kControllerPatience), 0) << daemon_->err();
     std::vector<Json> commands;
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / "logs")) {
       if (entry.path().extension() != ".mcap") continue;
       log_ = entry.path();
-      Process replay({tool("cli/navcal"), "replay", log_.string()}, folder_ / "replay");
-      EXPECT_EQ(replay.wait(kPatience), 0) << replay.err();
+      Process replay({NAVCAL_PROGRAM, "replay", log_.string()}, folder_ / "replay");
+      EXPECT_EQ(replay.wait(kControllerPatience), 0) << replay.err();
       std::istringstream lines(replay.out());
       for (std::string line; std::getline(lines, line);) {
         if (line.find("\"class\":\"COMMAND\"") != std::string::npos) commands.push_back(Json::parse(line));
@@ -127,9 +126,9 @@ TEST_F(ControlledVehicle, BothExamplesDriveItAndLeaveItStanding) {
   EXPECT_EQ(commands.back()["source"], "safe");
   EXPECT_EQ(commands.back()["outcome"], "echoed");
 
-  Process exported({tool("cli/navcal"), "log", "export", "--csv", (folder_ / "csv").string(), log_.string()},
+  Process exported({NAVCAL_PROGRAM, "log", "export", "--csv", (folder_ / "csv").string(), log_.string()},
                    folder_ / "export");
-  ASSERT_EQ(exported.wait(kPatience), 0) << exported.err();
+  ASSERT_EQ(exported.wait(kControllerPatience), 0) << exported.err();
   std::ifstream table(folder_ / "csv" / "command.csv");
   std::string line;
   std::size_t rows = 0;
@@ -149,7 +148,7 @@ TEST_F(ControlledVehicle, AControllerThatIsKilledLeavesItStanding) {
              std::abs(now["shaft_rpm"].get<double>() - 500) < 20;
     }));
     controller.signal(SIGKILL);
-    EXPECT_EQ(controller.wait(kPatience), 128 + SIGKILL);
+    EXPECT_EQ(controller.wait(kControllerPatience), 128 + SIGKILL);
   }
   EXPECT_TRUE(eventually([&] {
     const Json now = state("10");

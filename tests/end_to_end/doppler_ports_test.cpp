@@ -34,8 +34,8 @@ struct DopplerPorts : ::testing::Test {
   [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
 
   void start() {
-    std::vector<std::string> command{
-        NAVCAL_BINARY_DIR "/cli/navcal", "emulate", "--dir", at("ports"), "--seed", "5", "--floor-depth", "30"};
+    std::vector<std::string> command{NAVCAL_PROGRAM, "emulate", "--dir",         at("ports"),
+                                     "--seed",       "5",       "--floor-depth", "30"};
     std::ofstream config(folder / "navcald.toml");
     config << "[log]\ndirectory = \"" << at("logs")
            << "\"\nfree_floor_MB = 0\n[status]\nport = 0\n[control]\nsocket = \"" << at("control") << "\"\n";
@@ -48,9 +48,8 @@ struct DopplerPorts : ::testing::Test {
     config.close();
     emulator = std::make_unique<Process>(command, folder / "emulate");
     ASSERT_TRUE(eventually([&] { return emulator->out().find("ready") != std::string::npos; }, kDopplerPatience));
-    daemon = std::make_unique<Process>(
-        std::vector<std::string>{NAVCAL_BINARY_DIR "/daemon/navcald", "--config", at("navcald.toml")},
-        folder / "navcald");
+    daemon = std::make_unique<Process>(std::vector<std::string>{NAVCALD, "--config", at("navcald.toml")},
+                                       folder / "navcald");
   }
   [[nodiscard]] std::string log() const {
     if (!std::filesystem::exists(folder / "logs")) return {};
@@ -62,7 +61,7 @@ struct DopplerPorts : ::testing::Test {
   }
   /// What `navcal` answers to the words.
   std::string navcal(std::vector<std::string> words) const {
-    words.insert(words.begin(), NAVCAL_BINARY_DIR "/cli/navcal");
+    words.insert(words.begin(), NAVCAL_PROGRAM);
     Process process(words, folder / "navcal");
     process.wait(kDopplerPatience);
     return process.out();

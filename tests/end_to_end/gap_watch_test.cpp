@@ -25,8 +25,7 @@ class GapWatchLive : public testing::Test {
  protected:
   void SetUp() override {
     const std::string ports = (folder_ / "ports").string();
-    emulator_ =
-        start({NAVCAL_BINARY_DIR "/cli/navcal", "emulate", "--mission", "survey", "--dir", ports}, "emulate");
+    emulator_ = start({NAVCAL_PROGRAM, "emulate", "--mission", "survey", "--dir", ports}, "emulate");
     ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kWatchPatience))
         << emulator_->err();
     std::ofstream config(folder_ / "navcald.toml");
@@ -38,17 +37,16 @@ class GapWatchLive : public testing::Test {
              << "\"\n";
     }
     config.close();
-    daemon_ =
-        start({NAVCAL_BINARY_DIR "/daemon/navcald", "--config", (folder_ / "navcald.toml").string()}, "navcald");
+    daemon_ = start({NAVCALD, "--config", (folder_ / "navcald.toml").string()}, "navcald");
   }
   [[nodiscard]] std::unique_ptr<Process> start(const std::vector<std::string>& command, const char* name) const {
     return std::make_unique<Process>(command, folder_ / name);
   }
   [[nodiscard]] std::unique_ptr<Process> watch(const char* name) const {
-    return start({NAVCAL_BINARY_DIR "/cli/navcal", "gap", "watch", "--port", std::to_string(port_), "--bank", "12",
-                  "--cache", (folder_ / "banks").string(), "--state", (folder_ / "state.json").string(),
-                  "--status-minutes", "0"},
-                 name);
+    return start(
+        {NAVCAL_PROGRAM, "gap", "watch", "--port", std::to_string(port_), "--bank", "12", "--cache",
+         (folder_ / "banks").string(), "--state", (folder_ / "state.json").string(), "--status-minutes", "0"},
+        name);
   }
   /// The newest event of this kind that a watch has told.
   [[nodiscard]] static std::optional<nlohmann::json> event(const Process& watch, const std::string& kind) {

@@ -26,8 +26,6 @@ using Json = nlohmann::json;
 
 constexpr std::chrono::seconds kHousePatience{90};
 
-std::string house_tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
-
 /// Emulated instruments and their navcald.
 class House : public testing::Test {
  protected:
@@ -41,15 +39,14 @@ class House : public testing::Test {
     // Kept open here, so that the emulator sees no end of its input.
     ASSERT_EQ(::mkfifo((folder_ / "console").c_str(), 0600), 0);
     console_ = base::Descriptor(::open((folder_ / "console").c_str(), O_RDWR | O_CLOEXEC));
-    const std::string emulate = "exec " + house_tool("cli/navcal") + " emulate --dir " +
-                                (folder_ / "ports").string() + " < " + (folder_ / "console").string();
+    const std::string emulate = "exec " NAVCAL_PROGRAM " emulate --dir " + (folder_ / "ports").string() + " < " +
+                                (folder_ / "console").string();
     emulator_ = std::make_unique<Process>(std::vector<std::string>{"sh", "-c", emulate}, folder_ / "emulate");
     ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kHousePatience))
         << emulator_->err();
   }
   void start(const std::vector<std::string>& settings = {}) {
-    std::vector<std::string> command{house_tool("daemon/navcald"), "--config",
-                                     (folder_ / "navcald.toml").string()};
+    std::vector<std::string> command{NAVCALD, "--config", (folder_ / "navcald.toml").string()};
     for (const std::string& setting :
          {"log.directory=" + (folder_ / "logs").string(), "status.port=" + std::to_string(test::free_port()),
           "control.socket=" + (folder_ / "control").string(), std::string("log.free_floor_MB=0"),
@@ -70,7 +67,7 @@ class House : public testing::Test {
     return tool_command(std::move(arguments));
   }
   int tool_command(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), house_tool("cli/navcal"));
+    arguments.insert(arguments.begin(), NAVCAL_PROGRAM);
     arguments.insert(arguments.end(), {"--control", (folder_ / "control").string()});
     Process program(arguments, folder_ / "tool-command");
     const int status = program.wait(kHousePatience).value_or(-1);

@@ -32,9 +32,8 @@ struct Injection : ::testing::Test {
         << "[log]\ndirectory = \"" << at("logs")
         << "\"\nfree_floor_MB = 0\n[status]\nport = 0\n[control]\nsocket = \"" << at("control")
         << "\"\n[port.ctd]\nprotocol = \"samples\"\naddress = \"unix-listen:" << at("samples") << "\"\n";
-    daemon = std::make_unique<Process>(
-        std::vector<std::string>{NAVCAL_BINARY_DIR "/daemon/navcald", "--config", at("navcald.toml")},
-        folder / "navcald");
+    daemon = std::make_unique<Process>(std::vector<std::string>{NAVCALD, "--config", at("navcald.toml")},
+                                       folder / "navcald");
     ASSERT_TRUE(eventually([&] { return std::filesystem::exists(folder / "samples"); }, kInjectionPatience))
         << daemon->err();
   }
@@ -55,7 +54,7 @@ struct Injection : ::testing::Test {
   [[nodiscard]] std::vector<nlohmann::json> sensors() const {
     std::vector<nlohmann::json> found;
     if (!std::filesystem::exists(folder / "logs") || log().empty()) return found;
-    Process replay({NAVCAL_BINARY_DIR "/cli/navcal", "replay", "--json", log()}, folder / "replay");
+    Process replay({NAVCAL_PROGRAM, "replay", "--json", log()}, folder / "replay");
     replay.wait(kInjectionPatience);
     std::istringstream lines(replay.out());
     for (std::string line; std::getline(lines, line);) {
@@ -82,8 +81,7 @@ TEST_F(Injection, AMissionSensorIsLoggedReplayedAndExported) {
   daemon->signal(SIGTERM);
   EXPECT_EQ(daemon->wait(kInjectionPatience), 0) << daemon->err();
   EXPECT_FALSE(std::filesystem::exists(folder / "samples")) << "the socket goes with the daemon";
-  Process exported({NAVCAL_BINARY_DIR "/cli/navcal", "log", "export", "--csv", at("csv"), log()},
-                   folder / "export");
+  Process exported({NAVCAL_PROGRAM, "log", "export", "--csv", at("csv"), log()}, folder / "export");
   EXPECT_EQ(exported.wait(kInjectionPatience), 0) << exported.err();
   const std::string table = test::read_file(folder / "csv" / "sensor.csv");
   EXPECT_NE(table.find("oxygen,umol/l,250.5"), std::string::npos) << table;

@@ -30,8 +30,6 @@ struct Instrument {
 constexpr std::array<Instrument, 4> kInstruments{
     {{"compass", "tcm2"}, {"imu", "imu-card"}, {"gps", "oncore"}, {"motor", "motor-card"}}};
 
-std::string built_program(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
-
 /// The emulated instruments of one vehicle, and its navcald, which knows of some of them only.
 class Vehicle {
  public:
@@ -45,13 +43,12 @@ class Vehicle {
       if (std::string_view(port) == "compass") config << "baud = 38400\n";
     }
     config.close();
-    emulator_ = std::make_unique<Process>(std::vector<std::string>{built_program("cli/navcal"), "emulate", "--dir",
-                                                                   (folder_ / "ports").string(), "--seed", "5"},
-                                          folder_ / "emulate");
+    emulator_ = std::make_unique<Process>(
+        std::vector<std::string>{NAVCAL_PROGRAM, "emulate", "--dir", (folder_ / "ports").string(), "--seed", "5"},
+        folder_ / "emulate");
   }
   void start_daemon() {
-    std::vector<std::string> command{built_program("daemon/navcald"), "--config",
-                                     (folder_ / "navcald.toml").string()};
+    std::vector<std::string> command{NAVCALD, "--config", (folder_ / "navcald.toml").string()};
     const auto set = [&](const std::string& setting) { command.insert(command.end(), {"--set", setting}); };
     set("log.directory=" + (folder_ / "logs").string());
     set("status.port=0");
@@ -105,7 +102,7 @@ class Vehicle {
     std::vector<std::string> reports;
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / "logs")) {
       if (entry.path().extension() != ".mcap") continue;
-      Process replay({built_program("cli/navcal"), "replay", entry.path().string()}, folder_ / "replay");
+      Process replay({NAVCAL_PROGRAM, "replay", entry.path().string()}, folder_ / "replay");
       EXPECT_EQ(replay.wait(kMissingPatience), 0) << name() << replay.err();
       std::istringstream lines(replay.out());
       for (std::string line; std::getline(lines, line);) {

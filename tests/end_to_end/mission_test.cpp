@@ -24,8 +24,6 @@ using test::TemporaryFolder;
 
 constexpr std::chrono::seconds kMissionPatience{60};
 
-std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
-
 constexpr std::array kTopics{"/compass", "/imu", "/gps", "/motor", "/nav"};
 
 struct Traffic {
@@ -56,7 +54,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 class Mission : public testing::Test {
  protected:
   void SetUp() override {
-    Process instruments({tool("cli/navcal"), "emulate", "--dir", ports_.string(), "--seed", "5", "--sent-log",
+    Process instruments({NAVCAL_PROGRAM, "emulate", "--dir", ports_.string(), "--seed", "5", "--sent-log",
                          (folder_ / "sent.cap").string()},
                         folder_ / "emulate");
     ASSERT_TRUE(eventually([&] { return instruments.out().find("ready") != std::string::npos; }))
@@ -75,7 +73,7 @@ class Mission : public testing::Test {
 
   std::vector<std::string> daemon_command() {
     std::filesystem::create_directories(logs_);
-    std::vector<std::string> command{tool("daemon/navcald"), "--config", NAVCAL_SOURCE_DIR "/config/navcald.toml"};
+    std::vector<std::string> command{NAVCALD, "--config", NAVCAL_SOURCE_DIR "/config/navcald.toml"};
     const auto set = [&](const std::string& key, const std::string& value) {
       command.insert(command.end(), {"--set", key + "=" + value});
     };
@@ -133,7 +131,7 @@ TEST_F(Mission, WhatWasSentIsWhatWasLoggedAndReplayIsWhatWasLive) {
   EXPECT_TRUE(reader.findings().finished);
   EXPECT_EQ(reader.findings().bad_crc, 0U);
 
-  Process replay({tool("cli/navcal"), "replay", log_.string()}, folder_ / "replay");
+  Process replay({NAVCAL_PROGRAM, "replay", log_.string()}, folder_ / "replay");
   ASSERT_EQ(replay.wait(kMissionPatience), 0) << replay.err();
   std::map<std::string, std::vector<std::string>> replayed;
   for (const auto& line : lines_of(replay.out())) {
@@ -148,18 +146,18 @@ TEST_F(Mission, WhatWasSentIsWhatWasLoggedAndReplayIsWhatWasLive) {
 }
 
 TEST_F(Mission, TheLogExportsToTheFormsThatOthersRead) {
-  Process info({tool("cli/navcal"), "log", "info", "--json", log_.string()}, folder_ / "info");
+  Process info({NAVCAL_PROGRAM, "log", "info", "--json", log_.string()}, folder_ / "info");
   ASSERT_EQ(info.wait(kMissionPatience), 0) << info.err();
   EXPECT_TRUE(nlohmann::json::accept(info.out())) << info.out();
 
   const auto capture = folder_ / "again.cap";
-  Process cap({tool("cli/navcal"), "log", "export", "--cap", capture.string(), log_.string()}, folder_ / "cap");
+  Process cap({NAVCAL_PROGRAM, "log", "export", "--cap", capture.string(), log_.string()}, folder_ / "cap");
   ASSERT_EQ(cap.wait(kMissionPatience), 0) << cap.err();
   const Traffic exported = traffic_of(capture), logged = traffic_of(log_);
   EXPECT_EQ(exported.received, logged.received);
   EXPECT_EQ(exported.sent, logged.sent);
 
-  Process csv({tool("cli/navcal"), "log", "export", "--csv", (folder_ / "csv").string(), log_.string()},
+  Process csv({NAVCAL_PROGRAM, "log", "export", "--csv", (folder_ / "csv").string(), log_.string()},
               folder_ / "csvout");
   ASSERT_EQ(csv.wait(kMissionPatience), 0) << csv.err();
   std::size_t tables = 0;

@@ -31,7 +31,7 @@ struct NetworkPorts : ::testing::Test {
 
   void start_emulator() {
     emulator = std::make_unique<Process>(
-        std::vector<std::string>{NAVCAL_BINARY_DIR "/cli/navcal", "emulate", "--dir", at("ports"), "--seed", "5"},
+        std::vector<std::string>{NAVCAL_PROGRAM, "emulate", "--dir", at("ports"), "--seed", "5"},
         folder / "emulate");
     ASSERT_TRUE(eventually([&] { return emulator->out().find("ready") != std::string::npos; }, kNetworkPatience));
   }
@@ -55,9 +55,8 @@ struct NetworkPorts : ::testing::Test {
         << "\"\nfree_floor_MB = 0\n[status]\nport = 0\n[control]\nsocket = \"" << at("control")
         << "\"\n[port.imu]\nprotocol = \"imu-card\"\naddress = \"tcp:127.0.0.1:" << card_number
         << "\"\n[port.gps]\nprotocol = \"oncore\"\naddress = \"tcp:127.0.0.1:" << receiver_number << "\"\n";
-    daemon = std::make_unique<Process>(
-        std::vector<std::string>{NAVCAL_BINARY_DIR "/daemon/navcald", "--config", at("navcald.toml")},
-        folder / "navcald");
+    daemon = std::make_unique<Process>(std::vector<std::string>{NAVCALD, "--config", at("navcald.toml")},
+                                       folder / "navcald");
   }
   /// Lines of `navcal replay` of everything logged so far.
   [[nodiscard]] std::string replayed() const {
@@ -68,7 +67,7 @@ struct NetworkPorts : ::testing::Test {
       if (entry.path().extension() == ".mcap") logs.insert(entry.path());
     }
     for (const auto& log : logs) {
-      Process replay({NAVCAL_BINARY_DIR "/cli/navcal", "replay", log.string()}, folder / "replay");
+      Process replay({NAVCAL_PROGRAM, "replay", log.string()}, folder / "replay");
       replay.wait(kNetworkPatience);
       lines += replay.out();
     }

@@ -23,10 +23,8 @@ using test::eventually;
 using test::free_port;
 using test::Process;
 
-constexpr std::chrono::seconds kPatience{120};
+constexpr std::chrono::seconds kPilotPatience{120};
 constexpr double kSpeedOfMission_rpm = 780;
-
-std::string tool(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
 
 struct TruthRow {
   double t_s, depth_m, heading_deg, rpm;
@@ -49,11 +47,11 @@ class ClosedLoop : public testing::Test {
   /// Emulator and daemon; `options` are the emulator's, `gauge` a port of the daemon's with NMEA sentences.
   void start(const std::string& options = "", const std::string& gauge = "",
              const std::vector<std::string>& settings = {}) {
-    const std::string command = "exec " + tool("cli/navcal") + " emulate --vehicle --dir " +
-                                (folder_ / "ports").string() + " --truth " + (folder_ / "truth.csv").string() +
-                                " " + options + " < " + (folder_ / "console").string();
+    const std::string command = "exec " NAVCAL_PROGRAM " emulate --vehicle --dir " + (folder_ / "ports").string() +
+                                " --truth " + (folder_ / "truth.csv").string() + " " + options + " < " +
+                                (folder_ / "console").string();
     emulator_ = std::make_unique<Process>(std::vector<std::string>{"sh", "-c", command}, folder_ / "emulate");
-    ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kPatience))
+    ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kPilotPatience))
         << emulator_->err();
     status_port_ = free_port();
     std::ifstream shipped(NAVCAL_SOURCE_DIR "/config/navcald.toml");
@@ -64,7 +62,7 @@ class ClosedLoop : public testing::Test {
                     << "\nbaud = 4800\n";
     }
     configuration.close();
-    std::vector<std::string> daemon{tool("daemon/navcald"), "--config", (folder_ / "navcald.toml").string()};
+    std::vector<std::string> daemon{NAVCALD, "--config", (folder_ / "navcald.toml").string()};
     const auto set = [&](const std::string& key, const std::string& value) {
       daemon.insert(daemon.end(), {"--set", key + "=" + value});
     };
@@ -77,14 +75,14 @@ class ClosedLoop : public testing::Test {
     for (const std::string& setting : settings) daemon.insert(daemon.end(), {"--set", setting});
     daemon_ = std::make_unique<Process>(daemon, folder_ / "navcald");
     ASSERT_TRUE(
-        eventually([&] { return daemon_->err().find("motor port.opened") != std::string::npos; }, kPatience))
+        eventually([&] { return daemon_->err().find("motor port.opened") != std::string::npos; }, kPilotPatience))
         << daemon_->err();
   }
   /// Limits of time that a busy machine keeps, unless a test is about one.
   [[nodiscard]] std::unique_ptr<Process> pilot(const std::string& mission, const std::string& name,
                                                const std::string& lease_timeout_s = "3",
                                                const std::string& wait_s = "60") const {
-    const std::vector<std::string> command{tool("cli/navcal"),
+    const std::vector<std::string> command{NAVCAL_PROGRAM,
                                            "pilot",
                                            (folder_ / mission).string(),
                                            "--control=" + (folder_ / "control").string(),
@@ -97,9 +95,9 @@ class ClosedLoop : public testing::Test {
   /// Stops daemon and emulator as a user does; the true motion.
   std::vector<TruthRow> finish() {
     daemon_->signal(SIGTERM);
-    EXPECT_EQ(daemon_->wait(kPatience), 0) << daemon_->err();
+    EXPECT_EQ(daemon_->wait(kPilotPatience), 0) << daemon_->err();
     emulator_->signal(SIGINT);
-    EXPECT_EQ(emulator_->wait(kPatience), 0) << emulator_->err();
+    EXPECT_EQ(emulator_->wait(kPilotPatience), 0) << emulator_->err();
     std::vector<TruthRow> rows;
     std::ifstream file(folder_ / "truth.csv");
     std::string line;
@@ -122,7 +120,7 @@ class ClosedLoop : public testing::Test {
         "import socket,sys\ns=socket.socket(socket.AF_UNIX)\ns.connect(sys.argv[1])\n"
         "s.sendall(sys.argv[2].encode()+b'\\n')\nprint(s.makefile().readline())";
     Process client({"python3", "-c", program, (folder_ / "control").string(), line}, folder_ / "client");
-    return client.wait(kPatience) == 0 ? client.out() : std::string();
+    return client.wait(kPilotPatience) == 0 ? client.out() : std::string();
   }
   [[nodiscard]] bool daemon_said(std::string_view text) const {
     return daemon_->err().find(text) != std::string::npos;
@@ -145,7 +143,7 @@ class ClosedLoop : public testing::Test {
 TEST_F(ClosedLoop, AMissionIsSailed) {
   start("--seed 3");
   const auto run = pilot("mission.toml", "pilot");
-  ASSERT_EQ(run->wait(kPatience), 0) << run->err();
+  ASSERT_EQ(run->wait(kPilotPatience), 0) << run->err();
   EXPECT_NE(run->err().find("3/3 leg"), std::string::npos) << run->err();
   let_the_shaft_run_down();
   const auto rows = finish();
@@ -162,14 +160,14 @@ TEST_F(ClosedLoop, AMissionIsSailed) {
 TEST_F(ClosedLoop, AKilledPilotLeavesTheShaftStanding) {
   start();
   const auto run = pilot("long.toml", "pilot");
-  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPilotPatience)) << run->err();
   const auto second = pilot("long.toml", "second");
-  EXPECT_EQ(second->wait(kPatience), 1);
+  EXPECT_EQ(second->wait(kPilotPatience), 1);
   EXPECT_NE(second->err().find("no lease of the motor card: the lease is held by pilot"), std::string::npos)
       << second->err();
   let_the_shaft_run_down();  // up, here
   run->signal(SIGKILL);
-  EXPECT_TRUE(eventually([&] { return daemon_said("motor.safe"); }, kPatience));
+  EXPECT_TRUE(eventually([&] { return daemon_said("motor.safe"); }, kPilotPatience));
   let_the_shaft_run_down();
   expect_stopped(finish());
 }
@@ -177,13 +175,13 @@ TEST_F(ClosedLoop, AKilledPilotLeavesTheShaftStanding) {
 TEST_F(ClosedLoop, APilotThatHangsLosesItsLeaseAndTheShaftStops) {
   start();
   const auto run = pilot("long.toml", "pilot", "1");
-  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPilotPatience)) << run->err();
   let_the_shaft_run_down();  // up, here
   run->signal(SIGSTOP);
-  EXPECT_TRUE(eventually([&] { return daemon_said("motor.safe"); }, kPatience));
+  EXPECT_TRUE(eventually([&] { return daemon_said("motor.safe"); }, kPilotPatience));
   let_the_shaft_run_down();
   run->signal(SIGCONT);
-  EXPECT_EQ(run->wait(kPatience), 1) << "it is no longer in charge";
+  EXPECT_EQ(run->wait(kPilotPatience), 1) << "it is no longer in charge";
   EXPECT_NE(run->err().find("the lease expired"), std::string::npos) << run->err();
   expect_stopped(finish());
 }
@@ -191,11 +189,11 @@ TEST_F(ClosedLoop, APilotThatHangsLosesItsLeaseAndTheShaftStops) {
 TEST_F(ClosedLoop, ALeakStopsTheVehicle) {
   start();
   const auto run = pilot("long.toml", "pilot");
-  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPilotPatience)) << run->err();
   let_the_shaft_run_down();  // up, here
   constexpr std::string_view kLeak = "imu-status 1\n";
   ASSERT_EQ(::write(console_.get(), kLeak.data(), kLeak.size()), static_cast<ssize_t>(kLeak.size()));
-  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_EQ(run->wait(kPilotPatience), 1);
   EXPECT_NE(run->err().find("leak forward"), std::string::npos) << run->err();
   EXPECT_TRUE(daemon_said("motor.leak: leak_forward: the lease of pilot"));
   let_the_shaft_run_down();
@@ -206,11 +204,11 @@ TEST_F(ClosedLoop, ALeakStopsTheVehicle) {
 TEST_F(ClosedLoop, ABatteryThatRunsLowStopsTheVehicle) {
   start("--battery 2", "battery", {"battery.enabled=true"});
   const auto run = pilot("long.toml", "pilot");
-  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPilotPatience)) << run->err();
   let_the_shaft_run_down();  // up, here
   EXPECT_FALSE(run->wait(std::chrono::seconds(0)).has_value());
   ASSERT_NE(control(R"({"command":"battery.set","charge_Ah":0.742})").find("true"), std::string::npos);
-  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_EQ(run->wait(kPilotPatience), 1);
   EXPECT_NE(run->err().find("the vehicle was stopped: battery low"), std::string::npos) << run->err();
   EXPECT_TRUE(daemon_said("battery alarm.raised: battery_low: 0.74 of 3.7 Ah left")) << daemon_->err();
   let_the_shaft_run_down();
@@ -221,7 +219,7 @@ TEST_F(ClosedLoop, ABatteryThatRunsLowStopsTheVehicle) {
 TEST_F(ClosedLoop, AFloorThatRisesStopsTheVehicle) {
   start("--floor-depth 6 --floor-slope -0.2 0", "altimeter", {"navigation.min_altitude_m=3"});
   const auto run = pilot("long.toml", "pilot");
-  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_EQ(run->wait(kPilotPatience), 1);
   EXPECT_NE(run->err().find("the vehicle was stopped: floor near"), std::string::npos) << run->err();
   EXPECT_TRUE(daemon_said("altimeter alarm.raised: floor_near: ")) << daemon_->err();
   let_the_shaft_run_down();
@@ -231,12 +229,12 @@ TEST_F(ClosedLoop, AFloorThatRisesStopsTheVehicle) {
 TEST_F(ClosedLoop, AnInterruptStopsTheVehicle) {
   start();
   const auto run = pilot("long.toml", "pilot");
-  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPatience)) << run->err();
+  ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPilotPatience)) << run->err();
   let_the_shaft_run_down();  // up, here
   run->signal(SIGINT);
-  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_EQ(run->wait(kPilotPatience), 1);
   EXPECT_NE(run->err().find("the vehicle was stopped: interrupted"), std::string::npos) << run->err();
-  EXPECT_TRUE(eventually([&] { return daemon_said("the lease was released"); }, kPatience));
+  EXPECT_TRUE(eventually([&] { return daemon_said("the lease was released"); }, kPilotPatience));
   let_the_shaft_run_down();
   expect_stopped(finish());
 }
@@ -244,7 +242,7 @@ TEST_F(ClosedLoop, AnInterruptStopsTheVehicle) {
 TEST_F(ClosedLoop, WithoutACompassTheMissionDoesNotBegin) {
   start("--unplug compass@0+1000");
   const auto run = pilot("mission.toml", "pilot", "3", "2");
-  EXPECT_EQ(run->wait(kPatience), 1);
+  EXPECT_EQ(run->wait(kPilotPatience), 1);
   EXPECT_NE(run->err().find("the mission cannot begin: no compass"), std::string::npos) << run->err();
   for (const TruthRow& row : finish()) ASSERT_EQ(row.rpm, 0);
 }

@@ -29,8 +29,8 @@ struct ReceiverAndInertialUnit : ::testing::Test {
 
   void start() {
     emulator = std::make_unique<Process>(
-        std::vector<std::string>{NAVCAL_BINARY_DIR "/cli/navcal", "emulate", "--dir", at("ports"), "--seed", "5",
-                                 "--device", "gps=ubx", "--device", "imu=vectornav"},
+        std::vector<std::string>{NAVCAL_PROGRAM, "emulate", "--dir", at("ports"), "--seed", "5", "--device",
+                                 "gps=ubx", "--device", "imu=vectornav"},
         folder / "emulate");
     ASSERT_TRUE(eventually([&] { return emulator->out().find("ready") != std::string::npos; }, kDevicePatience));
     std::ofstream(folder / "navcald.toml")
@@ -38,9 +38,8 @@ struct ReceiverAndInertialUnit : ::testing::Test {
         << "\"\nfree_floor_MB = 0\n[status]\nport = 0\n[control]\nsocket = \"" << at("control")
         << "\"\n[port.gps]\nprotocol = \"ubx\"\npath = \"" << at("ports/gps")
         << "\"\n[port.imu]\nprotocol = \"vectornav\"\npath = \"" << at("ports/imu") << "\"\n";
-    daemon = std::make_unique<Process>(
-        std::vector<std::string>{NAVCAL_BINARY_DIR "/daemon/navcald", "--config", at("navcald.toml")},
-        folder / "navcald");
+    daemon = std::make_unique<Process>(std::vector<std::string>{NAVCALD, "--config", at("navcald.toml")},
+                                       folder / "navcald");
   }
   /// Lines of `navcal replay --json` of everything logged so far.
   [[nodiscard]] std::vector<nlohmann::json> replayed() const {
@@ -51,7 +50,7 @@ struct ReceiverAndInertialUnit : ::testing::Test {
       if (entry.path().extension() == ".mcap") logs.insert(entry.path());
     }
     for (const auto& log : logs) {
-      Process replay({NAVCAL_BINARY_DIR "/cli/navcal", "replay", "--json", log.string()}, folder / "replay");
+      Process replay({NAVCAL_PROGRAM, "replay", "--json", log.string()}, folder / "replay");
       replay.wait(kDevicePatience);
       std::istringstream text(replay.out());
       for (std::string line; std::getline(text, line);) {

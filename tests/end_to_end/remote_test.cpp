@@ -30,8 +30,6 @@ using test::Process;
 
 constexpr std::chrono::seconds kLong{120};
 
-std::string program(const std::string& name) { return NAVCAL_BINARY_DIR "/" + name; }
-
 sockaddr_in loopback(std::uint16_t port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -111,14 +109,13 @@ class Remote : public testing::Test {
     // Kept open here, so that nobody sees the end of an input before the test wants it.
     console_ = base::Descriptor(::open((folder_ / "console").c_str(), O_RDWR | O_CLOEXEC));
     typed_ = base::Descriptor(::open((folder_ / "typed").c_str(), O_RDWR | O_CLOEXEC));
-    const std::string emulate = "exec " + program("cli/navcal") + " emulate --vehicle --dir " +
-                                (folder_ / "ports").string() + " < " + (folder_ / "console").string();
+    const std::string emulate = "exec " NAVCAL_PROGRAM " emulate --vehicle --dir " + (folder_ / "ports").string() +
+                                " < " + (folder_ / "console").string();
     emulator_ = std::make_unique<Process>(std::vector<std::string>{"sh", "-c", emulate}, folder_ / "emulate");
     ASSERT_TRUE(eventually([&] { return emulator_->out().find("ready") != std::string::npos; }, kLong))
         << emulator_->err();
     vehicle_port_ = test::free_port();
-    std::vector<std::string> daemon{program("daemon/navcald"), "--config",
-                                    NAVCAL_SOURCE_DIR "/config/navcald.toml"};
+    std::vector<std::string> daemon{NAVCALD, "--config", NAVCAL_SOURCE_DIR "/config/navcald.toml"};
     const auto set = [&](const std::string& key, const std::string& value) {
       daemon.insert(daemon.end(), {"--set", key + "=" + value});
     };
@@ -138,9 +135,9 @@ class Remote : public testing::Test {
   }
   [[nodiscard]] std::unique_ptr<Process> remote(std::uint16_t port, const std::string& arguments,
                                                 const std::string& name, bool has_key = true) const {
-    const std::string command = "exec " + program("cli/navcal") + " remote tcp:127.0.0.1:" + std::to_string(port) +
-                                " " + arguments + (has_key ? " --key-file " + (folder_ / "key").string() : "") +
-                                " < " + (folder_ / "typed").string();
+    const std::string command = "exec " NAVCAL_PROGRAM " remote tcp:127.0.0.1:" + std::to_string(port) + " " +
+                                arguments + (has_key ? " --key-file " + (folder_ / "key").string() : "") + " < " +
+                                (folder_ / "typed").string();
     return std::make_unique<Process>(std::vector<std::string>{"sh", "-c", command}, folder_ / name);
   }
   void type(std::string_view line) const {

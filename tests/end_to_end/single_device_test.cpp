@@ -29,7 +29,7 @@ class EndToEndDevice : public testing::TestWithParam<SingleDevice> {
   }
   /// Samples of a class that the log holds so far, each with a time that has an error.
   [[nodiscard]] int samples(const std::string& name) const {
-    test::Process replay({NAVCAL_BINARY_DIR "/cli/navcal", "replay", log()}, folder_ / "replay");
+    test::Process replay({NAVCAL_PROGRAM, "replay", log()}, folder_ / "replay");
     if (replay.wait(kSinglePatience) != 0) return 0;
     std::istringstream lines(replay.out());
     int count = 0;
@@ -47,13 +47,13 @@ TEST_P(EndToEndDevice, IsConfiguredAndRecorded) {
   std::filesystem::create_directories(folder_ / "logs");
   std::ofstream(folder_ / "navcald.toml")
       << "[port.sensor]\nprotocol = \"" << GetParam().protocol << "\"\npath = \"" << ports << "/sensor\"\n";
-  test::Process emulator({NAVCAL_BINARY_DIR "/cli/navcal", "emulate", "--dir", ports, "--device",
-                          std::string("sensor=") + GetParam().protocol},
-                         folder_ / "emulate");
+  test::Process emulator(
+      {NAVCAL_PROGRAM, "emulate", "--dir", ports, "--device", std::string("sensor=") + GetParam().protocol},
+      folder_ / "emulate");
   const auto is_ready = [&] { return emulator.out().find("ready") != std::string::npos; };
   ASSERT_TRUE(test::eventually(is_ready, kSinglePatience)) << emulator.err();
-  test::Process daemon({NAVCAL_BINARY_DIR "/daemon/navcald", "--config", (folder_ / "navcald.toml").string(),
-                        "--set", "log.directory=" + (folder_ / "logs").string(), "--set", "status.port=0", "--set",
+  test::Process daemon({NAVCALD, "--config", (folder_ / "navcald.toml").string(), "--set",
+                        "log.directory=" + (folder_ / "logs").string(), "--set", "status.port=0", "--set",
                         "control.socket=" + (folder_ / "control").string()},
                        folder_ / "navcald");
   const auto is_configured = [&] { return daemon.err().find(GetParam().configured) != std::string::npos; };
