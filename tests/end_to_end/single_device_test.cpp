@@ -34,8 +34,8 @@ class EndToEndDevice : public testing::TestWithParam<SingleDevice> {
     std::istringstream lines(replay.out());
     int count = 0;
     for (std::string line; std::getline(lines, line);) {
-      const auto json = nlohmann::json::parse(line);
-      if (json["class"] == name && json["device"] == "sensor" && json["time_std"] > 0) ++count;
+      const auto sample = nlohmann::json::parse(line);
+      if (sample["class"] == name && sample["device"] == "sensor" && sample["time_std"] > 0) ++count;
     }
     return count;
   }
