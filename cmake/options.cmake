@@ -148,7 +148,8 @@ function(navcal_test name)
     add_dependencies(${name} ${TEST_RUNS})
     target_compile_definitions(${name} PRIVATE NAVCAL_PROGRAM="$<TARGET_FILE:navcal>" NAVCALD="$<TARGET_FILE:navcald>")
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${TEST_TIMEOUT})
+  # The bytes of a parameter hold addresses, with which the name of a test would differ from run to run.
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES TIMEOUT ${TEST_TIMEOUT})
 endfunction()
 
 # navcal_script_test(NAME [KIND kind] [TIMEOUT s] [LOCK resource] COMMAND... [ENVIRONMENT NAME=value...]): a test that is a script, of
