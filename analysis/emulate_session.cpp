@@ -74,7 +74,7 @@ std::vector<config::PortSettings> port_lines(const EmulateArguments& arguments, 
   for (const protocols::DeviceType& type : protocols::kDeviceTypes) {
     if (is_layout && type.protocol == protocols::Protocol::motor_card) {
       if (device_at(arguments, kOutputs) == nullptr)
-        add(kOutputs, protocols::Protocol::described, sim::ActuatorOutputs::kBaud);
+        add(kOutputs, protocols::Protocol::described, config::kOutputsBaud);
       continue;
     }
     if (type.vehicle.name.empty() || device_at(arguments, type.vehicle.name) != nullptr) continue;

@@ -5,24 +5,13 @@
 
 #include "analysis/log_builder.h"
 #include "record/recording.h"
-#include "sim/instruments/actuator_outputs.h"
 
 namespace navcal::analysis {
 namespace {
 
-/// Outputs of a simulated layout have a description that every navcal has.
-void describe_outputs(config::PortSettings& port) {
-  config::PortSettings known = sim::outputs_port();
-  if (port.protocol != known.protocol || port.name != known.name || port.described) return;
-  known.baud = port.baud;
-  known.path = port.path;
-  port = std::move(known);
-}
-
 /// A capture says what its ports are called and speak, not where they were; a configuration must.
 config::Settings with_places(config::Settings settings, const std::filesystem::path& capture) {
   for (auto& port : settings.ports) {
-    describe_outputs(port);
     if (port.path.empty()) port.path = std::filesystem::absolute(capture).string() + ":" + port.name;
   }
   return settings;

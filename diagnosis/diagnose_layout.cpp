@@ -2,19 +2,16 @@
 #include "diagnosis/diagnose_layout.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <limits>
 #include <numeric>
-#include <random>
 #include <stdexcept>
 
 #include "base/parallel.h"
 #include "diagnosis/cause_search.h"
-#include "diagnosis/limits.h"
+#include "diagnosis/held_out.h"
+#include "diagnosis/layout_verdict.h"
+#include "diagnosis/louder_channels.h"
 #include "diagnosis/nominal_bank.h"
 
 namespace navcal::diagnosis {
@@ -22,63 +19,6 @@ namespace {
 
 using gap::Diagnosis;
 using identify::RecordedMotion;
-
-constexpr std::string_view kUnit = "noise power";
-
-struct ChannelFloor {
-  double mean = 1, std = 0;
-};
-
-ChannelFloor floor_of(const NominalBank& bank, std::size_t channel) {
-  std::vector<double> powers;
-  for (const auto& one : bank.channel_powers) {
-    if (one[channel] >= 0) powers.push_back(one[channel]);
-  }
-  if (powers.empty()) return {};
-  const double n = static_cast<double>(powers.size());
-  const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / n;
-  double square = 0;
-  for (const double power : powers) square += (power - mean) * (power - mean);
-  return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean};
-}
-
-/// Channels whose noise power exceeds that of nominal recordings, most first.
-std::vector<gap::WhereEntry> louder_channels(const RecordingFit& fit, const NominalBank& bank) {
-  std::vector<gap::WhereEntry> louder;
-  for (std::size_t c = 0; c < identify::kChannels; ++c) {
-    const double power = fit.channel_power[c];
-    if (power < 0) continue;
-    const ChannelFloor floor = floor_of(bank, c);
-    const double limit = std::max(floor.mean * kChannelFactor, floor.mean + kChannelScatter_sigma * floor.std);
-    if (power <= limit) continue;
-    const double z = (power - floor.mean) / std::max(floor.std, 0.02 * floor.mean);
-    louder.push_back({std::string(identify::kChannelDescriptions[c].name), "whole recording", power, floor.mean,
-                      std::string(kUnit), std::erfc(std::min(z, 30.0) / std::numbers::sqrt2)});
-  }
-  std::sort(louder.begin(), louder.end(),
-            [](const auto& a, const auto& b) { return a.gap / a.floor > b.gap / b.floor; });
-  return louder;
-}
-
-gap::EffectFinding finding_of(const Cause& cause, double probability, const Eigen::VectorXd& mean,
-                              const Eigen::VectorXd& std) {
-  gap::EffectFinding finding{};
-  finding.name = cause.name;
-  finding.of = cause.of;
-  finding.probability = std::min(probability, 1.0);  // a sum of rounded shares
-  finding.manoeuvre = cause.manoeuvre;
-  for (const CauseParameter& parameter : cause.parameters) {
-    finding.parameters.push_back(
-        {parameter.name, mean[parameter.column] / parameter.per_unit, std[parameter.column] / parameter.per_unit});
-  }
-  return finding;
-}
-
-/// Prediction of a held-out recording with the found set, and how much of the gap goes away there.
-struct HeldOut {
-  double gain_nats = 0;
-  std::vector<double> before_windows, after_windows, readings;
-};
 
 /// One diagnosis on its way.
 class Diagnosing {
@@ -192,181 +132,23 @@ class Diagnosing {
     const FittedRecording mine = fitted(recording_);
     found_ = search_causes(mine, nominal_, library_, priors_, [&](double done) { progress_("search", done); });
     answer_.where = louder_channels(nominal_, bank_);
-    if (const auto& best = found_.sets.front().causes; !best.empty()) hold_out(best);
-  }
-
-  /// Each held-out recording is predicted with the set's estimate, and without it.
-  void hold_out(const CauseSet& best) {
-    for (const RecordedMotion& held_out : recordings_.holdouts) {
-      const std::vector<RecordedMotion> one{held_out};
+    if (found_.sets.front().causes.empty()) return;
+    for (const RecordedMotion& recording : recordings_.holdouts) {
+      const std::vector<RecordedMotion> one{recording};
       const FittedRecording other = fitted(one);
-      const RecordingFit without = fit(other, "held out " + one.front().name);
-      std::vector<ParameterPrior> priors;
-      Eigen::VectorXd shift = Eigen::VectorXd::Zero(library_.columns());
-      ColumnPriors with = priors_;
-      for (const std::size_t cause : best) {
-        for (const CauseParameter& parameter : library_.causes[cause].parameters) {
-          const Eigen::Index column = parameter.column;
-          shift[column] = found_.mean[column];
-          // The mean of a nuisance's prior is zero: it may be as large as it was found.
-          const double found = library_.causes[cause].is_instrument ? std::abs(found_.mean[column]) : 0;
-          with.spike[column] = std::max(found_.std[column], priors_.spike[column]);
-          priors.push_back({column,
-                            std::clamp(found_.mean[column], parameter.low * parameter.per_unit,
-                                       parameter.high * parameter.per_unit),
-                            std::max(with.spike[column], found)});
-        }
-      }
-      HeldOut held;
-      held.before_windows = without.window_power;
-      held.readings = without.window_readings;
-      RecordingFit improved;
-      try {
-        improved = other.fit(priors, &without, [](double) {});
-      } catch (const identify::UnboundedReplay&) {
-        // With these effects the vehicle could not have moved as it did.
-        held.gain_nats = -std::numeric_limits<double>::infinity();
-        held.after_windows = without.window_power;
-        held_out_.push_back(std::move(held));
-        continue;
-      }
-      held.gain_nats = SetEvidence(improved.linear.about(shift), library_, with)({}) -
-                       SetEvidence(without.linear, library_, priors_)({});
-      held.after_windows = improved.window_power;
-      held_out_.push_back(std::move(held));
+      held_out_.push_back(held_out(other, fit(other, "held out " + recording.name), library_, priors_, found_));
     }
-  }
-
-  [[nodiscard]] double floor_power() const {
-    return std::accumulate(bank_.powers.begin(), bank_.powers.end(), 0.0) / static_cast<double>(bank_.size());
-  }
-
-  void measure_gap() {
-    std::vector<double> before, after, readings;
-    const auto take = [&](const std::vector<double>& b, const std::vector<double>& a,
-                          const std::vector<double>& n) {
-      before.insert(before.end(), b.begin(), b.end());
-      after.insert(after.end(), a.begin(), a.end());
-      readings.insert(readings.end(), n.begin(), n.end());
-    };
-    for (const HeldOut& held : held_out_) take(held.before_windows, held.after_windows, held.readings);
-    answer_.gap.held_out = !held_out_.empty();
-    if (held_out_.empty()) take(nominal_.window_power, found_.best.window_power, nominal_.window_readings);
-    const double floor = floor_power();
-    const auto closure_of = [&](const auto& index) -> std::optional<double> {
-      double b = 0, a = 0, n = 0;
-      for (std::size_t i = 0; i < before.size(); ++i) {
-        b += before[index(i)];
-        a += after[index(i)];
-        n += readings[index(i)];
-      }
-      if (b / n <= 1.05 * floor) return std::nullopt;
-      return 1 - (a / n - floor) / (b / n - floor);
-    };
-    const double n = std::accumulate(readings.begin(), readings.end(), 0.0);
-    gap::Closure& pooled = answer_.gap.pooled;
-    pooled.before = std::accumulate(before.begin(), before.end(), 0.0) / n;
-    pooled.after = std::accumulate(after.begin(), after.end(), 0.0) / n;
-    pooled.floor = floor;
-    pooled.closed = closure_of([](std::size_t i) { return i; });
-    if (!pooled.closed) return;
-    std::mt19937_64 random(request_.seed);
-    std::vector<double> closures;
-    for (int k = 0; k < 400; ++k) {
-      std::vector<std::size_t> drawn(before.size());
-      for (std::size_t& index : drawn) index = random() % before.size();
-      if (const auto closure = closure_of([&](std::size_t i) { return drawn[i]; })) closures.push_back(*closure);
-    }
-    if (closures.size() < 40) return;
-    std::sort(closures.begin(), closures.end());
-    pooled.closed_ci = {closures[closures.size() / 40], closures[closures.size() - 1 - closures.size() / 40]};
   }
 
   void judge() {
-    const ScoredSet& best = found_.sets.front();
-    double none = 0, rivals = 0;
-    for (const ScoredSet& one : found_.sets) {
-      if (one.causes.empty())
-        none = one.probability;
-      else if (one.causes != best.causes)
-        rivals += one.probability;
-    }
-    measure_gap();
-    std::map<std::size_t, double> probabilities;
-    for (const ScoredSet& one : found_.sets) {
-      for (const std::size_t cause : one.causes) probabilities[cause] += one.probability;
-    }
-    const SetEvidence evidence(found_.best.linear, library_, priors_);
-    std::vector<std::pair<double, std::size_t>> order;
-    for (const auto& [cause, probability] : probabilities) order.emplace_back(probability, cause);
-    std::sort(order.rbegin(), order.rend());
-    for (const auto& [probability, cause] : order) {
-      if (probability < 0.01) break;
-      const auto posterior = evidence.posterior(best.causes.empty() ? CauseSet{cause} : best.causes);
-      answer_.candidates.push_back(finding_of(library_.causes[cause], probability, posterior.mean, posterior.std));
-    }
-    const auto louder_after = louder_channels(found_.best, bank_);
-    if (best.causes.empty() || (none > kNoGapBelow && louder_after.empty() && best.probability < kNamedFrom)) {
-      if (louder_after.empty()) return say_no_gap();
-      return say_unknown("no effect of the library explains it", louder_after);
-    }
-    std::vector<std::string> words;
-    for (const std::size_t cause : best.causes) words.push_back(library_.causes[cause].words());
-    const std::string names = fmt::format("{}", fmt::join(words, " and "));
-    if (best.probability < kNamedFrom || rivals > kMostRivals)
-      return say_unknown(
-          fmt::format("the most probable cause, {}, has a probability of {:.2f} only", names, best.probability),
-          louder_after);
-    if (!louder_after.empty())
-      return say_unknown(fmt::format("{} leaves {} louder than nominal", names, louder_after.front().channel),
-                         louder_after);
-    for (const std::size_t cause : best.causes) {
-      for (const CauseParameter& parameter : library_.causes[cause].parameters) {
-        const double strength = std::abs(found_.mean[parameter.column]) / (parameter.typical * parameter.per_unit);
-        if (strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical)
-          return say_unknown(fmt::format("{} would have {:.0f} times its typical strength", names, strength),
-                             louder_after);
-      }
-    }
-    double gain = 0;
-    for (const HeldOut& held : held_out_) gain += held.gain_nats;
-    if (!held_out_.empty() && gain < kHoldoutGain_nats)
-      return say_unknown(fmt::format("{} does not improve the held-out recordings ({:+.1f} nats)", names, gain),
-                         louder_after);
-    answer_.verdict = gap::Verdict::explained;
-    for (const std::size_t cause : best.causes)
-      answer_.effects.push_back(finding_of(library_.causes[cause], probabilities[cause], found_.mean, found_.std));
-    add_confusions(evidence, best.causes);
-    answer_.sentence = fmt::format("The gap is explained by {}.", names);
-    if (held_out_.empty())
-      answer_.remarks.emplace_back("no held-out recording was given (--holdout): the answer is weaker");
-  }
-
-  void add_confusions(const SetEvidence& evidence, const CauseSet& best) {
-    for (std::size_t i = 0; i < best.size(); ++i) {
-      for (std::size_t other = 0; other < library_.causes.size(); ++other) {
-        if (std::binary_search(best.begin(), best.end(), other)) continue;
-        const double apart = evidence.separation(best[i], {other});
-        if (apart >= kObservable_nats) continue;
-        answer_.effects[i].confused_with.push_back(
-            {library_.causes[other].words(), library_.causes[best[i]].manoeuvre, apart});
-      }
-    }
-  }
-
-  void say_no_gap() {
-    answer_.verdict = gap::Verdict::no_gap;
-    answer_.where.clear();
-    answer_.sentence = "Nothing exceeds what nominal recordings show.";
-  }
-
-  void say_unknown(const std::string& reason, const std::vector<gap::WhereEntry>& louder) {
-    answer_.verdict = gap::Verdict::unknown;
-    answer_.sentence = "There is a gap, but its cause is not known: " + reason + '.';
-    answer_.unexplained.push_back(reason);
-    for (const gap::WhereEntry& entry : louder)
-      answer_.unexplained.push_back(
-          fmt::format("{}: noise power {:.2f}, nominal {:.2f}", entry.channel, entry.gap, entry.floor));
+    const double floor =
+        std::accumulate(bank_.powers.begin(), bank_.powers.end(), 0.0) / static_cast<double>(bank_.size());
+    const ExplainedWindows itself{0, nominal_.window_power, found_.best.window_power, nominal_.window_readings};
+    answer_.gap.held_out = !held_out_.empty();
+    answer_.gap.pooled =
+        closure_of(held_out_.empty() ? std::span(&itself, 1) : std::span(held_out_.data(), held_out_.size()),
+                   floor, request_.seed);
+    write_verdict({library_, priors_, bank_, found_, held_out_}, answer_);
   }
 
   const LayoutRequest& request_;
@@ -381,7 +163,7 @@ class Diagnosing {
   NominalBank bank_;
   RecordingFit nominal_;
   CauseSearchResult found_;
-  std::vector<HeldOut> held_out_;
+  std::vector<ExplainedWindows> held_out_;
 };
 
 }  // namespace

@@ -55,7 +55,7 @@ std::vector<config::PortSettings> recording_ports(const devices::InstrumentModel
   ports[1].imu_card = instruments.imu.channels;
   ports[1].mounting = instruments.imu.mounting;
   ports[2].mounting = instruments.gps.mounting;
-  if (commands == CommandPort::outputs) ports[3] = outputs_port();
+  if (commands == CommandPort::outputs) ports[3] = config::outputs_port();
   return ports;
 }
 

@@ -8,8 +8,10 @@
 #include <charconv>
 #include <utility>
 
+#include "config/described/outputs_port.h"
 #include "config/load.h"
 #include "config/text_rules.h"
+#include "protocols/device_types.h"
 #include "record/json/mapping_json.h"
 
 namespace navcal::record {
@@ -44,6 +46,27 @@ std::optional<std::int64_t> parse_stamp(std::string_view word) {
   const std::size_t dot = word.find('.');
   if (dot == std::string_view::npos || word.size() - dot != 10 || word.front() == '-') return std::nullopt;
   return nanoseconds(word);
+}
+
+std::string protocol_names() {
+  std::string names;
+  for (const auto& device : protocols::kDeviceTypes) {
+    names += names.empty() ? "" : ", ";
+    names += device.name;
+  }
+  return names;
+}
+
+/// A capture does not say what a described device sends. The outputs to the actuators of a simulated layout are
+/// known without that.
+config::PortSettings port_of(std::string_view name, protocols::Protocol protocol, int baud) {
+  if (protocol == protocols::Protocol::described) {
+    if (config::PortSettings outputs = config::outputs_port(); name == outputs.name) {
+      outputs.baud = baud;
+      return outputs;
+    }
+  }
+  return config::default_port(std::string(name), protocol, baud);
 }
 
 }  // namespace
@@ -117,7 +140,7 @@ void CaptureReader::parse_port(std::string_view line) {
   const std::string_view baud_text = take_word(rest);
   if (!config::is_port_name(port_name)) fail("a port's name is 1 to 31 of a-z, 0-9, _ and -");
   const auto protocol = protocols::protocol_named(protocol_name);
-  if (!protocol) fail("protocol must be one of tcm2, imu-card, oncore, motor-card, nmea");
+  if (!protocol) fail("protocol must be one of " + protocol_names());
   int baud = 0;
   const auto [end, error] = std::from_chars(baud_text.data(), baud_text.data() + baud_text.size(), baud);
   if (error != std::errc{} || end != baud_text.data() + baud_text.size() || baud < 1 || baud > 4'000'000) {
@@ -128,7 +151,7 @@ void CaptureReader::parse_port(std::string_view line) {
     if (port.name == port_name) fail("the port is named a second time");
   }
   if (ports_.size() >= kMaxPorts) fail("more than 1000 ports");
-  ports_.push_back(config::default_port(std::string(port_name), *protocol, baud));
+  ports_.push_back(port_of(port_name, *protocol, baud));
 }
 
 void CaptureReader::parse_read(std::string_view line, RawRead& read) {

@@ -8,62 +8,15 @@
 #include <cmath>
 #include <string>
 
-#include "config/described/description_file.h"
-#include "config/load.h"
 #include "protocols/checked_line.h"
 
 namespace navcal::sim {
 namespace {
 
 constexpr std::int64_t kInterval_ns = 100'000'000;
-constexpr std::int64_t kOutputsLatency_ns = 5'000'000;
+constexpr auto kOutputsLatency_ns = static_cast<std::int64_t>(1e9 * config::kOutputsLatency_s);
 constexpr std::size_t kFieldsOfALine = 8;
 constexpr double kLow_us = 500, kHigh_us = 2500;
-
-constexpr std::string_view kDescription =
-    R"(# Commands to the actuators of a simulated layout (navcal simulate --vehicle LAYOUT.toml), ten times a second:
-#   $PNCAO,1500,1620,1500,1500,,,,*52
-# outputs 1 to 8 as pulses in us, thrusters first, then surfaces, ballasts and moving masses (docs/simulator.md). Outputs
-# that the vehicle does not have are empty; $PNCAP has 9 to 16 where there are more than 8.
-name = "actuator outputs"
-form = "text"
-baud = 115200
-rate_Hz = 10
-latency_ms = 5
-latency_std_ms = 0.5
-
-[[frame]]
-id = "PNCAO"
-start = "$PNCAO,"
-checksum = "nmea"
-fields = 8
-field = [
-  { sensor = "output1", number = 1, unit = "us", low = 500, high = 2500 },
-  { sensor = "output2", number = 2, unit = "us", low = 500, high = 2500 },
-  { sensor = "output3", number = 3, unit = "us", low = 500, high = 2500 },
-  { sensor = "output4", number = 4, unit = "us", low = 500, high = 2500 },
-  { sensor = "output5", number = 5, unit = "us", low = 500, high = 2500 },
-  { sensor = "output6", number = 6, unit = "us", low = 500, high = 2500 },
-  { sensor = "output7", number = 7, unit = "us", low = 500, high = 2500 },
-  { sensor = "output8", number = 8, unit = "us", low = 500, high = 2500 },
-]
-
-[[frame]]
-id = "PNCAP"
-start = "$PNCAP,"
-checksum = "nmea"
-fields = 8
-field = [
-  { sensor = "output9", number = 1, unit = "us", low = 500, high = 2500 },
-  { sensor = "output10", number = 2, unit = "us", low = 500, high = 2500 },
-  { sensor = "output11", number = 3, unit = "us", low = 500, high = 2500 },
-  { sensor = "output12", number = 4, unit = "us", low = 500, high = 2500 },
-  { sensor = "output13", number = 5, unit = "us", low = 500, high = 2500 },
-  { sensor = "output14", number = 6, unit = "us", low = 500, high = 2500 },
-  { sensor = "output15", number = 7, unit = "us", low = 500, high = 2500 },
-  { sensor = "output16", number = 8, unit = "us", low = 500, high = 2500 },
-]
-)";
 
 std::vector<std::uint8_t> output_line(std::string_view name, const std::vector<double>& pulses_us,
                                       std::size_t first) {
@@ -92,20 +45,6 @@ std::vector<std::optional<double>> outputs_of(const protocols::nmea::Sentence& s
 
 }  // namespace
 
-std::string_view outputs_description() { return kDescription; }
-
-config::PortSettings outputs_port() {
-  config::PortSettings port =
-      config::default_port("outputs", protocols::Protocol::described, ActuatorOutputs::kBaud);
-  port.device = "actuator-outputs.toml";
-  port.description = kDescription;
-  port.described = config::parse_description(kDescription, port.device);
-  port.latency_s = ActuatorOutputs::kLatency_s;
-  port.latency_std_s = 0.0005;
-  port.rate_Hz = 10;
-  return port;
-}
-
 void ActuatorOutputs::power_on(std::int64_t t_ns) {
   parser_ = {};
   next_ns_ = t_ns + kOutputsLatency_ns;
@@ -124,9 +63,9 @@ void ActuatorOutputs::advance(std::int64_t t_ns, std::vector<Emission>& out) {
   motion_.take_outputs(t_ns - kOutputsLatency_ns, orders_);
   for (const OutputOrder& order : orders_) {
     const std::int64_t sent_ns = order.time_ns + kOutputsLatency_ns;
-    line_.put(sent_ns, kBaud, output_line("PNCAO", order.pulses_us, 0), out);
+    line_.put(sent_ns, config::kOutputsBaud, output_line("PNCAO", order.pulses_us, 0), out);
     if (order.pulses_us.size() > kFieldsOfALine)
-      line_.put(sent_ns, kBaud, output_line("PNCAP", order.pulses_us, kFieldsOfALine), out);
+      line_.put(sent_ns, config::kOutputsBaud, output_line("PNCAP", order.pulses_us, kFieldsOfALine), out);
   }
   while (next_ns_ <= t_ns) next_ns_ += kInterval_ns;
 }

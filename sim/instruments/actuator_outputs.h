@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/settings.h"
+#include "config/described/outputs_port.h"
 #include "protocols/nmea.h"
 #include "sim/instruments/device.h"
 #include "sim/state.h"
@@ -18,20 +18,10 @@ namespace navcal::sim {
 /// Greatest number of outputs that the lines have.
 inline constexpr std::size_t kMostOutputs = 16;
 
-/// The text of share/devices/actuator-outputs.toml, which describes the lines $PNCAO with outputs 1 to 8, and
-/// $PNCAP with 9 to 16, in whole us. A field is empty where there is no such output:
-/// "$PNCAO,1500,1620,1500,1500,,,,*52".
-[[nodiscard]] std::string_view outputs_description();
-
-/// Port settings of the device that sends these lines, with its description.
-[[nodiscard]] config::PortSettings outputs_port();
-
-/// Controller of the actuators of a layout: says ten times a second what each was told, kLatency_s later.
+/// Controller of the actuators of a layout: says ten times a second what each was told, config::kOutputsLatency_s
+/// later.
 class ActuatorOutputs final : public Device {
  public:
-  static constexpr int kBaud = 115200;
-  static constexpr double kLatency_s = 0.005;
-
   /// A vehicle that obeys: called with the outputs of each line that comes (of kMostOutputs; nullopt where the
   /// line has none), and with 1500 us on all when power comes.
   using Obey = std::function<void(std::int64_t t_ns, const std::vector<std::optional<double>>& pulses_us)>;
@@ -41,7 +31,7 @@ class ActuatorOutputs final : public Device {
   void on_bytes(std::int64_t t_ns, protocols::Bytes bytes) override;
   [[nodiscard]] std::int64_t next_event_ns() const override { return next_ns_; }
   void advance(std::int64_t t_ns, std::vector<Emission>& out) override;
-  [[nodiscard]] int baud() const override { return kBaud; }
+  [[nodiscard]] int baud() const override { return config::kOutputsBaud; }
 
  private:
   const Motion& motion_;

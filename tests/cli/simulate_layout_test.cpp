@@ -35,6 +35,14 @@ TEST_F(SimulateLayout, RecordsTheOutputsOfAnRov) {
             0)
       << said("err");
   EXPECT_NE(said("out").find("\"frames\":{\"PNCAO\":15"), std::string::npos) << "ten a second for some 15 s";
+  // A capture of these outputs needs no description.
+  ASSERT_EQ(run_navcal("decode --json --port outputs run.cap"), 0) << said("err");
+  EXPECT_NE(said("out").find("\"frames\":{\"PNCAO\":15"), std::string::npos) << said("out");
+  ASSERT_EQ(run_navcal("replay --json run.cap"), 0) << said("err");
+  EXPECT_NE(said("out").find("\"quantity\":\"output8\",\"unit\":\"us\""), std::string::npos);
+  ASSERT_EQ(run_navcal("gap --bank 3 --vehicle '" + std::string(kVehicles) + "bluerov2-heavy.toml' run.cap"), 0)
+      << said("err");
+  EXPECT_EQ(said("out").find("cannot be diagnosed"), std::string::npos) << said("out");
   // The log of an import contains the description of the outputs.
   ASSERT_EQ(run_navcal("log import -o run.mcap run.cap"), 0) << said("err");
   ASSERT_EQ(run_navcal("replay --json run.mcap"), 0) << said("err");

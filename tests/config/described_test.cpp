@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "config/described/description_file.h"
+#include "config/described/outputs_port.h"
 #include "config/load.h"
 #include "tests/support/temporary_folder.h"
 
@@ -301,6 +302,12 @@ TEST_F(DescribedPort, ARoleThatTheDescriptionLacks) {
   EXPECT_NE(
       complaints()[0].find("roles.heading: port d is of a described device, and sounder.toml has no heading"),
       std::string::npos);
+}
+
+TEST(OutputsPort, IsDescribedByTheShippedFile) {
+  EXPECT_EQ(navcal::test::read_file(NAVCAL_SOURCE_DIR "/share/devices/actuator-outputs.toml"),
+            outputs_description());
+  EXPECT_EQ(outputs_port().described->name, "actuator outputs");
 }
 
 }  // namespace

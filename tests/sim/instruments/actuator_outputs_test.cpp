@@ -71,11 +71,5 @@ TEST(ActuatorOutputs, ObeyIntactLinesOnly) {
   EXPECT_FALSE(orders[1][4]);
 }
 
-TEST(ActuatorOutputs, AreDescribedByTheShippedFile) {
-  EXPECT_EQ(navcal::test::read_file(NAVCAL_SOURCE_DIR "/share/devices/actuator-outputs.toml"),
-            outputs_description());
-  EXPECT_EQ(outputs_port().described->name, "actuator outputs");
-}
-
 }  // namespace
 }  // namespace navcal::sim::testing

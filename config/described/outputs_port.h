@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "config/settings.h"
+
+namespace navcal::config {
+
+/// Of the lines with the outputs to the actuators of a layout.
+inline constexpr int kOutputsBaud = 115200;
+inline constexpr double kOutputsLatency_s = 0.005;
+
+/// The text of share/devices/actuator-outputs.toml, which describes the lines $PNCAO with outputs 1 to 8, and
+/// $PNCAP with 9 to 16, in whole us. A field is empty where there is no such output:
+/// "$PNCAO,1500,1620,1500,1500,,,,*52".
+[[nodiscard]] std::string_view outputs_description();
+
+/// Port "outputs" of the device that sends these lines, with its description: a capture has no place for one.
+[[nodiscard]] PortSettings outputs_port();
+
+}  // namespace navcal::config

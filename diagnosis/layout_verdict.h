@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "diagnosis/held_out.h"
+#include "diagnosis/nominal_bank.h"
+#include "gap/verdict/diagnosis.h"
+
+namespace navcal::diagnosis {
+
+/// What a verdict rests on. The parts must outlive it.
+struct LayoutEvidence {
+  const CauseLibrary& library;
+  const ColumnPriors& priors;
+  const NominalBank& bank;
+  const CauseSearchResult& found;
+  std::span<const ExplainedWindows> held_out;  ///< may be none
+};
+
+/// Writes verdict, sentence, effects, candidates and what stays unexplained (docs/gap.md, "Vehicles with a
+/// layout"). Without a gap it removes the entries of `where`.
+void write_verdict(const LayoutEvidence& evidence, gap::Diagnosis& answer);
+
+}  // namespace navcal::diagnosis

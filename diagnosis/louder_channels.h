@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/nominal_bank.h"
+#include "gap/verdict/diagnosis.h"
+
+namespace navcal::diagnosis {
+
+/// Channels whose noise power exceeds that of nominal recordings, most first.
+[[nodiscard]] std::vector<gap::WhereEntry> louder_channels(const RecordingFit& fit, const NominalBank& bank);
+
+}  // namespace navcal::diagnosis
