@@ -63,6 +63,23 @@ std::string names_of(const CauseSet& causes, const CauseLibrary& library) {
   return fmt::format("{}", fmt::join(words, " and "));
 }
 
+/// How many standard errors the clearest parameter of a cause is from zero.
+double presence_sigma(const Cause& cause, const CauseSearchResult& found) {
+  double most = 0;
+  for (const Eigen::Index column : cause.columns()) {
+    most = std::max(most, std::abs(found.mean[column]) / found.std[column]);
+  }
+  return most;
+}
+
+/// Whether the estimate of a parameter is where the recording was linearised: elsewhere its evidence says nothing.
+bool has_settled(const CauseParameter& parameter, const CauseSearchResult& found) {
+  const Eigen::Index column = parameter.column;
+  const double away = std::abs(found.mean[column] - found.best.at[column]);
+  return away <= std::max(kSettledWithin * parameter.typical * parameter.per_unit,
+                          kSettledWithin_sigma * found.std[column]);
+}
+
 /// Why the most probable set is not named although it is probable; empty where nothing speaks against it.
 std::optional<std::string> objection(const LayoutEvidence& evidence, double rivals,
                                      const std::vector<gap::WhereEntry>& louder_after) {
@@ -74,8 +91,23 @@ std::optional<std::string> objection(const LayoutEvidence& evidence, double riva
   if (!louder_after.empty()) {
     return fmt::format("{} leaves {} louder than nominal", names, louder_after.front().channel);
   }
+  // Evidence compares sets. Where none of them describes the recording, the best one is no better than a bad
+  // guess.
+  const double misfit = misfit_of(evidence.found.best, best.log_odds);
+  const Floor nominal = floor_of(evidence.bank.misfits);
+  if (misfit > nominal.limit()) {
+    return fmt::format(
+        "with {} the recording departs by {:.1f} times its noise power, nominal ones by {:.1f} times", names,
+        misfit, nominal.mean);
+  }
   for (const std::size_t cause : best.causes) {
+    if (presence_sigma(evidence.library.causes[cause], evidence.found) < kLeastPresence_sigma) {
+      return fmt::format("the strength of {} cannot be told from zero", evidence.library.causes[cause].words());
+    }
     for (const CauseParameter& parameter : evidence.library.causes[cause].parameters) {
+      if (!has_settled(parameter, evidence.found)) {
+        return fmt::format("the fit with {} does not settle", evidence.library.causes[cause].words());
+      }
       const double strength =
           std::abs(evidence.found.mean[parameter.column]) / (parameter.typical * parameter.per_unit);
       if (strength > kLargestStrength && parameter.high > kLargestStrength * parameter.typical) {

@@ -4,31 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <string>
-
-#include "diagnosis/limits.h"
 
 namespace navcal::diagnosis {
 namespace {
 
 constexpr std::string_view kUnit = "noise power";
 
-struct ChannelFloor {
-  double mean = 1, std = 0;
-};
-
-ChannelFloor floor_of(const NominalBank& bank, std::size_t channel) {
+Floor floor_of_channel(const NominalBank& bank, std::size_t channel) {
   std::vector<double> powers;
   for (const auto& one : bank.channel_powers) {
     if (one[channel] >= 0) powers.push_back(one[channel]);
   }
-  if (powers.empty()) return {};
-  const double n = static_cast<double>(powers.size());
-  const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / n;
-  double square = 0;
-  for (const double power : powers) square += (power - mean) * (power - mean);
-  return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean};
+  return floor_of(powers);
 }
 
 }  // namespace
@@ -38,9 +26,8 @@ std::vector<gap::WhereEntry> louder_channels(const RecordingFit& fit, const Nomi
   for (std::size_t c = 0; c < identify::kChannels; ++c) {
     const double power = fit.channel_power[c];
     if (power < 0) continue;
-    const ChannelFloor floor = floor_of(bank, c);
-    const double limit = std::max(floor.mean * kChannelFactor, floor.mean + kChannelScatter_sigma * floor.std);
-    if (power <= limit) continue;
+    const Floor floor = floor_of_channel(bank, c);
+    if (power <= floor.limit()) continue;
     const double z = (power - floor.mean) / std::max(floor.std, 0.02 * floor.mean);
     louder.push_back({std::string(identify::kChannelDescriptions[c].name), "whole recording", power, floor.mean,
                       std::string(kUnit), std::erfc(std::min(z, 30.0) / std::numbers::sqrt2)});

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
+#include "diagnosis/limits.h"
 #include "identify/data/actuator_inputs.h"
 #include "identify/replay/predicted_readings.h"
 
@@ -12,6 +14,21 @@ namespace navcal::diagnosis {
 
 using identify::kNuisances;
 using identify::RecordedMotion;
+
+double Floor::limit() const { return std::max(mean * kNominalFactor, mean + kNominalScatter_sigma * std); }
+
+Floor floor_of(std::span<const double> of_recordings) {
+  if (of_recordings.empty()) return {};
+  const double n = static_cast<double>(of_recordings.size());
+  const double mean = std::accumulate(of_recordings.begin(), of_recordings.end(), 0.0) / n;
+  double square = 0;
+  for (const double one : of_recordings) square += (one - mean) * (one - mean);
+  return {mean, n > 1 ? std::sqrt(square / (n - 1)) : 0.1 * mean};
+}
+
+double misfit_of(const RecordingFit& fit, double log_evidence) {
+  return -2 * log_evidence / std::max(fit.readings, 1.0);
+}
 
 void NominalBank::add(const RecordingFit& fit, const CauseLibrary& library, const ColumnPriors& priors) {
   const SetEvidence evidence(fit.linear, library, priors);
@@ -30,6 +47,7 @@ void NominalBank::add(const RecordingFit& fit, const CauseLibrary& library, cons
   double square = 0;
   for (const double power : fit.window_power) square += power;
   powers.push_back(square / std::max(fit.readings, 1.0));
+  misfits.push_back(misfit_of(fit, evidence({})));
 }
 
 std::vector<RecordedMotion> simulate_nominal(const config::Layout& layout, const CauseLibrary& library,

@@ -3,11 +3,22 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "diagnosis/cause_search.h"
 
 namespace navcal::diagnosis {
+
+/// Mean and standard deviation of a figure in nominal recordings.
+struct Floor {
+  double mean = 1, std = 0;
+
+  /// Above it, a recording is not like the nominal ones.
+  [[nodiscard]] double limit() const;
+};
+/// 1 +- 0 where there is no recording; a tenth of the mean as the deviation where there is one only.
+[[nodiscard]] Floor floor_of(std::span<const double> of_recordings);
 
 /// What nominal recordings show: the floor of a diagnosis.
 struct NominalBank {
@@ -15,10 +26,15 @@ struct NominalBank {
   std::vector<Eigen::VectorXd> estimates;
   std::vector<std::array<double, identify::kChannels>> channel_powers;
   std::vector<double> powers;  ///< mean square of all whitened residuals
+  /// -2/n of the log evidence of no cause, with n readings: 1 where tolerances and noise explain the recording.
+  std::vector<double> misfits;
 
   [[nodiscard]] std::size_t size() const { return powers.size(); }
   void add(const RecordingFit& fit, const CauseLibrary& library, const ColumnPriors& priors);
 };
+
+/// -2/n of a log evidence in nats, with n readings of the fit.
+[[nodiscard]] double misfit_of(const RecordingFit& fit, double log_evidence);
 
 /// Simulates the recording `count` times with the layout within its tolerances: the recorded positions of the
 /// actuators, the recorded times of the readings, and noise as stated. Every number that is uncertain, every
