@@ -78,7 +78,7 @@ void judge_where(const TrialCase& drawn, const TrialAnswer& answer, TrialJudgeme
            });
   };
   judgement.channel_right = is_first(answer.channels, &TrialSignature::channels);
-  if (!drawn.in_library()) {
+  if (drawn.arm == TrialArm::foreign) {
     judgement.family_right =
         std::any_of(drawn.effects.begin(), drawn.effects.end(), [&](const reference::Effect& effect) {
           const TrialSignature* signature = signature_of(effect.name);

@@ -194,6 +194,10 @@ TEST(GapTrialScore, TheProposalOfAForeignEffectMustFollowItsQuantity) {
     EXPECT_EQ(validation::judged(answered(drawn, answer)).family_right, right);
   }
   EXPECT_EQ(validation::judged(answered(drawn, verdict(validation::TrialVerdict::unknown))).family_right, false);
+  // An effect of the library that the diagnosis has to do without has no such quantity to be held against.
+  const validation::TrialCase removed = made_up_case(validation::TrialArm::removed, {"gyro_scale"});
+  EXPECT_EQ(validation::judged(answered(removed, verdict(validation::TrialVerdict::unknown))).family_right,
+            std::nullopt);
 }
 
 TEST(GapTrialScore, CalibrationErrorIsTheMeanDistanceByBets) {
