@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/described/outputs_port.h"
 
+#include <string>
+
 #include "config/described/description_file.h"
 #include "config/load.h"
 
@@ -57,7 +59,7 @@ field = [
 std::string_view outputs_description() { return kOutputsDescription; }
 
 PortSettings outputs_port() {
-  PortSettings port = default_port("outputs", protocols::Protocol::described, kOutputsBaud);
+  PortSettings port = default_port(std::string(kOutputsPort), protocols::Protocol::described, kOutputsBaud);
   port.device = "actuator-outputs.toml";
   port.description = kOutputsDescription;
   port.described = parse_description(kOutputsDescription, port.device);

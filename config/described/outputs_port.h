@@ -8,6 +8,7 @@
 namespace navcal::config {
 
 /// Of the lines with the outputs to the actuators of a layout.
+inline constexpr std::string_view kOutputsPort = "outputs";
 inline constexpr int kOutputsBaud = 115200;
 inline constexpr double kOutputsLatency_s = 0.005;
 

@@ -60,13 +60,12 @@ std::string protocol_names() {
 /// A capture does not say what a described device sends. The outputs to the actuators of a simulated layout are
 /// known without that.
 config::PortSettings port_of(std::string_view name, protocols::Protocol protocol, int baud) {
-  if (protocol == protocols::Protocol::described) {
-    if (config::PortSettings outputs = config::outputs_port(); name == outputs.name) {
-      outputs.baud = baud;
-      return outputs;
-    }
+  if (protocol != protocols::Protocol::described || name != config::kOutputsPort) {
+    return config::default_port(std::string(name), protocol, baud);
   }
-  return config::default_port(std::string(name), protocol, baud);
+  config::PortSettings outputs = config::outputs_port();
+  outputs.baud = baud;
+  return outputs;
 }
 
 }  // namespace
