@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/log_import.h"
 
-#include <utility>
-
 #include "analysis/log_builder.h"
 #include "record/recording.h"
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <numeric>
 #include <stdexcept>
 
 #include "base/parallel.h"
@@ -141,13 +140,11 @@ class Diagnosing {
   }
 
   void judge() {
-    const double floor =
-        std::accumulate(bank_.powers.begin(), bank_.powers.end(), 0.0) / static_cast<double>(bank_.size());
     const ExplainedWindows itself{0, nominal_.window_power, found_.best.window_power, nominal_.window_readings};
     answer_.gap.held_out = !held_out_.empty();
     answer_.gap.pooled =
         closure_of(held_out_.empty() ? std::span(&itself, 1) : std::span(held_out_.data(), held_out_.size()),
-                   floor, request_.seed);
+                   floor_of(bank_.powers).mean, request_.seed);
     write_verdict({library_, priors_, bank_, found_, held_out_}, answer_);
   }
 

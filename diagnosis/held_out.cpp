@@ -37,7 +37,7 @@ ExplainedWindows held_out(const FittedRecording& recording, const RecordingFit& 
                         SetEvidence(without.linear, library, priors)({});
     windows.after = improved.window_power;
   } catch (const identify::UnboundedReplay&) {
-    // With these effects the vehicle could not have moved as it did.
+    // A vehicle with these effects could not have moved as this one did.
   }
   return windows;
 }

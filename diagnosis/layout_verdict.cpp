@@ -35,7 +35,7 @@ gap::EffectFinding finding_of(const Cause& cause, double probability, const Eige
   return finding;
 }
 
-/// Of each cause: the probability of all sets that it belongs to.
+/// The probability of each cause is that of all sets which it belongs to.
 std::map<std::size_t, double> probabilities_of_causes(const CauseSearchResult& found) {
   std::map<std::size_t, double> probabilities;
   for (const ScoredSet& one : found.sets) {

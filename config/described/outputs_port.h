@@ -7,7 +7,7 @@
 
 namespace navcal::config {
 
-/// Of the lines with the outputs to the actuators of a layout.
+/// Port, speed and latency of the lines that hold the outputs to the actuators of a layout.
 inline constexpr std::string_view kOutputsPort = "outputs";
 inline constexpr int kOutputsBaud = 115200;
 inline constexpr double kOutputsLatency_s = 0.005;
