@@ -10,7 +10,11 @@ option(NAVCAL_FUZZ "build the libFuzzer targets (needs clang)" OFF)
 option(NAVCAL_PRECOMPILE "precompile the large headers of libraries; off in the fuzz build, where a missing include shows" ON)
 option(NAVCAL_UNITY "compile the sources of a room in batches; off in the presets debug and fuzz, where a missing include shows" ON)
 set(NAVCAL_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,undefined")
-# The preset "sanitize" leaves out those of pointers, which doubled the time to build and to run and which the address
+# Rooms that compute are watched by the assertions of Eigen and of the standard library instead: sanitized, they took most of the
+# time of that build, and nothing was found in them that an assertion would not find (docs/building.md). Mixed objects are safe:
+# containers have no annotations here.
+set(NAVCAL_SANITIZED_ROOMS "" CACHE STRING "rooms that are compiled with the sanitizers, with their tests; all if empty")
+# The preset "check" leaves out those of pointers, which doubled the time to build and to run and which the address
 # sanitizer mostly makes again at the access itself; the preset "fuzz" has them all.
 set(NAVCAL_SANITIZE_WITHOUT "" CACHE STRING "checks of theirs to leave out")
 # With sanitizers, optimising takes most of the time of a compilation. Rooms that compute little are tested sooner without it.
@@ -49,20 +53,32 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 if(NAVCAL_SANITIZE)
-  add_compile_options(-fsanitize=${NAVCAL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  set(NAVCAL_SANITIZE_OPTIONS -fsanitize=${NAVCAL_SANITIZE} -fno-sanitize-recover=all)
   if(NAVCAL_SANITIZE_WITHOUT)
-    add_compile_options(-fno-sanitize=${NAVCAL_SANITIZE_WITHOUT})
+    list(APPEND NAVCAL_SANITIZE_OPTIONS -fno-sanitize=${NAVCAL_SANITIZE_WITHOUT})
   endif()
-  add_link_options(-fsanitize=${NAVCAL_SANITIZE})
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     # clang's check of function pointer types does not know Asio's type-erased handlers.
-    add_compile_options(-fno-sanitize=function)
+    list(APPEND NAVCAL_SANITIZE_OPTIONS -fno-sanitize=function)
   endif()
   if(NAVCAL_SANITIZE MATCHES "thread" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Fences of Asio's, which g++ cannot show to the sanitizer.
-    add_compile_options(-Wno-tsan)
+    list(APPEND NAVCAL_SANITIZE_OPTIONS -Wno-tsan)
   endif()
+  add_compile_options(-fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${NAVCAL_SANITIZE})
 endif()
+
+# navcal_add_folder(FOLDER): add_subdirectory of a room or of its tests, compiled as the room is to be: with the sanitizers or
+# without, and unoptimised where that is tested sooner.
+macro(navcal_add_folder folder)
+  get_directory_property(options_of_all COMPILE_OPTIONS)
+  if(NOT NAVCAL_SANITIZED_ROOMS OR ${folder} IN_LIST NAVCAL_SANITIZED_ROOMS)
+    add_compile_options(${NAVCAL_SANITIZE_OPTIONS})
+  endif()
+  add_subdirectory(${folder})
+  set_directory_properties(PROPERTIES COMPILE_OPTIONS "${options_of_all}")
+endmacro()
 
 # Coverage of these libraries too: without it the fuzzer sees nothing of what it feeds.
 set(NAVCAL_FUZZED_ROOMS protocols config instruments calib nav pipeline record link autopilot sim gap report runs daemon web
@@ -116,8 +132,8 @@ function(navcal_precompile target)
   endif()
 endfunction()
 
-# navcal_test(NAME [KIND kind] [TIMEOUT s] SOURCES... USES... [RUNS program...]): one GoogleTest program, every case a ctest of its own. Its sources
-# are compiled in batches, so names in anonymous namespaces must be unique within a program. A room has one program of each kind
+# navcal_test(NAME [KIND kind] [TIMEOUT s] SOURCES... USES... [RUNS program...]): one GoogleTest program, each suite a ctest of its own
+# with that many seconds (300 unless given). Its sources are compiled in batches, so names in anonymous namespaces must be unique within a program. A room has one program of each kind
 # ("functions" unless given): a program of its own costs a batch and a link. RUNS: programs whose paths the test finds in
 # NAVCAL_PROGRAM and NAVCALD.
 function(navcal_test name)
@@ -148,8 +164,13 @@ function(navcal_test name)
     add_dependencies(${name} ${TEST_RUNS})
     target_compile_definitions(${name} PRIVATE NAVCAL_PROGRAM="$<TARGET_FILE:navcal>" NAVCALD="$<TARGET_FILE:navcald>")
   endif()
-  # The bytes of a parameter hold addresses, with which the name of a test would differ from run to run.
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES TIMEOUT ${TEST_TIMEOUT})
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  if(NOT EXISTS ${suites})
+    file(WRITE ${suites} "add_test(${name}_is_not_built false)\n")
+  endif()
+  add_custom_command(TARGET ${name} POST_BUILD VERBATIM COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}> -D OUTPUT=${suites}
+    -D "PROPERTIES=TIMEOUT ${TEST_TIMEOUT} COST ${TEST_TIMEOUT}" -P ${CMAKE_SOURCE_DIR}/cmake/list_suites.cmake)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites})
 endfunction()
 
 # navcal_script_test(NAME [KIND kind] [TIMEOUT s] [LOCK resource] COMMAND... [ENVIRONMENT NAME=value...]): a test that is a script, of
@@ -173,13 +194,4 @@ function(navcal_script_test name)
   if(TEST_ENVIRONMENT)
     set_tests_properties(${name} PROPERTIES ENVIRONMENT "${TEST_ENVIRONMENT}")
   endif()
-endfunction()
-
-# navcal_fuzz(NAME SOURCES... USES...): one libFuzzer program.
-function(navcal_fuzz name)
-  cmake_parse_arguments(FUZZ "" "" "SOURCES;USES" ${ARGN})
-  add_executable(${name} ${FUZZ_SOURCES})
-  target_link_libraries(${name} PRIVATE ${FUZZ_USES})
-  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
-  target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
 endfunction()

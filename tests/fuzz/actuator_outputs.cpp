@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as lines to the outputs of a layout: pulses that can be, or nothing.
 #include "sim/instruments/actuator_outputs.h"
+#include "tests/fuzz/target.h"
 
 #include <cstdint>
 #include <cstdlib>
 
-namespace {
+namespace navcal::fuzz::actuator_outputs {
 
 class AtRest final : public navcal::sim::Motion {
  public:
   [[nodiscard]] navcal::sim::State at(std::int64_t) const override { return {}; }
 };
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(actuator_outputs) {
   using namespace navcal::sim;
   const AtRest motion;
   ActuatorOutputs device(motion, [](std::int64_t, const auto& pulses_us) {
@@ -27,3 +26,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   device.on_bytes(0, {data, size});
   return 0;
 }
+
+}  // namespace navcal::fuzz::actuator_outputs

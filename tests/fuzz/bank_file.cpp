@@ -8,9 +8,10 @@
 
 #include "gap/replay/regimes.h"
 #include "tests/fuzz/source.h"
+#include "tests/fuzz/target.h"
 #include "tests/gap/nulls/made_up_bank.h"
 
-namespace {
+namespace navcal::fuzz::bank_file {
 
 using namespace navcal::gap;
 
@@ -38,9 +39,7 @@ void use(const NullBank& bank) {
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(bank_file) {
   static const std::string kGood = good_text();
   if (const auto kept = read_bank({reinterpret_cast<const char*>(data), size}, "model", kUnknowns))
     use(kept->bank);
@@ -53,3 +52,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto kept = read_bank(text, "model", kUnknowns)) use(kept->bank);
   return 0;
 }
+
+}  // namespace navcal::fuzz::bank_file

@@ -5,8 +5,9 @@
 #include <string>
 
 #include "tests/fuzz/calib_readings.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::calibration_state {
 
 using namespace navcal::calib;
 
@@ -36,9 +37,7 @@ std::string saved_state() {
   return archive.bytes();
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(calibration_state) {
   static const std::string kGood = saved_state();
   fuzz::Source source({data, size});
   std::string state = kGood;
@@ -58,3 +57,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(suite.report());
   return 0;
 }
+
+}  // namespace navcal::fuzz::calibration_state

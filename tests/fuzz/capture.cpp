@@ -5,9 +5,13 @@
 
 #include "record/capture/capture_reader.h"
 #include "record/capture/capture_writer.h"
+#include "tests/fuzz/target.h"
 
 // Whatever the reader accepts, the writer writes so that it reads the same again.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+
+namespace navcal::fuzz::capture {
+
+NAVCAL_FUZZ(capture) {
   using namespace navcal::record;
   try {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
@@ -26,3 +30,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::capture

@@ -6,9 +6,12 @@
 #include <string_view>
 
 #include "tests/web/foxglove_link.h"
+#include "tests/fuzz/target.h"
 #include "web/control_peer.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::control_admission {
+
+NAVCAL_FUZZ(control_admission) {
   using namespace navcal::web;
   static const Access access("the token that nobody guesses");
   boost::asio::io_context context;
@@ -21,3 +24,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (nlohmann::json::parse(*link.sent[0].bytes).at("ok") != false) std::abort();
   return 0;
 }
+
+}  // namespace navcal::fuzz::control_admission

@@ -11,8 +11,9 @@
 #include "daemon/log_answers.h"
 #include "protocols/motor_card.h"
 #include "record/log/log_shelf.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::control_line {
 
 /// An order within the limits makes a line that the card reads as it was meant.
 void check_order(const navcal::daemon::ControlRequest& request) {
@@ -43,9 +44,7 @@ void check_download(const navcal::daemon::ControlRequest& request) {
   if (answer.find("\"ok\":false") == std::string::npos || !nlohmann::json::accept(answer)) std::abort();
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(control_line) {
   using namespace navcal::daemon;
   const std::string_view line(reinterpret_cast<const char*>(data), size);
   const auto parsed = parse_control(line);
@@ -61,3 +60,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (echoed.find('\n') != echoed.size() - 1 || !nlohmann::json::accept(echoed)) std::abort();
   return 0;
 }
+
+}  // namespace navcal::fuzz::control_line

@@ -2,9 +2,10 @@
 // Any bytes from described devices of each form, and frames of any content among them.
 #include "protocols/described/reading.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 #include "tests/protocols/described_samples.h"
 
-namespace {
+namespace navcal::fuzz::described {
 
 using navcal::protocols::Bytes;
 using navcal::protocols::Frame;
@@ -25,9 +26,7 @@ void check(const described::Description& device, Bytes input) {
       input, [&](const Frame& frame) { read_frame(device, frame); }, described::test::scanner_of(device));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(described) {
   if (size < 2) return 0;
   const auto devices = described::test::all_devices();
   const auto& device = devices[data[0] % devices.size()].description;
@@ -43,3 +42,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check(device, mixed);
   return 0;
 }
+
+}  // namespace navcal::fuzz::described

@@ -8,8 +8,11 @@
 #include "protocols/described/encode.h"
 #include "protocols/described/reading.h"
 #include "protocols/described/scanner.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::description {
+
+NAVCAL_FUZZ(description) {
   using namespace navcal;
   std::vector<config::Problem> problems;
   const auto device = config::read_description({reinterpret_cast<const char*>(data), size}, problems);
@@ -32,3 +35,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (counters.bytes != counters.framed_bytes + counters.skipped_bytes) std::abort();
   return 0;
 }
+
+}  // namespace navcal::fuzz::description

@@ -8,8 +8,11 @@
 #include "sim/effects/document.h"
 #include "sim/layout/effects/layout_effects.h"
 #include "sim/layout/layout_of.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::effects {
+
+NAVCAL_FUZZ(effects) {
   using namespace navcal::sim;
   EffectSet set;
   std::vector<navcal::config::Problem> problems;
@@ -35,3 +38,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::effects

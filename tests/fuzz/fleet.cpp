@@ -8,8 +8,11 @@
 #include "analysis/failure.h"
 #include "fleet/merge_tables.h"
 #include "fleet/slurm.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::fleet {
+
+NAVCAL_FUZZ(fleet) {
   using namespace navcal::fleet;
   const std::string text(reinterpret_cast<const char*>(data), size);
   for (const QueuedArray& array : arrays_in(text, "navcal-a-")) {
@@ -40,3 +43,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::fleet

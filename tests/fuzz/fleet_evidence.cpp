@@ -8,8 +8,11 @@
 #include <string_view>
 
 #include "fleet/causes/information_json.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::fleet_evidence {
+
+NAVCAL_FUZZ(fleet_evidence) {
   const auto json = nlohmann::ordered_json::parse(data, data + size, nullptr, false);
   if (!json.is_object()) return 0;
   try {
@@ -20,3 +23,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::fleet_evidence

@@ -7,9 +7,10 @@
 #include <string_view>
 
 #include "tests/web/foxglove_link.h"
+#include "tests/fuzz/target.h"
 #include "web/foxglove/peer.h"
 
-namespace {
+namespace navcal::fuzz::foxglove_client {
 
 using navcal::web::foxglove::FakeLink;
 
@@ -36,9 +37,7 @@ void check_answers(FakeLink& link, std::set<std::uint32_t>& channels) {
   link.sent.clear();
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(foxglove_client) {
   using namespace navcal::web;
   std::string_view text(reinterpret_cast<const char*>(data), size);
   Hub hub;
@@ -71,3 +70,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::foxglove_client

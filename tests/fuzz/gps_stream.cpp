@@ -2,8 +2,11 @@
 #include "protocols/gps_stream.h"
 
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::gps_stream {
+
+NAVCAL_FUZZ(gps_stream) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<GpsStreamScanner>({data, size}, [](const Frame& frame) {
     const bool binary = frame.bytes[0] == '@';
@@ -12,3 +15,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+}  // namespace navcal::fuzz::gps_stream

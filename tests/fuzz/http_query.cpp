@@ -5,9 +5,12 @@
 #include <string>
 
 #include "web/access.h"
+#include "tests/fuzz/target.h"
 #include "web/http.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::http_query {
+
+NAVCAL_FUZZ(http_query) {
   using namespace navcal::web;
   const std::string target(reinterpret_cast<const char*>(data), size);
   const auto path = path_of(target);
@@ -22,3 +25,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!access.refusal(target) && target.find("0123456789abcdef") == std::string::npos) std::abort();
   return 0;
 }
+
+}  // namespace navcal::fuzz::http_query

@@ -4,8 +4,11 @@
 #include "config/error.h"
 #include "record/recording.h"
 #include "tests/fuzz/import_sink.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::import_csv {
+
+NAVCAL_FUZZ(import_csv) {
   const std::string_view all(reinterpret_cast<const char*>(data), size);
   const std::size_t zero = std::min(all.find('\0'), all.size());
   const std::string_view file = all.substr(std::min(zero + 1, all.size()));
@@ -18,3 +21,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::import_csv

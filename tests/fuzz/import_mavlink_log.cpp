@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/import/mavlink_log.h"
 #include "tests/fuzz/import_sink.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::import_mavlink_log {
+
+NAVCAL_FUZZ(import_mavlink_log) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
   static_cast<void>(navcal::analysis::is_mavlink_log(file));
   navcal::fuzz::CheckingSink sink;
   navcal::fuzz::require_within(navcal::analysis::read_mavlink_log(file, sink), size);
   return 0;
 }
+
+}  // namespace navcal::fuzz::import_mavlink_log

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/import/ulog.h"
 #include "tests/fuzz/import_sink.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::import_ulog {
+
+NAVCAL_FUZZ(import_ulog) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
   static_cast<void>(navcal::analysis::is_ulog(file));
   navcal::fuzz::CheckingSink sink;
   navcal::fuzz::require_within(navcal::analysis::read_ulog(file, sink), size);
   return 0;
 }
+
+}  // namespace navcal::fuzz::import_ulog

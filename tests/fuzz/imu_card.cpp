@@ -3,8 +3,11 @@
 #include "protocols/imu_card.h"
 
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::imu_card {
+
+NAVCAL_FUZZ(imu_card) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<imu_card::Scanner>({data, size}, [](const Frame& frame) {
     const auto record = imu_card::decode_record(frame.bytes);
@@ -25,3 +28,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   navcal::fuzz::check_stream<imu_card::Scanner>(mixed, [](const Frame&) {});
   return 0;
 }
+
+}  // namespace navcal::fuzz::imu_card

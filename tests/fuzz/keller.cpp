@@ -3,8 +3,9 @@
 #include "protocols/keller.h"
 
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::keller {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -14,11 +15,11 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(keller::requested_channel(frame.bytes));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(keller) {
   navcal::fuzz::check_stream<navcal::protocols::keller::Scanner>({data, size}, decode);
   // Any bytes, as if their checksum held.
   decode({{}, 0, {data, size}});
   return 0;
 }
+
+}  // namespace navcal::fuzz::keller

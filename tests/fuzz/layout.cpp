@@ -7,8 +7,11 @@
 
 #include "config/layout/layout_file.h"
 #include "sim/layout/layout_vehicle.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::layout {
+
+NAVCAL_FUZZ(layout) {
   using namespace navcal;
   std::vector<config::Problem> problems;
   const auto layout = config::read_layout({reinterpret_cast<const char*>(data), size}, problems);
@@ -24,3 +27,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)vehicle.step({}, sim::follow(layout, positions, positions, 0.01), 0.01);
   return 0;
 }
+
+}  // namespace navcal::fuzz::layout

@@ -3,8 +3,9 @@
 #include "link/host.h"
 #include "link/vehicle.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::link {
 
 using namespace navcal::link;
 
@@ -62,9 +63,7 @@ void check_session(const std::uint8_t* data, std::size_t size) {
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(link) {
   navcal::fuzz::check_stream<Scanner>({data, size}, [](const navcal::protocols::Frame& frame) {
     navcal::fuzz::require(view_frame(frame.bytes).has_value());
   });
@@ -72,3 +71,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > 2) check_session(data, size);
   return 0;
 }
+
+}  // namespace navcal::fuzz::link

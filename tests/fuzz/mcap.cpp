@@ -6,8 +6,9 @@
 #include "record/log/log_encoder.h"
 #include "record/log/log_reader.h"
 #include "record/log/log_recording.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::mcap {
 
 using namespace navcal;
 
@@ -24,10 +25,10 @@ std::string small_log() {
   return out;
 }
 
-}  // namespace
 
 // The first byte chooses: the bytes as a file, or behind a whole log, or as changes to one.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+
+NAVCAL_FUZZ(mcap) {
   static const std::string kLog = small_log();
   if (size == 0) return 0;
   const std::string_view input(reinterpret_cast<const char*>(data) + 1, size - 1);
@@ -56,3 +57,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::mcap

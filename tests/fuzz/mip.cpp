@@ -3,8 +3,11 @@
 #include "protocols/mip.h"
 
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::mip {
+
+NAVCAL_FUZZ(mip) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<mip::Scanner>(
       {data, size}, [](const Frame& frame) { static_cast<void>(mip::decode(frame.bytes)); });
@@ -16,3 +19,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::mip

@@ -9,8 +9,11 @@
 #include "config/mission_limits.h"
 #include "config/mission_text.h"
 #include "config/vehicle_file.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::mission {
+
+NAVCAL_FUZZ(mission) {
   using namespace navcal::config;
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   try {
@@ -39,3 +42,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::mission

@@ -4,8 +4,9 @@
 
 #include "protocols/checked_line.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::motor_card {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -15,9 +16,7 @@ void decode(const navcal::protocols::Frame& frame) {
   navcal::fuzz::require(!command || frame.id == motor_card::kMcc);
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(motor_card) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<motor_card::Scanner>({data, size}, decode);
   // A line with a valid checksum and arbitrary fields.
@@ -27,3 +26,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(motor_card::decode_command(line));
   return 0;
 }
+
+}  // namespace navcal::fuzz::motor_card

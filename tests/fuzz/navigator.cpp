@@ -6,8 +6,9 @@
 #include <cstdlib>
 
 #include "tests/fuzz/source.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::navigator {
 
 using namespace navcal::nav;
 using navcal::fuzz::Source;
@@ -27,9 +28,7 @@ void check(const Estimate& e) {
   require((e.position_std_m.array() >= 0).all() && e.position_std_m.allFinite());
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(navigator) {
   Source source({data, size});
   Navigator navigator({});
   std::int64_t time_ns = 0;
@@ -69,3 +68,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::navigator

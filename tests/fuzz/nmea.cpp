@@ -6,8 +6,9 @@
 #include "protocols/nmea_attitude.h"
 #include "protocols/nmea_position.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::nmea {
 
 namespace nmea = navcal::protocols::nmea;
 
@@ -42,12 +43,12 @@ void decode_everything(navcal::protocols::Bytes frame) {
   static_cast<void>(nmea::decode_depth(sentence, nmea::Type::dpt));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(nmea) {
   navcal::fuzz::check_stream<nmea::Scanner>({data, size},
                                             [](const auto& frame) { decode_everything(frame.bytes); });
   // Checksums are hard to guess: the same text again as the body of a sentence.
   if (size > 0 && size < nmea::kMaxLength) decode_everything({data, size});
   return 0;
 }
+
+}  // namespace navcal::fuzz::nmea

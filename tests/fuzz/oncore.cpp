@@ -5,8 +5,9 @@
 #include "protocols/oncore_messages.h"
 #include "protocols/oncore_position.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::oncore {
 
 namespace oncore = navcal::protocols::oncore;
 using navcal::protocols::Bytes;
@@ -25,9 +26,7 @@ void decode_everything(Bytes bytes) {
     static_cast<void>(oncore::identification_value(*text, "MODEL #"));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(oncore) {
   const Bytes input(data, size);
   navcal::fuzz::check_stream<oncore::Scanner>(input, [](const auto& frame) { decode_everything(frame.bytes); });
   navcal::fuzz::check_stream<oncore::CommandScanner>(
@@ -36,3 +35,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(oncore::parse_command(input));
   return 0;
 }
+
+}  // namespace navcal::fuzz::oncore

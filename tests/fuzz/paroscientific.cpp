@@ -3,8 +3,9 @@
 #include "protocols/paroscientific.h"
 
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::paroscientific {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -13,9 +14,9 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(paroscientific::parameter_of(frame.bytes));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(paroscientific) {
   navcal::fuzz::check_stream<navcal::protocols::paroscientific::Scanner>({data, size}, decode);
   return 0;
 }
+
+}  // namespace navcal::fuzz::paroscientific

@@ -3,8 +3,11 @@
 #include "protocols/pd0.h"
 
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::pd0 {
+
+NAVCAL_FUZZ(pd0) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<pd0::Scanner>(
       {data, size}, [](const Frame& frame) { static_cast<void>(pd0::decode(frame.bytes)); });
@@ -12,3 +15,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(pd0::decode({data, size}));
   return 0;
 }
+
+}  // namespace navcal::fuzz::pd0

@@ -3,8 +3,9 @@
 #include "protocols/pd6.h"
 
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::pd6 {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -14,11 +15,11 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(pd6::decode_timing(frame.bytes));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(pd6) {
   navcal::fuzz::check_stream<navcal::protocols::pd6::Scanner>({data, size}, decode);
   // Any fields, as if their checksum held.
   decode({{}, 0, {data, size}});
   return 0;
 }
+
+}  // namespace navcal::fuzz::pd6

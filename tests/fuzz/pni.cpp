@@ -2,8 +2,9 @@
 // Any bytes from a TRAX compass or to it.
 #include "protocols/trax.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::pni {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -13,9 +14,7 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(trax::decode_start_calibration(frame.bytes));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(pni) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<trax::Scanner>({data, size}, decode);
   if (size <= trax::Scanner::kMaxFrameLength - trax::kOverhead) {
@@ -23,3 +22,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::pni

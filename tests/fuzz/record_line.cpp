@@ -8,8 +8,11 @@
 #include <string>
 
 #include "web/record.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::record_line {
+
+NAVCAL_FUZZ(record_line) {
   using namespace navcal::web;
   // Half of the inputs get the head that a record needs, so that the fuzzer finds the rest of it.
   std::string line(reinterpret_cast<const char*>(data), size);
@@ -33,3 +36,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   return 0;
 }
+
+}  // namespace navcal::fuzz::record_line

@@ -8,8 +8,11 @@
 
 #include "base/line_reader.h"
 #include "daemon/request.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::request_line {
+
+NAVCAL_FUZZ(request_line) {
   using namespace navcal::daemon;
   if (size == 0) return 0;
   const std::size_t step = 1 + data[0] % 64;
@@ -34,3 +37,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::request_line

@@ -8,8 +8,11 @@
 #include <string_view>
 
 #include "runs/response.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::run {
+
+NAVCAL_FUZZ(run) {
   using namespace navcal::runs;
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   try {
@@ -25,3 +28,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::run

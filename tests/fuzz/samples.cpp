@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/samples_line.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::samples {
 
 namespace samples_line = navcal::protocols::samples_line;
 
@@ -25,11 +26,11 @@ void read_everything(navcal::protocols::Bytes line) {
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(samples) {
   navcal::fuzz::check_stream<samples_line::Scanner>({data, size},
                                                     [](const auto& frame) { read_everything(frame.bytes); });
   if (size > 0 && size < samples_line::kMaxLength) read_everything({data, size});
   return 0;
 }
+
+}  // namespace navcal::fuzz::samples

@@ -11,9 +11,10 @@
 #include "report/gap_json.h"
 #include "report/simulators/simulator_file.h"
 #include "tests/fuzz/source.h"
+#include "tests/fuzz/target.h"
 #include "tests/report/gap_samples.h"
 
-namespace {
+namespace navcal::fuzz::saved_diagnosis {
 
 using namespace navcal::report;
 
@@ -37,9 +38,7 @@ void use(std::string_view json) {
   if (!simulator_file(Simulator::stonefish, model).text.ends_with("</scenario>\n")) std::abort();
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(saved_diagnosis) {
   static const std::string kGood = gap_json(navcal::cli::test::explained_gap());
   use({reinterpret_cast<const char*>(data), size});
   navcal::fuzz::Source source({data, size});
@@ -49,3 +48,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   use(text);
   return 0;
 }
+
+}  // namespace navcal::fuzz::saved_diagnosis

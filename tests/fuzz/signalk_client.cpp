@@ -7,8 +7,11 @@
 #include <string_view>
 
 #include "web/outlets/signalk_subscription.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::signalk_client {
+
+NAVCAL_FUZZ(signalk_client) {
   using navcal::web::SignalKSubscriptions;
   SignalKSubscriptions subscriptions("vessels.urn:mrn:imo:mmsi:230012345");
   SignalKSubscriptions::Clock::time_point now(std::chrono::hours(1));
@@ -28,3 +31,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::signalk_client

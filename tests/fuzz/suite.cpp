@@ -3,8 +3,11 @@
 #include <cstdlib>
 
 #include "tests/fuzz/calib_readings.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::suite {
+
+NAVCAL_FUZZ(suite) {
   using namespace navcal::calib;
   fuzz::Source source({data, size});
   Suite suite({}, {true, true, true, true, true});
@@ -14,3 +17,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::check(suite);
   return 0;
 }
+
+}  // namespace navcal::fuzz::suite

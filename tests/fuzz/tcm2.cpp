@@ -7,8 +7,11 @@
 #include "protocols/checked_line.h"
 #include "protocols/tcm2_commands.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::tcm2 {
+
+NAVCAL_FUZZ(tcm2) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<tcm2::Scanner>({data, size}, [](const Frame& frame) {
     if (frame.id == tcm2::kReply) {
@@ -39,3 +42,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::tcm2

@@ -6,8 +6,11 @@
 #include <string_view>
 
 #include "config/load.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::toml {
+
+NAVCAL_FUZZ(toml) {
   using namespace navcal::config;
   // The first byte says how much of the input is a --set.
   const std::string_view input(reinterpret_cast<const char*>(data), size);
@@ -23,3 +26,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::toml

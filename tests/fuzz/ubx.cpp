@@ -6,8 +6,9 @@
 #include "protocols/ubx_navigation.h"
 #include "protocols/ubx_receiver.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::ubx {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -24,9 +25,7 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(ubx::decode_tim_tp(frame.bytes));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(ubx) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<ubx::PortScanner>({data, size}, decode);
   // Messages with a valid checksum and an arbitrary payload.
@@ -39,3 +38,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace navcal::fuzz::ubx

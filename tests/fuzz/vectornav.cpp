@@ -5,8 +5,11 @@
 #include "protocols/checked_line.h"
 #include "protocols/vectornav_lines.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::vectornav {
+
+NAVCAL_FUZZ(vectornav) {
   using namespace navcal::protocols;
   navcal::fuzz::check_stream<vectornav::Scanner>({data, size}, [](const Frame& frame) {
     static_cast<void>(vectornav::decode_binary(frame.bytes));
@@ -18,3 +21,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(vectornav::decode_line(checked_line(body)));
   return 0;
 }
+
+}  // namespace navcal::fuzz::vectornav

@@ -7,8 +7,11 @@
 #include <string>
 
 #include "gap/watch/live_records.h"
+#include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace navcal::fuzz::watch_line {
+
+NAVCAL_FUZZ(watch_line) {
   using namespace navcal::gap;
   // Most inputs get the head that a record needs, so that the fuzzer finds the rest of it.
   std::string text(reinterpret_cast<const char*>(data), size);
@@ -25,3 +28,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto& field = records.field(); field && !(std::abs(field->north_east_down_uT[2]) < 100)) std::abort();
   return 0;
 }
+
+}  // namespace navcal::fuzz::watch_line

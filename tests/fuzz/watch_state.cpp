@@ -9,8 +9,9 @@
 #include "gap/watch/state_file.h"
 #include "gap/watch/window.h"
 #include "tests/fuzz/source.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::watch_state {
 
 using namespace navcal::gap;
 
@@ -51,9 +52,7 @@ void use(const Library& library, const Watch::State& state) {
   if (!read_state(state_text(again, "model"), "model")) std::abort();
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(watch_state) {
   static const Library kLibrary({});
   static const std::string kGood = good_text(kLibrary);
   if (const auto state = read_state({reinterpret_cast<const char*>(data), size}, "model")) use(kLibrary, *state);
@@ -66,3 +65,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto state = read_state(text, "model")) use(kLibrary, *state);
   return 0;
 }
+
+}  // namespace navcal::fuzz::watch_state

@@ -2,8 +2,9 @@
 // Any bytes from a Doppler log that sends text.
 #include "protocols/water_linked.h"
 #include "tests/fuzz/stream_invariants.h"
+#include "tests/fuzz/target.h"
 
-namespace {
+namespace navcal::fuzz::waterlinked {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -12,11 +13,11 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(water_linked::decode_position(frame.bytes));
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(waterlinked) {
   navcal::fuzz::check_stream<navcal::protocols::water_linked::Scanner>({data, size}, decode);
   // Any fields, as if their checksum held.
   decode({{}, 0, {data, size}});
   return 0;
 }
+
+}  // namespace navcal::fuzz::waterlinked

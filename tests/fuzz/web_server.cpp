@@ -14,11 +14,12 @@
 #include <string_view>
 
 #include "web/access.h"
+#include "tests/fuzz/target.h"
 #include "web/listener.h"
 #include "web/server.h"
 #include "web/site.h"
 
-namespace {
+namespace navcal::fuzz::web_server {
 
 namespace asio = boost::asio;
 using namespace navcal::web;
@@ -82,9 +83,7 @@ struct Fixture {
   }
 };
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVCAL_FUZZ(web_server) {
   static auto& fixture = *new Fixture;
   if (size == 0) return 0;
   static_cast<void>(::signal(SIGPIPE, SIG_IGN));
@@ -95,3 +94,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (fixture.server->counters().web_sockets_open > 0) std::abort();
   return 0;
 }
+
+}  // namespace navcal::fuzz::web_server
