@@ -4,19 +4,18 @@
 #include <unistd.h>
 
 #include <array>
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/this_coro.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <chrono>
 #include <string>
+
+#include "ports/no_throw.h"
 
 namespace navcal::cli {
 namespace {
 
 namespace asio = boost::asio;
-constexpr auto kWait = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kLongestLine = 1024;
 
 bool in_the_background(int fd) { return ::isatty(fd) != 0 && ::tcgetpgrp(fd) != ::getpgrp(); }
@@ -31,11 +30,11 @@ asio::awaitable<void> read_lines(int fd, std::function<void(std::string_view)> o
   input.assign(::dup(fd), error);
   std::string held;
   while (!error) {
-    const auto [failed] = co_await input.async_wait(asio::posix::stream_descriptor::wait_read, kWait);
+    const auto [failed] = co_await input.async_wait(asio::posix::stream_descriptor::wait_read, ports::kNoThrow);
     if (failed) break;
     if (in_the_background(fd)) {
       timer.expires_after(std::chrono::seconds(1));
-      co_await timer.async_wait(kWait);
+      co_await timer.async_wait(ports::kNoThrow);
       continue;
     }
     // Read after the wait, not by Asio, which would make the shell's own descriptor non-blocking.

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian 12 packages; tools/dependencies.txt names them for installation.
+# Packages of Debian 12 and 13; tools/dependencies.txt names them for installation.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
-find_package(Boost 1.81 REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+if(Boost_VERSION VERSION_LESS 1.81)
+  # Asio of Boost 1.74 (Debian 12) does not include <utility>, which it needs, and takes clang for a compiler without coroutines.
+  add_compile_options("SHELL:-include utility")
+  add_compile_definitions(BOOST_ASIO_HAS_CO_AWAIT BOOST_ASIO_HAS_STD_COROUTINE)
+endif()
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
