@@ -16,7 +16,10 @@ inline constexpr std::size_t kStreams = 4;
 
 /// A reading of any instrument; the alternatives are in the order of Stream.
 using Reading = std::variant<CompassReading, RateReading, GroundReading, MotorReading>;
-[[nodiscard]] inline Stream stream_of(const Reading& reading) { return static_cast<Stream>(reading.index()); }
+[[nodiscard]] inline Stream stream_of(const Reading& reading) {
+  if (reading.valueless_by_exception()) throw std::bad_variant_access();  // as std::visit does
+  return static_cast<Stream>(reading.index());
+}
 [[nodiscard]] double time_of(const Reading& reading);
 void set_time(Reading& reading, double time_s);
 
