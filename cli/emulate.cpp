@@ -13,6 +13,7 @@
 #include "analysis/emulate_session.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
+#include "cli/effect_options.h"
 #include "cli/emulate_console.h"
 #include "cli/emulate_input.h"
 #include "cli/place_options.h"
@@ -109,13 +110,8 @@ void add_vehicle(CLI::App* command, analysis::EmulateArguments& arguments) {
       ->option_text("FILE.csv");
 }
 
-void add_effects(CLI::App* command, analysis::EmulateArguments& arguments) {
-  command
-      ->add_option("--effect", arguments.effects,
-                   "departure from the nominal model, in typical strengths, as in simulate; repeatable")
-      ->option_text("NAME=STRENGTH");
-  command->add_option("--effects", arguments.effects_file, "departures with exact parameters, as in simulate")
-      ->option_text("FILE.toml");
+void add_departures(CLI::App* command, analysis::EmulateArguments& arguments) {
+  add_effect_options(command, arguments.effects, arguments.effects_file);
   command
       ->add_option("--config", arguments.config,
                    "a configuration of navcald: noise, lag, latency, rate, scales and mounting of the instruments")
@@ -173,7 +169,7 @@ void add_emulate(CLI::App& app) {
                    "an autopiloted mission, repeated at its end: " + mission_names() + ", or a TOML file")
       ->excludes(command->get_option("--path"));
   add_vehicle(command, *arguments);
-  add_effects(command, *arguments);
+  add_departures(command, *arguments);
   command->add_option("--seconds", arguments->seconds, "stop after this time; 0: never")
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--seed", arguments->seed, "seed of all noise and biases")->capture_default_str();

@@ -273,8 +273,7 @@ void add_gap_watch(CLI::App& gap) {
   command->add_option("--port", options->port, "its status port")
       ->check(CLI::Range(1, 65535))
       ->capture_default_str();
-  command
-      ->add_option("--vehicle", options->vehicle, "the identified vehicle (navcal vehicle prints the usual one)")
+  command->add_option("--vehicle", options->vehicle, "the identified vehicle; default: the reference vehicle")
       ->option_text("FILE.toml");
   command->add_option("--config", options->config, "configuration of navcald, for the noise of its instruments")
       ->option_text("FILE.toml");
@@ -295,7 +294,7 @@ void add_gap_watch(CLI::App& gap) {
       ->check(CLI::Range(0.0, 1440.0))
       ->capture_default_str();
   const auto* const bank = "Null bank: simulated nominal missions, which show what is no gap";
-  command->add_option("--bank", options->bank_missions, "so many")
+  command->add_option("--bank", options->bank_missions, "number of null missions")
       ->check(CLI::Range(12, 10'000))
       ->capture_default_str()
       ->group(bank);
@@ -304,7 +303,13 @@ void add_gap_watch(CLI::App& gap) {
       ->group(bank);
   command->add_option("--seconds", options->seconds, "end after this time (0: at Ctrl-C)")
       ->check(CLI::NonNegativeNumber);
-  command->footer("Example: navcal gap watch --vehicle vehicle.toml --config /etc/navcal/navcald.toml");
+  command->footer(
+      "Prints one JSON object a line: began, then alarm, cause, unknown, skipped or status (docs/gap-watch.md). "
+      "The "
+      "null\nmissions take a minute before the first line, once for each vehicle. To try it without a vehicle:\n"
+      "  navcal simulate --mission survey --effect gyro_scale=1 -o a.cap\n"
+      "  navcal gap watch --recording a.cap\n\n"
+      "Example: navcal gap watch --vehicle vehicle.toml --config /etc/navcal/navcald.toml");
   command->callback([options] { with_exit_statuses([&] { watch_gap(*options); }); });
 }
 

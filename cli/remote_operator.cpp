@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/remote_operator.h"
 
+#include <fmt/format.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -100,11 +101,18 @@ void RemoteOperator::watch_sessions() {
 }
 
 void RemoteOperator::wait_for_session(double limit_s) {
-  std::string why = "the vehicle does not answer";
+  std::string why = fmt::format("the vehicle did not answer within {:g} s (--wait)", limit_s);
   const auto notice = std::exchange(on_notice, [&](std::string_view words) { why = words; });
   const auto until = remote_deadline(limit_s);
-  while (!host_.has_session() && Clock::now() < until && !base::Interruptible::interrupted()) work(until);
+  // A refusal that was on its way to an attempt with another key is passed over.
+  const auto lacks_the_key = [&] {
+    return options_.key_file.empty() ? told_ == link::Refusal::untagged
+                                     : told_ == link::Refusal::bad_tag || told_ == link::Refusal::no_key;
+  };
+  while (!host_.has_session() && Clock::now() < until && !base::Interruptible::interrupted() && !lacks_the_key())
+    work(until);
   on_notice = notice;
+  if (lacks_the_key() && options_.key_file.empty()) why += ": give it by --key-file FILE";
   if (!host_.has_session()) throw std::runtime_error(base::Interruptible::interrupted() ? "interrupted" : why);
 }
 

@@ -14,6 +14,7 @@
 #include "base/interruptible.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
+#include "cli/effect_options.h"
 #include "cli/place_options.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -114,17 +115,7 @@ void add_simulate(CLI::App& app) {
       ->option_text("FILE.toml");
   command->add_option("--seconds", arguments.seconds, "duration; default: to the end of path or mission")
       ->check(CLI::Range(0.01, 1e6));
-  command
-      ->add_option("--effect", arguments.effects,
-                   "departure from the nominal model, in typical strengths; its direction comes from the seed; "
-                   "repeatable.\n"
-                   "Of a part of a layout: thrust_scale@thruster.2=1")
-      ->option_text("NAME[@OF]=STRENGTH");
-  command
-      ->add_option(
-          "--effects", arguments.effects_file,
-          "departures with exact parameters: one table [NAME] for each, which may have from_s and until_s")
-      ->option_text("FILE.toml");
+  add_effect_options(command, arguments.effects, arguments.effects_file);
   add_clock_option(command, arguments.clocks);
   add_place_and_field(command, arguments.where);
   command->add_option("--date", arguments.where.date, "day on which the mission begins, at 00:00 UTC")

@@ -35,7 +35,12 @@ ImportFindings read_with_channels(std::string_view file, const ImportOptions& op
 }
 
 ImportFindings read_mapped(std::string_view file, const ImportOptions& options, ImportSink& sink) {
-  if (options.map.empty()) throw record::BadRecording("a CSV file needs a map of its columns (--map)");
+  if (options.map.empty())
+    throw record::BadRecording(
+        "a CSV file needs a map of its columns: --map FILE.toml. One for the columns t and z:\n\n"
+        "  [time]\n  column = \"t\"\n  format = \"unix_s\"\n\n"
+        "  [column.z]\n  meaning = \"depth\"\n  unit = \"m\"\n\n"
+        "docs/import.md has all meanings and units");
   return read_csv(file, config::load_csv_map(options.map), sink);
 }
 

@@ -163,11 +163,16 @@ class Writing final : public ImportPass {
   record::RawRead read_;
 };
 
+/// A table without a map: to be refused with words about the map.
+bool has_name_of_csv(const std::filesystem::path& input) {
+  return input.extension() == ".csv" || input.extension() == ".CSV";
+}
+
 const ImportFormat& format_of(const std::filesystem::path& input, std::string_view bytes,
                               const ImportOptions& options) {
   const ImportFormat* format = options.format.empty() ? import_format_of(bytes.substr(0, kHead_bytes))
                                                       : import_format_named(options.format);
-  if (format == nullptr && options.format.empty() && !options.map.empty())
+  if (format == nullptr && options.format.empty() && (!options.map.empty() || has_name_of_csv(input)))
     format = import_format_named(kCsvFormat);
   if (format != nullptr) return *format;
   std::string names;
@@ -210,7 +215,7 @@ pipeline::UtcMapping mapping_of(const ImportFindings& findings, const Survey& su
 }  // namespace
 
 bool is_foreign_log(const std::filesystem::path& input, const ImportOptions& options) {
-  if (!options.format.empty() || !options.map.empty()) return true;
+  if (!options.format.empty() || !options.map.empty() || has_name_of_csv(input)) return true;
   const MappedFile file(input);
   return import_format_of(file.bytes().substr(0, kHead_bytes)) != nullptr;
 }

@@ -82,6 +82,10 @@ TEST_F(LogImport, WhatCannotBeReadIsSaidAndNothingIsWritten) {
   EXPECT_NE(outcome.message.find("without any message that can be taken"), std::string::npos) << outcome.message;
   EXPECT_EQ(run({"import", "--format", "floppy", "-o", to("b.mcap"), nothing}).status, 2);
   EXPECT_EQ(run({"import", "--format", "csv", "-o", to("b.mcap"), nothing}).status, 3) << "it needs a map";
+  const auto table = run({"import", "-o", to("b.mcap"), write("t.csv", "t,z\n0,1\n").string()});
+  EXPECT_EQ(table.status, 3);
+  EXPECT_NE(table.message.find("t.csv: a CSV file needs a map of its columns: --map"), std::string::npos)
+      << table.message;
   EXPECT_EQ(run({"import", "--map", write("bad.toml", "x = 1\n").string(), "-o", to("b.mcap"), nothing}).status,
             3);
   EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap"));

@@ -219,9 +219,10 @@ TEST_F(Remote, AsksOnceAndWithoutAKeyOnlyWatches) {
   const auto once = remote(vehicle_port_, "status", "once");
   ASSERT_EQ(once->wait(kLong), 0) << once->err();
   EXPECT_EQ(json::parse(once->out())["ok"], true);
-  const auto keyless = remote(vehicle_port_, "status --wait 3", "keyless", false);
-  EXPECT_EQ(keyless->wait(kLong), 1);
+  const auto keyless = remote(vehicle_port_, "status --wait 86400", "keyless", false);
+  EXPECT_EQ(keyless->wait(kLong), 1) << "it waits although no key will come";
   EXPECT_NE(keyless->err().find("the vehicle has a key"), std::string::npos) << keyless->err();
+  EXPECT_NE(keyless->err().find("--key-file"), std::string::npos) << keyless->err();
   const auto watcher = remote(vehicle_port_, "--seconds 5", "watcher", false);
   EXPECT_EQ(watcher->wait(kLong), 0);
   EXPECT_NE(watcher->out().find("not authenticated"), std::string::npos) << watcher->out();

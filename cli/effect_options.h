@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace navcal::cli {
+
+/// Adds --effect and --effects, the departures of a simulated vehicle from the nominal model.
+void add_effect_options(CLI::App* command, std::vector<std::string>& effects, std::filesystem::path& file);
+
+}  // namespace navcal::cli
