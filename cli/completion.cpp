@@ -17,7 +17,9 @@ struct Words {
 
 Words words_of(const CLI::App& app) {
   Words words;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) words.commands += command->get_name() + ' ';
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (!command->get_group().empty()) words.commands += command->get_name() + ' ';
+  }
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;  // not for people
     for (const auto& name : option->get_lnames()) {

@@ -257,6 +257,7 @@ void add_fleet(CLI::App& app) {
   add_fleet_merge(*command);
   add_fleet_causes(*command);
   add_fleet_trial(*command);
+  command->get_subcommand("trial")->group("");  // navcal research lists it
 }
 
 }  // namespace navcal::cli

@@ -65,8 +65,8 @@ void add_fleet_trial(CLI::App& parent) {
   trial->require_subcommand(1);
   trial->footer(
       "Example:\n"
-      "  navcal fleet trial record -o recordings/ --truth truth.json\n"
-      "  navcal fleet trial score answer.json --truth truth.json");
+      "  navcal research fleet-trial record -o recordings/ --truth truth.json\n"
+      "  navcal research fleet-trial score answer.json --truth truth.json");
   const auto arguments = std::make_shared<FleetTrialArguments>();
   validation::FleetTrialOptions& options = arguments->options;
 
@@ -91,7 +91,7 @@ void add_fleet_trial(CLI::App& parent) {
   record->add_option("--weak", options.weak, "strength of the weak cause of the design; 0: none")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
-  record->footer("Example: navcal fleet trial record -o recordings/ --truth truth.json --seed 7");
+  record->footer("Example: navcal research fleet-trial record -o recordings/ --truth truth.json --seed 7");
   record->callback([arguments] { record_fleet(*arguments); });
 
   auto* score = trial->add_subcommand("score", "compares what navcal fleet causes --json wrote with the truth");
@@ -99,7 +99,7 @@ void add_fleet_trial(CLI::App& parent) {
   score->add_option("--truth", arguments->truth, "the truth that was written with the missions")
       ->option_text("FILE.json")
       ->required();
-  score->footer("Example: navcal fleet trial score answer.json --truth truth.json");
+  score->footer("Example: navcal research fleet-trial score answer.json --truth truth.json");
   score->callback([arguments] { score_fleet(*arguments); });
 }
 

@@ -193,10 +193,12 @@ void add_gap(CLI::App& app) {
       "Examples:\n"
       "  navcal gap a.cap b.cap c.cap --holdout d.cap\n"
       "  navcal gap --holdout b.cap --holdout c.cap --report a.html --export sitl=a.parm a.cap");
-  add_gap_layouts(*command);
   add_gap_next(*command);
-  add_gap_trial(*command);
   add_gap_watch(*command);
+  add_gap_layouts(*command);
+  add_gap_trial(*command);
+  // navcal research lists them.
+  for (const char* const name : {"layouts", "trial"}) command->get_subcommand(name)->group("");
   command->callback([command, options] {
     if (!command->get_subcommands().empty()) return;
     if (options->origin().empty()) throw CLI::RequiredError("FILE");

@@ -116,7 +116,8 @@ void add_record(CLI::App& layouts) {
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->footer(
-      "Example: navcal gap layouts record --layout /usr/share/navcal/vehicles/bluerov2-heavy.toml -o recordings "
+      "Example: navcal research gap-layouts record --layout /usr/share/navcal/vehicles/bluerov2-heavy.toml -o "
+      "recordings "
       "--truth truth.jsonl");
   command->callback([arguments] { record_layouts(*arguments); });
 }
@@ -132,7 +133,7 @@ void add_score(CLI::App& layouts) {
   command
       ->add_option("--json", arguments->json, "the scores as one JSON object; - is standard output, without text")
       ->option_text("FILE|-");
-  command->footer("Example: navcal gap layouts score answers.jsonl --truth truth.jsonl");
+  command->footer("Example: navcal research gap-layouts score answers.jsonl --truth truth.jsonl");
   command->callback([arguments] { score_layouts(*arguments); });
 }
 
@@ -142,7 +143,7 @@ void add_gap_layouts(CLI::App& gap) {
   auto* command =
       gap.add_subcommand("layouts", "blind validation on vehicles with thrusters: recordings and score");
   command->require_subcommand(1);
-  command->footer("Example: navcal gap layouts score answers.jsonl --truth truth.jsonl");
+  command->footer("Example: navcal research gap-layouts score answers.jsonl --truth truth.jsonl");
   add_record(*command);
   add_score(*command);
 }

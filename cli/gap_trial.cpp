@@ -243,7 +243,7 @@ void add_gap_trial(CLI::App& gap) {
       "Effects are drawn, and a second, independent simulator makes the recordings. The diagnosis is a separate "
       "process that receives file names only. A case has the same number and truth in a trial of any length: 32 "
       "cases make a round, a third of them without an effect.\n\n"
-      "Example: navcal gap trial --cases 544 --seed 7 --json trial.json --report trial.html");
+      "Example: navcal research gap-trial --cases 544 --seed 7 --json trial.json --report trial.html");
   command->callback([options] { run(*options); });
 }
 

@@ -6,16 +6,33 @@
 #include "cli/misspelling.h"
 #include "share/manual.h"
 
+namespace {
+
+/// True when the last command of the line is one of a group and names no command in it.
+bool lacks_command(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* called = &app;
+  while (!called->get_subcommands().empty()) called = called->get_subcommands().back();
+  return error.get_name() == "RequiredError" && called->get_require_subcommand_min() > 0;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using navcal::analysis::Exit;
   CLI::App app{
-      "navcal: watch, decode, replay, log, simulate and emulate the instruments of a small underwater vehicle, "
-      "and "
-      "diagnose where it departs from its model",
+      "navcal: reads, calibrates, records and simulates the instruments of a small underwater vehicle, and names "
+      "the "
+      "cause\nwhere it departs from its model",
       "navcal"};
   app.set_version_flag("--version", "navcal " NAVCAL_VERSION);
   app.require_subcommand(1);
-  app.footer("Each command has its own help: navcal decode --help");
+  app.footer(
+      "Start with (no vehicle is needed):\n"
+      "  navcal simulate --mission calibration_swing --effect hard_iron=1 -o dive.cap\n"
+      "  navcal calibrate dive.cap\n"
+      "  navcal view dive.cap\n\n"
+      "Each command has its own help and manual page: navcal gap --help, man navcal-gap.\n"
+      "/usr/share/doc/navcal/tutorial.md: half an hour with all of it.");
 
   navcal::cli::add_commands(app);
   navcal::share::add_manual(app);
@@ -25,6 +42,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (const std::string words = navcal::cli::misspelling(app, {argv + 1, argv + argc}); !words.empty()) {
       std::fprintf(stderr, "%s\n", words.c_str());
+      return static_cast<int>(Exit::usage);
+    }
+    if (lacks_command(app, error)) {
+      std::fputs(app.help().c_str(), stderr);
       return static_cast<int>(Exit::usage);
     }
     // CLI11 has statuses of its own; the contract has one for wrong usage.

@@ -80,7 +80,7 @@ void add_thesis(CLI::App& app) {
       ->option_text("DIR");
   command->footer(
       "docs/thesis.md describes the page and the JSON keys. At least one of --report and --json must be given.\n\n"
-      "Example: navcal thesis --report thesis.html --json thesis.json");
+      "Example: navcal research thesis --report thesis.html --json thesis.json");
   command->callback([options] { recompute_thesis(*options); });
 }
 

@@ -193,7 +193,8 @@ void add_validate_runs(CLI::App& app) {
       ->required();
   command->footer(
       "docs/runs.md describes the files, the method, the answers and how far they can be trusted.\n\n"
-      "Example: navcal validate-runs --nominal normal --runs today --pools pools.json --json answers.jsonl");
+      "Example: navcal research validate-runs --nominal normal --runs today --pools pools.json --json "
+      "answers.jsonl");
   command->callback([arguments] { validate_runs(*arguments); });
 }
 

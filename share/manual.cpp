@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace navcal::share {
 namespace {
@@ -21,9 +22,9 @@ std::string plain(std::string_view words) {
   return out;
 }
 
-/// What stands below a command's options: prose, and lines to be kept as they are, which are indented or follow
-/// "Example:".
-std::string notes(const std::string& footer) {
+/// The text below a command's options: prose, and lines to be kept as they are, which are indented or follow
+/// "Example:". `heading` stands before the examples.
+std::string notes(const std::string& footer, std::string_view heading = "") {
   std::istringstream lines(footer);
   std::string out, line;
   bool verbatim = false;
@@ -36,6 +37,10 @@ std::string notes(const std::string& footer) {
     const std::size_t colon = line.starts_with("Example") ? line.find(':') : std::string::npos;
     const std::size_t indented = line.find_first_not_of(' ');
     if (colon != std::string::npos) {
+      if (!heading.empty()) {
+        keep(false, "");
+        out += std::exchange(heading, {});
+      }
       if (const auto text = line.find_first_not_of(' ', colon + 1); text != std::string::npos)
         keep(true, line.substr(text));
     } else {
@@ -58,9 +63,17 @@ void append_options(std::string& out, const CLI::App& app) {
   }
 }
 
-std::string synopsis(const CLI::App& app, const std::string& path) {
-  std::string out = path;
-  if (!app.get_subcommands(nullptr).empty()) out += " COMMAND";
+std::string path_of(const CLI::App& app) {
+  return app.get_parent() == nullptr ? app.get_name() : path_of(*app.get_parent()) + ' ' + app.get_name();
+}
+
+std::vector<const CLI::App*> listed_commands(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
+std::string synopsis(const CLI::App& app) {
+  std::string out = path_of(app);
+  if (!listed_commands(app).empty()) out += " COMMAND";
   out += " [OPTION]...";
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional()) out += ' ' + CLI::Formatter().make_option_usage(option);
@@ -68,37 +81,51 @@ std::string synopsis(const CLI::App& app, const std::string& path) {
   return out;
 }
 
-void append_command(std::string& out, const CLI::App& app, const std::string& path) {
-  out += "### " + plain(path) + "\n\n" + plain(app.get_description()) + "\n\n    " + synopsis(app, path) + "\n\n";
+void append_command(std::string& out, const CLI::App& app) {
+  out +=
+      "### " + plain(path_of(app)) + "\n\n" + plain(app.get_description()) + "\n\n    " + synopsis(app) + "\n\n";
   append_options(out, app);
   out += notes(app.get_footer()) + '\n';
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    append_command(out, *command, path + ' ' + command->get_name());
+  for (const CLI::App* command : listed_commands(app)) append_command(out, *command);
+}
+
+/// The commands that have pages of their own, in their groups.
+void append_pages(std::string& out, const CLI::App& app) {
+  std::string group;
+  for (const CLI::App* command : listed_commands(app)) {
+    if (command->get_group() != group) out += "### " + plain(group = command->get_group()) + "\n\n";
+    out += "**" + app.get_name() + '-' + command->get_name() + "**(1)\n: " + plain(command->get_description()) +
+           "\n\n";
   }
 }
 
 }  // namespace
 
 std::string manual(const CLI::App& app) {
-  const std::string name = app.get_name();
-  std::string out = "# " + name + "\n\n" + plain(app.get_description()) + "\n\n## SYNOPSIS\n\n    " +
-                    synopsis(app, name) + "\n\n## OPTIONS\n\n";
+  std::string out = "# " + path_of(app) + "\n\n" + plain(app.get_description()) + "\n\n## SYNOPSIS\n\n    " +
+                    synopsis(app) + "\n\n## OPTIONS\n\n";
   append_options(out, app);
-  out += notes(app.get_footer()) + '\n';
-  const auto commands = app.get_subcommands(nullptr);
+  const bool is_program = app.get_parent() == nullptr;
+  out += notes(app.get_footer(), is_program ? "" : "\n## EXAMPLES\n\n") + '\n';
+  const auto commands = listed_commands(app);
   if (!commands.empty()) out += "## COMMANDS\n\n";
-  for (const CLI::App* command : commands) append_command(out, *command, name + ' ' + command->get_name());
+  if (is_program) append_pages(out, app);
+  for (const CLI::App* command : commands) {
+    if (!is_program) append_command(out, *command);
+  }
   return out;
 }
 
 void add_manual(CLI::App& app) {
-  app.add_flag_callback(
+  auto* const flag = app.add_flag_callback(
       "--manual",
       [&app] {
         std::fputs(manual(app).c_str(), stdout);
         throw CLI::Success();
       },
       "Print the text of the manual page, as Markdown, and exit");
+  if (app.get_parent() != nullptr) flag->group("");
+  for (const CLI::App* command : listed_commands(app)) add_manual(*app.get_subcommand(command->get_name()));
 }
 
 }  // namespace navcal::share

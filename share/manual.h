@@ -6,10 +6,12 @@
 
 namespace navcal::share {
 
-/// A program's commands and options as Markdown, in the words of its --help: what manual pages are made of.
+/// Markdown of the manual page of a program, which names the pages of its commands, or of one of its commands with
+/// all options, in the words of --help. Commands that no help lists are left out.
 [[nodiscard]] std::string manual(const CLI::App& app);
 
-/// --manual, which prints that and ends the program. To be called once all commands are added.
+/// --manual, also of each command, which prints that and ends the program. To be called once all commands are
+/// added.
 void add_manual(CLI::App& app);
 
 }  // namespace navcal::share

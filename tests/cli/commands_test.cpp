@@ -19,7 +19,9 @@ namespace {
 using Visit = std::function<void(const CLI::App& command, const std::string& path)>;
 
 void for_each_command(const CLI::App& app, const std::string& path, const Visit& visit) {
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+  // Names that no help lists are older ones of commands of navcal research.
+  for (const CLI::App* command :
+       app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); })) {
     const std::string below = path + ' ' + command->get_name();
     visit(*command, below);
     for_each_command(*command, below, visit);
@@ -42,6 +44,45 @@ TEST(Commands, EachHasADescriptionAndAnExampleOfItself) {
     }
   });
   EXPECT_GT(commands, 12);
+}
+
+TEST(Commands, AreInSevenGroupsInTheOrderOfAUser) {
+  CLI::App app("", "navcal");
+  add_commands(app);
+  const std::string help = app.help();
+  std::size_t end = 0;
+  for (const char* const group : {"\nLook:\n", "\nCalibrate:\n", "\nDiagnose:\n", "\nDrive:\n", "\nPractise:\n",
+                                  "\nSet up:\n", "\nResearch:\n"}) {
+    const std::size_t begin = help.find(group, end);
+    ASSERT_NE(begin, std::string::npos) << group << help;
+    end = begin + 1;
+  }
+  EXPECT_EQ(help.find("thesis\n"), std::string::npos) << help;
+  EXPECT_EQ(help.find("validate-runs"), std::string::npos) << help;
+  EXPECT_EQ(app.get_subcommand("gap")->help().find("\n  trial"), std::string::npos);
+}
+
+std::string options_of(const CLI::App& command) {
+  std::string names;
+  for (const CLI::Option* option : command.get_options()) names += option->get_name() + ' ';
+  for (const CLI::App* below : command.get_subcommands(nullptr))
+    names += below->get_name() + ": " + options_of(*below);
+  return names;
+}
+
+// Scripts of outsiders use them.
+TEST(Commands, OldNamesOfTheResearchCommandsStay) {
+  CLI::App app("", "navcal");
+  add_commands(app);
+  const CLI::App& research = *app.get_subcommand("research");
+  EXPECT_EQ(options_of(*app.get_subcommand("gap")->get_subcommand("trial")),
+            options_of(*research.get_subcommand("gap-trial")));
+  EXPECT_EQ(options_of(*app.get_subcommand("gap")->get_subcommand("layouts")),
+            options_of(*research.get_subcommand("gap-layouts")));
+  EXPECT_EQ(options_of(*app.get_subcommand("fleet")->get_subcommand("trial")),
+            options_of(*research.get_subcommand("fleet-trial")));
+  for (const char* const name : {"thesis", "validate-runs"})
+    EXPECT_EQ(options_of(*app.get_subcommand(name)), options_of(*research.get_subcommand(name)));
 }
 
 // A file with a subcommand whose line in cli/commands.h was forgotten compiles, and nobody could call it.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "tests/support/temporary_folder.h"
@@ -77,6 +78,60 @@ TEST_F(WrongUsage, AMisspeltNameGetsTheNearest) {
   expect_refused("simulate --mision survey -o a.cap", 2,
                  "navcal simulate: there is no option --mision; did you mean --mission?");
   expect_refused("xyzzyxyzzy", 2, "there is no command xyzzyxyzzy (navcal --help)");
+}
+
+TEST_F(WrongUsage, WithoutACommandTheGroupsAreShown) {
+  expect_refused("", 2, "\nDiagnose:\n");
+  expect_refused("log", 2, "surfacings");
+  expect_refused("research", 2, "gap-trial");
+}
+
+TEST_F(WrongUsage, TheLinesToStartWithWorkAsTyped) {
+  ASSERT_EQ(run("--help").status, 0);
+  std::istringstream help(navcal::test::read_file(folder_ / "out"));
+  std::string line;
+  while (std::getline(help, line) && !line.starts_with("Start with")) {
+  }
+  int lines = 0;
+  while (std::getline(help, line) && line.starts_with("  navcal ")) {
+    ++lines;
+    // The recording is shown until Ctrl-C.
+    const std::string arguments = line.substr(9);
+    if (!arguments.starts_with("view ")) {
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.status, 0) << line << '\n' << outcome.errors;
+      continue;
+    }
+    const std::string command = "cd '" + folder_.path().string() + "' && '" NAVCAL_PROGRAM "' " + arguments +
+                                " > view & pid=$!; until grep -q http:// '" + (folder_ / "view").string() +
+                                "' || ! kill -0 $pid; do sleep 0.1; done; kill -INT $pid; wait $pid";
+    EXPECT_EQ(std::system(command.c_str()), 0) << line;
+  }
+  EXPECT_EQ(lines, 3);
+}
+
+TEST_F(WrongUsage, SaysWhatToGive) {
+  const Outcome typical = run("simulate --mission survey --seconds 1 --effect hard_iron -o a.cap");
+  EXPECT_EQ(typical.status, 0);
+  EXPECT_NE(typical.errors.find("strength 1, the typical one"), std::string::npos) << typical.errors;
+  ASSERT_EQ(run("simulate --mission survey --seconds 1 --effect hard_iron=1 -o b.cap").status, 0);
+  EXPECT_EQ(navcal::test::read_file(folder_ / "a.cap"), navcal::test::read_file(folder_ / "b.cap"));
+  expect_refused("emulate --dir ports --seconds 0.1 --effect hard_iron", 0, "--effect hard_iron=0.5");
+
+  std::ofstream(folder_ / "x.csv") << "t,z\n1700000000,1.5\n";
+  expect_refused("log import -o x.mcap x.csv", 3, "x.csv: a CSV file needs a map of its columns: --map FILE.toml");
+  // The map that the message shows is one.
+  std::istringstream said(run("log import -o x.mcap x.csv").errors);
+  std::ofstream map(folder_ / "map.toml");
+  for (std::string line; std::getline(said, line);) {
+    if (line.starts_with("  ")) map << line << '\n';
+  }
+  map.close();
+  EXPECT_EQ(run("log import --map map.toml -o x.mcap x.csv").status, 0);
+
+  ASSERT_EQ(run("gap watch --help").status, 0);
+  EXPECT_NE(navcal::test::read_file(folder_ / "out").find("navcal gap watch --recording a.cap"),
+            std::string::npos);
 }
 
 TEST_F(WrongUsage, WatchWantsAPortAndAConnection) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/commands.h"
+#include "cli/fleet_trial.h"
+#include "cli/gap_layouts.h"
+#include "cli/gap_trial.h"
+
+namespace navcal::cli {
+
+void add_research(CLI::App& app) {
+  auto* const research = app.add_subcommand("research", "trials and benches that judge navcal itself");
+  research->require_subcommand(1);
+  research->footer(
+      "Older names stay: navcal gap trial, gap layouts, fleet trial, thesis, validate-runs.\n\n"
+      "Example: navcal research gap-trial --cases 32 --report trial.html");
+  const auto add = [research](void (*adds)(CLI::App&), const char* name) {
+    adds(*research);
+    research->get_subcommands(nullptr).back()->name(name);
+  };
+  add(add_gap_trial, "gap-trial");
+  add(add_gap_layouts, "gap-layouts");
+  add(add_fleet_trial, "fleet-trial");
+  add_validate_runs(*research);
+  add_thesis(*research);
+}
+
+}  // namespace navcal::cli
