@@ -8,11 +8,11 @@ import { tmpdir, loadavg, cpus } from "node:os";
 import { join } from "node:path";
 import { randomBytes } from "node:crypto";
 import { parseArgs } from "node:util";
-import { Page, startBrowser } from "../tests/web/browser/browser.mjs";
+import { Browser, Page } from "../tests/web/browser/browser.mjs";
+import { delay } from "../tests/web/foxglove/vehicle.mjs";
 
 const { values } = parseArgs({ options: { viewers: { type: "string", default: "50" }, seconds: { type: "string", default: "30" }, build: { type: "string", default: "build/release" } } });
 const viewers = Number(values.viewers), seconds = Number(values.seconds);
-const delay = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 const folder = mkdtempSync(join(tmpdir(), "navcal-bench-"));
 const TICKS = 100; // a second (sysconf(_SC_CLK_TCK) on Linux)
 
@@ -85,12 +85,11 @@ async function lateness(port) {
   return source_ms;
 }
 
-async function firstPaint(context, url) {
+async function firstPaint(browser, url) {
   const all = [];
   for (let i = 0; i < 15; ++i) {
-    const page = await context.newPage();
-    await page.goto(url);
-    await page.waitForTimeout(700);
+    const page = await Page.open(browser, url);
+    await delay(700);
     all.push(await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? NaN));
     await page.close();
   }
@@ -98,9 +97,9 @@ async function firstPaint(context, url) {
 }
 
 /** From the record's being sent to the frame in which the page shows it. */
-async function recordToPixel(context, url, sent) {
-  const { page } = await Page.open(context, url);
-  await page.waitForTimeout(3000);
+async function recordToPixel(browser, url, sent) {
+  const page = await Page.open(browser, url);
+  await delay(3000);
   const shown = await page.evaluate((span_ms) => new Promise((resolve) => {
     const list = [], element = document.getElementById("heading-value");
     let last = element.textContent;
@@ -123,13 +122,13 @@ const source = await startSource();
 const web = spawn(join(values.build, "web/navcal-web"), ["--port", "0", "--status", `127.0.0.1:${source.port}`], { stdio: ["ignore", "pipe", "inherit"] });
 const url = await new Promise((resolve) => web.stdout.once("data", (data) => resolve(String(data).match(/http:\S+/)[0])));
 const port = Number(new URL(url).port);
-let context;
+let browser;
 try {
   console.log(load());
-  context = await startBrowser(folder);
-  await firstPaint(context, url);
-  await recordToPixel(context, url, source.sent);
-  await context.close();
+  browser = new Browser(folder);
+  await firstPaint(browser, url);
+  await recordToPixel(browser, url, source.sent);
+  await browser.end();
   await cpuOf(web.pid, 1, port);
   await cpuOf(web.pid, viewers, port);
   const alone = await lateness(port);
@@ -141,7 +140,7 @@ try {
   console.log(load());
 } finally {
   web.kill("SIGTERM");
-  await context?.close().catch(() => {});
+  await browser?.end();
   rmSync(folder, { recursive: true, force: true });
   process.exit();
 }

@@ -4,8 +4,8 @@
 import assert from "node:assert/strict";
 import { chmodSync, mkdirSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Vehicle, eventually, freePort } from "../foxglove/vehicle.mjs";
-import { Page, reachByTab, startBrowser } from "./browser.mjs";
+import { Vehicle, delay, eventually, freePort } from "../foxglove/vehicle.mjs";
+import { Browser, Page, reachByTab } from "./browser.mjs";
 import { startProxy } from "./proxy.mjs";
 
 const [build, folder] = process.argv.slice(2);
@@ -48,70 +48,72 @@ async function showsTheVehicle(page) {
   assert.match(await page.text('dd[data-name="charge"]'), /no gauge/);
   for (const port of ["compass", "imu", "gps", "motor"]) await page.until(`tr[data-port="${port}"]`, /running.*\d\u202f\/s/s);
   for (const calibrator of ["gyro", "compass", "magnetometer"]) await page.until(`tr[data-calibrator="${calibrator}"]`, /refused|shadow|in force/);
-  await page.page.locator("#plot-area canvas").nth(3).waitFor();
-  assert.match(await page.page.locator("#rose").getAttribute("aria-label"), /Heading 57 degrees/);
+  await page.when(() => document.querySelectorAll("#plot-area canvas").length === 4);
+  assert.match(await page.evaluate(() => document.getElementById("rose").getAttribute("aria-label")), /Heading 57 degrees/);
 }
 
 async function looksRight(page, name) {
   step("light, dark and chosen colours");
-  const turns = (color) => page.page.waitForFunction((wanted) => getComputedStyle(document.body).backgroundColor === wanted, color);
+  const turns = (color) => page.when((wanted) => getComputedStyle(document.body).backgroundColor === wanted, color);
   const DARK = "rgb(14, 19, 24)", LIGHT = "rgb(238, 241, 244)";
-  await page.page.emulateMedia({ colorScheme: "light" });
+  for (const [scheme, color] of [["light", LIGHT], ["dark", DARK]]) {
+    await page.setColors(scheme);
+    await turns(color);
+    await page.picture(join(folder, `${name}-${scheme}.png`));
+  }
+  await page.click("#theme");
   await turns(LIGHT);
-  await page.page.screenshot({ path: join(folder, `${name}-light.png`), fullPage: true });
-  await page.page.emulateMedia({ colorScheme: "dark" });
+  await page.click("#theme");
+  await page.click("#theme");
   await turns(DARK);
-  await page.page.screenshot({ path: join(folder, `${name}-dark.png`), fullPage: true });
-  await page.page.click("#theme");
-  await turns(LIGHT);
-  await page.page.click("#theme");
-  await page.page.click("#theme");
-  await turns(DARK);
+}
+
+async function fitsEveryWindow(page, name) {
   step("no horizontal scrolling from 320 px on");
   for (const width of [320, 375, 768, 1024, 1920]) {
-    await page.page.setViewportSize({ width, height: 900 });
-    await page.page.waitForTimeout(200);
-    const [whole, visible] = await page.page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
-    assert.ok(whole <= visible, `${whole} px in a window of ${width}`);
-    if (width === 320) await page.page.screenshot({ path: join(folder, `${name}-phone.png`), fullPage: true });
+    await page.setWindow(width, 900);
+    const whole = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(whole <= width, `${whole} px in a window of ${width}`);
+    if (width === 320) await page.picture(join(folder, `${name}-phone.png`));
   }
-  await page.page.setViewportSize({ width: 1440, height: 1000 });
+  await page.setWindow(1440, 1000);
 }
 
 async function keyboardReachesAll(page) {
   step("the keyboard reaches everything that can be done");
-  await reachByTab(page.page);
-  const missed = await page.page.evaluate(() => [...document.querySelectorAll("button, input, select, [tabindex='0'], a[href]")].filter((element) => element.checkVisibility() && !element.disabled && !element.dataset.reached).map((element) => element.outerHTML.slice(0, 120)));
+  await reachByTab(page);
+  const missed = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [tabindex='0'], a[href]")].filter((element) => element.checkVisibility() && !element.disabled && !element.dataset.reached).map((element) => element.outerHTML.slice(0, 120)));
   assert.deepEqual(missed, []);
-  const unnamed = await page.page.evaluate(() => [...document.querySelectorAll("button, input, select, canvas[id], svg[role]")].filter((element) => element.checkVisibility() && !(element.labels?.length || element.getAttribute("aria-label") || element.getAttribute("aria-labelledby") || element.textContent.trim())).map((element) => element.outerHTML.slice(0, 120)));
+  const unnamed = await page.evaluate(() => [...document.querySelectorAll("button, input, select, canvas[id], svg[role]")].filter((element) => element.checkVisibility() && !(element.labels?.length || element.getAttribute("aria-label") || element.getAttribute("aria-labelledby") || element.textContent.trim())).map((element) => element.outerHTML.slice(0, 120)));
   assert.deepEqual(unnamed, [], "controls without a name");
 }
 
 async function changesNeedTheToken(page) {
   step("without the token nothing can be changed");
-  const accept = page.page.locator('tr[data-calibrator="magnetometer"] button', { hasText: "Accept" });
-  assert.ok(await accept.isDisabled());
-  assert.ok(await page.page.locator("#stop").isDisabled());
-  await page.page.fill("#token", "a wrong token of enough letters");
-  await page.page.keyboard.press("Enter");
+  const button = (calibrator) => `tr[data-calibrator="${calibrator}"] button`;
+  const isOff = (selector, text) => page.evaluate((name, words) => [...document.querySelectorAll(name)].find((one) => one.textContent.includes(words)).disabled, selector, text);
+  assert.ok(await isOff(button("magnetometer"), "Accept"));
+  assert.ok(await isOff("#stop", "STOP"));
+  await page.fill("#token", "a wrong token of enough letters");
+  await page.press("Enter");
   await page.until("#control-state", /wrong token/);
-  assert.ok(await accept.isDisabled());
+  assert.ok(await isOff(button("magnetometer"), "Accept"));
   step("with it: marks, calibrations");
-  await page.page.fill("#token", TOKEN);
-  await page.page.keyboard.press("Enter");
-  await page.page.locator("#stop:enabled").waitFor();
-  await page.page.fill("#mark-text", "the page's mark \u00fc <b>");
-  await page.page.keyboard.press("Enter");
+  await page.fill("#token", TOKEN);
+  await page.press("Enter");
+  await page.when(() => !document.getElementById("stop").disabled);
+  await page.fill("#mark-text", "the page's mark \u00fc <b>");
+  await page.press("Enter");
   await page.until("#event-list", /the page's mark \u00fc <b>/);
-  const magnetometer = (words) => page.page.locator('tr[data-calibrator="magnetometer"] button', { hasText: words }).click();
+  const magnetometer = (words) => page.click(button("magnetometer"), words);
   await magnetometer("Start anew");
-  await page.page.click('#ask button[value="no"]');
+  await page.click('#ask button[value="no"]');
   await magnetometer("Start anew");
-  await page.page.click('#ask button[value="yes"]');
+  await page.click('#ask button[value="yes"]');
   await page.until("#calibration-answer", /magnetometer: done/);
   await page.until("#event-list", /calibration/);
   await magnetometer("Accept");
-  await page.page.click('#ask button[value="no"]');
+  await page.click('#ask button[value="no"]');
   await page.until("#calibration-answer", /magnetometer: (?!done)/);
   await magnetometer("Roll back");
   await page.until("#calibration-answer", /magnetometer: (?!done)/);
@@ -120,46 +122,46 @@ async function changesNeedTheToken(page) {
 async function drives(page) {
   step("remote control: orders while the lease is held, and a stop");
   const take = async () => {
-    await page.page.bringToFront();
-    await page.page.click("#take");
+    await page.front();
+    await page.click("#take");
     await page.until("#control-state", /You are in charge.*In charge: navcal-web/);
   };
   await take();
-  await page.page.fill("#order-shaft", "300");
+  await page.fill("#order-shaft", "300");
   await page.until("#control-state", /sent: shaft 300/);
   await page.until(`dd[data-name="shaft"]`, /ordered 300/);
-  await page.page.keyboard.press("Escape");
+  await page.press("Escape");
   await page.until("#control-state", /^Nobody is in charge.*shaft 0.*safe state/);
   await take();
-  await page.page.click("#stop");
+  await page.click("#stop");
   await page.until("#control-state", /^Nobody is in charge/);
   await take();
-  await page.page.evaluate(() => window.dispatchEvent(new Event("blur")));
+  await page.evaluate(() => void window.dispatchEvent(new Event("blur")));
   await page.until("#control-state", /^Nobody is in charge/);
   await take();
   step("closing the page ends the lease");
-  await page.page.reload();
+  await page.reload();
   await page.until("#control-state", /Nobody is in charge/);
   // The token is kept for the tab.
-  await page.page.locator("#stop:enabled").waitFor();
+  await page.when(() => !document.getElementById("stop").disabled);
 }
 
 async function comesBack(page) {
   step("after a restart of navcald");
   await vehicle.stop(vehicle.daemon);
   await page.until("#link-lost", /NO CONNECTION TO NAVCALD/);
-  assert.ok(await page.page.locator("#link-lost").isVisible());
+  assert.ok(await page.isVisible("#link-lost"));
   await vehicle.startDaemon();
   await page.until("#link-state", /^live$/);
-  await page.page.locator("#link-lost").waitFor({ state: "hidden" });
+  await page.when(() => document.getElementById("link-lost").hidden);
   await page.until("#heading-value", /^57|^58|^56/);
   step("after a restart of navcal-web");
   await vehicle.stop(vehicle.web);
   await page.until("#link-lost", /LINK LOST/);
-  assert.ok(await page.page.evaluate(() => document.body.classList.contains("lost")));
+  assert.ok(await page.evaluate(() => document.body.classList.contains("lost")));
   await vehicle.startWeb();
   await page.until("#link-state", /^live$/);
-  await page.page.locator("#link-lost").waitFor({ state: "hidden" });
+  await page.when(() => document.getElementById("link-lost").hidden);
   step("stale values are marked");
   vehicle.stop(vehicle.instruments);
   await page.until("#heading h2 .age", /stale/);
@@ -167,29 +169,25 @@ async function comesBack(page) {
   await page.until("#heading h2 .age", /^$/);
 }
 
-async function worksBehindProxies(context, url) {
+async function worksBehindProxies(browser, url) {
   step("without WebSockets it polls, and says so");
-  const page = await context.newPage();
-  await page.addInitScript(() => {
+  const polling = await Page.open(browser, url, () => {
     window.WebSocket = class extends EventTarget {
       constructor() { super(); setTimeout(() => this.onclose?.({ reason: "" }), 1); }
       close() {}
     };
   });
-  const polling = new Page();
-  polling.page = page;
-  await page.goto(url);
   await polling.until("#link-state", /polling/);
   await polling.until("#heading-value", /^5[678]/);
-  await page.close();
+  await polling.close();
   step("in a frame, under a path");
   const proxy = await startProxy(vehicle.webPort);
-  const outer = await Page.open(context, `http://127.0.0.1:${proxy.port}/`);
-  const frame = outer.page.frameLocator("iframe");
-  await frame.locator("#link-state", { hasText: /^live$/ }).waitFor();
-  await frame.locator("#heading-value", { hasText: /^5[678]/ }).waitFor();
+  const outer = await Page.open(browser, `http://127.0.0.1:${proxy.port}/`);
+  const inFrame = (id, pattern) => outer.when((name, wanted) => new RegExp(wanted).test(document.querySelector("iframe").contentDocument.getElementById(name)?.textContent), id, pattern);
+  await inFrame("link-state", "^live$");
+  await inFrame("heading-value", "^5[678]");
   onlyAsksFor(outer, `127.0.0.1:${proxy.port}`);
-  await outer.page.close();
+  await outer.close();
   proxy.end();
 }
 
@@ -200,17 +198,17 @@ function onlyAsksFor(page, host) {
   assert.deepEqual(page.errors, []);
 }
 
-async function isReadOnlyWithoutAToken(context) {
+async function isReadOnlyWithoutAToken(browser) {
   step("a server without a token says that it may only be looked at");
   await vehicle.stop(vehicle.web);
   const url = await vehicle.startWeb(false);
-  const page = await Page.open(context, url);
+  const page = await Page.open(browser, url);
   await page.until("#control-state", /may only be looked at/);
-  assert.ok(!(await page.page.locator("#stop").isVisible()));
-  await page.page.close();
+  assert.ok(!(await page.isVisible("#stop")));
+  await page.close();
 }
 
-async function playsRecordings(context) {
+async function playsRecordings(browser) {
   step("navcal view plays a capture, and leaves nothing behind");
   const capture = join(folder, "dive.cap");
   const temporary = join(folder, "temporary");
@@ -220,33 +218,33 @@ async function playsRecordings(context) {
   const view = vehicle.start("cli/navcal", "view", capture, "--no-open", "--speed", "5");
   const url = (await eventually(() => view.output.match(/http:\S+/), "navcal view"))[0];
   assert.equal(readdirSync(temporary).length, 1);
-  const page = await Page.open(context, url);
+  const page = await Page.open(browser, url);
   await page.until("#link-state", /^recording$/);
   await page.until("#mode", /dive\.cap/);
   await page.until("#heading-value", /\d/);
-  const position = () => page.page.locator("#seek").evaluate((bar) => Number(bar.value));
+  const position = () => page.evaluate(() => Number(document.getElementById("seek").value));
   const before = await position();
   await page.until("#play", /Pause/);
-  while ((await position()) <= before + 1) await page.page.waitForTimeout(50);
-  await page.page.click("#play");
+  while ((await position()) <= before + 1) await delay(50);
+  await page.click("#play");
   await page.until("#play", /Play/);
   const stopped = await position();
-  await page.page.waitForTimeout(300);
+  await delay(300);
   assert.equal(await position(), stopped);
-  await page.page.locator("#seek").fill("5");
-  while (Math.abs((await position()) - 5) > 0.2) await page.page.waitForTimeout(50);
+  await page.fill("#seek", "5");
+  while (Math.abs((await position()) - 5) > 0.2) await delay(50);
   await page.until("#play-time", /^0:00:05/);
-  await page.page.locator("#speed").selectOption("100");
-  await page.page.click("#play");
-  const end = await page.page.locator("#seek").getAttribute("max");
-  while ((await position()) < Number(end) - 0.2) await page.page.waitForTimeout(50);
+  await page.fill("#speed", "100");
+  await page.click("#play");
+  const end = await page.evaluate(() => document.getElementById("seek").max);
+  while ((await position()) < Number(end) - 0.2) await delay(50);
   await page.until("#play", /Play/);
-  await page.page.locator("#plot-area canvas").nth(3).waitFor();
+  await page.when(() => document.querySelectorAll("#plot-area canvas").length === 4);
   await page.until("#event-list", /mark/);
-  await page.page.screenshot({ path: join(folder, "recording.png"), fullPage: true });
+  await page.picture(join(folder, "recording.png"));
   assert.match(await page.text("#control-state"), /recording cannot be changed/);
   onlyAsksFor(page, new URL(url).host);
-  await page.page.close();
+  await page.close();
   view.child.kill("SIGINT");
   assert.equal(await view.ended, 0, view.output);
   assert.deepEqual(readdirSync(temporary), []);
@@ -259,31 +257,32 @@ async function playsRecordings(context) {
   assert.deepEqual(readdirSync(temporary), []);
 }
 
-let context;
+let browser;
 try {
   await vehicle.startInstruments();
   await vehicle.startDaemon();
   const url = await vehicle.startWeb();
-  context = await startBrowser(folder);
-  const page = await Page.open(context, url);
+  browser = new Browser(folder);
+  const page = await Page.open(browser, url);
   await showsTheVehicle(page);
   await looksRight(page, "live");
+  await fitsEveryWindow(page, "live");
   await keyboardReachesAll(page);
   await changesNeedTheToken(page);
   await keyboardReachesAll(page);
   await drives(page);
   await comesBack(page);
   onlyAsksFor(page, new URL(url).host);
-  await worksBehindProxies(context, url);
-  await page.page.close();
-  await isReadOnlyWithoutAToken(context);
-  await playsRecordings(context);
+  await worksBehindProxies(browser, url);
+  await page.close();
+  await isReadOnlyWithoutAToken(browser);
+  await playsRecordings(browser);
   console.log("the page does what it should");
 } catch (error) {
   console.error(vehicle.diagnostics());
   console.error(error);
   process.exitCode = 1;
 } finally {
-  await context?.close();
+  await browser?.end();
   vehicle.end();
 }

@@ -13,7 +13,7 @@ export function startProxy(port) {
     request({ port, host: "127.0.0.1", path: from.url.slice(PREFIX.length), method: from.method, headers }, (answer) => {
       to.writeHead(answer.statusCode, answer.headers);
       answer.pipe(to);
-    }).end();
+    }).on("error", () => to.destroy()).end();
   });
   server.on("upgrade", (from, socket, head) => {
     const behind = connect(port, "127.0.0.1", () => {
