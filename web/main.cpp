@@ -17,6 +17,7 @@
 #include "web/hub.h"
 #include "web/listener.h"
 #include "web/live_source.h"
+#include "web/log_history.h"
 #include "web/outlets/command_line.h"
 #include "web/outlets/outlets.h"
 #include "web/page.h"
@@ -95,6 +96,8 @@ void run(const Options& options) {
       std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
   web::Outlets outlets(context.get_executor(), options.outlets, hub, site);
   site.add(web::control_endpoint(context.get_executor(), "/control", options.control, access));
+  web::LogHistory history(context.get_executor(), options.control);
+  web::add_history(site, history);
   site.add(web::foxglove::endpoint(hub, NAVCAL_VERSION));
   web::PageFeed::Settings page_settings{.version = NAVCAL_VERSION, .can_change = access.can_change()};
   const auto page = web::add_page(site, context.get_executor(), hub, std::move(page_settings), options.track);

@@ -43,15 +43,16 @@ export class Control {
       this.token.value = '';
     }}, make('label', {class: 'grow', for: 'token'}, 'Token ', this.token), make('button', {}, 'Unlock'));
     this.state = make('p', {class: 'note', role: 'status', id: 'control-state'});
-    this.answer = make('p', {class: 'note bad', role: 'status', id: 'control-answer'});
-    this.stop = make('button', {type: 'button', class: 'stop', id: 'stop', onclick: () => this.halt()}, 'STOP');
+    this.answer = $('control-answer');
+    this.stop = $('stop');
+    this.stop.addEventListener('click', () => this.halt());
     this.take = make('button', {type: 'button', id: 'take', onclick: () => this.#take()}, 'Take charge');
     this.give = make('button', {type: 'button', id: 'give', onclick: () => this.release('released')}, 'Release');
     this.lock = make('button', {type: 'button', id: 'lock', onclick: () => this.vehicle.lock()}, 'Lock');
     const sliders = make('div', {class: 'sliders'}, ...Object.values(this.orders).flatMap(({label, range, box}) => [label, range, box]));
-    this.panel = make('div', {}, this.stop, make('p', {}, this.take, ' ', this.give, ' ', this.lock), sliders,
+    this.panel = make('div', {}, make('p', {}, this.take, ' ', this.give, ' ', this.lock), sliders,
       make('p', {class: 'note'}, 'The order is sent five times a second. Escape, STOP, or leaving this window gives the motor back, and navcald makes it safe. Limits are those of navcald, which refuses what is beyond them.'));
-    $('control-body').append(this.unlock, this.state, this.panel, this.answer);
+    $('control-body').append(this.unlock, this.state, this.panel);
   }
 
   #changed() {
@@ -59,7 +60,8 @@ export class Control {
     const isLocked = why !== '';
     if (isLocked && this.lease) this.#lost('the connection ended: navcald makes the motor safe');
     this.unlock.hidden = !isLocked || this.store.about.recording || !this.store.about.can_change;
-    this.panel.hidden = isLocked && (this.store.about.recording || !this.store.about.can_change);
+    this.panel.hidden = $('stop-bar').hidden = isLocked && (this.store.about.recording || !this.store.about.can_change);
+    write($('stop-why'), why);
     for (const button of [this.stop, this.take, this.lock]) {
       button.disabled = isLocked;
       attribute(button, 'title', why);

@@ -16,15 +16,15 @@ export class Numbers {
     for (const id of ['position', 'heading-values', 'attitude-values', 'motion-values', 'surfacing-values', 'battery-values']) this.lists[id] = new Values($(id));
   }
 
-  // Heading, radians, with where it comes from. The compass speaks more often than the estimator.
+  // Heading, radians, with where it comes from, and the estimator's error. The compass speaks more often than the estimator.
   heading() {
     const compass = this.store.best('/compass', 'heading');
     const navigation = this.store.record('/nav')?.message;
     const m = compass?.message;
     if (m && (m.heading_calibrated_rad ?? m.heading_rad) != null) {
-      return {rad: m.heading_calibrated_rad ?? m.heading_rad, std: m.heading_std_rad ?? navigation?.heading_std_rad, from: compass.device, isTrue: m.heading_is_true === true, record: compass};
+      return {rad: m.heading_calibrated_rad ?? m.heading_rad, std: navigation?.heading_std_rad, from: compass.device, isTrue: m.heading_is_true === true, record: compass};
     }
-    if (navigation?.heading_rad != null) return {rad: navigation.heading_rad, std: navigation.heading_std_rad, from: 'estimator', isTrue: null, record: this.store.record('/nav')};
+    if (navigation?.heading_rad != null) return {rad: navigation.heading_rad, std: navigation.heading_std_rad, from: 'estimator', isTrue: this.store.record('/health')?.message.earth_field?.declination != null, record: this.store.record('/nav')};
     return null;
   }
 
@@ -43,12 +43,11 @@ export class Numbers {
     this.rose.heading(heading?.rad, heading?.std);
     const deg = bearing(degrees(heading?.rad));
     write($('heading-value'), deg == null ? 'absent' : number(deg, '\u00b0', 1, heading.std == null ? null : degrees(heading.std)));
-    write($('heading-north'), heading?.isTrue == null ? '' : heading.isTrue ? 'true' : 'magnetic');
+    const navigation = this.store.record('/nav')?.message;
+    const noError = heading?.std == null ? `, error absent: ${navigation ? 'the estimator has none yet' : NO_NAVIGATION}` : '';
+    write($('heading-north'), heading ? (heading.isTrue ? 'true' : 'magnetic') + noError : '');
     const m = heading?.record.topic === '/compass' ? heading.record.message : null;
     list.set('from', heading?.from ?? null, heading ? (m?.calibration ? `calibration ${m.calibration}` : 'no calibration in force') : 'no compass delivers a heading');
-    list.set('device says', m ? angle(m.heading_rad) : null, m ? (m.heading_is_true === true ? 'true north' : 'magnetic north') : 'no record of a compass');
-    const navigation = this.store.record('/nav')?.message;
-    list.set('estimator', navigation ? number(bearing(degrees(navigation.heading_rad)), '\u00b0', 1, degrees(navigation.heading_std_rad)) : null, navigation ? '' : NO_NAVIGATION);
     const imu = this.store.best('/imu', 'rates')?.message;
     const rate = imu?.yaw_rate_calibrated_rad_s ?? imu?.rate_rad_s?.[2] ?? m?.turn_rate_rad_s ?? null;
     list.set('rate of turn', number(degrees(rate), '\u00b0/s', 1), rate == null ? 'no gyro delivers' : '');

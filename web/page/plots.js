@@ -45,7 +45,7 @@ class Plot {
     const values = this.description.topics[record.topic]?.(record.message);
     const time = record.message.time;
     if (!values || time == null || values.every((value) => value == null)) return;
-    if (source && source !== record) return;
+    if (source && source.device !== record.device) return;
     if (time < (this.data[0].at(-1) ?? -Infinity) - gap) this.clear();
     const times = this.data[0];
     const last = times.at(-1) ?? -Infinity;
@@ -61,6 +61,16 @@ class Plot {
     if (times.length > MAX_ROWS) for (const column of this.data) column.splice(0, 1000);
   }
 
+  // Puts records that are older than those that it has before them.
+  precede(records, take) {
+    const live = this.data;
+    this.clear();
+    for (const record of records) take(record);
+    const end = this.data[0].at(-1) ?? -Infinity;
+    if (live[0].at(0) - end > GAP_S) this.#push(end + SPACING_S, this.description.names.map(() => null));
+    live[0].forEach((time, i) => time > end && this.#push(time, live.slice(1).map((column) => column[i])));
+  }
+
   #push(time, values) {
     this.data[0].push(time);
     values.forEach((value, i) => this.data[i + 1].push(value));
@@ -74,7 +84,7 @@ class Plot {
       title, width: Math.max(200, this.parent.clientWidth), height: 140, tzDate: (time) => uPlot.tzDate(new Date(time * 1000), 'UTC'),
       cursor: {sync: {key: 'navcal'}, drag: {x: false, y: false}}, legend: {show: false}, hooks: {setCursor: [() => this.#tell()]},
       scales: {x: {time: true, auto: false}, y: {dir: flip ? -1 : 1, range: (_, low, high) => widened(low, high)}},
-      axes: [{...axis, space: 70, size: 24, values: (_, times) => times.map(utc)}, {...axis, size: 46, space: 22}],
+      axes: [{...axis, space: 56, size: 24, values: (_, times, axisIndex, space, step) => times.map((time) => utc(time).slice(0, step % 60 === 0 ? 5 : 8))}, {...axis, size: 46, space: 22}],
       series: [{}, ...names.map((label, i) => ({label, stroke: style(COLORS[i]), width: 2, dash: DASHES[i], points: {show: false}}))],
     }, this.data, this.box);
     this.legend.remove();
@@ -116,6 +126,8 @@ export class Plots {
       if (store.about.recording) this.plots.forEach((plot) => plot.clear());
     });
     $('plot-span').addEventListener('change', () => this.draw());
+    if (store.about.version) this.#recall();
+    else store.addEventListener('begin', () => this.#recall(), {once: true});
     let built = 0;
     new ResizeObserver(() => {
       if (this.area.clientWidth === built) return;
@@ -127,11 +139,29 @@ export class Plots {
     }, REDRAW_MS);
   }
 
+  // The log has what was before the page was opened.
+  async #recall() {
+    if (this.store.about.recording) return;
+    let history;
+    try {
+      history = await (await fetch('history.json')).json();
+    } catch (error) {
+      history = {problem: error.message, records: []};
+    }
+    const records = history.records.map(([topic, device, message]) => ({topic, device, message}));
+    for (const plot of this.plots) plot.precede(records, (record) => this.#give(plot, record));
+    write($('plot-history'), history.problem ? `What was before the page was opened is not all here: ${history.problem}.` : '');
+  }
+
   take(record) {
+    for (const plot of this.plots) this.#give(plot, record);
+  }
+
+  #give(plot, record) {
     const role = {'/motor': 'shaft', '/imu': 'depth', '/depth': 'depth'}[record.topic];
     const source = role ? this.store.best(record.topic, role) : null;
     const gap = Math.max(GAP_S, GAP_OF_PLAYING_S * (this.store.play?.speed ?? 0));
-    for (const plot of this.plots) plot.take(record, source, gap);
+    plot.take(record, source, gap);
   }
 
   build() {

@@ -69,14 +69,66 @@ async function looksRight(page, name) {
 }
 
 async function fitsEveryWindow(page, name) {
-  step("no horizontal scrolling from 320 px on");
-  for (const width of [320, 375, 768, 1024, 1920]) {
-    await page.setWindow(width, 900);
-    const whole = await page.evaluate(() => document.documentElement.scrollWidth);
-    assert.ok(whole <= width, `${whole} px in a window of ${width}`);
-    if (width === 320) await page.picture(join(folder, `${name}-phone.png`));
+  for (const width of [320, 390, 768, 1024, 1440, 1920]) {
+    step(`at ${width} px: no horizontal scrolling, STOP in view, one heading`);
+    await page.setWindow(width, 844);
+    for (const end of [false, true]) {
+      // Scrolls past everything that grows meanwhile.
+      await page.when((isEnd) => {
+        window.scrollTo({ top: isEnd ? document.documentElement.scrollHeight : 0, behavior: "instant" });
+        const y = isEnd ? document.documentElement.scrollHeight - innerHeight : 0;
+        return Math.abs(window.scrollY - y) < 2;
+      }, end);
+      const seen = await page.evaluate(() => {
+        const box = document.getElementById("stop").getBoundingClientRect();
+        const top = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+        return { whole: document.documentElement.scrollWidth, box: box.toJSON(), isOnTop: top?.id === "stop", visible: [innerWidth, innerHeight] };
+      });
+      assert.ok(seen.whole <= width, `${seen.whole} px in a window of ${width}`);
+      assert.ok(seen.isOnTop && seen.box.left >= 0 && seen.box.top >= 0 && seen.box.right <= width && seen.box.bottom <= 844, `STOP at ${JSON.stringify(seen)}`);
+      await page.picture(join(folder, `${name}-${width}-${end ? "end" : "top"}.png`));
+    }
+    const last = await page.evaluate(() => [document.getElementById("system").getBoundingClientRect().bottom, document.getElementById("stop-bar").getBoundingClientRect().top]);
+    assert.ok(last[0] <= last[1], "STOP covers the end of the page");
+    // The kind, and the estimator's error, of the one number that is called a heading.
+    const headings = await page.evaluate(() => [...document.querySelectorAll("#heading .big, #heading dd")].map((element) => element.innerText).filter((text) => /\d\u00b0(?!\/)/.test(text)));
+    assert.equal(headings.length, 1, headings.join("; "));
+    assert.match(headings[0], /^\d+\.\d+ \u00b1 \d+(\.\d+)?\u00b0 (magnetic|true)$/);
+    const shown = Number(headings[0].match(/\u00b1 ([\d.]+)/)[1]);
+    const { records } = await (await fetch(`http://127.0.0.1:${vehicle.webPort}/live.json`)).json();
+    const std = (records.find(([topic]) => topic === "/nav")[2].heading_std_rad * 180) / Math.PI;
+    assert.ok(Math.abs(shown - std) < 0.1 + 0.1 * std, `the error shown is ${shown}, the estimator's ${std}`);
   }
   await page.setWindow(1440, 1000);
+}
+
+async function remembersWhatWasBefore(page) {
+  step("after a reload the plots have what was before it");
+  const DAY_S = 86_400;
+  const seconds = (text) => text.match(/(\d\d):(\d\d):(\d\d)/).slice(1).reduce((sum, part) => 60 * sum + Number(part), 0);
+  const since = (text, before) => (seconds(text) - seconds(before) + DAY_S) % DAY_S;
+  const shown = await page.until("#now", /:\d\d UTC/);
+  // Longer than the log waits before it writes.
+  for (let now = shown; since(now, shown) < 5; await delay(100)) now = await page.text("#now");
+  await page.reload();
+  const opened = await page.until("#now", /:\d\d UTC/);
+  await page.when(() => document.querySelectorAll("#plot-area .u-over").length === 4);
+  // The pointer at the left edge of a plot shows the oldest values of all.
+  const oldest = async () => {
+    const at = await page.evaluate(() => {
+      const plot = document.querySelector("#plot-area .u-over");
+      plot.scrollIntoView({ block: "center", behavior: "instant" });
+      const box = plot.getBoundingClientRect();
+      return { x: box.x + 3, y: box.y + 30 };
+    });
+    await page.call("Input.dispatchMouseEvent", { type: "mouseMoved", ...at });
+    return page.evaluate(() => [...document.querySelectorAll("#plot-area .legend")].map((legend) => legend.textContent));
+  };
+  let texts;
+  const isBefore = (text) => /at \d\d:/.test(text) && since(opened, text) >= since(opened, shown) && /-?\d+\.\d\d/.test(text);
+  for (const end = Date.now() + 30_000; Date.now() < end && !(texts?.every(isBefore)); await delay(100)) texts = await oldest();
+  assert.ok(texts.every(isBefore), `the page was opened at ${opened}, the oldest values of the plots: ${texts.join("; ")}`);
+  assert.equal(await page.text("#plot-history"), "");
 }
 
 async function keyboardReachesAll(page) {
@@ -271,6 +323,7 @@ try {
   await changesNeedTheToken(page);
   await keyboardReachesAll(page);
   await drives(page);
+  await remembersWhatWasBefore(page);
   await comesBack(page);
   onlyAsksFor(page, new URL(url).host);
   await worksBehindProxies(browser, url);
