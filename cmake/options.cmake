@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 # Language, warnings and the flags that were found necessary (each with its reason).
 option(NAVCAL_TESTS "build the tests" ON)
-# functions: call functions of the libraries. long: the same, but they take minutes where every access is checked, or cannot run
-# there. daemon: navcald on pseudo-terminals and under faults. programs: run the programs, or check what would be installed.
+# functions: call functions of the libraries. daemon: navcald on pseudo-terminals and under faults. programs: run the programs, or
+# check what would be installed. nightly: what takes longest, where a shorter test of its kind is among the others.
 # tools/test runs each kind in the build where it finds most (docs/building.md).
-set(NAVCAL_TEST_KINDS functions long daemon programs CACHE STRING "kinds of tests to build: functions, long, daemon, programs")
+set(NAVCAL_TEST_KINDS functions daemon programs CACHE STRING "kinds of tests to build: functions, daemon, programs, nightly")
 option(NAVCAL_BENCH "build the benchmarks" OFF)
 option(NAVCAL_FUZZ "build the libFuzzer targets (needs clang)" OFF)
 option(NAVCAL_PRECOMPILE "precompile the large headers of libraries; off in the fuzz build, where a missing include shows" ON)
 option(NAVCAL_UNITY "compile the sources of a room in batches; off in the presets debug and fuzz, where a missing include shows" ON)
 set(NAVCAL_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,undefined")
-# Rooms that compute are watched by the assertions of Eigen and of the standard library instead: sanitized, they took most of the
-# time of that build, and nothing was found in them that an assertion would not find (docs/building.md). Mixed objects are safe:
-# containers have no annotations here.
+# Rooms that compute are watched by the assertions of Eigen and of the standard library instead (docs/building.md says what each
+# finds): sanitized, they took most of the time of that build. Mixed objects are safe, because containers have no annotations here.
 set(NAVCAL_SANITIZED_ROOMS "" CACHE STRING "rooms that are compiled with the sanitizers, with their tests; all if empty")
 # The preset "check" leaves out those of pointers, which doubled the time to build and to run and which the address
 # sanitizer mostly makes again at the access itself; the preset "fuzz" has them all.
@@ -141,8 +140,8 @@ function(navcal_precompile target)
 endfunction()
 
 # navcal_test(NAME [KIND kind] [TIMEOUT s] SOURCES... USES... [RUNS program...]): one GoogleTest program, each suite a ctest of its own
-# with that many seconds (300 unless given). Its sources are compiled in batches, so names in anonymous namespaces must be unique within a program. A room has one program of each kind
-# ("functions" unless given): a program of its own costs a batch and a link. RUNS: programs whose paths the test finds in
+# with that many seconds (300 unless given). Its sources are compiled in batches, so names in anonymous namespaces must be unique
+# within a program. A room has one program of each kind ("functions" unless given): a program of its own costs a batch and a link. RUNS: programs whose paths the test finds in
 # NAVCAL_PROGRAM and NAVCALD.
 function(navcal_test name)
   cmake_parse_arguments(TEST "" "KIND;TIMEOUT" "SOURCES;USES;RUNS" ${ARGN})

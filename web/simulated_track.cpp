@@ -29,7 +29,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 }
 
 /// NaN when the cell is not there or no number.
-double number_in(const std::vector<std::string_view>& cells, std::size_t column) {
+double cell_number(const std::vector<std::string_view>& cells, std::size_t column) {
   double value = std::nan("");
   if (column < cells.size())
     std::from_chars(cells[column].data(), cells[column].data() + cells[column].size(), value);
@@ -54,7 +54,7 @@ std::string read_simulated_track(const std::filesystem::path& file) {
   for (std::size_t number = 2; std::getline(in, line); ++number) {
     if (line.empty()) continue;
     const auto cells = cells_of(line);
-    const double a = number_in(cells, first), b = number_in(cells, second);
+    const double a = cell_number(cells, first), b = cell_number(cells, second);
     if (!std::isfinite(a) || !std::isfinite(b))
       throw std::runtime_error(fmt::format("{} line {}: no number for the place", file.string(), number));
     points.emplace_back(a, b);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as lines to the outputs of a layout: pulses that can be, or nothing.
 #include "sim/instruments/actuator_outputs.h"
-#include "tests/fuzz/target.h"
 
 #include <cstdint>
 #include <cstdlib>
+
+#include "tests/fuzz/target.h"
 
 namespace navcal::fuzz::actuator_outputs {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tests/web/foxglove_link.h"
 #include "tests/fuzz/target.h"
+#include "tests/web/foxglove_link.h"
 #include "web/control_peer.h"
 
 namespace navcal::fuzz::control_admission {

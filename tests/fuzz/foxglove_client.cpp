@@ -6,8 +6,8 @@
 #include <set>
 #include <string_view>
 
-#include "tests/web/foxglove_link.h"
 #include "tests/fuzz/target.h"
+#include "tests/web/foxglove_link.h"
 #include "web/foxglove/peer.h"
 
 namespace navcal::fuzz::foxglove_client {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "web/access.h"
 #include "tests/fuzz/target.h"
+#include "web/access.h"
 #include "web/http.h"
 
 namespace navcal::fuzz::http_query {

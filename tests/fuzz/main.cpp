@@ -37,7 +37,8 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   const char* inherited = std::getenv(kVariable);
   const auto target = targets().find(inherited != nullptr ? inherited : first);
   if (target == targets().end()) {
-    std::fprintf(stderr, "usage: fuzz NAME [options of libFuzzer]; fuzz --list prints the names; '%s' is none\n", first.c_str());
+    std::fprintf(stderr, "usage: fuzz NAME [options of libFuzzer]; fuzz --list prints the names; '%s' is none\n",
+                 first.c_str());
     std::exit(2);
   }
   chosen = target->second;
@@ -50,4 +51,6 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   return 0;
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { return navcal::fuzz::chosen(data, size); }
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return navcal::fuzz::chosen(data, size);
+}

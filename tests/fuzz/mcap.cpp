@@ -25,7 +25,6 @@ std::string small_log() {
   return out;
 }
 
-
 // The first byte chooses: the bytes as a file, or behind a whole log, or as changes to one.
 
 NAVCAL_FUZZ(mcap) {

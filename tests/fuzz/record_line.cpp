@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "web/record.h"
 #include "tests/fuzz/target.h"
+#include "web/record.h"
 
 namespace navcal::fuzz::record_line {
 

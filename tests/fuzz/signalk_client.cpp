@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "web/outlets/signalk_subscription.h"
 #include "tests/fuzz/target.h"
+#include "web/outlets/signalk_subscription.h"
 
 namespace navcal::fuzz::signalk_client {
 

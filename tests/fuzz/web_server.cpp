@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
-#include "web/access.h"
 #include "tests/fuzz/target.h"
+#include "web/access.h"
 #include "web/listener.h"
 #include "web/server.h"
 #include "web/site.h"
