@@ -82,6 +82,8 @@ macro(navcal_add_folder folder)
   get_directory_property(options_of_all COMPILE_OPTIONS)
   if(NOT NAVCAL_SANITIZED_ROOMS OR ${folder} IN_LIST NAVCAL_SANITIZED_ROOMS)
     add_compile_options(${NAVCAL_SANITIZE_OPTIONS})
+  else()
+    add_compile_options(-O2)  # whole diagnoses are among their tests
   endif()
   add_subdirectory(${folder})
   set_directory_properties(PROPERTIES COMPILE_OPTIONS "${options_of_all}")

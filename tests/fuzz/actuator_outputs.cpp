@@ -7,7 +7,7 @@
 
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::actuator_outputs {
+namespace navcal::fuzz::actuator_outputs_target {
 
 class AtRest final : public navcal::sim::Motion {
  public:
@@ -28,4 +28,4 @@ NAVCAL_FUZZ(actuator_outputs) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::actuator_outputs
+}  // namespace navcal::fuzz::actuator_outputs_target

@@ -11,7 +11,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/gap/nulls/made_up_bank.h"
 
-namespace navcal::fuzz::bank_file {
+namespace navcal::fuzz::bank_file_target {
 
 using namespace navcal::gap;
 
@@ -53,4 +53,4 @@ NAVCAL_FUZZ(bank_file) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::bank_file
+}  // namespace navcal::fuzz::bank_file_target

@@ -7,7 +7,7 @@
 #include "tests/fuzz/calib_readings.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::calibration_state {
+namespace navcal::fuzz::calibration_state_target {
 
 using namespace navcal::calib;
 
@@ -39,7 +39,7 @@ std::string saved_state() {
 
 NAVCAL_FUZZ(calibration_state) {
   static const std::string kGood = saved_state();
-  fuzz::Source source({data, size});
+  Source source({data, size});
   std::string state = kGood;
   for (int changes = source.take<std::uint8_t>() % 8; changes > 0; --changes) {
     const std::size_t at = source.take<std::uint32_t>() % state.size();
@@ -52,10 +52,10 @@ NAVCAL_FUZZ(calibration_state) {
   archive(suite);
   if (!archive.ok()) return 0;
   double time_s = 100;
-  while (!source.empty()) suite.put(fuzz::take_reading(source, time_s));
+  while (!source.empty()) suite.put(navcal::calib::fuzz::take_reading(source, time_s));
   suite.finish();
   static_cast<void>(suite.report());
   return 0;
 }
 
-}  // namespace navcal::fuzz::calibration_state
+}  // namespace navcal::fuzz::calibration_state_target

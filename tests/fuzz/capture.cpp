@@ -9,7 +9,7 @@
 
 // Whatever the reader accepts, the writer writes so that it reads the same again.
 
-namespace navcal::fuzz::capture {
+namespace navcal::fuzz::capture_target {
 
 NAVCAL_FUZZ(capture) {
   using namespace navcal::record;
@@ -31,4 +31,4 @@ NAVCAL_FUZZ(capture) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::capture
+}  // namespace navcal::fuzz::capture_target

@@ -9,7 +9,7 @@
 #include "tests/web/foxglove_link.h"
 #include "web/control_peer.h"
 
-namespace navcal::fuzz::control_admission {
+namespace navcal::fuzz::control_admission_target {
 
 NAVCAL_FUZZ(control_admission) {
   using namespace navcal::web;
@@ -25,4 +25,4 @@ NAVCAL_FUZZ(control_admission) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::control_admission
+}  // namespace navcal::fuzz::control_admission_target

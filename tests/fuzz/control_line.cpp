@@ -13,7 +13,7 @@
 #include "record/log/log_shelf.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::control_line {
+namespace navcal::fuzz::control_line_target {
 
 /// An order within the limits makes a line that the card reads as it was meant.
 void check_order(const navcal::daemon::ControlRequest& request) {
@@ -61,4 +61,4 @@ NAVCAL_FUZZ(control_line) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::control_line
+}  // namespace navcal::fuzz::control_line_target

@@ -5,7 +5,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/protocols/described_samples.h"
 
-namespace navcal::fuzz::described {
+namespace navcal::fuzz::described_target {
 
 using navcal::protocols::Bytes;
 using navcal::protocols::Frame;
@@ -43,4 +43,4 @@ NAVCAL_FUZZ(described) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::described
+}  // namespace navcal::fuzz::described_target

@@ -10,7 +10,7 @@
 #include "protocols/described/scanner.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::description {
+namespace navcal::fuzz::description_target {
 
 NAVCAL_FUZZ(description) {
   using namespace navcal;
@@ -36,4 +36,4 @@ NAVCAL_FUZZ(description) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::description
+}  // namespace navcal::fuzz::description_target

@@ -10,7 +10,7 @@
 #include "sim/layout/layout_of.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::effects {
+namespace navcal::fuzz::effects_target {
 
 NAVCAL_FUZZ(effects) {
   using namespace navcal::sim;
@@ -39,4 +39,4 @@ NAVCAL_FUZZ(effects) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::effects
+}  // namespace navcal::fuzz::effects_target

@@ -10,7 +10,7 @@
 #include "fleet/slurm.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::fleet {
+namespace navcal::fuzz::fleet_target {
 
 NAVCAL_FUZZ(fleet) {
   using namespace navcal::fleet;
@@ -44,4 +44,4 @@ NAVCAL_FUZZ(fleet) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::fleet
+}  // namespace navcal::fuzz::fleet_target

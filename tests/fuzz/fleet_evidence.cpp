@@ -10,7 +10,7 @@
 #include "fleet/causes/information_json.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::fleet_evidence {
+namespace navcal::fuzz::fleet_evidence_target {
 
 NAVCAL_FUZZ(fleet_evidence) {
   const auto json = nlohmann::ordered_json::parse(data, data + size, nullptr, false);
@@ -24,4 +24,4 @@ NAVCAL_FUZZ(fleet_evidence) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::fleet_evidence
+}  // namespace navcal::fuzz::fleet_evidence_target

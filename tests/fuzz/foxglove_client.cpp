@@ -10,7 +10,7 @@
 #include "tests/web/foxglove_link.h"
 #include "web/foxglove/peer.h"
 
-namespace navcal::fuzz::foxglove_client {
+namespace navcal::fuzz::foxglove_client_target {
 
 using navcal::web::foxglove::FakeLink;
 
@@ -71,4 +71,4 @@ NAVCAL_FUZZ(foxglove_client) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::foxglove_client
+}  // namespace navcal::fuzz::foxglove_client_target

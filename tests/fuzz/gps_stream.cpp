@@ -4,7 +4,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::gps_stream {
+namespace navcal::fuzz::gps_stream_target {
 
 NAVCAL_FUZZ(gps_stream) {
   using namespace navcal::protocols;
@@ -16,4 +16,4 @@ NAVCAL_FUZZ(gps_stream) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::gps_stream
+}  // namespace navcal::fuzz::gps_stream_target

@@ -8,7 +8,7 @@
 #include "web/access.h"
 #include "web/http.h"
 
-namespace navcal::fuzz::http_query {
+namespace navcal::fuzz::http_query_target {
 
 NAVCAL_FUZZ(http_query) {
   using namespace navcal::web;
@@ -26,4 +26,4 @@ NAVCAL_FUZZ(http_query) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::http_query
+}  // namespace navcal::fuzz::http_query_target

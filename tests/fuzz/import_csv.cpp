@@ -6,7 +6,7 @@
 #include "tests/fuzz/import_sink.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::import_csv {
+namespace navcal::fuzz::import_csv_target {
 
 NAVCAL_FUZZ(import_csv) {
   const std::string_view all(reinterpret_cast<const char*>(data), size);
@@ -22,4 +22,4 @@ NAVCAL_FUZZ(import_csv) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::import_csv
+}  // namespace navcal::fuzz::import_csv_target

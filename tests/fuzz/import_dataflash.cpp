@@ -3,7 +3,7 @@
 #include "tests/fuzz/import_sink.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::import_dataflash {
+namespace navcal::fuzz::import_dataflash_target {
 
 NAVCAL_FUZZ(import_dataflash) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
@@ -13,4 +13,4 @@ NAVCAL_FUZZ(import_dataflash) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::import_dataflash
+}  // namespace navcal::fuzz::import_dataflash_target

@@ -3,7 +3,7 @@
 #include "tests/fuzz/import_sink.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::import_mavlink_log {
+namespace navcal::fuzz::import_mavlink_log_target {
 
 NAVCAL_FUZZ(import_mavlink_log) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
@@ -13,4 +13,4 @@ NAVCAL_FUZZ(import_mavlink_log) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::import_mavlink_log
+}  // namespace navcal::fuzz::import_mavlink_log_target

@@ -3,7 +3,7 @@
 #include "tests/fuzz/import_sink.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::import_ros_bag {
+namespace navcal::fuzz::import_ros_bag_target {
 
 NAVCAL_FUZZ(import_ros_bag) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
@@ -13,4 +13,4 @@ NAVCAL_FUZZ(import_ros_bag) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::import_ros_bag
+}  // namespace navcal::fuzz::import_ros_bag_target

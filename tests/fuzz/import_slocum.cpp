@@ -3,7 +3,7 @@
 #include "tests/fuzz/import_sink.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::import_slocum {
+namespace navcal::fuzz::import_slocum_target {
 
 NAVCAL_FUZZ(import_slocum) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
@@ -13,4 +13,4 @@ NAVCAL_FUZZ(import_slocum) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::import_slocum
+}  // namespace navcal::fuzz::import_slocum_target

@@ -5,7 +5,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::imu_card {
+namespace navcal::fuzz::imu_card_target {
 
 NAVCAL_FUZZ(imu_card) {
   using namespace navcal::protocols;
@@ -29,4 +29,4 @@ NAVCAL_FUZZ(imu_card) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::imu_card
+}  // namespace navcal::fuzz::imu_card_target

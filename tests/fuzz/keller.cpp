@@ -5,7 +5,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::keller {
+namespace navcal::fuzz::keller_target {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -22,4 +22,4 @@ NAVCAL_FUZZ(keller) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::keller
+}  // namespace navcal::fuzz::keller_target

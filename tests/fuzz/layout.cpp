@@ -9,7 +9,7 @@
 #include "sim/layout/layout_vehicle.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::layout {
+namespace navcal::fuzz::layout_target {
 
 NAVCAL_FUZZ(layout) {
   using namespace navcal;
@@ -28,4 +28,4 @@ NAVCAL_FUZZ(layout) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::layout
+}  // namespace navcal::fuzz::layout_target

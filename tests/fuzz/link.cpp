@@ -5,7 +5,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::link {
+namespace navcal::fuzz::link_target {
 
 using namespace navcal::link;
 
@@ -72,4 +72,4 @@ NAVCAL_FUZZ(link) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::link
+}  // namespace navcal::fuzz::link_target

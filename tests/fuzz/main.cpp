@@ -14,16 +14,16 @@ namespace {
 // libFuzzer starts itself anew for some of its options, without arguments that it does not know.
 constexpr const char* kVariable = "NAVCAL_FUZZ_TARGET";
 
-std::map<std::string, Run*>& targets() {
-  static std::map<std::string, Run*> all;
+std::map<std::string, TargetFunction*>& targets() {
+  static std::map<std::string, TargetFunction*> all;
   return all;
 }
 
-Run* chosen = nullptr;
+TargetFunction* chosen = nullptr;
 
 }  // namespace
 
-Target::Target(const char* name, Run* run) { targets()[name] = run; }
+Target::Target(const char* name, TargetFunction* run) { targets()[name] = run; }
 
 }  // namespace navcal::fuzz
 

@@ -8,7 +8,7 @@
 #include "record/log/log_recording.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::mcap {
+namespace navcal::fuzz::mcap_target {
 
 using namespace navcal;
 
@@ -57,4 +57,4 @@ NAVCAL_FUZZ(mcap) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::mcap
+}  // namespace navcal::fuzz::mcap_target

@@ -5,7 +5,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::mip {
+namespace navcal::fuzz::mip_target {
 
 NAVCAL_FUZZ(mip) {
   using namespace navcal::protocols;
@@ -20,4 +20,4 @@ NAVCAL_FUZZ(mip) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::mip
+}  // namespace navcal::fuzz::mip_target

@@ -11,7 +11,7 @@
 #include "config/vehicle_file.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::mission {
+namespace navcal::fuzz::mission_target {
 
 NAVCAL_FUZZ(mission) {
   using namespace navcal::config;
@@ -43,4 +43,4 @@ NAVCAL_FUZZ(mission) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::mission
+}  // namespace navcal::fuzz::mission_target

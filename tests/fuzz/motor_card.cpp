@@ -6,7 +6,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::motor_card {
+namespace navcal::fuzz::motor_card_target {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -27,4 +27,4 @@ NAVCAL_FUZZ(motor_card) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::motor_card
+}  // namespace navcal::fuzz::motor_card_target

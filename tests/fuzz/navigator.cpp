@@ -8,7 +8,7 @@
 #include "tests/fuzz/source.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::navigator {
+namespace navcal::fuzz::navigator_target {
 
 using namespace navcal::nav;
 using navcal::fuzz::Source;
@@ -69,4 +69,4 @@ NAVCAL_FUZZ(navigator) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::navigator
+}  // namespace navcal::fuzz::navigator_target

@@ -8,7 +8,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::nmea {
+namespace navcal::fuzz::nmea_target {
 
 namespace nmea = navcal::protocols::nmea;
 
@@ -51,4 +51,4 @@ NAVCAL_FUZZ(nmea) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::nmea
+}  // namespace navcal::fuzz::nmea_target

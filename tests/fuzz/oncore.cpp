@@ -7,7 +7,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::oncore {
+namespace navcal::fuzz::oncore_target {
 
 namespace oncore = navcal::protocols::oncore;
 using navcal::protocols::Bytes;
@@ -36,4 +36,4 @@ NAVCAL_FUZZ(oncore) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::oncore
+}  // namespace navcal::fuzz::oncore_target

@@ -5,7 +5,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::paroscientific {
+namespace navcal::fuzz::paroscientific_target {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -19,4 +19,4 @@ NAVCAL_FUZZ(paroscientific) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::paroscientific
+}  // namespace navcal::fuzz::paroscientific_target

@@ -5,7 +5,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::pd0 {
+namespace navcal::fuzz::pd0_target {
 
 NAVCAL_FUZZ(pd0) {
   using namespace navcal::protocols;
@@ -16,4 +16,4 @@ NAVCAL_FUZZ(pd0) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::pd0
+}  // namespace navcal::fuzz::pd0_target

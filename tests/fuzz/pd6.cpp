@@ -5,7 +5,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::pd6 {
+namespace navcal::fuzz::pd6_target {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -22,4 +22,4 @@ NAVCAL_FUZZ(pd6) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::pd6
+}  // namespace navcal::fuzz::pd6_target

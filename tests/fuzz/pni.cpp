@@ -4,7 +4,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::pni {
+namespace navcal::fuzz::pni_target {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -23,4 +23,4 @@ NAVCAL_FUZZ(pni) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::pni
+}  // namespace navcal::fuzz::pni_target

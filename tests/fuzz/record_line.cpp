@@ -10,7 +10,7 @@
 #include "tests/fuzz/target.h"
 #include "web/record.h"
 
-namespace navcal::fuzz::record_line {
+namespace navcal::fuzz::record_line_target {
 
 NAVCAL_FUZZ(record_line) {
   using namespace navcal::web;
@@ -37,4 +37,4 @@ NAVCAL_FUZZ(record_line) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::record_line
+}  // namespace navcal::fuzz::record_line_target

@@ -10,7 +10,7 @@
 #include "daemon/request.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::request_line {
+namespace navcal::fuzz::request_line_target {
 
 NAVCAL_FUZZ(request_line) {
   using namespace navcal::daemon;
@@ -38,4 +38,4 @@ NAVCAL_FUZZ(request_line) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::request_line
+}  // namespace navcal::fuzz::request_line_target

@@ -10,7 +10,7 @@
 #include "runs/response.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::run {
+namespace navcal::fuzz::run_target {
 
 NAVCAL_FUZZ(run) {
   using namespace navcal::runs;
@@ -29,4 +29,4 @@ NAVCAL_FUZZ(run) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::run
+}  // namespace navcal::fuzz::run_target

@@ -3,7 +3,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::samples {
+namespace navcal::fuzz::samples_target {
 
 namespace samples_line = navcal::protocols::samples_line;
 
@@ -33,4 +33,4 @@ NAVCAL_FUZZ(samples) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::samples
+}  // namespace navcal::fuzz::samples_target

@@ -14,7 +14,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/report/gap_samples.h"
 
-namespace navcal::fuzz::saved_diagnosis {
+namespace navcal::fuzz::saved_diagnosis_target {
 
 using namespace navcal::report;
 
@@ -49,4 +49,4 @@ NAVCAL_FUZZ(saved_diagnosis) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::saved_diagnosis
+}  // namespace navcal::fuzz::saved_diagnosis_target

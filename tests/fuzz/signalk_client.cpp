@@ -9,7 +9,7 @@
 #include "tests/fuzz/target.h"
 #include "web/outlets/signalk_subscription.h"
 
-namespace navcal::fuzz::signalk_client {
+namespace navcal::fuzz::signalk_client_target {
 
 NAVCAL_FUZZ(signalk_client) {
   using navcal::web::SignalKSubscriptions;
@@ -32,4 +32,4 @@ NAVCAL_FUZZ(signalk_client) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::signalk_client
+}  // namespace navcal::fuzz::signalk_client_target

@@ -5,17 +5,17 @@
 #include "tests/fuzz/calib_readings.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::suite {
+namespace navcal::fuzz::suite_target {
 
 NAVCAL_FUZZ(suite) {
   using namespace navcal::calib;
-  fuzz::Source source({data, size});
+  Source source({data, size});
   Suite suite({}, {true, true, true, true, true});
   double time_s = 0;
-  while (!source.empty()) suite.put(fuzz::take_reading(source, time_s));
+  while (!source.empty()) suite.put(navcal::calib::fuzz::take_reading(source, time_s));
   suite.finish();
-  fuzz::check(suite);
+  navcal::calib::fuzz::check(suite);
   return 0;
 }
 
-}  // namespace navcal::fuzz::suite
+}  // namespace navcal::fuzz::suite_target

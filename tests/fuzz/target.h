@@ -6,12 +6,12 @@
 
 namespace navcal::fuzz {
 
-using Run = int(const std::uint8_t* data, std::size_t size);
+using TargetFunction = int(const std::uint8_t* data, std::size_t size);
 
 /// A target of the program `fuzz`, by its name.
 class Target {
  public:
-  Target(const char* name, Run* run);
+  Target(const char* name, TargetFunction* run);
 };
 
 }  // namespace navcal::fuzz

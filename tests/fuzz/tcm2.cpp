@@ -9,7 +9,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::tcm2 {
+namespace navcal::fuzz::tcm2_target {
 
 NAVCAL_FUZZ(tcm2) {
   using namespace navcal::protocols;
@@ -43,4 +43,4 @@ NAVCAL_FUZZ(tcm2) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::tcm2
+}  // namespace navcal::fuzz::tcm2_target

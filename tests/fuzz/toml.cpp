@@ -8,7 +8,7 @@
 #include "config/load.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::toml {
+namespace navcal::fuzz::toml_target {
 
 NAVCAL_FUZZ(toml) {
   using namespace navcal::config;
@@ -27,4 +27,4 @@ NAVCAL_FUZZ(toml) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::toml
+}  // namespace navcal::fuzz::toml_target

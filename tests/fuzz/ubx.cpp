@@ -8,7 +8,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::ubx {
+namespace navcal::fuzz::ubx_target {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -39,4 +39,4 @@ NAVCAL_FUZZ(ubx) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::ubx
+}  // namespace navcal::fuzz::ubx_target

@@ -7,7 +7,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::vectornav {
+namespace navcal::fuzz::vectornav_target {
 
 NAVCAL_FUZZ(vectornav) {
   using namespace navcal::protocols;
@@ -22,4 +22,4 @@ NAVCAL_FUZZ(vectornav) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::vectornav
+}  // namespace navcal::fuzz::vectornav_target

@@ -9,7 +9,7 @@
 #include "gap/watch/live_records.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::watch_line {
+namespace navcal::fuzz::watch_line_target {
 
 NAVCAL_FUZZ(watch_line) {
   using namespace navcal::gap;
@@ -29,4 +29,4 @@ NAVCAL_FUZZ(watch_line) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::watch_line
+}  // namespace navcal::fuzz::watch_line_target

@@ -11,7 +11,7 @@
 #include "tests/fuzz/source.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::watch_state {
+namespace navcal::fuzz::watch_state_target {
 
 using namespace navcal::gap;
 
@@ -66,4 +66,4 @@ NAVCAL_FUZZ(watch_state) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::watch_state
+}  // namespace navcal::fuzz::watch_state_target

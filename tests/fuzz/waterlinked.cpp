@@ -4,7 +4,7 @@
 #include "tests/fuzz/stream_invariants.h"
 #include "tests/fuzz/target.h"
 
-namespace navcal::fuzz::waterlinked {
+namespace navcal::fuzz::waterlinked_target {
 
 void decode(const navcal::protocols::Frame& frame) {
   using namespace navcal::protocols;
@@ -20,4 +20,4 @@ NAVCAL_FUZZ(waterlinked) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::waterlinked
+}  // namespace navcal::fuzz::waterlinked_target

@@ -19,7 +19,7 @@
 #include "web/server.h"
 #include "web/site.h"
 
-namespace navcal::fuzz::web_server {
+namespace navcal::fuzz::web_server_target {
 
 namespace asio = boost::asio;
 using namespace navcal::web;
@@ -95,4 +95,4 @@ NAVCAL_FUZZ(web_server) {
   return 0;
 }
 
-}  // namespace navcal::fuzz::web_server
+}  // namespace navcal::fuzz::web_server_target

@@ -52,7 +52,7 @@ class RecordedSourceTest : public ::testing::Test {
     return nlohmann::json::parse(text);
   }
 
-  test::TemporaryFolder folder;
+  navcal::test::TemporaryFolder folder;
   boost::asio::io_context context;
   Hub hub;
   Heard heard;

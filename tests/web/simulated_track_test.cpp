@@ -25,7 +25,7 @@ class SimulatedTrack : public ::testing::Test {
     }
     return "(taken)";
   }
-  test::TemporaryFolder folder;
+  navcal::test::TemporaryFolder folder;
 };
 
 TEST_F(SimulatedTrack, MetresOrDegreesByTheirColumns) {
