@@ -66,6 +66,21 @@ TEST_F(EchoWatchTest, OfSeveralLinesTheNewestThatFitsIsShownAndOlderOnesAreSuper
   EXPECT_EQ(came(), Words{"4 echoed"});
 }
 
+TEST_F(EchoWatchTest, AStatusMeasuredAsTheLineReachesTheCardShowsIt) {
+  sent(1, 100, 780);
+  watch_.status(100 * kMillisecond_ns + kTransit_ns - 1, 0, 780, out_);
+  EXPECT_EQ(came(), Words{});
+  watch_.status(100 * kMillisecond_ns + kTransit_ns, 0, 780, out_);
+  EXPECT_EQ(came(), Words{"1 echoed"});
+}
+
+TEST_F(EchoWatchTest, OfMoreLinesThanItHoldsTheOldestIsSuperseded) {
+  for (std::uint64_t i = 0; i < 2048; ++i) sent(i, 0, 1);
+  EXPECT_EQ(came(), Words{});
+  sent(2048, 0, 1);
+  EXPECT_EQ(came(), Words{"0 superseded"});
+}
+
 // Twenty lines a second against ten statuses a second: a working card is never called deaf.
 TEST_F(EchoWatchTest, ARampDoesNotLookLikeADeafCard) {
   for (int step = 0; step < 100; ++step) {

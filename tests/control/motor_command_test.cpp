@@ -169,6 +169,7 @@ TEST_F(MotorCommandTest, WhatIsBeyondLimitsOrNoNumberIsRefusedWithTheReason) {
   EXPECT_EQ(command_.sequence(), 0U);
   EXPECT_EQ(order(1200), "");
   EXPECT_EQ(order(-1200), "");
+  EXPECT_EQ(command_.order(now_ns_, "a", {0, {25, -25, 0}}), "");
 }
 
 TEST_F(MotorCommandTest, ARefusedOrderDoesNotRenewTheLease) {
@@ -253,6 +254,73 @@ TEST_F(MotorCommandTest, ALeakWithNobodyInChargeSendsNothing) {
   ASSERT_EQ(command_.take_events().size(), 1U);
 }
 
+TEST_F(MotorCommandTest, AnOrderEndsTheRepetitionOfTheSafeState) {
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(lines(600), Lines{"500:0 safe"});
+  EXPECT_TRUE(command_.is_card_commanded()) << "until the card has shown the safe state";
+  ASSERT_EQ(lease({"pilot", 1, 5}), "");
+  ASSERT_EQ(order(780), "");
+  EXPECT_EQ(lines(2000), Lines{"600:780"});
+  command_.safe_echoed();
+  EXPECT_TRUE(command_.is_card_commanded()) << "an old status does not end an order";
+}
+
+TEST_F(MotorCommandTest, AtTheEndTheSafeStateIsSentAtOnceIfTheCardMayObeyAnotherOrder) {
+  command_.shut_down(now_ns_);
+  EXPECT_EQ(lines(100), Lines{});
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(command_.release(now_ns_, "a"), "");
+  EXPECT_EQ(lines(200), Lines{"100:0 safe"});
+  command_.shut_down(now_ns_);
+  EXPECT_EQ(lines(201), Lines{"200:0 safe"});
+}
+
+TEST_F(MotorCommandTest, AnOrderThatThePortDidNotTakeIsNotSentAsANewOneLater) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(780), "");
+  command_.port_lost("the device is gone");
+  command_.port_opened(now_ns_);
+  for (const auto& line : {command_.next(50 * kMs), command_.next(51 * kMs)})
+    EXPECT_TRUE(!line || line->source != Source::order);
+}
+
+TEST(MotorCommand, RepeatsTheSafeStateAtTheTimeOutOfTheEchoOrTwiceASecond) {
+  for (const double timeout_s : {0.0, 0.3}) {
+    config::CommandSettings made = settings();
+    made.echo_timeout_s = timeout_s;
+    MotorCommand command(made);
+    command.commanded_before(0);
+    command.port_opened(0);
+    EXPECT_TRUE(command.next(0));
+    EXPECT_EQ(command.deadline_ns(), timeout_s > 0 ? 300 * kMs : 500 * kMs);
+  }
+}
+
+TEST_F(MotorCommandTest, EventsTellWhoIsInChargeAndWhatALeakDoes) {
+  std::string events;
+  const auto take = [&] {
+    events.clear();
+    for (const auto& event : command_.take_events())
+      events += std::string(event.severity) + ' ' + std::string(event.name) + ' ' + event.message + '\n';
+    return events;
+  };
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(take(), "info motor.lease pilot (priority 1) is in charge, time-out 0.5 s\n");
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(take(), "info motor.lease pilot (priority 1) is in charge, time-out 0.5 s\n") << "the same connection";
+  ASSERT_EQ(lease(kOperator, "b", 2), "");
+  EXPECT_EQ(
+      take(),
+      "warning motor.lease operator (priority 2) is in charge instead of pilot (priority 1), time-out 1 s\n");
+  command_.leak(now_ns_, "aft");
+  EXPECT_EQ(take(), "warning motor.leak aft: operator (priority 2) stays in charge\n");
+  command_.leak(now_ns_, "");
+  EXPECT_EQ(take(), "");
+  ASSERT_EQ(command_.release(now_ns_, "b"), "");
+  EXPECT_EQ(take(),
+            "warning motor.safe operator (priority 2): the lease was released; the safe state is ordered\n");
+}
+
 class LeakIsAnAlarmTest : public MotorCommandTest {
  protected:
   LeakIsAnAlarmTest()
@@ -270,6 +338,11 @@ TEST_F(LeakIsAnAlarmTest, NothingElseHappens) {
   EXPECT_EQ(order(780), "");
   EXPECT_TRUE(command_.take_events().empty());
   EXPECT_EQ(lease(), "");
+}
+
+TEST_F(MotorCommandTest, LeasesAtTheLimitsAreGranted) {
+  EXPECT_EQ(lease({"p", 0, 0.2}), "");
+  EXPECT_EQ(lease({std::string(64, 'x'), 1000, 5}), "");
 }
 
 TEST_F(MotorCommandTest, LeasesThatMakeNoSenseAreRefused) {
@@ -304,6 +377,23 @@ TEST_F(ShapedMotorCommandTest, TheWayToAnOrderIsSentTwentyTimesASecondAndTheSafe
   ASSERT_EQ(lease(), "");
   ASSERT_EQ(order(-100), "");
   EXPECT_EQ(lines(800), (Lines{"700:-50", "750:-100"})) << "on from the safe state";
+}
+
+TEST(MotorCommand, TheFirstOrderIsReachedFromTheSafeState) {
+  auto made = settings();
+  made.slew_fin_deg_s = 100;
+  MotorCommand command(made);
+  command.port_opened(0);
+  ASSERT_EQ(command.lease(0, kPilot, "a", 1), "");
+  ASSERT_EQ(command.order(0, "a", {0, {0, 25, 0}}), "");
+  EXPECT_EQ(command.next(50 * kMs)->command.fins_deg, (std::array<double, 3>{0, 6, 0}));
+}
+
+TEST(RoundedForCard, WholeRevolutionsAndTenthsOfADegreeWithoutANegativeZero) {
+  const auto rounded = rounded_for_card({-99.5, {12.34, -12.36, -0.01}});
+  EXPECT_EQ(rounded.rpm, -100);
+  EXPECT_EQ(rounded.fins_deg, (std::array<double, 3>{12.3, -12.4, 0}));
+  EXPECT_FALSE(std::signbit(rounded.fins_deg[2]));
 }
 
 // Whatever controllers do: after the last time-out the card was last sent the safe state, and nothing was sent
