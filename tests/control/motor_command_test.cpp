@@ -340,6 +340,20 @@ TEST_F(LeakIsAnAlarmTest, NothingElseHappens) {
   EXPECT_EQ(lease(), "");
 }
 
+TEST_F(MotorCommandTest, WhoeverTakesOverMayOrderAtOnceHoweverManyOrdersCameBefore) {
+  ASSERT_EQ(lease(), "");
+  while (order(100).empty()) continue;
+  ASSERT_EQ(lease(kOperator, "b", 2), "");
+  EXPECT_EQ(order(0, "b"), "");
+}
+
+TEST_F(MotorCommandTest, ALeakSaysWhoseLeaseEnds) {
+  ASSERT_EQ(lease(), "");
+  static_cast<void>(command_.take_events());
+  command_.leak(now_ns_, "aft");
+  EXPECT_EQ(command_.take_events().at(0).message, "aft: the lease of pilot (priority 1) ends");
+}
+
 TEST_F(MotorCommandTest, LeasesAtTheLimitsAreGranted) {
   EXPECT_EQ(lease({"p", 0, 0.2}), "");
   EXPECT_EQ(lease({std::string(64, 'x'), 1000, 5}), "");

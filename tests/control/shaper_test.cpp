@@ -47,6 +47,13 @@ TEST(Shaper, NoRateTimesPassedBackwardsDoNothing) {
   EXPECT_DOUBLE_EQ(shaper.step(0).shaft_rpm, 100);
 }
 
+TEST(Shaper, ARampBeginsAtTheLineSentWithoutOneHoweverSlowItIs) {
+  Shaper shaper(with_slew(1, 1));
+  shaper.jump(1'000'000'000, {100, {}});
+  shaper.aim({200, {}});
+  EXPECT_DOUBLE_EQ(shaper.step(1'010'000'000).shaft_rpm, 100.01);
+}
+
 TEST(Shaper, ZeroIsAtOnce) {
   Shaper shaper(with_slew(0, 0));
   shaper.jump(0, {});
