@@ -230,7 +230,15 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   report.format = format.name;
   report.bytes = file.bytes().size();
   Survey survey(progress, file.bytes().size());
-  ImportFindings findings = format.read(file.bytes(), options, survey);
+  // A reader of a format knows bytes and no file.
+  const auto read = [&](ImportSink& sink) {
+    try {
+      return format.read(file.bytes(), options, sink);
+    } catch (const record::BadRecording& error) {
+      throw record::BadRecording(fmt::format("{}: {}", report.input, error.what()));
+    }
+  };
+  ImportFindings findings = read(survey);
   const auto ports = survey.ports();
   if (ports.empty())
     throw record::BadRecording(
@@ -240,7 +248,7 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   LogBuilder builder(settings, log);
   builder.begin({survey.first_ns(), mapping});
   Writing writing(builder, settings, survey.first_ns(), mapping.offset_ns, progress, file.bytes().size());
-  (void)format.read(file.bytes(), options, writing);
+  (void)read(writing);
   survey.finish(report);
   for (std::size_t i = 0; i < ports.size(); ++i)
     report.refused += builder.pipeline().statistics(static_cast<std::uint16_t>(i)).out_of_range;
