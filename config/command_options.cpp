@@ -5,88 +5,42 @@ namespace navcal::config {
 
 std::vector<Option<Settings>> command_options() {
   using S = Settings;
+  const NumberOf<S> number{"command"};
   return {
       boolean<S>(
           {.table = "command",
            .key = "enabled",
            .description = "Whether the control socket takes orders to the motor card at all."},
           [](auto& s) -> auto& { return s.command.enabled; }),
-      real<S>(
-          {.table = "command",
-           .key = "max_rpm",
-           .description =
-               "Greatest shaft speed that an order may ask for, ahead and astern; beyond it the order is "
-               "refused.",
-           .unit = kCardRpm,
-           .low = 0,
-           .high = 100000},
-          [](auto& s) -> auto& { return s.command.max_rpm; }),
-      real<S>(
-          {.table = "command",
-           .key = "max_fin_deg",
-           .description = "Likewise of a fin's angle, either way. The card itself refuses more than 25.",
-           .unit = kCardDegrees,
-           .low = 0,
-           .high = 25},
-          [](auto& s) -> auto& { return s.command.max_fin_deg; }),
-      real<S>(
-          {.table = "command",
-           .key = "slew_rpm_s",
-           .description = "How fast the shaft speed on the wire moves towards the order; 0: at once.",
-           .unit = kCardRpmPerSecond,
-           .low = 0,
-           .high = 1e6},
-          [](auto& s) -> auto& { return s.command.slew_rpm_s; }),
-      real<S>(
-          {.table = "command",
-           .key = "slew_fin_deg_s",
-           .description = "Likewise each fin's angle.",
-           .unit = kCardDegreesPerSecond,
-           .low = 0,
-           .high = 1e4},
+      number(
+          "max_rpm",
+          "Greatest shaft speed that an order may ask for, ahead and astern; beyond it the order is refused.",
+          kCardRpm, 0, 100000, [](auto& s) -> auto& { return s.command.max_rpm; }),
+      number(
+          "max_fin_deg", "Likewise of a fin's angle, either way. The card itself refuses more than 25.",
+          kCardDegrees, 0, 25, [](auto& s) -> auto& { return s.command.max_fin_deg; }),
+      number(
+          "slew_rpm_s", "How fast the shaft speed on the wire moves towards the order; 0: at once.",
+          kCardRpmPerSecond, 0, 1e6, [](auto& s) -> auto& { return s.command.slew_rpm_s; }),
+      number(
+          "slew_fin_deg_s", "Likewise each fin's angle.", kCardDegreesPerSecond, 0, 1e4,
           [](auto& s) -> auto& { return s.command.slew_fin_deg_s; }),
-      real<S>(
-          {.table = "command",
-           .key = "min_timeout_s",
-           .description = "Shortest time without an order that a controller may choose for its lease.",
-           .unit = kSeconds,
-           .low = 0.05,
-           .high = 60},
-          [](auto& s) -> auto& { return s.command.min_timeout_s; }),
-      real<S>(
-          {.table = "command",
-           .key = "max_timeout_s",
-           .description =
-               "Longest time without an order that it may choose: so long may the shaft turn unattended.",
-           .unit = kSeconds,
-           .low = 0.05,
-           .high = 3600},
-          [](auto& s) -> auto& { return s.command.max_timeout_s; }),
-      real<S>(
-          {.table = "command",
-           .key = "max_orders_Hz",
-           .description = "Orders taken in a second; those beyond it are refused.",
-           .unit = kHertz,
-           .low = 1,
-           .high = 200},
+      number(
+          "min_timeout_s", "Shortest time without an order that a controller may choose for its lease.", kSeconds,
+          0.05, 60, [](auto& s) -> auto& { return s.command.min_timeout_s; }),
+      number(
+          "max_timeout_s",
+          "Longest time without an order that it may choose: so long may the shaft turn unattended.", kSeconds,
+          0.05, 3600, [](auto& s) -> auto& { return s.command.max_timeout_s; }),
+      number(
+          "max_orders_Hz", "Orders taken in a second; those beyond it are refused.", kHertz, 1, 200,
           [](auto& s) -> auto& { return s.command.max_orders_Hz; }),
-      real<S>(
-          {.table = "command",
-           .key = "echo_timeout_s",
-           .description =
-               "A card that has not shown an order for this long raises the alarm command_not_echoed; 0: not "
-               "watched.",
-           .unit = kSeconds,
-           .low = 0,
-           .high = 5},
-          [](auto& s) -> auto& { return s.command.echo_timeout_s; }),
-      real<S>(
-          {.table = "command",
-           .key = "safe_rpm",
-           .description = "Shaft speed ordered when a lease ends and nobody takes over.",
-           .unit = kCardRpm,
-           .low = -100000,
-           .high = 100000},
+      number(
+          "echo_timeout_s",
+          "A card that has not shown an order for this long raises the alarm command_not_echoed; 0: not watched.",
+          kSeconds, 0, 5, [](auto& s) -> auto& { return s.command.echo_timeout_s; }),
+      number(
+          "safe_rpm", "Shaft speed ordered when a lease ends and nobody takes over.", kCardRpm, -100000, 100000,
           [](auto& s) -> auto& { return s.command.safe_rpm; }),
       channels<S>(
           {.table = "command",

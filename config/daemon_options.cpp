@@ -14,6 +14,7 @@ namespace navcal::config {
 namespace {
 
 std::vector<Option<Settings>> make_daemon_options() {
+  const NumberOf<Settings> of_log{"log"}, of_status{"status"}, of_environment{"environment"};
   std::vector<Option<Settings>> options{
       text<Settings>(
           {.table = "vehicle",
@@ -41,46 +42,21 @@ std::vector<Option<Settings>> make_daemon_options() {
       boolean<Settings>(
           {.table = "log", .key = "enabled", .description = "Whether a log is written at all."},
           [](auto& s) -> auto& { return s.log.enabled; }),
-      real<Settings>(
-          {.table = "log",
-           .key = "sync_interval_s",
-           .description = "Interval of syncs to the disk: a power cut loses at most the data of this time.",
-           .unit = kSeconds,
-           .low = 0.01,
-           .high = 60},
-          [](auto& s) -> auto& { return s.log.sync_interval_s; }),
-      real<Settings>(
-          {.table = "log",
-           .key = "rotate_MB",
-           .description = "Size at which a log file is finished and a new one begun.",
-           .unit = kMegabytes,
-           .low = 0.1,
-           .high = 1e6},
+      of_log(
+          "sync_interval_s", "Interval of syncs to the disk: a power cut loses at most the data of this time.",
+          kSeconds, 0.01, 60, [](auto& s) -> auto& { return s.log.sync_interval_s; }),
+      of_log(
+          "rotate_MB", "Size at which a log file is finished and a new one begun.", kMegabytes, 0.1, 1e6,
           [](auto& s) -> auto& { return s.log.rotate_bytes; }),
-      real<Settings>(
-          {.table = "log",
-           .key = "rotate_age_h",
-           .description = "Age at which a log file is finished and a new one begun.",
-           .unit = kHours,
-           .low = 0.001,
-           .high = 8760},
+      of_log(
+          "rotate_age_h", "Age at which a log file is finished and a new one begun.", kHours, 0.001, 8760,
           [](auto& s) -> auto& { return s.log.rotate_age_s; }),
-      real<Settings>(
-          {.table = "log",
-           .key = "free_floor_MB",
-           .description = "Space kept free on the disk: below it the oldest finished log file is deleted.",
-           .unit = kMegabytes,
-           .low = 0,
-           .high = 1e9},
-          [](auto& s) -> auto& { return s.log.free_floor_bytes; }),
-      real<Settings>(
-          {.table = "log",
-           .key = "queue_MB",
-           .description = "Memory for records that wait for a stalled disk; further records are lost and counted.",
-           .unit = kMegabytes,
-           .low = 0.1,
-           .high = 4096},
-          [](auto& s) -> auto& { return s.log.queue_bytes; }),
+      of_log(
+          "free_floor_MB", "Space kept free on the disk: below it the oldest finished log file is deleted.",
+          kMegabytes, 0, 1e9, [](auto& s) -> auto& { return s.log.free_floor_bytes; }),
+      of_log(
+          "queue_MB", "Memory for records that wait for a stalled disk; further records are lost and counted.",
+          kMegabytes, 0.1, 4096, [](auto& s) -> auto& { return s.log.queue_bytes; }),
       list<Settings>(
           {.table = "log",
            .key = "leave_out",
@@ -104,15 +80,11 @@ std::vector<Option<Settings>> make_daemon_options() {
            .low = 0,
            .high = 65535},
           [](auto& s) -> auto& { return s.status.port; }),
-      real<Settings>(
-          {.table = "status",
-           .key = "client_queue_kB",
-           .description = "Memory for reports to one slow client; further reports are dropped, and the client "
-                          "receives their number.",
-           .unit = kKilobytes,
-           .low = 4,
-           .high = 65536},
-          [](auto& s) -> auto& { return s.status.client_queue_bytes; }),
+      of_status(
+          "client_queue_kB",
+          "Memory for reports to one slow client; further reports are dropped, and the client receives their "
+          "number.",
+          kKilobytes, 4, 65536, [](auto& s) -> auto& { return s.status.client_queue_bytes; }),
       integer<Settings>(
           {.table = "status",
            .key = "max_clients",
@@ -120,22 +92,13 @@ std::vector<Option<Settings>> make_daemon_options() {
            .low = 1,
            .high = 10000},
           [](auto& s) -> auto& { return s.status.max_clients; }),
-      real<Settings>(
-          {.table = "status",
-           .key = "health_interval_s",
-           .description =
-               "Interval at which HEALTH is reported and logged; changes of state are reported at once.",
-           .unit = kSeconds,
-           .low = 0.1,
-           .high = 3600},
-          [](auto& s) -> auto& { return s.status.health_interval_s; }),
-      real<Settings>(
-          {.table = "status",
-           .key = "nmea_heading_std_deg",
-           .description = "Largest standard error of the heading with which the NMEA sentence HDT is sent.",
-           .unit = kDegrees,
-           .low = 0.01,
-           .high = 180},
+      of_status(
+          "health_interval_s",
+          "Interval at which HEALTH is reported and logged; changes of state are reported at once.", kSeconds, 0.1,
+          3600, [](auto& s) -> auto& { return s.status.health_interval_s; }),
+      of_status(
+          "nmea_heading_std_deg",
+          "Largest standard error of the heading with which the NMEA sentence HDT is sent.", kDegrees, 0.01, 180,
           [](auto& s) -> auto& { return s.status.nmea_heading_std_rad; }),
 
       text<Settings>(
@@ -160,29 +123,14 @@ std::vector<Option<Settings>> make_daemon_options() {
            .description = "Whether declination, field and dip that are 0 here are computed from the World "
                           "Magnetic Model, from the first fix on."},
           [](auto& s) -> auto& { return s.environment.model; }),
-      real<Settings>(
-          {.table = "environment",
-           .key = "declination_deg",
-           .description = "Magnetic declination, positive when magnetic north lies east of true north.",
-           .unit = kDegrees,
-           .low = -180,
-           .high = 180},
-          [](auto& s) -> auto& { return s.environment.declination_rad; }),
-      real<Settings>(
-          {.table = "environment",
-           .key = "field_uT",
-           .description = "Magnitude of the Earth's field here; 0 if unknown.",
-           .unit = kMicrotesla,
-           .low = 0,
-           .high = 100},
+      of_environment(
+          "declination_deg", "Magnetic declination, positive when magnetic north lies east of true north.",
+          kDegrees, -180, 180, [](auto& s) -> auto& { return s.environment.declination_rad; }),
+      of_environment(
+          "field_uT", "Magnitude of the Earth's field here; 0 if unknown.", kMicrotesla, 0, 100,
           [](auto& s) -> auto& { return s.environment.field_uT; }),
-      real<Settings>(
-          {.table = "environment",
-           .key = "dip_deg",
-           .description = "Inclination of the Earth's field, positive when it points down.",
-           .unit = kDegrees,
-           .low = -90,
-           .high = 90},
+      of_environment(
+          "dip_deg", "Inclination of the Earth's field, positive when it points down.", kDegrees, -90, 90,
           [](auto& s) -> auto& { return s.environment.dip_rad; }),
   };
   for (auto& option : role_options()) options.push_back(std::move(option));

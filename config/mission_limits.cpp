@@ -16,10 +16,8 @@ constexpr Unit kWattHours{"Wh"};
 
 Option<MissionLimits> limit(std::string_view key, double MissionLimits::*value, Unit unit, double low, double high,
                             std::string_view description) {
-  OptionInfo info{
-      .table = "limits", .key = key, .description = description, .unit = unit, .low = low, .high = high};
-  return real<MissionLimits>(
-      std::move(info), [value](auto& limits) -> auto& { return limits.*value; });
+  return NumberOf<MissionLimits>{"limits"}(
+      key, description, unit, low, high, [value](auto& limits) -> auto& { return limits.*value; });
 }
 
 std::vector<Option<MissionLimits>> make_mission_limit_options() {

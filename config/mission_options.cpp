@@ -27,6 +27,7 @@ Option<Step> count(std::string_view key, std::optional<int> Step::*value, double
 }
 
 std::vector<Option<M>> make_mission_options() {
+  const NumberOf<M> at_start{"start"};
   return {
       text<M>(
           {.table = "mission",
@@ -41,33 +42,15 @@ std::vector<Option<M>> make_mission_options() {
            .description = "Repeat the mission, or continue as at its end.",
            .choices = {"repeat", "hold"}},
           [](auto& m) -> auto& { return m.at_end; }),
-      real<M>(
-          {.table = "start",
-           .key = "heading_deg",
-           .description = "Heading, true.",
-           .unit = kDegrees,
-           .low = -360,
-           .high = 360},
+      at_start(
+          "heading_deg", "Heading, true.", kDegrees, -360, 360,
           [](auto& m) -> auto& { return m.start.heading_rad; }),
-      real<M>(
-          {.table = "start", .key = "depth_m", .description = "Depth.", .unit = kMetres, .low = 0, .high = 1000},
-          [](auto& m) -> auto& { return m.start.depth_m; }),
-      real<M>(
-          {.table = "start",
-           .key = "speed_m_s",
-           .description = "Speed.",
-           .unit = kMetresPerSecond,
-           .low = 0,
-           .high = 10},
-          [](auto& m) -> auto& { return m.start.speed_m_s; }),
-      real<M>(
-          {.table = "start",
-           .key = "shaft_rpm",
-           .description = "Shaft speed.",
-           .unit = kRpm,
-           .low = 0,
-           .high = 60000},
-          [](auto& m) -> auto& { return m.start.shaft_rps; }),
+      at_start(
+          "depth_m", "Depth.", kMetres, 0, 1000, [](auto& m) -> auto& { return m.start.depth_m; }),
+      at_start(
+          "speed_m_s", "Speed.", kMetresPerSecond, 0, 10, [](auto& m) -> auto& { return m.start.speed_m_s; }),
+      at_start(
+          "shaft_rpm", "Shaft speed.", kRpm, 0, 60000, [](auto& m) -> auto& { return m.start.shaft_rps; }),
   };
 }
 

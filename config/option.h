@@ -91,6 +91,20 @@ Option<Owner> real(OptionInfo info, Member member) {
           }};
 }
 
+/// Makes the real numbers of one table.
+template <class Owner>
+struct NumberOf {
+  std::string_view table;
+
+  /// `low` and `high` are in `unit`.
+  template <class Member>
+  Option<Owner> operator()(std::string_view key, std::string_view description, const Unit& unit, double low,
+                           double high, Member member) const {
+    return real<Owner>(
+        {.table = table, .key = key, .description = description, .unit = unit, .low = low, .high = high}, member);
+  }
+};
+
 template <class Owner, class Member>
 Option<Owner> text(OptionInfo info, Member member) {
   info.kind = Kind::text;

@@ -44,6 +44,7 @@ std::vector<Option<P>> make_port_options() {
   const auto with_position = devices_that([](const protocols::Delivery& delivers) {
     return delivers.acceleration || delivers.depth || delivers.position || delivers.bottom_velocity;
   });
+  const NumberOf<P> number{};
   return {
       choice<P>(
           {.key = "protocol", .description = "Protocol of the device.", .choices = protocol_names()},
@@ -127,26 +128,14 @@ std::vector<Option<P>> make_port_options() {
       boolean<P>(
           {.key = "low_latency", .description = "Ask the driver to deliver bytes without delay."},
           [](auto& p) -> auto& { return p.low_latency; }),
-      real<P>(
-          {.key = "latency_ms",
-           .description = "Time from the measurement to the first byte on the wire.",
-           .unit = kMilliseconds,
-           .low = 0,
-           .high = 10000},
+      number(
+          "latency_ms", "Time from the measurement to the first byte on the wire.", kMilliseconds, 0, 10000,
           [](auto& p) -> auto& { return p.latency_s; }),
-      real<P>(
-          {.key = "latency_std_ms",
-           .description = "Uncertainty of latency_ms, one standard deviation.",
-           .unit = kMilliseconds,
-           .low = 0,
-           .high = 10000},
+      number(
+          "latency_std_ms", "Uncertainty of latency_ms, one standard deviation.", kMilliseconds, 0, 10000,
           [](auto& p) -> auto& { return p.latency_std_s; }),
-      real<P>(
-          {.key = "rate_Hz",
-           .description = "Nominal frame rate; 0 if the device has none.",
-           .unit = kHertz,
-           .low = 0,
-           .high = 1000},
+      number(
+          "rate_Hz", "Nominal frame rate; 0 if the device has none.", kHertz, 0, 1000,
           [](auto& p) -> auto& { return p.rate_Hz; }),
 
       choice<P>(

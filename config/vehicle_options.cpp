@@ -21,14 +21,9 @@ template <class Part>
 void add(std::vector<Option<V>>& options, std::string_view table, Part V::*part,
          std::initializer_list<Row<Part>> rows) {
   for (const Row<Part>& row : rows) {
-    OptionInfo info{.table = table,
-                    .key = row.key,
-                    .description = row.description,
-                    .unit = row.unit,
-                    .low = row.low,
-                    .high = row.high};
-    options.push_back(real<V>(
-        std::move(info), [ part, value = row.value ](auto& v) -> auto& { return (v.*part).*value; }));
+    options.push_back(NumberOf<V>{table}(
+        row.key, row.description, row.unit, row.low, row.high,
+        [ part, value = row.value ](auto& v) -> auto& { return (v.*part).*value; }));
   }
 }
 
