@@ -24,18 +24,14 @@ void describe_motor_card(FieldWriter& fields, const Frame& frame, const std::opt
     const auto command = motor_card::decode_command(frame.bytes);
     if (!command) return write_out_of_range(fields);
     fields.number("rpm_commanded", command->rpm);
-    fields.begin_list("fins_deg");
-    for (const double fin : command->fins_deg) fields.number({}, fin);
-    return fields.end_list();
+    return fields.numbers("fins_deg", command->fins_deg);
   }
   const auto decoded = motor_card::decode_status(frame.bytes);
   const motor_card::Status status = decoded.value_or(motor_card::Status{});
   fields.number("sequence", status.sequence);
   fields.number("rpm_commanded", status.rpm_commanded);
   fields.number("rpm", status.rpm);
-  fields.begin_list("fins_deg");
-  for (const auto& fin : status.fins_deg) fields.number({}, fin);
-  fields.end_list();
+  fields.numbers("fins_deg", status.fins_deg);
   fields.number("current_A", status.current_A);
   if (!decoded) write_out_of_range(fields);
 }

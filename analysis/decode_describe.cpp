@@ -3,17 +3,21 @@
 
 namespace navcal::analysis {
 
-void write_position(FieldWriter& fields, const PositionFields& position,
-                    const std::optional<protocols::Date>& pivot) {
-  if (position.date && position.time) {
-    const auto date = pivot ? protocols::correct_rollover(*position.date, *pivot)
-                            : protocols::CorrectedDate{*position.date, false};
-    fields.time("time", date.date, *position.time);
-    fields.flag("time_corrected", date.corrected);
+void write_time(FieldWriter& fields, const std::optional<protocols::Date>& date,
+                const std::optional<protocols::TimeOfDay>& time, const std::optional<protocols::Date>& pivot) {
+  if (date && time) {
+    const auto moved = pivot ? protocols::correct_rollover(*date, *pivot) : protocols::CorrectedDate{*date, false};
+    fields.time("time", moved.date, *time);
+    fields.flag("time_corrected", moved.corrected);
   } else {
     fields.null("time");
     fields.flag("time_corrected", false);
   }
+}
+
+void write_position(FieldWriter& fields, const PositionFields& position,
+                    const std::optional<protocols::Date>& pivot) {
+  write_time(fields, position.date, position.time, pivot);
   fields.number("lat", position.lat, 9);
   fields.number("lon", position.lon, 9);
   fields.number("height_m", position.height_m, 3);

@@ -31,6 +31,10 @@ void describe_pni(FieldWriter&, const protocols::Frame&, const std::optional<pro
 void describe_ubx(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 void describe_vectornav(FieldWriter&, const protocols::Frame&, const std::optional<protocols::Date>&);
 
+/// The date and time of a message, null when one of them is absent.
+void write_time(FieldWriter& fields, const std::optional<protocols::Date>& date,
+                const std::optional<protocols::TimeOfDay>& time, const std::optional<protocols::Date>& pivot);
+
 /// The keys that every message with a position has, whatever its protocol.
 struct PositionFields {
   std::optional<protocols::Date> date;

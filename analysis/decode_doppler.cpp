@@ -17,20 +17,6 @@ namespace water_linked = protocols::water_linked;
 
 constexpr std::string_view kAxesNames[] = {"beam", "instrument", "ship", "earth"};
 
-template <class List>
-void write_list(FieldWriter& fields, std::string_view key, const List& values, int decimals) {
-  fields.begin_list(key);
-  for (const auto& value : values) fields.number({}, value, decimals);
-  fields.end_list();
-}
-
-template <class List>
-void write_counts(FieldWriter& fields, std::string_view key, const List& values) {
-  fields.begin_list(key);
-  for (const auto value : values) fields.number({}, value);
-  fields.end_list();
-}
-
 void write(FieldWriter& fields, const pd0::FixedLeader& fixed) {
   fields.text("axes", kAxesNames[static_cast<std::size_t>(fixed.axes)]);
   fields.flag("uses_tilts", fixed.uses_tilts);
@@ -59,11 +45,11 @@ void write(FieldWriter& fields, const pd0::VariableLeader& variable) {
 }
 
 void write(FieldWriter& fields, const pd0::BottomTrack& bottom) {
-  write_list(fields, "range_m", bottom.range_m, 2);
-  write_list(fields, "bottom_velocity_m_s", bottom.velocity_m_s, 3);
-  write_counts(fields, "percent_good", bottom.percent_good);
-  write_list(fields, "water_velocity_m_s", bottom.water_velocity_m_s, 3);
-  write_counts(fields, "water_percent_good", bottom.water_percent_good);
+  fields.numbers("range_m", bottom.range_m, 2);
+  fields.numbers("bottom_velocity_m_s", bottom.velocity_m_s, 3);
+  fields.numbers("percent_good", bottom.percent_good);
+  fields.numbers("water_velocity_m_s", bottom.water_velocity_m_s, 3);
+  fields.numbers("water_percent_good", bottom.water_percent_good);
 }
 
 void write(FieldWriter& fields, const pd6::Timing& timing) {
@@ -82,29 +68,23 @@ void write(FieldWriter& fields, const pd6::Attitude& attitude) {
 }
 
 void write(FieldWriter& fields, const pd6::Distance& distance) {
-  write_list(fields, "east_north_up_m", distance.east_north_up_m, 2);
+  fields.numbers("east_north_up_m", distance.east_north_up_m, 2);
   fields.number("range_m", distance.range_m, 2);
   fields.number("since_good_s", distance.since_good_s, 2);
 }
 
 void write(FieldWriter& fields, const pd6::Velocity& velocity) {
-  write_list(fields, "velocity_m_s", velocity.velocity_m_s, 3);
+  fields.numbers("velocity_m_s", velocity.velocity_m_s, 3);
   fields.number("error_velocity_m_s", velocity.error_velocity_m_s, 3);
   fields.flag("good", velocity.good);
 }
 
 void write(FieldWriter& fields, const water_linked::Velocity& velocity) {
-  write_list(fields, "velocity_m_s", velocity.velocity_m_s, 3);
+  fields.numbers("velocity_m_s", velocity.velocity_m_s, 3);
   fields.flag("valid", velocity.valid);
   fields.number("altitude_m", velocity.altitude_m, 2);
   fields.number("figure_of_merit_m_s", velocity.figure_of_merit_m_s, 3);
-  if (velocity.covariance_m2_s2) {
-    fields.begin_list("covariance_m2_s2");
-    for (const double one : *velocity.covariance_m2_s2) fields.number({}, one);
-    fields.end_list();
-  } else {
-    fields.null("covariance_m2_s2");
-  }
+  fields.numbers("covariance_m2_s2", velocity.covariance_m2_s2);
   fields.number("valid_at_us", velocity.valid_at_us);
   fields.number("transmitted_at_us", velocity.transmitted_at_us);
   fields.number("since_last_ms", velocity.since_last_ms, 2);
@@ -121,7 +101,7 @@ void write(FieldWriter& fields, const water_linked::Transducer& transducer) {
 
 void write(FieldWriter& fields, const water_linked::Position& position) {
   fields.number("clock_s", position.time_s, 3);
-  write_list(fields, "position_m", position.position_m, 2);
+  fields.numbers("position_m", position.position_m, 2);
   fields.number("position_std_m", position.std_m, 2);
   fields.number("roll_deg", position.roll_deg, 1);
   fields.number("pitch_deg", position.pitch_deg, 1);

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "analysis/output.h"
@@ -74,6 +75,28 @@ class FieldWriter {
   void end_list() { close(']'); }
   void begin_object(std::string_view key = {}) { open(key, '{'); }
   void end_object() { close('}'); }
+  template <class Numbers, class... Decimals>
+  void numbers(std::string_view key, const Numbers& values, Decimals... decimals) {
+    begin_list(key);
+    for (const auto& value : values) number({}, value, decimals...);
+    end_list();
+  }
+  template <class Numbers, class... Decimals>
+  void numbers(std::string_view key, const std::optional<Numbers>& values, Decimals... decimals) {
+    if (!values) return null(key);
+    numbers(key, *values, decimals...);
+  }
+  /// One object for each element; `write` writes its fields.
+  template <class Elements, class Write>
+  void objects(std::string_view key, const Elements& elements, Write write) {
+    begin_list(key);
+    for (const auto& element : elements) {
+      begin_object();
+      write(element);
+      end_object();
+    }
+    end_list();
+  }
 
  private:
   void begin_field(std::string_view key);

@@ -82,37 +82,23 @@ void write(FieldWriter& fields, const nmea::Gsa& gsa) {
   fields.number("pdop", gsa.pdop);
   fields.number("hdop", gsa.hdop);
   fields.number("vdop", gsa.vdop);
-  fields.begin_list("satellites");
-  for (std::size_t i = 0; i < gsa.count; ++i) fields.number({}, gsa.satellites[i]);
-  fields.end_list();
+  fields.numbers("satellites", std::span(gsa.satellites).first(gsa.count));
 }
 
 void write(FieldWriter& fields, const nmea::Gsv& gsv) {
   fields.number("sentences", gsv.sentences);
   fields.number("sentence", gsv.sentence);
   fields.number("visible", gsv.visible);
-  fields.begin_list("satellites");
-  for (std::size_t i = 0; i < gsv.count; ++i) {
-    const auto& satellite = gsv.satellites[i];
-    fields.begin_object();
+  fields.objects("satellites", std::span(gsv.satellites).first(gsv.count), [&](const auto& satellite) {
     fields.number("satellite", satellite.number);
     fields.number("elevation_deg", satellite.elevation_deg);
     fields.number("azimuth_deg", satellite.azimuth_deg);
     fields.number("cn0_dBHz", satellite.cn0_dBHz);
-    fields.end_object();
-  }
-  fields.end_list();
+  });
 }
 
 void write(FieldWriter& fields, const nmea::Zda& zda, const std::optional<Date>& pivot) {
-  if (zda.date && zda.time) {
-    const auto date = pivot ? correct_rollover(*zda.date, *pivot) : protocols::CorrectedDate{*zda.date, false};
-    fields.time("time", date.date, *zda.time);
-    fields.flag("time_corrected", date.corrected);
-  } else {
-    fields.null("time");
-    fields.flag("time_corrected", false);
-  }
+  write_time(fields, zda.date, zda.time, pivot);
   fields.number("zone_min", zda.zone_min);
 }
 
@@ -130,17 +116,12 @@ void write(FieldWriter& fields, const nmea::Rot& rot) {
 }
 
 void write(FieldWriter& fields, const nmea::Xdr& xdr) {
-  fields.begin_list("transducers");
-  for (std::size_t i = 0; i < xdr.count; ++i) {
-    const auto& transducer = xdr.transducers[i];
-    fields.begin_object();
+  fields.objects("transducers", std::span(xdr.transducers).first(xdr.count), [&](const auto& transducer) {
     fields.letter("type", transducer.type);
     fields.number("value", transducer.value);
     fields.letter("unit", transducer.unit);
     fields.text("name", transducer.name);
-    fields.end_object();
-  }
-  fields.end_list();
+  });
 }
 
 void write(FieldWriter& fields, const nmea::Ptnthtm& tilt) {

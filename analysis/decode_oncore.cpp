@@ -80,18 +80,13 @@ void write(FieldWriter& fields, const oncore::Position& position, const std::opt
 
 void write(FieldWriter& fields, const oncore::VisibleSatellites& sky) {
   fields.number("visible", sky.visible);
-  fields.begin_list("satellites");
-  for (std::size_t i = 0; i < sky.count; ++i) {
-    const auto& satellite = sky.satellites[i];
-    fields.begin_object();
+  fields.objects("satellites", std::span(sky.satellites).first(sky.count), [&](const auto& satellite) {
     fields.number("satellite", satellite.number);
     fields.number("doppler_Hz", satellite.doppler_Hz);
     fields.number("elevation_deg", satellite.elevation_deg);
     fields.number("azimuth_deg", satellite.azimuth_deg);
     fields.number("health", satellite.health);
-    fields.end_object();
-  }
-  fields.end_list();
+  });
   if (!sky.in_range) write_out_of_range(fields);
 }
 

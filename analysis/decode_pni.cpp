@@ -9,9 +9,7 @@ namespace trax = protocols::trax;
 
 void write_axes(FieldWriter& fields, std::string_view key, const std::array<std::optional<double>, 3>& axes) {
   if (!axes[0] && !axes[1] && !axes[2]) return;
-  fields.begin_list(key);
-  for (const auto& axis : axes) fields.number({}, axis, 5);
-  fields.end_list();
+  fields.numbers(key, axes, 5);
 }
 
 void write_data(FieldWriter& fields, const trax::Data& data) {

@@ -23,13 +23,7 @@ void write(FieldWriter& fields, const tcm2::Word& word) {
   fields.number("heading_deg", word.heading);
   fields.number("pitch_deg", word.pitch);
   fields.number("roll_deg", word.roll);
-  if (const auto field = word.field()) {
-    fields.begin_list("field_uT");
-    for (const double component : *field) fields.number({}, component);
-    fields.end_list();
-  } else {
-    fields.null("field_uT");
-  }
+  fields.numbers("field_uT", word.field());
   fields.number("temperature_C", word.temperature);
   write_error(fields, word.error);
 }

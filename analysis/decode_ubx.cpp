@@ -57,9 +57,7 @@ void write(FieldWriter& fields, const ubx::NavPvt& pvt, const std::optional<Date
   fields.number("time_accuracy_s", pvt.time_accuracy_s, 9);
   fields.number("horizontal_accuracy_m", pvt.horizontal_accuracy_m, 3);
   fields.number("vertical_accuracy_m", pvt.vertical_accuracy_m, 3);
-  fields.begin_list("velocity_ned_m_s");
-  for (const double component : pvt.velocity_ned_m_s) fields.number({}, component, 3);
-  fields.end_list();
+  fields.numbers("velocity_ned_m_s", pvt.velocity_ned_m_s, 3);
   fields.number("speed_accuracy_m_s", pvt.speed_accuracy_m_s, 3);
   fields.number("heading_accuracy_deg", pvt.heading_accuracy_deg, 5);
   fields.flag("differential", pvt.differential);
@@ -91,11 +89,8 @@ void write(FieldWriter& fields, const ubx::NavDop& dop) {
 void write(FieldWriter& fields, const ubx::NavSat& sat) {
   fields.number("time_of_week_ms", sat.time_of_week_ms);
   fields.number("visible", sat.count);
-  fields.begin_list("satellites");
-  for (std::size_t i = 0; i < sat.count; ++i) {
-    const ubx::NavSat::Satellite& satellite = sat.satellites[i];
+  fields.objects("satellites", std::span(sat.satellites).first(sat.count), [&](const auto& satellite) {
     const bool placed = std::abs(satellite.elevation_deg) <= 90;
-    fields.begin_object();
     fields.number("gnss", satellite.gnss);
     fields.number("satellite", satellite.number);
     fields.number("elevation_deg", placed ? std::optional<int>(satellite.elevation_deg) : std::nullopt);
@@ -105,9 +100,7 @@ void write(FieldWriter& fields, const ubx::NavSat& sat) {
     fields.number("quality", satellite.quality);
     fields.flag("used", satellite.used);
     fields.number("health", satellite.health);
-    fields.end_object();
-  }
-  fields.end_list();
+  });
 }
 
 void write(FieldWriter& fields, const ubx::Version& version) {
