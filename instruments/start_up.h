@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,11 +25,14 @@ class StartUp {
   /// Bytes to send now, if any; call again until nullopt.
   virtual std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) = 0;
   /// Time at which next() should be called again, monotonic; INT64_MAX when only a frame can change something.
-  [[nodiscard]] virtual std::int64_t deadline_ns() const = 0;
+  [[nodiscard]] virtual std::int64_t deadline_ns() const { return due_ns_; }
   /// True when the dialogue is over and the device delivers.
   [[nodiscard]] virtual bool in_service() const = 0;
   /// State as text for people: "running", "settings sent", "no answer to Ha: trying Ea", ...
   [[nodiscard]] virtual std::string state() const = 0;
+
+ protected:
+  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
 };
 
 /// nullptr for a device that takes no commands (IMU card, motor card, NMEA) or when start_up is off.

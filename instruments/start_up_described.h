@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,14 +17,12 @@ class StartUpDescribed final : public StartUp {
   void begin(std::int64_t now_ns) override;
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
   [[nodiscard]] bool in_service() const override { return frames_came_; }
   [[nodiscard]] std::string state() const override;
 
  private:
   std::vector<std::string> lines_;
-  std::size_t sent_ = 0;  ///< lines of this round
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
+  std::size_t sent_ = 0;      ///< lines of this round
   bool frames_came_ = false;  ///< since the last round
   unsigned rounds_ = 0;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <string>
 
 #include "instruments/start_up.h"
@@ -15,7 +14,6 @@ class StartUpKeller final : public StartUp {
   void begin(std::int64_t now_ns) override;
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
   [[nodiscard]] bool in_service() const override { return phase_ == Phase::polling; }
   [[nodiscard]] std::string state() const override;
 
@@ -27,7 +25,6 @@ class StartUpKeller final : public StartUp {
   };
 
   Phase phase_ = Phase::idle;
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   unsigned unanswered_ = 0;   ///< requests in a row
   std::uint8_t refused_ = 0;  ///< error of the last refusal since the last answer; 0: none
 };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,6 @@ class StartUpMip final : public StartUp {
   void begin(std::int64_t now_ns) override;
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
   [[nodiscard]] bool in_service() const override { return step_ == Step::running; }
   [[nodiscard]] std::string state() const override;
 
@@ -60,7 +58,6 @@ class StartUpMip final : public StartUp {
 
   double rate_Hz_;
   Step step_ = Step::not_begun;
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   int attempts_ = 0;     ///< times that the command of this step was sent
   bool by_set_ = false;  ///< the older commands
   bool has_filter_ = true;

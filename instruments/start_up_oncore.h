@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,7 +36,6 @@ class StartUpOncore final : public StartUp {
 
   Phase phase_ = Phase::idle;
   Source source_ = Source::none;
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t asked_ns_ = 0;
   std::int64_t cycle_began_ns_ = 0;
   bool nmea_seen_ = false;                  ///< since Ha was asked for

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <string>
 
 #include "instruments/start_up.h"
@@ -15,7 +14,6 @@ class StartUpParoscientific final : public StartUp {
   void begin(std::int64_t now_ns) override;
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
   [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
   [[nodiscard]] std::string state() const override;
 
@@ -31,7 +29,6 @@ class StartUpParoscientific final : public StartUp {
   std::optional<std::vector<std::uint8_t>> ask(std::int64_t now_ns);
 
   Phase phase_ = Phase::idle;
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   int attempts_ = 0;        ///< times that the current command was sent
   unsigned fruitless_ = 0;  ///< commands in a row that were given up
   std::string unit_;        ///< as the gauge states it

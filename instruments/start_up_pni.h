@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,6 @@ class StartUpPni final : public StartUp {
   void begin(std::int64_t now_ns) override;
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
   [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
   [[nodiscard]] std::string state() const override;
 
@@ -47,7 +45,6 @@ class StartUpPni final : public StartUp {
   std::vector<Command> commands_;
   Phase phase_ = Phase::idle;
   bool polled_ = false;
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t data_ns_ = 0;  ///< the newest came, or was first waited for
   std::size_t current_ = 0;
   int attempts_ = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,6 @@ class StartUpTcm2 final : public StartUp {
   void begin(std::int64_t now_ns) override;
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
   [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
   [[nodiscard]] std::string state() const override;
 
@@ -43,7 +41,6 @@ class StartUpTcm2 final : public StartUp {
   std::int64_t stopped_after_ns_;  ///< words are taken to have stopped after this time without one
   std::int64_t patience_ns_;       ///< how long the first word after `go` is waited for
   Phase phase_ = Phase::idle;
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   std::size_t current_ = 0;
   int attempts_ = 0;        ///< times that the current setting was sent
   unsigned fruitless_ = 0;  ///< dialogues in a row after which no word came

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,6 @@ class StartUpUbx final : public StartUp {
   void begin(std::int64_t now_ns) override;
   void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
   std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
-  [[nodiscard]] std::int64_t deadline_ns() const override { return due_ns_; }
   [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
   [[nodiscard]] std::string state() const override;
 
@@ -60,7 +58,6 @@ class StartUpUbx final : public StartUp {
   std::vector<Step> legacy_;
   std::int64_t stopped_after_ns_;  ///< NAV-PVT is taken to have stopped after this time without one
   Phase phase_ = Phase::idle;
-  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::max();
   std::size_t step_ = 0;
   int attempts_ = 0;                            ///< times that the current step was sent
   bool by_values_ = false;                      ///< a CFG-VALSET was accepted in this dialogue
