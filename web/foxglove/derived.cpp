@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/angles.h"
+#include "web/outlets/json_members.h"
 
 namespace navcal::web::foxglove {
 namespace {
@@ -20,17 +21,6 @@ constexpr double kMaxDistance_m = 50'000;
 /// reckoned.
 const DerivedJson kFixColour{{"r", 0.902}, {"g", 0.624}, {"b", 0.0}, {"a", 1.0}};
 const DerivedJson kReckonedColour{{"r", 0.0}, {"g", 0.447}, {"b", 0.698}, {"a", 1.0}};
-
-std::optional<double> number_in(const nlohmann::json& message, const char* name) {
-  const auto found = message.find(name);
-  if (found == message.end() || !found->is_number()) return std::nullopt;
-  return found->get<double>();
-}
-
-std::string text_in(const nlohmann::json& message, const char* name) {
-  const auto found = message.find(name);
-  return found != message.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
 
 DerivedJson timestamp(std::int64_t time_ns) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
