@@ -27,7 +27,6 @@ namespace {
 /// As much as navcald reads at once.
 constexpr std::uint64_t kPiece_bytes = 65536;
 constexpr int kMostPieces = 300;
-constexpr auto kLimit = std::chrono::seconds(5);
 /// A reading serves those who ask within this time.
 constexpr auto kLife = std::chrono::seconds(10);
 constexpr double kSpan_s = 1800;
@@ -49,11 +48,11 @@ class Connection {
   explicit Connection(const asio::any_io_executor& executor)
       : socket_(std::make_shared<asio::local::stream_protocol::socket>(executor)), limit_(executor) {}
 
-  void open(const std::filesystem::path& path) {
+  void open(const std::filesystem::path& path, std::chrono::seconds limit) {
     boost::system::error_code error;
     socket_->connect(asio::local::stream_protocol::endpoint(path.string()), error);
     if (error) throw std::runtime_error("navcald's control socket " + path.string() + ": " + error.message());
-    limit_.expires_after(kLimit);
+    limit_.expires_after(limit);
     limit_.async_wait([socket = socket_](boost::system::error_code cancelled) {
       boost::system::error_code ignored;
       if (!cancelled) socket->close(ignored);
@@ -167,8 +166,9 @@ asio::awaitable<void> read_pieces(Connection& navcald, std::vector<std::string>&
 
 }  // namespace
 
-LogHistory::LogHistory(const asio::any_io_executor& executor, std::filesystem::path control_socket)
-    : control_socket_(std::move(control_socket)), done_(executor) {}
+LogHistory::LogHistory(const asio::any_io_executor& executor, std::filesystem::path control_socket,
+                       std::chrono::seconds limit)
+    : control_socket_(std::move(control_socket)), limit_(limit), done_(executor) {}
 
 asio::awaitable<LogHistory::Text> LogHistory::json() {
   while (is_reading_) co_await done_.async_wait(kNoThrow);
@@ -187,7 +187,7 @@ asio::awaitable<LogHistory::Text> LogHistory::read() {
   nlohmann::json problem;
   try {
     Connection navcald(done_.get_executor());
-    navcald.open(control_socket_);
+    navcald.open(control_socket_, limit_);
     co_await read_pieces(navcald, pieces);
   } catch (const std::exception& error) {
     problem = error.what();

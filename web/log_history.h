@@ -20,7 +20,9 @@ class LogHistory {
  public:
   using Text = std::shared_ptr<const std::string>;
 
-  LogHistory(const boost::asio::any_io_executor& executor, std::filesystem::path control_socket);
+  /// `limit`: time for one reading; what it has until then is the answer.
+  LogHistory(const boost::asio::any_io_executor& executor, std::filesystem::path control_socket,
+             std::chrono::seconds limit = std::chrono::seconds(5));
   /// `{"problem":why or null,"records":[[topic,device,message],...]}`, in the order of their times.
   [[nodiscard]] boost::asio::awaitable<Text> json();
 
@@ -28,6 +30,7 @@ class LogHistory {
   boost::asio::awaitable<Text> read();
 
   std::filesystem::path control_socket_;
+  std::chrono::seconds limit_;
   boost::asio::steady_timer done_;  ///< cancelled when a reading has ended
   bool is_reading_ = false;
   Text text_;
