@@ -20,11 +20,12 @@ Comparison mission(double before, double after, double floor_std = 0.01, std::ui
   made.floor_std = floor_std;
   made.measurements = kMeasurementsPerBlock * static_cast<double>(kBlocks);
   std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal(0, seed == 0 ? 0 : std::sqrt(2 / kMeasurementsPerBlock));
+  const double block_std = seed == 0 ? 0 : std::sqrt(2 / kMeasurementsPerBlock);
+  std::normal_distribution<double> normal;
   // The floor that the nulls say is off by their own scatter.
   if (seed != 0) made.floor += floor_std * std::normal_distribution<double>()(random);
   for (std::size_t i = 0; i < kBlocks; ++i) {
-    const double noise = 1 + normal(random);
+    const double noise = 1 + block_std * normal(random);
     made.before.blocks.push_back(kMeasurementsPerBlock * (noise + before - 1));
     made.after.blocks.push_back(kMeasurementsPerBlock * (noise + after - 1));
     made.before.mean_square += (noise + before - 1) / static_cast<double>(kBlocks);
