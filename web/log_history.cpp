@@ -120,12 +120,15 @@ class Steps {
     bytes_ = 0;
     return *newest_s_ - *before_s_ < kSpan_s;
   }
-  /// Bytes to pass over behind a piece.
-  std::uint64_t skip() {
+  /// Where the next older piece ends in a log of which `end` bytes are unread; 0: in the log before it. The first
+  /// piece of a log is not skipped: the log before ends where it begins.
+  std::uint64_t next_end(std::uint64_t end) {
     const double apart_s = newest_s_ ? std::min((*newest_s_ - *before_s_) * kAgeShare, kWidest_s) : 0;
-    const double bytes = std::max(0.0, rate_ * apart_s - static_cast<double>(kPiece_bytes));
-    bytes_ += bytes + static_cast<double>(kPiece_bytes);
-    return static_cast<std::uint64_t>(bytes);
+    const auto skipped =
+        static_cast<std::uint64_t>(std::max(0.0, rate_ * apart_s - static_cast<double>(kPiece_bytes)));
+    const std::uint64_t next = end > skipped ? end - skipped : std::min(end, kPiece_bytes);
+    bytes_ += static_cast<double>(end - next + (next == 0 ? kPiece_bytes : std::min(next, kPiece_bytes)));
+    return next;
   }
 
  private:
@@ -158,8 +161,7 @@ asio::awaitable<void> read_pieces(Connection& navcald, std::vector<std::string>&
       const bool goes_on = steps.take(piece);
       if (!piece.rows.empty()) pieces.push_back(std::move(piece.rows));
       if (!goes_on) co_return;
-      end -= length;
-      end -= std::min(end, steps.skip());
+      end = steps.next_end(end - length);
     }
   }
 }
