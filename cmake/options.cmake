@@ -143,8 +143,8 @@ endfunction()
 
 # navcal_test(NAME [KIND kind] [TIMEOUT s] SOURCES... USES... [RUNS program...]): one GoogleTest program, each suite a ctest of its own
 # with that many seconds (300 unless given). Its sources are compiled in batches, so names in anonymous namespaces must be unique
-# within a program. A room has one program of each kind ("functions" unless given): a program of its own costs a batch and a link. RUNS: programs whose paths the test finds in
-# NAVCAL_PROGRAM and NAVCALD.
+# within a program. A room has one program of each kind ("functions" unless given): a program of its own costs a batch and a link.
+# RUNS: programs whose paths the test finds in NAVCAL_PROGRAM and NAVCALD.
 function(navcal_test name)
   cmake_parse_arguments(TEST "" "KIND;TIMEOUT" "SOURCES;USES;RUNS" ${ARGN})
   if(NOT TEST_KIND)

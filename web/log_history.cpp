@@ -108,7 +108,7 @@ Piece rows_in(std::string_view bytes) {
   return piece;
 }
 
-/// Where the next older piece ends, by the bytes a second between the last two.
+/// Chooses the next older piece of the logs, by the bytes a second between the last two pieces.
 class Steps {
  public:
   /// False when the span is full.
@@ -120,8 +120,8 @@ class Steps {
     bytes_ = 0;
     return *newest_s_ - *before_s_ < kSpan_s;
   }
-  /// Where the next older piece ends in a log of which `end` bytes are unread; 0: in the log before it. The first
-  /// piece of a log is not skipped: the log before ends where it begins.
+  /// The end of the next older piece in a log with `end` unread bytes; 0 when the log has no more. The first piece
+  /// of a log is always read, because the log before it ends there.
   std::uint64_t next_end(std::uint64_t end) {
     const double apart_s = newest_s_ ? std::min((*newest_s_ - *before_s_) * kAgeShare, kWidest_s) : 0;
     const auto skipped =
