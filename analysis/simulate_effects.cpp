@@ -69,7 +69,7 @@ class EffectOption {
     const auto parameters = sim::parameters_for(layout, about);
     const sim::EffectDescription drawn{.name = about.name,
                                        .equation = about.equation,
-                                       .parameters = parameters,
+                                       .parameters = std::span(parameters),
                                        .manoeuvre = about.manoeuvre,
                                        .vector = about.vector};
     sim::LayoutEffect effect{&about, std::string(of_), sim::drawn_parameters(drawn, strength_, noise)};

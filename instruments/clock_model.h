@@ -63,7 +63,6 @@ class ClockModel {
   void close_block();
   void reject_block(double residual_s, double variance_s2);
   void correct(double residual_s, double variance_s2);
-  void learn_delays();
   [[nodiscard]] double doubt() const;
   [[nodiscard]] double least_late_s() const;
 

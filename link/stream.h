@@ -55,7 +55,6 @@ class StreamSender {
   [[nodiscard]] std::int64_t deadline_ns() const;
   /// Mean time there and back; nullopt before the first acknowledgement.
   [[nodiscard]] std::optional<double> round_trip_s() const { return round_trip_s_; }
-  [[nodiscard]] std::uint64_t resent() const { return resent_; }
 
  private:
   struct Item {
@@ -87,7 +86,6 @@ class StreamSender {
   double spread_s_ = 0;
   unsigned silent_ =
       0;  ///< time-outs of the first item since an acknowledgement: on a dead link it alone is tried
-  std::uint64_t resent_ = 0;
 };
 
 class StreamReceiver {

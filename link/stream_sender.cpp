@@ -60,7 +60,6 @@ std::optional<Buffer> StreamSender::due(std::int64_t now_ns) {
 
 void StreamSender::sent(std::int64_t now_ns, std::uint32_t counter) {
   Item& item = items_[next_];
-  if (item.times > 0) ++resent_;
   if (next_ == 0 && item.times > 0 && !item.is_lost) ++silent_;
   ++item.times;
   item.is_lost = false;

@@ -50,7 +50,6 @@ class PageFeed final : public Subscriber, public std::enable_shared_from_this<Pa
   void on_forget() override;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }
-  [[nodiscard]] std::size_t viewers() const { return viewers_.size(); }
 
  private:
   class Viewer;

@@ -47,7 +47,6 @@ class FieldPredictor {
   void fit(const EllipsoidCells& cells);
   void set_fit(const SegmentsFit& fit);
 
-  [[nodiscard]] bool has_fit() const { return fitted_; }
   [[nodiscard]] const EllipsoidShape& shape() const { return shape_; }
   [[nodiscard]] SegmentNoise noise() const;
   [[nodiscard]] const SegmentBelief& belief() const { return belief_; }

@@ -63,12 +63,6 @@ constexpr std::array<ErrorSource, 11> kSources{
      {"vehicle.moments", "the moments on the vehicle", kFins, false, false, true},
      {"vehicle.heave", "the vertical force on the vehicle", kHeave, false, false, true}}};
 
-constexpr std::array<sim::EffectParameter, 1> kParameters{{{"amplitude", 1}}};
-constexpr sim::EffectDescription kDescription{.name = "timed_error",
-                                              .equation = "reading += a s(t)",
-                                              .parameters = kParameters,
-                                              .manoeuvre = "the one in which s(t) varies most"};
-
 /// Directions of the three fins that make a moment about z, y and x (docs/simulator.md: how rudder and elevator
 /// mix).
 constexpr double kShare = std::numbers::sqrt3 / 2;
@@ -80,8 +74,6 @@ std::span<const ErrorSource> error_sources() { return kSources; }
 
 TimedError::TimedError(ErrorPlace place, std::shared_ptr<const Eigen::VectorXd> series, double begin_s)
     : place_(place), series_(std::move(series)), begin_s_(begin_s) {}
-
-const sim::EffectDescription& TimedError::description() const { return kDescription; }
 
 double TimedError::at(double time_s) const {
   const auto last = static_cast<double>(series_->size() - 1);

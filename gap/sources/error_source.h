@@ -61,14 +61,18 @@ struct ErrorSource {
 };
 [[nodiscard]] std::span<const ErrorSource> error_sources();
 
+inline constexpr sim::EffectDescription kTimedError{.name = "timed_error",
+                                                    .equation = "reading += a s(t)",
+                                                    .parameters = {{"amplitude", 1}},
+                                                    .manoeuvre = "the one in which s(t) varies most"};
+
 /// An error that follows a time series: amplitude times series. Between two of its values it is interpolated,
 /// outside it keeps the first or last.
-class TimedError final : public sim::EffectOf<TimedError, 1> {
+class TimedError final : public sim::EffectOf<TimedError, kTimedError> {
  public:
   /// `begin_s`: mission time of the first value; they are kInterval_s apart. `series` is not empty.
   TimedError(ErrorPlace place, std::shared_ptr<const Eigen::VectorXd> series, double begin_s);
 
-  [[nodiscard]] const sim::EffectDescription& description() const override;
   void earth_field(const sim::Instant& now, sim::Vector3& field_world_uT) override;
   void body_field(const sim::Instant& now, sim::Vector3& field_body_uT) override;
   void tilt_said(const sim::Instant& now, sim::Tilt& tilt) override;

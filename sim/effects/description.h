@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -50,14 +52,36 @@ class TellingManoeuvre {
   std::string_view text_;
 };
 
+/// Up to N elements, kept in the list itself; a constexpr description with more does not compile.
+template <class T, std::size_t N>
+class ShortList {
+ public:
+  // Not explicit: a description names the elements alone.
+  constexpr ShortList(std::span<const T> elements) {  // NOLINT(google-explicit-constructor)
+    for (const T& element : elements) elements_.at(size_++) = element;
+  }
+  constexpr ShortList(std::initializer_list<T> elements)
+      : ShortList(std::span(elements.begin(), elements.size())) {}
+  [[nodiscard]] constexpr std::size_t size() const { return size_; }
+  [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+  [[nodiscard]] constexpr const T* begin() const { return elements_.data(); }
+  [[nodiscard]] constexpr const T* end() const { return begin() + size_; }
+  [[nodiscard]] constexpr const T& front() const { return elements_.front(); }
+  [[nodiscard]] constexpr const T& operator[](std::size_t i) const { return elements_[i]; }
+
+ private:
+  std::array<T, N> elements_{};
+  std::size_t size_ = 0;
+};
+
 /// Static description of an effect, for people and for the search over all effects.
 struct EffectDescription {
   std::string_view name;
   std::string_view equation;
-  std::span<const EffectParameter> parameters;
+  ShortList<EffectParameter, 12> parameters;
   TellingManoeuvre manoeuvre;
   /// Names of effects whose traces are nearly the same by their equations. They are not results of a diagnosis.
-  std::span<const std::string_view> confounders = {};
+  ShortList<std::string_view, 4> confounders = {};
   EffectPlace place = EffectPlace::instruments;
   /// Number of consecutive parameters that are the components of one vector (1: each is a scalar). The vector
   /// has strength 1 when its components, each divided by its typical value, have norm 1.

@@ -53,23 +53,24 @@ class Effect {
   virtual void line(Instrument, double /*time_s*/, Transmission&) {}
 };
 
-/// An effect of N parameters; `Self` is the class derived from it.
-template <class Self, std::size_t N>
+/// An effect as `kAbout` describes it; `Self` is the class derived from it.
+template <class Self, const EffectDescription& kAbout>
 class EffectOf : public Effect {
  public:
+  [[nodiscard]] const EffectDescription& description() const final { return kAbout; }
   [[nodiscard]] std::unique_ptr<Effect> clone() const final {
     return std::make_unique<Self>(static_cast<const Self&>(*this));
   }
   [[nodiscard]] std::span<const double> parameters() const final { return p_; }
   void set_parameters(std::span<const double> values) final {
-    assert(values.size() == N);
-    std::copy_n(values.begin(), N, p_.begin());
+    assert(values.size() == p_.size());
+    std::copy_n(values.begin(), p_.size(), p_.begin());
   }
 
  protected:
   [[nodiscard]] Vector3 vector(std::size_t first = 0) const { return {p_[first], p_[first + 1], p_[first + 2]}; }
 
-  std::array<double, N> p_{};
+  std::array<double, kAbout.parameters.size()> p_{};
 };
 
 /// to += factor * vector.

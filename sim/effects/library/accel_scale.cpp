@@ -4,21 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kAccelScaleParameters{
-    {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}}};
-
-constexpr std::array<std::string_view, 3> kAccelScaleConfounders{"tilt_offset", "accel_bias", "thrust_scale"};
-
-constexpr EffectDescription kAccelScale{.name = "accel_scale",
-                                        .equation = "f += s f",
-                                        .parameters = kAccelScaleParameters,
-                                        .manoeuvre = "pitch through more than 30 degrees",
-                                        .confounders = kAccelScaleConfounders};
+constexpr EffectDescription kAccelScale{
+    .name = "accel_scale",
+    .equation = "f += s f",
+    .parameters = {{"x", 0.02, -0.9, 1}, {"y", 0.02, -0.9, 1}, {"z", 0.02, -0.9, 1}},
+    .manoeuvre = "pitch through more than 30 degrees",
+    .confounders = {"tilt_offset", "accel_bias", "thrust_scale"}};
 
 /// Each accelerometer's scale is off.
-class AccelScale final : public EffectOf<AccelScale, 3> {
+class AccelScale final : public EffectOf<AccelScale, kAccelScale> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kAccelScale; }
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     for (std::size_t i = 0; i < 3; ++i) force_m_s2[i] += p_[i] * now.state.specific_force_m_s2[i];
   }

@@ -4,23 +4,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kAccelVibrationParameters{
-    {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}}};
-
-constexpr std::array<std::string_view, 1> kAccelVibrationConfounders{"adc_droop"};
-
 constexpr EffectDescription kAccelVibration{
     .name = "accel_vibration",
     .equation = "f += k I^2",
-    .parameters = kAccelVibrationParameters,
+    .parameters = {{"x_m_s2_per_A2", 0.05, -5, 5}, {"y_m_s2_per_A2", 0.05, -5, 5}, {"z_m_s2_per_A2", 0.05, -5, 5}},
     .manoeuvre = "step the shaft speed through its whole range, straight and level",
-    .confounders = kAccelVibrationConfounders,
+    .confounders = {"adc_droop"},
     .vector = 3};
 
 /// The motor's vibration is rectified by the accelerometers.
-class AccelVibration final : public EffectOf<AccelVibration, 3> {
+class AccelVibration final : public EffectOf<AccelVibration, kAccelVibration> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kAccelVibration; }
   void accelerometers(const Instant& now, Vector3& force_m_s2) override {
     const double current_A = now.state.motor_current_A;
     add_scaled(force_m_s2, current_A * current_A, vector());

@@ -4,20 +4,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kAdcDroopParameters{{{"per_A", 0.0015, -0.1, 0.1}}};
-
-constexpr std::array<std::string_view, 2> kAdcDroopConfounders{"motor_field", "accel_vibration"};
-
 constexpr EffectDescription kAdcDroop{.name = "adc_droop",
                                       .equation = "every raw channel in mV: v *= 1 + k I",
-                                      .parameters = kAdcDroopParameters,
+                                      .parameters = {{"per_A", 0.0015, -0.1, 0.1}},
                                       .manoeuvre = "step the motor current, straight and level",
-                                      .confounders = kAdcDroopConfounders};
+                                      .confounders = {"motor_field", "accel_vibration"}};
 
 /// The converter's reference follows the motor's load.
-class AdcDroop final : public EffectOf<AdcDroop, 1> {
+class AdcDroop final : public EffectOf<AdcDroop, kAdcDroop> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kAdcDroop; }
   void card_voltages(const Instant& now, CardVoltages_mV& voltages) override {
     for (double& voltage : voltages) voltage *= 1 + p_[0] * now.state.motor_current_A;
   }

@@ -7,21 +7,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kArrivalJitterParameters{{{"compass_mean_s", 0.005, 0, 1},
-                                                                   {"imu_mean_s", 0.005, 0, 1},
-                                                                   {"gps_mean_s", 0.005, 0, 1},
-                                                                   {"motor_mean_s", 0.005, 0, 1}}};
-
 constexpr EffectDescription kArrivalJitter{.name = "arrival_jitter",
                                            .equation = "arrival += Exp(mean)",
-                                           .parameters = kArrivalJitterParameters,
+                                           .parameters = {{"compass_mean_s", 0.005, 0, 1},
+                                                          {"imu_mean_s", 0.005, 0, 1},
+                                                          {"gps_mean_s", 0.005, 0, 1},
+                                                          {"motor_mean_s", 0.005, 0, 1}},
                                            .manoeuvre = TellingManoeuvre::none(),
                                            .place = EffectPlace::lines};
 
 /// The host takes frames late, by exponential delays.
-class ArrivalJitter final : public EffectOf<ArrivalJitter, 4> {
+class ArrivalJitter final : public EffectOf<ArrivalJitter, kArrivalJitter> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kArrivalJitter; }
   void reseed(std::uint64_t seed) override { noise_.reseed(seed); }
   void line(Instrument of, double, Transmission& way) override {
     way.late_s -= p_[static_cast<std::size_t>(of)] * std::log1p(-noise_[of].uniform(0, 1));

@@ -4,21 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kBuoyancyParameters{{{"force_N", 0.4, -20, 20}}};
-
-constexpr std::array<std::string_view, 2> kBuoyancyConfounders{"depth_scale", "elevator_offset"};
-
 constexpr EffectDescription kBuoyancy{.name = "buoyancy",
                                       .equation = "Z_world -= F at the origin",
-                                      .parameters = kBuoyancyParameters,
+                                      .parameters = {{"force_N", 0.4, -20, 20}},
                                       .manoeuvre = "glide or hover with the propeller off",
-                                      .confounders = kBuoyancyConfounders,
+                                      .confounders = {"depth_scale", "elevator_offset"},
                                       .place = EffectPlace::vehicle};
 
 /// The vehicle is not of the water's weight.
-class Buoyancy final : public EffectOf<Buoyancy, 1> {
+class Buoyancy final : public EffectOf<Buoyancy, kBuoyancy> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kBuoyancy; }
   void influence(double /*time_s*/, Influences& on) override { on.buoyancy_N += p_[0]; }
 };
 

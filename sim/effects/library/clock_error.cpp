@@ -4,19 +4,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kClockErrorParameters{
-    {{"compass_ppm", 100, -10000, 10000}, {"imu_ppm", 100, -10000, 10000}, {"motor_ppm", 100, -10000, 10000}}};
-
 constexpr EffectDescription kClockError{.name = "clock_error",
                                         .equation = "period *= 1 + e",
-                                        .parameters = kClockErrorParameters,
+                                        .parameters = {{"compass_ppm", 100, -10000, 10000},
+                                                       {"imu_ppm", 100, -10000, 10000},
+                                                       {"motor_ppm", 100, -10000, 10000}},
                                         .manoeuvre = TellingManoeuvre::none(),
                                         .place = EffectPlace::lines};
 
 /// The clocks of compass and cards run slow; the receiver's is that of its satellites.
-class ClockError final : public EffectOf<ClockError, 3> {
+class ClockError final : public EffectOf<ClockError, kClockError> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kClockError; }
   void clock(Instrument of, double& slow_ppm) override {
     if (of == Instrument::compass) slow_ppm += p_[0];
     if (of == Instrument::imu) slow_ppm += p_[1];

@@ -5,22 +5,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kCompassLagParameters{{{"tau_s", 0.2, 0, 10}}};
-
-constexpr std::array<std::string_view, 2> kCompassLagConfounders{"imu_latency", "gyro_scale"};
-
 constexpr EffectDescription kCompassLag{.name = "compass_lag",
                                         .equation = "tau m' + m = field",
-                                        .parameters = kCompassLagParameters,
+                                        .parameters = {{"tau_s", 0.2, 0, 10}},
                                         .manoeuvre = "turn both ways at two different rates",
-                                        .confounders = kCompassLagConfounders,
+                                        .confounders = {"imu_latency", "gyro_scale"},
                                         .order = 4,
                                         .kind = EffectKind::lag};
 
 /// The compass filters its magnetometers, hence its heading.
-class CompassLag final : public EffectOf<CompassLag, 1> {
+class CompassLag final : public EffectOf<CompassLag, kCompassLag> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kCompassLag; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     field_body_uT = filter_.at(now.time_s, field_body_uT, p_[0]);
   }

@@ -7,24 +7,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kCompassMisalignmentParameters{
-    {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}}};
-
-constexpr std::array<std::string_view, 4> kCompassMisalignmentConfounders{"tilt_offset", "declination",
-                                                                          "hard_iron", "soft_iron"};
-
-constexpr EffectDescription kCompassMisalignment{.name = "compass_misalignment",
-                                                 .equation = "m = (1 - [a]x) m, as a rotation",
-                                                 .parameters = kCompassMisalignmentParameters,
-                                                 .manoeuvre = "steer by GPS course and pitch up and down",
-                                                 .confounders = kCompassMisalignmentConfounders,
-                                                 .vector = 3,
-                                                 .order = 1};
+constexpr EffectDescription kCompassMisalignment{
+    .name = "compass_misalignment",
+    .equation = "m = (1 - [a]x) m, as a rotation",
+    .parameters = {{"x_deg", 3, -45, 45}, {"y_deg", 3, -45, 45}, {"z_deg", 3, -45, 45}},
+    .manoeuvre = "steer by GPS course and pitch up and down",
+    .confounders = {"tilt_offset", "declination", "hard_iron", "soft_iron"},
+    .vector = 3,
+    .order = 1};
 
 /// The triad of magnetometers is turned by the vector a against body and inclinometer.
-class CompassMisalignment final : public EffectOf<CompassMisalignment, 3> {
+class CompassMisalignment final : public EffectOf<CompassMisalignment, kCompassMisalignment> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kCompassMisalignment; }
   void body_field(const Instant&, Vector3& field_body_uT) override {
     const double angle = std::hypot(p_[0], p_[1], p_[2]) * base::kRadiansPerDegree;
     if (angle == 0) return;

@@ -7,20 +7,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kDeclinationParameters{{{"angle_deg", 4, -180, 180}}};
-
-constexpr std::array<std::string_view, 2> kDeclinationConfounders{"compass_misalignment", "water_current"};
-
 constexpr EffectDescription kDeclination{.name = "declination",
                                          .equation = "B = Rz(d) B",
-                                         .parameters = kDeclinationParameters,
+                                         .parameters = {{"angle_deg", 4, -180, 180}},
                                          .manoeuvre = "run straight at the surface on three headings",
-                                         .confounders = kDeclinationConfounders};
+                                         .confounders = {"compass_misalignment", "water_current"}};
 
 /// The earth's field is turned about the vertical, positive to the east.
-class Declination final : public EffectOf<Declination, 1> {
+class Declination final : public EffectOf<Declination, kDeclination> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDeclination; }
   void earth_field(const Instant&, Vector3& field_world_uT) override {
     const double c = std::cos(p_[0] * base::kRadiansPerDegree), s = std::sin(p_[0] * base::kRadiansPerDegree);
     const auto [north, east, down] = field_world_uT;

@@ -4,20 +4,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kDepthScaleParameters{{{"scale", 0.06, -0.9, 1}}};
-
-constexpr std::array<std::string_view, 1> kDepthScaleConfounders{"buoyancy"};
-
 constexpr EffectDescription kDepthScale{.name = "depth_scale",
                                         .equation = "z += s z",
-                                        .parameters = kDepthScaleParameters,
+                                        .parameters = {{"scale", 0.06, -0.9, 1}},
                                         .manoeuvre = "hold two depths far apart",
-                                        .confounders = kDepthScaleConfounders};
+                                        .confounders = {"buoyancy"}};
 
 /// The pressure gauge's scale is off.
-class DepthScale final : public EffectOf<DepthScale, 1> {
+class DepthScale final : public EffectOf<DepthScale, kDepthScale> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDepthScale; }
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.state.position_m[2]; }
 };
 

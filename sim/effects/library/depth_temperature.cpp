@@ -4,20 +4,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kDepthTemperatureParameters{{{"m_per_C", 0.025, -1, 1}}};
-
-constexpr std::array<std::string_view, 2> kDepthTemperatureConfounders{"buoyancy", "depth_scale"};
-
 constexpr EffectDescription kDepthTemperature{.name = "depth_temperature",
                                               .equation = "z += c T, T above 15 C",
-                                              .parameters = kDepthTemperatureParameters,
+                                              .parameters = {{"m_per_C", 0.025, -1, 1}},
                                               .manoeuvre = "hold one depth while the electronics warm up",
-                                              .confounders = kDepthTemperatureConfounders};
+                                              .confounders = {"buoyancy", "depth_scale"}};
 
 /// The pressure gauge's zero moves as the electronics warm up.
-class DepthTemperature final : public EffectOf<DepthTemperature, 1> {
+class DepthTemperature final : public EffectOf<DepthTemperature, kDepthTemperature> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDepthTemperature; }
   void depth(const Instant& now, double& depth_m) override { depth_m += p_[0] * now.temperature_rise_C(); }
 };
 

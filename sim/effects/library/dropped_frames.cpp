@@ -5,21 +5,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kDroppedFramesParameters{{{"compass_probability", 0.02, 0, 1},
-                                                                   {"imu_probability", 0.02, 0, 1},
-                                                                   {"gps_probability", 0.02, 0, 1},
-                                                                   {"motor_probability", 0.02, 0, 1}}};
-
 constexpr EffectDescription kDroppedFrames{.name = "dropped_frames",
                                            .equation = "lost with probability p",
-                                           .parameters = kDroppedFramesParameters,
+                                           .parameters = {{"compass_probability", 0.02, 0, 1},
+                                                          {"imu_probability", 0.02, 0, 1},
+                                                          {"gps_probability", 0.02, 0, 1},
+                                                          {"motor_probability", 0.02, 0, 1}},
                                            .manoeuvre = TellingManoeuvre::none(),
                                            .place = EffectPlace::lines};
 
 /// Frames are lost on their way to the host.
-class DroppedFrames final : public EffectOf<DroppedFrames, 4> {
+class DroppedFrames final : public EffectOf<DroppedFrames, kDroppedFrames> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kDroppedFrames; }
   void reseed(std::uint64_t seed) override { noise_.reseed(seed); }
   void line(Instrument of, double, Transmission& way) override {
     if (noise_[of].uniform(0, 1) < p_[static_cast<std::size_t>(of)]) way.copies = 0;

@@ -6,21 +6,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kElevatorOffsetParameters{{{"angle_deg", 1, -20, 20}}};
-
-constexpr std::array<std::string_view, 2> kElevatorOffsetConfounders{"fin_gain", "fin_offset"};
-
 constexpr EffectDescription kElevatorOffset{.name = "elevator_offset",
                                             .equation = "d += mixed elevator o",
-                                            .parameters = kElevatorOffsetParameters,
+                                            .parameters = {{"angle_deg", 1, -20, 20}},
                                             .manoeuvre = "elevator doublets, level",
-                                            .confounders = kElevatorOffsetConfounders,
+                                            .confounders = {"fin_gain", "fin_offset"},
                                             .place = EffectPlace::vehicle};
 
 /// The fins stand off in the sense of an elevator command, between servo and fin.
-class ElevatorOffset final : public EffectOf<ElevatorOffset, 1> {
+class ElevatorOffset final : public EffectOf<ElevatorOffset, kElevatorOffset> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kElevatorOffset; }
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     const double elevator_rad = p_[0] * std::numbers::pi / 180;
     constexpr double kShare = std::numbers::sqrt3 / 2;  // docs/simulator.md: how rudder and elevator mix

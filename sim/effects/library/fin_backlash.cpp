@@ -6,23 +6,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kFinBacklashParameters{{{"width_deg", 2, 0, 30}}};
-
-constexpr std::array<std::string_view, 1> kFinBacklashConfounders{"fin_lag"};
-
 constexpr EffectDescription kFinBacklash{.name = "fin_backlash",
                                          .equation = "d stays within b/2 of the servo",
-                                         .parameters = kFinBacklashParameters,
+                                         .parameters = {{"width_deg", 2, 0, 30}},
                                          .manoeuvre = "small fin reversals about zero",
-                                         .confounders = kFinBacklashConfounders,
+                                         .confounders = {"fin_lag"},
                                          .place = EffectPlace::vehicle,
                                          .order = 2,
                                          .kind = EffectKind::backlash};
 
 /// Backlash of total width b between the servo that is reported and the fin.
-class FinBacklash final : public EffectOf<FinBacklash, 1> {
+class FinBacklash final : public EffectOf<FinBacklash, kFinBacklash> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kFinBacklash; }
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     if (!begun_) fins_rad_ = fins_rad;
     begun_ = true;

@@ -4,22 +4,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kFinGainParameters{{{"scale", 0.08, -0.9, 1}}};
-
-constexpr std::array<std::string_view, 3> kFinGainConfounders{"fin_lag", "yaw_damping", "thrust_scale"};
-
 constexpr EffectDescription kFinGain{.name = "fin_gain",
                                      .equation = "d *= 1 + k",
-                                     .parameters = kFinGainParameters,
+                                     .parameters = {{"scale", 0.08, -0.9, 1}},
                                      .manoeuvre = "rudder doublets of two sizes at two speeds",
-                                     .confounders = kFinGainConfounders,
+                                     .confounders = {"fin_lag", "yaw_damping", "thrust_scale"},
                                      .place = EffectPlace::vehicle,
                                      .order = 0};
 
 /// The fin turns further than the servo that is reported.
-class FinGain final : public EffectOf<FinGain, 1> {
+class FinGain final : public EffectOf<FinGain, kFinGain> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kFinGain; }
   void link_fins(double /*time_s*/, double /*step_s*/, Vector3& fins_rad) override {
     for (double& fin_rad : fins_rad) fin_rad *= 1 + p_[0];
   }

@@ -4,21 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kGpsLatencyParameters{{{"tau_s", 1, 0, 10}}};
-
-constexpr std::array<std::string_view, 1> kGpsLatencyConfounders{"gps_lever_arm"};
-
 constexpr EffectDescription kGpsLatency{.name = "gps_latency",
                                         .equation = "p(t - tau), v(t - tau)",
-                                        .parameters = kGpsLatencyParameters,
+                                        .parameters = {{"tau_s", 1, 0, 10}},
                                         .manoeuvre = "run straight at the surface at two speeds",
-                                        .confounders = kGpsLatencyConfounders,
+                                        .confounders = {"gps_lever_arm"},
                                         .kind = EffectKind::lag};
 
 /// Position and velocity are older than the second that the message states.
-class GpsLatency final : public EffectOf<GpsLatency, 1> {
+class GpsLatency final : public EffectOf<GpsLatency, kGpsLatency> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kGpsLatency; }
   void delays(Delays& more) override { more.gps_s += p_[0]; }
 };
 

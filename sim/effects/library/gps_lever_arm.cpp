@@ -4,21 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 2> kGpsLeverArmParameters{{{"x_m", 0.45, -10, 10}, {"y_m", 0.45, -10, 10}}};
-
-constexpr std::array<std::string_view, 1> kGpsLeverArmConfounders{"gps_latency"};
-
 constexpr EffectDescription kGpsLeverArm{.name = "gps_lever_arm",
                                          .equation = "p += R l, v += R (w x l)",
-                                         .parameters = kGpsLeverArmParameters,
+                                         .parameters = {{"x_m", 0.45, -10, 10}, {"y_m", 0.45, -10, 10}},
                                          .manoeuvre = "turn on the spot at the surface",
-                                         .confounders = kGpsLeverArmConfounders,
+                                         .confounders = {"gps_latency"},
                                          .vector = 2};
 
 /// The antenna is off the origin by l = (x, y, 0), in body axes.
-class GpsLeverArm final : public EffectOf<GpsLeverArm, 2> {
+class GpsLeverArm final : public EffectOf<GpsLeverArm, kGpsLeverArm> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kGpsLeverArm; }
   void antenna(const Instant& now, AntennaMotion& motion) override {
     const Matrix3 R = R_world_from_body(now.state.euler_rad);
     const Vector3 arm_m{p_[0], p_[1], 0};

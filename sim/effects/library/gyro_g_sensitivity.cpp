@@ -5,32 +5,27 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 12> kGyroGSensitivityParameters{{{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"az_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"az_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"az_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"by_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"by_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"by_z_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
-                                                                       {"bz_z_deg_per_s_per_g", 0.6, -50, 50}}};
-
-constexpr std::array<std::string_view, 2> kGyroGSensitivityConfounders{"tilt_offset", "gyro_cross_axis"};
-
 constexpr EffectDescription kGyroGSensitivity{.name = "gyro_g_sensitivity",
                                               .equation = "w_i += G_i . f",
-                                              .parameters = kGyroGSensitivityParameters,
+                                              .parameters = {{"ax_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"ax_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"ax_z_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"az_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"az_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"az_z_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"by_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"by_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"by_z_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"bz_x_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"bz_y_deg_per_s_per_g", 0.6, -50, 50},
+                                                             {"bz_z_deg_per_s_per_g", 0.6, -50, 50}},
                                               .manoeuvre = "hold a pitch without turning",
-                                              .confounders = kGyroGSensitivityConfounders,
+                                              .confounders = {"tilt_offset", "gyro_cross_axis"},
                                               .vector = 3};
 
 /// Each gyro feels the specific force, too.
-class GyroGSensitivity final : public EffectOf<GyroGSensitivity, 12> {
+class GyroGSensitivity final : public EffectOf<GyroGSensitivity, kGyroGSensitivity> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kGyroGSensitivity; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const Vector3& force = now.state.specific_force_m_s2;
     for (std::size_t i = 0; i < rate_rad_s.size(); ++i) {

@@ -7,23 +7,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kGyroNonlinearityParameters{{{"s_per_deg_ax", 0.0008, -0.01, 0.01},
-                                                                      {"s_per_deg_az", 0.0008, -0.01, 0.01},
-                                                                      {"s_per_deg_by", 0.0008, -0.01, 0.01},
-                                                                      {"s_per_deg_bz", 0.0008, -0.01, 0.01}}};
-
-constexpr std::array<std::string_view, 1> kGyroNonlinearityConfounders{"gyro_scale"};
-
 constexpr EffectDescription kGyroNonlinearity{.name = "gyro_nonlinearity",
                                               .equation = "w += k w |w|",
-                                              .parameters = kGyroNonlinearityParameters,
+                                              .parameters = {{"s_per_deg_ax", 0.0008, -0.01, 0.01},
+                                                             {"s_per_deg_az", 0.0008, -0.01, 0.01},
+                                                             {"s_per_deg_by", 0.0008, -0.01, 0.01},
+                                                             {"s_per_deg_bz", 0.0008, -0.01, 0.01}},
                                               .manoeuvre = "turn at two very different rates",
-                                              .confounders = kGyroNonlinearityConfounders};
+                                              .confounders = {"gyro_scale"}};
 
 /// Each gyro's scale grows with the rate.
-class GyroNonlinearity final : public EffectOf<GyroNonlinearity, 4> {
+class GyroNonlinearity final : public EffectOf<GyroNonlinearity, kGyroNonlinearity> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kGyroNonlinearity; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const double rate = now.state.rate_rad_s[kGyroAxes[i]];

@@ -9,21 +9,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kGyroRandomWalkParameters{{{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
-                                                                    {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
-                                                                    {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
-                                                                    {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}}};
-
 constexpr EffectDescription kGyroRandomWalk{.name = "gyro_random_walk",
                                             .equation = "w += integral of white noise",
-                                            .parameters = kGyroRandomWalkParameters,
+                                            .parameters = {{"deg_per_s_per_sqrt_s_ax", 0.002, 0, 1},
+                                                           {"deg_per_s_per_sqrt_s_az", 0.002, 0, 1},
+                                                           {"deg_per_s_per_sqrt_s_by", 0.002, 0, 1},
+                                                           {"deg_per_s_per_sqrt_s_bz", 0.002, 0, 1}},
                                             .manoeuvre = TellingManoeuvre::none(),
                                             .place = EffectPlace::lines};
 
 /// Each gyro's zero walks at random.
-class GyroRandomWalk final : public EffectOf<GyroRandomWalk, 4> {
+class GyroRandomWalk final : public EffectOf<GyroRandomWalk, kGyroRandomWalk> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kGyroRandomWalk; }
   void reseed(std::uint64_t seed) override { noise_ = Noise(seed); }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     const double root = std::sqrt(std::max(0.0, now.time_s - time_s_.value_or(now.time_s)));

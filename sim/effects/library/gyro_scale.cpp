@@ -4,24 +4,19 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kGyroScaleParameters{{{"scale_ax", 0.03, -0.9, 1},
-                                                               {"scale_az", 0.03, -0.9, 1},
-                                                               {"scale_by", 0.03, -0.9, 1},
-                                                               {"scale_bz", 0.03, -0.9, 1}}};
-
-constexpr std::array<std::string_view, 4> kGyroScaleConfounders{"fin_gain", "imu_latency", "compass_lag",
-                                                                "gyro_nonlinearity"};
-
-constexpr EffectDescription kGyroScale{.name = "gyro_scale",
-                                       .equation = "w += k w",
-                                       .parameters = kGyroScaleParameters,
-                                       .manoeuvre = "turn two full revolutions one way",
-                                       .confounders = kGyroScaleConfounders};
+constexpr EffectDescription kGyroScale{
+    .name = "gyro_scale",
+    .equation = "w += k w",
+    .parameters = {{"scale_ax", 0.03, -0.9, 1},
+                   {"scale_az", 0.03, -0.9, 1},
+                   {"scale_by", 0.03, -0.9, 1},
+                   {"scale_bz", 0.03, -0.9, 1}},
+    .manoeuvre = "turn two full revolutions one way",
+    .confounders = {"fin_gain", "imu_latency", "compass_lag", "gyro_nonlinearity"}};
 
 /// Each gyro's scale is off.
-class GyroScale final : public EffectOf<GyroScale, 4> {
+class GyroScale final : public EffectOf<GyroScale, kGyroScale> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kGyroScale; }
   void gyros(const Instant& now, GyroRates& rate_rad_s) override {
     for (std::size_t i = 0; i < p_.size(); ++i) rate_rad_s[i] += p_[i] * now.state.rate_rad_s[kGyroAxes[i]];
   }

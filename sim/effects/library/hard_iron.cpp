@@ -4,23 +4,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kHardIronParameters{
-    {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}}};
-
-constexpr std::array<std::string_view, 4> kHardIronConfounders{"soft_iron", "compass_misalignment", "motor_field",
-                                                               "mag_temperature"};
-
-constexpr EffectDescription kHardIron{.name = "hard_iron",
-                                      .equation = "m += b",
-                                      .parameters = kHardIronParameters,
-                                      .manoeuvre = "turn full circles with pitch of both signs",
-                                      .confounders = kHardIronConfounders,
-                                      .vector = 3};
+constexpr EffectDescription kHardIron{
+    .name = "hard_iron",
+    .equation = "m += b",
+    .parameters = {{"x_uT", 2, -200, 200}, {"y_uT", 2, -200, 200}, {"z_uT", 2, -200, 200}},
+    .manoeuvre = "turn full circles with pitch of both signs",
+    .confounders = {"soft_iron", "compass_misalignment", "motor_field", "mag_temperature"},
+    .vector = 3};
 
 /// Permanent magnetism of the vehicle.
-class HardIron final : public EffectOf<HardIron, 3> {
+class HardIron final : public EffectOf<HardIron, kHardIron> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kHardIron; }
   void body_field(const Instant&, Vector3& field_body_uT) override { add_scaled(field_body_uT, 1, vector()); }
 };
 

@@ -4,21 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kImuLatencyParameters{{{"tau_s", 0.05, 0, 1}}};
-
-constexpr std::array<std::string_view, 2> kImuLatencyConfounders{"compass_lag", "fin_lag"};
-
 constexpr EffectDescription kImuLatency{.name = "imu_latency",
                                         .equation = "x(t - tau)",
-                                        .parameters = kImuLatencyParameters,
+                                        .parameters = {{"tau_s", 0.05, 0, 1}},
                                         .manoeuvre = "fast rudder and elevator doublets",
-                                        .confounders = kImuLatencyConfounders,
+                                        .confounders = {"compass_lag", "fin_lag"},
                                         .kind = EffectKind::lag};
 
 /// All channels of the inertial card are older than nominal.
-class ImuLatency final : public EffectOf<ImuLatency, 1> {
+class ImuLatency final : public EffectOf<ImuLatency, kImuLatency> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kImuLatency; }
   void delays(Delays& more) override { more.card_s += p_[0]; }
 };
 

@@ -7,21 +7,16 @@ namespace {
 
 constexpr double kMemory_s = 60;
 
-constexpr std::array<EffectParameter, 1> kMagneticHysteresisParameters{{{"gain", 0.06, -0.03, 1}}};
-
-constexpr std::array<std::string_view, 2> kMagneticHysteresisConfounders{"hard_iron", "soft_iron"};
-
 constexpr EffectDescription kMagneticHysteresis{.name = "magnetic_hysteresis",
                                                 .equation = "m += k lowpass(m, 60 s)",
-                                                .parameters = kMagneticHysteresisParameters,
+                                                .parameters = {{"gain", 0.06, -0.03, 1}},
                                                 .manoeuvre = "come to the same heading from both sides",
-                                                .confounders = kMagneticHysteresisConfounders,
+                                                .confounders = {"hard_iron", "soft_iron"},
                                                 .order = 2};
 
 /// Iron that remembers the field of the last minute.
-class MagneticHysteresis final : public EffectOf<MagneticHysteresis, 1> {
+class MagneticHysteresis final : public EffectOf<MagneticHysteresis, kMagneticHysteresis> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kMagneticHysteresis; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, p_[0], memory_.at(now.time_s, field_body_uT, kMemory_s));
   }

@@ -4,22 +4,17 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 3> kMotorFieldParameters{
-    {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}}};
-
-constexpr std::array<std::string_view, 2> kMotorFieldConfounders{"hard_iron", "adc_droop"};
-
-constexpr EffectDescription kMotorField{.name = "motor_field",
-                                        .equation = "m += k I",
-                                        .parameters = kMotorFieldParameters,
-                                        .manoeuvre = "step the motor current on a constant heading",
-                                        .confounders = kMotorFieldConfounders,
-                                        .vector = 3};
+constexpr EffectDescription kMotorField{
+    .name = "motor_field",
+    .equation = "m += k I",
+    .parameters = {{"x_uT_per_A", 1, -50, 50}, {"y_uT_per_A", 1, -50, 50}, {"z_uT_per_A", 1, -50, 50}},
+    .manoeuvre = "step the motor current on a constant heading",
+    .confounders = {"hard_iron", "adc_droop"},
+    .vector = 3};
 
 /// The motor's supply makes a field of its own.
-class MotorField final : public EffectOf<MotorField, 3> {
+class MotorField final : public EffectOf<MotorField, kMotorField> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kMotorField; }
   void body_field(const Instant& now, Vector3& field_body_uT) override {
     add_scaled(field_body_uT, now.state.motor_current_A, vector());
   }

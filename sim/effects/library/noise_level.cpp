@@ -4,19 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kNoiseLevelParameters{
-    {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}}};
-
-constexpr EffectDescription kNoiseLevel{.name = "noise_level",
-                                        .equation = "sigma *= 1 + k",
-                                        .parameters = kNoiseLevelParameters,
-                                        .manoeuvre = TellingManoeuvre::none(),
-                                        .place = EffectPlace::lines};
+constexpr EffectDescription kNoiseLevel{
+    .name = "noise_level",
+    .equation = "sigma *= 1 + k",
+    .parameters = {{"compass", 1, 0, 100}, {"imu", 1, 0, 100}, {"gps", 1, 0, 100}, {"motor", 1, 0, 100}},
+    .manoeuvre = TellingManoeuvre::none(),
+    .place = EffectPlace::lines};
 
 /// Every instrument's noise is stronger.
-class NoiseLevel final : public EffectOf<NoiseLevel, 4> {
+class NoiseLevel final : public EffectOf<NoiseLevel, kNoiseLevel> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kNoiseLevel; }
   void noise(Instrument of, double& factor) override { factor *= 1 + p_[static_cast<std::size_t>(of)]; }
 };
 

@@ -5,21 +5,18 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 4> kRepeatedFramesParameters{{{"compass_probability", 0.02, 0, 1},
-                                                                    {"imu_probability", 0.02, 0, 1},
-                                                                    {"gps_probability", 0.02, 0, 1},
-                                                                    {"motor_probability", 0.02, 0, 1}}};
-
 constexpr EffectDescription kRepeatedFrames{.name = "repeated_frames",
                                             .equation = "twice with probability p",
-                                            .parameters = kRepeatedFramesParameters,
+                                            .parameters = {{"compass_probability", 0.02, 0, 1},
+                                                           {"imu_probability", 0.02, 0, 1},
+                                                           {"gps_probability", 0.02, 0, 1},
+                                                           {"motor_probability", 0.02, 0, 1}},
                                             .manoeuvre = TellingManoeuvre::none(),
                                             .place = EffectPlace::lines};
 
 /// Frames come twice.
-class RepeatedFrames final : public EffectOf<RepeatedFrames, 4> {
+class RepeatedFrames final : public EffectOf<RepeatedFrames, kRepeatedFrames> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kRepeatedFrames; }
   void reseed(std::uint64_t seed) override { noise_.reseed(seed); }
   void line(Instrument of, double, Transmission& way) override {
     if (noise_[of].uniform(0, 1) < p_[static_cast<std::size_t>(of)]) way.copies *= 2;

@@ -9,28 +9,22 @@ namespace {
 // The Frobenius norm of S counts, in which what stands off the diagonal counts twice.
 constexpr double kNorm = 0.05;
 
-constexpr std::array<EffectParameter, 6> kSoftIronParameters{{{"xx", kNorm, -0.5, 0.5},
-                                                              {"yy", kNorm, -0.5, 0.5},
-                                                              {"zz", kNorm, -0.5, 0.5},
-                                                              {"xy", kNorm / std::numbers::sqrt2, -0.5, 0.5},
-                                                              {"xz", kNorm / std::numbers::sqrt2, -0.5, 0.5},
-                                                              {"yz", kNorm / std::numbers::sqrt2, -0.5, 0.5}}};
-
-constexpr std::array<std::string_view, 3> kSoftIronConfounders{"hard_iron", "compass_misalignment",
-                                                               "magnetic_hysteresis"};
-
 constexpr EffectDescription kSoftIron{.name = "soft_iron",
                                       .equation = "m = (1 + S) m, S symmetric",
-                                      .parameters = kSoftIronParameters,
+                                      .parameters = {{"xx", kNorm, -0.5, 0.5},
+                                                     {"yy", kNorm, -0.5, 0.5},
+                                                     {"zz", kNorm, -0.5, 0.5},
+                                                     {"xy", kNorm / std::numbers::sqrt2, -0.5, 0.5},
+                                                     {"xz", kNorm / std::numbers::sqrt2, -0.5, 0.5},
+                                                     {"yz", kNorm / std::numbers::sqrt2, -0.5, 0.5}},
                                       .manoeuvre = "turn full circles at two pitch angles",
-                                      .confounders = kSoftIronConfounders,
+                                      .confounders = {"hard_iron", "compass_misalignment", "magnetic_hysteresis"},
                                       .vector = 6,
                                       .order = 0};
 
 /// Iron that the field itself magnetises, without preferred rotation.
-class SoftIron final : public EffectOf<SoftIron, 6> {
+class SoftIron final : public EffectOf<SoftIron, kSoftIron> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kSoftIron; }
   void body_field(const Instant&, Vector3& field_body_uT) override {
     const auto [xx, yy, zz, xy, xz, yz] = p_;
     const Matrix3 more{{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};

@@ -7,18 +7,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 2> kStallsParameters{{{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}}};
-
 constexpr EffectDescription kStalls{.name = "stalls",
                                     .equation = "at random instants, so many a minute",
-                                    .parameters = kStallsParameters,
+                                    .parameters = {{"duration_s", 0.5, 0, 60}, {"per_minute", 2, 0, 60}},
                                     .manoeuvre = TellingManoeuvre::none(),
                                     .place = EffectPlace::lines};
 
 /// The host takes nothing from a line for a while, then all at once; each line on its own.
-class Stalls final : public EffectOf<Stalls, 2> {
+class Stalls final : public EffectOf<Stalls, kStalls> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kStalls; }
   void reseed(std::uint64_t seed) override { noise_.reseed(seed); }
   void line(Instrument of, double time_s, Transmission& way) override {
     if (p_[0] <= 0 || p_[1] <= 0) return;

@@ -4,21 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kThrustScaleParameters{{{"scale", 0.08, -0.9, 1}}};
-
-constexpr std::array<std::string_view, 3> kThrustScaleConfounders{"water_current", "fin_gain", "accel_scale"};
-
 constexpr EffectDescription kThrustScale{.name = "thrust_scale",
                                          .equation = "thrust *= 1 + k",
-                                         .parameters = kThrustScaleParameters,
+                                         .parameters = {{"scale", 0.08, -0.9, 1}},
                                          .manoeuvre = "run reciprocal legs with speed steps at the surface",
-                                         .confounders = kThrustScaleConfounders,
+                                         .confounders = {"water_current", "fin_gain", "accel_scale"},
                                          .place = EffectPlace::vehicle};
 
 /// The propeller pushes more than nominal.
-class ThrustScale final : public EffectOf<ThrustScale, 1> {
+class ThrustScale final : public EffectOf<ThrustScale, kThrustScale> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kThrustScale; }
   void influence(double /*time_s*/, Influences& on) override { on.thrust_factor *= 1 + p_[0]; }
 };
 

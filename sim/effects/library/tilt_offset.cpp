@@ -5,21 +5,15 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 2> kTiltOffsetParameters{
-    {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}}};
-
-constexpr std::array<std::string_view, 2> kTiltOffsetConfounders{"accel_bias", "compass_misalignment"};
-
 constexpr EffectDescription kTiltOffset{.name = "tilt_offset",
                                         .equation = "tilt += o",
-                                        .parameters = kTiltOffsetParameters,
+                                        .parameters = {{"roll_deg", 1, -45, 45}, {"pitch_deg", 1, -45, 45}},
                                         .manoeuvre = "pitch up and down by the same angle",
-                                        .confounders = kTiltOffsetConfounders};
+                                        .confounders = {"accel_bias", "compass_misalignment"}};
 
 /// The inclinometer is mounted askew.
-class TiltOffset final : public EffectOf<TiltOffset, 2> {
+class TiltOffset final : public EffectOf<TiltOffset, kTiltOffset> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kTiltOffset; }
   void tilt_said(const Instant&, Tilt& tilt) override {
     tilt.roll_rad += p_[0] * base::kRadiansPerDegree;
     tilt.pitch_rad += p_[1] * base::kRadiansPerDegree;

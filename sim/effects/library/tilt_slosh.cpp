@@ -4,17 +4,14 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kTiltSloshParameters{{{"gain", 0.3, -0.15, 2}}};
-
 constexpr EffectDescription kTiltSlosh{.name = "tilt_slosh",
                                        .equation = "roll -= k a_y/g, pitch += k a_x/g, before the fluid's lag",
-                                       .parameters = kTiltSloshParameters,
+                                       .parameters = {{"gain", 0.3, -0.15, 2}},
                                        .manoeuvre = "turn at one rate and two speeds"};
 
 /// The inclinometer's fluid sees gravity less a share of the vehicle's acceleration.
-class TiltSlosh final : public EffectOf<TiltSlosh, 1> {
+class TiltSlosh final : public EffectOf<TiltSlosh, kTiltSlosh> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kTiltSlosh; }
   void tilt_seen(const Instant& now, Tilt& tilt) override {
     const Vector3 acceleration = now.acceleration_m_s2();
     tilt.roll_rad -= p_[0] * acceleration[1] / kGravity_m_s2;

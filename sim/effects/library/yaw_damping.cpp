@@ -4,21 +4,16 @@
 namespace navcal::sim {
 namespace {
 
-constexpr std::array<EffectParameter, 1> kYawDampingParameters{{{"per_s", 0.3, -0.15, 10}}};
-
-constexpr std::array<std::string_view, 3> kYawDampingConfounders{"fin_gain", "fin_lag", "thrust_scale"};
-
 constexpr EffectDescription kYawDamping{.name = "yaw_damping",
                                         .equation = "N -= k M66 r",
-                                        .parameters = kYawDampingParameters,
+                                        .parameters = {{"per_s", 0.3, -0.15, 10}},
                                         .manoeuvre = "rudder doublets of two sizes at two speeds",
-                                        .confounders = kYawDampingConfounders,
+                                        .confounders = {"fin_gain", "fin_lag", "thrust_scale"},
                                         .place = EffectPlace::vehicle};
 
 /// The hull resists turning more than nominal.
-class YawDamping final : public EffectOf<YawDamping, 1> {
+class YawDamping final : public EffectOf<YawDamping, kYawDamping> {
  public:
-  [[nodiscard]] const EffectDescription& description() const override { return kYawDamping; }
   void influence(double /*time_s*/, Influences& on) override { on.yaw_damping_per_s += p_[0]; }
 };
 
