@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The instrument of each device, and its start-up dialogue.
-#include <type_traits>
+#include <memory>
 
 #include "instruments/described_device.h"
 #include "instruments/imu_card.h"
@@ -15,16 +15,7 @@
 #include "instruments/pd0_log.h"
 #include "instruments/pd6_log.h"
 #include "instruments/pni_compass.h"
-#include "instruments/start_up.h"
-#include "instruments/start_up_described.h"
-#include "instruments/start_up_keller.h"
-#include "instruments/start_up_mip.h"
-#include "instruments/start_up_oncore.h"
-#include "instruments/start_up_paroscientific.h"
-#include "instruments/start_up_pni.h"
-#include "instruments/start_up_tcm2.h"
-#include "instruments/start_up_ubx.h"
-#include "instruments/start_up_vectornav.h"
+#include "instruments/start_ups.h"
 #include "instruments/tcm2_compass.h"
 #include "instruments/ubx_receiver.h"
 #include "instruments/vectornav_sensor.h"
@@ -56,38 +47,25 @@ std::unique_ptr<Instrument> make_tcm2(const PortSettings& settings) {
 std::unique_ptr<Instrument> make_imu_card(const PortSettings& settings) {
   return std::make_unique<ImuCard>(settings.imu_card);
 }
-template <class S>
-std::unique_ptr<StartUp> start(const PortSettings& settings) {
-  if constexpr (std::is_constructible_v<S, const PortSettings&>) {
-    return std::make_unique<S>(settings);
-  } else {
-    return std::make_unique<S>();
-  }
-}
-
-std::unique_ptr<StartUp> start_described(const PortSettings& settings) {
-  const bool has_lines = settings.described && !settings.described->start_up.empty();
-  return has_lines ? std::make_unique<StartUpDescribed>(settings.described->start_up) : nullptr;
-}
 
 constexpr protocols::PerDevice<DeviceMakers> kDeviceMakers({
-    {Protocol::tcm2, {make_tcm2, start<StartUpTcm2>}},
+    {Protocol::tcm2, {make_tcm2, start_tcm2}},
     {Protocol::imu_card, {make_imu_card}},
-    {Protocol::oncore, {make_configured<OncoreReceiver>, start<StartUpOncore>}},
+    {Protocol::oncore, {make_configured<OncoreReceiver>, start_oncore}},
     {Protocol::motor_card, {make_plain<MotorCard>}},
     {Protocol::nmea, {make_configured<NmeaDevice>}},
-    {Protocol::ubx, {make_configured<UbxReceiver>, start<StartUpUbx>}},
-    {Protocol::mip, {make_plain<MipSensor>, start<StartUpMip>}},
-    {Protocol::vectornav, {make_plain<VectorNavSensor>, start<StartUpVectorNav>}},
-    {Protocol::pni, {make_plain<PniCompass>, start<StartUpPni>}},
+    {Protocol::ubx, {make_configured<UbxReceiver>, start_ubx}},
+    {Protocol::mip, {make_plain<MipSensor>, start_mip}},
+    {Protocol::vectornav, {make_plain<VectorNavSensor>, start_vectornav}},
+    {Protocol::pni, {make_plain<PniCompass>, start_pni}},
     // Doppler logs of Teledyne ping as soon as they are powered, if they are set up so. To start them from here
     // (CS) would let them ping in air, or begin a deployment with parameters that nobody has seen.
     {Protocol::pd0, {make_plain<Pd0Log>}},
     {Protocol::pd6, {make_plain<Pd6Log>}},
     {Protocol::water_linked, {make_plain<WaterLinkedLog>}},
     {Protocol::samples, {make_plain<InjectedSamples>}},
-    {Protocol::paroscientific, {make_configured<ParoscientificGauge>, start<StartUpParoscientific>}},
-    {Protocol::keller, {make_plain<KellerGauge>, start<StartUpKeller>}},
+    {Protocol::paroscientific, {make_configured<ParoscientificGauge>, start_paroscientific}},
+    {Protocol::keller, {make_plain<KellerGauge>, start_keller}},
     {Protocol::described, {make_configured<DescribedDevice>, start_described}},
 });
 

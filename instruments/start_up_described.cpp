@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/start_up_described.h"
+#include <string>
+#include <vector>
 
 #include "base/durations.h"
+#include "instruments/start_ups.h"
 
 namespace navcal::instruments {
 namespace {
@@ -10,6 +12,25 @@ namespace {
 constexpr std::int64_t kPause_ns = base::kSecond_ns / 5;
 /// So long without a frame, the device has lost its power or its settings.
 constexpr std::int64_t kSilence_ns = 10 * base::kSecond_ns;
+
+/// Sends the start-up lines of a description, with a pause between them, and again when no frame of the device has
+/// come for a while. Answers are not waited for: a description does not know them.
+class StartUpDescribed final : public StartUp {
+ public:
+  explicit StartUpDescribed(std::vector<std::string> lines) : lines_(std::move(lines)) {}
+
+  void begin(std::int64_t now_ns) override;
+  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
+  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
+  [[nodiscard]] bool in_service() const override { return frames_came_; }
+  [[nodiscard]] std::string state() const override;
+
+ private:
+  std::vector<std::string> lines_;
+  std::size_t sent_ = 0;      ///< lines of this round
+  bool frames_came_ = false;  ///< since the last round
+  unsigned rounds_ = 0;
+};
 
 }  // namespace
 
@@ -43,6 +64,11 @@ std::string StartUpDescribed::state() const {
   if (frames_came_) return "running";
   return rounds_ == 1 ? "start-up lines sent"
                       : "start-up lines sent " + std::to_string(rounds_) + " times, no frames";
+}
+
+std::unique_ptr<StartUp> start_described(const config::PortSettings& settings) {
+  const bool has_lines = settings.described && !settings.described->start_up.empty();
+  return has_lines ? std::make_unique<StartUpDescribed>(settings.described->start_up) : nullptr;
 }
 
 }  // namespace navcal::instruments

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/start_up_oncore.h"
+#include <string>
+#include <vector>
 
 #include "base/durations.h"
+#include "instruments/start_ups.h"
 #include "protocols/oncore.h"
 #include "protocols/oncore_command.h"
 
@@ -19,6 +21,41 @@ constexpr std::uint8_t kEverySecond = 1;
 
 /// NMEA sentences have talker and type, at least five letters; the receiver's own messages have two.
 bool is_nmea(protocols::FrameId id) { return id.view().size() >= 5; }
+
+/// Motorola Oncore (ICD section 2): asks for position (Ha, then Ea), satellites (Bb) and the UTC offset (Bo) at
+/// 1 Hz. Accepts NMEA when the receiver sends nothing else. Begins again when the positions stop.
+class StartUpOncore final : public StartUp {
+ public:
+  void begin(std::int64_t now_ns) override;
+  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
+  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
+  [[nodiscard]] std::int64_t deadline_ns() const override;
+  [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
+  [[nodiscard]] std::string state() const override;
+
+ private:
+  enum class Phase : std::uint8_t {
+    idle,      ///< begin() has not been called
+    asked_ha,  ///< 12-channel position asked for
+    asked_ea,  ///< 8-channel position asked for
+    resting,   ///< nothing came; all is repeated at due_ns_
+    running,   ///< positions of the kind `source_` come
+  };
+  /// Source of the positions; a later one in this list is preferred to an earlier one.
+  enum class Source : std::uint8_t { none, nmea, ea, ha };
+
+  void ask_for(Phase phase, std::int64_t now_ns);
+  void act(std::int64_t now_ns);
+  void run_on(Source source, std::int64_t now_ns);
+
+  Phase phase_ = Phase::idle;
+  Source source_ = Source::none;
+  std::int64_t asked_ns_ = 0;
+  std::int64_t cycle_began_ns_ = 0;
+  bool nmea_seen_ = false;                  ///< since Ha was asked for
+  unsigned fruitless_ = 0;                  ///< cycles in a row without any position
+  std::vector<protocols::FrameId> to_ask_;  ///< still to be sent, last first
+};
 
 }  // namespace
 
@@ -111,5 +148,7 @@ std::string StartUpOncore::state() const {
   if (source_ == Source::nmea) return "running on NMEA: no answer to Ha or Ea";
   return source_ == Source::ha ? "running on Ha" : "running on Ea";
 }
+
+std::unique_ptr<StartUp> start_oncore(const config::PortSettings&) { return std::make_unique<StartUpOncore>(); }
 
 }  // namespace navcal::instruments

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/start_up_paroscientific.h"
+#include <string>
 
 #include "base/durations.h"
+#include "instruments/start_ups.h"
 #include "protocols/decimal.h"
 #include "protocols/paroscientific.h"
 
@@ -17,6 +18,33 @@ constexpr std::int64_t kFirstValue_ns = 10 * base::kSecond_ns;
 constexpr std::int64_t kValuesStopped_ns = 10 * base::kSecond_ns;
 constexpr int kUnitAttempts = 5;
 constexpr int kValueAttempts = 3;
+
+/// Paroscientific gauge (ICD section 14): asks for the unit (UN), then for continuous sampling (P4). Both leave
+/// its permanent settings alone. Begins again when the values stop, as after a loss of power.
+class StartUpParoscientific final : public StartUp {
+ public:
+  void begin(std::int64_t now_ns) override;
+  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
+  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
+  [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
+  [[nodiscard]] std::string state() const override;
+
+ private:
+  enum class Phase : std::uint8_t {
+    idle,           ///< begin() has not been called
+    asking_unit,    ///< UN is to be sent, or its answer is awaited
+    asking_values,  ///< P4 is to be sent, or the first value is awaited
+    running,
+  };
+
+  void go_to(Phase phase, std::int64_t due_ns);
+  std::optional<std::vector<std::uint8_t>> ask(std::int64_t now_ns);
+
+  Phase phase_ = Phase::idle;
+  int attempts_ = 0;        ///< times that the current command was sent
+  unsigned fruitless_ = 0;  ///< commands in a row that were given up
+  std::string unit_;        ///< as the gauge states it
+};
 
 }  // namespace
 
@@ -82,6 +110,10 @@ std::string StartUpParoscientific::state() const {
     return "values come in a unit that is not known (UN=" + unit_ + "): they are not used; set UN to 1 to 8";
   }
   return "running, UN=" + unit_;
+}
+
+std::unique_ptr<StartUp> start_paroscientific(const config::PortSettings&) {
+  return std::make_unique<StartUpParoscientific>();
 }
 
 }  // namespace navcal::instruments

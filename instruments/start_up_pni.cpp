@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instruments/start_up_pni.h"
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "base/durations.h"
+#include "instruments/start_ups.h"
+#include "protocols/trax.h"
 
 namespace navcal::instruments {
 namespace {
@@ -26,6 +29,48 @@ constexpr trax::Component kComponents[] = {
     trax::Component::temperature,    trax::Component::distortion};
 
 constexpr std::uint8_t number_of(trax::FrameNumber number) { return static_cast<std::uint8_t>(number); }
+
+/// PNI TRAX, TCM3 and Prime (ICD section 11): stops the output, asks who is there, sets magnetic north, degrees
+/// and byte order, the interval and the components, and starts continuous output. A device that sends nothing then
+/// is polled. Nothing is saved in the device. Begins anew when the data stop.
+class StartUpPni final : public StartUp {
+ public:
+  explicit StartUpPni(const config::PortSettings& settings);
+
+  void begin(std::int64_t now_ns) override;
+  void on_frame(const protocols::Frame& frame, std::int64_t now_ns) override;
+  std::optional<std::vector<std::uint8_t>> next(std::int64_t now_ns) override;
+  [[nodiscard]] bool in_service() const override { return phase_ == Phase::running; }
+  [[nodiscard]] std::string state() const override;
+
+ private:
+  enum class Phase : std::uint8_t {
+    idle,           ///< begin() has not been called
+    configuring,    ///< commands_[current_] is to be sent or waits for its answer
+    awaiting_data,  ///< continuous output was started
+    running,
+    resting,  ///< no answer; all is repeated at due_ns_
+  };
+  struct Command {
+    std::vector<std::uint8_t> bytes;
+    std::uint8_t answer = 0;  ///< number of the frame that answers it; 0: none does
+    std::string_view name{};
+  };
+  [[nodiscard]] std::vector<Command> commands() const;
+  void go_on(std::int64_t now_ns);
+  void start(bool polled, std::int64_t now_ns);
+
+  double rate_Hz_;
+  std::int64_t stopped_after_ns_;
+  std::vector<Command> commands_;
+  Phase phase_ = Phase::idle;
+  bool polled_ = false;
+  std::int64_t data_ns_ = 0;  ///< the newest came, or was first waited for
+  std::size_t current_ = 0;
+  int attempts_ = 0;
+  unsigned fruitless_ = 0;
+  std::string unanswered_;  ///< for people
+};
 
 }  // namespace
 
@@ -144,6 +189,10 @@ std::string StartUpPni::state() const {
   if (phase_ != Phase::running && fruitless_ > 0) text += "; attempt " + std::to_string(fruitless_ + 1);
   if (!unanswered_.empty()) text += "; no answer to: " + unanswered_;
   return text;
+}
+
+std::unique_ptr<StartUp> start_pni(const config::PortSettings& settings) {
+  return std::make_unique<StartUpPni>(settings);
 }
 
 }  // namespace navcal::instruments
