@@ -52,7 +52,9 @@ std::vector<Option<Settings>> make_daemon_options() {
           "rotate_age_h", "Age at which a log file is finished and a new one begun.", kHours, 0.001, 8760,
           [](auto& s) -> auto& { return s.log.rotate_age_s; }),
       of_log(
-          "free_floor_MB", "Space kept free on the disk: below it the oldest finished log file is deleted.",
+          "free_floor_MB",
+          "Space kept free on the disk: below it the oldest logs are deleted where that is enough, never the "
+          "newest of an earlier run.",
           kMegabytes, 0, 1e9, [](auto& s) -> auto& { return s.log.free_floor_bytes; }),
       of_log(
           "queue_MB", "Memory for records that wait for a stalled disk; further records are lost and counted.",

@@ -42,8 +42,8 @@ std::string_view name_of(DiskState::State state) {
   return "failing";
 }
 
-DiskThread::DiskThread(record::LogFolder folder, const Options& options)
-    : folder_(std::move(folder)), options_(options), thread_([this] { run(); }) {}
+DiskThread::DiskThread(std::function<record::LogFolder()> take_folder, const Options& options)
+    : take_folder_(std::move(take_folder)), options_(options), thread_([this] { run(); }) {}
 
 DiskThread::~DiskThread() { stop(); }
 
@@ -73,8 +73,32 @@ void DiskThread::wake_if_much() {
   if (waiting_.bytes.size() >= kWakeAt_bytes && being_written_ == 0) wake_.notify_one();
 }
 
+bool DiskThread::open_folder() {
+  while (!folder_) {
+    try {
+      folder_.emplace(take_folder_());
+    } catch (const std::system_error& error) {
+      if (!retry(state_after(error.code()), error.what())) return false;
+    }
+  }
+  recovered();
+  for (const auto& repair : folder_->finish_unfinished()) note(repair.message());
+  return true;
+}
+
 void DiskThread::run() {
-  for (const auto& repair : folder_.finish_unfinished()) note(repair.message());
+  if (open_folder()) {
+    write_all();
+  } else {
+    const std::lock_guard lock(mutex_);
+    given_up_bytes_ = waiting_.bytes.size();
+  }
+  if (given_up_bytes_ > 0)
+    note(fmt::format("{} bytes in the queue for the disk were never written", given_up_bytes_));
+  update_state();
+}
+
+void DiskThread::write_all() {
   Batch batch;
   auto next_sync = std::chrono::steady_clock::now() + options_.sync_interval;
   for (bool last = false; !last;) {
@@ -98,9 +122,6 @@ void DiskThread::run() {
     update_state();
   }
   finish_file();
-  if (given_up_bytes_ > 0)
-    note(fmt::format("{} bytes in the queue for the disk were never written", given_up_bytes_));
-  update_state();
 }
 
 void DiskThread::write(const Batch& batch) {
@@ -120,9 +141,9 @@ void DiskThread::write(const Batch& batch) {
 void DiskThread::write_part(std::string_view bytes) {
   while (!bytes.empty() && file_) {
     const std::string_view step = bytes.substr(0, kWriteStep_bytes);
-    if (written_since_check_ >= kCheckSpaceEvery_bytes && !make_room()) break;
+    if (written_since_check_ >= kCheckSpaceEvery_bytes) keep_floor();
     if (const auto error = file_->append(step)) {
-      if (state_after(error) == DiskState::State::full && !remove_old_logs().removed.empty()) continue;
+      if (state_after(error) == DiskState::State::full && remove_oldest()) continue;
       if (!retry(state_after(error), error.message())) break;
       continue;
     }
@@ -138,31 +159,37 @@ void DiskThread::write_part(std::string_view bytes) {
   given_up_bytes_ += bytes.size();
 }
 
-record::LogFolder::Space DiskThread::remove_old_logs() {
-  auto space = folder_.keep_free(options_.free_floor_bytes);
+void DiskThread::note_removed(const record::LogFolder::Space& space) {
   for (const auto& removed : space.removed) note("removed to make room: " + removed);
-  return space;
 }
 
-bool DiskThread::make_room() {
-  for (;;) {
-    const auto space = remove_old_logs();
-    written_since_check_ = 0;
-    if (space.error || space.free_bytes >= options_.free_floor_bytes) return true;
-    const auto reason =
-        fmt::format("{} MB free, the floor is {} MB (log.free_floor_MB) and no finished log is left",
-                    space.free_bytes / kMegabyte, options_.free_floor_bytes / kMegabyte);
-    if (!retry(DiskState::State::full, reason)) return false;
-  }
+bool DiskThread::remove_oldest() {
+  const auto space = folder_->remove_oldest();
+  note_removed(space);
+  return !space.removed.empty();
+}
+
+void DiskThread::keep_floor() {
+  const auto space = folder_->keep_free(options_.free_floor_bytes);
+  written_since_check_ = 0;
+  note_removed(space);
+  const bool is_below = !space.error && space.free_bytes < options_.free_floor_bytes;
+  if (is_below && !std::exchange(below_floor_, is_below))
+    note(
+        fmt::format("{} MB free, less than log.free_floor_MB = {}: no old log is removed, since all of them would "
+                    "not be enough; the log goes on until the disk is full",
+                    space.free_bytes / kMegabyte, options_.free_floor_bytes / kMegabyte));
+  below_floor_ = is_below;
 }
 
 void DiskThread::change_file(std::int64_t utc_ns) {
   finish_file();
-  if (!make_room()) return;
+  keep_floor();
   for (;;) {
     std::error_code error;
-    file_ = folder_.create(utc_ns, error);
+    file_ = folder_->create(utc_ns, error);
     if (file_) break;
+    if (state_after(error) == DiskState::State::full && remove_oldest()) continue;
     if (!retry(state_after(error), "cannot make a file: " + error.message())) return;
   }
   recovered();
@@ -223,6 +250,7 @@ void DiskThread::update_state() {
   state_.file = file_->path().string();
   state_.file_bytes = file_->bytes();
   state_.synced_bytes = file_->synced_bytes();
+  state_.is_gone = file_->is_gone();
 }
 
 }  // namespace navcal::daemon

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,7 +22,7 @@ namespace navcal::daemon {
 struct DiskState {
   enum class State {
     writing,
-    full,     ///< no space, or less than the floor, and no finished log left to remove
+    full,     ///< no space, and no finished log that may be removed
     failing,  ///< the disk refuses for another reason
     stopped,  ///< by log.stop: the file is ended and no other begun
   };
@@ -32,6 +33,7 @@ struct DiskState {
   std::uint64_t synced_bytes = 0;
   std::uint64_t queued_bytes = 0;  ///< accepted and not written yet
   std::uint64_t dropped = 0;       ///< records refused because the queue was full
+  bool is_gone = false;            ///< somebody has removed the file
 };
 
 /// "writing", "full", "failing", "stopped".
@@ -48,7 +50,9 @@ class DiskThread {
     std::uint64_t free_floor_bytes = 0;
   };
 
-  DiskThread(record::LogFolder folder, const Options& options);
+  /// `take_folder` is called on the thread, again and again as long as it throws std::system_error: until then the
+  /// state is `failing`.
+  DiskThread(std::function<record::LogFolder()> take_folder, const Options& options);
   /// Calls stop().
   ~DiskThread();
   DiskThread(const DiskThread&) = delete;
@@ -112,14 +116,17 @@ class DiskThread {
 
   void wake_if_much();
   void run();
+  void write_all();
+  /// False when the thread is to give up.
+  bool open_folder();
   void write(const Batch& batch);
   void write_part(std::string_view bytes);
   void change_file(std::int64_t utc_ns);
   void end_without_next();
-  /// Removes old logs until the floor is kept; waits while that is not enough. False when the thread is to give
-  /// up.
-  bool make_room();
-  record::LogFolder::Space remove_old_logs();
+  void keep_floor();
+  /// Whether there was an old log to remove.
+  bool remove_oldest();
+  void note_removed(const record::LogFolder::Space& space);
   void sync();
   void finish_file();
   /// Waits before another attempt; false when the thread is to give up.
@@ -128,12 +135,14 @@ class DiskThread {
   void note(std::string notice);
   void update_state();
 
-  record::LogFolder folder_;
+  const std::function<record::LogFolder()> take_folder_;
+  std::optional<record::LogFolder> folder_;  ///< nullopt: not taken yet
   const Options options_;
   std::unique_ptr<record::LogFile> file_;  ///< the disk thread's alone
   std::uint64_t written_since_check_ = 0;  ///< of free space
   std::uint64_t given_up_bytes_ = 0;
   int attempts_while_stopping_ = 0;
+  bool below_floor_ = false;  ///< told already
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

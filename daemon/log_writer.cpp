@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "config/load.h"
-#include "daemon/start_error.h"
 
 namespace navcal::daemon {
 namespace {
@@ -20,13 +19,8 @@ std::chrono::nanoseconds nanoseconds(double seconds) {
 record::LogFolder take_folder(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error)
-    throw StartError(fmt::format("log folder {}: cannot be made: {}", directory.string(), error.message()));
-  try {
-    return record::LogFolder(record::real_disk(), directory);
-  } catch (const std::system_error& failure) {
-    throw StartError(failure.what());
-  }
+  if (error) throw std::system_error(error, fmt::format("log folder {}: cannot be made", directory.string()));
+  return record::LogFolder(record::real_disk(), directory);
 }
 
 }  // namespace
@@ -44,7 +38,7 @@ LogWriter::LogWriter(const config::Settings& settings, std::int64_t now_ns, cons
   options.sync_interval = nanoseconds(settings_.sync_interval_s);
   options.queue_bytes = settings_.queue_bytes;
   options.free_floor_bytes = settings_.free_floor_bytes;
-  disk_ = std::make_unique<DiskThread>(take_folder(settings_.directory), options);
+  disk_ = std::make_unique<DiskThread>([folder = settings_.directory] { return take_folder(folder); }, options);
   begin_file(now_ns);
 }
 
@@ -156,8 +150,14 @@ void LogWriter::tick(std::int64_t now_ns) {
   if (!disk_ || stopped_) return;
   const bool old = static_cast<double>(now_ns - file_begun_ns_) >= settings_.rotate_age_s * kNs;
   if (old || encoder_.file_bytes() >= settings_.rotate_bytes) rotate(now_ns);
+  const DiskState disk = disk_->state();
+  if (disk.is_gone && disk.file != told_gone_) {
+    told_gone_ = disk.file;
+    rotate(now_ns);
+    event(now_ns, "error", "log.removed", "", disk.file + " was removed while it was written: a new file begins");
+  }
 
-  const std::uint64_t dropped = disk_->state().dropped;
+  const std::uint64_t dropped = disk.dropped;
   if (dropped == told_dropped_) return;
   const std::string words =
       fmt::format("{} records lost: the disk did not keep up and the queue of {} MB was full",

@@ -29,7 +29,7 @@ namespace navcal::daemon {
 /// JSON message, also those that are not logged.
 class LogWriter {
  public:
-  /// Takes the log folder and begins the first file. Throws StartError saying what is wrong with the folder.
+  /// Begins the first file, as soon as the log folder can be taken; state() tells.
   LogWriter(const config::Settings& settings, std::int64_t now_ns, const pipeline::UtcMapping& mapping);
 
   /// `feed` must live as long as this object.
@@ -95,6 +95,7 @@ class LogWriter {
   std::function<std::string(std::int64_t now_ns)> calibration_;
   std::int64_t file_begun_ns_ = 0;
   std::uint64_t told_dropped_ = 0;
+  std::string told_gone_;                                   ///< the last file that somebody has removed
   std::vector<std::string> ports_;                          ///< their names
   std::array<bool, config::kLogGroups.size()> left_out_{};  ///< by LogGroup
   std::vector<bool> raw_left_out_;                          ///< by port

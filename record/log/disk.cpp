@@ -44,6 +44,10 @@ class PosixFile final : public DiskFile {
     return check(::ftruncate(fd_.get(), static_cast<off_t>(length)));
   }
   std::error_code sync() override { return check(::fdatasync(fd_.get())); }
+  [[nodiscard]] bool is_gone() const override {
+    struct stat status {};
+    return ::fstat(fd_.get(), &status) == 0 && status.st_nlink == 0;
+  }
   std::error_code make_read_only() override {
     if (const auto error = check(::fchmod(fd_.get(), 0444))) return error;
     return check(::fsync(fd_.get()));

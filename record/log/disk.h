@@ -25,6 +25,8 @@ class DiskFile {
   /// Data and what is needed to find it again (fdatasync).
   virtual std::error_code sync() = 0;
   virtual std::error_code make_read_only() = 0;
+  /// Somebody has removed it: what is written is lost when it is closed.
+  [[nodiscard]] virtual bool is_gone() const { return false; }
 };
 
 /// Held while it lives.

@@ -31,6 +31,7 @@ class LogFile {
   /// (LogEncoder::finish) was appended before.
   [[nodiscard]] std::error_code finish();
 
+  [[nodiscard]] bool is_gone() const { return file_->is_gone(); }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
   [[nodiscard]] std::uint64_t synced_bytes() const { return synced_bytes_; }

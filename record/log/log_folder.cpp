@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <ctime>
+#include <numeric>
 #include <optional>
 
 #include "base/durations.h"
@@ -46,6 +47,7 @@ std::string explain(const std::filesystem::path& folder, const std::error_code& 
 struct LogFolder::Log {
   std::uint64_t counter = 0;
   std::string name;
+  std::uint64_t bytes = 0;
   bool finished = false;
 };
 
@@ -55,13 +57,14 @@ LogFolder::LogFolder(Disk& disk, std::filesystem::path folder) : disk_(disk), fo
   if (!lock_) throw std::system_error(error, explain(folder_, error));
   for (const Log& log : logs(error)) last_counter_ = std::max(last_counter_, log.counter);
   if (error) throw std::system_error(error, explain(folder_, error));
+  kept_counter_ = last_counter_;
 }
 
 std::vector<LogFolder::Log> LogFolder::logs(std::error_code& error) {
   std::vector<Log> found;
   for (auto& entry : disk_.list(folder_, error)) {
     if (const auto counter = counter_of(entry.name))
-      found.push_back({*counter, std::move(entry.name), !entry.writable});
+      found.push_back({*counter, std::move(entry.name), entry.bytes, !entry.writable});
   }
   std::sort(found.begin(), found.end(), [](const Log& a, const Log& b) {
     return a.counter != b.counter ? a.counter < b.counter : a.name < b.name;
@@ -90,17 +93,37 @@ std::unique_ptr<LogFile> LogFolder::create(std::int64_t utc_ns, std::error_code&
   return LogFile::create(disk_, folder_ / log_name(utc_ns, ++last_counter_), error);
 }
 
+std::vector<LogFolder::Log> LogFolder::removable(std::error_code& error) {
+  auto found = logs(error);
+  std::erase_if(found, [this](const Log& log) { return !log.finished || log.counter == kept_counter_; });
+  return found;
+}
+
+void LogFolder::remove(const Log& log, Space& space) {
+  if ((space.error = disk_.remove(folder_ / log.name))) return;
+  space.removed.push_back(log.name);
+  space.free_bytes = disk_.free_bytes(folder_, space.error);
+}
+
 LogFolder::Space LogFolder::keep_free(std::uint64_t floor_bytes) {
   Space space;
   space.free_bytes = disk_.free_bytes(folder_, space.error);
   if (space.error || space.free_bytes >= floor_bytes) return space;
-  for (const Log& log : logs(space.error)) {
-    if (!log.finished) continue;
-    if ((space.error = disk_.remove(folder_ / log.name))) return space;
-    space.removed.push_back(log.name);
-    space.free_bytes = disk_.free_bytes(folder_, space.error);
+  const auto old = removable(space.error);
+  const std::uint64_t most_bytes = std::accumulate(
+      old.begin(), old.end(), space.free_bytes, [](std::uint64_t sum, const Log& log) { return sum + log.bytes; });
+  if (most_bytes < floor_bytes) return space;
+  for (const Log& log : old) {
     if (space.error || space.free_bytes >= floor_bytes) break;
+    remove(log, space);
   }
+  return space;
+}
+
+LogFolder::Space LogFolder::remove_oldest() {
+  Space space;
+  const auto old = removable(space.error);
+  if (!old.empty()) remove(old.front(), space);
   return space;
 }
 

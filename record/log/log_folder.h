@@ -32,19 +32,25 @@ class LogFolder {
     std::vector<std::string> removed;  ///< finished logs that made room, oldest first
     std::error_code error;
   };
-  /// Removes the oldest finished logs until `floor_bytes` are free, or none is left. Never an unfinished one.
+  /// Removes the oldest finished logs until `floor_bytes` are free; none where all of them would not be enough.
+  /// Never an unfinished one, nor the newest from before this process: what is not fetched yet is the only copy.
   Space keep_free(std::uint64_t floor_bytes);
+  /// Removes the oldest of them, because the disk is full.
+  Space remove_oldest();
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
  private:
   struct Log;
   [[nodiscard]] std::vector<Log> logs(std::error_code& error);
+  [[nodiscard]] std::vector<Log> removable(std::error_code& error);
+  void remove(const Log& log, Space& space);
 
   Disk& disk_;
   std::filesystem::path folder_;
   std::unique_ptr<DiskLock> lock_;
   std::uint64_t last_counter_ = 0;
+  std::uint64_t kept_counter_ = 0;  ///< of the newest log from before
 };
 
 /// Whether this is the name of a log, as log_name() makes them, and nothing else: no path leads through it.

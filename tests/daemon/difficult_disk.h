@@ -69,6 +69,7 @@ class DifficultDisk : public record::Disk {
       return {};
     }
     std::error_code make_read_only() override { return real_->make_read_only(); }
+    [[nodiscard]] bool is_gone() const override { return real_->is_gone(); }
 
    private:
     /// Drops unsynced data as the kernel does: the pages are clean afterwards, and contain what is on the medium.

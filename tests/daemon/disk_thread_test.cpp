@@ -23,7 +23,7 @@ class DiskThreadTest : public ::testing::Test {
     options.retry_interval = 5ms;
     options.queue_bytes = queue_bytes;
     options.free_floor_bytes = floor_bytes;
-    thread_ = std::make_unique<DiskThread>(record::LogFolder(disk_, folder_.path()), options);
+    thread_ = std::make_unique<DiskThread>([this] { return record::LogFolder(disk_, folder_.path()); }, options);
     thread_->next_file(0, [](std::string& out) { out += "begin\n"; });
   }
 
@@ -168,6 +168,56 @@ TEST_F(DiskThreadTest, AFullDiskIsRelievedOfItsOldestFinishedLog) {
   ASSERT_TRUE(eventually([&] { return thread_->state().queued_bytes == 0; }));
   thread_->stop();
   EXPECT_EQ(logs(), std::vector<std::string>{"begin\nnew\n"});
+}
+
+TEST_F(DiskThreadTest, AFloorThatCannotBeKeptRemovesNothingAndLogsOn) {
+  begin(1 << 20);
+  ASSERT_TRUE(append("old\n"));
+  thread_->stop();
+  disk_.free = 1 << 20;
+  begin(1 << 20, 1 << 30);
+  ASSERT_TRUE(append("new\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().queued_bytes == 0; }));
+  EXPECT_EQ(thread_->state().state, DiskState::State::writing);
+  thread_->stop();
+  EXPECT_EQ(logs(), (std::vector<std::string>{"begin\nold\n", "begin\nnew\n"}));
+  const auto notices = thread_->take_notices();
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_NE(notices[0].find("log.free_floor_MB"), std::string::npos) << notices[0];
+}
+
+TEST_F(DiskThreadTest, AFileThatSomebodyRemovesIsToldAndTheNextIsWhole) {
+  begin(1 << 20);
+  ASSERT_TRUE(append("old\n"));
+  ASSERT_TRUE(eventually([&] { return thread_->state().queued_bytes == 0 && !thread_->state().file.empty(); }));
+  EXPECT_FALSE(thread_->state().is_gone);
+  std::filesystem::remove(thread_->state().file);
+  EXPECT_TRUE(eventually([&] { return thread_->state().is_gone; }));
+  thread_->next_file(0, [](std::string& out) { out += "again\n"; });
+  EXPECT_TRUE(eventually([&] { return !thread_->state().is_gone; }));
+  thread_->stop();
+  EXPECT_EQ(logs(), std::vector<std::string>{"again\n"});
+}
+
+TEST_F(DiskThreadTest, WithoutAFolderItWaitsAndSaysWhy) {
+  DiskThread::Options options;
+  options.retry_interval = 5ms;
+  std::atomic<bool> is_there{false};
+  thread_ = std::make_unique<DiskThread>(
+      [&] {
+        if (!is_there)
+          throw std::system_error(std::make_error_code(std::errc::read_only_file_system), "the folder");
+        return record::LogFolder(disk_, folder_.path());
+      },
+      options);
+  thread_->next_file(0, [](std::string& out) { out += "begin\n"; });
+  ASSERT_TRUE(eventually([&] { return thread_->state().state == DiskState::State::failing; }));
+  EXPECT_NE(thread_->state().reason.find("the folder"), std::string::npos);
+  ASSERT_TRUE(append("one\n"));
+  is_there = true;
+  ASSERT_TRUE(eventually([&] { return thread_->state().state == DiskState::State::writing; }));
+  thread_->stop();
+  EXPECT_EQ(logs(), std::vector<std::string>{"begin\none\n"});
 }
 
 TEST_F(DiskThreadTest, ASyncThatFailsIsSaidAndWhatItDroppedIsWrittenAnew) {

@@ -154,10 +154,28 @@ TEST(LogFolder, RoomIsMadeByTheOldestFinishedLogs) {
 
   EXPECT_TRUE(folder.keep_free(10'000).removed.empty());
   EXPECT_EQ(folder.keep_free(30'000).removed, std::vector<std::string>{first});
-  const auto space = folder.keep_free(90'000);
-  EXPECT_EQ(space.removed, std::vector<std::string>{second});
-  EXPECT_LT(space.free_bytes, 90'000U);
+  EXPECT_TRUE(folder.keep_free(90'000).removed.empty()) << "the one that is left would not be enough";
+  EXPECT_EQ(folder.remove_oldest().removed, std::vector<std::string>{second});
+  EXPECT_TRUE(folder.remove_oldest().removed.empty());
   EXPECT_EQ(disk.names().size(), 2U);
+}
+
+TEST(LogFolder, TheMissionBeforeIsNeverRemoved) {
+  testing::MemoryDisk disk;
+  disk.capacity = 100'000;
+  const std::string bytes(20'000, 'x');
+  std::string oldest;
+  {
+    LogFolder before(disk, "/logs");
+    oldest = write_log(before, kFolderTime_ns, bytes, true);
+    write_log(before, kFolderTime_ns, bytes, true);
+  }
+  LogFolder folder(disk, "/logs");
+  const auto own = write_log(folder, kFolderTime_ns, bytes, true);
+  EXPECT_EQ(folder.remove_oldest().removed, std::vector<std::string>{oldest});
+  EXPECT_EQ(folder.remove_oldest().removed, std::vector<std::string>{own});
+  EXPECT_TRUE(folder.remove_oldest().removed.empty());
+  EXPECT_EQ(disk.names().size(), 1U);
 }
 
 }  // namespace
