@@ -35,6 +35,7 @@ std::string MotorCommand::problem_with(const LeaseRequest& request) const {
 
 std::string MotorCommand::lease(std::int64_t now_ns, const LeaseRequest& request, std::string token,
                                 std::uint64_t client) {
+  if (stopping_) return "navcald stops";
   if (auto problem = problem_with(request); !problem.empty()) return problem;
   if (!leak_.empty() && request.priority < settings_.operator_priority)
     return fmt::format("{} stands: only an operator (priority {} or more) may take charge", leak_,
@@ -50,7 +51,8 @@ std::string MotorCommand::lease(std::int64_t now_ns, const LeaseRequest& request
   return {};
 }
 
-std::string MotorCommand::order(std::int64_t now_ns, std::string_view token, const Order& order) {
+std::string MotorCommand::order(std::int64_t now_ns, std::int64_t sent_ns, std::string_view token,
+                                const Order& order) {
   // A late order must find its lease expired, even when no other call has looked at the time since.
   if (holder() && now_ns >= holder()->expires_ns)
     end_lease(now_ns, fmt::format("the lease expired: no order came for {} s", holder()->timeout_s));
@@ -58,7 +60,8 @@ std::string MotorCommand::order(std::int64_t now_ns, std::string_view token, con
   if (auto problem = beyond_limits(order, settings_); !problem.empty()) return problem;
   if (!port_open_) return "the motor card is away: " + away_;
   if (!rate_.take(now_ns)) return fmt::format("more than {} orders a second", settings_.max_orders_Hz);
-  desk_.renew(now_ns);
+  desk_.renew(sent_ns);
+  obeyed_until_ns_ = holder()->expires_ns;
   ++sequence_;
   following_ = order_due_ = true;
   safe_due_ns_ = kNever_ns;
@@ -72,11 +75,19 @@ std::string MotorCommand::release(std::int64_t now_ns, std::string_view token) {
   return {};
 }
 
-void MotorCommand::client_gone(std::int64_t now_ns, std::uint64_t client) {
-  if (holder() && holder()->client == client) end_lease(now_ns, "its connection was closed");
+std::string MotorCommand::stop(std::int64_t now_ns, std::string_view by) {
+  const std::string reason = fmt::format("stopped by {}", by);
+  desk_.end(reason);
+  make_safe(now_ns, reason);
+  return port_open_ ? std::string() : "the motor card is away, and gets the safe state when it is back: " + away_;
+}
+
+void MotorCommand::client_gone(std::int64_t now_ns, std::uint64_t client, std::string reason) {
+  if (holder() && holder()->client == client) end_lease(now_ns, std::move(reason));
 }
 
 void MotorCommand::shut_down(std::int64_t now_ns) {
+  stopping_ = true;
   if (holder()) {
     end_lease(now_ns, "navcald stops");
   } else if (commanded_) {
@@ -86,7 +97,7 @@ void MotorCommand::shut_down(std::int64_t now_ns) {
 
 void MotorCommand::port_opened(std::int64_t now_ns) {
   port_open_ = true;
-  if (!holder() && commanded_) make_safe(now_ns, "the port is open again");
+  if (!following_ && commanded_) make_safe(now_ns, "the port is open again");
 }
 
 void MotorCommand::port_lost(std::string reason) {
@@ -104,6 +115,12 @@ void MotorCommand::safe_echoed() {
   if (following_) return;
   commanded_ = false;
   safe_due_ns_ = kNever_ns;
+}
+
+void MotorCommand::shown(std::int64_t now_ns, double rpm) {
+  const bool was_safe = !following_ && !commanded_ && last_line_;
+  if (was_safe && std::lround(rpm) != std::lround(safe_.shaft_rpm))
+    make_safe(now_ns, fmt::format("the card shows {} rpm after the safe state", rpm));
 }
 
 void MotorCommand::leak(std::int64_t now_ns, std::string leak) {
@@ -142,6 +159,7 @@ Line MotorCommand::sent(const Order& order, Source source) {
 std::optional<Line> MotorCommand::next(std::int64_t now_ns) {
   if (holder() && now_ns >= holder()->expires_ns)
     end_lease(now_ns, fmt::format("the lease expired: no order came for {} s", holder()->timeout_s));
+  if (following_ && now_ns >= obeyed_until_ns_) make_safe(now_ns, "no order was taken under the new lease");
   if (!port_open_) return std::nullopt;
   if (now_ns >= safe_due_ns_) {
     const double repeat_s = settings_.echo_timeout_s > 0 ? settings_.echo_timeout_s : kSafeRepeat_s;
@@ -157,6 +175,7 @@ std::optional<Line> MotorCommand::next(std::int64_t now_ns) {
 
 std::int64_t MotorCommand::deadline_ns() const {
   std::int64_t deadline_ns = holder() ? holder()->expires_ns : kNever_ns;
+  if (following_) deadline_ns = std::min(deadline_ns, obeyed_until_ns_);
   if (!port_open_) return deadline_ns;
   deadline_ns = std::min(deadline_ns, safe_due_ns_);
   if (following_) deadline_ns = std::min(deadline_ns, order_due_ ? 0 : shaper_.next_ns());

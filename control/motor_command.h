@@ -34,11 +34,16 @@ class MotorCommand {
   /// lease(), order() and release() return why they refuse; empty: done. `client` is the connection that asks.
   [[nodiscard]] std::string lease(std::int64_t now_ns, const LeaseRequest& request, std::string token,
                                   std::uint64_t client);
-  [[nodiscard]] std::string order(std::int64_t now_ns, std::string_view token, const Order& order);
+  /// The lease is renewed from `sent_ns` on, the earliest time at which the order may have been sent.
+  [[nodiscard]] std::string order(std::int64_t now_ns, std::int64_t sent_ns, std::string_view token,
+                                  const Order& order);
   [[nodiscard]] std::string release(std::int64_t now_ns, std::string_view token);
+  /// Ends every lease and orders the safe state, whoever asks. Returns why it does not go out now; empty: it does.
+  [[nodiscard]] std::string stop(std::int64_t now_ns, std::string_view by);
 
-  void client_gone(std::int64_t now_ns, std::uint64_t client);
-  /// The program ends: the safe state is due if the card has another order.
+  /// A lease of this connection ends; `reason` is what its next order hears.
+  void client_gone(std::int64_t now_ns, std::uint64_t client, std::string reason);
+  /// The program ends: no lease any more, and the safe state is due if the card has another order.
   void shut_down(std::int64_t now_ns);
   void port_opened(std::int64_t now_ns);
   void port_lost(std::string reason);
@@ -46,6 +51,8 @@ class MotorCommand {
   void commanded_before(std::int64_t now_ns);
   /// A status has shown the safe state.
   void safe_echoed();
+  /// A status shows this shaft speed: when the safe state was shown before, one that is not safe is undone.
+  void shown(std::int64_t now_ns, double rpm);
   /// `leak` names an alarm that was raised; empty: no leak stands any more. With on_leak "safe", the lease of a
   /// program ends, and until the leak is over only an operator gets one.
   void leak(std::int64_t now_ns, std::string leak);
@@ -81,10 +88,12 @@ class MotorCommand {
   std::vector<Event> events_;
   std::uint64_t sequence_ = 0;
   std::int64_t safe_due_ns_ = kNever_ns;  ///< when the safe state is to be sent (again)
+  std::int64_t obeyed_until_ns_ = 0;      ///< the order taken last holds no longer, whoever has got a lease since
   bool order_due_ = false;
   bool following_ = false;  ///< an order, not the safe state
   bool commanded_ = false;
   bool port_open_ = false;
+  bool stopping_ = false;
   std::string away_ = "not opened yet";
   std::string leak_;  ///< the alarm that was raised last; empty: none stands, or leaks are alarms only
 };

@@ -20,6 +20,8 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
     case Alarm::battery_low:
     case Alarm::floor_near:
     case Alarm::link_dead:
+    case Alarm::log_failing:
+    case Alarm::orders_refused:
       break;
   }
   return false;
@@ -43,6 +45,10 @@ std::string_view name_of(Alarm alarm) {
       return "floor_near";
     case Alarm::command_not_echoed:
       return "command_not_echoed";
+    case Alarm::log_failing:
+      return "log_failing";
+    case Alarm::orders_refused:
+      return "orders_refused";
     case Alarm::link_dead:
       break;
   }

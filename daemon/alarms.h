@@ -10,8 +10,7 @@
 
 namespace navcal::daemon {
 
-/// The first four are the inertial card's, then the motor card's; two follow from estimates, the last is the
-/// remote link's.
+/// The first four are the inertial card's, then the motor card's; two follow from estimates.
 enum class Alarm : std::uint8_t {
   leak_forward,
   leak_aft,
@@ -20,14 +19,20 @@ enum class Alarm : std::uint8_t {
   command_not_echoed,
   battery_low,
   floor_near,
-  link_dead
+  link_dead,
+  log_failing,    ///< nothing is logged, though it should be
+  orders_refused  ///< the note of the motor's orders cannot be kept
 };
 
-/// In place of a port: the alarm of the remote link.
-inline constexpr std::uint16_t kRemotePort = 0xFFFF;
+/// In place of a port: the alarms of the remote link and of the log.
+inline constexpr std::uint16_t kRemotePort = 0xFFFF, kLogPort = 0xFFFE;
+/// "remote", "log"; empty for a port.
+[[nodiscard]] constexpr std::string_view place_beside_ports(std::uint16_t port) {
+  return port == kRemotePort ? "remote" : port == kLogPort ? "log" : "";
+}
 
 /// "leak_forward", "leak_aft", "over_range", "low_supply", "command_not_echoed", "battery_low", "floor_near",
-/// "link_dead".
+/// "link_dead", "log_failing", "orders_refused".
 [[nodiscard]] std::string_view name_of(Alarm alarm);
 inline constexpr std::array kCardAlarms{Alarm::leak_forward, Alarm::leak_aft, Alarm::over_range,
                                         Alarm::low_supply};

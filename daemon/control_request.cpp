@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, ControlCommand>, 23> kCommands{{
+constexpr std::array<std::pair<std::string_view, ControlCommand>, 24> kCommands{{
     {"event", ControlCommand::event},
     {"log.rotate", ControlCommand::log_rotate},
     {"log.start", ControlCommand::log_start},
@@ -33,6 +33,7 @@ constexpr std::array<std::pair<std::string_view, ControlCommand>, 23> kCommands{
     {"motor.lease", ControlCommand::motor_lease},
     {"motor.order", ControlCommand::motor_order},
     {"motor.release", ControlCommand::motor_release},
+    {"motor.stop", ControlCommand::motor_stop},
     {"battery.full", ControlCommand::battery_full},
     {"battery.set", ControlCommand::battery_set},
     {"device.command", ControlCommand::device_command},
@@ -206,6 +207,11 @@ std::string take_own(const Json& object, ControlRequest& request) {
       return take_order(object, request);
     case ControlCommand::motor_release:
       return take_token(object, request);
+    case ControlCommand::motor_stop:
+      // Nothing that is wrong with a name may keep the shaft turning.
+      request.by = text_at(object, "by").value_or("").substr(0, control::kMaxHolderLength);
+      if (request.by.empty()) request.by = "somebody";
+      return {};
     case ControlCommand::battery_set:
       return take_charge(object, request);
     case ControlCommand::device_command:

@@ -37,6 +37,7 @@ enum class ControlCommand {
   motor_lease,
   motor_order,
   motor_release,
+  motor_stop,
   battery_full,
   battery_set,
   device_command,
@@ -48,6 +49,7 @@ enum class ControlCommand {
 struct ControlRequest {
   ControlCommand command = ControlCommand::status;
   std::string text;        ///< of an event
+  std::string by;          ///< of motor.stop: who stops, for people
   std::string calibrator;  ///< of calibration.*
   bool force = false;      ///< of calibration.accept: an estimate that is refused, too; of device.command
   control::LeaseRequest lease_request;     ///< of motor.lease
@@ -67,17 +69,22 @@ struct ControlRequest {
 /// The answer to a request.
 struct ControlAnswer {
   ControlAnswer(std::string line) : text(std::move(line)) {}  // NOLINT: most answers are lines
-  explicit ControlAnswer(std::function<std::string()> disk_work) : work(std::move(disk_work)) {}
+  explicit ControlAnswer(std::function<std::string()> disk_work,
+                         std::function<std::string(std::string)> afterwards = {})
+      : work(std::move(disk_work)), then(std::move(afterwards)) {}
 
   std::string text;  ///< one line, newline included
   std::function<std::string()>
       work;  ///< where it is set: makes the line, may wait for the disk, runs on another thread
+  std::function<std::string(std::string)>
+      then;  ///< where it is set: makes the line of what `work` made, on this one
 };
 
 /// Whence a request came.
 struct ControlOrigin {
   std::uint64_t client = 0;     ///< number of the connection
   std::int64_t arrival_ns = 0;  ///< monotonic: when the read returned that completed the line
+  std::int64_t sent_ns = 0;     ///< monotonic: the line was sent then or later
 };
 
 /// The request, or why it is none, for people.

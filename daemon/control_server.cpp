@@ -23,6 +23,7 @@ constexpr std::size_t kMaxClients = 16;
 constexpr auto kAcceptPause = std::chrono::milliseconds(500);
 /// A connection that sends more lines than this is read only now and then.
 constexpr double kMaxLines_Hz = 200;
+constexpr std::int64_t kLook_ns = 20'000'000;
 constexpr auto kSlowDown = std::chrono::milliseconds(50);
 
 asio::awaitable<std::string> do_work(std::function<std::string()> work) { co_return work(); }
@@ -30,11 +31,11 @@ asio::awaitable<std::string> do_work(std::function<std::string()> work) { co_ret
 }  // namespace
 
 ControlServer::ControlServer(asio::local::stream_protocol::acceptor acceptor, std::filesystem::path own_path,
-                             Handler handler, Gone gone)
+                             ControlOwner& owner)
     : acceptor_(std::move(acceptor)),
       own_path_(std::move(own_path)),
-      handler_(std::move(handler)),
-      gone_(std::move(gone)) {}
+      owner_(owner),
+      look_timer_(acceptor_.get_executor(), [this] { look_at_buffers(); }) {}
 
 ControlServer::~ControlServer() {
   std::error_code ignored;
@@ -46,7 +47,8 @@ void ControlServer::start() { asio::co_spawn(acceptor_.get_executor(), accept_cl
 void ControlServer::stop() {
   boost::system::error_code ignored;
   acceptor_.close(ignored);
-  for (const auto& client : clients_) client->close(ignored);
+  look_timer_.stop();
+  for (const auto& client : clients_) client->socket.close(ignored);
 }
 
 asio::awaitable<void> ControlServer::accept_clients() {
@@ -59,40 +61,62 @@ asio::awaitable<void> ControlServer::accept_clients() {
       co_await pause.async_wait(ports::kNoThrow);
       continue;
     }
-    // More than these are not people at work: the connection is closed at once.
-    if (clients_.size() >= kMaxClients) continue;
-    auto socket = std::make_shared<Socket>(std::move(accepted));
-    clients_.insert(socket);
-    const std::uint64_t client = ++last_client_;
-    asio::co_spawn(acceptor_.get_executor(), serve(socket, client),
-                   [this, socket, client](const std::exception_ptr& failure) {
-                     if (failure) spdlog::warn("control socket: a client was dropped after an internal error");
-                     clients_.erase(socket);
-                     gone_(client);
-                   });
+    if (clients_.size() >= kMaxClients) make_place();
+    const std::int64_t now_ns = ports::monotonic_ns();
+    auto client = std::make_shared<Client>(Client{std::move(accepted), ++last_client_, now_ns, now_ns});
+    clients_.insert(client);
+    look_timer_.arm(now_ns + kLook_ns);
+    asio::co_spawn(acceptor_.get_executor(), serve(client), [this, client](const std::exception_ptr& failure) {
+      if (failure) spdlog::warn("control socket: a client was dropped after an internal error");
+      clients_.erase(client);
+      owner_.control_client_gone(client->number, "its connection was closed");
+    });
   }
 }
 
-asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::uint64_t client) {
+void ControlServer::make_place() {
+  std::shared_ptr<Client> idle;
+  for (const auto& client : clients_) {
+    const bool may_go = client->socket.is_open() && !owner_.is_in_charge(client->number);
+    if (may_go && (!idle || client->used_ns < idle->used_ns)) idle = client;
+  }
+  boost::system::error_code ignored;
+  if (idle) idle->socket.close(ignored);
+}
+
+void ControlServer::look_at_buffers() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  boost::system::error_code error;
+  for (const auto& client : clients_) {
+    if (client->socket.available(error) == 0) client->empty_ns = now_ns;
+  }
+  if (!clients_.empty()) look_timer_.arm(now_ns + kLook_ns);
+}
+
+asio::awaitable<void> ControlServer::serve(std::shared_ptr<Client> client) {
   std::array<char, 1024> chunk{};
   base::LineReader lines(kMaxControlLength);
   control::OrderRate rate(kMaxLines_Hz);
   asio::steady_timer pause(acceptor_.get_executor());
   for (;;) {
-    const auto [error, n] = co_await socket->async_read_some(asio::buffer(chunk), ports::kNoThrow);
-    const ControlOrigin origin{client, ports::monotonic_ns()};
+    const auto [error, n] = co_await client->socket.async_read_some(asio::buffer(chunk), ports::kNoThrow);
+    const ControlOrigin origin{client->number, ports::monotonic_ns(), client->empty_ns};
     if (error) co_return;
+    client->used_ns = origin.arrival_ns;
+    if (n < chunk.size()) client->empty_ns = origin.arrival_ns;
     std::vector<ControlAnswer> answers;
     bool too_fast = false;
     const bool accepted = lines.feed({chunk.data(), n}, [&](std::string_view line) {
       too_fast = !rate.take(origin.arrival_ns) || too_fast;
       answers.push_back(answer(line, origin));
     });
+    if (too_fast) owner_.control_client_gone(client->number, "its connection sends too many lines");
     if (!accepted) answers.emplace_back(control_error("line too long"));
     for (ControlAnswer& next : answers) {
       asio::awaitable<std::string> line = line_of(std::move(next));
       const std::string text = co_await std::move(line);
-      const auto [write_error, written] = co_await asio::async_write(*socket, asio::buffer(text), ports::kNoThrow);
+      const auto [write_error, written] =
+          co_await asio::async_write(client->socket, asio::buffer(text), ports::kNoThrow);
       if (write_error) co_return;
     }
     if (!accepted) co_return;
@@ -107,18 +131,19 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Socket> socket, std::
 
 asio::awaitable<std::string> ControlServer::line_of(ControlAnswer answer) {
   if (!answer.work) co_return std::move(answer.text);
-  if (!reader_) reader_.emplace(1);
-  const auto reader = reader_->get_executor();
+  auto& pool = answer.then ? keeper_ : reader_;
+  if (!pool) pool.emplace(1);
+  const auto reader = pool->get_executor();
   // Named, because g++ 12 destroys temporaries of an awaited expression twice.
   asio::awaitable<std::string> work = do_work(std::move(answer.work));
   std::string line = co_await asio::co_spawn(reader, std::move(work), asio::use_awaitable);
-  co_return line;
+  co_return answer.then ? answer.then(std::move(line)) : std::move(line);
 }
 
 ControlAnswer ControlServer::answer(std::string_view line, const ControlOrigin& origin) const {
   const auto parsed = parse_control(line);
   if (const auto* error = std::get_if<std::string>(&parsed)) return control_error(*error);
-  return handler_(std::get<ControlRequest>(parsed), origin);
+  return owner_.on_control(std::get<ControlRequest>(parsed), origin);
 }
 
 }  // namespace navcal::daemon

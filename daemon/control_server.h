@@ -4,29 +4,37 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "daemon/control_request.h"
+#include "daemon/lazy_timer.h"
 
 namespace navcal::daemon {
+
+/// Told by the server what its clients do.
+class ControlOwner {
+ public:
+  virtual ~ControlOwner() = default;
+  [[nodiscard]] virtual ControlAnswer on_control(const ControlRequest& request, const ControlOrigin& origin) = 0;
+  /// A connection is closed and its number is never used again, or it has lost what it had for another reason.
+  virtual void control_client_gone(std::uint64_t client, std::string_view reason) = 0;
+  /// Whether the lease of the motor is this client's.
+  [[nodiscard]] virtual bool is_in_charge(std::uint64_t client) const = 0;
+};
 
 /// Socket for requests that change the daemon: one JSON object per line in, one out. It is a Unix socket whose
 /// permissions decide who may connect (docs/status-protocol.md).
 class ControlServer {
  public:
-  /// Answers a request with one line, or with work that makes it.
-  using Handler = std::function<ControlAnswer(const ControlRequest&, const ControlOrigin&)>;
-  /// A connection is closed; its number is never used again.
-  using Gone = std::function<void(std::uint64_t client)>;
-
   /// `own_path` is removed at the end; empty when the socket belongs to systemd.
   ControlServer(boost::asio::local::stream_protocol::acceptor acceptor, std::filesystem::path own_path,
-                Handler handler, Gone gone);
+                ControlOwner& owner);
   ~ControlServer();
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
@@ -35,20 +43,29 @@ class ControlServer {
   void stop();
 
  private:
-  using Socket = boost::asio::local::stream_protocol::socket;
+  struct Client {
+    boost::asio::local::stream_protocol::socket socket;
+    std::uint64_t number = 0;
+    std::int64_t used_ns = 0;   ///< when it came or asked last
+    std::int64_t empty_ns = 0;  ///< when nothing waited to be read: what is read next was sent later
+  };
   boost::asio::awaitable<void> accept_clients();
-  boost::asio::awaitable<void> serve(std::shared_ptr<Socket> socket, std::uint64_t client);
+  boost::asio::awaitable<void> serve(std::shared_ptr<Client> client);
+  /// Closes the client that has been idle for longest, of those not in charge.
+  void make_place();
+  void look_at_buffers();
   [[nodiscard]] ControlAnswer answer(std::string_view line, const ControlOrigin& origin) const;
   /// The line of an answer, whose work is done on a thread of its own: the disk may be slow.
   boost::asio::awaitable<std::string> line_of(ControlAnswer answer);
 
   boost::asio::local::stream_protocol::acceptor acceptor_;
   std::filesystem::path own_path_;
-  Handler handler_;
-  Gone gone_;
+  ControlOwner& owner_;
   std::uint64_t last_client_ = 0;
-  std::set<std::shared_ptr<Socket>> clients_;
+  std::set<std::shared_ptr<Client>> clients_;
+  LazyTimer look_timer_;
   std::optional<boost::asio::thread_pool> reader_;  ///< one thread, begun with the first answer that needs it
+  std::optional<boost::asio::thread_pool> keeper_;  ///< another for leases, which wait for no download
 };
 
 }  // namespace navcal::daemon

@@ -17,6 +17,9 @@ namespace asio = boost::asio;
 namespace {
 
 constexpr double kTick_s = 1;
+/// How long the end waits for the card to show the safe state; TimeoutStopSec of the unit is longer.
+constexpr std::int64_t kStop_ns = 15'000'000'000;
+constexpr std::int64_t kStopLook_ns = 10'000'000;
 
 spdlog::level::level_enum level_of(std::string_view severity) {
   if (severity == "alarm") return spdlog::level::critical;
@@ -31,7 +34,8 @@ pipeline::UtcMapping first_mapping() {
 
 }  // namespace
 
-Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets)
+Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets,
+               const std::filesystem::path& second_note)
     : executor_(executor),
       settings_(settings),
       started_ns_(ports::monotonic_ns()),
@@ -39,11 +43,8 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
       pipeline_(settings_),
       server_(sockets.status ? std::move(*sockets.status) : listen_status(executor, settings_.status),
               settings_.status, *this),
-      control_(
-          sockets.control ? std::move(*sockets.control) : listen_control(executor, settings_.control),
-          sockets.control ? std::filesystem::path() : settings_.control.socket,
-          [this](const ControlRequest& request, const ControlOrigin& origin) { return answer(request, origin); },
-          [this](std::uint64_t client) { control_client_gone(client); }),
+      control_(sockets.control ? std::move(*sockets.control) : listen_control(executor, settings_.control),
+               sockets.control ? std::filesystem::path() : settings_.control.socket, *this),
       records_(settings_, server_),
       log_(settings_, started_ns_, first_mapping()),
       calibrations_(settings_, pipeline_, log_, server_),
@@ -56,7 +57,8 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
       state_(settings_, pipeline_),
       state_timer_(executor, [this] { ring_state(); }),
       deadline_timer_(executor, [this] { advance(); }),
-      tick_timer_(executor, [this] { tick(); }) {
+      tick_timer_(executor, [this] { tick(); }),
+      stop_timer_(executor, [this] { stop_when_safe(); }) {
   log_.tell(records_);
   PortOwner& owner = *this;
   for (std::uint16_t port = 0; port < Daemon::device_count(); ++port) {
@@ -64,8 +66,8 @@ Daemon::Daemon(const asio::any_io_executor& executor, const config::Settings& se
   }
   if (motor_port_) {
     MotorOwner& motor_owner = *this;
-    motor_ = std::make_unique<MotorControl>(executor, settings_, *sessions_[*motor_port_], log_, pipeline_,
-                                            motor_owner);
+    motor_ = std::make_unique<MotorControl>(executor, settings_, second_note, *sessions_[*motor_port_], log_,
+                                            pipeline_, motor_owner);
   }
   RemoteOwner& remote_owner = *this;
   if (settings_.remote.enabled()) remote_ = std::make_unique<RemoteLink>(executor, settings_.remote, remote_owner);
@@ -88,12 +90,29 @@ void Daemon::start() {
   notifier_.ready();
 }
 
-void Daemon::stop(std::string_view reason) {
-  notifier_.stopping();
+void Daemon::stop(std::string_view reason, std::function<void()> stopped) {
   const std::int64_t now_ns = ports::monotonic_ns();
+  if (stop_at_ns_ > 0) {
+    stop_at_ns_ = now_ns;
+    return stop_timer_.arm(now_ns);
+  }
+  stopped_ = std::move(stopped);
+  notifier_.stopping();
+  stop_reason_ = reason;
+  stop_at_ns_ = now_ns + kStop_ns;
+  if (motor_) motor_->begin_stop();
+  if (motor_ && !motor_->is_safe())
+    event(now_ns, "info", "daemon.stop", "",
+          "waits until the motor card shows the safe state; a second signal ends it");
+  stop_timer_.arm(now_ns);
+}
+
+void Daemon::stop_when_safe() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  if (motor_ && !motor_->is_safe() && now_ns < stop_at_ns_) return stop_timer_.arm(now_ns + kStopLook_ns);
   // Replay will advance to the time of the event that follows: what it then gives up must have been given up here.
   pipeline_.advance(now_ns, *this);
-  event(now_ns, "info", "daemon.stop", "", reason);
+  event(now_ns, "info", "daemon.stop", "", stop_reason_);
   if (remote_) remote_->stop();
   if (motor_) motor_->stop();
   power_.stop();
@@ -101,17 +120,22 @@ void Daemon::stop(std::string_view reason) {
   state_timer_.stop();
   deadline_timer_.stop();
   tick_timer_.stop();
+  stop_timer_.stop();
   server_.stop();
   control_.stop();
+  stopped_();
 }
 
-void Daemon::finish() {
+bool Daemon::finish() {
   const std::int64_t now_ns = ports::monotonic_ns();
   for (const std::string& line : health(now_ns)) log_.health(now_ns, line + "}");
   calibrations_.stop(now_ns);
   battery_.stop();
   log_.finish(now_ns);
   for (const std::string& notice : log_.take_notices()) spdlog::warn("log: {}", notice);
+  const bool is_safe = !motor_ || motor_->is_safe();
+  if (!is_safe) spdlog::critical("the motor card has not shown the safe state: the shaft may turn");
+  return is_safe;
 }
 
 void Daemon::rotate_log() {
@@ -206,6 +230,16 @@ void Daemon::on_navigation(const pipeline::NavigationSample& sample) {
     event(sample.stamp.arrival_ns, told.severity, told.name, "", told.message);
 }
 
+void Daemon::set_alarm(std::uint16_t port, Alarm alarm, bool stands, std::int64_t now_ns, std::string_view words) {
+  if (!alarms_.set(port, alarm, stands, now_ns)) return;
+  const std::string_view beside = place_beside_ports(port);
+  event(now_ns, stands ? "alarm" : "info", stands ? "alarm.raised" : "alarm.cleared",
+        beside.empty() ? settings_.ports[port].name : beside,
+        words.empty() ? std::string(name_of(alarm)) : fmt::format("{}: {}", name_of(alarm), words));
+  // Whoever watches is to see it now, not at the next report.
+  report_health(now_ns);
+}
+
 void Daemon::update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu) {
   const auto& changes = alarms_.update(sample.port, imu, sample.stamp.arrival_ns);
   for (const auto& change : changes) {
@@ -276,6 +310,9 @@ void Daemon::tick() {
   for (const std::string& notice : log_.take_notices()) event(now_ns, "warning", "log.notice", "", notice);
   for (const std::string& notice : motor_ ? motor_->take_notices() : std::vector<std::string>())
     event(now_ns, "warning", "motor.notice", "", notice);
+  const DiskState log = log_.state();
+  const bool is_failing = log.state == DiskState::State::full || log.state == DiskState::State::failing;
+  set_alarm(kLogPort, Alarm::log_failing, is_failing, now_ns, log.reason);
   if (now_ns >= next_health_ns_) {
     report_health(now_ns);
     calibrations_.set_compasses(compasses_json());

@@ -5,6 +5,8 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,17 +42,21 @@ class Daemon : private pipeline::Sink,
                private PortOwner,
                private StatusSource,
                private MotorOwner,
+               private ControlOwner,
                private PowerOwner,
                private RemoteOwner {
  public:
-  /// Opens what cannot be done without: log folder and sockets. Throws StartError.
-  Daemon(const boost::asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets);
+  /// Opens the sockets, which it cannot do without. `second_note`: of MotorControl. Throws StartError.
+  Daemon(const boost::asio::any_io_executor& executor, const config::Settings& settings, ActivatedSockets sockets,
+         const std::filesystem::path& second_note);
   ~Daemon() override;
 
   void start();
-  /// Closes everything, after which the executor runs out of work; then finish() brings the log to its end.
-  void stop(std::string_view reason);
-  void finish();
+  /// Closes everything as soon as the motor card has shown the safe state, or at a second call; after that the
+  /// executor runs out of work, and finish() brings the log to its end. `stopped` is called when all is closed.
+  void stop(std::string_view reason, std::function<void()> stopped);
+  /// False: the card may still have an order.
+  [[nodiscard]] bool finish();
   void rotate_log();
 
   [[nodiscard]] std::uint16_t status_port() const { return server_.port(); }
@@ -89,10 +95,16 @@ class Daemon : private pipeline::Sink,
   void on_motor_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
                       std::string_view message) override;
   void on_motor_deaf(std::int64_t now_ns, bool is_deaf) override;
+  void on_motor_unnoted(std::int64_t now_ns, bool is_unnoted) override;
+  // ControlOwner
+  [[nodiscard]] ControlAnswer on_control(const ControlRequest& request, const ControlOrigin& origin) override {
+    return answer(request, origin);
+  }
+  void control_client_gone(std::uint64_t client, std::string_view reason) override;
   // RemoteOwner
   [[nodiscard]] link::Report remote_report(std::int64_t now_ns) override;
   void remote_answer(const ControlRequest& request, const ControlOrigin& origin, Reply reply) override;
-  void remote_client_gone(std::uint64_t client) override { control_client_gone(client); }
+  void remote_client_gone(std::uint64_t client) override { control_client_gone(client, "the operator is gone"); }
   void end_every_lease() override;
   [[nodiscard]] bool is_in_charge(std::uint64_t client) const override {
     return motor_ && motor_->command().holder() && motor_->command().holder()->client == client;
@@ -120,7 +132,6 @@ class Daemon : private pipeline::Sink,
   void stop_log();
   [[nodiscard]] std::string answer_battery(const ControlRequest& request);
   void set_battery(const pipeline::BatteryCharge& charge, std::string_view cause);
-  void control_client_gone(std::uint64_t client);
   /// STATE at its rates, and the next ring of its timer.
   void ring_state();
   /// With alarms and who holds the motor.
@@ -135,6 +146,9 @@ class Daemon : private pipeline::Sink,
   [[nodiscard]] std::string compasses_json() const;
   void event(std::int64_t now_ns, std::string_view severity, std::string_view name, std::string_view port,
              std::string_view message);
+  /// An alarm that the daemon has judged: told where it changes.
+  void set_alarm(std::uint16_t port, Alarm alarm, bool stands, std::int64_t now_ns, std::string_view words = {});
+  void stop_when_safe();
   void update_alarms(const instruments::Sample& sample, const instruments::ImuSample& imu);
   /// Tells the motor of leaks that were raised or are over.
   void react_to_leaks(const std::vector<Alarms::Change>& changes, std::int64_t now_ns);
@@ -182,6 +196,10 @@ class Daemon : private pipeline::Sink,
   LazyTimer state_timer_;
   LazyTimer deadline_timer_;
   LazyTimer tick_timer_;
+  LazyTimer stop_timer_;
+  std::int64_t stop_at_ns_ = 0;  ///< whatever the card shows; 0: nobody has asked to stop
+  std::string stop_reason_;
+  std::function<void()> stopped_;
   std::int64_t next_tick_ns_ = 0;
   std::int64_t next_health_ns_ = 0;
 };

@@ -82,6 +82,7 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
     case ControlCommand::motor_lease:
     case ControlCommand::motor_order:
     case ControlCommand::motor_release:
+    case ControlCommand::motor_stop:
       if (!motor_) return control_error(why_no_orders(settings_));
       return motor_->answer(request, origin);
     case ControlCommand::battery_full:

@@ -21,12 +21,7 @@ void Daemon::on_battery(const pipeline::BatterySample& sample) {
 }
 
 void Daemon::on_alarm(const pipeline::AlarmChange& change) {
-  const Alarm alarm = alarm_of(change.alarm);
-  if (!alarms_.set(change.port, alarm, change.raised, change.time_ns)) return;
-  event(change.time_ns, change.raised ? "alarm" : "info", change.raised ? "alarm.raised" : "alarm.cleared",
-        settings_.ports[change.port].name, fmt::format("{}: {}", name_of(alarm), change.words));
-  // Whoever watches is to see it now, not at the next report.
-  report_health(change.time_ns);
+  set_alarm(change.port, alarm_of(change.alarm), change.raised, change.time_ns, change.words);
 }
 
 std::string Daemon::answer_battery(const ControlRequest& request) {

@@ -6,8 +6,8 @@
 
 namespace navcal::daemon {
 
-void Daemon::control_client_gone(std::uint64_t client) {
-  if (motor_) motor_->client_gone(client);
+void Daemon::control_client_gone(std::uint64_t client, std::string_view reason) {
+  if (motor_) motor_->client_gone(client, std::string(reason));
 }
 
 void Daemon::on_motor_event(std::int64_t now_ns, std::string_view severity, std::string_view name,
@@ -16,10 +16,11 @@ void Daemon::on_motor_event(std::int64_t now_ns, std::string_view severity, std:
 }
 
 void Daemon::on_motor_deaf(std::int64_t now_ns, bool is_deaf) {
-  if (!alarms_.set(*motor_port_, Alarm::command_not_echoed, is_deaf, now_ns)) return;
-  on_motor_event(now_ns, is_deaf ? "alarm" : "info", is_deaf ? "alarm.raised" : "alarm.cleared",
-                 name_of(Alarm::command_not_echoed));
-  report_health(now_ns);
+  set_alarm(*motor_port_, Alarm::command_not_echoed, is_deaf, now_ns);
+}
+
+void Daemon::on_motor_unnoted(std::int64_t now_ns, bool is_unnoted) {
+  set_alarm(*motor_port_, Alarm::orders_refused, is_unnoted, now_ns);
 }
 
 void Daemon::react_to_leaks(const std::vector<Alarms::Change>& changes, std::int64_t now_ns) {

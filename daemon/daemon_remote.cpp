@@ -14,28 +14,27 @@ void Daemon::remote_answer(const ControlRequest& request, const ControlOrigin& o
   ControlAnswer made = answer(request, origin);
   if (!made.work) return reply(made.text);
   // The disk may be slow, and the I/O thread waits for nothing.
-  if (!remote_reader_) remote_reader_.emplace(1);
-  boost::asio::post(*remote_reader_, [io = executor_, work = std::move(made.work), reply = std::move(reply)] {
+  if (!remote_reader_) remote_reader_.emplace(2);
+  boost::asio::post(*remote_reader_, [io = executor_, work = std::move(made.work), then = std::move(made.then),
+                                      reply = std::move(reply)] {
     std::string line;
     try {
       line = work();
     } catch (const std::exception& error) {
       line = control_error(error.what());
     }
-    boost::asio::post(io, [line = std::move(line), reply] { reply(line); });
+    boost::asio::post(io, [line = std::move(line), then, reply] { reply(then ? then(line) : line); });
   });
 }
 
 void Daemon::end_every_lease() {
   if (!motor_) return;
-  if (const auto& holder = motor_->command().holder()) motor_->client_gone(holder->client);
+  if (const auto& holder = motor_->command().holder())
+    motor_->client_gone(holder->client, "the remote link is dead");
 }
 
 void Daemon::on_remote_dead(std::int64_t now_ns, bool is_dead) {
-  if (!alarms_.set(kRemotePort, Alarm::link_dead, is_dead, now_ns)) return;
-  event(now_ns, is_dead ? "alarm" : "info", is_dead ? "alarm.raised" : "alarm.cleared", "remote",
-        name_of(Alarm::link_dead));
-  report_health(now_ns);
+  set_alarm(kRemotePort, Alarm::link_dead, is_dead, now_ns);
 }
 
 }  // namespace navcal::daemon

@@ -34,8 +34,8 @@ void append_alarms(std::string& out, const Health& health) {
     if (!first) out += ',';
     first = false;
     fmt::format_to(std::back_inserter(out), FMT_STRING("{{\"alarm\":\"{}\""), name_of(alarm.alarm));
-    text(out, "device",
-         alarm.port == kRemotePort ? std::string_view("remote") : health.ports[alarm.port]->settings().name);
+    const std::string_view beside = place_beside_ports(alarm.port);
+    text(out, "device", beside.empty() ? health.ports[alarm.port]->settings().name : beside);
     out += '}';
   }
   out += ']';

@@ -4,13 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 
 #include "config/load.h"
 #include "daemon/check.h"
 #include "daemon/daemon.h"
 #include "daemon/diagnostics.h"
+#include "daemon/motor_note.h"
 #include "daemon/start_error.h"
 #include "share/manual.h"
 
@@ -19,7 +22,9 @@ namespace {
 namespace asio = boost::asio;
 using navcal::daemon::Daemon;
 
-enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2, kBadConfiguration = 3 };
+enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2, kBadConfiguration = 3, kShaftMayTurn = 4 };
+/// How long a start without a configuration tries to bring the motor card into the safe state.
+constexpr std::chrono::seconds kSafeState{20};
 
 struct Options {
   std::string config;
@@ -46,16 +51,13 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   return std::nullopt;
 }
 
-/// SIGTERM and SIGINT stop, SIGHUP begins a new log file.
+/// SIGTERM and SIGINT stop, at once when they come twice; SIGHUP begins a new log file.
 void wait_for_signal(asio::signal_set& signals, Daemon& daemon) {
   signals.async_wait([&signals, &daemon](boost::system::error_code error, int signal) {
     if (error) return;
-    if (signal != SIGHUP) {
-      daemon.stop(signal == SIGTERM ? "SIGTERM" : "SIGINT");
-      return;
-    }
-    daemon.rotate_log();
     wait_for_signal(signals, daemon);
+    if (signal == SIGHUP) return daemon.rotate_log();
+    daemon.stop(signal == SIGTERM ? "SIGTERM" : "SIGINT", [&signals] { signals.cancel(); });
   });
 }
 
@@ -68,17 +70,18 @@ void keep_memory_small() {
   mallopt(M_TRIM_THRESHOLD, kLarge_bytes);
 }
 
-void run(const navcal::config::Settings& settings) {
+Exit run(const navcal::config::Settings& settings, const std::filesystem::path& note) {
   // One thread runs the context and all that belongs to it (the disk's thread knows none of it): no locks are
   // needed.
   asio::io_context context(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
   // Signals are caught before the daemon can be reached, so that an early one does not kill it.
   asio::signal_set signals(context, SIGTERM, SIGINT, SIGHUP);
-  Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()));
+  Daemon daemon(context.get_executor(), settings, navcal::daemon::take_activated_sockets(context.get_executor()),
+                note);
   wait_for_signal(signals, daemon);
   daemon.start();
   context.run();
-  daemon.finish();
+  return daemon.finish() ? kStopped : kShaftMayTurn;
 }
 
 }  // namespace
@@ -94,11 +97,13 @@ int main(int argc, char** argv) {
       return kStopped;
     }
     const navcal::daemon::Diagnostics diagnostics;
-    run(settings);
-    return kStopped;
+    return run(settings, navcal::daemon::second_note(options.config));
   } catch (const navcal::config::Error& error) {
     std::fprintf(stderr, "navcald: %s\n", error.what());
-    return kBadConfiguration;
+    if (options.check) return kBadConfiguration;
+    const bool is_safe =
+        navcal::daemon::order_safe_state_of(navcal::daemon::second_note(options.config), kSafeState);
+    return is_safe ? kBadConfiguration : kShaftMayTurn;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "navcald: cannot start: %s\n", error.what());
     return kCannotStart;

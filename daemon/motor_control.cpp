@@ -10,7 +10,9 @@
 #include <iterator>
 #include <utility>
 
+#include "config/load.h"
 #include "daemon/json_text.h"
+#include "daemon/motor_note.h"
 #include "pipeline/sources.h"
 #include "record/json/json_object.h"
 
@@ -21,6 +23,8 @@ namespace {
 constexpr std::int64_t kMccLine_bytes = 35;
 /// Longest time that the end of the program waits for a line to leave.
 constexpr std::chrono::milliseconds kLastLine{200};
+/// Longest time that a lease waits for its note.
+constexpr std::chrono::milliseconds kNote{2000};
 /// Refusals and events that are recorded each second.
 constexpr double kRecords_Hz = 10;
 
@@ -37,6 +41,15 @@ std::int64_t transit_ns(const config::PortSettings& port) {
   return kMccLine_bytes * 10'000'000'000 / std::max(1, port.baud);
 }
 
+std::vector<std::shared_ptr<MarkerFile>> notes(const config::Settings& settings,
+                                               const std::filesystem::path& second) {
+  const std::string content = config::to_toml(settings);
+  std::vector<std::shared_ptr<MarkerFile>> made{
+      std::make_shared<MarkerFile>(settings.log.directory / kMotorNote, content)};
+  if (!second.empty()) made.push_back(std::make_shared<MarkerFile>(second, content));
+  return made;
+}
+
 }  // namespace
 
 std::optional<std::uint16_t> motor_port(const config::Settings& settings) {
@@ -48,8 +61,8 @@ std::optional<std::uint16_t> motor_port(const config::Settings& settings) {
 }
 
 MotorControl::MotorControl(const boost::asio::any_io_executor& executor, const config::Settings& settings,
-                           PortSession& session, LogWriter& log, const pipeline::Pipeline& pipeline,
-                           MotorOwner& owner)
+                           const std::filesystem::path& second_note, PortSession& session, LogWriter& log,
+                           const pipeline::Pipeline& pipeline, MotorOwner& owner)
     : session_(session),
       log_(log),
       pipeline_(pipeline),
@@ -58,32 +71,54 @@ MotorControl::MotorControl(const boost::asio::any_io_executor& executor, const c
       echo_(settings.command.echo_timeout_s, transit_ns(session.settings())),
       refusals_(kRecords_Hz),
       events_(kRecords_Hz),
-      marker_(settings.log.directory / "motor.commanded"),
+      notes_(notes(settings, second_note)),
       timer_(executor, [this] { ring(); }) {
-  if (marker_.is_there()) command_.commanded_before(ports::monotonic_ns());
+  const bool was_commanded =
+      std::any_of(notes_.begin(), notes_.end(), [](const auto& n) { return n->was_there(); });
+  if (was_commanded) command_.commanded_before(ports::monotonic_ns());
 }
 
-std::string MotorControl::answer(const ControlRequest& request, const ControlOrigin& origin) {
+ControlAnswer MotorControl::answer(const ControlRequest& request, const ControlOrigin& origin) {
   if (request.command == ControlCommand::motor_lease) return answer_lease(request, origin);
   if (request.command == ControlCommand::motor_order) return answer_order(request, origin);
-  std::string problem = command_.release(origin.arrival_ns, request.lease);
+  std::string problem = request.command == ControlCommand::motor_stop
+                            ? command_.stop(origin.arrival_ns, request.by)
+                            : command_.release(origin.arrival_ns, request.lease);
   drive(ports::monotonic_ns());
   return problem.empty() ? "{\"ok\":true}\n" : control_error(problem);
 }
 
-std::string MotorControl::answer_lease(const ControlRequest& request, const ControlOrigin& origin) {
-  std::string token = random_token();
-  if (token.empty()) return control_error("no random numbers for a lease");
-  std::string problem = command_.lease(origin.arrival_ns, request.lease_request, token, origin.client);
-  drive(ports::monotonic_ns());
+ControlAnswer MotorControl::answer_lease(const ControlRequest& request, const ControlOrigin& origin) {
+  // Whatever becomes of this run, the next one must know that the card may have an order.
+  ++leases_under_way_;
+  return ControlAnswer(
+      [notes = notes_] {
+        std::string problem = notes.front()->keep(kNote);
+        for (std::size_t i = 1; problem.empty() && i < notes.size(); ++i) (void)notes[i]->keep(kNote);
+        return problem;
+      },
+      [this, wanted = request.lease_request, client = origin.client](std::string problem) {
+        return grant(wanted, client, std::move(problem));
+      });
+}
+
+std::string MotorControl::grant(const control::LeaseRequest& request, std::uint64_t client, std::string problem) {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  --leases_under_way_;
+  if (is_unnoted_ != !problem.empty()) owner_.on_motor_unnoted(now_ns, is_unnoted_ = !problem.empty());
+  if (!problem.empty()) problem.insert(0, "no order is taken that the next start would not know of: ");
+  const std::string token = random_token();
+  if (problem.empty() && token.empty()) problem = "no random numbers for a lease";
+  if (problem.empty()) problem = command_.lease(now_ns, request, token, client);
+  drive(now_ns);
   if (!problem.empty()) return control_error(problem);
-  return fmt::format("{{\"ok\":true,\"lease\":\"{}\",\"timeout_s\":{}}}\n", token,
-                     request.lease_request.timeout_s);
+  return fmt::format("{{\"ok\":true,\"lease\":\"{}\",\"timeout_s\":{}}}\n", token, request.timeout_s);
 }
 
 std::string MotorControl::answer_order(const ControlRequest& request, const ControlOrigin& origin) {
   if (!session_.open_port()) command_.port_lost(session_.reason());
-  if (auto problem = command_.order(origin.arrival_ns, request.lease, request.order); !problem.empty())
+  if (auto problem = command_.order(origin.arrival_ns, origin.sent_ns, request.lease, request.order);
+      !problem.empty())
     return refuse(request, origin, std::move(problem));
   asked_ns_ = origin.arrival_ns;
   late_s_.reset();
@@ -126,9 +161,9 @@ control::OrderRecord MotorControl::record_of_holder() const {
   return record;
 }
 
-void MotorControl::client_gone(std::uint64_t client) {
+void MotorControl::client_gone(std::uint64_t client, std::string reason) {
   const std::int64_t now_ns = ports::monotonic_ns();
-  command_.client_gone(now_ns, client);
+  command_.client_gone(now_ns, client, std::move(reason));
   drive(now_ns);
 }
 
@@ -159,19 +194,32 @@ void MotorControl::port_changed(std::int64_t now_ns) {
 }
 
 void MotorControl::status(const instruments::Stamp& stamp, const instruments::MotorSample& motor) {
+  if (motor.rpm_commanded) command_.shown(stamp.arrival_ns, *motor.rpm_commanded);
   echo_.status(stamp.validity_ns, stamp.arrival_ns, motor.rpm_commanded, records_);
-  if (!records_.empty()) drive(ports::monotonic_ns());
+  drive(ports::monotonic_ns());
+}
+
+void MotorControl::begin_stop() {
+  const std::int64_t now_ns = ports::monotonic_ns();
+  command_.shut_down(now_ns);
+  drive(now_ns);
 }
 
 void MotorControl::stop() {
-  const std::int64_t now_ns = ports::monotonic_ns();
-  command_.shut_down(now_ns);
-  if (drive(now_ns)) session_.flush(kLastLine);
+  session_.flush(kLastLine);
   stopped_ = true;
   echo_.give_up(records_);
-  take_records(now_ns);
+  take_records(ports::monotonic_ns());
   timer_.stop();
-  marker_.stop();
+  for (const auto& note : notes_) note->stop();
+}
+
+std::vector<std::string> MotorControl::take_notices() {
+  std::vector<std::string> all;
+  for (const auto& note : notes_) {
+    for (auto& notice : note->take_notices()) all.push_back(std::move(notice));
+  }
+  return all;
 }
 
 void MotorControl::ring() { drive(ports::monotonic_ns()); }
@@ -191,8 +239,6 @@ std::optional<std::int64_t> MotorControl::drive(std::int64_t now_ns) {
 }
 
 std::optional<std::int64_t> MotorControl::send(const control::Line& line, std::int64_t now_ns) {
-  // The marker is set before the line is sent, so that the next run finds it whatever happens to this one.
-  marker_.set(command_.is_card_commanded());
   const auto sent_ns = session_.send_now(protocols::motor_card::encode_command(line.command));
   if (!sent_ns) {
     if (std::exchange(busy_, true)) return std::nullopt;
@@ -225,7 +271,8 @@ void MotorControl::take_records(std::int64_t now_ns) {
     if (record.source == control::Source::safe) command_.safe_echoed();
   }
   records_.clear();
-  marker_.set(command_.is_card_commanded());
+  if (command_.is_card_commanded() || command_.holder() || leases_under_way_ > 0) return;
+  for (const auto& note : notes_) note->remove();
 }
 
 void MotorControl::tell(std::int64_t now_ns) {

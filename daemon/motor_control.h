@@ -3,7 +3,8 @@
 
 #include <boost/asio/any_io_executor.hpp>
 #include <cstdint>
-#include <functional>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,19 +35,23 @@ class MotorOwner {
                               std::string_view message) = 0;
   /// The card shows no orders any more, or does again.
   virtual void on_motor_deaf(std::int64_t now_ns, bool is_deaf) = 0;
+  /// No order is taken, because the next start would not know of it; or orders are taken again.
+  virtual void on_motor_unnoted(std::int64_t now_ns, bool is_unnoted) = 0;
 };
 
 /// Orders of controllers to the motor card (docs/control.md): between the control socket, the card's port, log and
 /// reports. The rules are control::MotorCommand's.
 class MotorControl {
  public:
-  /// `session` is the card's; all three live longer.
+  /// `session` is the card's; all live longer. `second_note`: where it is noted beside the log folder that the
+  /// card has an order (motor_note.h); may be empty.
   MotorControl(const boost::asio::any_io_executor& executor, const config::Settings& settings,
-               PortSession& session, LogWriter& log, const pipeline::Pipeline& pipeline, MotorOwner& owner);
+               const std::filesystem::path& second_note, PortSession& session, LogWriter& log,
+               const pipeline::Pipeline& pipeline, MotorOwner& owner);
 
   /// A motor.* command; its answer, newline included.
-  [[nodiscard]] std::string answer(const ControlRequest& request, const ControlOrigin& origin);
-  void client_gone(std::uint64_t client);
+  [[nodiscard]] ControlAnswer answer(const ControlRequest& request, const ControlOrigin& origin);
+  void client_gone(std::uint64_t client, std::string reason);
   /// A leak was raised, or (empty) none stands any more.
   void leak(std::int64_t now_ns, std::string leak);
   /// Why the card must keep its power now; empty: it may be switched off.
@@ -55,10 +60,13 @@ class MotorControl {
   void port_changed(std::int64_t now_ns);
   /// A status of the card.
   void status(const instruments::Stamp& stamp, const instruments::MotorSample& motor);
-  /// Orders the safe state if the card has another one, and waits until that is on the wire.
+  /// No lease any more, and the safe state if the card has another order: repeated until is_safe() or stop().
+  void begin_stop();
+  /// The card has shown the safe state, or has no order.
+  [[nodiscard]] bool is_safe() const { return !command_.is_card_commanded(); }
   void stop();
   /// Notices since the last call, for people.
-  [[nodiscard]] std::vector<std::string> take_notices() { return marker_.take_notices(); }
+  [[nodiscard]] std::vector<std::string> take_notices();
 
   [[nodiscard]] const control::MotorCommand& command() const { return command_; }
   /// Delay of the last order after the STATE that it answers, seconds.
@@ -67,7 +75,9 @@ class MotorControl {
   [[nodiscard]] std::string health(std::int64_t now_ns) const;
 
  private:
-  [[nodiscard]] std::string answer_lease(const ControlRequest& request, const ControlOrigin& origin);
+  [[nodiscard]] ControlAnswer answer_lease(const ControlRequest& request, const ControlOrigin& origin);
+  /// `problem`: why the next start would not know that the card has an order; empty: it would.
+  [[nodiscard]] std::string grant(const control::LeaseRequest& request, std::uint64_t client, std::string problem);
   [[nodiscard]] std::string answer_order(const ControlRequest& request, const ControlOrigin& origin);
   /// A record with the number of the last order and who is in charge.
   [[nodiscard]] control::OrderRecord record_of_holder() const;
@@ -86,8 +96,8 @@ class MotorControl {
   MotorOwner& owner_;
   control::MotorCommand command_;
   control::EchoWatch echo_;
-  control::OrderRate refusals_, events_;  ///< of records and events: a flood fills no log
-  MarkerFile marker_;
+  control::OrderRate refusals_, events_;                  ///< of records and events: a flood fills no log
+  const std::vector<std::shared_ptr<MarkerFile>> notes_;  ///< the first must be kept, another may be
   LazyTimer timer_;
   std::vector<control::OrderRecord> records_;
   std::int64_t asked_ns_ = 0;  ///< arrival of the last order
@@ -97,6 +107,8 @@ class MotorControl {
   std::uint64_t refused_ = 0, refused_since_ = 0, events_left_out_ = 0;
   std::uint64_t sent_ = 0, echoed_ = 0, not_echoed_ = 0, superseded_ = 0;
   bool is_deaf_ = false;
+  bool is_unnoted_ = false;
+  int leases_under_way_ = 0;  ///< the note is being made for them
   bool is_open_ = false;
   bool busy_ = false;  ///< told that the line takes nothing
   bool stopped_ = false;

@@ -22,11 +22,17 @@ namespace {
 /// Together with the queue this bounds what one client may hold; the kernel books twice what is asked for.
 constexpr int kSendBuffer_bytes = 32 << 10;
 constexpr auto kFarewell = std::chrono::seconds(2);
+constexpr auto kSlowDown = std::chrono::milliseconds(50);
+constexpr auto kUnread = std::chrono::milliseconds(200);
 
 }  // namespace
 
 StatusClient::StatusClient(asio::ip::tcp::socket socket, std::size_t queue_bytes, ClientOwner& owner)
-    : socket_(std::move(socket)), give_up_(socket_.get_executor()), queue_(queue_bytes), owner_(owner) {
+    : socket_(std::move(socket)),
+      pause_(socket_.get_executor()),
+      requests_(kMaxRequests_Hz),
+      queue_(queue_bytes),
+      owner_(owner) {
   // A client that is gone already fails these; reading will tell.
   boost::system::error_code ignored;
   socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
@@ -59,14 +65,32 @@ asio::awaitable<void> StatusClient::read_requests() {
   for (;;) {
     const auto [error, n] = co_await socket_.async_read_some(asio::buffer(chunk), ports::kNoThrow);
     if (error) co_return;
-    if (!lines.feed({chunk.data(), n}, [this](std::string_view line) { take_line(line); })) {
-      co_await refuse("Request line too long");
-      co_return;
-    }
+    std::vector<Request> requests;
+    const auto take = [&requests](std::string_view line) {
+      for (Request& request : parse_requests(line)) requests.push_back(std::move(request));
+    };
+    const bool accepted = lines.feed({chunk.data(), n}, take);
     if (const std::size_t complete = complete_length(lines.held())) {
-      take_line(lines.held().substr(0, complete));
+      take(lines.held().substr(0, complete));
       lines.forget(complete);
     }
+    // Named, because g++ 12 destroys temporaries of an awaited expression twice.
+    asio::awaitable<void> answering = answer(std::move(requests));
+    co_await std::move(answering);
+    if (accepted) continue;
+    co_await refuse("Request line too long");
+    co_return;
+  }
+}
+
+asio::awaitable<void> StatusClient::answer(std::vector<Request> requests) {
+  for (const Request& request : requests) {
+    while (socket_.is_open() && (!queue_.empty() || !requests_.take(ports::monotonic_ns()))) {
+      pause_.expires_after(queue_.empty() ? kSlowDown : kUnread);
+      co_await pause_.async_wait(ports::kNoThrow);
+    }
+    if (!socket_.is_open()) co_return;
+    owner_.on_request(*this, request);
   }
 }
 
@@ -78,8 +102,8 @@ asio::awaitable<void> StatusClient::refuse(std::string_view reason) {
   send(message);
   boost::system::error_code ignored;
   socket_.shutdown(asio::socket_base::shutdown_send, ignored);
-  give_up_.expires_after(kFarewell);
-  give_up_.async_wait([self = shared_from_this()](boost::system::error_code error) {
+  pause_.expires_after(kFarewell);
+  pause_.async_wait([self = shared_from_this()](boost::system::error_code error) {
     if (!error) self->close();
   });
   std::array<char, 4096> discarded{};
@@ -87,7 +111,7 @@ asio::awaitable<void> StatusClient::refuse(std::string_view reason) {
     const auto [error, n] = co_await socket_.async_read_some(asio::buffer(discarded), ports::kNoThrow);
     if (error) break;
   }
-  give_up_.cancel();
+  pause_.cancel();
 }
 
 bool StatusClient::is_due(ReportClass report, std::uint16_t slot) const {
@@ -120,10 +144,6 @@ bool StatusClient::is_due(const NmeaKey& key) const {
 
 bool StatusClient::take_turn(const NmeaKey& key) {
   return nmea_pacer_.take(key.like, key.port, policy_.nmea_interval_ns, ports::monotonic_ns());
-}
-
-void StatusClient::take_line(std::string_view line) {
-  for (const Request& request : parse_requests(line)) owner_.on_request(*this, request);
 }
 
 void StatusClient::send(std::string_view report) {
@@ -177,6 +197,7 @@ void StatusClient::flush() {
 
 void StatusClient::close() {
   boost::system::error_code ignored;
+  pause_.cancel();
   socket_.close(ignored);
 }
 

@@ -8,7 +8,9 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
+#include "control/order_rate.h"
 #include "daemon/client_queue.h"
 #include "daemon/record_topics.h"
 #include "daemon/report_class.h"
@@ -18,6 +20,9 @@
 namespace navcal::daemon {
 
 class StatusClient;
+
+/// More requests than this a client has answered later.
+inline constexpr double kMaxRequests_Hz = 20;
 
 /// What NMEA sentences are about.
 struct NmeaKey {
@@ -100,12 +105,14 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   boost::asio::awaitable<void> session();
   boost::asio::awaitable<void> read_requests();
   boost::asio::awaitable<void> refuse(std::string_view reason);
-  void take_line(std::string_view line);
+  /// Answers requests one by one: no more than kMaxRequests_Hz, and none while answers before it wait to be read.
+  boost::asio::awaitable<void> answer(std::vector<Request> requests);
   void wait_until_writable();
   void flush();
 
   boost::asio::ip::tcp::socket socket_;
-  boost::asio::steady_timer give_up_;
+  boost::asio::steady_timer pause_;
+  control::OrderRate requests_;
   ClientQueue queue_;
   ClientOwner& owner_;
   Policy policy_;

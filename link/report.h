@@ -13,9 +13,9 @@
 namespace navcal::link {
 
 /// Alarms of a report, by bit: bit 0 is the first. New ones are added at the end.
-inline constexpr std::array<std::string_view, 8> kAlarmNames{"leak_forward", "leak_aft",           "over_range",
-                                                             "low_supply",   "command_not_echoed", "link_dead",
-                                                             "battery_low",  "floor_near"};
+inline constexpr std::array<std::string_view, 10> kAlarmNames{
+    "leak_forward", "leak_aft",    "over_range", "low_supply",  "command_not_echoed",
+    "link_dead",    "battery_low", "floor_near", "log_failing", "orders_refused"};
 /// Set for an alarm that this list does not know.
 inline constexpr unsigned kOtherAlarmBit = 15;
 

@@ -43,7 +43,9 @@ class MotorCommandTest : public testing::Test {
     now_ns_ = until_ms * kMs;
     return out;
   }
-  std::string order(double rpm, std::string_view token = "a") { return command_.order(now_ns_, token, {rpm, {}}); }
+  std::string order(double rpm, std::string_view token = "a") {
+    return command_.order(now_ns_, now_ns_, token, {rpm, {}});
+  }
   std::string lease(const LeaseRequest& request = kPilot, std::string token = "a", std::uint64_t client = 1) {
     return command_.lease(now_ns_, request, std::move(token), client);
   }
@@ -110,9 +112,9 @@ TEST_F(MotorCommandTest, ReleaseClosedConnectionAndShutDownAllEndInTheSafeState)
     if (way == 0) {
       EXPECT_EQ(command_.release(now_ns_, "a"), "");
     } else if (way == 1) {
-      command_.client_gone(now_ns_, 2);
+      command_.client_gone(now_ns_, 2, "gone");
       EXPECT_EQ(lines(now_ns_ / kMs + 10), Lines{}) << "somebody else's connection";
-      command_.client_gone(now_ns_, 1);
+      command_.client_gone(now_ns_, 1, "gone");
     } else {
       command_.shut_down(now_ns_);
     }
@@ -144,7 +146,7 @@ TEST_F(MotorCommandTest, TheOperatorTakesOverAndTheProgramIsTold) {
   EXPECT_EQ(lease(kPilot, "c", 1), "the lease is held by operator (priority 2)");
   EXPECT_EQ(order(0, "b"), "");
   EXPECT_EQ(lines(300), Lines{"200:0"});
-  command_.client_gone(now_ns_, 1);
+  command_.client_gone(now_ns_, 1, "gone");
   EXPECT_EQ(command_.holder()->name, "operator") << "the pilot's connection is nobody's concern now";
   EXPECT_EQ(lines(1201), Lines{"1200:0 safe"});
 }
@@ -162,7 +164,7 @@ TEST_F(MotorCommandTest, WhatIsBeyondLimitsOrNoNumberIsRefusedWithTheReason) {
   EXPECT_EQ(order(-1201), "shaft_rpm -1201 is beyond 1200");
   EXPECT_EQ(order(std::numeric_limits<double>::quiet_NaN()), "shaft_rpm is no number");
   EXPECT_EQ(order(std::numeric_limits<double>::infinity()), "shaft_rpm is no number");
-  EXPECT_EQ(command_.order(now_ns_, "a", {0, {0, 25.1, 0}}), "fins_deg[1] 25.1 is beyond 25");
+  EXPECT_EQ(command_.order(now_ns_, now_ns_, "a", {0, {0, 25.1, 0}}), "fins_deg[1] 25.1 is beyond 25");
   EXPECT_EQ(command_.order(now_ns_, "a", {0, {0, 0, -std::numeric_limits<double>::quiet_NaN()}}),
             "fins_deg[2] is no number");
   EXPECT_EQ(lines(499), Lines{});
@@ -455,6 +457,97 @@ TEST_F(ShapedMotorCommandTest, AtTheEndTheShaftStands) {
   EXPECT_FALSE(command_.holder());
   EXPECT_EQ(command_.last_line()->source, Source::safe);
   EXPECT_EQ(command_.last_line()->command.rpm, 0);
+}
+
+TEST_F(MotorCommandTest, NewLeasesAndRefusedOrdersDoNotHoldTheLastOrder) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(600), "");
+  EXPECT_EQ(lines(100), Lines{"0:600"});
+  Lines out;
+  for (int i = 1; i < 20; ++i) {
+    EXPECT_NE(order(99'999, std::to_string(i - 1)), "");
+    ASSERT_EQ(lease(kPilot, std::to_string(i)), "");
+    for (auto& line : lines(100 + 100 * i)) out.push_back(std::move(line));
+  }
+  ASSERT_FALSE(out.empty());
+  EXPECT_EQ(out.front(), "500:0 safe");
+}
+
+TEST_F(MotorCommandTest, ATakeoverThatNeverOrdersDoesNotInheritTheOrder) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(600), "");
+  EXPECT_EQ(lines(300), Lines{"0:600"});
+  ASSERT_EQ(lease({"operator", 2, 5}, "b", 2), "");
+  EXPECT_EQ(lines(900), Lines{"500:0 safe"});
+  EXPECT_EQ(command_.holder()->name, "operator") << "who is in charge all the same";
+  ASSERT_EQ(order(100, "b"), "");
+  EXPECT_EQ(lines(1000), Lines{"900:100"});
+}
+
+TEST_F(MotorCommandTest, ATakeoverThatOrdersInTimeIsSmooth) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(600), "");
+  EXPECT_EQ(lines(300), Lines{"0:600"});
+  ASSERT_EQ(lease({"operator", 2, 5}, "b", 2), "");
+  ASSERT_EQ(order(590, "b"), "");
+  EXPECT_EQ(lines(2000), Lines{"300:590"});
+}
+
+TEST_F(MotorCommandTest, AnOrderCountsFromTheTimeAtWhichItWasSent) {
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(lines(400), Lines{});
+  ASSERT_EQ(command_.order(now_ns_, now_ns_ - 300 * kMs, "a", {600, {}}), "");
+  EXPECT_EQ(lines(1000), (Lines{"400:600", "600:0 safe"}));
+}
+
+TEST_F(MotorCommandTest, AnOrderThatWaitedLongerThanTheLeaseIsNeverSent) {
+  ASSERT_EQ(lease(), "");
+  EXPECT_EQ(lines(499), Lines{});
+  ASSERT_EQ(command_.order(now_ns_, now_ns_ - 499 * kMs, "a", {600, {}}), "");
+  now_ns_ = 500 * kMs;
+  EXPECT_EQ(lines(600), Lines{"500:0 safe"});
+}
+
+TEST_F(MotorCommandTest, WhoeverStopsNeedsNoLease) {
+  ASSERT_EQ(lease(kOperator), "");
+  ASSERT_EQ(order(600), "");
+  EXPECT_EQ(lines(100), Lines{"0:600"});
+  EXPECT_EQ(command_.stop(now_ns_, "the page"), "");
+  EXPECT_EQ(lines(200), Lines{"100:0 safe"});
+  EXPECT_EQ(order(600), "stopped by the page");
+  command_.safe_echoed();
+  EXPECT_EQ(command_.stop(now_ns_, "the page"), "") << "again, though nobody is in charge";
+  EXPECT_EQ(lines(300), Lines{"200:0 safe"});
+  command_.port_lost("unplugged");
+  EXPECT_NE(command_.stop(now_ns_, "the page").find("unplugged"), std::string::npos);
+  EXPECT_EQ(lines(400), Lines{});
+  command_.port_opened(now_ns_);
+  EXPECT_EQ(lines(500), Lines{"400:0 safe"});
+}
+
+TEST_F(MotorCommandTest, ACardThatTurnsAfterItShowedTheSafeStateGetsItAgain) {
+  command_.shown(now_ns_, 600);
+  EXPECT_EQ(lines(50), Lines{}) << "of another's order, before the first lease, nothing is said";
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(600), "");
+  ASSERT_EQ(command_.release(now_ns_, "a"), "");
+  EXPECT_EQ(lines(100), Lines{"50:0 safe"});
+  command_.safe_echoed();
+  command_.shown(now_ns_, 0);
+  EXPECT_EQ(lines(200), Lines{});
+  command_.shown(now_ns_, 600);
+  EXPECT_EQ(lines(300), Lines{"200:0 safe"});
+  EXPECT_TRUE(command_.is_card_commanded());
+}
+
+TEST_F(MotorCommandTest, NobodyIsInChargeOfAProgramThatStops) {
+  ASSERT_EQ(lease(), "");
+  ASSERT_EQ(order(600), "");
+  command_.shut_down(now_ns_);
+  EXPECT_EQ(lease(kOperator, "b", 2), "navcald stops");
+  EXPECT_EQ(order(600), "navcald stops");
+  EXPECT_EQ(command_.next(now_ns_)->source, Source::safe);
+  EXPECT_TRUE(command_.is_card_commanded()) << "until a status shows it";
 }
 
 }  // namespace

@@ -144,9 +144,14 @@ class DaemonProcess {
   FakeLine line;
 
  private:
-  static pid_t spawn(const std::vector<std::string>& arguments, const std::string& output) {
+  [[nodiscard]] pid_t spawn(const std::vector<std::string>& arguments, const std::string& output) const {
     // A daemon that outlives its test would read the pseudo-terminals of others.
-    std::vector<std::string> command{"/usr/bin/setpriv", "--pdeathsig", "KILL", "--"};
+    std::vector<std::string> command{"/usr/bin/env",
+                                     "STATE_DIRECTORY=" + folder_.path().string() + "/state",
+                                     "/usr/bin/setpriv",
+                                     "--pdeathsig",
+                                     "KILL",
+                                     "--"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (const auto& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
