@@ -5,12 +5,12 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/signal_set.hpp>
-#include <csignal>
 #include <cstdio>
 #include <map>
 #include <memory>
 
 #include "analysis/emulate_session.h"
+#include "base/interruptible.h"
 #include "cli/clock_option.h"
 #include "cli/commands.h"
 #include "cli/effect_options.h"
@@ -34,7 +34,8 @@ namespace asio = boost::asio;
 void run(const analysis::EmulateArguments& arguments) {
   asio::io_context io{1};
   analysis::EmulateSession session(io, arguments);
-  asio::signal_set signals(io, SIGINT, SIGTERM);
+  asio::signal_set signals(io);
+  for (const int signal : base::ending_signals()) signals.add(signal);
   signals.async_wait([&](const boost::system::error_code& error, int) {
     if (!error) io.stop();
   });

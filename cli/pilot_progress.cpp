@@ -48,14 +48,15 @@ PilotProgress::~PilotProgress() {
 
 void PilotProgress::show(const autopilot::Pilot& pilot, const autopilot::Reading& reading, double left_s) {
   if (on_terminal_) {
-    fmt::print(stderr, "\r{}\x1b[K", progress_text(pilot, reading, left_s));
+    // Not fmt::print: it throws when the terminal is gone, and the vehicle still has to be stopped.
+    std::fputs(fmt::format("\r{}\x1b[K", progress_text(pilot, reading, left_s)).c_str(), stderr);
     drawn_ = true;
     return;
   }
   const std::string phase = phase_of(pilot);
   if (phase == phase_) return;
   phase_ = phase;
-  fmt::print(stderr, "{}\n", progress_text(pilot, reading, left_s));
+  std::fputs((progress_text(pilot, reading, left_s) + "\n").c_str(), stderr);
 }
 
 }  // namespace navcal::cli

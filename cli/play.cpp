@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "analysis/play_session.h"
+#include "base/interruptible.h"
 #include "cli/commands.h"
 
 namespace navcal::cli {
@@ -20,7 +21,8 @@ void run(const analysis::PlayArguments& arguments) {
   asio::io_context io{1};
   analysis::PlaySession session(io.get_executor(), arguments);
   bool interrupted = false;
-  asio::signal_set signals(io, SIGINT, SIGTERM);
+  asio::signal_set signals(io);
+  for (const int signal : base::ending_signals()) signals.add(signal);
   signals.async_wait([&](const boost::system::error_code& error, int) {
     if (error) return;
     interrupted = true;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "base/interruptible.h"
 #include "cli/commands.h"
 #include "cli/watch_stream.h"
 #include "cli/watch_view.h"
@@ -27,10 +28,6 @@ struct WatchCommandOptions {
   bool json = false;
   double seconds = 0;
 };
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void on_signal(int) { interrupted = 1; }
 
 /// The terminal's other screen with the cursor hidden; what was there before comes back at the end.
 class Screen {
@@ -67,7 +64,7 @@ std::string title(const WatchCommandOptions& options, const WatchStream& stream)
 }
 
 void pass_on(WatchStream& stream, Clock::time_point end) {
-  while (interrupted == 0 && Clock::now() < end) {
+  while (!base::Interruptible::interrupted() && Clock::now() < end) {
     const auto line = stream.next(std::min(end, Clock::now() + kLineInterval));
     if (!line) continue;
     std::printf("%s\n", line->c_str());
@@ -82,7 +79,7 @@ void show(const WatchCommandOptions& options, WatchStream& stream, Clock::time_p
   WatchView view;
   auto next_picture = Clock::now() + interval;
   bool was_connected = false;
-  while (interrupted == 0 && Clock::now() < end) {
+  while (!base::Interruptible::interrupted() && Clock::now() < end) {
     const auto line = stream.next(std::min(end, next_picture));
     if (was_connected && !stream.connected()) view.clear();
     was_connected = stream.connected();
@@ -100,9 +97,7 @@ void show(const WatchCommandOptions& options, WatchStream& stream, Clock::time_p
 }
 
 void watch(const WatchCommandOptions& options) {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  const base::Interruptible interruptible;
   // A reader that has gone is seen by fflush.
   std::signal(SIGPIPE, SIG_IGN);
   WatchStream stream(options.host, std::to_string(options.port));

@@ -2,13 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/interruptible.h"
 #include "base/service_manager.h"
 #include "share/manual.h"
 #include "web/access.h"
@@ -91,7 +91,8 @@ void run(const Options& options) {
   // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without
   // locks every resolution fails.
   asio::io_context context(1);
-  asio::signal_set signals(context, SIGTERM, SIGINT);
+  asio::signal_set signals(context);
+  for (const int signal : navcal::base::ending_signals()) signals.add(signal);
   const auto source =
       std::make_shared<web::LiveSource>(context.get_executor(), status_socket(options.status), hub);
   web::Outlets outlets(context.get_executor(), options.outlets, hub, site);

@@ -5,8 +5,8 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
-#include <csignal>
 
+#include "base/interruptible.h"
 #include "web/access.h"
 #include "web/listener.h"
 #include "web/page.h"
@@ -18,7 +18,8 @@ namespace navcal::web {
 void view_recording(const ViewerSettings& settings) {
   boost::asio::io_context context(1);
   // From here on a signal no longer ends the program: what the caller has made for this has to be removed.
-  boost::asio::signal_set signals(context, SIGINT, SIGTERM);
+  boost::asio::signal_set signals(context);
+  for (const int signal : base::ending_signals()) signals.add(signal);
   RecordedLog log(settings.log, settings.progress);
   for (const std::string& remark : log.remarks()) settings.remark(remark);
   const Access access;

@@ -226,12 +226,12 @@ TEST_F(ClosedLoop, AFloorThatRisesStopsTheVehicle) {
   expect_stopped(finish());
 }
 
-TEST_F(ClosedLoop, AnInterruptStopsTheVehicle) {
+TEST_F(ClosedLoop, AClosedTerminalStopsTheVehicleAsCtrlCDoes) {
   start();
   const auto run = pilot("long.toml", "pilot");
   ASSERT_TRUE(eventually([&] { return daemon_said("motor.lease: pilot"); }, kPilotPatience)) << run->err();
   let_the_shaft_run_down();  // up, here
-  run->signal(SIGINT);
+  run->signal(SIGHUP);
   EXPECT_EQ(run->wait(kPilotPatience), 1);
   EXPECT_NE(run->err().find("the vehicle was stopped: interrupted"), std::string::npos) << run->err();
   EXPECT_TRUE(eventually([&] { return daemon_said("the lease was released"); }, kPilotPatience));
