@@ -133,6 +133,7 @@ class ControlPeer final : public Peer {
       return;
     }
     admitted_ = true;
+    link_.show_token();
     link_.send_text(R"({"ok":true})");
     connection_->start(path_);
   }

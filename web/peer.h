@@ -24,6 +24,8 @@ class PeerLink {
   /// Never waits. False when the client is too slow and its queue is full: the message is then dropped whole.
   virtual bool send(Payload payload) = 0;
   virtual void close(std::string_view reason) = 0;
+  /// The client has shown the token: it keeps its place, however many others come.
+  virtual void show_token() {}
   /// Bytes that wait for the client.
   [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
 

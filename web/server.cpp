@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/server.h"
 
+#include <algorithm>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -51,7 +52,8 @@ void Server::start() {
 void Server::stop() {
   boost::system::error_code ignored;
   acceptor_.close(ignored);
-  for (const auto& session : std::set(web_sockets_)) session->close("navcal-web stops");
+  for (const auto& client : std::list(clients_))
+    if (client->session) client->session->close("navcal-web stops");
 }
 
 asio::awaitable<void> Server::accept_clients() {
@@ -64,24 +66,39 @@ asio::awaitable<void> Server::accept_clients() {
       co_await pause.async_wait(kNoThrow);
       continue;
     }
-    if (open_ >= limits_.connections) {
-      ++counters_.connections_refused;
-      continue;
-    }
+    if (!make_room()) continue;
     ++counters_.connections;
-    ++open_;
     boost::system::error_code ignored;
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+    const auto client = std::make_shared<Client>(beast::tcp_stream(std::move(socket)));
+    clients_.push_back(client);
     asio::co_spawn(
-        acceptor_.get_executor(),
-        [self = shared_from_this(), stream = Stream(std::move(socket))]() mutable {
-          return self->serve(std::move(stream));
-        },
-        [self = shared_from_this()](const std::exception_ptr&) { --self->open_; });
+        acceptor_.get_executor(), [self = shared_from_this(), client] { return self->serve(client); },
+        [self = shared_from_this(), client](const std::exception_ptr&) { self->clients_.remove(client); });
   }
 }
 
-asio::awaitable<void> Server::serve(Stream stream) {
+bool Server::make_room() {
+  if (clients_.size() < limits_.connections) return true;
+  ++counters_.connections_refused;
+  // The oldest, whatever it does: a viewer answers pings for as long as it likes, and a connection that is on its
+  // way to show the token is among the newest.
+  const auto oldest = std::find_if(clients_.begin(), clients_.end(), [](const auto& client) {
+    return !client->session || !client->session->has_token();
+  });
+  if (oldest == clients_.end()) return false;
+  const auto client = *oldest;
+  clients_.erase(oldest);
+  if (client->session) {
+    client->session->drop();
+  } else {
+    client->stream.close();
+  }
+  return true;
+}
+
+asio::awaitable<void> Server::serve(std::shared_ptr<Client> client) {
+  beast::tcp_stream& stream = client->stream;
   beast::flat_buffer buffer;
   bool keep_alive = true;
   while (keep_alive) {
@@ -106,7 +123,10 @@ asio::awaitable<void> Server::serve(Stream stream) {
         std::optional<Response> refusal;
         const WebSocketEndpoint* endpoint = endpoint_for(request, subprotocol, refusal);
         if (endpoint != nullptr) {
-          co_await upgrade(std::move(stream), std::move(request), *endpoint, std::move(subprotocol));
+          client->session = std::make_shared<WebSocketSession>(std::move(stream), limits_, counters_);
+          asio::awaitable<void> work =
+              client->session->serve(std::move(request), *endpoint, std::move(subprotocol));
+          co_await std::move(work);
           co_return;
         }
         response = std::move(*refusal);
@@ -162,15 +182,6 @@ const WebSocketEndpoint* Server::endpoint_for(const Request& request, std::strin
     return nullptr;
   }
   return endpoint;
-}
-
-asio::awaitable<void> Server::upgrade(Stream stream, Request request, const WebSocketEndpoint& endpoint,
-                                      std::string subprotocol) {
-  const auto session = std::make_shared<WebSocketSession>(std::move(stream), limits_, counters_);
-  web_sockets_.insert(session);
-  asio::awaitable<void> work = session->serve(std::move(request), endpoint, std::move(subprotocol));
-  co_await std::move(work);
-  web_sockets_.erase(session);
 }
 
 }  // namespace navcal::web

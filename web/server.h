@@ -8,8 +8,8 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <cstdint>
+#include <list>
 #include <memory>
-#include <set>
 
 #include "web/access.h"
 #include "web/site.h"
@@ -20,7 +20,7 @@ class WebSocketSession;
 
 /// Bounds that keep one client from costing others anything.
 struct ServerLimits {
-  std::size_t connections = 256;
+  std::size_t connections = 256;  ///< a further one takes the place of the oldest that has not shown the token
   std::size_t header_bytes = 8 << 10;
   std::size_t body_bytes = 64 << 10;
   std::size_t message_bytes = 64 << 10;  ///< of a WebSocket message from a client
@@ -33,7 +33,7 @@ struct ServerLimits {
 
 struct ServerCounters {
   std::uint64_t connections = 0;
-  std::uint64_t connections_refused = 0;  ///< beyond the bound
+  std::uint64_t connections_refused = 0;  ///< closed because of the bound
   std::uint64_t requests = 0;
   std::uint64_t requests_refused = 0;  ///< answered with a status of 400 and above
   std::uint64_t requests_broken = 0;   ///< no HTTP, too large, or not complete in time
@@ -57,22 +57,24 @@ class Server : public std::enable_shared_from_this<Server> {
   [[nodiscard]] std::uint16_t port() const;
 
  private:
-  using Stream = boost::beast::tcp_stream;
+  struct Client {
+    boost::beast::tcp_stream stream;
+    std::shared_ptr<WebSocketSession> session;  ///< has taken the stream; null: no WebSocket
+  };
   boost::asio::awaitable<void> accept_clients();
-  boost::asio::awaitable<void> serve(Stream stream);
+  /// False when every place is an operator's.
+  [[nodiscard]] bool make_room();
+  boost::asio::awaitable<void> serve(std::shared_ptr<Client> client);
   boost::asio::awaitable<Response> answer(const Request& request);
   [[nodiscard]] const WebSocketEndpoint* endpoint_for(const Request& request, std::string& subprotocol,
                                                       std::optional<Response>& refusal) const;
-  boost::asio::awaitable<void> upgrade(Stream stream, Request request, const WebSocketEndpoint& endpoint,
-                                       std::string subprotocol);
 
   boost::asio::ip::tcp::acceptor acceptor_;
   const Site& site_;
   const Access& access_;
   ServerLimits limits_;
   ServerCounters counters_;
-  std::size_t open_ = 0;
-  std::set<std::shared_ptr<WebSocketSession>> web_sockets_;
+  std::list<std::shared_ptr<Client>> clients_;  ///< the oldest first
 };
 
 }  // namespace navcal::web

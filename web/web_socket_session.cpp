@@ -38,7 +38,7 @@ asio::awaitable<void> WebSocketSession::serve(Request request, const WebSocketEn
   open_ = false;
   --counters_.web_sockets_open;
   peer_.reset();
-  boost::beast::get_lowest_layer(stream_).close();
+  drop();
 }
 
 asio::awaitable<void> WebSocketSession::read_messages() {
@@ -79,7 +79,7 @@ asio::awaitable<void> WebSocketSession::write_queue() {
     const auto [error, n] = co_await stream_.async_write(asio::buffer(*payload.bytes), kNoThrow);
     if (error) {
       // The reader learns of the end by itself: the connection is closed under it.
-      boost::beast::get_lowest_layer(stream_).close();
+      drop();
       break;
     }
     ++counters_.messages_sent;

@@ -24,7 +24,11 @@ class WebSocketSession final : public PeerLink, public std::enable_shared_from_t
 
   bool send(Payload payload) override;
   void close(std::string_view reason) override;
+  void show_token() override { has_token_ = true; }
   [[nodiscard]] std::size_t queued_bytes() const override { return queued_bytes_; }
+  [[nodiscard]] bool has_token() const { return has_token_; }
+  /// Closes the connection without a word, which would have to wait for the client.
+  void drop() { boost::beast::get_lowest_layer(stream_).close(); }
 
  private:
   boost::asio::awaitable<void> read_messages();
@@ -38,6 +42,7 @@ class WebSocketSession final : public PeerLink, public std::enable_shared_from_t
   std::size_t queued_bytes_ = 0;
   bool open_ = false;
   bool writing_ = false;
+  bool has_token_ = false;
   std::string close_reason_;
 };
 

@@ -93,6 +93,42 @@ TEST_F(ControlPeerTest, TheConnectionToNavcaldEndsWithTheClient) {
   EXPECT_EQ(control.line(), "(closed)") << "a lease of the motor ends by that";
 }
 
+TEST_F(ControlPeerTest, NeitherViewersNorHalfRequestsLockTheOperatorOut) {
+  constexpr std::size_t kPlaces = 16;
+  WebServer server({.connections = kPlaces}, kSecret);
+  server.site.add(control_endpoint(server.executor(), "/control", folder_.path() / "control", server.access()));
+  WebSocketEndpoint live;
+  live.path = "/live";
+  struct Silent final : Peer {
+    void on_open() override {}
+    void on_text(std::string_view) override {}
+  };
+  live.make_peer = [](PeerLink&, std::string_view) { return std::make_unique<Silent>(); };
+  server.site.add(live);
+  server.start();
+  FakeControl control(folder_.path() / "control");
+  WebSocketClient early(server.port(), "/control");
+  early.send(token(kSecret));
+  EXPECT_EQ(early.read(), R"({"ok":true})");
+  control.accept();
+  std::vector<std::unique_ptr<WebSocketClient>> viewers;
+  std::vector<std::unique_ptr<test::RawClient>> halves;
+  for (std::size_t i = 0; i < 2 * kPlaces; ++i) {
+    viewers.push_back(std::make_unique<WebSocketClient>(server.port(), i % 2 == 0 ? "/live" : "/control"));
+    EXPECT_EQ(viewers.back()->status(), 101U) << i;
+    halves.push_back(std::make_unique<test::RawClient>(server.port()));
+    halves.back()->send("GET /control HTTP/1.1\r\nHo");
+  }
+  early.send("{}");
+  EXPECT_EQ(control.line(), "{}") << "who had shown the token before";
+  WebSocketClient late(server.port(), "/control");
+  late.send(token(kSecret));
+  EXPECT_EQ(late.read(), R"({"ok":true})");
+  control.accept();
+  late.send(R"({"command":"motor.stop"})");
+  EXPECT_EQ(control.line(), R"({"command":"motor.stop"})");
+}
+
 TEST_F(ControlPeerTest, TwoLinesInOneMessageAndOverlongOnesAreRefused) {
   FakeControl control(folder_.path() / "control");
   WebSocketClient client(server_.port(), "/control");

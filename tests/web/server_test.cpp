@@ -112,15 +112,44 @@ TEST_F(ServerTest, ASlowRequestIsCutOffAndOthersDoNotWait) {
   EXPECT_EQ(server_->counters().requests_broken, 1U);
 }
 
-TEST_F(ServerTest, ConnectionsBeyondTheBoundAreClosedAtOnce) {
-  start({.connections = 2});
-  auto first = std::make_unique<WebSocketClient>(port(), "/echo");
-  WebSocketClient second(port(), "/echo");
-  EXPECT_EQ(RawClient(port()).get("/hello"), "");
+TEST_F(ServerTest, AConnectionBeyondTheBoundTakesThePlaceOfTheOldest) {
+  start({.connections = 3});
+  RawClient half(port());
+  half.send("GET /hello HTTP/1.1\r\nHo");
+  WebSocketClient first(port(), "/echo"), second(port(), "/echo");
+  EXPECT_EQ(first.read(), "welcome");
+  EXPECT_EQ(second.read(), "welcome");
+  WebSocketClient third(port(), "/echo");
+  EXPECT_EQ(third.read(), "welcome");
+  EXPECT_EQ(half.read_to_end(), "") << "a request that is not whole";
   EXPECT_EQ(server_->counters().connections_refused, 1U);
-  first->close();
-  first.reset();
-  EXPECT_TRUE(navcal::test::eventually([&] { return has(RawClient(port()).get("/hello"), "hello "); }));
+  EXPECT_TRUE(has(RawClient(port()).get("/hello"), "hello "));
+  EXPECT_EQ(first.read(), "(closed)");
+  second.send("still here");
+  EXPECT_EQ(second.read(), "still here");
+  EXPECT_TRUE(navcal::test::eventually([&] { return server_->in_loop([&] { return links_.size() == 2; }); }));
+}
+
+TEST_F(ServerTest, WhoHasShownTheTokenKeepsItsPlaceAndTheLastPlaceIsNobodysElse) {
+  start({.connections = 2});
+  WebSocketClient first(port(), "/echo");
+  EXPECT_EQ(first.read(), "welcome");
+  const auto show_token = [&] {
+    return server_->in_loop([&] {
+      for (PeerLink* link : links_) link->show_token();
+      return links_.size();
+    });
+  };
+  EXPECT_EQ(show_token(), 1U);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(WebSocketClient(port(), "/echo").read(), "welcome") << i;
+  WebSocketClient second(port(), "/echo");
+  EXPECT_EQ(second.read(), "welcome");
+  EXPECT_TRUE(navcal::test::eventually([&] { return show_token() == 2; }));
+  EXPECT_EQ(RawClient(port()).get("/hello"), "") << "both places are kept";
+  for (WebSocketClient* kept : {&first, &second}) {
+    kept->send("still here");
+    EXPECT_EQ(kept->read(), "still here");
+  }
 }
 
 TEST_F(ServerTest, SubprotocolAndOriginDecideWhoMayConnect) {

@@ -88,7 +88,8 @@ void Metrics::append_program(Exposition& out) const {
   }
   if (server_ != nullptr) {
     count("navcal_web_connections_total", "Connections accepted.", server_->connections);
-    count("navcal_web_refused_connections_total", "Connections beyond the bound.", server_->connections_refused);
+    count("navcal_web_refused_connections_total", "Connections closed because of the bound.",
+          server_->connections_refused);
     count("navcal_web_requests_total", "HTTP requests.", server_->requests);
     count("navcal_web_refused_requests_total", "HTTP requests answered with 400 and above.",
           server_->requests_refused);
