@@ -116,7 +116,7 @@ export class Control {
     if (this.lease !== lease) return;
     if (answer.ok) return this.#say('');
     this.#say(answer.error);
-    if (/lease|preempted/.test(answer.error)) this.#lost(answer.error);
+    if (/lease|preempted|stopped by/.test(answer.error)) this.#lost(answer.error);
   }
 
   #lost(why) {
@@ -133,12 +133,10 @@ export class Control {
     this.vehicle.ask({command: 'motor.release', lease}).then((answer) => answer.ok || this.#say(answer.error));
   }
 
-  // Also when somebody else is in charge: an operator takes over, and giving back makes the motor safe.
+  // Whoever is in charge.
   async halt() {
-    if (this.lease) return this.release('stopped');
-    const answer = await this.vehicle.ask({command: 'motor.lease', holder: 'navcal-web', priority: OPERATOR_PRIORITY, timeout_s: TIMEOUT_S});
-    if (!answer.ok) return this.#say(`NOT stopped: ${answer.error}`);
-    const released = await this.vehicle.ask({command: 'motor.release', lease: answer.lease});
-    this.#say(released.ok ? 'Stopped: the safe state was ordered.' : `NOT stopped: ${released.error}`);
+    if (this.lease) this.#lost('STOP');
+    const answer = await this.vehicle.ask({command: 'motor.stop', by: 'navcal-web'});
+    this.#say(answer.ok ? 'Stopped: the safe state was ordered, and nobody is in charge.' : `NOT stopped: ${answer.error}`);
   }
 }

@@ -194,6 +194,25 @@ async function drives(page) {
   await page.when(() => !document.getElementById("stop").disabled);
 }
 
+async function stopsWhoeverIsInCharge(browser, url, page) {
+  step("STOP of a second page, while the first is in charge");
+  const second = await Page.open(browser, url);
+  await second.until("#link-state", /^live$/);
+  await second.fill("#token", TOKEN);
+  await second.press("Enter");
+  await second.when(() => !document.getElementById("stop").disabled);
+  await page.front();
+  await page.click("#take");
+  await page.until("#control-state", /You are in charge/);
+  await page.fill("#order-shaft", "300");
+  await second.until("#control-state", /^In charge: navcal-web.*sent: shaft 300/);
+  await second.evaluate(() => document.getElementById("stop").click());
+  await second.until("#control-answer", /^Stopped/);
+  await second.until("#control-state", /^Nobody is in charge.*shaft 0.*safe state/);
+  await page.until("#control-answer", /no longer in charge: stopped by navcal-web/);
+  await second.close();
+}
+
 async function comesBack(page) {
   step("after a restart of navcald");
   await vehicle.stop(vehicle.daemon);
@@ -319,6 +338,7 @@ try {
   await changesNeedTheToken(page);
   await keyboardReachesAll(page);
   await drives(page);
+  await stopsWhoeverIsInCharge(browser, url, page);
   await remembersWhatWasBefore(page);
   await comesBack(page);
   onlyAsksFor(page, new URL(url).host);
