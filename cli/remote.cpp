@@ -63,6 +63,17 @@ bool can_be_read(int fd) {
   return fd >= 0 && ::poll(&readable, 1, 0) > 0;
 }
 
+/// Throws std::runtime_error when the vehicle was not stopped.
+void stop_vehicle(RemoteOperator& remote, double wait_s) {
+  remote.stop();
+  std::optional<std::string> answer;
+  const auto until = RemoteOperator::after(wait_s);
+  while (!(answer = remote.take_answer()) && RemoteClock::now() < until && !base::Interruptible::interrupted())
+    remote.work(until);
+  if (answer != "ok") throw std::runtime_error("NOT stopped: " + answer.value_or("no answer came"));
+  fmt::print("stopped: the safe state was ordered, and nobody is in charge\n");
+}
+
 /// Takes typed lines until Ctrl-C, quit or the end of the time.
 void drive_by_hand(RemoteOperator& remote, const RemoteCommandOptions& options) {
   const auto picture = options.json                   ? RemoteConsole::Picture::json
@@ -70,9 +81,7 @@ void drive_by_hand(RemoteOperator& remote, const RemoteCommandOptions& options) 
                                                       : RemoteConsole::Picture::lines;
   RemoteConsole console(remote, picture);
   TypedLines typed;
-  const auto end =
-      RemoteClock::now() + std::chrono::duration_cast<RemoteClock::duration>(
-                               std::chrono::duration<double>(options.seconds > 0 ? options.seconds : 1e8));
+  const auto end = RemoteOperator::after(options.seconds > 0 ? options.seconds : 1e8);
   bool goes_on = true;
   while (goes_on && RemoteClock::now() < end && !base::Interruptible::interrupted() && std::ferror(stdout) == 0) {
     // Commands that arrive before there is a session wait for it.
@@ -103,6 +112,8 @@ void run_remote(const RemoteCommandOptions& options) {
     fmt::print("{}", list_files(remote));
   } else if (options.action == "get") {
     get_file(remote, options.argument, options.output.empty() ? options.argument : options.output);
+  } else if (options.action == "stop") {
+    stop_vehicle(remote, options.wait_s);
   } else {
     const std::string line = options.action == "status" ? R"({"command":"status"})" : options.argument;
     fmt::print("{}\n", remote.ask(line, options.wait_s));
@@ -137,10 +148,11 @@ void add_remote(CLI::App& app) {
   auto* const action =
       command
           ->add_option("action", options->action,
-                       "status; send a line of the control socket; ls lists the logs; get copies one and goes on "
-                       "where it was\ninterrupted. Without one: the live view, which takes typed commands")
-          ->check(CLI::IsMember({"status", "send", "ls", "get"}))
-          ->option_text("[status|send|ls|get]");
+                       "status; stop ends every lease, and the vehicle orders its safe state; send a line of the "
+                       "control socket; ls\nlists the logs; get copies one and goes on where it was interrupted. "
+                       "Without one: the live view, which takes\ntyped commands")
+          ->check(CLI::IsMember({"status", "stop", "send", "ls", "get"}))
+          ->option_text("[status|stop|send|ls|get]");
   command
       ->add_option("argument", options->argument, "of send: the line, an object of JSON; of get: the log's name")
       ->needs(action)
@@ -162,8 +174,9 @@ void add_remote(CLI::App& app) {
       ->check(CLI::NonNegativeNumber)
       ->option_text("SECONDS [0]");
   command->footer(
-      "Typed commands: lease; order RPM A B C; stop; status; send {JSON}; quit. Ctrl-C gives the lease back: the "
-      "vehicle\norders its safe state. docs/remote.md tells what a dead link does.\n\n"
+      "Typed commands: lease; order RPM A B C; stop; release; status; send {JSON}; quit. Ctrl-C, and closing the "
+      "terminal,\ngive the lease back: the vehicle orders its safe state. docs/remote.md tells what a dead link "
+      "does.\n\n"
       "Example: navcal remote /dev/ttyUSB0 --key-file ~/.navcal-key");
   command->callback([options] {
     const bool needs_argument = options->action == "send" || options->action == "get";

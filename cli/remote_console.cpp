@@ -16,14 +16,15 @@ namespace {
 constexpr std::string_view kRemoteHelp =
     "lease            take charge of the motor\n"
     "order RPM A B C  shaft speed and three fin angles in degrees, repeated until the next one\n"
-    "stop             the safe state at once; ends the lease\n"
+    "stop             the safe state at once; ends every lease, whoever holds it\n"
+    "release          gives the own lease back, with the same effect\n"
     "status           what navcald says of itself\n"
     "send {JSON}      any line of the control socket\n"
     "quit             stop, and end";
 
 /// The first two rows are the picture, the others scroll.
-constexpr std::string_view kBeginScreen = "\033[2J\033[3r\033[3;1H";
-constexpr std::string_view kEndScreen = "\033[r\033[999;1H\n";
+constexpr const char* kBeginScreen = "\033[2J\033[3r\033[3;1H";
+constexpr const char* kEndScreen = "\033[r\033[999;1H\n";
 
 std::string first_word(std::string_view line) {
   std::istringstream words{std::string(line)};
@@ -35,23 +36,24 @@ std::string first_word(std::string_view line) {
 }  // namespace
 
 RemoteConsole::RemoteConsole(RemoteOperator& remote, Picture picture) : remote_(remote), picture_(picture) {
-  if (picture_ == Picture::terminal) fmt::print("{}", kBeginScreen);
+  if (picture_ == Picture::terminal) put(kBeginScreen);
   remote_.on_notice = [this](std::string_view words) { say(words); };
 }
 
 RemoteConsole::~RemoteConsole() {
   remote_.on_notice = [](std::string_view) {};
-  if (picture_ == Picture::terminal) fmt::print("{}", kEndScreen);
+  if (picture_ == Picture::terminal) put(kEndScreen);
+}
+
+void RemoteConsole::put(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
 }
 
 void RemoteConsole::say(std::string_view words) {
-  if (picture_ == Picture::json) {
-    fmt::print("{}\n", nlohmann::json{{"class", "NOTICE"}, {"text", words}}.dump());
-  } else {
-    fmt::print("{}\n", words);
-  }
-  std::fflush(stdout);
+  put((picture_ == Picture::json ? nlohmann::json{{"class", "NOTICE"}, {"text", words}}.dump()
+                                 : std::string(words)) +
+      "\n");
 }
 
 bool RemoteConsole::give_order(std::string_view line) {
@@ -78,7 +80,9 @@ bool RemoteConsole::take(std::string_view line) {
     remote_.lease();
   } else if (word == "order") {
     (void)give_order(line);
-  } else if (word == "stop" || word == "release") {
+  } else if (word == "stop") {
+    remote_.stop();
+  } else if (word == "release") {
     remote_.release();
   } else if (word == "status") {
     if (!remote_.host().request(R"({"command":"status"})")) say("there is no session yet");
@@ -96,20 +100,19 @@ void RemoteConsole::show_report(const link::Host::NewReport& report) {
   const auto quality = remote_.host().quality();
   const bool is_alive = remote_.is_alive();
   if (picture_ == Picture::json) {
-    fmt::print("{}\n", json_of(report, quality, is_alive));
+    put(json_of(report, quality, is_alive) + "\n");
   } else {
     const std::string state = words_of(report.report);
     const std::string link =
         words_of(quality, is_alive) + (report.is_verified ? "" : "; reports are not authenticated");
     if (picture_ == Picture::terminal) {
-      fmt::print("\0337\033[1;1H\033[?7l\033[2K{}\033[2;1H\033[2K{}\033[?7h\0338", state, link);
+      put(fmt::format("\0337\033[1;1H\033[?7l\033[2K{}\033[2;1H\033[2K{}\033[?7h\0338", state, link));
     } else {
       if (RemoteOperator::Clock::now() < next_line_) return;
       next_line_ = RemoteOperator::Clock::now() + std::chrono::milliseconds(900);
-      fmt::print("{}; {}\n", state, link);
+      put(state + "; " + link + "\n");
     }
   }
-  std::fflush(stdout);
 }
 
 void RemoteConsole::show() {
@@ -119,8 +122,7 @@ void RemoteConsole::show() {
       const bool is_ok = *answer == "ok";
       nlohmann::ordered_json out{{"class", "ANSWER"}, {"ok", is_ok}};
       if (!is_ok) out["error"] = printable(*answer);
-      fmt::print("{}\n", out.dump());
-      std::fflush(stdout);
+      put(out.dump() + "\n");
     } else {
       say(printable(*answer));
     }
@@ -130,8 +132,7 @@ void RemoteConsole::show() {
     if (picture_ == Picture::json) {
       auto parsed = nlohmann::ordered_json::parse(*response, nullptr, false);
       if (parsed.is_discarded()) parsed = printable(*response);
-      fmt::print("{}\n", nlohmann::ordered_json{{"class", "RESPONSE"}, {"response", std::move(parsed)}}.dump());
-      std::fflush(stdout);
+      put(nlohmann::ordered_json{{"class", "RESPONSE"}, {"response", std::move(parsed)}}.dump() + "\n");
     } else {
       say(printable(*response));
     }

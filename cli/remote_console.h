@@ -25,6 +25,8 @@ class RemoteConsole {
   void say(std::string_view words);
 
  private:
+  /// At once. A terminal that is gone is seen by std::ferror: it keeps nobody from giving the lease back.
+  static void put(const std::string& text);
   void show_report(const link::Host::NewReport& report);
   [[nodiscard]] bool give_order(std::string_view line);
 

@@ -14,6 +14,8 @@
 namespace navcal::cli {
 namespace {
 
+using CommandKind = link::Command::Kind;
+
 constexpr std::int64_t kSecondOfRemote_ns = 1'000'000'000;
 /// An order is repeated so often in the time of a lease, and twice a second at least.
 constexpr double kOrdersPerLease = 5;
@@ -30,12 +32,11 @@ link::EndOptions end_of_operator(const RemoteOperator::Options& options) {
   return end;
 }
 
-RemoteOperator::Clock::time_point remote_deadline(double seconds) {
-  return RemoteOperator::Clock::now() +
-         std::chrono::duration_cast<RemoteOperator::Clock::duration>(std::chrono::duration<double>(seconds));
-}
-
 }  // namespace
+
+RemoteOperator::Clock::time_point RemoteOperator::after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 RemoteOperator::RemoteOperator(const Options& options)
     : options_(options),
@@ -97,13 +98,13 @@ void RemoteOperator::watch_sessions() {
     if (is_in_charge()) on_notice("the lease is lost");
   }
   sessions_ = host_.sessions();
-  is_leasing_ = is_leased_ = false;
+  is_leasing_ = is_leased_ = is_stopping_ = false;
 }
 
 void RemoteOperator::wait_for_session(double limit_s) {
   std::string why = fmt::format("the vehicle did not answer within {:g} s (--wait)", limit_s);
   const auto notice = std::exchange(on_notice, [&](std::string_view words) { why = words; });
-  const auto until = remote_deadline(limit_s);
+  const auto until = after(limit_s);
   // A refusal that was on its way to an attempt with another key is passed over.
   const auto lacks_the_key = [&] {
     return options_.key_file.empty() ? told_ == link::Refusal::untagged
@@ -119,7 +120,7 @@ void RemoteOperator::wait_for_session(double limit_s) {
 std::string RemoteOperator::ask(std::string_view line, double limit_s) {
   if (!host_.request(line)) throw std::runtime_error("the request is too long, or there is no session");
   const unsigned session = host_.sessions();
-  const auto until = remote_deadline(limit_s);
+  const auto until = after(limit_s);
   while (Clock::now() < until) {
     if (auto response = host_.take_response()) {
       while (response->ends_with('\n')) response->pop_back();
@@ -133,15 +134,18 @@ std::string RemoteOperator::ask(std::string_view line, double limit_s) {
   throw std::runtime_error("no answer came");
 }
 
-void RemoteOperator::lease() {
-  link::Command command;
-  command.kind = link::Command::Kind::lease;
-  command.priority = static_cast<std::uint16_t>(options_.priority);
-  command.timeout_s = options_.lease_timeout_s;
-  command.holder = options_.holder;
-  awaited_ = host_.command(now_ns(), command);
-  is_leasing_ = awaited_.has_value();
+void RemoteOperator::give(link::Command command) {
+  awaited_ = host_.command(now_ns(), std::move(command));
   if (!awaited_) answer_ = "there is no session yet";
+}
+
+void RemoteOperator::lease() {
+  give({.kind = CommandKind::lease,
+        .priority = static_cast<std::uint16_t>(options_.priority),
+        .timeout_s = options_.lease_timeout_s,
+        .holder = options_.holder});
+  is_leasing_ = awaited_.has_value();
+  is_stopping_ = false;
   shaft_rpm_ = 0;
   fins_deg_ = {};
 }
@@ -159,26 +163,33 @@ void RemoteOperator::repeat_order() {
   if (!is_leased_ || now_ns() < order_due_ns_) return;
   const auto lease_share_ns = static_cast<std::int64_t>(options_.lease_timeout_s / kOrdersPerLease * 1e9);
   order_due_ns_ = now_ns() + std::min(kLongestBetweenOrders_ns, lease_share_ns);
-  link::Command command;
-  command.kind = link::Command::Kind::order;
-  command.shaft_rpm = shaft_rpm_;
-  command.fins_deg = fins_deg_;
-  (void)host_.command(now_ns(), command);
+  (void)host_.command(now_ns(), {.kind = CommandKind::order, .shaft_rpm = shaft_rpm_, .fins_deg = fins_deg_});
 }
 
 void RemoteOperator::release() {
+  is_leasing_ = is_leased_ = is_stopping_ = false;
+  give({});
+}
+
+void RemoteOperator::stop() {
+  if (is_in_charge() && !host_.knows(CommandKind::stop)) return release();
   is_leasing_ = is_leased_ = false;
-  link::Command command;
-  command.kind = link::Command::Kind::release;
-  awaited_ = host_.command(now_ns(), command);
-  if (!awaited_) answer_ = "there is no session yet";
+  give({.kind = CommandKind::stop, .holder = options_.holder});
+  is_stopping_ = awaited_.has_value();
 }
 
 void RemoteOperator::take_command_answer() {
+  // An older vehicle does not answer a stop. Taking over and giving back stops it, where the priority is enough.
+  if (is_stopping_ && !is_leasing_ && !host_.knows(CommandKind::stop)) {
+    lease();
+    is_stopping_ = true;
+  }
   const auto answer = host_.take_answer();
   if (!answer) return;
   const bool is_awaited = answer->number == awaited_;
   if (is_awaited) awaited_.reset();
+  if (is_awaited && is_leasing_ && is_stopping_ && answer->is_ok) return release();
+  if (is_awaited) is_stopping_ = false;
   if (is_awaited || !answer->is_ok) answer_ = answer->is_ok ? "ok" : answer->error;
   if (is_awaited && std::exchange(is_leasing_, false)) {
     is_leased_ = answer->is_ok;
@@ -190,11 +201,9 @@ void RemoteOperator::take_command_answer() {
 }
 
 void RemoteOperator::end() {
-  const auto until = remote_deadline(kGoodbye_s);
-  if (host_.has_session() && is_in_charge()) {
-    release();
-    while (awaited_ && Clock::now() < until) work(until);
-  }
+  const auto until = after(kGoodbye_s);
+  if (host_.has_session() && is_in_charge()) release();
+  while (host_.has_session() && awaited_ && Clock::now() < until) work(until);
   if (!host_.has_session()) return;
   host_.bye();
   while (!host_.has_said_bye() && Clock::now() < until) work(until);

@@ -19,6 +19,7 @@ namespace navcal::cli {
 class RemoteOperator {
  public:
   using Clock = std::chrono::steady_clock;
+  [[nodiscard]] static Clock::time_point after(double seconds);
   struct Options {
     std::string address;
     int baud = 57600;
@@ -47,13 +48,17 @@ class RemoteOperator {
   [[nodiscard]] bool order(double shaft_rpm, const std::array<double, 3>& fins_deg);
   /// The lease ends, and the vehicle orders its safe state.
   void release();
+  /// Every lease ends, whoever holds it, and the vehicle orders its safe state.
+  void stop();
   /// The lease is held, or asked for.
   [[nodiscard]] bool is_in_charge() const { return is_leasing_ || is_leased_; }
-  /// Answer to the last lease, order or release, for people; "ok", or why it was refused. Repeated orders answer
-  /// only when they are refused.
+  [[nodiscard]] bool is_leased() const { return is_leased_; }
+  /// Answer to the last lease, order, release or stop, for people; "ok", or why it was refused. Repeated orders
+  /// answer only when they are refused.
   [[nodiscard]] std::optional<std::string> take_answer() { return std::exchange(answer_, std::nullopt); }
 
-  /// Gives the lease back and ends the session, waiting for the vehicle's word a few seconds at most.
+  /// Gives the lease back, if it is held, and ends the session, waiting for the vehicle's word a few seconds at
+  /// most.
   void end();
 
   [[nodiscard]] link::Host& host() { return host_; }
@@ -63,6 +68,7 @@ class RemoteOperator {
   [[nodiscard]] static std::int64_t now_ns();
   void open_again();
   void pump();
+  void give(link::Command command);
   void take_command_answer();
   void repeat_order();
   void watch_sessions();
@@ -73,7 +79,7 @@ class RemoteOperator {
   std::int64_t open_again_ns_ = 0;
   std::optional<std::uint16_t> awaited_;  ///< number of the command whose answer is shown
   std::optional<std::string> answer_;
-  bool is_leasing_ = false, is_leased_ = false;
+  bool is_leasing_ = false, is_leased_ = false, is_stopping_ = false;
   double shaft_rpm_ = 0;
   std::array<double, 3> fins_deg_{};
   std::int64_t order_due_ns_ = 0;

@@ -60,6 +60,10 @@ ControlRequest request_of(const link::Command& command, const std::string& lease
     case link::Command::Kind::release:
       request.command = ControlCommand::motor_release;
       break;
+    case link::Command::Kind::stop:
+      request.command = ControlCommand::motor_stop;
+      request.by = command.holder;
+      break;
   }
   return request;
 }
@@ -145,6 +149,7 @@ void RemoteLink::take_events(std::int64_t now_ns) {
         break;
       case Kind::left:
         lease_.clear();
+        is_leasing_ = false;
         owner_.remote_client_gone(kFirstRemoteClient + event.session);
         owner_.on_remote_event(now_ns, "info", "remote.operator", "the operator has left the link");
         owner_.on_remote_dead(now_ns, false);
@@ -180,19 +185,30 @@ void RemoteLink::execute(const link::Command& command, std::int64_t now_ns) {
   refusal.number = command.number;
   refusal.error = kReadOnly;
   if (!may_change()) return vehicle_.answer(refusal);
-  // Orders are answered at once; nothing of this link is gone before the reply.
-  owner_.remote_answer(request_of(command, lease_), origin(now_ns), [this, &command](const std::string& line) {
+  using Kind = link::Command::Kind;
+  if (command.kind != Kind::order) is_leasing_ = command.kind == Kind::lease;
+  const std::weak_ptr<char> alive = alive_;
+  const auto reply = [this, alive, kind = command.kind, number = command.number,
+                      session = vehicle_.session()](const std::string& line) {
+    if (alive.expired()) return;
     const auto answer = nlohmann::json::parse(line, nullptr, false);
-    link::CommandAnswer reply;
-    reply.number = command.number;
-    reply.is_ok = answer.value("ok", false);
-    reply.is_shaped = answer.value("shaped", false);
-    reply.error = answer.value("error", "");
-    if (reply.is_ok && command.kind == link::Command::Kind::lease) lease_ = answer.value("lease", "");
-    if (reply.is_ok && command.kind == link::Command::Kind::release) lease_.clear();
-    reply.is_in_charge = owner_.is_in_charge(kFirstRemoteClient + vehicle_.session());
-    vehicle_.answer(reply);
-  });
+    const bool is_ok = answer.value("ok", false);
+    const bool is_same = session == vehicle_.session();
+    if (is_ok && kind == Kind::lease) {
+      if (is_same && is_leasing_) {
+        lease_ = answer.value("lease", "");
+      } else {
+        // Released or stopped in the meantime, or its operator has left.
+        owner_.remote_client_gone(kFirstRemoteClient + session);
+      }
+    }
+    if (!is_same) return;
+    vehicle_.answer({number, is_ok, answer.value("shaped", false), answer.value("error", ""),
+                     owner_.is_in_charge(kFirstRemoteClient + session)});
+    // Not within drive(), which goes on by itself.
+    timer_.arm(0);
+  };
+  owner_.remote_answer(request_of(command, lease_), origin(now_ns), reply);
 }
 
 void RemoteLink::respond(std::string_view response) {

@@ -64,7 +64,8 @@ class RemoteLink {
   RemoteOwner& owner_;
   const bool has_key_;
   link::Vehicle vehicle_;
-  std::string lease_;  ///< token of the operator's lease, which does not travel
+  std::string lease_;        ///< token of the operator's lease, which does not travel
+  bool is_leasing_ = false;  ///< a lease is the newest command that is no order: one that is granted is wanted
   bool is_open_ = false;
   bool is_answering_ = false;  ///< a request waits for its reply; the next one waits for that
   std::shared_ptr<char> alive_ = std::make_shared<char>();  ///< a reply may come after the end

@@ -33,6 +33,8 @@ Buffer encode_command(const Command& command) {
   } else if (command.kind == Command::Kind::order) {
     out.put_scaled<std::int32_t>(command.shaft_rpm, 1);
     for (const double fin_deg : command.fins_deg) out.put_scaled<std::int16_t>(fin_deg, kFinStep_deg);
+  } else if (command.kind == Command::Kind::stop) {
+    out.put_text(command.holder, kHolderBytes);
   }
   return std::move(out).take();
 }
@@ -57,6 +59,10 @@ std::optional<Command> decode_command(Bytes payload) {
         is_good = take(in.get_scaled<std::int16_t>(kFinStep_deg), fin_deg) && is_good;
       break;
     case static_cast<std::uint8_t>(Command::Kind::release):
+      break;
+    case static_cast<std::uint8_t>(Command::Kind::stop):
+      command.kind = Command::Kind::stop;
+      command.holder = in.get_text();
       break;
     default:
       return std::nullopt;

@@ -13,13 +13,15 @@ namespace navcal::link {
 /// What an operator asks of the motor. Only the newest command counts: one that arrives after a newer one is
 /// dropped.
 struct Command {
-  enum class Kind : std::uint8_t { lease = 1, order = 2, release = 3 };
+  /// A vehicle drops a kind that it does not know, without an answer; Host::knows() says which it knows.
+  enum class Kind : std::uint8_t { lease = 1, order = 2, release = 3, stop = 4 };
+  static constexpr Kind kNewestKind = Kind::stop;
   Kind kind = Kind::release;
   std::uint16_t number = 0;  ///< grows by one with every command of a session, and wraps
   // Of a lease.
   std::uint16_t priority = 0;
   double timeout_s = 0;  ///< in steps of 10 ms
-  std::string holder;    ///< its first 64 bytes
+  std::string holder{};  ///< its first 64 bytes; of a stop: who stops
   // Of an order.
   double shaft_rpm = 0;              ///< whole
   std::array<double, 3> fins_deg{};  ///< in steps of 0.01 deg

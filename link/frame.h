@@ -25,7 +25,7 @@ enum class FrameType : std::uint8_t {
   ping,       ///< operator: is alive
   pong,       ///< vehicle: answer to a ping
   report,     ///< vehicle: the state in short
-  command,    ///< operator: lease, order or release of the motor
+  command,    ///< operator: lease, order or release of the motor, or stop
   answer,     ///< vehicle: answer to a command
   segment,    ///< both: a piece of the reliable stream
   ack,        ///< both: which pieces have come

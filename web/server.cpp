@@ -124,8 +124,7 @@ asio::awaitable<void> Server::serve(std::shared_ptr<Client> client) {
         const WebSocketEndpoint* endpoint = endpoint_for(request, subprotocol, refusal);
         if (endpoint != nullptr) {
           client->session = std::make_shared<WebSocketSession>(std::move(stream), limits_, counters_);
-          asio::awaitable<void> work =
-              client->session->serve(std::move(request), *endpoint, std::move(subprotocol));
+          auto work = client->session->serve(std::move(request), *endpoint, std::move(subprotocol));
           co_await std::move(work);
           co_return;
         }

@@ -1,114 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The remote link of a running navcald: TCP and a pseudo-terminal, orders to the motor card, a link that dies.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <chrono>
-#include <nlohmann/json.hpp>
-#include <random>
-
-#include "link/host.h"
 #include "protocols/motor_card.h"
 #include "tests/daemon/daemon_process.h"
+#include "tests/daemon/link_operator.h"
 
 namespace navcal::daemon {
 namespace {
 
-using nlohmann::json;
 namespace card = protocols::motor_card;
-using RemoteTime = std::chrono::steady_clock;
-
-constexpr std::string_view kRemoteSecret = "the secret of this test, long enough";
-
-std::int64_t remote_now_ns() { return std::chrono::nanoseconds(RemoteTime::now().time_since_epoch()).count(); }
-
-link::EndOptions remote_options(std::string_view key) {
-  link::EndOptions options;
-  if (!key.empty()) options.key = std::get<link::Key>(link::Key::from_text(key));
-  return options;
-}
-
-/// An operator on a descriptor. Loses frames both ways as it is told.
-class Operator {
- public:
-  Operator(int fd, std::string_view key) : host(remote_options(key)), fd_(fd) { ::fcntl(fd, F_SETFL, O_NONBLOCK); }
-  ~Operator() { ::close(fd_); }
-  Operator(const Operator&) = delete;
-  Operator& operator=(const Operator&) = delete;
-
-  /// Works, and lets the card speak, until the condition holds; false after a long time.
-  template <class Condition>
-  bool until(Condition holds, double limit_s = 30) {
-    const auto end = RemoteTime::now() + std::chrono::duration<double>(limit_s);
-    while (RemoteTime::now() < end) {
-      while (const auto frame = host.next(remote_now_ns())) {
-        if (!is_cut && !is_lost())
-          if (::write(fd_, frame->data(), frame->size()) < 0) return false;
-      }
-      pollfd readable{fd_, POLLIN, 0};
-      ::poll(&readable, 1, 5);
-      std::uint8_t bytes[4096];
-      const ssize_t n = ::read(fd_, bytes, sizeof bytes);
-      if (n > 0 && !is_cut && !is_lost()) host.take(remote_now_ns(), {bytes, static_cast<std::size_t>(n)});
-      if (work) work();
-      if (holds()) return true;
-    }
-    return false;
-  }
-  bool connect() {
-    return until([&] { return host.has_session() && host.quality().round_trip_s; });
-  }
-  link::CommandAnswer ask(const link::Command& command) {
-    if (!host.command(remote_now_ns(), command)) throw std::runtime_error("no session");
-    std::optional<link::CommandAnswer> answer;
-    if (!until([&] { return (answer = host.take_answer()).has_value(); })) throw std::runtime_error("no answer");
-    return *answer;
-  }
-  link::CommandAnswer lease(double timeout_s = 5) {
-    link::Command command;
-    command.kind = link::Command::Kind::lease;
-    command.priority = 10;
-    command.timeout_s = timeout_s;
-    command.holder = "operator";
-    return ask(command);
-  }
-  link::CommandAnswer order(double rpm) {
-    link::Command command;
-    command.kind = link::Command::Kind::order;
-    command.shaft_rpm = rpm;
-    return ask(command);
-  }
-  json request(std::string_view line) {
-    if (!host.request(line)) throw std::runtime_error("no session");
-    std::optional<std::string> response;
-    if (!until([&] { return (response = host.take_response()).has_value(); }, 60))
-      throw std::runtime_error("no response");
-    return json::parse(*response);
-  }
-
-  link::Host host;
-  std::function<void()> work;
-  bool is_cut = false;
-  double loss = 0;
-
- private:
-  bool is_lost() { return loss > 0 && static_cast<double>(random_() % 1000) < 1000 * loss; }
-
-  int fd_;
-  std::mt19937 random_{1};
-};
-
-int tcp_to(std::uint16_t port) {
-  const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-    throw std::runtime_error("no connection to the link");
-  return fd;
-}
 
 class RemoteProcess : public testing::Test {
  protected:
@@ -235,6 +137,36 @@ TEST_F(RemoteProcess, EveryLeaseEndsWithTheLinkWhereThatIsConfigured) {
   ASSERT_TRUE(operator_.until([&] { return !told_.empty() && told_.back() == 200; }));
   operator_.is_cut = true;
   EXPECT_TRUE(operator_.until([&] { return told_.back() == 0; }));
+}
+
+TEST_F(RemoteProcess, AStopEndsTheLeaseOfAnybodyElse) {
+  DaemonProcess daemon(settings(true, {listen()}));
+  daemon.wait_until_ready();
+  Operator operator_(tcp_to(port_), kRemoteSecret);
+  operator_.work = [&] { serve_card(daemon.line, parser_, told_); };
+  ASSERT_TRUE(operator_.connect());
+  Client other(daemon.folder() / "control");
+  other.send(R"({"command":"motor.lease","holder":"other","priority":1000,"timeout_s":100})"
+             "\n");
+  const json lease = json::parse(other.line().value());
+  ASSERT_EQ(lease["ok"], true);
+  const std::string order =
+      json{{"command", "motor.order"}, {"lease", lease["lease"]}, {"shaft_rpm", 200}, {"fins_deg", {0, 0, 0}}}
+          .dump() +
+      "\n";
+  other.send(order);
+  EXPECT_EQ(json::parse(other.line().value())["ok"], true);
+  ASSERT_TRUE(operator_.until([&] { return !told_.empty() && told_.back() == 200; }));
+  EXPECT_FALSE(operator_.lease().is_ok) << "its priority is not enough";
+  link::Command stop;
+  stop.kind = link::Command::Kind::stop;
+  stop.holder = "operator";
+  const auto answer = operator_.ask(stop);
+  EXPECT_TRUE(answer.is_ok) << answer.error;
+  EXPECT_FALSE(answer.is_in_charge);
+  EXPECT_TRUE(operator_.until([&] { return told_.back() == 0; }));
+  other.send(order);
+  EXPECT_EQ(json::parse(other.line().value())["error"], "stopped by operator");
 }
 
 TEST_F(RemoteProcess, WithoutAKeyTheLinkIsReadOnlyUnlessTheConfigurationSaysOtherwise) {

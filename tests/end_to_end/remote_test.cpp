@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <pty.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
@@ -18,6 +19,7 @@
 
 #include "base/descriptor.h"
 #include "link/frame.h"
+#include "tests/daemon/tcp_client.h"
 #include "tests/support/free_port.h"
 #include "tests/support/process.h"
 
@@ -153,6 +155,18 @@ class Remote : public testing::Test {
     }
     return found;
   }
+  [[nodiscard]] std::size_t times_said(std::string_view words) const {
+    const std::string said = daemon_->err();
+    std::size_t times = 0;
+    for (auto at = said.find(words); at != std::string::npos; at = said.find(words, at + 1)) ++times;
+    return times;
+  }
+  /// The daemon's answer on its control socket.
+  [[nodiscard]] json ask(const std::string& line) const {
+    daemon::Client client(folder_ / "control");
+    client.send(line + "\n");
+    return json::parse(client.line().value());
+  }
   static double shaft_rpm(const Process& process) {
     const auto reports = lines(process, "REPORT");
     return reports.empty() || reports.back()["shaft_rpm"].is_null() ? -1
@@ -201,18 +215,92 @@ TEST_F(Remote, SteersThroughALossyRelayAndTheVehicleStopsWhenTheLinkIsCut) {
   EXPECT_EQ(process->wait(kLong), 0) << process->err();
 }
 
-TEST_F(Remote, CtrlCGivesTheLeaseBack) {
-  const auto process = remote(vehicle_port_, "--json", "remote");
-  type("lease\n");
-  ASSERT_TRUE(eventually([&] { return !lines(*process, "ANSWER").empty(); }, kLong)) << process->err();
-  type("order 300 0 0 0\n");
-  ASSERT_TRUE(eventually([&] { return shaft_rpm(*process) > 250; }, kLong));
-  process->signal(SIGINT);
-  EXPECT_EQ(process->wait(kLong), 0) << process->err();
-  EXPECT_TRUE(eventually([&] { return daemon_->err().find("motor.safe") != std::string::npos; }, kLong));
-  EXPECT_TRUE(eventually(
-      [&] { return daemon_->err().find("the operator has left the link") != std::string::npos; }, kLong));
-  EXPECT_EQ(daemon_->err().find("alarm.raised: link_dead"), std::string::npos);
+TEST_F(Remote, EverySignalThatEndsItGivesTheLeaseBack) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(signal);
+    const std::size_t released = times_said("the lease was released");
+    const std::size_t left = times_said("the operator has left the link");
+    const auto process = remote(vehicle_port_, "--json", "remote" + std::to_string(signal));
+    type("lease\n");
+    ASSERT_TRUE(eventually([&] { return !lines(*process, "ANSWER").empty(); }, kLong)) << process->err();
+    type("order 300 0 0 0\n");
+    ASSERT_TRUE(eventually([&] { return shaft_rpm(*process) > 250; }, kLong));
+    process->signal(signal);
+    EXPECT_EQ(process->wait(kLong), 0) << process->err();
+    EXPECT_TRUE(eventually([&] { return times_said("the lease was released") == released + 1; }, kLong))
+        << daemon_->err();
+    EXPECT_TRUE(eventually([&] { return times_said("the operator has left the link") == left + 1; }, kLong));
+  }
+  EXPECT_EQ(times_said("alarm.raised: link_dead"), 0U);
+}
+
+TEST_F(Remote, ATerminalThatIsClosedGivesTheLeaseBack) {
+  int terminal = -1;
+  const std::string address = "tcp:127.0.0.1:" + std::to_string(vehicle_port_);
+  const std::string key = folder_ / "key";
+  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    test::die_with_parent();
+    ::execl(NAVCAL_PROGRAM, NAVCAL_PROGRAM, "remote", address.c_str(), "--key-file", key.c_str(), nullptr);
+    ::_exit(127);
+  }
+  ASSERT_EQ(::fcntl(terminal, F_SETFL, O_NONBLOCK), 0);
+  std::string seen;
+  const auto shown = [&] {
+    std::array<char, 4096> bytes{};
+    for (ssize_t n = 0; (n = ::read(terminal, bytes.data(), bytes.size())) > 0;)
+      seen.append(bytes.data(), static_cast<std::size_t>(n));
+  };
+  const auto enter = [&](std::string_view line) {
+    ASSERT_EQ(::write(terminal, line.data(), line.size()), static_cast<ssize_t>(line.size()));
+  };
+  enter("lease\n");
+  ASSERT_TRUE(eventually(
+      [&] {
+        shown();
+        return seen.find("ok\r\n") != std::string::npos;
+      },
+      kLong))
+      << seen;
+  enter("order 300 0 0 0\n");
+  ASSERT_TRUE(eventually(
+      [&] {
+        shown();
+        return ask(R"({"command":"status"})")["health"][0]["motor"]["shaft_rpm"] == 300;
+      },
+      kLong))
+      << seen;
+  ::close(terminal);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status)) << status;
+  EXPECT_TRUE(eventually([&] { return times_said("the lease was released") == 1; }, kLong)) << daemon_->err();
+}
+
+TEST_F(Remote, StopEndsTheLeaseOfAnybodyElse) {
+  daemon::Client other(folder_ / "control");
+  other.send("{\"command\":\"motor.lease\",\"holder\":\"other\",\"priority\":1000,\"timeout_s\":5}\n");
+  const json lease = json::parse(other.line().value());
+  ASSERT_EQ(lease["ok"], true);
+  const std::string order =
+      json{{"command", "motor.order"}, {"lease", lease["lease"]}, {"shaft_rpm", 200}, {"fins_deg", {0, 0, 0}}}
+          .dump() +
+      "\n";
+  std::string why;
+  const auto stop = remote(vehicle_port_, "stop --holder the-boat", "stop");
+  // The lease lives by its orders until it is stopped.
+  ASSERT_TRUE(eventually(
+      [&] {
+        other.send(order);
+        why = json::parse(other.line().value()).value("error", "");
+        return why.starts_with("stopped");
+      },
+      kLong));
+  EXPECT_EQ(why, "stopped by the-boat");
+  EXPECT_EQ(stop->wait(kLong), 0) << stop->err();
+  EXPECT_NE(stop->out().find("stopped"), std::string::npos);
+  EXPECT_EQ(ask(R"({"command":"status"})")["health"][0]["motor"]["safe"], true);
 }
 
 TEST_F(Remote, AsksOnceAndWithoutAKeyOnlyWatches) {

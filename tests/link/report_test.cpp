@@ -132,7 +132,8 @@ TEST(LinkCommand, ComesBack) {
   Command lease{Command::Kind::lease, 9, 2, 5, "operator", 0, {}};
   Command order{Command::Kind::order, 65535, 0, 0, "", -300, {1.25, -25, 0}};
   Command release{Command::Kind::release, 1, 0, 0, "", 0, {}};
-  for (const Command& command : {lease, order, release}) {
+  Command stop{Command::Kind::stop, 2, 0, 0, "operator", 0, {}};
+  for (const Command& command : {lease, order, release, stop}) {
     EXPECT_EQ(decode_command(encode_command(command)), command);
     const Buffer whole = encode_command(command);
     for (std::size_t length = 0; length < whole.size(); ++length)
