@@ -154,36 +154,23 @@ void describe_nmea(FieldWriter& fields, const Frame& frame, const std::optional<
   if (type == Type::other) return;
   const nmea::Sentence sentence(frame.bytes);
   switch (type) {
-    case Type::gga:
-      return write_or_refuse(fields, nmea::decode_gga(sentence));
-    case Type::rmc:
-      return write_or_refuse(fields, nmea::decode_rmc(sentence), pivot);
-    case Type::vtg:
-      return write_or_refuse(fields, nmea::decode_vtg(sentence));
-    case Type::gll:
-      return write_or_refuse(fields, nmea::decode_gll(sentence));
-    case Type::gsa:
-      return write_or_refuse(fields, nmea::decode_gsa(sentence));
-    case Type::gsv:
-      return write_or_refuse(fields, nmea::decode_gsv(sentence));
-    case Type::zda:
-      return write_or_refuse(fields, nmea::decode_zda(sentence), pivot);
+    case Type::gga: return write_or_refuse(fields, nmea::decode_gga(sentence));
+    case Type::rmc: return write_or_refuse(fields, nmea::decode_rmc(sentence), pivot);
+    case Type::vtg: return write_or_refuse(fields, nmea::decode_vtg(sentence));
+    case Type::gll: return write_or_refuse(fields, nmea::decode_gll(sentence));
+    case Type::gsa: return write_or_refuse(fields, nmea::decode_gsa(sentence));
+    case Type::gsv: return write_or_refuse(fields, nmea::decode_gsv(sentence));
+    case Type::zda: return write_or_refuse(fields, nmea::decode_zda(sentence), pivot);
     case Type::hdt:
     case Type::hdm:
     case Type::hdg:
-    case Type::ths:
-      return write_or_refuse(fields, nmea::decode_heading(sentence, type));
-    case Type::rot:
-      return write_or_refuse(fields, nmea::decode_rot(sentence));
-    case Type::xdr:
-      return write_or_refuse(fields, nmea::decode_xdr(sentence));
-    case Type::ptnthtm:
-      return write_or_refuse(fields, nmea::decode_ptnthtm(sentence));
+    case Type::ths: return write_or_refuse(fields, nmea::decode_heading(sentence, type));
+    case Type::rot: return write_or_refuse(fields, nmea::decode_rot(sentence));
+    case Type::xdr: return write_or_refuse(fields, nmea::decode_xdr(sentence));
+    case Type::ptnthtm: return write_or_refuse(fields, nmea::decode_ptnthtm(sentence));
     case Type::dbt:
-    case Type::dpt:
-      return write_or_refuse(fields, nmea::decode_depth(sentence, type));
-    case Type::other:
-      return;
+    case Type::dpt: return write_or_refuse(fields, nmea::decode_depth(sentence, type));
+    case Type::other: return;
   }
 }
 

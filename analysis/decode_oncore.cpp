@@ -12,26 +12,19 @@ using protocols::Date;
 
 std::string_view name_of(oncore::Antenna antenna) {
   switch (antenna) {
-    case oncore::Antenna::ok:
-      return "ok";
-    case oncore::Antenna::shorted:
-      return "short";
-    case oncore::Antenna::open:
-      return "open";
-    case oncore::Antenna::unknown:
-      break;
+    case oncore::Antenna::ok: return "ok";
+    case oncore::Antenna::shorted: return "short";
+    case oncore::Antenna::open: return "open";
+    case oncore::Antenna::unknown: break;
   }
   return "unknown";
 }
 
 std::string_view name_of(oncore::TimeRaim::Solution solution) {
   switch (solution) {
-    case oncore::TimeRaim::Solution::ok:
-      return "ok";
-    case oncore::TimeRaim::Solution::alarm:
-      return "alarm";
-    case oncore::TimeRaim::Solution::unknown:
-      break;
+    case oncore::TimeRaim::Solution::ok: return "ok";
+    case oncore::TimeRaim::Solution::alarm: return "alarm";
+    case oncore::TimeRaim::Solution::unknown: break;
   }
   return "unknown";
 }

@@ -53,8 +53,7 @@ void describe_pni(FieldWriter& fields, const protocols::Frame& frame, const std:
     case trax::FrameNumber::save_done:
       if (const auto saved = trax::decode_save_done(frame.bytes)) return fields.flag("saved", *saved);
       return write_out_of_range(fields);
-    default:
-      return;
+    default: return;
   }
 }
 

@@ -58,8 +58,7 @@ void describe_samples(FieldWriter& fields, const protocols::Frame& frame, const 
       case samples_line::Kind::list:
         if (member.value.find('"') == std::string_view::npos) write_list(fields, member.key, member.value);
         break;
-      default:
-        fields.written(member.key, member.value);
+      default: fields.written(member.key, member.value);
     }
   }
 }

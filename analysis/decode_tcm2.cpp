@@ -31,11 +31,8 @@ void write(FieldWriter& fields, const tcm2::Word& word) {
 void write(FieldWriter& fields, const tcm2::Reply& reply) {
   fields.text("reply", kKinds[static_cast<std::size_t>(reply.kind)]);
   switch (reply.kind) {
-    case tcm2::Reply::Kind::accepted:
-      break;
-    case tcm2::Reply::Kind::refused:
-      write_error(fields, reply.error);
-      break;
+    case tcm2::Reply::Kind::accepted: break;
+    case tcm2::Reply::Kind::refused: write_error(fields, reply.error); break;
     case tcm2::Reply::Kind::value:
       fields.text("parameter", reply.parameter);
       fields.text("value", reply.value);

@@ -136,25 +136,18 @@ void write_decoded(FieldWriter& fields, const std::optional<Message>& message, c
 
 void describe_ubx(FieldWriter& fields, const protocols::Frame& frame, const std::optional<Date>& pivot) {
   switch (ubx::code_of(frame).value_or(0)) {
-    case ubx::kNavPvt:
-      return write_decoded(fields, ubx::decode_nav_pvt(frame.bytes), pivot);
-    case ubx::kNavTimeGps:
-      return write_decoded(fields, ubx::decode_nav_timegps(frame.bytes));
-    case ubx::kNavDop:
-      return write_decoded(fields, ubx::decode_nav_dop(frame.bytes));
-    case ubx::kNavSat:
-      return write_decoded(fields, ubx::decode_nav_sat(frame.bytes));
+    case ubx::kNavPvt: return write_decoded(fields, ubx::decode_nav_pvt(frame.bytes), pivot);
+    case ubx::kNavTimeGps: return write_decoded(fields, ubx::decode_nav_timegps(frame.bytes));
+    case ubx::kNavDop: return write_decoded(fields, ubx::decode_nav_dop(frame.bytes));
+    case ubx::kNavSat: return write_decoded(fields, ubx::decode_nav_sat(frame.bytes));
     case ubx::kMonVer:
       // Without a payload it is the question.
       if (frame.bytes.size() == ubx::kOverhead) return;
       return write_decoded(fields, ubx::decode_mon_ver(frame.bytes));
-    case ubx::kTimTp:
-      return write_decoded(fields, ubx::decode_tim_tp(frame.bytes));
+    case ubx::kTimTp: return write_decoded(fields, ubx::decode_tim_tp(frame.bytes));
     case ubx::kAckAck:
-    case ubx::kAckNak:
-      return write_decoded(fields, ubx::decode_acknowledgement(frame.bytes));
-    default:
-      return;
+    case ubx::kAckNak: return write_decoded(fields, ubx::decode_acknowledgement(frame.bytes));
+    default: return;
   }
 }
 

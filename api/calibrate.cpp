@@ -15,17 +15,10 @@ namespace {
 std::optional<HeldOut> held_out_of(const calib::Judgement& judgement) {
   HeldOut held_out{{}, judgement.held_out_before, judgement.held_out_after};
   switch (judgement.held_out_quantity) {
-    case calib::HeldOutQuantity::none:
-      return std::nullopt;
-    case calib::HeldOutQuantity::heading:
-      held_out.unit = "rad";
-      break;
-    case calib::HeldOutQuantity::field:
-      held_out.unit = "1";
-      break;
-    case calib::HeldOutQuantity::motor_field:
-      held_out.unit = "uT";
-      break;
+    case calib::HeldOutQuantity::none: return std::nullopt;
+    case calib::HeldOutQuantity::heading: held_out.unit = "rad"; break;
+    case calib::HeldOutQuantity::field: held_out.unit = "1"; break;
+    case calib::HeldOutQuantity::motor_field: held_out.unit = "uT"; break;
   }
   return held_out;
 }

@@ -11,12 +11,9 @@ namespace {
 
 Verdict verdict_of(gap::Verdict verdict) {
   switch (verdict) {
-    case gap::Verdict::no_gap:
-      return Verdict::no_gap;
-    case gap::Verdict::explained:
-      return Verdict::explained;
-    case gap::Verdict::unknown:
-      break;
+    case gap::Verdict::no_gap: return Verdict::no_gap;
+    case gap::Verdict::explained: return Verdict::explained;
+    case gap::Verdict::unknown: break;
   }
   return Verdict::unknown;
 }

@@ -50,13 +50,10 @@ class ProgressRelay {
 
 [[nodiscard]] inline ErrorKind kind_of(const analysis::Failure& failure) {
   switch (failure.status()) {
-    case analysis::Exit::usage:
-      return ErrorKind::bad_argument;
-    case analysis::Exit::bad_input:
-      return ErrorKind::bad_input;
+    case analysis::Exit::usage: return ErrorKind::bad_argument;
+    case analysis::Exit::bad_input: return ErrorKind::bad_input;
     case analysis::Exit::success:
-    case analysis::Exit::failed:
-      break;
+    case analysis::Exit::failed: break;
   }
   return ErrorKind::failed;
 }

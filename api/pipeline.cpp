@@ -28,12 +28,9 @@ class SampleList final : public pipeline::Sink {
 
 pipeline::UtcMapping::Source source_of(UtcSource source) {
   switch (source) {
-    case UtcSource::file:
-      return pipeline::UtcMapping::Source::file;
-    case UtcSource::system:
-      return pipeline::UtcMapping::Source::system;
-    case UtcSource::system_synchronised:
-      return pipeline::UtcMapping::Source::system_synchronised;
+    case UtcSource::file: return pipeline::UtcMapping::Source::file;
+    case UtcSource::system: return pipeline::UtcMapping::Source::system;
+    case UtcSource::system_synchronised: return pipeline::UtcMapping::Source::system_synchronised;
   }
   throw Error(ErrorKind::bad_argument, "mapping: there is no such source of UTC");
 }

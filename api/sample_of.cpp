@@ -18,20 +18,13 @@ CalibrationName name_of_calibration(const instruments::CalibrationName& name) { 
 
 Fix fix_of(instruments::Fix fix) {
   switch (fix) {
-    case instruments::Fix::none:
-      return Fix::none;
-    case instruments::Fix::fix_2d:
-      return Fix::fix_2d;
-    case instruments::Fix::fix_3d:
-      return Fix::fix_3d;
-    case instruments::Fix::propagated:
-      return Fix::propagated;
-    case instruments::Fix::hold:
-      return Fix::hold;
-    case instruments::Fix::acquiring:
-      return Fix::acquiring;
-    case instruments::Fix::bad_geometry:
-      return Fix::bad_geometry;
+    case instruments::Fix::none: return Fix::none;
+    case instruments::Fix::fix_2d: return Fix::fix_2d;
+    case instruments::Fix::fix_3d: return Fix::fix_3d;
+    case instruments::Fix::propagated: return Fix::propagated;
+    case instruments::Fix::hold: return Fix::hold;
+    case instruments::Fix::acquiring: return Fix::acquiring;
+    case instruments::Fix::bad_geometry: return Fix::bad_geometry;
   }
   return Fix::none;
 }

@@ -12,18 +12,15 @@ std::unique_ptr<Manoeuvre> make_manoeuvre(const config::MissionStep& step) {
     case StepKind::leg:
     case StepKind::dive:
     case StepKind::surface:
-    case StepKind::speed:
-      return make_steady_manoeuvre(step);
+    case StepKind::speed: return make_steady_manoeuvre(step);
     case StepKind::turn:
     case StepKind::circle:
     case StepKind::spiral:
-    case StepKind::swing:
-      return make_turning_manoeuvre(step);
+    case StepKind::swing: return make_turning_manoeuvre(step);
     case StepKind::zigzag:
     case StepKind::pirouette:
     case StepKind::doublet:
-    case StepKind::direct:
-      break;
+    case StepKind::direct: break;
   }
   return make_rudder_manoeuvre(step);
 }

@@ -120,14 +120,10 @@ class Direct final : public Manoeuvre {
 
 std::unique_ptr<Manoeuvre> make_rudder_manoeuvre(const MissionStep& step) {
   switch (step.kind) {
-    case config::StepKind::zigzag:
-      return std::make_unique<Zigzag>(step);
-    case config::StepKind::pirouette:
-      return std::make_unique<Pirouette>(step);
-    case config::StepKind::doublet:
-      return std::make_unique<Doublet>(step);
-    default:
-      return std::make_unique<Direct>(step);
+    case config::StepKind::zigzag: return std::make_unique<Zigzag>(step);
+    case config::StepKind::pirouette: return std::make_unique<Pirouette>(step);
+    case config::StepKind::doublet: return std::make_unique<Doublet>(step);
+    default: return std::make_unique<Direct>(step);
   }
 }
 

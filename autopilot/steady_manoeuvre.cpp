@@ -85,12 +85,9 @@ double nearest_heading(double heading_rad, double near_rad) {
 
 std::unique_ptr<Manoeuvre> make_steady_manoeuvre(const MissionStep& step) {
   switch (step.kind) {
-    case config::StepKind::dive:
-      return std::make_unique<Dive>(step);
-    case config::StepKind::surface:
-      return std::make_unique<Surfacing>(step);
-    default:
-      return std::make_unique<Leg>(step);
+    case config::StepKind::dive: return std::make_unique<Dive>(step);
+    case config::StepKind::surface: return std::make_unique<Surfacing>(step);
+    default: return std::make_unique<Leg>(step);
   }
 }
 

@@ -12,12 +12,9 @@ namespace {
 
 const char* word_of(Finding::Severity severity) {
   switch (severity) {
-    case Finding::Severity::good:
-      return "ok";
-    case Finding::Severity::warning:
-      return "warning";
-    case Finding::Severity::fault:
-      break;
+    case Finding::Severity::good: return "ok";
+    case Finding::Severity::warning: return "warning";
+    case Finding::Severity::fault: break;
   }
   return "fault";
 }

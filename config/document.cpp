@@ -40,22 +40,14 @@ std::string as_written(const Date& date) {
 
 Value value_of(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table:
-      return Table{};
-    case toml::node_type::array:
-      return value_of(*node.as_array());
-    case toml::node_type::string:
-      return node.as_string()->get();
-    case toml::node_type::integer:
-      return node.as_integer()->get();
-    case toml::node_type::floating_point:
-      return node.as_floating_point()->get();
-    case toml::node_type::boolean:
-      return node.as_boolean()->get();
-    case toml::node_type::date:
-      return as_written(node.as_date()->get());
-    default:
-      return Unsupported{"a time"};
+    case toml::node_type::table: return Table{};
+    case toml::node_type::array: return value_of(*node.as_array());
+    case toml::node_type::string: return node.as_string()->get();
+    case toml::node_type::integer: return node.as_integer()->get();
+    case toml::node_type::floating_point: return node.as_floating_point()->get();
+    case toml::node_type::boolean: return node.as_boolean()->get();
+    case toml::node_type::date: return as_written(node.as_date()->get());
+    default: return Unsupported{"a time"};
   }
 }
 

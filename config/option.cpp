@@ -29,20 +29,15 @@ std::string OptionInfo::allowed() const {
       octal ? fmt::format("0o{:03o} to 0o{:03o}", static_cast<int>(low), static_cast<int>(high))
             : fmt::format("{} to {}{}", low, high, unit_after);
   switch (kind) {
-    case Kind::boolean:
-      return "true or false";
+    case Kind::boolean: return "true or false";
     case Kind::integer:
-    case Kind::real:
-      return range;
+    case Kind::real: return range;
     case Kind::channels:
       return fmt::format("{} numbers, each {}{}", count == 3 ? "three" : "eight", range,
                          zero_allowed ? "" : " and not 0");
-    case Kind::choice:
-      return alternatives(choices);
-    case Kind::text:
-      return std::string(text_rule);
-    case Kind::list:
-      return fmt::format("a list of texts, each {}", text_rule);
+    case Kind::choice: return alternatives(choices);
+    case Kind::text: return std::string(text_rule);
+    case Kind::list: return fmt::format("a list of texts, each {}", text_rule);
   }
   return {};
 }

@@ -19,28 +19,17 @@ namespace {
 bool delivers_role(const protocols::Delivery& delivers, Role role) {
   switch (role) {
     case Role::heading:
-    case Role::heading_reference:
-      return delivers.heading;
-    case Role::field:
-      return delivers.field;
-    case Role::rates:
-      return delivers.rates;
-    case Role::acceleration:
-      return delivers.acceleration;
-    case Role::depth:
-      return delivers.depth;
-    case Role::position:
-      return delivers.position;
-    case Role::velocity:
-      return delivers.velocity;
-    case Role::shaft:
-      return delivers.shaft;
-    case Role::altitude:
-      return delivers.altitude;
-    case Role::bottom_velocity:
-      return delivers.bottom_velocity;
-    case Role::water_velocity:
-      break;
+    case Role::heading_reference: return delivers.heading;
+    case Role::field: return delivers.field;
+    case Role::rates: return delivers.rates;
+    case Role::acceleration: return delivers.acceleration;
+    case Role::depth: return delivers.depth;
+    case Role::position: return delivers.position;
+    case Role::velocity: return delivers.velocity;
+    case Role::shaft: return delivers.shaft;
+    case Role::altitude: return delivers.altitude;
+    case Role::bottom_velocity: return delivers.bottom_velocity;
+    case Role::water_velocity: break;
   }
   return delivers.water_velocity;
 }
@@ -62,23 +51,18 @@ bool delivers_always(const PortSettings& port) {
 
 Role leader_of(Role role) {
   switch (role) {
-    case Role::field:
-      return Role::heading;
+    case Role::field: return Role::heading;
     case Role::acceleration:
-    case Role::depth:
-      return Role::rates;
-    case Role::velocity:
-      return Role::position;
-    case Role::water_velocity:
-      return Role::bottom_velocity;
+    case Role::depth: return Role::rates;
+    case Role::velocity: return Role::position;
+    case Role::water_velocity: return Role::bottom_velocity;
     case Role::heading:
     case Role::rates:
     case Role::position:
     case Role::shaft:
     case Role::altitude:
     case Role::bottom_velocity:
-    case Role::heading_reference:
-      break;
+    case Role::heading_reference: break;
   }
   return role;
 }

@@ -30,26 +30,19 @@ protocols::motor_card::Command rounded_for_card(const Order& order) {
 
 std::string_view name_of(Source source) {
   switch (source) {
-    case Source::order:
-      return "order";
-    case Source::ramp:
-      return "ramp";
-    case Source::safe:
-      break;
+    case Source::order: return "order";
+    case Source::ramp: return "ramp";
+    case Source::safe: break;
   }
   return "safe";
 }
 
 std::string_view name_of(Outcome outcome) {
   switch (outcome) {
-    case Outcome::echoed:
-      return "echoed";
-    case Outcome::superseded:
-      return "superseded";
-    case Outcome::not_echoed:
-      return "not_echoed";
-    case Outcome::refused:
-      break;
+    case Outcome::echoed: return "echoed";
+    case Outcome::superseded: return "superseded";
+    case Outcome::not_echoed: return "not_echoed";
+    case Outcome::refused: break;
   }
   return "refused";
 }

@@ -8,21 +8,16 @@ namespace {
 
 bool says(const instruments::ImuSample& imu, Alarm alarm) {
   switch (alarm) {
-    case Alarm::leak_forward:
-      return imu.card && imu.card->leak_forward;
-    case Alarm::leak_aft:
-      return imu.card && imu.card->leak_aft;
-    case Alarm::over_range:
-      return imu.over_range;
-    case Alarm::low_supply:
-      return imu.card && imu.card->low_supply;
+    case Alarm::leak_forward: return imu.card && imu.card->leak_forward;
+    case Alarm::leak_aft: return imu.card && imu.card->leak_aft;
+    case Alarm::over_range: return imu.over_range;
+    case Alarm::low_supply: return imu.card && imu.card->low_supply;
     case Alarm::command_not_echoed:
     case Alarm::battery_low:
     case Alarm::floor_near:
     case Alarm::link_dead:
     case Alarm::log_failing:
-    case Alarm::orders_refused:
-      break;
+    case Alarm::orders_refused: break;
   }
   return false;
 }
@@ -31,26 +26,16 @@ bool says(const instruments::ImuSample& imu, Alarm alarm) {
 
 std::string_view name_of(Alarm alarm) {
   switch (alarm) {
-    case Alarm::leak_forward:
-      return "leak_forward";
-    case Alarm::leak_aft:
-      return "leak_aft";
-    case Alarm::over_range:
-      return "over_range";
-    case Alarm::low_supply:
-      return "low_supply";
-    case Alarm::battery_low:
-      return "battery_low";
-    case Alarm::floor_near:
-      return "floor_near";
-    case Alarm::command_not_echoed:
-      return "command_not_echoed";
-    case Alarm::log_failing:
-      return "log_failing";
-    case Alarm::orders_refused:
-      return "orders_refused";
-    case Alarm::link_dead:
-      break;
+    case Alarm::leak_forward: return "leak_forward";
+    case Alarm::leak_aft: return "leak_aft";
+    case Alarm::over_range: return "over_range";
+    case Alarm::low_supply: return "low_supply";
+    case Alarm::battery_low: return "battery_low";
+    case Alarm::floor_near: return "floor_near";
+    case Alarm::command_not_echoed: return "command_not_echoed";
+    case Alarm::log_failing: return "log_failing";
+    case Alarm::orders_refused: return "orders_refused";
+    case Alarm::link_dead: break;
   }
   return "link_dead";
 }

@@ -49,13 +49,9 @@ CalibrationStore::CalibrationStore(const config::Settings& settings)
 std::optional<std::string> CalibrationStore::load() {
   auto read = record::read_checked(file());
   switch (read.state) {
-    case record::CheckedContent::State::absent:
-      return std::nullopt;
-    case record::CheckedContent::State::damaged:
-      keep_aside(".damaged", read.reason);
-      return std::nullopt;
-    case record::CheckedContent::State::good:
-      break;
+    case record::CheckedContent::State::absent: return std::nullopt;
+    case record::CheckedContent::State::damaged: keep_aside(".damaged", read.reason); return std::nullopt;
+    case record::CheckedContent::State::good: break;
   }
   const auto separator = read.content.find(kSeparator);
   if (separator == std::string::npos) {

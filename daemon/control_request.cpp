@@ -191,34 +191,24 @@ std::string take_charge(const Json& object, ControlRequest& request) {
 /// What a command has beside the keys that every command may have.
 std::string take_own(const Json& object, ControlRequest& request) {
   switch (request.command) {
-    case ControlCommand::log_list:
-      return take_page(object, request);
+    case ControlCommand::log_list: return take_page(object, request);
     case ControlCommand::log_read:
-    case ControlCommand::log_sum:
-      return take_part(object, request);
-    case ControlCommand::log_select:
-      return take_choice(object, request);
+    case ControlCommand::log_sum: return take_part(object, request);
+    case ControlCommand::log_select: return take_choice(object, request);
     case ControlCommand::power_on:
-    case ControlCommand::power_off:
-      return take_supply(object, request);
-    case ControlCommand::motor_lease:
-      return take_lease(object, request);
-    case ControlCommand::motor_order:
-      return take_order(object, request);
-    case ControlCommand::motor_release:
-      return take_token(object, request);
+    case ControlCommand::power_off: return take_supply(object, request);
+    case ControlCommand::motor_lease: return take_lease(object, request);
+    case ControlCommand::motor_order: return take_order(object, request);
+    case ControlCommand::motor_release: return take_token(object, request);
     case ControlCommand::motor_stop:
       // Nothing that is wrong with a name may keep the shaft turning.
       request.by = text_at(object, "by").value_or("").substr(0, control::kMaxHolderLength);
       if (request.by.empty()) request.by = "somebody";
       return {};
-    case ControlCommand::battery_set:
-      return take_charge(object, request);
+    case ControlCommand::battery_set: return take_charge(object, request);
     case ControlCommand::device_command:
-    case ControlCommand::device_commands:
-      return take_device(object, request);
-    default:
-      return {};
+    case ControlCommand::device_commands: return take_device(object, request);
+    default: return {};
   }
 }
 

@@ -62,12 +62,10 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
     case ControlCommand::log_select:
     case ControlCommand::log_list:
     case ControlCommand::log_read:
-    case ControlCommand::log_sum:
-      return answer_log(request);
+    case ControlCommand::log_sum: return answer_log(request);
     case ControlCommand::power_on:
     case ControlCommand::power_off:
-    case ControlCommand::power_list:
-      return power_.answer(request);
+    case ControlCommand::power_list: return power_.answer(request);
     case ControlCommand::calibration_start:
     case ControlCommand::calibration_accept:
     case ControlCommand::calibration_rollback:
@@ -86,13 +84,10 @@ ControlAnswer Daemon::answer(const ControlRequest& request, const ControlOrigin&
       if (!motor_) return control_error(why_no_orders(settings_));
       return motor_->answer(request, origin);
     case ControlCommand::battery_full:
-    case ControlCommand::battery_set:
-      return answer_battery(request);
+    case ControlCommand::battery_set: return answer_battery(request);
     case ControlCommand::device_command:
-    case ControlCommand::device_commands:
-      return answer_device(request);
-    case ControlCommand::status:
-      break;
+    case ControlCommand::device_commands: return answer_device(request);
+    case ControlCommand::status: break;
   }
   return answer_status();
 }

@@ -15,8 +15,7 @@ ControlAnswer Daemon::answer_log(const ControlRequest& request) {
       // Also while nothing is logged: the files of earlier runs are there.
       return ControlAnswer(
           [folder = settings_.log.directory, request] { return answer_from_disk(folder, request); });
-    default:
-      break;
+    default: break;
   }
   if (!log_.enabled()) return control_error("the log is disabled (log.enabled)");
   if (request.command == ControlCommand::log_select) return answer_log_select(request);

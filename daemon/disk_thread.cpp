@@ -30,14 +30,10 @@ DiskState::State state_after(const std::error_code& error) {
 
 std::string_view name_of(DiskState::State state) {
   switch (state) {
-    case DiskState::State::writing:
-      return "writing";
-    case DiskState::State::full:
-      return "full";
-    case DiskState::State::stopped:
-      return "stopped";
-    case DiskState::State::failing:
-      break;
+    case DiskState::State::writing: return "writing";
+    case DiskState::State::full: return "full";
+    case DiskState::State::stopped: return "stopped";
+    case DiskState::State::failing: break;
   }
   return "failing";
 }

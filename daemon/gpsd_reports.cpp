@@ -67,18 +67,13 @@ constexpr double kStandstill_m_s = 0.01;
 
 constexpr GpsdFix gpsd_fix(Fix fix) {
   switch (fix) {
-    case Fix::fix_2d:
-      return {2, 0};
-    case Fix::fix_3d:
-      return {3, 0};
-    case Fix::propagated:
-      return {2, 5};
-    case Fix::hold:
-      return {3, 7};
+    case Fix::fix_2d: return {2, 0};
+    case Fix::fix_3d: return {3, 0};
+    case Fix::propagated: return {2, 5};
+    case Fix::hold: return {3, 7};
     case Fix::none:
     case Fix::acquiring:
-    case Fix::bad_geometry:
-      break;
+    case Fix::bad_geometry: break;
   }
   return {1, 0};
 }

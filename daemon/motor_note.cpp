@@ -34,7 +34,8 @@ std::filesystem::path state_folder() {
 
 config::Settings with_nothing_but_the_card(config::Settings settings, std::uint16_t port) {
   settings.ports = {settings.ports[port]};
-  settings.log.enabled = settings.calibration.enabled = settings.navigation.enabled = settings.battery.enabled = false;
+  settings.log.enabled = settings.calibration.enabled = settings.navigation.enabled = settings.battery.enabled =
+      false;
   return settings;
 }
 
@@ -59,7 +60,8 @@ class Card : private pipeline::Sink, private PortOwner, private MotorOwner {
   PortOwner& port_owner() { return *this; }
   MotorOwner& motor_owner() { return *this; }
   void on_sample(const instruments::Sample& sample) override {
-    if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value)) motor_.status(sample.stamp, *motor);
+    if (const auto* motor = std::get_if<instruments::MotorSample>(&sample.value))
+      motor_.status(sample.stamp, *motor);
   }
   void on_port_bytes(std::uint16_t port, std::int64_t arrival_ns, protocols::Bytes bytes) override {
     pipeline_.bytes(port, arrival_ns, bytes, *this);
@@ -90,7 +92,8 @@ std::filesystem::path second_note(const std::filesystem::path& config) {
   const std::filesystem::path folder = state_folder();
   if (folder.empty()) return {};
   std::error_code ignored;
-  std::string name = std::filesystem::weakly_canonical(std::filesystem::absolute(config, ignored), ignored).string();
+  std::string name =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(config, ignored), ignored).string();
   std::replace(name.begin(), name.end(), '/', '-');
   return folder / (name.substr(name.find_first_not_of('-')) + "." + std::string(kMotorNote));
 }

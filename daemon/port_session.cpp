@@ -16,18 +16,12 @@ constexpr double kSilent_s = 3.0;
 
 std::string_view name_of(PortSession::State state) {
   switch (state) {
-    case PortSession::State::away:
-      return "away";
-    case PortSession::State::silent:
-      return "silent";
-    case PortSession::State::no_frames:
-      return "no_frames";
-    case PortSession::State::noisy:
-      return "noisy";
-    case PortSession::State::off:
-      return "off";
-    case PortSession::State::running:
-      break;
+    case PortSession::State::away: return "away";
+    case PortSession::State::silent: return "silent";
+    case PortSession::State::no_frames: return "no_frames";
+    case PortSession::State::noisy: return "noisy";
+    case PortSession::State::off: return "off";
+    case PortSession::State::running: break;
   }
   return "running";
 }
@@ -214,12 +208,9 @@ PortSession::State PortSession::judge(const pipeline::PortStatistics& statistics
   reason = speed_check_.message();
   switch (verdict) {
     case SpeedCheck::Verdict::wrong_speed:
-    case SpeedCheck::Verdict::no_frames:
-      return State::no_frames;
-    case SpeedCheck::Verdict::noise:
-      return State::noisy;
-    case SpeedCheck::Verdict::good:
-      break;
+    case SpeedCheck::Verdict::no_frames: return State::no_frames;
+    case SpeedCheck::Verdict::noise: return State::noisy;
+    case SpeedCheck::Verdict::good: break;
   }
   return State::running;
 }

@@ -57,9 +57,7 @@ ControlRequest request_of(const link::Command& command, const std::string& lease
       request.order.shaft_rpm = command.shaft_rpm;
       request.order.fins_deg = command.fins_deg;
       break;
-    case link::Command::Kind::release:
-      request.command = ControlCommand::motor_release;
-      break;
+    case link::Command::Kind::release: request.command = ControlCommand::motor_release; break;
     case link::Command::Kind::stop:
       request.command = ControlCommand::motor_stop;
       request.by = command.holder;
@@ -70,12 +68,9 @@ ControlRequest request_of(const link::Command& command, const std::string& lease
 
 std::string_view name_of(link::Vehicle::Peer peer) {
   switch (peer) {
-    case link::Vehicle::Peer::alive:
-      return "alive";
-    case link::Vehicle::Peer::dead:
-      return "dead";
-    case link::Vehicle::Peer::none:
-      break;
+    case link::Vehicle::Peer::alive: return "alive";
+    case link::Vehicle::Peer::dead: return "dead";
+    case link::Vehicle::Peer::none: break;
   }
   return "none";
 }
@@ -140,9 +135,7 @@ void RemoteLink::take_events(std::int64_t now_ns) {
             has_key_ ? "an operator with the key is on the link" : "an operator is on the link");
         owner_.on_remote_dead(now_ns, false);
         break;
-      case Kind::silent:
-        link_is_silent(now_ns);
-        break;
+      case Kind::silent: link_is_silent(now_ns); break;
       case Kind::returned:
         owner_.on_remote_event(now_ns, "info", "remote.operator", "the link is back, the session goes on");
         owner_.on_remote_dead(now_ns, false);
@@ -169,8 +162,7 @@ void RemoteLink::link_is_silent(std::int64_t now_ns) {
       owner_.end_every_lease();
       words += "; every lease ends";
       break;
-    case config::OnDead::nothing:
-      break;
+    case config::OnDead::nothing: break;
   }
   owner_.on_remote_event(now_ns, "warning", "remote.dead", words);
   owner_.on_remote_dead(now_ns, true);

@@ -55,8 +55,7 @@ SpeedCheck::Verdict SpeedCheck::judge(const protocols::Counters& counters) {
 
 std::string SpeedCheck::message() const {
   switch (verdict_) {
-    case Verdict::good:
-      break;
+    case Verdict::good: break;
     case Verdict::wrong_speed:
       return fmt::format("{} bytes, no intact frame: wrong speed? (configured {})", judged_bytes_, baud_);
     case Verdict::no_frames:

@@ -72,21 +72,11 @@ void StatusServer::on_gone(const StatusClient& client) {
 void StatusServer::on_request(StatusClient& client, const Request& request) {
   answer_.clear();
   switch (request.kind) {
-    case Request::Kind::version:
-      append_version(answer_);
-      break;
-    case Request::Kind::devices:
-      append_devices();
-      break;
-    case Request::Kind::poll:
-      source_.append_poll(answer_);
-      break;
-    case Request::Kind::records:
-      append_records(answer_);
-      break;
-    case Request::Kind::not_understood:
-      append_error(answer_, request.message);
-      break;
+    case Request::Kind::version: append_version(answer_); break;
+    case Request::Kind::devices: append_devices(); break;
+    case Request::Kind::poll: source_.append_poll(answer_); break;
+    case Request::Kind::records: append_records(answer_); break;
+    case Request::Kind::not_understood: append_error(answer_, request.message); break;
     case Request::Kind::device:
       for (std::uint16_t port = 0; port < source_.device_count(); ++port) {
         if (request.device && *request.device != source_.device_name(port)) continue;

@@ -20,12 +20,9 @@ constexpr std::size_t kFolderDigits = 2;
 
 std::string_view name_of(TaskState state) {
   switch (state) {
-    case TaskState::done:
-      return "done";
-    case TaskState::failed:
-      return "failed";
-    default:
-      return "open";
+    case TaskState::done: return "done";
+    case TaskState::failed: return "failed";
+    default: return "open";
   }
 }
 

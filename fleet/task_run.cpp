@@ -47,12 +47,9 @@ fs::path bank_used(const Plan& plan, const Task& task) {
   const Task* const maker = plan.maker_of(task.bank);
   if (maker == nullptr) throw NotNow("the plan has no task that makes the null bank " + task.bank);
   switch (ResultStore(plan.folder).state_of(*maker)) {
-    case TaskState::done:
-      return plan.bank_folder(task.bank);
-    case TaskState::failed:
-      return {};
-    default:
-      throw NotNow(fmt::format("its null bank is not made yet (task {})", maker->number));
+    case TaskState::done: return plan.bank_folder(task.bank);
+    case TaskState::failed: return {};
+    default: throw NotNow(fmt::format("its null bank is not made yet (task {})", maker->number));
   }
 }
 

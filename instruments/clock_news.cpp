@@ -10,14 +10,10 @@ namespace navcal::instruments {
 std::string_view name_of(ClockNews news) {
   switch (news) {
     case ClockNews::rate:
-    case ClockNews::rate_right:
-      return "clock.rate";
-    case ClockNews::irregular:
-      return "clock.irregular";
-    case ClockNews::bursts:
-      return "clock.bursts";
-    case ClockNews::regular:
-      return "clock.regular";
+    case ClockNews::rate_right: return "clock.rate";
+    case ClockNews::irregular: return "clock.irregular";
+    case ClockNews::bursts: return "clock.bursts";
+    case ClockNews::regular: return "clock.regular";
   }
   return "clock.rate";
 }
@@ -29,8 +25,7 @@ std::string words_for(ClockNews news, double nominal_rate_Hz, const ClockState& 
     case ClockNews::rate:
       return fmt::format("{:.4g} frames a second, {:.2f} % {} than the {:g} that are configured (rate_Hz)",
                          rate_Hz, std::abs(percent), percent < 0 ? "fewer" : "more", nominal_rate_Hz);
-    case ClockNews::rate_right:
-      return fmt::format("{:.4g} frames a second again, as configured", rate_Hz);
+    case ClockNews::rate_right: return fmt::format("{:.4g} frames a second again, as configured", rate_Hz);
     case ClockNews::irregular:
       return fmt::format(
           "frames at uneven intervals, where {:g} a second are configured: each is stamped by its own arrival",
@@ -38,8 +33,7 @@ std::string words_for(ClockNews news, double nominal_rate_Hz, const ClockState& 
     case ClockNews::bursts:
       return fmt::format("frames come several at a time, {:.4g} a second in the mean: stamped at even intervals",
                          rate_Hz);
-    case ClockNews::regular:
-      return fmt::format("frames at even intervals, {:.4g} a second", rate_Hz);
+    case ClockNews::regular: return fmt::format("frames at even intervals, {:.4g} a second", rate_Hz);
   }
   return {};
 }

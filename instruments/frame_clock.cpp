@@ -49,18 +49,12 @@ std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
 
 std::string_view name_of(Timing timing) {
   switch (timing) {
-    case Timing::arrival:
-      return "arrival";
-    case Timing::searching:
-      return "searching";
-    case Timing::periodic:
-      return "periodic";
-    case Timing::bursts:
-      return "bursts";
-    case Timing::irregular:
-      return "irregular";
-    case Timing::device:
-      return "device";
+    case Timing::arrival: return "arrival";
+    case Timing::searching: return "searching";
+    case Timing::periodic: return "periodic";
+    case Timing::bursts: return "bursts";
+    case Timing::irregular: return "irregular";
+    case Timing::device: return "device";
   }
   return "arrival";
 }

@@ -34,14 +34,10 @@ Vector3 beam_direction(std::size_t beam, const JanusHead& head) {
   const double aside = (head.is_convex ? 1 : -1) * std::sin(head.beam_angle_rad);
   const double away = -std::cos(head.beam_angle_rad);
   switch (beam) {
-    case 0:
-      return {-aside, 0, away};
-    case 1:
-      return {aside, 0, away};
-    case 2:
-      return {0, aside, away};
-    default:
-      return {0, -aside, away};
+    case 0: return {-aside, 0, away};
+    case 1: return {aside, 0, away};
+    case 2: return {0, aside, away};
+    default: return {0, -aside, away};
   }
 }
 

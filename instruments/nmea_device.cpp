@@ -97,25 +97,19 @@ Verdict NmeaDevice::read(const protocols::Frame& frame, Receiver& receiver) {
     case nmea::Type::hdt:
     case nmea::Type::hdm:
     case nmea::Type::hdg:
-    case nmea::Type::ths:
-      return read_heading(sentence, type, receiver);
-    case nmea::Type::ptnthtm:
-      return read_ptnthtm(sentence, receiver);
-    case nmea::Type::rot:
-      return read_rot(sentence, receiver);
-    case nmea::Type::xdr:
-      return read_xdr(sentence, receiver);
+    case nmea::Type::ths: return read_heading(sentence, type, receiver);
+    case nmea::Type::ptnthtm: return read_ptnthtm(sentence, receiver);
+    case nmea::Type::rot: return read_rot(sentence, receiver);
+    case nmea::Type::xdr: return read_xdr(sentence, receiver);
     case nmea::Type::dbt:
-    case nmea::Type::dpt:
-      return read_depth(sentence, type, receiver);
+    case nmea::Type::dpt: return read_depth(sentence, type, receiver);
     case nmea::Type::gsv: {
       const auto gsv = nmea::decode_gsv(sentence);
       if (!gsv) return Verdict::out_of_range;
       const auto sky = sky_.add(sentence.address(), *gsv);
       return sky ? give(*sky, false, receiver) : Verdict::used;
     }
-    default:
-      return read_position(sentence, type, receiver);
+    default: return read_position(sentence, type, receiver);
   }
 }
 

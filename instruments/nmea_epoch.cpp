@@ -71,8 +71,7 @@ bool NmeaEpoch::merge(const nmea::Sentence& sentence, Type type, Outcome& outcom
       gsa_ = nmea::decode_gsa(sentence);
       return gsa_.has_value();
     }
-    default:
-      return true;
+    default: return true;
   }
 }
 

@@ -59,15 +59,13 @@ std::optional<Pd0Velocity> vehicle_velocity(const BeamValues& sent, const Pd0Pos
   if (!sent[0] || !sent[1] || !sent[2]) return std::nullopt;
   const Vector3 v{*sent[0], *sent[1], *sent[2]};
   switch (posture.axes) {
-    case pd0::Axes::instrument:
-      return Pd0Velocity{negative(body_of_instrument(v, posture.head)), sent[3]};
+    case pd0::Axes::instrument: return Pd0Velocity{negative(body_of_instrument(v, posture.head)), sent[3]};
     case pd0::Axes::ship: {
       const Vector3 body{-v[1], -v[0], v[2]};
       return Pd0Velocity{posture.is_level ? body_of_level(body, posture.pitch_rad, posture.roll_rad) : body,
                          sent[3]};
     }
-    default:
-      return Pd0Velocity{{-v[1], -v[0], v[2]}, sent[3]};
+    default: return Pd0Velocity{{-v[1], -v[0], v[2]}, sent[3]};
   }
 }
 

@@ -46,10 +46,8 @@ void PniCalibration::stop(std::int64_t now_ns) {
     case Phase::points:
     case Phase::sampling:
     case Phase::starting:
-    case Phase::turning:
-      return fail(fmt::format("called off after {} of {} samples", samples_, kPoints), now_ns);
-    default:
-      break;
+    case Phase::turning: return fail(fmt::format("called off after {} of {} samples", samples_, kPoints), now_ns);
+    default: break;
   }
 }
 
@@ -100,17 +98,11 @@ void PniCalibration::on_frame(const protocols::Frame& frame, std::int64_t now_ns
 
 void PniCalibration::on_unanswered(std::int64_t now_ns) {
   switch (phase_) {
-    case Phase::points:
-      return fail("no answer to the number of samples", now_ns);
-    case Phase::sampling:
-      return fail("no answer to automatic sampling", now_ns);
-    case Phase::starting:
-      return fail("no answer to the start of the calibration", now_ns);
-    case Phase::saving:
-      failure_ = "no answer to the order to save";
-      break;
-    default:
-      break;  // a device that is polled sends nothing; StartUp asks it, and sees a silence
+    case Phase::points: return fail("no answer to the number of samples", now_ns);
+    case Phase::sampling: return fail("no answer to automatic sampling", now_ns);
+    case Phase::starting: return fail("no answer to the start of the calibration", now_ns);
+    case Phase::saving: failure_ = "no answer to the order to save"; break;
+    default: break;  // a device that is polled sends nothing; StartUp asks it, and sees a silence
   }
   enter(Phase::idle, kNoDeadline_ns);
 }
@@ -129,24 +121,19 @@ std::optional<std::vector<std::uint8_t>> PniCalibration::next(std::int64_t now_n
   };
   switch (phase_) {
     case Phase::idle:
-    case Phase::turning:
-      return std::nullopt;
+    case Phase::turning: return std::nullopt;
     case Phase::halting:
       enter(Phase::points, now_ns + kPniSettles_ns);
       return trax::encode_frame(FrameNumber::stop_continuous);
-    case Phase::points:
-      return ask(trax::encode_setting(trax::Setting::calibration_points, kPoints), kPniReply_ns);
-    case Phase::sampling:
-      return ask(trax::encode_setting(trax::Setting::automatic_sampling, 1), kPniReply_ns);
+    case Phase::points: return ask(trax::encode_setting(trax::Setting::calibration_points, kPoints), kPniReply_ns);
+    case Phase::sampling: return ask(trax::encode_setting(trax::Setting::automatic_sampling, 1), kPniReply_ns);
     case Phase::starting:
       return ask(trax::encode_start_calibration(trax::Calibration::limited_tilt), kPniSaves_ns);
     case Phase::stopping:
       enter(Phase::resuming, now_ns + kPniSettles_ns);
       return trax::encode_frame(FrameNumber::stop_calibration);
-    case Phase::saving:
-      return ask(trax::encode_frame(FrameNumber::save), kPniSaves_ns);
-    case Phase::resuming:
-      break;
+    case Phase::saving: return ask(trax::encode_frame(FrameNumber::save), kPniSaves_ns);
+    case Phase::resuming: break;
   }
   return ask(trax::encode_frame(FrameNumber::start_continuous), kPniSaves_ns);
 }
@@ -169,17 +156,11 @@ std::string PniCalibration::state() const {
       return fmt::format("score {:.2f}, distribution error {:.2f}, tilt error {:.2f}, tilt range {:.0f} deg; {}",
                          score_->magnetometer, score_->distribution_error, score_->tilt_error,
                          score_->tilt_range_deg, saved_ ? "saved" : "kept until the compass loses its power");
-    case Phase::turning:
-      return fmt::format("{} of {} samples", samples_, kPoints);
-    case Phase::saving:
-      return "saving the result";
+    case Phase::turning: return fmt::format("{} of {} samples", samples_, kPoints);
+    case Phase::saving: return "saving the result";
     case Phase::stopping:
-    case Phase::resuming:
-      text = "putting the compass back to service";
-      break;
-    default:
-      text = "preparing the compass";
-      break;
+    case Phase::resuming: text = "putting the compass back to service"; break;
+    default: text = "preparing the compass"; break;
   }
   return failure_.empty() ? text : text + "; failed: " + failure_;
 }

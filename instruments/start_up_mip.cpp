@@ -189,9 +189,7 @@ void StartUpMip::on_refused(std::uint8_t error, std::int64_t now_ns) {
         return enter(Step::sensor_rate, now_ns);
       }
       break;
-    case Step::filter_rate:
-      has_filter_ = false;
-      break;
+    case Step::filter_rate: has_filter_ = false; break;
     case Step::sensor_format:
       if (sensor_list_ + 1 < kSensorLists.size()) {
         ++sensor_list_;
@@ -207,17 +205,10 @@ void StartUpMip::on_refused(std::uint8_t error, std::int64_t now_ns) {
       has_filter_ = false;
       add_to_refused("filter data");
       break;
-    case Step::sensor_stream:
-      add_to_refused("stream of sensor data");
-      break;
-    case Step::filter_stream:
-      add_to_refused("stream of filter data");
-      break;
-    case Step::resume:
-      add_to_refused("resume");
-      break;
-    default:
-      break;
+    case Step::sensor_stream: add_to_refused("stream of sensor data"); break;
+    case Step::filter_stream: add_to_refused("stream of filter data"); break;
+    case Step::resume: add_to_refused("resume"); break;
+    default: break;
   }
   go_on(now_ns);
 }
@@ -251,24 +242,15 @@ std::vector<std::uint8_t> StartUpMip::format(std::uint8_t set) const {
 
 std::vector<std::uint8_t> StartUpMip::command() const {
   switch (step_) {
-    case Step::to_idle:
-      return mip::encode_command(mip::BaseCommand::set_to_idle);
-    case Step::sensor_rate:
-      return mip::encode_base_rate_request(mip::kSensorSet, by_set_);
-    case Step::filter_rate:
-      return mip::encode_base_rate_request(mip::kFilterSet, by_set_);
-    case Step::sensor_format:
-      return format(mip::kSensorSet);
-    case Step::filter_format:
-      return format(mip::kFilterSet);
-    case Step::sensor_stream:
-      return mip::encode_data_stream(mip::kSensorSet, true, by_set_);
-    case Step::filter_stream:
-      return mip::encode_data_stream(mip::kFilterSet, true, by_set_);
-    case Step::resume:
-      return mip::encode_command(mip::BaseCommand::resume);
-    default:
-      return mip::encode_command(mip::BaseCommand::ping);
+    case Step::to_idle: return mip::encode_command(mip::BaseCommand::set_to_idle);
+    case Step::sensor_rate: return mip::encode_base_rate_request(mip::kSensorSet, by_set_);
+    case Step::filter_rate: return mip::encode_base_rate_request(mip::kFilterSet, by_set_);
+    case Step::sensor_format: return format(mip::kSensorSet);
+    case Step::filter_format: return format(mip::kFilterSet);
+    case Step::sensor_stream: return mip::encode_data_stream(mip::kSensorSet, true, by_set_);
+    case Step::filter_stream: return mip::encode_data_stream(mip::kFilterSet, true, by_set_);
+    case Step::resume: return mip::encode_command(mip::BaseCommand::resume);
+    default: return mip::encode_command(mip::BaseCommand::ping);
   }
 }
 
@@ -289,25 +271,18 @@ std::optional<std::vector<std::uint8_t>> StartUpMip::next(std::int64_t now_ns) {
 std::string StartUpMip::state() const {
   std::string text;
   switch (step_) {
-    case Step::not_begun:
-      return "not begun";
+    case Step::not_begun: return "not begun";
     case Step::resting:
       text = data_seen_ ? "streams, but does not answer commands: trying again every 10 s"
                         : "no answer to ping: trying again every 10 s";
       break;
-    case Step::awaiting_data:
-      text = "configured, waiting for data";
-      break;
+    case Step::awaiting_data: text = "configured, waiting for data"; break;
     case Step::running:
       text = "running on " + list_text(kSensorLists[sensor_list_]);
       if (has_filter_) text += ", filter " + list_text(kFilterLists[filter_list_]);
       break;
-    case Step::ping:
-      text = "asking for an answer";
-      break;
-    default:
-      text = "configuring (step " + std::to_string(static_cast<int>(step_) + 1) + " of 9)";
-      break;
+    case Step::ping: text = "asking for an answer"; break;
+    default: text = "configuring (step " + std::to_string(static_cast<int>(step_) + 1) + " of 9)"; break;
   }
   if (step_ != Step::running && fruitless_ > 0) text += "; attempt " + std::to_string(fruitless_ + 1);
   if (!refused_.empty()) text += "; refused: " + refused_;

@@ -99,11 +99,8 @@ void StartUpOncore::run_on(Source source, std::int64_t now_ns) {
 
 void StartUpOncore::act(std::int64_t now_ns) {
   switch (phase_) {
-    case Phase::idle:
-      break;
-    case Phase::asked_ha:
-      ask_for(Phase::asked_ea, now_ns);
-      break;
+    case Phase::idle: break;
+    case Phase::asked_ha: ask_for(Phase::asked_ea, now_ns); break;
     case Phase::asked_ea:
       if (nmea_seen_) {
         run_on(Source::nmea, now_ns);
@@ -114,9 +111,7 @@ void StartUpOncore::act(std::int64_t now_ns) {
       }
       break;
     case Phase::resting:
-    case Phase::running:
-      ask_for(Phase::asked_ha, now_ns);
-      break;
+    case Phase::running: ask_for(Phase::asked_ha, now_ns); break;
   }
 }
 
@@ -133,17 +128,13 @@ std::int64_t StartUpOncore::deadline_ns() const { return to_ask_.empty() ? due_n
 std::string StartUpOncore::state() const {
   const std::string attempt = fruitless_ == 0 ? "" : ", attempt " + std::to_string(fruitless_ + 1);
   switch (phase_) {
-    case Phase::idle:
-      return "not begun";
-    case Phase::asked_ha:
-      return "asked for Ha" + attempt;
-    case Phase::asked_ea:
-      return "no answer to Ha: trying Ea" + attempt;
+    case Phase::idle: return "not begun";
+    case Phase::asked_ha: return "asked for Ha" + attempt;
+    case Phase::asked_ea: return "no answer to Ha: trying Ea" + attempt;
     case Phase::resting:
       return "no answer to Ha or Ea, and no NMEA: trying again every 10 s, " + std::to_string(fruitless_) +
              " so far";
-    case Phase::running:
-      break;
+    case Phase::running: break;
   }
   if (source_ == Source::nmea) return "running on NMEA: no answer to Ha or Ea";
   return source_ == Source::ha ? "running on Ha" : "running on Ea";

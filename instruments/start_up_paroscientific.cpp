@@ -96,14 +96,10 @@ std::string StartUpParoscientific::state() const {
   const std::string given_up =
       fruitless_ == 0 ? "" : ": no answer, trying again, " + std::to_string(fruitless_) + " times so far";
   switch (phase_) {
-    case Phase::idle:
-      return "not begun";
-    case Phase::asking_unit:
-      return "asked for the unit (UN)" + given_up;
-    case Phase::asking_values:
-      return "asked for continuous values (P4)" + given_up;
-    case Phase::running:
-      break;
+    case Phase::idle: return "not begun";
+    case Phase::asking_unit: return "asked for the unit (UN)" + given_up;
+    case Phase::asking_values: return "asked for continuous values (P4)" + given_up;
+    case Phase::running: break;
   }
   const auto code = protocols::integer<int>(unit_);
   if (!code || !paroscientific::unit_Pa(*code)) {

@@ -171,20 +171,11 @@ std::optional<std::vector<std::uint8_t>> StartUpPni::next(std::int64_t now_ns) {
 std::string StartUpPni::state() const {
   std::string text;
   switch (phase_) {
-    case Phase::idle:
-      return "not begun";
-    case Phase::configuring:
-      text = "configuring: " + std::string(commands_[current_].name);
-      break;
-    case Phase::awaiting_data:
-      text = "configured, waiting for data";
-      break;
-    case Phase::running:
-      text = polled_ ? "running, polled" : "running";
-      break;
-    case Phase::resting:
-      text = "no answer: trying again every 10 s";
-      break;
+    case Phase::idle: return "not begun";
+    case Phase::configuring: text = "configuring: " + std::string(commands_[current_].name); break;
+    case Phase::awaiting_data: text = "configured, waiting for data"; break;
+    case Phase::running: text = polled_ ? "running, polled" : "running"; break;
+    case Phase::resting: text = "no answer: trying again every 10 s"; break;
   }
   if (phase_ != Phase::running && fruitless_ > 0) text += "; attempt " + std::to_string(fruitless_ + 1);
   if (!unanswered_.empty()) text += "; no answer to: " + unanswered_;

@@ -161,8 +161,7 @@ void StartUpTcm2::on_reply(const protocols::Frame& frame, std::int64_t now_ns) {
   if (!reply) return;
   const tcm2::Command& command = settings_[current_];
   switch (reply->kind) {
-    case tcm2::Reply::Kind::calibration:
-      return;
+    case tcm2::Reply::Kind::calibration: return;
     case tcm2::Reply::Kind::value:
       if (reply->parameter != tcm2::name_of(command.parameter)) return;
       break;
@@ -172,8 +171,7 @@ void StartUpTcm2::on_reply(const protocols::Frame& frame, std::int64_t now_ns) {
       add_to_list(refused_, item + ')');
       break;
     }
-    case tcm2::Reply::Kind::accepted:
-      break;
+    case tcm2::Reply::Kind::accepted: break;
   }
   go_on_to_next(now_ns);
 }
@@ -191,21 +189,16 @@ int StartUpTcm2::attempts_allowed() const { return unanswered_.empty() ? kAttemp
 std::optional<std::vector<std::uint8_t>> StartUpTcm2::next(std::int64_t now_ns) {
   if (now_ns < due_ns_) return std::nullopt;
   switch (phase_) {
-    case Phase::idle:
-      return std::nullopt;
+    case Phase::idle: return std::nullopt;
     case Phase::awaiting_word:
       ++fruitless_;
       patience_ns_ = std::max(stopped_after_ns_, std::min(2 * patience_ns_, kMostPatience_ns));
       halt_at(now_ns);
       break;
-    case Phase::running:
-      halt_at(now_ns);
-      break;
+    case Phase::running: halt_at(now_ns); break;
     case Phase::first_halt:
-    case Phase::second_halt:
-      break;
-    case Phase::setting:
-      return next_setting(now_ns);
+    case Phase::second_halt: break;
+    case Phase::setting: return next_setting(now_ns);
   }
   const bool first = phase_ == Phase::first_halt;
   phase_ = first ? Phase::second_halt : Phase::setting;
@@ -231,24 +224,17 @@ std::optional<std::vector<std::uint8_t>> StartUpTcm2::next_setting(std::int64_t 
 std::string StartUpTcm2::state() const {
   std::string text;
   switch (phase_) {
-    case Phase::idle:
-      return "not begun";
+    case Phase::idle: return "not begun";
     case Phase::first_halt:
-    case Phase::second_halt:
-      text = "halting the device";
-      break;
+    case Phase::second_halt: text = "halting the device"; break;
     case Phase::setting:
       text = current_ == settings_.size()
                  ? "settings sent"
                  : "setting " + text_of(settings_[current_]) + " (" + std::to_string(current_ + 1) + " of " +
                        std::to_string(settings_.size()) + ")";
       break;
-    case Phase::awaiting_word:
-      text = "settings sent, waiting for words";
-      break;
-    case Phase::running:
-      text = "running";
-      break;
+    case Phase::awaiting_word: text = "settings sent, waiting for words"; break;
+    case Phase::running: text = "running"; break;
   }
   if (fruitless_ > 0) text += "; no words came so far, attempt " + std::to_string(fruitless_ + 1);
   if (!refused_.empty()) text += "; refused: " + refused_;

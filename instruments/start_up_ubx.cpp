@@ -49,12 +49,9 @@ std::uint16_t interval_ms(double rate_Hz) {
 
 std::string_view name_of(ReceiverPort port) {
   switch (port) {
-    case ReceiverPort::uart1:
-      return "UART1";
-    case ReceiverPort::uart2:
-      return "UART2";
-    case ReceiverPort::usb:
-      break;
+    case ReceiverPort::uart1: return "UART1";
+    case ReceiverPort::uart2: return "UART2";
+    case ReceiverPort::usb: break;
   }
   return "USB";
 }
@@ -267,14 +264,10 @@ void StartUpUbx::rest(std::int64_t now_ns) {
 std::optional<std::vector<std::uint8_t>> StartUpUbx::next(std::int64_t now_ns) {
   if (now_ns < due_ns_) return std::nullopt;
   switch (phase_) {
-    case Phase::idle:
-      return std::nullopt;
-    case Phase::version:
-      enter(Phase::setting, now_ns);
-      return ubx::encode_frame(ubx::kMonVer, {});
+    case Phase::idle: return std::nullopt;
+    case Phase::version: enter(Phase::setting, now_ns); return ubx::encode_frame(ubx::kMonVer, {});
     case Phase::setting:
-    case Phase::legacy:
-      return send(now_ns);
+    case Phase::legacy: return send(now_ns);
     case Phase::awaiting:
       if (by_values_) {
         next_port(now_ns);
@@ -283,9 +276,7 @@ std::optional<std::vector<std::uint8_t>> StartUpUbx::next(std::int64_t now_ns) {
       rest(now_ns);
       return std::nullopt;
     case Phase::resting:
-    case Phase::running:
-      start_over(now_ns);
-      return next(now_ns);
+    case Phase::running: start_over(now_ns); return next(now_ns);
   }
   return std::nullopt;
 }
@@ -315,25 +306,16 @@ std::optional<std::vector<std::uint8_t>> StartUpUbx::send(std::int64_t now_ns) {
 std::string StartUpUbx::state() const {
   std::string text;
   switch (phase_) {
-    case Phase::idle:
-      return "not begun";
-    case Phase::version:
-      text = "asking for the version";
-      break;
+    case Phase::idle: return "not begun";
+    case Phase::version: text = "asking for the version"; break;
     case Phase::setting:
-    case Phase::legacy:
-      text = "setting: " + (current() != nullptr ? current()->what : std::string("done"));
-      break;
-    case Phase::awaiting:
-      text = "settings sent, waiting for NAV-PVT";
-      break;
+    case Phase::legacy: text = "setting: " + (current() != nullptr ? current()->what : std::string("done")); break;
+    case Phase::awaiting: text = "settings sent, waiting for NAV-PVT"; break;
     case Phase::resting:
       text = std::string(nmea_seen_ ? "running on NMEA: no NAV-PVT comes" : "no NAV-PVT comes") +
              "; trying again every 10 s, " + std::to_string(fruitless_) + " so far";
       break;
-    case Phase::running:
-      text = "running on NAV-PVT";
-      break;
+    case Phase::running: text = "running on NAV-PVT"; break;
   }
   if (!version_.empty()) text += "; " + version_;
   if (!refused_.empty()) text += "; refused: " + refused_;

@@ -192,16 +192,14 @@ void StartUpVectorNav::note(std::string& list, const std::string& reason) {
 std::optional<std::vector<std::uint8_t>> StartUpVectorNav::next(std::int64_t now_ns) {
   if (now_ns < due_ns_) return std::nullopt;
   switch (phase_) {
-    case Phase::idle:
-      return std::nullopt;
+    case Phase::idle: return std::nullopt;
     case Phase::model:
       if (questions_ == 2) {
         phase_ = Phase::setting;
         return send(now_ns);
       }
       return vn::encode_register({false, questions_++ == 0 ? vn::kModel : vn::kFirmware, {}});
-    case Phase::setting:
-      return send(now_ns);
+    case Phase::setting: return send(now_ns);
     case Phase::awaiting:
       if (!deaf_ && step_ + 1 < steps_.size()) {
         go_on(now_ns);
@@ -212,9 +210,7 @@ std::optional<std::vector<std::uint8_t>> StartUpVectorNav::next(std::int64_t now
       due_ns_ = now_ns + kVnRest_ns;
       return std::nullopt;
     case Phase::resting:
-    case Phase::running:
-      start_over(now_ns);
-      return next(now_ns);
+    case Phase::running: start_over(now_ns); return next(now_ns);
   }
   return std::nullopt;
 }
@@ -238,23 +234,16 @@ std::optional<std::vector<std::uint8_t>> StartUpVectorNav::send(std::int64_t now
 std::string StartUpVectorNav::state() const {
   std::string text;
   switch (phase_) {
-    case Phase::idle:
-      return "not begun";
-    case Phase::model:
-      text = "asking for the model";
-      break;
-    case Phase::setting:
-      text = "setting " + words_of(steps_[step_].content);
-      break;
+    case Phase::idle: return "not begun";
+    case Phase::model: text = "asking for the model"; break;
+    case Phase::setting: text = "setting " + words_of(steps_[step_].content); break;
     case Phase::awaiting:
       text = deaf_ ? "no answers, waiting for measurements" : "settings sent, waiting for measurements";
       break;
     case Phase::resting:
       text = "no measurements come; trying again every 10 s, " + std::to_string(fruitless_) + " so far";
       break;
-    case Phase::running:
-      text = binary_ ? "running on binary messages" : "running on lines";
-      break;
+    case Phase::running: text = binary_ ? "running on binary messages" : "running on lines"; break;
   }
   if (!model_.empty()) text += "; " + model_;
   if (!firmware_.empty()) text += ", firmware " + firmware_;

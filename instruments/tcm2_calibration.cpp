@@ -64,14 +64,11 @@ void Tcm2Calibration::stop(std::int64_t now_ns) {
     case Phase::starting:
       if (after_halts_ == Phase::clearing) fail("called off", now_ns);
       break;
-    case Phase::turning:
-      end_turning(now_ns);
-      break;
+    case Phase::turning: end_turning(now_ns); break;
     case Phase::idle:
     case Phase::closing:
     case Phase::asking:
-    case Phase::resuming:
-      break;
+    case Phase::resuming: break;
   }
 }
 
@@ -139,9 +136,7 @@ void Tcm2Calibration::on_reply(const tcm2::Reply& reply, std::int64_t now_ns) {
   }
   const bool is_score = reply.kind == tcm2::Reply::Kind::calibration;
   switch (phase_) {
-    case Phase::clearing:
-      enter(Phase::enabling, now_ns);
-      break;
+    case Phase::clearing: enter(Phase::enabling, now_ns); break;
     case Phase::enabling:
       if (!is_score) enter(Phase::starting, now_ns);
       break;
@@ -156,8 +151,7 @@ void Tcm2Calibration::on_reply(const tcm2::Reply& reply, std::int64_t now_ns) {
       score_ = reply.score;
       enter(Phase::resuming, now_ns);
       break;
-    default:
-      break;
+    default: break;
   }
 }
 
@@ -202,46 +196,31 @@ std::optional<std::vector<std::uint8_t>> Tcm2Calibration::next(std::int64_t now_
   };
   switch (phase_) {
     case Phase::idle:
-    case Phase::turning:
-      return std::nullopt;
+    case Phase::turning: return std::nullopt;
     case Phase::first_halt:
       enter(Phase::second_halt, now_ns + kBetweenHalts_ns);
       return tcm2::encode_command({Verb::halt});
-    case Phase::second_halt:
-      enter(after_halts_, now_ns + kSettle_ns);
-      return tcm2::encode_command({Verb::halt});
-    case Phase::clearing:
-      touched_ = true;
-      return ask({Verb::clear_calibration}, kReplyTimeout_ns);
-    case Phase::enabling:
-      calibrating_ = true;
-      return ask(multipoint('e'), kReplyTimeout_ns);
-    case Phase::closing:
-      return ask(multipoint('d'), kReplyTimeout_ns);
-    case Phase::asking:
-      return ask({Verb::calibration_score}, kReplyTimeout_ns);
+    case Phase::second_halt: enter(after_halts_, now_ns + kSettle_ns); return tcm2::encode_command({Verb::halt});
+    case Phase::clearing: touched_ = true; return ask({Verb::clear_calibration}, kReplyTimeout_ns);
+    case Phase::enabling: calibrating_ = true; return ask(multipoint('e'), kReplyTimeout_ns);
+    case Phase::closing: return ask(multipoint('d'), kReplyTimeout_ns);
+    case Phase::asking: return ask({Verb::calibration_score}, kReplyTimeout_ns);
     case Phase::starting:
-    case Phase::resuming:
-      break;
+    case Phase::resuming: break;
   }
   return ask({Verb::go}, stopped_after_ns_);
 }
 
 void Tcm2Calibration::on_unanswered(std::int64_t now_ns) {
   switch (phase_) {
-    case Phase::clearing:
-      return fail("no answer to cc", now_ns);
-    case Phase::enabling:
-      return fail("no answer to mpcal=e", now_ns);
-    case Phase::starting:
-      return fail("no words came after go", now_ns);
+    case Phase::clearing: return fail("no answer to cc", now_ns);
+    case Phase::enabling: return fail("no answer to mpcal=e", now_ns);
+    case Phase::starting: return fail("no words came after go", now_ns);
     case Phase::closing:
       // The command may have been obeyed all the same: the score will show it.
       return enter(failure_.empty() ? Phase::asking : Phase::resuming, now_ns);
-    case Phase::asking:
-      return fail("no answer to lc?", now_ns);
-    default:
-      break;
+    case Phase::asking: return fail("no answer to lc?", now_ns);
+    default: break;
   }
   // StartUp sees the silence and begins anew.
   if (failure_.empty()) failure_ = "no words came after it";
@@ -265,15 +244,9 @@ std::string Tcm2Calibration::state() const {
       return "turned " + degrees(turned_rad()) + " of " + degrees(limits_.turns * 2 * std::numbers::pi) +
              " degrees";
     case Phase::closing:
-    case Phase::asking:
-      text = "reading the score";
-      break;
-    case Phase::resuming:
-      text = "putting the compass back to service";
-      break;
-    default:
-      text = after_halts_ == Phase::closing ? "reading the score" : "preparing the compass";
-      break;
+    case Phase::asking: text = "reading the score"; break;
+    case Phase::resuming: text = "putting the compass back to service"; break;
+    default: text = after_halts_ == Phase::closing ? "reading the score" : "preparing the compass"; break;
   }
   return failure_.empty() ? text : text + "; failed: " + failure_;
 }

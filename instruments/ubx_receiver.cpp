@@ -19,14 +19,10 @@ constexpr int kNoElevation_deg = 90;   // larger ones say that it is unknown
 std::uint16_t gpsd_number(std::uint8_t gnss, std::uint8_t number) {
   constexpr std::uint8_t kGalileo = 2, kBeiDou = 3, kQzss = 5, kGlonass = 6;
   switch (gnss) {
-    case kGalileo:
-      return static_cast<std::uint16_t>(300 + number);
-    case kBeiDou:
-      return static_cast<std::uint16_t>(400 + number);
-    case kQzss:
-      return static_cast<std::uint16_t>(192 + number);
-    case kGlonass:
-      return static_cast<std::uint16_t>(64 + number);
+    case kGalileo: return static_cast<std::uint16_t>(300 + number);
+    case kBeiDou: return static_cast<std::uint16_t>(400 + number);
+    case kQzss: return static_cast<std::uint16_t>(192 + number);
+    case kGlonass: return static_cast<std::uint16_t>(64 + number);
     default:  // GPS, and SBAS with its PRN
       return number;
   }
@@ -115,8 +111,7 @@ Instrument::Verdict UbxReceiver::read(const protocols::Frame& frame, Receiver& r
       hand_over(sky_of(*sat), receiver, false);
       return Verdict::used;
     }
-    default:
-      return Verdict::ignored;
+    default: return Verdict::ignored;
   }
 }
 

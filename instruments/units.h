@@ -13,12 +13,9 @@ using base::kGravity_m_s2;
 
 [[nodiscard]] constexpr double radians_of(double angle, config::AngleUnit unit) {
   switch (unit) {
-    case config::AngleUnit::deg:
-      return angle * base::kRadiansPerDegree;
-    case config::AngleUnit::mils:
-      return angle * (2 * std::numbers::pi / 6400);
-    case config::AngleUnit::counts16:
-      return angle * (2 * std::numbers::pi / 65536);
+    case config::AngleUnit::deg: return angle * base::kRadiansPerDegree;
+    case config::AngleUnit::mils: return angle * (2 * std::numbers::pi / 6400);
+    case config::AngleUnit::counts16: return angle * (2 * std::numbers::pi / 65536);
   }
   return angle;
 }

@@ -58,14 +58,12 @@ std::optional<Command> decode_command(Bytes payload) {
       for (double& fin_deg : command.fins_deg)
         is_good = take(in.get_scaled<std::int16_t>(kFinStep_deg), fin_deg) && is_good;
       break;
-    case static_cast<std::uint8_t>(Command::Kind::release):
-      break;
+    case static_cast<std::uint8_t>(Command::Kind::release): break;
     case static_cast<std::uint8_t>(Command::Kind::stop):
       command.kind = Command::Kind::stop;
       command.holder = in.get_text();
       break;
-    default:
-      return std::nullopt;
+    default: return std::nullopt;
   }
   if (!is_good || !in.is_whole() || !in.rest().empty()) return std::nullopt;
   return command;

@@ -35,8 +35,7 @@ void Host::take(std::int64_t now_ns, Bytes bytes) {
 
 void Host::take_frame(std::int64_t now_ns, const FrameView& view) {
   switch (view.header.type) {
-    case FrameType::welcome:
-      return take_welcome(now_ns, view);
+    case FrameType::welcome: return take_welcome(now_ns, view);
     case FrameType::refusal:
       if (view.payload.size() != 1 || view.payload[0] > static_cast<std::uint8_t>(Refusal::unknown_session))
         return;
@@ -54,10 +53,8 @@ void Host::take_frame(std::int64_t now_ns, const FrameView& view) {
     case FrameType::report:
     case FrameType::answer:
     case FrameType::segment:
-    case FrameType::ack:
-      break;
-    default:
-      return;  // an echo of this end's own frames
+    case FrameType::ack: break;
+    default: return;  // an echo of this end's own frames
   }
   if (!session_ || session_->id != view.header.session) return take_stray(view);
   if (session_->check(view) != Refusal::none) {
@@ -116,8 +113,7 @@ void Host::take_welcome(std::int64_t now_ns, const FrameView& view) {
 
 void Host::take_from_vehicle(std::int64_t now_ns, const FrameView& view) {
   switch (view.header.type) {
-    case FrameType::pong:
-      return take_pong(now_ns, view.payload);
+    case FrameType::pong: return take_pong(now_ns, view.payload);
     case FrameType::report: {
       auto report = decode_report(view.payload);
       if (!report || view.header.counter <= report_counter_) return;
@@ -139,8 +135,7 @@ void Host::take_from_vehicle(std::int64_t now_ns, const FrameView& view) {
     case FrameType::ack:
       if (const auto ack = decode_ack(view.payload)) session_->sender.acknowledge(now_ns, *ack);
       return;
-    default:
-      return;
+    default: return;
   }
 }
 

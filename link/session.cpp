@@ -5,16 +5,12 @@ namespace navcal::link {
 
 std::string_view words_for(Refusal refusal) {
   switch (refusal) {
-    case Refusal::untagged:
-      return "the vehicle has a key: it takes nothing without that key";
-    case Refusal::bad_tag:
-      return "the vehicle has another key";
-    case Refusal::no_key:
-      return "the vehicle has no key; connect without one";
+    case Refusal::untagged: return "the vehicle has a key: it takes nothing without that key";
+    case Refusal::bad_tag: return "the vehicle has another key";
+    case Refusal::no_key: return "the vehicle has no key; connect without one";
     case Refusal::unknown_session:
       return "the vehicle does not know this session: its program was started anew, or another operator came";
-    case Refusal::none:
-      break;
+    case Refusal::none: break;
   }
   return "";
 }

@@ -27,16 +27,13 @@ void Vehicle::take(std::int64_t now_ns, Bytes bytes) {
 
 void Vehicle::take_frame(std::int64_t now_ns, const FrameView& view) {
   switch (view.header.type) {
-    case FrameType::hello:
-      return take_hello(now_ns, view);
+    case FrameType::hello: return take_hello(now_ns, view);
     case FrameType::bye:
     case FrameType::ping:
     case FrameType::command:
     case FrameType::segment:
-    case FrameType::ack:
-      break;
-    default:
-      return;  // an echo of this end's own frames
+    case FrameType::ack: break;
+    default: return;  // an echo of this end's own frames
   }
   Session* const session = admit(now_ns, view);
   if (session == nullptr) return;
@@ -122,14 +119,9 @@ void Vehicle::end_session() {
 void Vehicle::take_from_operator(std::int64_t now_ns, const FrameView& view) {
   Session& session = *active_;
   switch (view.header.type) {
-    case FrameType::bye:
-      events_.push_back({Event::Kind::left, sessions_});
-      return end_session();
-    case FrameType::ping:
-      pong_ = Buffer(view.payload.begin(), view.payload.end());
-      return;
-    case FrameType::command:
-      return take_command_frame(view.payload);
+    case FrameType::bye: events_.push_back({Event::Kind::left, sessions_}); return end_session();
+    case FrameType::ping: pong_ = Buffer(view.payload.begin(), view.payload.end()); return;
+    case FrameType::command: return take_command_frame(view.payload);
     case FrameType::segment:
       if (const auto segment = decode_segment(view.payload))
         session.receiver.take(now_ns, *segment, view.header.counter);
@@ -137,8 +129,7 @@ void Vehicle::take_from_operator(std::int64_t now_ns, const FrameView& view) {
     case FrameType::ack:
       if (const auto ack = decode_ack(view.payload)) session.sender.acknowledge(now_ns, *ack);
       return;
-    default:
-      return;
+    default: return;
   }
 }
 

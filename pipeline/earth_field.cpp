@@ -33,12 +33,9 @@ EarthField::EarthField(const config::EnvironmentSettings& settings)
 
 std::string_view name_of(Source source) {
   switch (source) {
-    case Source::configuration:
-      return "configuration";
-    case Source::model:
-      return "model";
-    case Source::none:
-      break;
+    case Source::configuration: return "configuration";
+    case Source::model: return "model";
+    case Source::none: break;
   }
   return "none";
 }

@@ -13,26 +13,19 @@ constexpr double kLeastDistance_m = 10;
 
 std::string_view name_of(PositionSource source) {
   switch (source) {
-    case PositionSource::fixes:
-      return "fixes";
-    case PositionSource::reckoned:
-      return "reckoned";
-    case PositionSource::none:
-      break;
+    case PositionSource::fixes: return "fixes";
+    case PositionSource::reckoned: return "reckoned";
+    case PositionSource::none: break;
   }
   return "none";
 }
 
 std::string_view name_of(nav::SpeedSource source) {
   switch (source) {
-    case nav::SpeedSource::shaft:
-      return "shaft";
-    case nav::SpeedSource::water:
-      return "water";
-    case nav::SpeedSource::bottom:
-      return "dvl";
-    case nav::SpeedSource::none:
-      break;
+    case nav::SpeedSource::shaft: return "shaft";
+    case nav::SpeedSource::water: return "water";
+    case nav::SpeedSource::bottom: return "dvl";
+    case nav::SpeedSource::none: break;
   }
   return {};
 }

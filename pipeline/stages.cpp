@@ -16,12 +16,9 @@ std::string words_for(const Sources::Change& change, const std::vector<std::stri
   if (!change.before) return words;
   const std::string& before = port_names.at(*change.before);
   switch (change.cause) {
-    case Cause::silence:
-      return words + fmt::format(", because {} is silent", before);
-    case Cause::error:
-      return words + fmt::format(" instead of {}, because it states the smaller error", before);
-    case Cause::delivers:
-      break;
+    case Cause::silence: return words + fmt::format(", because {} is silent", before);
+    case Cause::error: return words + fmt::format(" instead of {}, because it states the smaller error", before);
+    case Cause::delivers: break;
   }
   return words + fmt::format(" instead of {}", before);
 }

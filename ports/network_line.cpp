@@ -34,13 +34,10 @@ std::string text_of(std::string_view kind, const ip::tcp::endpoint& endpoint) {
 
 std::string_view kind_of(const NetworkAddress& address) {
   switch (address.kind) {
-    case NetworkAddress::Kind::tcp:
-      return "tcp";
-    case NetworkAddress::Kind::tcp_listen:
-      return "tcp-listen";
+    case NetworkAddress::Kind::tcp: return "tcp";
+    case NetworkAddress::Kind::tcp_listen: return "tcp-listen";
     case NetworkAddress::Kind::udp:
-    case NetworkAddress::Kind::unix_listen:
-      break;
+    case NetworkAddress::Kind::unix_listen: break;
   }
   return "udp";
 }

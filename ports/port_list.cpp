@@ -16,12 +16,9 @@ std::string text(const char* maybe) { return maybe == nullptr ? std::string{} : 
 
 std::string transport_of(const sp_port* port) {
   switch (sp_get_port_transport(port)) {
-    case SP_TRANSPORT_USB:
-      return "usb";
-    case SP_TRANSPORT_BLUETOOTH:
-      return "bluetooth";
-    case SP_TRANSPORT_NATIVE:
-      break;
+    case SP_TRANSPORT_USB: return "usb";
+    case SP_TRANSPORT_BLUETOOTH: return "bluetooth";
+    case SP_TRANSPORT_NATIVE: break;
   }
   return "native";
 }

@@ -20,20 +20,13 @@ enum class Fix : std::uint8_t {
 /// "none", "2d", "3d", "propagated", "hold", "acquiring", "bad_geometry" (docs/cli.md).
 [[nodiscard]] constexpr std::string_view name_of(Fix fix) {
   switch (fix) {
-    case Fix::none:
-      return "none";
-    case Fix::fix_2d:
-      return "2d";
-    case Fix::fix_3d:
-      return "3d";
-    case Fix::propagated:
-      return "propagated";
-    case Fix::hold:
-      return "hold";
-    case Fix::acquiring:
-      return "acquiring";
-    case Fix::bad_geometry:
-      return "bad_geometry";
+    case Fix::none: return "none";
+    case Fix::fix_2d: return "2d";
+    case Fix::fix_3d: return "3d";
+    case Fix::propagated: return "propagated";
+    case Fix::hold: return "hold";
+    case Fix::acquiring: return "acquiring";
+    case Fix::bad_geometry: return "bad_geometry";
   }
   return "none";
 }

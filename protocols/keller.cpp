@@ -49,18 +49,15 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   const auto available = static_cast<std::size_t>(last - first);
   if (available < 2) return Scan::incomplete(2);
   switch (first[1]) {
-    case kInitialise:
-      return scan_shapes(first, available, {kInitialiseShape, kIdentityShape});
+    case kInitialise: return scan_shapes(first, available, {kInitialiseShape, kIdentityShape});
     case kInitialise | kRefused:
-    case kReadChannel | kRefused:
-      return scan_shapes(first, available, {kErrorShape});
+    case kReadChannel | kRefused: return scan_shapes(first, available, {kErrorShape});
     case kReadChannel:
       if (available < 3) return Scan::incomplete(2);
       // The first byte of a pressure's float is no channel, unless the pressure is zero or next to it.
       if (first[2] > kLastChannel) return scan_shapes(first, available, {kReadingShape});
       return scan_shapes(first, available, {kRequestShape, kReadingShape});
-    default:
-      return Scan::not_a_frame();
+    default: return Scan::not_a_frame();
   }
 }
 

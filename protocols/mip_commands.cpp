@@ -47,15 +47,9 @@ std::vector<std::uint8_t> encode_reply(std::uint8_t set, const Reply& reply) {
 std::vector<std::uint8_t> encode_base_rate(const Reply& reply, const BaseRate& rate) {
   Field field;
   switch (reply.command) {
-    case command_3dm::kSensorBaseRate:
-      field.descriptor = kSensorRateAnswer;
-      break;
-    case command_3dm::kFilterBaseRate:
-      field.descriptor = kFilterRateAnswer;
-      break;
-    default:
-      field = {kRateAnswer, {rate.set}};
-      break;
+    case command_3dm::kSensorBaseRate: field.descriptor = kSensorRateAnswer; break;
+    case command_3dm::kFilterBaseRate: field.descriptor = kFilterRateAnswer; break;
+    default: field = {kRateAnswer, {rate.set}}; break;
   }
   append_u16(field.data, rate.rate_Hz);
   return encode_fields(k3dmSet, {{kAnswer, {reply.command, reply.error}}, field});

@@ -37,38 +37,22 @@ Type type_of(FrameId id) {
   if (name == "PTNTHTM") return Type::ptnthtm;
   if (name.size() != 5 || name[0] == 'P') return Type::other;  // P begins makers' own words
   switch (packed(name[2], name[3], name[4])) {
-    case packed('G', 'G', 'A'):
-      return Type::gga;
-    case packed('R', 'M', 'C'):
-      return Type::rmc;
-    case packed('V', 'T', 'G'):
-      return Type::vtg;
-    case packed('G', 'L', 'L'):
-      return Type::gll;
-    case packed('G', 'S', 'A'):
-      return Type::gsa;
-    case packed('G', 'S', 'V'):
-      return Type::gsv;
-    case packed('Z', 'D', 'A'):
-      return Type::zda;
-    case packed('H', 'D', 'T'):
-      return Type::hdt;
-    case packed('H', 'D', 'M'):
-      return Type::hdm;
-    case packed('H', 'D', 'G'):
-      return Type::hdg;
-    case packed('R', 'O', 'T'):
-      return Type::rot;
-    case packed('X', 'D', 'R'):
-      return Type::xdr;
-    case packed('T', 'H', 'S'):
-      return Type::ths;
-    case packed('D', 'B', 'T'):
-      return Type::dbt;
-    case packed('D', 'P', 'T'):
-      return Type::dpt;
-    default:
-      return Type::other;
+    case packed('G', 'G', 'A'): return Type::gga;
+    case packed('R', 'M', 'C'): return Type::rmc;
+    case packed('V', 'T', 'G'): return Type::vtg;
+    case packed('G', 'L', 'L'): return Type::gll;
+    case packed('G', 'S', 'A'): return Type::gsa;
+    case packed('G', 'S', 'V'): return Type::gsv;
+    case packed('Z', 'D', 'A'): return Type::zda;
+    case packed('H', 'D', 'T'): return Type::hdt;
+    case packed('H', 'D', 'M'): return Type::hdm;
+    case packed('H', 'D', 'G'): return Type::hdg;
+    case packed('R', 'O', 'T'): return Type::rot;
+    case packed('X', 'D', 'R'): return Type::xdr;
+    case packed('T', 'H', 'S'): return Type::ths;
+    case packed('D', 'B', 'T'): return Type::dbt;
+    case packed('D', 'P', 'T'): return Type::dpt;
+    default: return Type::other;
   }
 }
 

@@ -46,11 +46,8 @@ std::optional<Heading> decode_heading(const Sentence& sentence, Type type) {
       out.deviation_deg = fields.signed_by_letter('E', 'W', 180);
       out.variation_deg = fields.signed_by_letter('E', 'W', 180);
       break;
-    case Type::ths:
-      out.mode = fields.optional_letter();
-      break;
-    default:
-      return std::nullopt;
+    case Type::ths: out.mode = fields.optional_letter(); break;
+    default: return std::nullopt;
   }
   return fields.if_in_range(out);
 }

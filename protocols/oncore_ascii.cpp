@@ -41,14 +41,10 @@ class Columns {
 
 Fix fix_of(char type) {
   switch (type) {
-    case '1':
-      return Fix::fix_2d;
-    case '2':
-      return Fix::fix_3d;
-    case '3':
-      return Fix::propagated;
-    default:
-      return Fix::none;
+    case '1': return Fix::fix_2d;
+    case '2': return Fix::fix_3d;
+    case '3': return Fix::propagated;
+    default: return Fix::none;
   }
 }
 

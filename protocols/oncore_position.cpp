@@ -28,20 +28,13 @@ bool place_in_range(const std::uint8_t* p) {
 // Ha and Hb: the three highest bits are a number.
 Fix fix_of_twelve_channels(std::uint16_t status) {
   switch (status >> 13) {
-    case 7:
-      return Fix::fix_3d;
-    case 6:
-      return Fix::fix_2d;
-    case 5:
-      return Fix::propagated;
-    case 4:
-      return Fix::hold;
-    case 3:
-      return Fix::acquiring;
-    case 2:
-      return Fix::bad_geometry;
-    default:
-      return Fix::none;
+    case 7: return Fix::fix_3d;
+    case 6: return Fix::fix_2d;
+    case 5: return Fix::propagated;
+    case 4: return Fix::hold;
+    case 3: return Fix::acquiring;
+    case 2: return Fix::bad_geometry;
+    default: return Fix::none;
   }
 }
 
@@ -155,18 +148,12 @@ Position decode_ea(const std::uint8_t* f, std::size_t channels) {
 std::optional<Position> decode_position(Bytes frame) {
   if (frame.size() < 4 || frame.size() != response_length(frame[2], frame[3])) return std::nullopt;
   switch (frame[2] << 8 | frame[3]) {
-    case 'H' << 8 | 'a':
-      return decode_ha(frame.data());
-    case 'H' << 8 | 'b':
-      return decode_hb(frame.data());
-    case 'E' << 8 | 'a':
-      return decode_ea(frame.data(), 8);
-    case 'B' << 8 | 'a':
-      return decode_ea(frame.data(), 6);
-    case 'E' << 8 | 'q':
-      return decode_eq(frame);
-    default:
-      return std::nullopt;
+    case 'H' << 8 | 'a': return decode_ha(frame.data());
+    case 'H' << 8 | 'b': return decode_hb(frame.data());
+    case 'E' << 8 | 'a': return decode_ea(frame.data(), 8);
+    case 'B' << 8 | 'a': return decode_ea(frame.data(), 6);
+    case 'E' << 8 | 'q': return decode_eq(frame);
+    default: return std::nullopt;
   }
 }
 

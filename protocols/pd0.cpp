@@ -163,14 +163,10 @@ void read_type(Bytes p, Ensemble& ensemble) {
     if (!value) ++ensemble.invalid_types;
   };
   switch (get_le<std::uint16_t>(p.data())) {
-    case kFixedType:
-      return taken(ensemble.fixed, read_fixed(p));
-    case kVariableType:
-      return taken(ensemble.variable, read_variable(p));
-    case kBottomType:
-      return taken(ensemble.bottom, read_bottom(p));
-    default:
-      ++ensemble.unknown_types;
+    case kFixedType: return taken(ensemble.fixed, read_fixed(p));
+    case kVariableType: return taken(ensemble.variable, read_variable(p));
+    case kBottomType: return taken(ensemble.bottom, read_bottom(p));
+    default: ++ensemble.unknown_types;
   }
 }
 

@@ -125,17 +125,13 @@ class StreamParser {
           p += found.length;
           leave(p);
           break;
-        case Scan::Kind::bad_checksum:
-          ++counters_.bad_checksum;
-          [[fallthrough]];
+        case Scan::Kind::bad_checksum: ++counters_.bad_checksum; [[fallthrough]];
         case Scan::Kind::not_a_frame:
           skip(1);
           ++p;
           leave(p);
           break;
-        case Scan::Kind::incomplete:
-          missing_ = found.length;
-          return p;
+        case Scan::Kind::incomplete: missing_ = found.length; return p;
       }
     }
     return p;

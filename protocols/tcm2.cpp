@@ -78,10 +78,8 @@ Scan scan_word(const std::uint8_t* first, const std::uint8_t* last) {
 
 Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   switch (*first) {
-    case '$':
-      return last - first > 1 && first[1] == 'H' ? scan_hchdm(first, last) : scan_word(first, last);
-    case 'T':
-      return scan_banner(first, last);
+    case '$': return last - first > 1 && first[1] == 'H' ? scan_hchdm(first, last) : scan_word(first, last);
+    case 'T': return scan_banner(first, last);
     default:  // ':' or 'H'
       return scan_reply(first, last);
   }

@@ -55,9 +55,7 @@ std::optional<Reply> decode_reply(Bytes line) {
 std::vector<std::uint8_t> encode_reply(const Reply& reply) {
   std::string text;
   switch (reply.kind) {
-    case Reply::Kind::accepted:
-      text = ":";
-      break;
+    case Reply::Kind::accepted: text = ":"; break;
     case Reply::Kind::refused:
       text = ":E";
       append_hex(text, reply.error, 3);

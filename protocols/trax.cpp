@@ -21,28 +21,20 @@ struct Place {
 Place place_of(Component component, Data& data) {
   const auto number = static_cast<std::size_t>(component);
   switch (component) {
-    case Component::heading:
-      return {&data.heading_deg};
-    case Component::pitch:
-      return {&data.pitch_deg};
-    case Component::roll:
-      return {&data.roll_deg};
-    case Component::temperature:
-      return {&data.temperature_C};
+    case Component::heading: return {&data.heading_deg};
+    case Component::pitch: return {&data.pitch_deg};
+    case Component::roll: return {&data.roll_deg};
+    case Component::temperature: return {&data.temperature_C};
     case Component::acceleration_x:
     case Component::acceleration_y:
-    case Component::acceleration_z:
-      return {&data.acceleration_m_s2[number - 21], kTraxGravity_m_s2};
+    case Component::acceleration_z: return {&data.acceleration_m_s2[number - 21], kTraxGravity_m_s2};
     case Component::field_x:
     case Component::field_y:
-    case Component::field_z:
-      return {&data.field_uT[number - 27]};
+    case Component::field_z: return {&data.field_uT[number - 27]};
     case Component::rate_x:
     case Component::rate_y:
-    case Component::rate_z:
-      return {&data.rate_rad_s[number - 74]};
-    default:
-      return {};
+    case Component::rate_z: return {&data.rate_rad_s[number - 74]};
+    default: return {};
   }
 }
 
@@ -52,12 +44,9 @@ std::size_t size_of(Component component) {
   switch (component) {
     case Component::distortion:
     case Component::calibrated:
-    case Component::heading_status:
-      return 1;
-    case Component::quaternion:
-      return 16;
-    default:
-      return place_of(component, unused).value != nullptr ? 4 : 0;
+    case Component::heading_status: return 1;
+    case Component::quaternion: return 16;
+    default: return place_of(component, unused).value != nullptr ? 4 : 0;
   }
 }
 

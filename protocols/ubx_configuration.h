@@ -50,16 +50,11 @@ struct ConfigurationItem {
 [[nodiscard]] constexpr std::size_t value_size(std::uint32_t key) {
   switch (key >> 28 & 7U) {
     case 1:  // one bit, sent as a byte
-    case 2:
-      return 1;
-    case 3:
-      return 2;
-    case 4:
-      return 4;
-    case 5:
-      return 8;
-    default:
-      return 0;
+    case 2: return 1;
+    case 3: return 2;
+    case 4: return 4;
+    case 5: return 8;
+    default: return 0;
   }
 }
 

@@ -43,15 +43,11 @@ std::optional<std::int64_t> NavPvt::utc_ns() const {
 Fix NavPvt::fix() const {
   if (!fix_ok || position_invalid) return Fix::none;
   switch (fix_type) {
-    case 1:
-      return Fix::propagated;
-    case 2:
-      return Fix::fix_2d;
+    case 1: return Fix::propagated;
+    case 2: return Fix::fix_2d;
     case 3:
-    case 4:
-      return Fix::fix_3d;
-    default:
-      return Fix::none;
+    case 4: return Fix::fix_3d;
+    default: return Fix::none;
   }
 }
 

@@ -53,32 +53,18 @@ Triple triple(const std::uint8_t* p, double unit = 1) {
 /// A field of the common group; false for one that is left.
 bool read_common(unsigned bit, const std::uint8_t* p, Reading& reading) {
   switch (bit) {
-    case time_startup:
-      reading.since_startup_ns = get_le<std::uint64_t>(p);
-      return true;
-    case time_gps:
-      reading.gps_time_ns = get_le<std::uint64_t>(p);
-      return true;
-    case yaw_pitch_roll:
-      reading.yaw_pitch_roll_deg = triple<float>(p);
-      return true;
+    case time_startup: reading.since_startup_ns = get_le<std::uint64_t>(p); return true;
+    case time_gps: reading.gps_time_ns = get_le<std::uint64_t>(p); return true;
+    case yaw_pitch_roll: reading.yaw_pitch_roll_deg = triple<float>(p); return true;
     case quaternion_field: {
       const Triple vector = triple<float>(p);
       reading.quaternion = {vector[0], vector[1], vector[2], double{get_le<float>(p + 12)}};
       return true;
     }
-    case angular_rate:
-      reading.rate_rad_s = triple<float>(p);
-      return true;
-    case position_field:
-      reading.position = triple<double>(p);
-      return true;
-    case velocity_field:
-      reading.velocity_ned_m_s = triple<float>(p);
-      return true;
-    case acceleration_field:
-      reading.acceleration_m_s2 = triple<float>(p);
-      return true;
+    case angular_rate: reading.rate_rad_s = triple<float>(p); return true;
+    case position_field: reading.position = triple<double>(p); return true;
+    case velocity_field: reading.velocity_ned_m_s = triple<float>(p); return true;
+    case acceleration_field: reading.acceleration_m_s2 = triple<float>(p); return true;
     case imu_field:
       reading.raw_acceleration_m_s2 = triple<float>(p);
       reading.raw_rate_rad_s = triple<float>(p + 12);
@@ -88,60 +74,39 @@ bool read_common(unsigned bit, const std::uint8_t* p, Reading& reading) {
       reading.temperature_C = double{get_le<float>(p + 12)};
       reading.pressure_Pa = double{get_le<float>(p + 16)} * kKilopascal_Pa;
       return true;
-    default:
-      return false;
+    default: return false;
   }
 }
 
 /// A field of the IMU group.
 bool read_imu(unsigned bit, const std::uint8_t* p, Reading& reading) {
   switch (bit) {
-    case 1:
-      reading.raw_field_uT = triple<float>(p, kVnGauss_uT);
-      return true;
-    case 2:
-      reading.raw_acceleration_m_s2 = triple<float>(p);
-      return true;
-    case 3:
-      reading.raw_rate_rad_s = triple<float>(p);
-      return true;
-    case 4:
-      reading.temperature_C = double{get_le<float>(p)};
-      return true;
-    case 5:
-      reading.pressure_Pa = double{get_le<float>(p)} * kKilopascal_Pa;
-      return true;
-    case 8:
-      reading.field_uT = triple<float>(p, kVnGauss_uT);
-      return true;
-    case 9:
-      reading.acceleration_m_s2 = triple<float>(p);
-      return true;
-    case 10:
-      reading.rate_rad_s = triple<float>(p);
-      return true;
-    default:
-      return false;
+    case 1: reading.raw_field_uT = triple<float>(p, kVnGauss_uT); return true;
+    case 2: reading.raw_acceleration_m_s2 = triple<float>(p); return true;
+    case 3: reading.raw_rate_rad_s = triple<float>(p); return true;
+    case 4: reading.temperature_C = double{get_le<float>(p)}; return true;
+    case 5: reading.pressure_Pa = double{get_le<float>(p)} * kKilopascal_Pa; return true;
+    case 8: reading.field_uT = triple<float>(p, kVnGauss_uT); return true;
+    case 9: reading.acceleration_m_s2 = triple<float>(p); return true;
+    case 10: reading.rate_rad_s = triple<float>(p); return true;
+    default: return false;
   }
 }
 
 /// A field of a group, counted from 0.
 bool read_field(std::size_t group, unsigned bit, const std::uint8_t* p, Reading& reading) {
   switch (group) {
-    case 0:
-      return read_common(bit, p, reading);
+    case 0: return read_common(bit, p, reading);
     case 1:  // time: since start-up, GPS
       return bit <= 1 && read_common(bit == 0 ? time_startup : time_gps, p, reading);
-    case 2:
-      return read_imu(bit, p, reading);
+    case 2: return read_imu(bit, p, reading);
     case kAttitudeGroup:
       if (bit == 1) return read_common(yaw_pitch_roll, p, reading);
       if (bit == 2) return read_common(quaternion_field, p, reading);
       if (bit != kAttitudeStd) return false;
       reading.yaw_pitch_roll_std_deg = triple<float>(p);
       return true;
-    default:
-      return false;
+    default: return false;
   }
 }
 

@@ -115,10 +115,8 @@ std::string held_out_of(const calib::CalibratorReport& report, std::string_view 
                          after * base::kDegreesPerRadian);
     case calib::HeldOutQuantity::field:
       return fmt::format("{:.2f} {} {:.2f} % of the field's size", before * 100, arrow, after * 100);
-    case calib::HeldOutQuantity::motor_field:
-      return fmt::format("{:.3f} {} {:.3f} uT", before, arrow, after);
-    case calib::HeldOutQuantity::none:
-      break;
+    case calib::HeldOutQuantity::motor_field: return fmt::format("{:.3f} {} {:.3f} uT", before, arrow, after);
+    case calib::HeldOutQuantity::none: break;
   }
   return {};
 }

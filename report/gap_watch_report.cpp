@@ -18,16 +18,11 @@ double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns / 1'00
 
 std::string_view event_name(gap::WatchEvent::Kind kind) {
   switch (kind) {
-    case gap::WatchEvent::Kind::window:
-      return "status";
-    case gap::WatchEvent::Kind::skipped:
-      return "skipped";
-    case gap::WatchEvent::Kind::alarm:
-      return "alarm";
-    case gap::WatchEvent::Kind::cause:
-      return "cause";
-    case gap::WatchEvent::Kind::unknown:
-      break;
+    case gap::WatchEvent::Kind::window: return "status";
+    case gap::WatchEvent::Kind::skipped: return "skipped";
+    case gap::WatchEvent::Kind::alarm: return "alarm";
+    case gap::WatchEvent::Kind::cause: return "cause";
+    case gap::WatchEvent::Kind::unknown: break;
   }
   return "unknown";
 }

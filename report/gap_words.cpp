@@ -36,12 +36,9 @@ std::string_view verdict_word(gap::Verdict verdict) {
 std::string verdict_sentence(const gap::Diagnosis& diagnosis) {
   if (!diagnosis.sentence.empty()) return diagnosis.sentence;
   switch (diagnosis.verdict) {
-    case gap::Verdict::no_gap:
-      return "No residuals exceed those of the nominal vehicle.";
-    case gap::Verdict::explained:
-      return "The effects below explain the gap.";
-    case gap::Verdict::unknown:
-      break;
+    case gap::Verdict::no_gap: return "No residuals exceed those of the nominal vehicle.";
+    case gap::Verdict::explained: return "The effects below explain the gap.";
+    case gap::Verdict::unknown: break;
   }
   return "No effect of the library explains the recording.";
 }

@@ -69,14 +69,10 @@ void judge(const std::vector<Weighed>& found, RunDiagnosis& diagnosis) {
 
 std::string_view verdict_name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::nominal:
-      return "no-gap";
-    case Verdict::explained:
-      return "explained";
-    case Verdict::unknown:
-      return "unknown";
-    case Verdict::undecided:
-      break;
+    case Verdict::nominal: return "no-gap";
+    case Verdict::explained: return "explained";
+    case Verdict::unknown: return "unknown";
+    case Verdict::undecided: break;
   }
   return "undecided";
 }

@@ -138,12 +138,9 @@ ActiveCounts counts_of(const std::vector<ActiveResult>& results) {
 
 std::string_view name_of(ActiveStrategy strategy) {
   switch (strategy) {
-    case ActiveStrategy::planned:
-      return "planned";
-    case ActiveStrategy::survey:
-      return "survey";
-    case ActiveStrategy::random:
-      return "random";
+    case ActiveStrategy::planned: return "planned";
+    case ActiveStrategy::survey: return "survey";
+    case ActiveStrategy::random: return "random";
   }
   return "";
 }

@@ -78,12 +78,9 @@ std::vector<std::string> families_of(const Json& proposal) {
 
 std::string_view name_of(TrialVerdict verdict) {
   switch (verdict) {
-    case TrialVerdict::no_gap:
-      return "no-gap";
-    case TrialVerdict::explained:
-      return "explained";
-    case TrialVerdict::unknown:
-      break;
+    case TrialVerdict::no_gap: return "no-gap";
+    case TrialVerdict::explained: return "explained";
+    case TrialVerdict::unknown: break;
   }
   return "unknown";
 }

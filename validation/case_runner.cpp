@@ -38,8 +38,7 @@ std::string complaint_about(const ChildEnd& end, const std::string& errors, std:
   switch (end.how) {
     case ChildEnd::How::signalled:
       return fmt::format("it was ended by signal {} ({}){}", end.status, ::strsignal(end.status), and_said);
-    case ChildEnd::How::timed_out:
-      return fmt::format("no answer within {} s{}", timeout.count(), and_said);
+    case ChildEnd::How::timed_out: return fmt::format("no answer within {} s{}", timeout.count(), and_said);
     default:
       return end.status == 0 ? std::string() : fmt::format("it ended with status {}{}", end.status, and_said);
   }

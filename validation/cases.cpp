@@ -39,8 +39,7 @@ Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, reference::Rng& 
   Kinds kinds;
   switch (arm) {
     case TrialArm::nulls:
-    case TrialArm::nulls_6:
-      break;
+    case TrialArm::nulls_6: break;
     case TrialArm::foreign:
       kinds.push_back(&reference::foreign_effects()[turn(reference::foreign_effects().size())]);
       break;
@@ -59,8 +58,7 @@ Kinds chosen_kinds(std::uint64_t seed, TrialArm arm, int place, reference::Rng& 
       add_any(kinds);
       add_any(kinds);
       break;
-    default:
-      kinds.push_back(&library[turn(library.size())]);
+    default: kinds.push_back(&library[turn(library.size())]);
   }
   return kinds;
 }

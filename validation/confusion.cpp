@@ -12,16 +12,11 @@ using Counts = std::map<std::pair<std::string, std::string>, int>;
 
 std::vector<std::string> truths_of(const TrialCase& drawn) {
   switch (drawn.arm) {
-    case TrialArm::nulls:
-      return {"no effect"};
-    case TrialArm::nulls_6:
-      return {"6 % off everywhere"};
-    case TrialArm::removed:
-      return {"removed from the library"};
-    case TrialArm::foreign:
-      return {"foreign to the library"};
-    default:
-      break;
+    case TrialArm::nulls: return {"no effect"};
+    case TrialArm::nulls_6: return {"6 % off everywhere"};
+    case TrialArm::removed: return {"removed from the library"};
+    case TrialArm::foreign: return {"foreign to the library"};
+    default: break;
   }
   std::vector<std::string> names;
   for (const reference::Effect& effect : drawn.effects) names.push_back(effect.name);

@@ -89,24 +89,18 @@ nlohmann::ordered_json json_of(const FleetCause& cause) {
 
 std::string_view name_of(FleetLevel level) {
   switch (level) {
-    case FleetLevel::vehicle:
-      return "vehicle";
-    case FleetLevel::design:
-      return "design";
-    case FleetLevel::day:
-      return "day";
+    case FleetLevel::vehicle: return "vehicle";
+    case FleetLevel::design: return "design";
+    case FleetLevel::day: return "day";
   }
   return "";
 }
 
 bool FleetCause::acts_in(int of_vehicle, int on_day) const {
   switch (level) {
-    case FleetLevel::vehicle:
-      return of_vehicle == vehicle && on_day >= day;
-    case FleetLevel::design:
-      return true;
-    case FleetLevel::day:
-      return on_day == day;
+    case FleetLevel::vehicle: return of_vehicle == vehicle && on_day >= day;
+    case FleetLevel::design: return true;
+    case FleetLevel::day: return on_day == day;
   }
   return false;
 }

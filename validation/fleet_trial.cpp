@@ -40,12 +40,9 @@ bool is_of(const FleetAnswerJson& named, const FleetCause& cause, const FleetTru
   if (named.at("level") != name_of(cause.level)) return false;
   const std::string of = named.at("of");
   switch (cause.level) {
-    case FleetLevel::vehicle:
-      return of == vehicle_name(cause.vehicle);
-    case FleetLevel::design:
-      return true;
-    case FleetLevel::day:
-      return of.starts_with(date_of_day(truth, cause.day));
+    case FleetLevel::vehicle: return of == vehicle_name(cause.vehicle);
+    case FleetLevel::design: return true;
+    case FleetLevel::day: return of.starts_with(date_of_day(truth, cause.day));
   }
   return false;
 }

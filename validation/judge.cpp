@@ -43,19 +43,16 @@ TrialOutcome outcome_of(const TrialCase& drawn, const TrialAnswer& answer) {
 
 bool right_for(TrialArm arm, const TrialJudgement& judgement) {
   switch (arm) {
-    case TrialArm::nulls:
-      return judgement.outcome == TrialOutcome::no_gap;
+    case TrialArm::nulls: return judgement.outcome == TrialOutcome::no_gap;
     case TrialArm::nulls_6:
       return judgement.outcome == TrialOutcome::no_gap || judgement.outcome == TrialOutcome::unknown;
-    case TrialArm::foreign:
-      return judgement.outcome == TrialOutcome::unknown;
+    case TrialArm::foreign: return judgement.outcome == TrialOutcome::unknown;
     case TrialArm::removed:
       return judgement.outcome == TrialOutcome::unknown || judgement.outcome == TrialOutcome::in_class;
     case TrialArm::poor:
       if (judgement.outcome == TrialOutcome::unknown) return judgement.truth_considered.value_or(false);
       return judgement.outcome == TrialOutcome::exact;
-    default:
-      return judgement.outcome == TrialOutcome::exact;
+    default: return judgement.outcome == TrialOutcome::exact;
   }
 }
 

@@ -89,14 +89,10 @@ struct JudgedLayout {
 bool is_as_asked(const JudgedLayout& one) {
   using enum LayoutOutcome;
   switch (one.truth->arm) {
-    case LayoutArm::nulls:
-      return one.outcome == no_gap;
-    case LayoutArm::foreign:
-      return one.outcome == unknown || one.outcome == cannot_say;
-    case LayoutArm::removed:
-      return one.outcome == unknown || one.outcome == cannot_say || one.outcome == in_class;
-    default:
-      return one.outcome == exact;
+    case LayoutArm::nulls: return one.outcome == no_gap;
+    case LayoutArm::foreign: return one.outcome == unknown || one.outcome == cannot_say;
+    case LayoutArm::removed: return one.outcome == unknown || one.outcome == cannot_say || one.outcome == in_class;
+    default: return one.outcome == exact;
   }
 }
 

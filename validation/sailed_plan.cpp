@@ -40,15 +40,11 @@ class PlanOrders {
       case config::StepKind::spiral:
         return turn(angle_of(step), step.rate_rad_s.value_or(kTurnRate_rad_s),
                     step.depth_m.value_or(*order_.depth_m));
-      case config::StepKind::zigzag:
-        return zigzag(step);
+      case config::StepKind::zigzag: return zigzag(step);
       case config::StepKind::dive:
-      case config::StepKind::surface:
-        return depth(step.depth_m.value_or(kStart_m), step.seconds.value_or(0));
-      case config::StepKind::doublet:
-        return doublet(step);
-      case config::StepKind::direct:
-        return direct(step);
+      case config::StepKind::surface: return depth(step.depth_m.value_or(kStart_m), step.seconds.value_or(0));
+      case config::StepKind::doublet: return doublet(step);
+      case config::StepKind::direct: return direct(step);
       default:
         if (step.heading_rad) order_.heading_rad = *step.heading_rad;
         if (step.depth_m) order_.depth_m = *step.depth_m;

@@ -129,17 +129,10 @@ void DataFlashFile::take_known(const Plan& plan, std::uint8_t type, std::string_
   if (!time_ns) return sink_.left(fmt::format("{} (impossible time)", name));
   ImportedSample sample{name, {}, *time_ns};
   switch (plan.kind()) {
-    case Kind::imu:
-      sample.port = port_name(PortKind::imu, instance);
-      return take_imu(plan, record, sample);
-    case Kind::mag:
-      sample.port = port_name(PortKind::compass, instance);
-      return take_mag(plan, record, sample);
-    case Kind::baro:
-      return take_baro(plan, record, sample);
-    case Kind::gps:
-      sample.port = port_name(PortKind::gps, instance);
-      return take_gps(plan, record, sample);
+    case Kind::imu: sample.port = port_name(PortKind::imu, instance); return take_imu(plan, record, sample);
+    case Kind::mag: sample.port = port_name(PortKind::compass, instance); return take_mag(plan, record, sample);
+    case Kind::baro: return take_baro(plan, record, sample);
+    case Kind::gps: sample.port = port_name(PortKind::gps, instance); return take_gps(plan, record, sample);
     case Kind::gps_accuracy:
       accuracies_[instance] = {field(plan, record, 0), field(plan, record, 1), field(plan, record, 2)};
       return sink_.left(fmt::format("{} (its errors go with the next fix)", name));
@@ -149,9 +142,7 @@ void DataFlashFile::take_known(const Plan& plan, std::uint8_t type, std::string_
     case Kind::battery:
       sample.port = port_name(PortKind::battery, instance);
       return take_battery(plan, record, sample);
-    default:
-      sample.port = port_name(PortKind::motor, instance);
-      return take_outputs(plan, record, sample);
+    default: sample.port = port_name(PortKind::motor, instance); return take_outputs(plan, record, sample);
   }
 }
 

@@ -63,27 +63,17 @@ constexpr std::array kTextFields{Field{"Message", &kAny}};
 
 std::span<const Field> fields_of(Kind kind) {
   switch (kind) {
-    case Kind::imu:
-      return kImuFields;
-    case Kind::mag:
-      return kMagFields;
-    case Kind::baro:
-      return kBaroFields;
-    case Kind::gps:
-      return kGpsFields;
-    case Kind::gps_accuracy:
-      return kAccuracyFields;
-    case Kind::attitude:
-      return kAttitudeFields;
-    case Kind::battery:
-      return kBatteryFields;
-    case Kind::parameter:
-      return kParameterFields;
-    case Kind::text:
-      return kTextFields;
+    case Kind::imu: return kImuFields;
+    case Kind::mag: return kMagFields;
+    case Kind::baro: return kBaroFields;
+    case Kind::gps: return kGpsFields;
+    case Kind::gps_accuracy: return kAccuracyFields;
+    case Kind::attitude: return kAttitudeFields;
+    case Kind::battery: return kBatteryFields;
+    case Kind::parameter: return kParameterFields;
+    case Kind::text: return kTextFields;
     case Kind::outputs:
-    case Kind::other:
-      break;
+    case Kind::other: break;
   }
   return {};
 }

@@ -15,33 +15,26 @@ std::size_t size_of(char format) {
   switch (format) {
     case 'b':
     case 'B':
-    case 'M':
-      return 1;
+    case 'M': return 1;
     case 'h':
     case 'H':
     case 'c':
     case 'C':
-    case 'g':
-      return 2;
+    case 'g': return 2;
     case 'i':
     case 'I':
     case 'e':
     case 'E':
     case 'L':
     case 'f':
-    case 'n':
-      return 4;
+    case 'n': return 4;
     case 'd':
     case 'q':
-    case 'Q':
-      return 8;
-    case 'N':
-      return 16;
+    case 'Q': return 8;
+    case 'N': return 16;
     case 'Z':
-    case 'a':
-      return 64;
-    default:
-      return 0;
+    case 'a': return 64;
+    default: return 0;
   }
 }
 
@@ -58,12 +51,9 @@ double implied_factor(char format) {
     case 'c':
     case 'C':
     case 'e':
-    case 'E':
-      return 1e-2;
-    case 'L':
-      return 1e-7;
-    default:
-      return 1;
+    case 'E': return 1e-2;
+    case 'L': return 1e-7;
+    default: return 1;
   }
 }
 
@@ -91,32 +81,24 @@ const Column* MessageType::find(std::string_view column) const {
 
 std::optional<std::int64_t> integer_of(const Column& column, std::string_view record) {
   switch (column.format) {
-    case 'b':
-      return little_endian<std::int8_t>(record, column.offset);
+    case 'b': return little_endian<std::int8_t>(record, column.offset);
     case 'B':
-    case 'M':
-      return little_endian<std::uint8_t>(record, column.offset);
+    case 'M': return little_endian<std::uint8_t>(record, column.offset);
     case 'h':
-    case 'c':
-      return little_endian<std::int16_t>(record, column.offset);
+    case 'c': return little_endian<std::int16_t>(record, column.offset);
     case 'H':
-    case 'C':
-      return little_endian<std::uint16_t>(record, column.offset);
+    case 'C': return little_endian<std::uint16_t>(record, column.offset);
     case 'i':
     case 'e':
-    case 'L':
-      return little_endian<std::int32_t>(record, column.offset);
+    case 'L': return little_endian<std::int32_t>(record, column.offset);
     case 'I':
-    case 'E':
-      return little_endian<std::uint32_t>(record, column.offset);
-    case 'q':
-      return little_endian<std::int64_t>(record, column.offset);
+    case 'E': return little_endian<std::uint32_t>(record, column.offset);
+    case 'q': return little_endian<std::int64_t>(record, column.offset);
     case 'Q': {
       const auto value = little_endian<std::uint64_t>(record, column.offset);
       return value > INT64_MAX ? std::nullopt : std::optional(static_cast<std::int64_t>(value));
     }
-    default:
-      return std::nullopt;
+    default: return std::nullopt;
   }
 }
 

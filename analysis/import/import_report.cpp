@@ -15,24 +15,18 @@ std::string words_of_utc(const ImportReport& report) {
   const auto start_s = static_cast<std::time_t>(report.start_utc_ns / 1'000'000'000);
   const std::string start = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(start_s));
   switch (report.utc) {
-    case ImportReport::Utc::of_file:
-      return fmt::format("begins {} (times of the file are UTC)", start);
-    case ImportReport::Utc::of_gps:
-      return fmt::format("begins {} (UTC by GPS)", start);
-    case ImportReport::Utc::unknown:
-      break;
+    case ImportReport::Utc::of_file: return fmt::format("begins {} (times of the file are UTC)", start);
+    case ImportReport::Utc::of_gps: return fmt::format("begins {} (UTC by GPS)", start);
+    case ImportReport::Utc::unknown: break;
   }
   return "no UTC: times count from boot, which is set to 2000-01-01T00:00:00Z";
 }
 
 std::string_view key_of(ImportReport::Utc utc) {
   switch (utc) {
-    case ImportReport::Utc::of_file:
-      return "file";
-    case ImportReport::Utc::of_gps:
-      return "gps";
-    case ImportReport::Utc::unknown:
-      break;
+    case ImportReport::Utc::of_file: return "file";
+    case ImportReport::Utc::of_gps: return "gps";
+    case ImportReport::Utc::unknown: break;
   }
   return "none";
 }

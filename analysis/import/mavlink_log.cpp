@@ -117,20 +117,15 @@ void MavlinkFile::take(const Frame& frame, std::int64_t time_ns) {
 void MavlinkFile::take_known(const Frame& frame, ImportedSample sample) {
   const Payload payload(frame.payload);
   switch (frame.id) {
-    case 26:
-      return take_imu(payload, 4, 0, sample);
-    case 27:
-      return take_imu(payload, 8, 0, sample);
-    case 116:
-      return take_imu(payload, 4, 1, sample);
-    case 129:
-      return take_imu(payload, 4, 2, sample);
+    case 26: return take_imu(payload, 4, 0, sample);
+    case 27: return take_imu(payload, 8, 0, sample);
+    case 116: return take_imu(payload, 4, 1, sample);
+    case 129: return take_imu(payload, 4, 2, sample);
     case 24: {
       constexpr std::size_t kWithoutErrors = 34;
       return take_gps(payload, frame.payload.size() > kWithoutErrors, sample);
     }
-    case 36:
-      return take_servos(payload, sample);
+    case 36: return take_servos(payload, sample);
     case 29:
     case 137:
     case 143: {

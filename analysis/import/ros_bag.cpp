@@ -86,18 +86,12 @@ class RosBag {
   void take(std::uint8_t opcode, std::string_view record, std::uint64_t offset) {
     if (opcode == kChunk) return take_chunk(record, offset);
     switch (static_cast<Opcode>(opcode)) {
-      case Opcode::schema:
-        return take_schema(record);
-      case Opcode::channel:
-        return take_channel(record);
-      case Opcode::message:
-        return take_message(record);
+      case Opcode::schema: return take_schema(record);
+      case Opcode::channel: return take_channel(record);
+      case Opcode::message: return take_message(record);
       case Opcode::data_end:
-      case Opcode::footer:
-        ended_ = true;
-        return;
-      default:
-        return;
+      case Opcode::footer: ended_ = true; return;
+      default: return;
     }
   }
 

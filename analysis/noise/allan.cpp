@@ -26,9 +26,7 @@ double allan_edf(NoiseKind kind, std::size_t readings, std::size_t factor) {
   const double n = static_cast<double>(readings) + 1, m = static_cast<double>(factor);  // n sums
   double edf = 1;
   switch (kind) {
-    case NoiseKind::white:
-      edf = (3 * (n - 1) / (2 * m) - 2 * (n - 2) / n) * 4 * m * m / (4 * m * m + 5);
-      break;
+    case NoiseKind::white: edf = (3 * (n - 1) / (2 * m) - 2 * (n - 2) / n) * 4 * m * m / (4 * m * m + 5); break;
     case NoiseKind::flicker:
       edf = factor == 1 ? 2 * (n - 2) * (n - 2) / (2.3 * n - 4.9) : 5 * n * n / (4 * m * (n + 3 * m));
       break;

@@ -70,14 +70,10 @@ void bind_errors(py::module_& module) {
       std::rethrow_exception(std::move(thrown));
     } catch (const api::Error& error) {
       switch (error.kind()) {
-        case api::ErrorKind::bad_input:
-          return bad_input(error.what());
-        case api::ErrorKind::bad_argument:
-          return bad_argument(error.what());
-        case api::ErrorKind::cancelled:
-          return cancelled(error.what());
-        case api::ErrorKind::failed:
-          break;
+        case api::ErrorKind::bad_input: return bad_input(error.what());
+        case api::ErrorKind::bad_argument: return bad_argument(error.what());
+        case api::ErrorKind::cancelled: return cancelled(error.what());
+        case api::ErrorKind::failed: break;
       }
       any(error.what());
     }

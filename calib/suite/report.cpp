@@ -11,24 +11,18 @@ namespace navcal::calib {
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::shadow:
-      return "shadow";
-    case Verdict::in_force:
-      return "in_force";
-    case Verdict::refused:
-      break;
+    case Verdict::shadow: return "shadow";
+    case Verdict::in_force: return "in_force";
+    case Verdict::refused: break;
   }
   return "refused";
 }
 
 std::string_view name_of(Outcome outcome) {
   switch (outcome) {
-    case Outcome::accepted:
-      return "accepted";
-    case Outcome::no_better:
-      return "no better";
-    case Outcome::refused:
-      break;
+    case Outcome::accepted: return "accepted";
+    case Outcome::no_better: return "no better";
+    case Outcome::refused: break;
   }
   return "refused";
 }

@@ -19,12 +19,10 @@ Deviation deviation_of(TurnProblem problem) {
 
 TurnPrior prior_of(TurnProblem problem) {
   switch (problem) {
-    case TurnProblem::gyro:
-      return TurnPrior::unknown_gyro();
+    case TurnProblem::gyro: return TurnPrior::unknown_gyro();
     case TurnProblem::compass:
       return TurnPrior::unknown_compass(kTrueScale, kTrueBias_rad_s, Eigen::Matrix2d::Zero());
-    case TurnProblem::both:
-      break;
+    case TurnProblem::both: break;
   }
   return TurnPrior::unknown_both();
 }
@@ -33,12 +31,9 @@ TurnPrior prior_of(TurnProblem problem) {
 
 std::vector<int> sought(TurnProblem problem) {
   switch (problem) {
-    case TurnProblem::gyro:
-      return {kScale, kBias};
-    case TurnProblem::compass:
-      return {kB, kC, kD, kE};
-    case TurnProblem::both:
-      break;
+    case TurnProblem::gyro: return {kScale, kBias};
+    case TurnProblem::compass: return {kB, kC, kD, kE};
+    case TurnProblem::both: break;
   }
   return {kScale, kBias, kB, kC, kD, kE};
 }

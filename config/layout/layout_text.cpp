@@ -156,12 +156,9 @@ void write_damping(LayoutText& text, const LayoutDamping& damping) {
 
 std::string_view word_for(CommandUnit unit) {
   switch (unit) {
-    case CommandUnit::rpm:
-      return "rpm";
-    case CommandUnit::percent:
-      return "percent";
-    case CommandUnit::microseconds:
-      return "us";
+    case CommandUnit::rpm: return "rpm";
+    case CommandUnit::percent: return "percent";
+    case CommandUnit::microseconds: return "us";
   }
   return "";
 }

@@ -27,12 +27,9 @@ std::string time_text(const PossibleCause& cause, const PooledMissions& missions
 
 std::string owner_text(const PossibleCause& cause) {
   switch (cause.level) {
-    case CauseLevel::vehicle:
-      return "vehicle " + cause.of;
-    case CauseLevel::design:
-      return "all vehicles of " + cause.of;
-    case CauseLevel::day:
-      return "the day " + cause.of;
+    case CauseLevel::vehicle: return "vehicle " + cause.of;
+    case CauseLevel::design: return "all vehicles of " + cause.of;
+    case CauseLevel::day: return "the day " + cause.of;
   }
   return "";
 }
@@ -61,8 +58,7 @@ std::string course_text(const CalibrationHistory& history) {
     }
     case CalibrationCourse::scatter:
       return fmt::format("scatters by {:.3g} beyond the stated errors", history.excess_std);
-    default:
-      return fmt::format("{:.4g} +- {:.2g}, constant", history.mean, history.mean_std);
+    default: return fmt::format("{:.4g} +- {:.2g}, constant", history.mean, history.mean_std);
   }
 }
 

@@ -118,16 +118,11 @@ double excess_of(const std::vector<CalibrationPoint>& points, const Course& cour
 
 std::string_view name_of(CalibrationCourse course) {
   switch (course) {
-    case CalibrationCourse::constant:
-      return "constant";
-    case CalibrationCourse::drift:
-      return "drift";
-    case CalibrationCourse::step:
-      return "step";
-    case CalibrationCourse::scatter:
-      return "scatter";
-    case CalibrationCourse::too_few:
-      return "too few";
+    case CalibrationCourse::constant: return "constant";
+    case CalibrationCourse::drift: return "drift";
+    case CalibrationCourse::step: return "step";
+    case CalibrationCourse::scatter: return "scatter";
+    case CalibrationCourse::too_few: return "too few";
   }
   return "";
 }

@@ -232,12 +232,9 @@ void withdraw_from_unknown(FleetAnswer& answer) {
 
 std::string_view name_of(FleetVerdict verdict) {
   switch (verdict) {
-    case FleetVerdict::no_gap:
-      return "no-gap";
-    case FleetVerdict::explained:
-      return "explained";
-    case FleetVerdict::unknown:
-      return "unknown";
+    case FleetVerdict::no_gap: return "no-gap";
+    case FleetVerdict::explained: return "explained";
+    case FleetVerdict::unknown: return "unknown";
   }
   return "";
 }
@@ -248,12 +245,9 @@ double strength_of(const FoundCause& cause) {
 
 double tolerance_of(CauseLevel level) {
   switch (level) {
-    case CauseLevel::vehicle:
-      return kToleranceDeviations * kVehicleTolerance;
-    case CauseLevel::design:
-      return kToleranceDeviations * kDesignTolerance;
-    case CauseLevel::day:
-      return kToleranceDeviations * kDayTolerance;
+    case CauseLevel::vehicle: return kToleranceDeviations * kVehicleTolerance;
+    case CauseLevel::design: return kToleranceDeviations * kDesignTolerance;
+    case CauseLevel::day: return kToleranceDeviations * kDayTolerance;
   }
   return 0;
 }

@@ -43,12 +43,9 @@ void add_vehicle(const MissionGroup& vehicle, std::size_t effect, double log_pri
 
 std::string_view name_of(CauseLevel level) {
   switch (level) {
-    case CauseLevel::vehicle:
-      return "vehicle";
-    case CauseLevel::design:
-      return "design";
-    case CauseLevel::day:
-      return "day";
+    case CauseLevel::vehicle: return "vehicle";
+    case CauseLevel::design: return "design";
+    case CauseLevel::day: return "day";
   }
   return "";
 }

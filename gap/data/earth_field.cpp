@@ -88,17 +88,13 @@ std::string place_text(const base::GeodeticPosition& place) {
 std::string source_text(const EarthField& field) {
   using enum EarthField::Source;
   switch (field.source) {
-    case given:
-      return "given by --field";
-    case stated:
-      return "stated in the recording";
+    case given: return "given by --field";
+    case stated: return "stated in the recording";
     case model:
       return fmt::format("model WMM2025 at {} on {}{}", place_text(*field.place), field.date(),
                          field.is_extrapolated() ? ", extrapolated" : "");
-    case fitted:
-      return "fitted to the compass, from magnetic north";
-    case reference:
-      break;
+    case fitted: return "fitted to the compass, from magnetic north";
+    case reference: break;
   }
   return "the reference field";
 }
@@ -126,16 +122,11 @@ std::string EarthField::date() const {
 std::string_view name_of(EarthField::Source source) {
   using enum EarthField::Source;
   switch (source) {
-    case given:
-      return "given";
-    case stated:
-      return "stated";
-    case model:
-      return "model";
-    case fitted:
-      return "fitted";
-    case reference:
-      break;
+    case given: return "given";
+    case stated: return "stated";
+    case model: return "model";
+    case fitted: return "fitted";
+    case reference: break;
   }
   return "reference";
 }

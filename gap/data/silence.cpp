@@ -54,10 +54,8 @@ std::vector<double> times_of(Quantity quantity, const Mission& mission) {
       return times_with(mission.card, [](const CardReading& reading) { return is_measured(reading.force_m_s2); });
     case depth:
       return times_with(mission.card, [](const CardReading& reading) { return std::isfinite(reading.depth_m); });
-    case fixes:
-      return mission.fix_times_s();
-    case motor:
-      return times_with(mission.motor, [](const MotorReading&) { return true; });
+    case fixes: return mission.fix_times_s();
+    case motor: return times_with(mission.motor, [](const MotorReading&) { return true; });
   }
   return {};
 }

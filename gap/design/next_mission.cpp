@@ -137,15 +137,9 @@ std::string sharpening_sentence(const NextMission& next) {
 
 void write_sentence(NextMission& next) {
   switch (next.purpose) {
-    case MissionPurpose::separate:
-      next.sentence = separating_sentence(next);
-      return;
-    case MissionPurpose::cover:
-      next.sentence = covering_sentence(next);
-      return;
-    case MissionPurpose::sharpen:
-      next.sentence = sharpening_sentence(next);
-      return;
+    case MissionPurpose::separate: next.sentence = separating_sentence(next); return;
+    case MissionPurpose::cover: next.sentence = covering_sentence(next); return;
+    case MissionPurpose::sharpen: next.sentence = sharpening_sentence(next); return;
   }
 }
 
@@ -189,12 +183,9 @@ void check_paths(const Question& question, const Study& study, NextMission& next
 
 std::string description_of(const NextMission& next) {
   switch (next.purpose) {
-    case MissionPurpose::separate:
-      return "Planned by navcal gap next to tell probable causes apart.";
-    case MissionPurpose::cover:
-      return "Planned by navcal gap next to visit regimes that no recording has seen.";
-    case MissionPurpose::sharpen:
-      break;
+    case MissionPurpose::separate: return "Planned by navcal gap next to tell probable causes apart.";
+    case MissionPurpose::cover: return "Planned by navcal gap next to visit regimes that no recording has seen.";
+    case MissionPurpose::sharpen: break;
   }
   return "Planned by navcal gap next to test the effects that were tested least.";
 }
@@ -203,12 +194,9 @@ std::string description_of(const NextMission& next) {
 
 std::string_view name_of(MissionPurpose purpose) {
   switch (purpose) {
-    case MissionPurpose::separate:
-      return "separate";
-    case MissionPurpose::cover:
-      return "cover";
-    case MissionPurpose::sharpen:
-      break;
+    case MissionPurpose::separate: return "separate";
+    case MissionPurpose::cover: return "cover";
+    case MissionPurpose::sharpen: break;
   }
   return "sharpen";
 }

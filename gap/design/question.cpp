@@ -122,8 +122,7 @@ double Question::loss(const Contribution& planned) const {
     case MissionPurpose::cover:
       return coverage_loss(so_far.coverage + planned.coverage) +
              kSomeSeparation * std::max(kApartLog, log_error_bound(hypotheses, planned.gram));
-    case MissionPurpose::sharpen:
-      break;
+    case MissionPurpose::sharpen: break;
   }
   const Eigen::VectorXd strengths =
       smallest_strengths(so_far.gram + without_biases(planned.gram), library, priors, kObservable_nats);

@@ -30,8 +30,7 @@ constexpr Steps steps_of(sim::EffectKind kind) {
       // A backlash shows only where it is wider than the fins' moves, so the step about zero is long. Once a
       // backlash is there, a long step goes past the minimum of the residuals.
       return {0.6, 0.1};
-    case sim::EffectKind::amount:
-      break;
+    case sim::EffectKind::amount: break;
   }
   return {};
 }

@@ -107,43 +107,25 @@ Eigen::MatrixXd drivers_of(std::size_t regime, const Trajectory10Hz& course) {
   const Eigen::ArrayXd turned = mapped(course.heading_rad).array();
   Eigen::MatrixXd both(turned.size(), 2);
   switch (regime) {
-    case constant:
-      return Eigen::MatrixXd::Ones(turned.size(), 1);
-    case heading_once:
-      both << turned.cos(), turned.sin();
-      return without_mean(both);
-    case heading_twice:
-      both << (2 * turned).cos(), (2 * turned).sin();
-      return without_mean(both);
-    case heading_thrice:
-      return third_harmonic(turned);
-    case turn_rate:
-      return one(mapped(course.yaw_rate_rad_s));
-    case turn_rate_size:
-      return one(mapped(course.yaw_rate_rad_s).cwiseAbs());
-    case roll:
-      return one(mapped(course.roll_rad));
-    case pitch:
-      return one(mapped(course.pitch_rad));
-    case motor_current:
-      return one(mapped(course.current_A));
-    case temperature:
-      return one(mapped(course.temperature_rise_C));
-    case time_passed:
-      return one(mapped(course.time_s));
-    case depth_below:
-      return one(mapped(course.depth_m));
-    case speed:
-      return one(mapped(course.surge_m_s));
+    case constant: return Eigen::MatrixXd::Ones(turned.size(), 1);
+    case heading_once: both << turned.cos(), turned.sin(); return without_mean(both);
+    case heading_twice: both << (2 * turned).cos(), (2 * turned).sin(); return without_mean(both);
+    case heading_thrice: return third_harmonic(turned);
+    case turn_rate: return one(mapped(course.yaw_rate_rad_s));
+    case turn_rate_size: return one(mapped(course.yaw_rate_rad_s).cwiseAbs());
+    case roll: return one(mapped(course.roll_rad));
+    case pitch: return one(mapped(course.pitch_rad));
+    case motor_current: return one(mapped(course.current_A));
+    case temperature: return one(mapped(course.temperature_rise_C));
+    case time_passed: return one(mapped(course.time_s));
+    case depth_below: return one(mapped(course.depth_m));
+    case speed: return one(mapped(course.surge_m_s));
     case surface:
       return one(
           (mapped(course.depth_m).array() < course.instruments.gps.antenna_depth_m).cast<double>().matrix());
-    case rudder:
-      return deflected(course.rudder_rad);
-    case elevator:
-      return deflected(course.elevator_rad);
-    default:
-      return {};
+    case rudder: return deflected(course.rudder_rad);
+    case elevator: return deflected(course.elevator_rad);
+    default: return {};
   }
 }
 

@@ -77,46 +77,31 @@ ChannelSeries series_of(std::size_t channel, const Innovations& innovations, con
     const auto grid = [&](Eigen::Index column) { return innovations.grid(static_cast<Eigen::Index>(i), column); };
     const auto fix = [&](Eigen::Index column) { return innovations.fixes(static_cast<Eigen::Index>(i), column); };
     switch (channel) {
-      case compass_heading:
-        row = Eigen::VectorXd::Constant(1, grid(heading));
-        break;
-      case compass_field:
-        row = Eigen::Vector3d{grid(field_x), grid(field_y), grid(field_z)};
-        break;
-      case compass_tilt:
-        row = Eigen::Vector2d{grid(tilt_roll), grid(tilt_pitch)};
-        break;
+      case compass_heading: row = Eigen::VectorXd::Constant(1, grid(heading)); break;
+      case compass_field: row = Eigen::Vector3d{grid(field_x), grid(field_y), grid(field_z)}; break;
+      case compass_tilt: row = Eigen::Vector2d{grid(tilt_roll), grid(tilt_pitch)}; break;
       case imu_gyro:
         row = both_gyros ? Eigen::VectorXd(Eigen::Vector2d{
                                grid(gyro_roll), (grid(gyro_yaw_a) - grid(gyro_yaw_b)) / std::numbers::sqrt2})
                          : Eigen::VectorXd::Constant(1, grid(gyro_roll));
         break;
-      case imu_accel:
-        row = Eigen::Vector3d{grid(force_x), grid(force_y), grid(force_z)};
-        break;
-      case imu_depth:
-        row = Eigen::VectorXd::Constant(1, grid(depth));
-        break;
+      case imu_accel: row = Eigen::Vector3d{grid(force_x), grid(force_y), grid(force_z)}; break;
+      case imu_depth: row = Eigen::VectorXd::Constant(1, grid(depth)); break;
       case gps_position:
         row =
             innovations.fix_scale_m[static_cast<Eigen::Index>(i)] * Eigen::Vector2d{fix(fix_north), fix(fix_east)};
         break;
-      case gps_velocity:
-        row = Eigen::Vector2d{fix(velocity_north), fix(velocity_east)};
-        break;
+      case gps_velocity: row = Eigen::Vector2d{fix(velocity_north), fix(velocity_east)}; break;
       case vehicle_yaw_rate:
         row = Eigen::VectorXd::Constant(1,
                                         both_gyros ? (grid(gyro_yaw_a) + grid(gyro_yaw_b)) / 2 : grid(gyro_yaw_a));
         break;
-      case vehicle_pitch_rate:
-        row = Eigen::VectorXd::Constant(1, grid(gyro_pitch));
-        break;
+      case vehicle_pitch_rate: row = Eigen::VectorXd::Constant(1, grid(gyro_pitch)); break;
       case vehicle_speed:
         row = Eigen::VectorXd::Constant(1, std::cos(course.heading_rad[at]) * fix(velocity_north) +
                                                std::sin(course.heading_rad[at]) * fix(velocity_east));
         break;
-      default:
-        row = Eigen::VectorXd::Constant(1, depth_gain_per_s * grid(depth));
+      default: row = Eigen::VectorXd::Constant(1, depth_gain_per_s * grid(depth));
     }
     if (!row.allFinite()) continue;
     rows.push_back(row * reported_channels()[channel].per_si);

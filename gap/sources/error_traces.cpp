@@ -22,21 +22,16 @@ OwnChannels own_channels(ErrorPlace place) {
   switch (place) {
     case ErrorPlace::force_x:
     case ErrorPlace::force_y:
-    case ErrorPlace::force_z:
-      return {{force_x + from(ErrorPlace::force_x)}, {}};
-    case ErrorPlace::depth:
-      return {{Channel::depth}, {}};
+    case ErrorPlace::force_z: return {{force_x + from(ErrorPlace::force_x)}, {}};
+    case ErrorPlace::depth: return {{Channel::depth}, {}};
     case ErrorPlace::position_north:
-    case ErrorPlace::position_east:
-      return {{}, {fix_north + from(ErrorPlace::position_north)}};
+    case ErrorPlace::position_east: return {{}, {fix_north + from(ErrorPlace::position_north)}};
     case ErrorPlace::velocity_north:
-    case ErrorPlace::velocity_east:
-      return {{}, {velocity_north + from(ErrorPlace::velocity_north)}};
+    case ErrorPlace::velocity_east: return {{}, {velocity_north + from(ErrorPlace::velocity_north)}};
     case ErrorPlace::current_north:
     case ErrorPlace::current_east:
       return {{}, {fix_north + from(ErrorPlace::current_north), velocity_north + from(ErrorPlace::current_north)}};
-    default:
-      return {};
+    default: return {};
   }
 }
 

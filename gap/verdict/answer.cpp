@@ -200,12 +200,8 @@ void write_words(Diagnosis& answer) {
             fmt::format(" {} effects were not judged: an instrument that shows them is missing.", count);
       }
       return;
-    case Verdict::explained:
-      write_explained(answer);
-      return;
-    case Verdict::unknown:
-      write_unknown(answer);
-      return;
+    case Verdict::explained: write_explained(answer); return;
+    case Verdict::unknown: write_unknown(answer); return;
   }
 }
 

@@ -5,12 +5,9 @@ namespace navcal::gap {
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::no_gap:
-      return "no-gap";
-    case Verdict::explained:
-      return "explained";
-    case Verdict::unknown:
-      break;
+    case Verdict::no_gap: return "no-gap";
+    case Verdict::explained: return "explained";
+    case Verdict::unknown: break;
   }
   return "unknown";
 }

@@ -46,14 +46,10 @@ std::vector<Eigen::Index> watched_columns(const Library& library) {
 
 std::string_view name_of(WatchReport::Verdict verdict) {
   switch (verdict) {
-    case WatchReport::Verdict::no_gap:
-      return "no_gap";
-    case WatchReport::Verdict::gap:
-      return "gap";
-    case WatchReport::Verdict::named:
-      return "named";
-    case WatchReport::Verdict::unknown:
-      break;
+    case WatchReport::Verdict::no_gap: return "no_gap";
+    case WatchReport::Verdict::gap: return "gap";
+    case WatchReport::Verdict::named: return "named";
+    case WatchReport::Verdict::unknown: break;
   }
   return "unknown";
 }

@@ -74,12 +74,9 @@ Signal commands_of(const Signal& pulses, const config::LayoutThruster& thruster)
 
 std::string_view unit_name(config::CommandUnit unit) {
   switch (unit) {
-    case config::CommandUnit::rpm:
-      return "rpm";
-    case config::CommandUnit::percent:
-      return "%";
-    case config::CommandUnit::microseconds:
-      return "us";
+    case config::CommandUnit::rpm: return "rpm";
+    case config::CommandUnit::percent: return "%";
+    case config::CommandUnit::microseconds: return "us";
   }
   return "";
 }

@@ -85,10 +85,8 @@ Eigen::VectorXd PredictedReadings::operator()(const ReplayedMotion& motion,
         return component(channel, Channel::force_x,
                          force - imu_turn.cross(force) + vector(Nuisance::force_bias_x));
       }
-      case Channel::roll:
-        return now.point.tilt_rad.x() + value(Nuisance::roll_offset);
-      case Channel::pitch:
-        return now.point.tilt_rad.y() + value(Nuisance::pitch_offset);
+      case Channel::roll: return now.point.tilt_rad.x() + value(Nuisance::roll_offset);
+      case Channel::pitch: return now.point.tilt_rad.y() + value(Nuisance::pitch_offset);
       case Channel::heading: {
         Eigen::Vector3d euler_rad = body.euler_rad;
         euler_rad.z() += value(Nuisance::heading_offset);

@@ -83,16 +83,11 @@ std::size_t size_of(Sum sum) { return kSums.at(static_cast<std::size_t>(sum)).si
 
 std::uint32_t sum_of(Sum sum, Bytes bytes) {
   switch (sum) {
-    case Sum::none:
-      break;
-    case Sum::sum8:
-      return plain_sum(bytes) & 0xFFU;
-    case Sum::negated_sum8:
-      return (0U - plain_sum(bytes)) & 0xFFU;
-    case Sum::sum16:
-      return plain_sum(bytes) & 0xFFFFU;
-    case Sum::xor8:
-      return xor_of(bytes);
+    case Sum::none: break;
+    case Sum::sum8: return plain_sum(bytes) & 0xFFU;
+    case Sum::negated_sum8: return (0U - plain_sum(bytes)) & 0xFFU;
+    case Sum::sum16: return plain_sum(bytes) & 0xFFFFU;
+    case Sum::xor8: return xor_of(bytes);
     case Sum::fletcher16: {
       const Fletcher sums = fletcher_of(bytes);
       return static_cast<std::uint32_t>(sums.first << 8 | sums.second);
@@ -102,14 +97,10 @@ std::uint32_t sum_of(Sum sum, Bytes bytes) {
       for (const std::uint8_t byte : bytes) crc = kCrc8[crc ^ byte];
       return crc;
     }
-    case Sum::crc16_ccitt:
-      return crc16_ccitt_false(bytes);
-    case Sum::crc16_xmodem:
-      return crc16_xmodem(bytes);
-    case Sum::crc16_modbus:
-      return reflected_crc<std::uint16_t>(kCrc16Modbus, 0xFFFF, bytes);
-    case Sum::crc32:
-      return ~reflected_crc<std::uint32_t>(kCrc32, 0xFFFFFFFF, bytes);
+    case Sum::crc16_ccitt: return crc16_ccitt_false(bytes);
+    case Sum::crc16_xmodem: return crc16_xmodem(bytes);
+    case Sum::crc16_modbus: return reflected_crc<std::uint16_t>(kCrc16Modbus, 0xFFFF, bytes);
+    case Sum::crc32: return ~reflected_crc<std::uint32_t>(kCrc32, 0xFFFFFFFF, bytes);
   }
   return 0;
 }

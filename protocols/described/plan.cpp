@@ -69,24 +69,15 @@ std::shared_ptr<const Plan> compile(const Description& description) {
 
 std::int64_t integer_at(const std::uint8_t* p, Type type, bool is_big) {
   switch (type) {
-    case Type::u8:
-      return *p;
-    case Type::i8:
-      return static_cast<std::int8_t>(*p);
-    case Type::u16:
-      return unsigned_at<2>(p, is_big);
-    case Type::i16:
-      return static_cast<std::int16_t>(unsigned_at<2>(p, is_big));
-    case Type::u24:
-      return unsigned_at<3>(p, is_big);
-    case Type::i24:
-      return static_cast<std::int32_t>(unsigned_at<3>(p, is_big) << 8) >> 8;
-    case Type::u32:
-      return unsigned_at<4>(p, is_big);
-    case Type::i32:
-      return static_cast<std::int32_t>(unsigned_at<4>(p, is_big));
-    default:
-      return 0;
+    case Type::u8: return *p;
+    case Type::i8: return static_cast<std::int8_t>(*p);
+    case Type::u16: return unsigned_at<2>(p, is_big);
+    case Type::i16: return static_cast<std::int16_t>(unsigned_at<2>(p, is_big));
+    case Type::u24: return unsigned_at<3>(p, is_big);
+    case Type::i24: return static_cast<std::int32_t>(unsigned_at<3>(p, is_big) << 8) >> 8;
+    case Type::u32: return unsigned_at<4>(p, is_big);
+    case Type::i32: return static_cast<std::int32_t>(unsigned_at<4>(p, is_big));
+    default: return 0;
   }
 }
 

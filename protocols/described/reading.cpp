@@ -89,10 +89,8 @@ inline double FrameReader::raw_of(const FieldPlan& field, const std::uint8_t* fr
     case Type::u16:
       if (field.mask == 0) return field.is_big ? get_be<std::uint16_t>(p) : get_le<std::uint16_t>(p);
       break;
-    case Type::i16:
-      return field.is_big ? get_be<std::int16_t>(p) : get_le<std::int16_t>(p);
-    default:
-      break;
+    case Type::i16: return field.is_big ? get_be<std::int16_t>(p) : get_le<std::int16_t>(p);
+    default: break;
   }
   const std::int64_t number = integer_at(p, field.type, field.is_big);
   if (field.mask != 0) return static_cast<double>(static_cast<std::uint32_t>(number) >> field.shift & field.mask);

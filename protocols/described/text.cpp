@@ -102,12 +102,9 @@ std::optional<double> number_of(std::string_view text, Type type) {
   }
   text = without_blanks(text);
   switch (type) {
-    case Type::hex:
-      return number_in_hex(text);
-    case Type::degrees_minutes:
-      return number_in_minutes(text);
-    default:
-      return plain_number(text);
+    case Type::hex: return number_in_hex(text);
+    case Type::degrees_minutes: return number_in_minutes(text);
+    default: return plain_number(text);
   }
 }
 

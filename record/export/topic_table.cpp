@@ -25,13 +25,10 @@ bool holds(const Names& names, std::string_view name) {
 
 TopicTable::Values values_for(const Field& field) {
   switch (field.kind) {
-    case FieldKind::text:
-      return TextColumn{};
-    case FieldKind::boolean:
-      return BooleanColumn{};
+    case FieldKind::text: return TextColumn{};
+    case FieldKind::boolean: return BooleanColumn{};
     case FieldKind::number:
-    case FieldKind::vector3:
-      break;
+    case FieldKind::vector3: break;
   }
   if (holds(kUtc, field.name)) return NanosecondColumn{{}, true};
   if (holds(kIntervals, field.name)) return NanosecondColumn{{}, false};

@@ -100,12 +100,9 @@ LogReader::Verdict LogReader::judge(const Record& record) {
     }
     case Opcode::schema:
     case Opcode::channel:
-    case Opcode::metadata:
-      return verdict(define(record));
-    case Opcode::data_end:
-      return verdict(record.content.size() == sizeof(std::uint32_t));
-    default:
-      break;
+    case Opcode::metadata: return verdict(define(record));
+    case Opcode::data_end: return verdict(record.content.size() == sizeof(std::uint32_t));
+    default: break;
   }
   const auto opcode = static_cast<std::uint8_t>(record.opcode);
   if (opcode == kChunkOpcode && summary_.messages() == 0) {

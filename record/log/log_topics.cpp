@@ -154,15 +154,9 @@ constexpr std::array kTopics{
 nlohmann::ordered_json schema_of(const Field& field) {
   nlohmann::ordered_json schema;
   switch (field.kind) {
-    case number:
-      schema["type"] = "number";
-      break;
-    case boolean:
-      schema["type"] = "boolean";
-      break;
-    case text:
-      schema["type"] = "string";
-      break;
+    case number: schema["type"] = "number"; break;
+    case boolean: schema["type"] = "boolean"; break;
+    case text: schema["type"] = "string"; break;
     case vector3:
       schema["type"] = "array";
       schema["items"]["type"] = "number";

@@ -170,12 +170,9 @@ const RepresentationRow* row_of(std::string_view effect) {
 
 std::string_view name_of(Fidelity fidelity) {
   switch (fidelity) {
-    case exact:
-      return "exact";
-    case approximate:
-      return "approximate";
-    case none:
-      break;
+    case exact: return "exact";
+    case approximate: return "approximate";
+    case none: break;
   }
   return "not representable";
 }

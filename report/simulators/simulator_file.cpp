@@ -9,12 +9,9 @@ namespace navcal::report {
 
 SimulatorFile simulator_file(Simulator simulator, const CorrectedModel& model) {
   switch (simulator) {
-    case Simulator::sitl:
-      return sitl_parameters(model);
-    case Simulator::holoocean:
-      return holoocean_scenario(model);
-    case Simulator::stonefish:
-      break;
+    case Simulator::sitl: return sitl_parameters(model);
+    case Simulator::holoocean: return holoocean_scenario(model);
+    case Simulator::stonefish: break;
   }
   return stonefish_scenario(model);
 }

@@ -111,11 +111,8 @@ void MipUnit::obey(std::int64_t t_ns, protocols::Bytes frame) {
 
 std::uint8_t MipUnit::obey_base(std::int64_t t_ns, std::uint8_t base_command) {
   switch (static_cast<mip::BaseCommand>(base_command)) {
-    case mip::BaseCommand::ping:
-      return error::kNone;
-    case mip::BaseCommand::set_to_idle:
-      idle_ = true;
-      return error::kNone;
+    case mip::BaseCommand::ping: return error::kNone;
+    case mip::BaseCommand::set_to_idle: idle_ = true; return error::kNone;
     case mip::BaseCommand::resume:
       idle_ = false;
       for (Stream& stream : streams_) begin_stream(stream, t_ns);
@@ -126,10 +123,8 @@ std::uint8_t MipUnit::obey_base(std::int64_t t_ns, std::uint8_t base_command) {
 
 std::uint8_t MipUnit::obey_3dm(std::int64_t t_ns, std::uint8_t command_3dm, protocols::Bytes data) {
   switch (command_3dm) {
-    case command::kSensorBaseRate:
-      return error::kNone;
-    case command::kFilterBaseRate:
-      return options_.has_filter ? error::kNone : error::kUnknownCommand;
+    case command::kSensorBaseRate: return error::kNone;
+    case command::kFilterBaseRate: return options_.has_filter ? error::kNone : error::kUnknownCommand;
     case command::kSensorFormat:
     case command::kFilterFormat:
       if (data.size() < 2) return error::kInvalidParameter;
@@ -145,8 +140,7 @@ std::uint8_t MipUnit::obey_3dm(std::int64_t t_ns, std::uint8_t command_3dm, prot
     case command::kDataStream:
       if (data.size() < 3) return error::kInvalidParameter;
       return set_stream(t_ns, data[1], data[2] != 0);
-    default:
-      return error::kUnknownCommand;
+    default: return error::kUnknownCommand;
   }
 }
 

@@ -87,11 +87,8 @@ void PniUnit::obey(std::int64_t t_ns, protocols::Bytes frame) {
       if (!payload.empty() && payload.size() == 1U + payload[0])
         components_.assign(payload.begin() + 1, payload.end());
       return;
-    case FrameNumber::get_data:
-      answers_.push_back({t_ns + kPniThinks_ns + latency_ns(), std::nullopt});
-      return;
-    case FrameNumber::set_config:
-      return obey_setting(t_ns, payload);
+    case FrameNumber::get_data: answers_.push_back({t_ns + kPniThinks_ns + latency_ns(), std::nullopt}); return;
+    case FrameNumber::set_config: return obey_setting(t_ns, payload);
     case FrameNumber::set_acquisition:
       if (const auto acquisition = trax::decode_acquisition(frame)) {
         polled_ = acquisition->polled;
@@ -103,23 +100,17 @@ void PniUnit::obey(std::int64_t t_ns, protocols::Bytes frame) {
       continuous_ = options_.has_continuous && !polled_ && !calibrating_;
       if (continuous_) frames_ = Ticks(t_ns, interval_s_, options_.clock_ppm);
       return;
-    case FrameNumber::stop_continuous:
-      continuous_ = false;
-      return;
+    case FrameNumber::stop_continuous: continuous_ = false; return;
     case FrameNumber::save: {
       constexpr std::uint8_t kNoError[] = {0, 0};
       return answer(t_ns, trax::encode_frame(FrameNumber::save_done, kNoError));
     }
-    case FrameNumber::start_calibration:
-      return start_calibration(t_ns);
-    case FrameNumber::stop_calibration:
-      calibrating_ = false;
-      return;
+    case FrameNumber::start_calibration: return start_calibration(t_ns);
+    case FrameNumber::stop_calibration: calibrating_ = false; return;
     case FrameNumber::take_calibration_sample:
       if (calibrating_) take_calibration_sample(t_ns);
       return;
-    default:
-      return;
+    default: return;
   }
 }
 

@@ -107,35 +107,19 @@ void Tcm2::obey(std::int64_t t_ns, const tcm2::Command& command) {
       false, false, false, false, false, settings_.heading_in_mils, settings_.tilt_in_mils, settings_.fahrenheit};
   tcm2::Reply reply;
   switch (command.verb) {
-    case Verb::go:
-      start(t_ns);
-      break;
-    case Verb::halt:
-      running_ = false;
-      break;
-    case Verb::sample:
-      return answer_word(t_ns, settings_);
-    case Verb::heading:
-      only.heading = true;
-      return answer_word(t_ns, only);
-    case Verb::inclination:
-      only.pitch = only.roll = true;
-      return answer_word(t_ns, only);
-    case Verb::magnetometer:
-      only.field = true;
-      return answer_word(t_ns, only);
-    case Verb::temperature:
-      only.temperature = true;
-      return answer_word(t_ns, only);
-    case Verb::clear_calibration:
-      score_.clear();
-      [[fallthrough]];
+    case Verb::go: start(t_ns); break;
+    case Verb::halt: running_ = false; break;
+    case Verb::sample: return answer_word(t_ns, settings_);
+    case Verb::heading: only.heading = true; return answer_word(t_ns, only);
+    case Verb::inclination: only.pitch = only.roll = true; return answer_word(t_ns, only);
+    case Verb::magnetometer: only.field = true; return answer_word(t_ns, only);
+    case Verb::temperature: only.temperature = true; return answer_word(t_ns, only);
+    case Verb::clear_calibration: score_.clear(); [[fallthrough]];
     case Verb::calibration_score:
       reply.kind = tcm2::Reply::Kind::calibration;
       reply.score = score_.score();
       break;
-    case Verb::warm_restart:
-      return restart(t_ns);
+    case Verb::warm_restart: return restart(t_ns);
     case Verb::set:
       if (const bool ends = command.parameter == Parameter::multipoint_calibration && command.letter == 'd';
           ends && calibrating_) {
@@ -154,49 +138,24 @@ void Tcm2::obey(std::int64_t t_ns, const tcm2::Command& command) {
 std::uint32_t Tcm2::set(const tcm2::Command& command) {
   const bool on = command.letter == 'e';
   switch (command.parameter) {
-    case Parameter::output_heading:
-      settings_.heading = on;
-      break;
-    case Parameter::output_pitch:
-      settings_.pitch = on;
-      break;
-    case Parameter::output_roll:
-      settings_.roll = on;
-      break;
-    case Parameter::output_field:
-      settings_.field = on;
-      break;
-    case Parameter::output_temperature:
-      settings_.temperature = on;
-      break;
-    case Parameter::heading_unit:
-      settings_.heading_in_mils = command.letter == 'm';
-      break;
-    case Parameter::tilt_unit:
-      settings_.tilt_in_mils = command.letter == 'm';
-      break;
-    case Parameter::temperature_unit:
-      settings_.fahrenheit = command.letter == 'f';
-      break;
+    case Parameter::output_heading: settings_.heading = on; break;
+    case Parameter::output_pitch: settings_.pitch = on; break;
+    case Parameter::output_roll: settings_.roll = on; break;
+    case Parameter::output_field: settings_.field = on; break;
+    case Parameter::output_temperature: settings_.temperature = on; break;
+    case Parameter::heading_unit: settings_.heading_in_mils = command.letter == 'm'; break;
+    case Parameter::tilt_unit: settings_.tilt_in_mils = command.letter == 'm'; break;
+    case Parameter::temperature_unit: settings_.fahrenheit = command.letter == 'f'; break;
     case Parameter::output_format:
       if (command.letter == 'r') return tcm2::error::kBadParameter;  // no source at hand describes raw words
       settings_.nmea = command.letter == 'n';
       break;
-    case Parameter::baud:
-      next_baud_ = tcm2::kBauds[command.number];
-      break;
-    case Parameter::clock:
-      settings_.clock_Hz = command.number;
-      break;
-    case Parameter::sample_period:
-      settings_.divider = command.number;
-      break;
+    case Parameter::baud: next_baud_ = tcm2::kBauds[command.number]; break;
+    case Parameter::clock: settings_.clock_Hz = command.number; break;
+    case Parameter::sample_period: settings_.divider = command.number; break;
     case Parameter::fast:
-    case Parameter::damping:
-      break;  // filters that this model does not have
-    case Parameter::multipoint_calibration:
-      calibrating_ = on;
-      break;
+    case Parameter::damping: break;  // filters that this model does not have
+    case Parameter::multipoint_calibration: calibrating_ = on; break;
   }
   return 0;
 }

@@ -64,18 +64,12 @@ void VectorNav::obey(std::int64_t t_ns, const protocols::Frame& frame) {
 
 std::string VectorNav::value_of(unsigned number) const {
   switch (number) {
-    case vn::kModel:
-      return "VN-100T-EMU";
-    case vn::kFirmware:
-      return options_.has_errors ? "2.1.0.0" : "1.1.0.0";
-    case vn::kAsyncType:
-      return std::to_string(line_type_);
-    case vn::kAsyncRate:
-      return std::to_string(line_rate_Hz_);
-    case vn::kBinaryOutput1:
-      return output_;
-    default:
-      return {};
+    case vn::kModel: return "VN-100T-EMU";
+    case vn::kFirmware: return options_.has_errors ? "2.1.0.0" : "1.1.0.0";
+    case vn::kAsyncType: return std::to_string(line_type_);
+    case vn::kAsyncRate: return std::to_string(line_rate_Hz_);
+    case vn::kBinaryOutput1: return output_;
+    default: return {};
   }
 }
 

@@ -41,16 +41,11 @@ std::string some_text(const OptionInfo& option, Random& random) {
 
 Value some_value(const OptionInfo& option, Random& random) {
   switch (option.kind) {
-    case Kind::boolean:
-      return random() % 2 == 0;
-    case Kind::integer:
-      return static_cast<std::int64_t>(number_within(option, random));
-    case Kind::real:
-      return number_within(option, random);
-    case Kind::text:
-      return some_text(option, random);
-    case Kind::choice:
-      return std::string(option.choices[random() % option.choices.size()]);
+    case Kind::boolean: return random() % 2 == 0;
+    case Kind::integer: return static_cast<std::int64_t>(number_within(option, random));
+    case Kind::real: return number_within(option, random);
+    case Kind::text: return some_text(option, random);
+    case Kind::choice: return std::string(option.choices[random() % option.choices.size()]);
     case Kind::list: {
       std::vector<std::string> some;  // those of the log: the only list outside the supplies
       for (const auto group : kLogGroups) {
@@ -58,8 +53,7 @@ Value some_value(const OptionInfo& option, Random& random) {
       }
       return some;
     }
-    case Kind::channels:
-      break;
+    case Kind::channels: break;
   }
   std::vector<double> numbers(option.count);
   for (double& number : numbers) number = number_within(option, random);

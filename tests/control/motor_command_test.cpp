@@ -427,12 +427,8 @@ TEST_F(ShapedMotorCommandTest, AtTheEndTheShaftStands) {
         tokens.push_back(std::to_string(i));
         static_cast<void>(command_.lease(now_ns_, {"x", draw(3), 0.2 + 0.1 * draw(5)}, tokens.back(), client));
         break;
-      case 1:
-        static_cast<void>(command_.release(now_ns_, tokens[tokens.size() - 1]));
-        break;
-      case 2:
-        command_.client_gone(now_ns_, client);
-        break;
+      case 1: static_cast<void>(command_.release(now_ns_, tokens[tokens.size() - 1])); break;
+      case 2: command_.client_gone(now_ns_, client); break;
       case 3:
         open ? command_.port_lost("x") : command_.port_opened(now_ns_);
         open = !open;

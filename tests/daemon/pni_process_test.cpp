@@ -46,27 +46,19 @@ class PniAtLine {
   }
   void obey(protocols::Bytes frame) {
     switch (static_cast<trax::FrameNumber>(frame[2])) {
-      case trax::FrameNumber::set_config:
-        return say(trax::encode_frame(trax::FrameNumber::set_config_done));
+      case trax::FrameNumber::set_config: return say(trax::encode_frame(trax::FrameNumber::set_config_done));
       case trax::FrameNumber::start_calibration:
         if (!calibrating_) samples_ = 0;
         calibrating_ = true;
         return say(trax::encode_sample_count(samples_));
-      case trax::FrameNumber::stop_calibration:
-        calibrating_ = false;
-        return;
+      case trax::FrameNumber::stop_calibration: calibrating_ = false; return;
       case trax::FrameNumber::save: {
         constexpr std::uint8_t kNoError[] = {0, 0};
         return say(trax::encode_frame(trax::FrameNumber::save_done, kNoError));
       }
-      case trax::FrameNumber::start_continuous:
-        going_ = true;
-        return;
-      case trax::FrameNumber::stop_continuous:
-        going_ = false;
-        return;
-      default:
-        return;
+      case trax::FrameNumber::start_continuous: going_ = true; return;
+      case trax::FrameNumber::stop_continuous: going_ = false; return;
+      default: return;
     }
   }
   void sample() {

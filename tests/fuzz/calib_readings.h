@@ -52,8 +52,7 @@ inline Reading take_reading(Source& source, double& time_s) {
       if (kind & 16) reading.course_rad = source.number(4);
       return reading;
     }
-    default:
-      return MotorReading{time_s, source.number(1000)};
+    default: return MotorReading{time_s, source.number(1000)};
   }
 }
 

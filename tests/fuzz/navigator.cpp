@@ -61,8 +61,7 @@ NAVCAL_FUZZ(navigator) {
         navigator.take(reading);
         break;
       }
-      default:
-        navigator.take(ShaftReading{time_ns, source.number(20)});
+      default: navigator.take(ShaftReading{time_ns, source.number(20)});
     }
     check(navigator.estimate());
   }

@@ -337,9 +337,8 @@ TEST(LinkSession, RecordedAndForgedFramesChangeNothing) {
     const auto view = view_frame(frame);
     ASSERT_TRUE(view);
     switch (round % 4) {
-      case 0:
-        break;   // as it was
-      case 1: {  // a higher counter, the old tag
+      case 0: break;  // as it was
+      case 1: {       // a higher counter, the old tag
         Header header = view->header;
         header.counter += 10'000 + round;
         const Buffer tag(view->tag.begin(), view->tag.end());

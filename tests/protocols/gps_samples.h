@@ -125,18 +125,12 @@ inline const std::string kAsciiPosition =
 
 inline Buffer random_oncore_frame(Random& random) {
   switch (below(random, 7)) {
-    case 0:
-      return oncore::encode_ha(random_position(random));
-    case 1:
-      return oncore::encode_ea(random_position(random));
-    case 2:
-      return oncore::encode_bb(random_sky(random));
-    case 3:
-      return oncore::encode_bo({std::int8_t{18}});
-    case 4:
-      return oncore::encode_cj("MODEL #    P283T12NR1\r\nSERIAL #   P047LB\r\n@@Ha\r\n");
-    case 5:
-      return ascii_position(kAsciiPosition);
+    case 0: return oncore::encode_ha(random_position(random));
+    case 1: return oncore::encode_ea(random_position(random));
+    case 2: return oncore::encode_bb(random_sky(random));
+    case 3: return oncore::encode_bo({std::int8_t{18}});
+    case 4: return oncore::encode_cj("MODEL #    P283T12NR1\r\nSERIAL #   P047LB\r\n@@Ha\r\n");
+    case 5: return ascii_position(kAsciiPosition);
     default: {  // Gj with any content: CR LF and @@ inside happen
       Buffer data(14);
       for (auto& byte : data) byte = std::array<std::uint8_t, 4>{'@', '\r', '\n', 'E'}[below(random, 4)];
@@ -148,20 +142,13 @@ inline Buffer random_oncore_frame(Random& random) {
 inline Buffer random_sentence(Random& random) {
   const auto navigation = random_navigation(random);
   switch (below(random, 7)) {
-    case 0:
-      return nmea::encode_gga(navigation, random_satellites(random));
-    case 1:
-      return nmea::encode_rmc(navigation);
-    case 2:
-      return nmea::encode_vtg(navigation);
-    case 3:
-      return nmea::encode_zda(navigation);
-    case 4:
-      return checked_line("PTNTHTM,14223,N,169,N,-43,N,13641,2454");
-    case 5:
-      return checked_line("HCHDM,182.3,M");
-    default:
-      return nmea::encode_gsa(navigation, random_satellites(random));
+    case 0: return nmea::encode_gga(navigation, random_satellites(random));
+    case 1: return nmea::encode_rmc(navigation);
+    case 2: return nmea::encode_vtg(navigation);
+    case 3: return nmea::encode_zda(navigation);
+    case 4: return checked_line("PTNTHTM,14223,N,169,N,-43,N,13641,2454");
+    case 5: return checked_line("HCHDM,182.3,M");
+    default: return nmea::encode_gsa(navigation, random_satellites(random));
   }
 }
 

@@ -72,20 +72,14 @@ template <>
 inline Buffer random_frame<tcm2::Scanner>(Random& random) {
   using Kind = tcm2::Reply::Kind;
   switch (below(random, 8)) {
-    case 0:
-      return tcm2::encode_hchdm(static_cast<double>(below(random, 3600)) / 10);
-    case 1:
-      return tcm2::encode_reply({Kind::accepted, 0, {}, {}, {}});
+    case 0: return tcm2::encode_hchdm(static_cast<double>(below(random, 3600)) / 10);
+    case 1: return tcm2::encode_reply({Kind::accepted, 0, {}, {}, {}});
     case 2:
       return tcm2::encode_reply({Kind::refused, static_cast<std::uint32_t>(below(random, 0x100)), {}, {}, {}});
-    case 3:
-      return tcm2::encode_reply({Kind::value, 0, "clock", "40", {}});
-    case 4:
-      return tcm2::encode_reply({Kind::calibration, 0, {}, {}, {9, 7, printed(random, 99, 100)}});
-    case 5:
-      return {'T', 'C', 'M', '2', '.', '5', ' ', 'V', '1', '\r', '\n'};
-    default:
-      return tcm2::encode_word(random_word(random));
+    case 3: return tcm2::encode_reply({Kind::value, 0, "clock", "40", {}});
+    case 4: return tcm2::encode_reply({Kind::calibration, 0, {}, {}, {9, 7, printed(random, 99, 100)}});
+    case 5: return {'T', 'C', 'M', '2', '.', '5', ' ', 'V', '1', '\r', '\n'};
+    default: return tcm2::encode_word(random_word(random));
   }
 }
 

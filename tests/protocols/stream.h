@@ -129,8 +129,7 @@ Buffer mixture(Random& random, MakeFrame make_frame, std::size_t pieces) {
         frame = noise;
         break;
       }
-      default:
-        break;
+      default: break;
     }
     append(stream, frame);
   }

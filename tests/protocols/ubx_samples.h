@@ -67,28 +67,22 @@ inline ubx::NavSat random_sat(Random& random) {
 
 inline Buffer random_ubx_frame(Random& random) {
   switch (below(random, 5)) {
-    case 0:
-      return ubx::encode_nav_sat(random_sat(random));
-    case 1:
-      return ubx::encode_acknowledgement({static_cast<ubx::MessageCode>(random()), chance(random)});
+    case 0: return ubx::encode_nav_sat(random_sat(random));
+    case 1: return ubx::encode_acknowledgement({static_cast<ubx::MessageCode>(random()), chance(random)});
     case 2: {
       Buffer payload(below(random, 100));
       for (auto& byte : payload) byte = chance(random) ? std::uint8_t{0xB5} : static_cast<std::uint8_t>(random());
       return ubx::encode_frame(static_cast<ubx::MessageCode>(random()), payload);
     }
-    default:
-      return ubx::encode_nav_pvt(random_pvt(random));
+    default: return ubx::encode_nav_pvt(random_pvt(random));
   }
 }
 
 inline Buffer random_ubx_port_frame(Random& random) {
   switch (below(random, 4)) {
-    case 0:
-      return checked_line("GPVTG,,T,,M,0.0,N,0.0,K,A");
-    case 1:
-      return ubx::encode_rtcm3(Buffer(below(random, 200), 0xD3));
-    default:
-      return random_ubx_frame(random);
+    case 0: return checked_line("GPVTG,,T,,M,0.0,N,0.0,K,A");
+    case 1: return ubx::encode_rtcm3(Buffer(below(random, 200), 0xD3));
+    default: return random_ubx_frame(random);
   }
 }
 

@@ -12,12 +12,9 @@ namespace {
 
 std::string_view name_of(Exposition::Type type) {
   switch (type) {
-    case Exposition::Type::counter:
-      return "counter";
-    case Exposition::Type::gauge:
-      return "gauge";
-    case Exposition::Type::histogram:
-      return "histogram";
+    case Exposition::Type::counter: return "counter";
+    case Exposition::Type::gauge: return "gauge";
+    case Exposition::Type::histogram: return "histogram";
   }
   return "untyped";
 }

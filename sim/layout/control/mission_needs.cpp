@@ -30,12 +30,9 @@ bool turns(const MissionStep& step, double start_heading_rad) {
     case StepKind::spiral:
     case StepKind::zigzag:
     case StepKind::pirouette:
-    case StepKind::swing:
-      return true;
-    case StepKind::doublet:
-      return step.on == config::Surface::rudder;
-    default:
-      break;
+    case StepKind::swing: return true;
+    case StepKind::doublet: return step.on == config::Surface::rudder;
+    default: break;
   }
   if (step.by_rad && *step.by_rad != 0) return true;
   if (step.rudder_rad && *step.rudder_rad != 0) return true;

@@ -84,16 +84,11 @@ struct Owner {
 
 std::string_view word_of(LayoutPart part) {
   switch (part) {
-    case thruster:
-      return "thruster";
-    case surface:
-      return "surface";
-    case ballast:
-      return "ballast";
-    case moving_mass:
-      return "moving_mass";
-    default:
-      return "";
+    case thruster: return "thruster";
+    case surface: return "surface";
+    case ballast: return "ballast";
+    case moving_mass: return "moving_mass";
+    default: return "";
   }
 }
 
@@ -126,14 +121,10 @@ std::vector<Owner> named_owners(const config::Layout& layout, LayoutPart part, s
 
 config::LayoutHeard& heard_of(config::Layout& layout, const Owner& owner) {
   switch (owner.part) {
-    case surface:
-      return layout.surfaces[owner.index].heard;
-    case ballast:
-      return layout.ballasts[owner.index].heard;
-    case moving_mass:
-      return layout.moving_masses[owner.index].heard;
-    default:
-      return layout.thrusters[owner.index].heard;
+    case surface: return layout.surfaces[owner.index].heard;
+    case ballast: return layout.ballasts[owner.index].heard;
+    case moving_mass: return layout.moving_masses[owner.index].heard;
+    default: return layout.thrusters[owner.index].heard;
   }
 }
 
@@ -183,42 +174,31 @@ Change change_named(std::string_view name) {
 
 double scale_value(const config::Layout& layout, LayoutScale scale) {
   switch (scale) {
-    case LayoutScale::mass_kg:
-      return layout.body.mass_kg;
-    case LayoutScale::weight_N:
-      return layout.weight_N();
+    case LayoutScale::mass_kg: return layout.body.mass_kg;
+    case LayoutScale::weight_N: return layout.weight_N();
     case LayoutScale::length_m:
       return std::cbrt(layout.body.buoyancy_N / (layout.water_density_kg_m3 * base::kGravity_m_s2));
-    case LayoutScale::one:
-      break;
+    case LayoutScale::one: break;
   }
   return 1;
 }
 
 std::string_view scale_words(LayoutScale scale) {
   switch (scale) {
-    case LayoutScale::mass_kg:
-      return " of the mass";
-    case LayoutScale::weight_N:
-      return " of the weight";
-    case LayoutScale::length_m:
-      return " of the cube root of the volume";
-    case LayoutScale::one:
-      break;
+    case LayoutScale::mass_kg: return " of the mass";
+    case LayoutScale::weight_N: return " of the weight";
+    case LayoutScale::length_m: return " of the cube root of the volume";
+    case LayoutScale::one: break;
   }
   return "";
 }
 
 std::string_view part_words(LayoutPart part) {
   switch (part) {
-    case vehicle:
-      return "";
-    case actuator:
-      return "thruster, surface, ballast, moving_mass";
-    case freedom:
-      return "surge, sway, heave, roll, pitch, yaw";
-    default:
-      return word_of(part);
+    case vehicle: return "";
+    case actuator: return "thruster, surface, ballast, moving_mass";
+    case freedom: return "surge, sway, heave, roll, pitch, yaw";
+    default: return word_of(part);
   }
 }
 
