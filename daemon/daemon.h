@@ -104,7 +104,9 @@ class Daemon : private pipeline::Sink,
   // RemoteOwner
   [[nodiscard]] link::Report remote_report(std::int64_t now_ns) override;
   void remote_answer(const ControlRequest& request, const ControlOrigin& origin, Reply reply) override;
-  void remote_client_gone(std::uint64_t client) override { control_client_gone(client, "the operator is gone"); }
+  void remote_client_gone(std::uint64_t client) override {
+    control_client_gone(client, "its connection was closed");
+  }
   void end_every_lease() override;
   [[nodiscard]] bool is_in_charge(std::uint64_t client) const override {
     return motor_ && motor_->command().holder() && motor_->command().holder()->client == client;

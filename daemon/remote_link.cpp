@@ -17,6 +17,7 @@ namespace {
 /// Numbers of the control socket's connections stay below this.
 constexpr std::uint64_t kFirstRemoteClient = std::uint64_t{1} << 63;
 
+constexpr std::int64_t kBeat_ns = 20'000'000;
 constexpr std::string_view kReadOnly =
     "the link is read-only: navcald has no key for it (remote.key_file, or remote.orders_without_key)";
 /// Commands that change nothing.
@@ -88,7 +89,8 @@ RemoteLink::RemoteLink(const boost::asio::any_io_executor& executor, const confi
                               [this](std::int64_t now_ns, bool is_open, std::string_view words) {
                                 on_line(now_ns, is_open, words);
                               }})),
-      timer_(executor, [this] { drive(ports::monotonic_ns()); }) {}
+      timer_(executor, [this] { drive(ports::monotonic_ns()); }),
+      beat_timer_(executor, [this] { beat(); }) {}
 
 void RemoteLink::start() {
   line_->start();
@@ -98,6 +100,7 @@ void RemoteLink::start() {
 void RemoteLink::stop() {
   alive_.reset();
   timer_.stop();
+  beat_timer_.stop();
   line_->stop();
 }
 
@@ -169,7 +172,12 @@ void RemoteLink::link_is_silent(std::int64_t now_ns) {
 }
 
 ControlOrigin RemoteLink::origin(std::int64_t now_ns) const {
-  return {kFirstRemoteClient + vehicle_.session(), now_ns};
+  return {kFirstRemoteClient + vehicle_.session(), now_ns, lease_.empty() ? now_ns : beat_before_ns_};
+}
+
+void RemoteLink::beat() {
+  beat_before_ns_ = std::exchange(last_beat_ns_, ports::monotonic_ns());
+  if (!lease_.empty()) beat_timer_.arm(last_beat_ns_ + kBeat_ns);
 }
 
 void RemoteLink::execute(const link::Command& command, std::int64_t now_ns) {
@@ -189,6 +197,8 @@ void RemoteLink::execute(const link::Command& command, std::int64_t now_ns) {
     if (is_ok && kind == Kind::lease) {
       if (is_same && is_leasing_) {
         lease_ = answer.value("lease", "");
+        last_beat_ns_ = ports::monotonic_ns();
+        beat();
       } else {
         // Released or stopped in the meantime, or its operator has left.
         owner_.remote_client_gone(kFirstRemoteClient + session);

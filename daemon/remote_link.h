@@ -56,6 +56,9 @@ class RemoteLink {
   void execute(const link::Command& command, std::int64_t now_ns);
   void answer(std::string_view line, std::int64_t now_ns);
   void respond(std::string_view response);
+  /// While a lease is held: bytes that are read now came after the last beat but one, since each turn of the loop
+  /// reads what is there before it comes to its timers.
+  void beat();
   [[nodiscard]] ControlOrigin origin(std::int64_t now_ns) const;
   /// Whether operators may change anything.
   [[nodiscard]] bool may_change() const { return has_key_ || settings_.orders_without_key; }
@@ -71,6 +74,8 @@ class RemoteLink {
   std::shared_ptr<char> alive_ = std::make_shared<char>();  ///< a reply may come after the end
   std::unique_ptr<RemoteLine> line_;
   LazyTimer timer_;
+  LazyTimer beat_timer_;
+  std::int64_t last_beat_ns_ = 0, beat_before_ns_ = 0;
 };
 
 }  // namespace navcal::daemon

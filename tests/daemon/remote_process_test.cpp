@@ -119,6 +119,25 @@ TEST_F(RemoteProcess, ADeadLinkEndsInTheSafeStateAnAlarmAndAnEventAndComesBack) 
   EXPECT_EQ(operator_.request(R"({"command":"status"})")["ok"], true);
 }
 
+TEST_F(RemoteProcess, AnOrderThatWaitedWhileNavcaldStoodStillIsVoid) {
+  DaemonProcess daemon(settings(true, {listen(), "remote.dead_s=20"}));
+  daemon.wait_until_ready();
+  Operator operator_(tcp_to(port_), kRemoteSecret);
+  operator_.work = [&] { serve_card(daemon.line, parser_, told_); };
+  ASSERT_TRUE(operator_.connect());
+  ASSERT_TRUE(operator_.lease(1).is_ok);
+  ASSERT_TRUE(operator_.order(400).is_ok);
+  ::kill(daemon.pid(), SIGSTOP);
+  link::Command late;
+  late.kind = link::Command::Kind::order;
+  late.shaft_rpm = 600;
+  ASSERT_TRUE(operator_.host.command(remote_now_ns(), late));
+  EXPECT_FALSE(operator_.until([] { return false; }, 1.5));
+  ::kill(daemon.pid(), SIGCONT);
+  ASSERT_TRUE(operator_.until([&] { return !told_.empty() && told_.back() == 0; }));
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), 600), 0);
+}
+
 TEST_F(RemoteProcess, EveryLeaseEndsWithTheLinkWhereThatIsConfigured) {
   DaemonProcess daemon(settings(true, {listen(), "remote.on_dead=safe"}));
   daemon.wait_until_ready();
