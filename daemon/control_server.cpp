@@ -24,6 +24,8 @@ constexpr auto kAcceptPause = std::chrono::milliseconds(500);
 /// A connection that sends more lines than this is read only now and then.
 constexpr double kMaxLines_Hz = 200;
 constexpr std::int64_t kLook_ns = 20'000'000;
+constexpr std::size_t kMaxAnswers = 32;
+constexpr std::size_t kKeepers = 4;
 constexpr auto kSlowDown = std::chrono::milliseconds(50);
 
 asio::awaitable<std::string> do_work(std::function<std::string()> work) { co_return work(); }
@@ -104,35 +106,42 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Client> client) {
     if (error) co_return;
     client->used_ns = origin.arrival_ns;
     if (n < chunk.size()) client->empty_ns = origin.arrival_ns;
-    std::vector<ControlAnswer> answers;
     bool too_fast = false;
     const bool accepted = lines.feed({chunk.data(), n}, [&](std::string_view line) {
       too_fast = !rate.take(origin.arrival_ns) || too_fast;
-      answers.push_back(answer(line, origin));
+      client->answers.push_back(answer(line, origin));
     });
     if (too_fast) owner_.control_client_gone(client->number, "its connection sends too many lines");
-    if (!accepted) answers.emplace_back(control_error("line too long"));
-    for (ControlAnswer& next : answers) {
-      asio::awaitable<std::string> line = line_of(std::move(next));
-      const std::string text = co_await std::move(line);
-      const auto [write_error, written] =
-          co_await asio::async_write(client->socket, asio::buffer(text), ports::kNoThrow);
-      if (write_error) co_return;
-    }
-    if (!accepted) co_return;
-    if (!too_fast) continue;
+    if (!accepted) client->answers.emplace_back(control_error("line too long"));
+    if (!std::exchange(client->is_answering, true))
+      asio::co_spawn(acceptor_.get_executor(), write_answers(client), asio::detached);
     // Requests that arrive during the pause stay in the client's socket; when that is full, the client has to
     // wait.
-    pause.expires_after(kSlowDown);
-    co_await pause.async_wait(ports::kNoThrow);
-    if (!acceptor_.is_open()) co_return;
+    for (bool waits = too_fast || !accepted; waits; waits = !accepted || client->answers.size() > kMaxAnswers) {
+      if (!accepted && !client->is_answering) co_return;
+      pause.expires_after(kSlowDown);
+      co_await pause.async_wait(ports::kNoThrow);
+      if (!client->socket.is_open()) co_return;
+    }
   }
+}
+
+asio::awaitable<void> ControlServer::write_answers(std::shared_ptr<Client> client) {
+  while (!client->answers.empty() && client->socket.is_open()) {
+    asio::awaitable<std::string> line = line_of(std::move(client->answers.front()));
+    client->answers.pop_front();
+    const std::string text = co_await std::move(line);
+    const auto [error, written] = co_await asio::async_write(client->socket, asio::buffer(text), ports::kNoThrow);
+    boost::system::error_code ignored;
+    if (error) client->socket.close(ignored);
+  }
+  client->is_answering = false;
 }
 
 asio::awaitable<std::string> ControlServer::line_of(ControlAnswer answer) {
   if (!answer.work) co_return std::move(answer.text);
   auto& pool = answer.then ? keeper_ : reader_;
-  if (!pool) pool.emplace(1);
+  if (!pool) pool.emplace(answer.then ? kKeepers : 1);
   const auto reader = pool->get_executor();
   // Named, because g++ 12 destroys temporaries of an awaited expression twice.
   asio::awaitable<std::string> work = do_work(std::move(answer.work));

@@ -5,6 +5,7 @@
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -46,11 +47,15 @@ class ControlServer {
   struct Client {
     boost::asio::local::stream_protocol::socket socket;
     std::uint64_t number = 0;
-    std::int64_t used_ns = 0;   ///< when it came or asked last
-    std::int64_t empty_ns = 0;  ///< when nothing waited to be read: what is read next was sent later
+    std::int64_t used_ns = 0;             ///< when it came or asked last
+    std::int64_t empty_ns = 0;            ///< when nothing waited to be read: what is read next was sent later
+    std::deque<ControlAnswer> answers{};  ///< in the order of the requests
+    bool is_answering = false;
   };
   boost::asio::awaitable<void> accept_clients();
+  /// Carries requests out as they come, also while an answer before them waits for the disk.
   boost::asio::awaitable<void> serve(std::shared_ptr<Client> client);
+  boost::asio::awaitable<void> write_answers(std::shared_ptr<Client> client);
   /// Closes the client that has been idle for longest, of those not in charge.
   void make_place();
   void look_at_buffers();
@@ -65,7 +70,7 @@ class ControlServer {
   std::set<std::shared_ptr<Client>> clients_;
   LazyTimer look_timer_;
   std::optional<boost::asio::thread_pool> reader_;  ///< one thread, begun with the first answer that needs it
-  std::optional<boost::asio::thread_pool> keeper_;  ///< another for leases, which wait for no download
+  std::optional<boost::asio::thread_pool> keeper_;  ///< others for leases and stops, which wait for no download
 };
 
 }  // namespace navcal::daemon

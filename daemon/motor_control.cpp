@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <iterator>
 #include <utility>
 
@@ -23,8 +24,8 @@ namespace {
 constexpr std::int64_t kMccLine_bytes = 35;
 /// Longest time that the end of the program waits for a line to leave.
 constexpr std::chrono::milliseconds kLastLine{200};
-/// Longest time that a lease waits for its note.
-constexpr std::chrono::milliseconds kNote{2000};
+/// Longest time that a lease waits for its note, and the answer to a stop for the card.
+constexpr std::chrono::milliseconds kNote{2000}, kShown{1000};
 /// Refusals and events that are recorded each second.
 constexpr double kRecords_Hz = 10;
 
@@ -81,11 +82,22 @@ MotorControl::MotorControl(const boost::asio::any_io_executor& executor, const c
 ControlAnswer MotorControl::answer(const ControlRequest& request, const ControlOrigin& origin) {
   if (request.command == ControlCommand::motor_lease) return answer_lease(request, origin);
   if (request.command == ControlCommand::motor_order) return answer_order(request, origin);
-  std::string problem = request.command == ControlCommand::motor_stop
-                            ? command_.stop(origin.arrival_ns, request.by)
-                            : command_.release(origin.arrival_ns, request.lease);
+  if (request.command == ControlCommand::motor_stop) return answer_stop(request, origin);
+  std::string problem = command_.release(origin.arrival_ns, request.lease);
   drive(ports::monotonic_ns());
   return problem.empty() ? "{\"ok\":true}\n" : control_error(problem);
+}
+
+ControlAnswer MotorControl::answer_stop(const ControlRequest& request, const ControlOrigin& origin) {
+  ++stops_;
+  const std::string problem = command_.stop(origin.arrival_ns, request.by);
+  drive(ports::monotonic_ns());
+  if (!problem.empty()) return control_error(problem);
+  auto shown = std::make_shared<std::promise<void>>();
+  shown_.push_back(shown);
+  return ControlAnswer(
+      [shown] { return shown->get_future().wait_for(kShown) == std::future_status::ready ? "true" : "false"; },
+      [](const std::string& is_shown) { return "{\"ok\":true,\"shown\":" + is_shown + "}\n"; });
 }
 
 ControlAnswer MotorControl::answer_lease(const ControlRequest& request, const ControlOrigin& origin) {
@@ -97,16 +109,18 @@ ControlAnswer MotorControl::answer_lease(const ControlRequest& request, const Co
         for (std::size_t i = 1; problem.empty() && i < notes.size(); ++i) (void)notes[i]->keep(kNote);
         return problem;
       },
-      [this, wanted = request.lease_request, client = origin.client](std::string problem) {
-        return grant(wanted, client, std::move(problem));
+      [this, wanted = request.lease_request, client = origin.client, stops = stops_](std::string problem) {
+        return grant(wanted, client, stops, std::move(problem));
       });
 }
 
-std::string MotorControl::grant(const control::LeaseRequest& request, std::uint64_t client, std::string problem) {
+std::string MotorControl::grant(const control::LeaseRequest& request, std::uint64_t client, std::uint64_t stops,
+                                std::string problem) {
   const std::int64_t now_ns = ports::monotonic_ns();
   --leases_under_way_;
   if (is_unnoted_ != !problem.empty()) owner_.on_motor_unnoted(now_ns, is_unnoted_ = !problem.empty());
   if (!problem.empty()) problem.insert(0, "no order is taken that the next start would not know of: ");
+  if (problem.empty() && stops != stops_) problem = "stopped since the lease was asked for";
   const std::string token = random_token();
   if (problem.empty() && token.empty()) problem = "no random numbers for a lease";
   if (problem.empty()) problem = command_.lease(now_ns, request, token, client);
@@ -268,7 +282,9 @@ void MotorControl::take_records(std::int64_t now_ns) {
     if (record.outcome != control::Outcome::echoed) continue;
     ++echoed_;
     echo_s_ = static_cast<double>(*record.echoed_ns - *record.sent_ns) * 1e-9;
-    if (record.source == control::Source::safe) command_.safe_echoed();
+    if (record.source != control::Source::safe) continue;
+    command_.safe_echoed();
+    for (const auto& shown : std::exchange(shown_, {})) shown->set_value();
   }
   records_.clear();
   if (command_.is_card_commanded() || command_.holder() || leases_under_way_ > 0) return;

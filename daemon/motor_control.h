@@ -4,6 +4,7 @@
 #include <boost/asio/any_io_executor.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,7 +78,10 @@ class MotorControl {
  private:
   [[nodiscard]] ControlAnswer answer_lease(const ControlRequest& request, const ControlOrigin& origin);
   /// `problem`: why the next start would not know that the card has an order; empty: it would.
-  [[nodiscard]] std::string grant(const control::LeaseRequest& request, std::uint64_t client, std::string problem);
+  /// A stop since then (`stops` of stops_) ends a lease that was asked for before.
+  [[nodiscard]] std::string grant(const control::LeaseRequest& request, std::uint64_t client, std::uint64_t stops,
+                                  std::string problem);
+  [[nodiscard]] ControlAnswer answer_stop(const ControlRequest& request, const ControlOrigin& origin);
   [[nodiscard]] std::string answer_order(const ControlRequest& request, const ControlOrigin& origin);
   /// A record with the number of the last order and who is in charge.
   [[nodiscard]] control::OrderRecord record_of_holder() const;
@@ -109,6 +113,8 @@ class MotorControl {
   bool is_deaf_ = false;
   bool is_unnoted_ = false;
   int leases_under_way_ = 0;  ///< the note is being made for them
+  std::uint64_t stops_ = 0;
+  std::vector<std::shared_ptr<std::promise<void>>> shown_;  ///< of stops that wait for the card
   bool is_open_ = false;
   bool busy_ = false;  ///< told that the line takes nothing
   bool stopped_ = false;

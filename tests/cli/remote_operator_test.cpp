@@ -101,7 +101,7 @@ std::optional<std::string> next_answer(RemoteOperator& remote) {
 
 TEST(RemoteOperator, AStopThatAnOldVehicleDoesNotKnowBecomesALeaseAndItsRelease) {
   OldVehicle vehicle;
-  RemoteOperator remote({.address = vehicle.address});
+  RemoteOperator remote({.address = vehicle.address, .key_file = {}});
   remote.wait_for_session(60);
   remote.stop();
   EXPECT_EQ(next_answer(remote), "ok");
@@ -111,7 +111,7 @@ TEST(RemoteOperator, AStopThatAnOldVehicleDoesNotKnowBecomesALeaseAndItsRelease)
 
 TEST(RemoteOperator, TheHolderOfALeaseStopsAnOldVehicleByGivingItBack) {
   OldVehicle vehicle;
-  RemoteOperator remote({.address = vehicle.address});
+  RemoteOperator remote({.address = vehicle.address, .key_file = {}});
   remote.wait_for_session(60);
   remote.lease();
   EXPECT_EQ(next_answer(remote), "ok");

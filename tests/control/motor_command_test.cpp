@@ -155,7 +155,8 @@ TEST_F(MotorCommandTest, AnOperatorWhoTakesOverAndSaysNothingEndsInTheSafeState)
   ASSERT_EQ(lease(), "");
   ASSERT_EQ(order(780), "");
   ASSERT_EQ(lease(kOperator, "b", 2), "");
-  EXPECT_EQ(lines(1001), (Lines{"0:780", "1000:0 safe"}));
+  EXPECT_EQ(lines(1001), (Lines{"0:780", "500:0 safe", "1000:0 safe"}))
+      << "the pilot's order held for its own time";
 }
 
 TEST_F(MotorCommandTest, WhatIsBeyondLimitsOrNoNumberIsRefusedWithTheReason) {
@@ -165,13 +166,13 @@ TEST_F(MotorCommandTest, WhatIsBeyondLimitsOrNoNumberIsRefusedWithTheReason) {
   EXPECT_EQ(order(std::numeric_limits<double>::quiet_NaN()), "shaft_rpm is no number");
   EXPECT_EQ(order(std::numeric_limits<double>::infinity()), "shaft_rpm is no number");
   EXPECT_EQ(command_.order(now_ns_, now_ns_, "a", {0, {0, 25.1, 0}}), "fins_deg[1] 25.1 is beyond 25");
-  EXPECT_EQ(command_.order(now_ns_, "a", {0, {0, 0, -std::numeric_limits<double>::quiet_NaN()}}),
+  EXPECT_EQ(command_.order(now_ns_, now_ns_, "a", {0, {0, 0, -std::numeric_limits<double>::quiet_NaN()}}),
             "fins_deg[2] is no number");
   EXPECT_EQ(lines(499), Lines{});
   EXPECT_EQ(command_.sequence(), 0U);
   EXPECT_EQ(order(1200), "");
   EXPECT_EQ(order(-1200), "");
-  EXPECT_EQ(command_.order(now_ns_, "a", {0, {25, -25, 0}}), "");
+  EXPECT_EQ(command_.order(now_ns_, now_ns_, "a", {0, {25, -25, 0}}), "");
 }
 
 TEST_F(MotorCommandTest, ARefusedOrderDoesNotRenewTheLease) {
@@ -268,7 +269,6 @@ TEST_F(MotorCommandTest, AnOrderEndsTheRepetitionOfTheSafeState) {
 }
 
 TEST_F(MotorCommandTest, AtTheEndTheSafeStateIsSentAtOnceIfTheCardMayObeyAnotherOrder) {
-  command_.shut_down(now_ns_);
   EXPECT_EQ(lines(100), Lines{});
   ASSERT_EQ(lease(), "");
   ASSERT_EQ(command_.release(now_ns_, "a"), "");
@@ -401,7 +401,7 @@ TEST(MotorCommand, TheFirstOrderIsReachedFromTheSafeState) {
   MotorCommand command(made);
   command.port_opened(0);
   ASSERT_EQ(command.lease(0, kPilot, "a", 1), "");
-  ASSERT_EQ(command.order(0, "a", {0, {0, 25, 0}}), "");
+  ASSERT_EQ(command.order(0, 0, "a", {0, {0, 25, 0}}), "");
   EXPECT_EQ(command.next(50 * kMs)->command.fins_deg, (std::array<double, 3>{0, 6, 0}));
 }
 
@@ -428,13 +428,14 @@ TEST_F(ShapedMotorCommandTest, AtTheEndTheShaftStands) {
         static_cast<void>(command_.lease(now_ns_, {"x", draw(3), 0.2 + 0.1 * draw(5)}, tokens.back(), client));
         break;
       case 1: static_cast<void>(command_.release(now_ns_, tokens[tokens.size() - 1])); break;
-      case 2: command_.client_gone(now_ns_, client); break;
+      case 2: command_.client_gone(now_ns_, client, "gone"); break;
       case 3:
         open ? command_.port_lost("x") : command_.port_opened(now_ns_);
         open = !open;
         break;
       default:
-        static_cast<void>(command_.order(now_ns_, tokens[tokens.size() - 1 - static_cast<std::size_t>(draw(1))],
+        static_cast<void>(command_.order(now_ns_, now_ns_ - draw(100) * kMs,
+                                         tokens[tokens.size() - 1 - static_cast<std::size_t>(draw(1))],
                                          {draw(3000) - 1500.0, {draw(60) - 30.0, 0, 0}}));
     }
     for (int n = 0;; ++n) {

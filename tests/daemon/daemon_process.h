@@ -55,6 +55,11 @@ class FakeLine {
     const ssize_t n = ::read(master_, bytes, sizeof bytes);
     return n > 0 ? std::string(bytes, static_cast<std::size_t>(n)) : std::string();
   }
+  /// Nobody has the other end open.
+  [[nodiscard]] bool is_closed() const {
+    pollfd ends{master_, 0, 0};
+    return ::poll(&ends, 1, 0) > 0 && (ends.revents & POLLHUP) != 0;
+  }
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] int master() const { return master_; }
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "config/load.h"
@@ -59,7 +60,6 @@ TEST(DaemonProcess, WhatTheDeviceSaysIsServedAndLoggedByteForByte) {
 TEST(DaemonProcess, ASecondDaemonIsToldWhatIsTaken) {
   DaemonProcess daemon;
   const auto client = watcher(daemon);
-  const std::string other = daemon.folder().string();
   {
     const auto [status, said] = daemon.run_another({});
     EXPECT_EQ(status, 1);
@@ -70,14 +70,29 @@ TEST(DaemonProcess, ASecondDaemonIsToldWhatIsTaken) {
     EXPECT_EQ(status, 1);
     EXPECT_NE(said.find("another navcald answers there"), std::string::npos) << said;
   }
-  {
-    const auto [status, said] =
-        daemon.run_another({"--set", "status.port=0", "--set", "control.socket=" + other + "/control2"});
-    EXPECT_EQ(status, 1);
-    EXPECT_NE(said.find("another navcald is writing logs there"), std::string::npos) << said;
-  }
   EXPECT_EQ(daemon.logs().size(), 1U) << "a daemon that cannot start leaves no log";
-  EXPECT_FALSE(std::filesystem::exists(other + "/control2")) << "nor its socket";
+}
+
+TEST(DaemonProcess, ASecondDaemonLogsInAFolderAsSoonAsTheFirstHasLeftIt) {
+  auto first = std::make_unique<DaemonProcess>();
+  first->wait_until_ready();
+  const DaemonProcess second({"--set", "log.directory=" + (first->folder() / "log").string()});
+  second.wait_until_ready();
+  Client control(second.folder() / "control");
+  const auto health_until = [&](std::string_view words) {
+    for (int i = 0; i < 4000; ++i) {
+      control.send("{\"command\":\"status\"}\n");
+      if (const auto line = control.line(); line && line->find(words) != std::string::npos) return true;
+      ::usleep(5000);
+    }
+    return false;
+  };
+  EXPECT_TRUE(health_until("another navcald is writing logs there"));
+  EXPECT_TRUE(health_until("\"alarm\":\"log_failing\""));
+  EXPECT_EQ(first->logs().size(), 1U);
+  EXPECT_EQ(first->stop(SIGTERM), 0);
+  EXPECT_TRUE(health_until("\"alarms\":[]"));
+  EXPECT_EQ(first->logs().size(), 2U);
 }
 
 TEST(DaemonProcess, BadConfigurationAndUsageHaveTheirStatuses) {
