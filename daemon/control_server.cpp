@@ -69,7 +69,7 @@ asio::awaitable<void> ControlServer::accept_clients() {
     clients_.insert(client);
     look_timer_.arm(now_ns + kLook_ns);
     asio::co_spawn(acceptor_.get_executor(), serve(client), [this, client](const std::exception_ptr& failure) {
-      if (failure) spdlog::warn("control socket: a client was dropped after an internal error");
+      drop_after(failure, *client);
       clients_.erase(client);
       owner_.control_client_gone(client->number, "its connection was closed");
     });
@@ -114,16 +114,25 @@ asio::awaitable<void> ControlServer::serve(std::shared_ptr<Client> client) {
     if (too_fast) owner_.control_client_gone(client->number, "its connection sends too many lines");
     if (!accepted) client->answers.emplace_back(control_error("line too long"));
     if (!std::exchange(client->is_answering, true))
-      asio::co_spawn(acceptor_.get_executor(), write_answers(client), asio::detached);
+      asio::co_spawn(acceptor_.get_executor(), write_answers(client),
+                     [client](const std::exception_ptr& failure) { drop_after(failure, *client); });
+    if (!accepted) co_return;
     // Requests that arrive during the pause stay in the client's socket; when that is full, the client has to
     // wait.
-    for (bool waits = too_fast || !accepted; waits; waits = !accepted || client->answers.size() > kMaxAnswers) {
-      if (!accepted && !client->is_answering) co_return;
+    while (too_fast || client->answers.size() > kMaxAnswers) {
+      too_fast = false;
       pause.expires_after(kSlowDown);
       co_await pause.async_wait(ports::kNoThrow);
       if (!client->socket.is_open()) co_return;
     }
   }
+}
+
+void ControlServer::drop_after(const std::exception_ptr& failure, Client& client) {
+  if (!failure) return;
+  spdlog::warn("control socket: a client was dropped after an internal error");
+  boost::system::error_code ignored;
+  client.socket.close(ignored);
 }
 
 asio::awaitable<void> ControlServer::write_answers(std::shared_ptr<Client> client) {

@@ -6,6 +6,7 @@
 #include <boost/asio/thread_pool.hpp>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -59,6 +60,7 @@ class ControlServer {
   /// Closes the client that has been idle for longest, of those not in charge.
   void make_place();
   void look_at_buffers();
+  static void drop_after(const std::exception_ptr& failure, Client& client);
   [[nodiscard]] ControlAnswer answer(std::string_view line, const ControlOrigin& origin) const;
   /// The line of an answer, whose work is done on a thread of its own: the disk may be slow.
   boost::asio::awaitable<std::string> line_of(ControlAnswer answer);

@@ -36,6 +36,7 @@ class Case:
         self.drivers, self.others, self.problems, self.timeline = [], [], [], []
         self.events, self.numbers = [], itertools.count()
         self.has_begun = self.is_over = False
+        self.zero_at = 0.0  # when the card last heard the safe state
         self.pid = self.stop = None
         os.mkdir(self.log)
         if may_mount:
@@ -179,6 +180,8 @@ class Case:
         if rpm == 0:
             if not heard:
                 self.promise.line_lost(now)
+            else:
+                self.zero_at = now
             return
         if not self.has_begun:
             self.has_begun = True
@@ -249,8 +252,11 @@ class Case:
             return
         done = self.stop[1] == clients.DONE
         self.say(f"STOP: {'done' if done else 'not done'}")
-        self.promise.voided((self.stop[0] or time.monotonic_ns()) / 1e9)
-        if not done and self.pid and self.pid == self.stop_pid and not self.promise.outages:
+        asked = (self.stop[0] or time.monotonic_ns()) / 1e9
+        has_stood = self.zero_at > asked  # what came after that is a new lease's
+        if not has_stood:
+            self.promise.voided(asked)
+        if not done and not has_stood and self.pid and self.pid == self.stop_pid and not self.promise.outages:
             self.problems.append("STOP was refused")
         self.stop = None
 

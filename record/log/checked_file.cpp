@@ -62,8 +62,12 @@ CheckedContent read_checked(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file, ignored)) return {};
     return {State::damaged, {}, "it cannot be opened"};
   }
-  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (in.bad()) return {State::damaged, {}, "it cannot be read"};
+  std::string bytes;
+  try {
+    bytes.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  } catch (const std::ios_base::failure&) {  // a folder, or an error of the disk
+    return {State::damaged, {}, "it cannot be read"};
+  }
   if (!bytes.starts_with(kMagic)) return {State::damaged, {}, "its head is not of a checked file"};
   if (bytes.size() < kMagic.size() + kCrcSize) return {State::damaged, {}, "it is cut short"};
   const std::size_t end = bytes.size() - kCrcSize;

@@ -65,6 +65,12 @@ TEST_F(CheckedFile, KilledAtAnyInstantItHoldsTheOldOrTheNewContent) {
   }
 }
 
+TEST_F(CheckedFile, AFolderInItsPlaceIsDamage) {
+  std::filesystem::create_directory(file_);
+  EXPECT_EQ(read_checked(file_).state, CheckedContent::State::damaged);
+  EXPECT_TRUE(write_checked(file_, "x"));
+}
+
 TEST_F(CheckedFile, AFolderThatIsNotThereIsAnError) {
   EXPECT_TRUE(write_checked("/nowhere/at/all", "x"));
   EXPECT_EQ(read_checked("/nowhere/at/all").state, State::absent);
