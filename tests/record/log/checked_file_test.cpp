@@ -66,9 +66,11 @@ TEST_F(CheckedFile, KilledAtAnyInstantItHoldsTheOldOrTheNewContent) {
 }
 
 TEST_F(CheckedFile, AFolderInItsPlaceIsDamage) {
-  std::filesystem::create_directory(file_);
-  EXPECT_EQ(read_checked(file_).state, CheckedContent::State::damaged);
-  EXPECT_TRUE(write_checked(file_, "x"));
+  const auto file = write("state", "");
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  EXPECT_EQ(read_checked(file).state, State::damaged);
+  EXPECT_TRUE(write_checked(file, "x"));
 }
 
 TEST_F(CheckedFile, AFolderThatIsNotThereIsAnError) {
