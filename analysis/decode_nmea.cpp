@@ -155,6 +155,7 @@ void describe_nmea(FieldWriter& fields, const Frame& frame, const std::optional<
   const nmea::Sentence sentence(frame.bytes);
   switch (type) {
     case Type::gga: return write_or_refuse(fields, nmea::decode_gga(sentence));
+    case Type::gns: return write_or_refuse(fields, nmea::decode_gns(sentence));
     case Type::rmc: return write_or_refuse(fields, nmea::decode_rmc(sentence), pivot);
     case Type::vtg: return write_or_refuse(fields, nmea::decode_vtg(sentence));
     case Type::gll: return write_or_refuse(fields, nmea::decode_gll(sentence));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "instruments/nmea_epoch.h"
 
+#include <algorithm>
+
 #include "base/angles.h"
+#include "base/durations.h"
 #include "instruments/units.h"
 
 namespace navcal::instruments {
@@ -24,17 +27,18 @@ bool NmeaEpoch::merge(const nmea::Sentence& sentence, Type type, Outcome& outcom
     case Type::rmc: {
       const auto rmc = nmea::decode_rmc(sentence);
       if (!rmc) return false;
-      if (rmc->time) begin(*rmc->time, outcome);
+      if (rmc->time) begin(*rmc->time, sentence.address(), outcome);
       if (rmc->date) set_date(*rmc->date);
       if (open_.fix == Fix::none) open_.fix = rmc->fix();
       set_place(rmc->valid ? rmc->place : std::nullopt);
       if (rmc->valid) set_motion(rmc->speed_kn, rmc->course_deg);
       return true;
     }
-    case Type::gga: {
-      const auto gga = nmea::decode_gga(sentence);
+    case Type::gga:
+    case Type::gns: {
+      const auto gga = type == Type::gns ? nmea::decode_gns(sentence) : nmea::decode_gga(sentence);
       if (!gga) return false;
-      if (gga->time) begin(*gga->time, outcome);
+      if (gga->time) begin(*gga->time, sentence.address(), outcome);
       if (gga->fix() != Fix::none) {
         open_.fix = gga->fix();
         set_place(gga->place);
@@ -43,14 +47,14 @@ bool NmeaEpoch::merge(const nmea::Sentence& sentence, Type type, Outcome& outcom
           open_.height_m = gga->altitude_m->value() + gga->geoid_separation_m->value();
         }
       }
-      if (gga->satellites) open_.tracked = gga->satellites;
+      if (gga->satellites && (gga->place || !open_.tracked)) open_.tracked = gga->satellites;
       if (gga->hdop) open_.dop = gga->hdop->value();
       return true;
     }
     case Type::gll: {
       const auto gll = nmea::decode_gll(sentence);
       if (!gll) return false;
-      if (gll->time) begin(*gll->time, outcome);
+      if (gll->time) begin(*gll->time, sentence.address(), outcome);
       if (open_.fix == Fix::none) open_.fix = gll->fix();
       set_place(gll->valid ? gll->place : std::nullopt);
       return true;
@@ -68,23 +72,35 @@ bool NmeaEpoch::merge(const nmea::Sentence& sentence, Type type, Outcome& outcom
       return true;
     }
     case Type::gsa: {
-      gsa_ = nmea::decode_gsa(sentence);
-      return gsa_.has_value();
+      const auto gsa = nmea::decode_gsa(sentence);
+      if (!gsa) return false;
+      if (!gsa_of_epoch_ || gsa->fix > gsa_->fix) gsa_ = gsa;
+      gsa_of_epoch_ = true;
+      return true;
     }
     default: return true;
   }
 }
 
-void NmeaEpoch::begin(const protocols::TimeOfDay& time, Outcome& outcome) {
-  if (time_ == time) return;
+void NmeaEpoch::begin(const protocols::TimeOfDay& time, std::string_view address, Outcome& outcome) {
+  const protocols::FrameId name(address);
+  const bool repeats = time_ == time;
+  if (repeats && std::find(seen_.begin(), seen_.end(), name) == seen_.end()) {
+    seen_.push_back(name);
+    return;
+  }
   if (time_) {
     closer_ = newest_;
     if (!emitted_ && open_.latitude_rad) outcome.closed = complete();
+    if (time.hour + 12 < time_->hour) past_midnight_ = true;
   }
   time_ = time;
+  time_repeats_ = repeats;
   open_ = {};
   emitted_ = false;
   newest_ = Type::other;
+  seen_.assign(1, name);
+  gsa_of_epoch_ = false;
 }
 
 void NmeaEpoch::finish(Type type, Outcome& outcome) {
@@ -100,6 +116,7 @@ void NmeaEpoch::finish(Type type, Outcome& outcome) {
 void NmeaEpoch::set_date(const protocols::Date& date) {
   const auto corrected = protocols::correct_rollover(date, pivot_);
   date_ = corrected.date;
+  past_midnight_ = false;
   date_corrected_ = corrected.corrected;
 }
 
@@ -119,11 +136,13 @@ void NmeaEpoch::set_motion(const std::optional<protocols::nmea::Decimal>& speed_
 
 GpsSample NmeaEpoch::complete() const {
   GpsSample sample = open_;
-  if (date_ && time_) {
-    sample.time_utc_ns = protocols::unix_ns(*date_, *time_);
+  if (date_ && time_ && !time_repeats_) {
+    sample.time_utc_ns = protocols::unix_ns(*date_, *time_) + (past_midnight_ ? 86'400 * base::kSecond_ns : 0);
     sample.time_corrected = date_corrected_;
   }
-  if (gsa_ && sample.fix != Fix::none) {
+  // GGA, GNS and RMC state the fix of the whole receiver, GSA of one system; GSA alone tells 2D from 3D.
+  const bool has_place = sample.fix == Fix::fix_2d || sample.fix == Fix::fix_3d;
+  if (gsa_ && gsa_->fix != Fix::none && has_place) {
     sample.fix = gsa_->fix;
     const auto& dop = gsa_->fix == Fix::fix_3d ? gsa_->pdop : gsa_->hdop;
     if (dop) sample.dop = dop->value();

@@ -3,16 +3,21 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace navcal::instruments {
 
-void NmeaSky::add_used(const protocols::nmea::Gsa& gsa) { used_ = gsa.satellites; }
+void NmeaSky::add_used(const protocols::nmea::Gsa& gsa) {
+  if (std::exchange(used_is_whole_, false) || used_.size() >= SkySample::kMaxSatellites) used_.clear();
+  used_.insert(used_.end(), gsa.satellites.begin(), gsa.satellites.begin() + static_cast<long>(gsa.count));
+}
 
 bool NmeaSky::is_used(std::uint16_t number) const {
-  return number != 0 && std::find(used_.begin(), used_.end(), number) != used_.end();
+  return std::find(used_.begin(), used_.end(), number) != used_.end();
 }
 
 std::optional<SkySample> NmeaSky::add(std::string_view talker, const protocols::nmea::Gsv& gsv) {
+  used_is_whole_ = true;
   const auto who = static_cast<std::uint16_t>(talker.size() < 2 ? 0 : talker[0] << 8 | talker[1]);
   if (gsv.sentence == 1) {  // a new group of this talker: its former satellites are dropped
     std::size_t kept = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "instruments/samples.h"
 #include "protocols/nmea_position.h"
@@ -21,7 +22,8 @@ class NmeaSky {
 
   SkySample sky_;
   std::array<std::uint16_t, SkySample::kMaxSatellites> talkers_{};  ///< of each satellite
-  std::array<std::uint16_t, protocols::nmea::Gsa::kSlots> used_{};
+  std::vector<std::uint16_t> used_;  ///< of the newest GSA sentences, one for each system
+  bool used_is_whole_ = false;       ///< the next GSA begins anew
 };
 
 }  // namespace navcal::instruments

@@ -38,6 +38,7 @@ Type type_of(FrameId id) {
   if (name.size() != 5 || name[0] == 'P') return Type::other;  // P begins makers' own words
   switch (packed(name[2], name[3], name[4])) {
     case packed('G', 'G', 'A'): return Type::gga;
+    case packed('G', 'N', 'S'): return Type::gns;
     case packed('R', 'M', 'C'): return Type::rmc;
     case packed('V', 'T', 'G'): return Type::vtg;
     case packed('G', 'L', 'L'): return Type::gll;

@@ -31,6 +31,7 @@ using Parser = StreamParser<Scanner>;
 /// Sentences with a decoder here; any talker.
 enum class Type : std::uint8_t {
   gga,
+  gns,
   rmc,
   vtg,
   gll,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/nmea_position.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "protocols/nmea_fields.h"
 
 namespace navcal::protocols::nmea {
@@ -33,6 +36,35 @@ std::optional<Date> ddmmyy(FieldReader& fields) {
   return date;
 }
 
+/// The mode of GNS has a letter for each system of satellites.
+std::uint8_t best_quality(FieldReader& fields) {
+  constexpr std::string_view kModes = "NESMADPFR";  // the best last
+  constexpr std::uint8_t kQualities[] = {0, 6, 8, 7, 1, 2, 3, 5, 4};
+  std::size_t best = 0;
+  for (const char mode : fields.text()) best = std::max(best, kModes.find(mode));
+  if (best < kModes.size()) return kQualities[best];
+  fields.refuse();
+  return 0;
+}
+
+std::optional<Gga> position_fix(const Sentence& sentence, bool is_gns) {
+  FieldReader fields(sentence);
+  const auto skip_unit = [&] { fields.skip(is_gns ? 0 : 1); };
+  Gga out;
+  out.time = fields.time_of_day();
+  out.place = fields.lat_lon();
+  out.quality = is_gns ? best_quality(fields) : fields.count<std::uint8_t>().value_or(0);
+  out.satellites = fields.count<std::uint8_t>();
+  out.hdop = fields.decimal(0, kMaxDop);
+  out.altitude_m = fields.decimal(-kMaxHeight_m, kMaxHeight_m);
+  skip_unit();
+  out.geoid_separation_m = fields.decimal(-kMaxHeight_m, kMaxHeight_m);
+  skip_unit();
+  out.correction_age_s = fields.decimal(0, kMaxAge_s);
+  out.station = fields.count<std::uint16_t>();
+  return fields.if_in_range(out);
+}
+
 Fix horizontal_fix(bool valid, std::optional<char> mode) {
   if (!valid || mode == 'N') return Fix::none;
   return mode == 'E' ? Fix::propagated : Fix::fix_2d;
@@ -49,22 +81,8 @@ Fix Gga::fix() const {
 Fix Rmc::fix() const { return horizontal_fix(valid && place, mode); }
 Fix Gll::fix() const { return horizontal_fix(valid && place, mode); }
 
-std::optional<Gga> decode_gga(const Sentence& sentence) {
-  FieldReader fields(sentence);
-  Gga out;
-  out.time = fields.time_of_day();
-  out.place = fields.lat_lon();
-  out.quality = fields.count<std::uint8_t>().value_or(0);
-  out.satellites = fields.count<std::uint8_t>();
-  out.hdop = fields.decimal(0, kMaxDop);
-  out.altitude_m = fields.decimal(-kMaxHeight_m, kMaxHeight_m);
-  fields.skip();
-  out.geoid_separation_m = fields.decimal(-kMaxHeight_m, kMaxHeight_m);
-  fields.skip();
-  out.correction_age_s = fields.decimal(0, kMaxAge_s);
-  out.station = fields.count<std::uint16_t>();
-  return fields.if_in_range(out);
-}
+std::optional<Gga> decode_gga(const Sentence& sentence) { return position_fix(sentence, false); }
+std::optional<Gga> decode_gns(const Sentence& sentence) { return position_fix(sentence, true); }
 
 std::optional<Rmc> decode_rmc(const Sentence& sentence) {
   FieldReader fields(sentence);

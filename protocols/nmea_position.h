@@ -21,7 +21,7 @@ struct LatLon {
   double longitude_deg = 0;  ///< east positive
 };
 
-/// Position and its quality.
+/// Position and its quality: GGA, or GNS of a receiver of several systems, whose best mode counts.
 struct Gga {
   std::optional<TimeOfDay> time;
   std::optional<LatLon> place;
@@ -101,6 +101,7 @@ struct Zda {
 };
 
 [[nodiscard]] std::optional<Gga> decode_gga(const Sentence& sentence);
+[[nodiscard]] std::optional<Gga> decode_gns(const Sentence& sentence);
 [[nodiscard]] std::optional<Rmc> decode_rmc(const Sentence& sentence);
 [[nodiscard]] std::optional<Vtg> decode_vtg(const Sentence& sentence);
 [[nodiscard]] std::optional<Gll> decode_gll(const Sentence& sentence);

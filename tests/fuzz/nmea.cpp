@@ -24,6 +24,7 @@ void decode_everything(navcal::protocols::Bytes frame) {
   for (std::size_t i = 0; i < sentence.size(); ++i) bytes += 1 + sentence[i].size();
   navcal::fuzz::require(bytes < frame.size());
   if (const auto gga = nmea::decode_gga(sentence)) require_on_earth(gga->place);
+  if (const auto gns = nmea::decode_gns(sentence)) require_on_earth(gns->place);
   if (const auto rmc = nmea::decode_rmc(sentence)) {
     require_on_earth(rmc->place);
     navcal::fuzz::require(!rmc->date || is_valid(*rmc->date));

@@ -53,6 +53,66 @@ TEST_F(NmeaDeviceTest, AnEpochWhoseClosingSentenceIsMissingIsNotLost) {
   EXPECT_EQ(collector_.all<GpsSample>().size(), 5U);
 }
 
+std::string rmc_and_gga(const std::string& time, const std::string& minutes = "44.1200") {
+  return nmea("GNRMC," + time + ",A,38" + minutes + ",N,00908.4000,W,1.2,75.0,010326,,,A") +
+         nmea("GNGGA," + time + ",38" + minutes + ",N,00908.4000,W,1,11,0.8,60.0,M,48.0,M,,");
+}
+
+TEST_F(NmeaDeviceTest, ASystemWithoutAFixTakesNoneFromTheReceiver) {
+  const std::string gps = nmea("GNGSA,A,3,05,07,09,13,,,,,,,,,1.40,0.80,1.15,1");
+  const std::string flat = nmea("GNGSA,A,2,05,07,09,,,,,,,,,,2.60,2.40,1.00,1");
+  const std::string glonass = nmea("GNGSA,A,1,,,,,,,,,,,,,,,,2");
+  const std::string one = rmc_and_gga("090000.00"), two = rmc_and_gga("090001.00"),
+                    three = rmc_and_gga("090002.00"), four = rmc_and_gga("090003.00");
+  collector_.feed<Parser>(one + gps + glonass + two + glonass + gps + three + flat + glonass + four);
+  collector_.feed<Parser>(nmea("GNRMC,090004.00,V,,,,,,,010326,,,N") + gps +
+                          nmea("GNGGA,090004.00,,,,,0,00,99,,M,,M,,"));
+  const auto samples = collector_.all<GpsSample>();
+  ASSERT_EQ(samples.size(), 5U);
+  EXPECT_EQ(samples[1].fix, Fix::fix_3d);
+  EXPECT_EQ(samples[2].fix, Fix::fix_3d);
+  EXPECT_EQ(samples[2].dop, 1.4) << "of the system that has the fix";
+  EXPECT_EQ(samples[3].fix, Fix::fix_2d) << "all systems together have no more";
+  EXPECT_EQ(samples[4].fix, Fix::none) << "the receiver says so";
+}
+
+TEST_F(NmeaDeviceTest, GnsIsAFixWithTheDateOfZda) {
+  for (const char* time : {"235958.00", "235959.00", "000000.00", "000001.00"}) {
+    const std::string date = time[0] == '2' ? "28,02,2026" : "01,03,2026";
+    collector_.feed<Parser>(
+        nmea(std::string("GNGNS,") + time + ",3844.1200,N,00908.4000,W,AAN,14,0.8,60.0,48.0,,") +
+        nmea(std::string("GNZDA,") + time + "," + date + ",00,00"));
+  }
+  const auto samples = collector_.all<GpsSample>();
+  ASSERT_EQ(samples.size(), 4U);
+  EXPECT_EQ(samples[1].fix, Fix::fix_3d);
+  EXPECT_EQ(samples[1].tracked, 14);
+  EXPECT_NEAR(*samples[1].height_m, 108, 1e-9);
+  EXPECT_EQ(*samples[2].time_utc_ns - *samples[1].time_utc_ns, 1'000'000'000) << "midnight, before its ZDA";
+  EXPECT_EQ(*samples[3].time_utc_ns - *samples[2].time_utc_ns, 1'000'000'000);
+}
+
+TEST_F(NmeaDeviceTest, WholeSecondsAtFiveFixesASecondLoseNone) {
+  for (int k = 0; k < 50; ++k)
+    collector_.feed<Parser>(rmc_and_gga("0900" + std::to_string(10 + k / 5), "44.1" + std::to_string(100 + k)));
+  const auto samples = collector_.all<GpsSample>();
+  ASSERT_EQ(samples.size(), 50U);
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    EXPECT_GT(*samples[k].latitude_rad, *samples[k - 1].latitude_rad) << k;
+    EXPECT_EQ(samples[k].time_utc_ns.has_value(), k % 5 == 0) << "a time that repeats is none: " << k;
+    EXPECT_EQ(samples[k].fix, Fix::fix_3d) << k;
+  }
+}
+
+TEST_F(NmeaDeviceTest, ASecondTalkerAddsNoFix) {
+  for (int k = 0; k < 10; ++k) {
+    const std::string time = "09001" + std::to_string(k) + ".00";
+    collector_.feed<Parser>(rmc_and_gga(time) +
+                            nmea("GPGGA," + time + ",3844.1200,N,00908.4000,W,1,06,1.1,,M,,M,,"));
+  }
+  EXPECT_EQ(collector_.all<GpsSample>().size(), 10U);
+}
+
 TEST_F(NmeaDeviceTest, CourseAtRestIsNoise) {
   collector_.feed<Parser>(nmea("GPRMC,120000,A,5742.7698,N,01201.3554,E,0.31,320.0,010326,,,A"));
   const auto samples = collector_.all<GpsSample>();
@@ -80,6 +140,17 @@ TEST_F(NmeaDeviceTest, SatellitesOfSeveralTalkers) {
   EXPECT_FALSE(skies[0].satellites[4].cn0_dBHz);
   EXPECT_EQ(skies[1].count, 6U);
   EXPECT_EQ(skies[2].count, 2U);
+}
+
+TEST_F(NmeaDeviceTest, SatellitesInUseAreThoseOfEverySystem) {
+  for (int round = 0; round < 2; ++round)
+    collector_.feed<Parser>(nmea("GNGSA,A,3,05,,,,,,,,,,,,1.4,0.8,1.1") +
+                            nmea("GNGSA,A,3,70,,,,,,,,,,,,1.4,0.8,1.1") +
+                            nmea("GPGSV,1,1,02,05,43,174,44,07,58,213,46") + nmea("GLGSV,1,1,01,70,33,200,30"));
+  const SkySample sky = collector_.all<SkySample>().back();
+  ASSERT_EQ(sky.count, 3U);
+  for (const auto& satellite : sky.satellites)
+    EXPECT_EQ(satellite.used, satellite.prn == 5 || satellite.prn == 70);
 }
 
 TEST_F(NmeaDeviceTest, CompassesAndEchoSounders) {

@@ -31,6 +31,29 @@ TEST(NmeaGga, Whole) {
   EXPECT_EQ(gga->fix(), Fix::fix_3d);
 }
 
+TEST(NmeaGns, TheFixOfSeveralSystemsIsTheBestOfThem) {
+  const auto gns =
+      read(nmea::decode_gns, "GNGNS,112257.50,3844.2401,N,00908.4382,W,AAN,17,0.7,61.3,48.2,1.5,0031,V");
+  ASSERT_TRUE(gns);
+  EXPECT_EQ(gns->time, (TimeOfDay{11, 22, 57, 500'000'000}));
+  EXPECT_NEAR(gns->place->longitude_deg, -(9 + 8.4382 / 60), 1e-13);
+  EXPECT_EQ(gns->satellites, 17);
+  EXPECT_EQ(gns->hdop->value(), 0.7);
+  EXPECT_EQ(gns->altitude_m->value(), 61.3);
+  EXPECT_EQ(gns->geoid_separation_m->value(), 48.2);
+  EXPECT_EQ(gns->correction_age_s->value(), 1.5);
+  EXPECT_EQ(gns->station, 31);
+  const auto of_mode = [](const std::string& mode) {
+    return read(nmea::decode_gns, "GNGNS,112257,3844.2401,N,00908.4382,W," + mode + ",17,0.7,61.3,48.2,,");
+  };
+  EXPECT_EQ(of_mode("NA")->fix(), Fix::fix_3d);
+  EXPECT_EQ(of_mode("NR")->quality, 4);
+  EXPECT_EQ(of_mode("ENN")->fix(), Fix::propagated);
+  EXPECT_EQ(of_mode("NNNN")->fix(), Fix::none);
+  EXPECT_EQ(of_mode("")->fix(), Fix::none);
+  EXPECT_FALSE(of_mode("AX"));
+}
+
 TEST(NmeaGga, EmptyFieldsAreAbsent) {
   const auto gga = read(nmea::decode_gga, "GPGGA,,,,,,0,,,,M,,M,,");
   ASSERT_TRUE(gga);
