@@ -37,6 +37,8 @@ struct Measurement {
   /// holds.
   std::optional<std::int64_t> age_ns;
   std::optional<SenderTime> by_sender{};  ///< of an injected sample
+  /// The measurement was sent from the frame on that had the verdict `begins`, not with this frame alone.
+  bool of_epoch = false;
 };
 
 /// Takes measurements as they are found.
@@ -58,7 +60,8 @@ inline void hand_over(const Value& value, Receiver& receiver, bool paces = true)
 /// seconds). No clock.
 class Instrument {
  public:
-  enum class Verdict : std::uint8_t { used, ignored, out_of_range };
+  /// `begins`: used, and the first frame of an epoch.
+  enum class Verdict : std::uint8_t { used, begins, ignored, out_of_range };
 
   virtual ~Instrument() = default;
   virtual Verdict read(const protocols::Frame& frame, Receiver& receiver) = 0;

@@ -19,8 +19,9 @@ Verdict give(const Value& value, bool paces, Receiver& receiver) {
   return Verdict::used;
 }
 
-void give_epoch(const GpsSample& sample, Receiver& receiver) {
+void give_epoch(const GpsSample& sample, bool began_before, Receiver& receiver) {
   Measurement measurement;
+  measurement.of_epoch = began_before;
   measurement.value = sample;
   measurement.stated_utc_ns = sample.time_utc_ns;
   measurement.utc_is_known = sample.time_utc_ns.has_value() && sample.fix != Fix::none;
@@ -119,9 +120,9 @@ Verdict NmeaDevice::read_position(const nmea::Sentence& sentence, nmea::Type typ
   }
   const auto outcome = epoch_.add(sentence, type);
   if (!outcome.in_range) return Verdict::out_of_range;
-  if (outcome.closed) give_epoch(*outcome.closed, receiver);
-  if (outcome.sample) give_epoch(*outcome.sample, receiver);
-  return Verdict::used;
+  if (outcome.closed) give_epoch(*outcome.closed, true, receiver);
+  if (outcome.sample) give_epoch(*outcome.sample, !outcome.begins, receiver);
+  return outcome.begins ? Verdict::begins : Verdict::used;
 }
 
 Verdict NmeaDevice::read_heading(const nmea::Sentence& sentence, nmea::Type type, Receiver& receiver) const {

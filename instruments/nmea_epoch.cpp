@@ -94,6 +94,7 @@ void NmeaEpoch::begin(const protocols::TimeOfDay& time, std::string_view address
     if (!emitted_ && open_.latitude_rad) outcome.closed = complete();
     if (time.hour + 12 < time_->hour) past_midnight_ = true;
   }
+  outcome.begins = true;
   time_ = time;
   time_repeats_ = repeats;
   open_ = {};

@@ -22,6 +22,7 @@ class NmeaEpoch {
 
   struct Outcome {
     bool in_range = true;
+    bool begins = false;              ///< the sentence is the first one of its epoch
     std::optional<GpsSample> closed;  ///< an epoch whose closing sentence never came
     std::optional<GpsSample> sample;  ///< the epoch of this sentence
   };

@@ -68,12 +68,18 @@ void PortStream::on_frame(const protocols::Frame& frame) {
   repeated_ = false;
   statistics_.last_frame_ns = place_.arrival_ns;
   sink_->on_frame(port_, frame, place_.arrival_ns);
-  if (instrument_->read(frame, *this) == instruments::Instrument::Verdict::out_of_range)
-    ++statistics_.out_of_range;
+  using Verdict = instruments::Instrument::Verdict;
+  switch (instrument_->read(frame, *this)) {
+    case Verdict::used: break;
+    case Verdict::begins: epoch_start_ns_ = place_.start_ns; break;
+    case Verdict::ignored: break;
+    case Verdict::out_of_range: ++statistics_.out_of_range; break;
+  }
 }
 
 void PortStream::on_measurement(const instruments::Measurement& measurement) {
-  const std::int64_t observed_ns = place_.start_ns - measurement.age_ns.value_or(latency_ns_);
+  const std::int64_t observed_ns =
+      (measurement.of_epoch ? epoch_start_ns_ : place_.start_ns) - measurement.age_ns.value_or(latency_ns_);
   instruments::Sample sample;
   sample.port = port_;
   sample.stamp.arrival_ns = place_.arrival_ns;
@@ -84,8 +90,11 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
     sample.stamp.validity_ns = paced_->time_ns;
     sample.stamp.std_ns = paced_->std_ns;
   } else if (measurement.paces || measurement.device_time_ns) {
+    // An epoch may have begun before what else came of the same port.
+    const std::int64_t tick_ns = measurement.of_epoch ? std::max(observed_ns, tick_ns_) : observed_ns;
+    tick_ns_ = tick_ns;
     const auto outcome = clock_.update(
-        {observed_ns, measurement.sequence, place_.backlog, measurement.device_time_ns, measurement.paces});
+        {tick_ns, measurement.sequence, place_.backlog, measurement.device_time_ns, measurement.paces});
     if (outcome.news) tell_news(*outcome.news);
     repeated_ = measurement.paces && outcome.repeated;
     if (outcome.repeated) return;

@@ -57,6 +57,8 @@ class PortStream : private instruments::Receiver {
   // Sink of the frame being read; set only during a call.
   Sink* sink_ = nullptr;
   ArrivalTrack::Frame place_;
+  std::int64_t tick_ns_ = 0;         ///< newest observation given to the clock
+  std::int64_t epoch_start_ns_ = 0;  ///< of the frame that began the newest epoch
   // Time of the frame being read, once one of its samples paces: the others of the same frame have it, too.
   std::optional<instruments::TimeEstimate> paced_;
   bool repeated_ = false;

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ports of NMEA 0183: the time of an epoch whose sentences take long.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/durations.h"
+#include "pipeline/pipeline.h"
+#include "protocols/checked_line.h"
+
+namespace navcal::pipeline {
+namespace {
+
+constexpr std::int64_t kNmeaOffset_ns = 1772366400 * base::kSecond_ns;  // of UTC from monotonic: 2026-03-01 12:00
+constexpr int kNmeaBaud = 9600;
+
+struct NmeaOutput : Sink {
+  void on_sample(const instruments::Sample& sample) override { samples.push_back(sample); }
+  void on_mapping(const UtcMapping& mapping) override { mappings.push_back(mapping); }
+  std::vector<instruments::Sample> samples;
+  std::vector<UtcMapping> mappings;
+};
+
+config::Settings one_receiver() {
+  config::Settings settings;
+  auto& port = settings.ports.emplace_back();
+  port.name = "gps";
+  port.baud = kNmeaBaud;
+  port.latency_std_s = 0.05;
+  return settings;
+}
+
+/// The bytes pass the line from `begin_ns` on and are read sixteen at a time.
+void send_line(Pipeline& pipeline, std::int64_t begin_ns, protocols::Bytes bytes, Sink& sink) {
+  for (std::size_t at = 0; at < bytes.size(); at += 16) {
+    const auto piece = bytes.subspan(at, std::min<std::size_t>(16, bytes.size() - at));
+    const auto passed_ns = static_cast<std::int64_t>(at + piece.size()) * 10 * base::kSecond_ns / kNmeaBaud;
+    pipeline.bytes(0, begin_ns + passed_ns, piece, sink);
+  }
+}
+
+void append_sentence(std::vector<std::uint8_t>& out, const std::string& body) {
+  const auto line = protocols::checked_line(body);
+  out.insert(out.end(), line.begin(), line.end());
+}
+
+TEST(NmeaPort, AnEpochIsOfTheTimeOfItsFirstSentence) {
+  constexpr std::int64_t kDelay_ns = 120 * base::kMillisecond_ns;  // of the receiver
+  Pipeline pipeline(one_receiver());
+  NmeaOutput seen;
+  for (int s = 10; s < 50; ++s) {
+    const std::string time = fmt::format("1200{}.00", s), place = "3844.1200,N,00908.4000,W";
+    std::vector<std::uint8_t> burst;
+    append_sentence(burst, "GNGGA," + time + "," + place + ",1,14,0.8,60.0,M,48.0,M,,");
+    for (int i = 1; i <= 9; ++i)
+      append_sentence(burst, fmt::format("GPGSV,9,{},36,01,41,083,40,02,42,084,41,03,43,085,42,04,44,086,43", i));
+    append_sentence(burst, "GNRMC," + time + ",A," + place + ",1.2,75.0,010326,,,A");
+    ASSERT_GT(burst.size() * 10 * base::kSecond_ns / kNmeaBaud, 700 * base::kMillisecond_ns);
+    send_line(pipeline, s * base::kSecond_ns + kDelay_ns, burst, seen);
+  }
+  ASSERT_FALSE(seen.mappings.empty());
+  for (const UtcMapping& mapping : seen.mappings) {
+    EXPECT_LE(std::abs(mapping.offset_ns - kNmeaOffset_ns), mapping.bound_ns);
+    EXPECT_NEAR(static_cast<double>(kNmeaOffset_ns - mapping.offset_ns) * 1e-9, 0.12, 0.02);
+  }
+  const auto fix = std::find_if(seen.samples.rbegin(), seen.samples.rend(), [](const auto& sample) {
+    return std::holds_alternative<instruments::GpsSample>(sample.value);
+  });
+  ASSERT_NE(fix, seen.samples.rend());
+  EXPECT_NEAR(static_cast<double>(fix->stamp.validity_ns) * 1e-9, 49.12, 0.02);
+  EXPECT_GT(fix->stamp.arrival_ns - fix->stamp.validity_ns, 700 * base::kMillisecond_ns);
+}
+
+}  // namespace
+}  // namespace navcal::pipeline
