@@ -63,10 +63,11 @@ void FieldWriter::begin_frame(std::string_view protocol, const protocols::Frame&
     p = fmt::format_to(p, FMT_COMPILE("{:>12} {:>4} {:<8}"), frame.offset, frame.bytes.size(), id);
   }
   output_.wrote(p);
-  first_ = false;
+  first_ = has_fields_ = false;
 }
 
 void FieldWriter::begin_field(std::string_view key) {
+  has_fields_ = true;
   char* p = output_.room(key.size() + 4);
   if (json_) {
     if (!first_) *p++ = ',';

@@ -23,6 +23,8 @@ class FieldWriter {
   FieldWriter(Output& output, Format format) : output_(output), json_(format == Format::json) {}
 
   void begin_frame(std::string_view protocol, const protocols::Frame& frame);
+  /// The frame has a decoder, so far.
+  [[nodiscard]] bool has_fields() const { return has_fields_; }
   void end_frame() { output_.append(json_ ? std::string_view("}\n") : std::string_view("\n")); }
 
   template <std::integral Integer>
@@ -109,6 +111,7 @@ class FieldWriter {
 
   Output& output_;
   bool json_;
+  bool has_fields_ = false;
   bool first_ = true;  // of the frame, list or object: no comma before it
 };
 

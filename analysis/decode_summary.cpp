@@ -30,6 +30,8 @@ void write_text(Output& output, const DecodeSummary& summary) {
   output.append(fmt::format("\n{} bytes: {} in frames, {} skipped, {} in an incomplete frame at the end\n",
                             counters.bytes, counters.framed_bytes, summary.skipped_bytes(),
                             summary.incomplete_bytes));
+  if (summary.undecoded.total() > 0)
+    output.append(fmt::format("frames without a decoder: {}\n", summary.undecoded.words()));
   if (counters.bad_checksum > 0) output.append(fmt::format("{} bad checksums\n", counters.bad_checksum));
 }
 

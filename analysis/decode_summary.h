@@ -5,6 +5,7 @@
 #include <map>
 
 #include "analysis/output.h"
+#include "pipeline/pipeline.h"
 #include "protocols/frame.h"
 
 namespace navcal::analysis {
@@ -15,6 +16,7 @@ struct DecodeSummary {
   /// Behind the last frame, from where a frame began that the end of the input cut.
   std::uint64_t incomplete_bytes = 0;
   std::map<protocols::FrameId, std::uint64_t> frames;
+  pipeline::UnusedFrames undecoded;
 
   [[nodiscard]] std::uint64_t skipped_bytes() const { return counters.skipped_bytes - incomplete_bytes; }
 };

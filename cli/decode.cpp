@@ -44,7 +44,8 @@ analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& piv
   const std::string_view name = name_of(protocol);
   const analysis::Describe describe = analysis::description_of(protocol);
   analysis::Progress progress("decode");
-  return analysis::decode_frames(
+  pipeline::UnusedFrames undecoded;
+  auto summary = analysis::decode_frames(
       protocol,
       [&] {
         const protocols::Bytes bytes = input.next();
@@ -54,8 +55,11 @@ analysis::DecodeSummary decode(Protocol protocol, const std::optional<Date>& piv
       [&](const protocols::Frame& frame) {
         fields.begin_frame(name, frame);
         describe(fields, frame, pivot);
+        if (!fields.has_fields()) undecoded.add(frame.id);
         fields.end_frame();
       });
+  summary.undecoded = undecoded;
+  return summary;
 }
 
 analysis::DecodeSummary decode_described(const protocols::described::Description& description, DecodeSource& input,

@@ -112,14 +112,15 @@ void WatchView::append_sources(std::string& out) const {
 }
 
 void WatchView::append_ports(std::string& out) const {
-  report::append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s", "frames",
-                        "bad", "skipped", "lost", "reason");
+  report::append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>8}{:>7}{:>9}{:>6}  {}\n", "port", "state", "frames/s",
+                        "frames", "unused", "bad", "skipped", "lost", "reason");
   for (const auto& [device, port] : ports_) {
     const auto rate = frames_per_s_.find(device);
-    report::append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
+    report::append_format(out, "{:<12}{:<10}{:>9}{:>10}{:>8}{:>7}{:>9}{:>6}  {}\n", device, text(port, "state"),
                           shown(rate == frames_per_s_.end() ? NAN : rate->second, 1),
-                          shown(number(port, "frames"), 0), shown(number(port, "bad"), 0),
-                          shown(number(port, "skipped"), 0), shown(number(port, "lost"), 0), text(port, "reason"));
+                          shown(number(port, "frames"), 0), shown(number(port, "unused"), 0),
+                          shown(number(port, "bad"), 0), shown(number(port, "skipped"), 0),
+                          shown(number(port, "lost"), 0), text(port, "reason"));
   }
 }
 

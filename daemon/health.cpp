@@ -80,6 +80,8 @@ void append_port(std::string& out, const PortSession& port, const pipeline::Port
                  "\"out_of_range\":{},\"gaps\":{},\"lost\":{},\"repeated\":{}"),
       port.times_opened(), bytes.bytes, bytes.frames, statistics.samples, bytes.bad_checksum, bytes.skipped_bytes,
       statistics.held_bytes, statistics.out_of_range, statistics.silences, statistics.lost, statistics.repeated);
+  fmt::format_to(std::back_inserter(out), FMT_STRING(",\"unused\":{}"), statistics.unused.total());
+  text(out, "unused_kinds", statistics.unused.words());
   append_clock(out, statistics.clock);
   append_latency(out, port.latency());
   out += '}';

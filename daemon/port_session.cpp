@@ -11,6 +11,7 @@ namespace {
 
 /// A device that sends nothing for three of its periods, and for this long, is silent.
 constexpr double kSilent_s = 3.0;
+constexpr std::uint64_t kUsualUnused = 10;  // one frame of so many
 
 }  // namespace
 
@@ -212,6 +213,13 @@ PortSession::State PortSession::judge(const pipeline::PortStatistics& statistics
     case SpeedCheck::Verdict::noise: return State::noisy;
     case SpeedCheck::Verdict::good: break;
   }
+  // Frames beside the samples are usual with many devices; with NMEA they may be what the port is there for.
+  const auto& unused = statistics.unused;
+  const bool is_many =
+      settings_.protocol == protocols::Protocol::nmea && unused.total() > statistics.bytes.frames / kUsualUnused;
+  if (unused.total() > 0 && (statistics.samples == 0 || is_many))
+    reason = fmt::format("{} of {} frames give no sample: {} (docs/devices.md)", unused.total(),
+                         statistics.bytes.frames, unused.words());
   return State::running;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <string>
 
@@ -9,6 +11,26 @@
 #include "pipeline/stages.h"
 
 namespace navcal::pipeline {
+
+void UnusedFrames::add(protocols::FrameId kind) {
+  ++total_;
+  for (auto& [known, frames] : kinds_) {
+    if (frames > 0 && known != kind) continue;
+    known = kind;
+    ++frames;
+    return;
+  }
+}
+
+std::string UnusedFrames::words() const {
+  std::string out;
+  std::uint64_t others = total_;
+  for (const auto& [kind, frames] : kinds_) {
+    if (frames > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", kind.view(), frames);
+    others -= frames;
+  }
+  return others > 0 ? out + fmt::format(", others {}", others) : out;
+}
 
 struct Pipeline::State {
   config::Settings settings;

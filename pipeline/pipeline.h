@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "calib/suite/report.h"
@@ -56,11 +58,25 @@ class Sink {
   virtual void on_alarm(const AlarmChange& /*change*/) {}
 };
 
+/// Intact frames that gave no sample and were no part of one, by kind; kinds beyond the first eight together.
+class UnusedFrames {
+ public:
+  void add(protocols::FrameId kind);
+  [[nodiscard]] std::uint64_t total() const { return total_; }
+  /// "GNGNS 1100, PASHR 100, others 7".
+  [[nodiscard]] std::string words() const;
+
+ private:
+  std::array<std::pair<protocols::FrameId, std::uint64_t>, 8> kinds_;  ///< with the number of frames of each
+  std::uint64_t total_ = 0;
+};
+
 /// Statistics of one port's stream, counted from the beginning.
 struct PortStatistics {
   protocols::Counters bytes;
   std::uint64_t held_bytes = 0;  ///< waiting in the parser
   std::uint64_t samples = 0;
+  UnusedFrames unused;
   std::uint64_t out_of_range = 0;  ///< intact frames whose content cannot be (dates, angles)
   std::uint64_t silences = 0;      ///< incomplete frames given up
   std::uint64_t lost = 0;          ///< frames missing by sequence number or by the device's clock

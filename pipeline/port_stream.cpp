@@ -72,7 +72,7 @@ void PortStream::on_frame(const protocols::Frame& frame) {
   switch (instrument_->read(frame, *this)) {
     case Verdict::used: break;
     case Verdict::begins: epoch_start_ns_ = place_.start_ns; break;
-    case Verdict::ignored: break;
+    case Verdict::ignored: statistics_.unused.add(frame.id); break;
     case Verdict::out_of_range: ++statistics_.out_of_range; break;
   }
 }

@@ -250,11 +250,16 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   Writing writing(builder, settings, survey.first_ns(), mapping.offset_ns, progress, file.bytes().size());
   (void)read(writing);
   survey.finish(report);
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    report.refused += builder.pipeline().statistics(static_cast<std::uint16_t>(i)).out_of_range;
   report.cut_at = findings.cut_at;
   report.damaged_bytes = findings.damaged_bytes;
   report.remarks = std::move(findings.remarks);
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    const auto statistics = builder.pipeline().statistics(static_cast<std::uint16_t>(i));
+    report.refused += statistics.out_of_range;
+    if (statistics.unused.total() > 0)
+      report.remarks.push_back(
+          fmt::format("{}: frames without a sample: {}", settings.ports[i].name, statistics.unused.words()));
+  }
   builder.tell("info", "import",
                fmt::format("of {} ({}); UTC: {}", report.input, format.name,
                            report.utc == ImportReport::Utc::unknown  ? "not known, times count from 2000-01-01"

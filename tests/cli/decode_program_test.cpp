@@ -123,6 +123,12 @@ TEST_F(Decode, PeopleGetAListingAndASummary) {
             std::string::npos);
 }
 
+TEST_F(Decode, PeopleAreToldWhatHasNoDecoder) {
+  const auto outcome = run(R"(decode --protocol nmea - <<< $'$PXYZA,1*57\r\n$PXYZA,2*54\r\n$HCHDM,182.3,M*21\r')");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.output.find("\nframes without a decoder: PXYZA 2\n"), std::string::npos) << outcome.output;
+}
+
 TEST_F(Decode, AnEmptyInputIsASummaryOfNothing) {
   EXPECT_EQ(run("decode --protocol nmea --json - < /dev/null").output,
             R"({"class":"SUMMARY","bytes":0,"frames":{},"bad_checksum":0,"framed_bytes":0,"skipped_bytes":0,)"

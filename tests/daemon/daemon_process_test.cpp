@@ -142,6 +142,25 @@ TEST(DaemonProcess, APortThatIsNotThereIsSaidAndNothingElseSuffers) {
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
 }
 
+TEST(DaemonProcess, APortWhoseSentencesHaveNoDecoderNamesThem) {
+  DaemonProcess daemon;
+  const auto client = watcher(daemon);
+  wait_until_open(*client);
+  for (int i = 0; i < 5; ++i) daemon.line.sentence("PXYZA,1,2");
+  json port;
+  do {
+    port = json::parse(client->line_with("HEALTH"))["ports"][0];
+  } while (port["unused"] < 5);
+  EXPECT_EQ(port["unused_kinds"], "PXYZA 5");
+  EXPECT_EQ(port["samples"], 0);
+  do {
+    port = json::parse(client->line_with("HEALTH"))["ports"][0];
+  } while (port["reason"] == "");
+  EXPECT_EQ(port["state"], "running");
+  EXPECT_EQ(port["reason"], "5 of 5 frames give no sample: PXYZA 5 (docs/devices.md)");
+  EXPECT_EQ(daemon.stop(SIGTERM), 0);
+}
+
 TEST(DaemonProcess, AFixMakesHeadingsTrueAndHealthSaysWhoServesWhat) {
   DaemonProcess daemon;
   const auto client = watcher(daemon);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ports of NMEA 0183: the time of an epoch whose sentences take long.
+// Ports of NMEA 0183: the time of an epoch whose sentences take long, and sentences that nothing reads.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -72,6 +72,24 @@ TEST(NmeaPort, AnEpochIsOfTheTimeOfItsFirstSentence) {
   ASSERT_NE(fix, seen.samples.rend());
   EXPECT_NEAR(static_cast<double>(fix->stamp.validity_ns) * 1e-9, 49.12, 0.02);
   EXPECT_GT(fix->stamp.arrival_ns - fix->stamp.validity_ns, 700 * base::kMillisecond_ns);
+}
+
+TEST(NmeaPort, SentencesThatNothingReadsAreCountedByKind) {
+  Pipeline pipeline(one_receiver());
+  NmeaOutput seen;
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i < 5; ++i) append_sentence(bytes, "PXYZA,1,2");
+  append_sentence(bytes, "SDDBT,,f,12.5,M,,F");
+  append_sentence(bytes, "HEHDT,,T");
+  send_line(pipeline, 0, bytes, seen);
+  EXPECT_EQ(pipeline.statistics(0).unused.total(), 6U);
+  EXPECT_EQ(pipeline.statistics(0).unused.words(), "PXYZA 5, HEHDT 1");
+  EXPECT_EQ(pipeline.statistics(0).samples, 1U);
+  bytes.clear();
+  for (int i = 0; i < 10; ++i) append_sentence(bytes, fmt::format("PXYZ{}", i));
+  send_line(pipeline, base::kSecond_ns, bytes, seen);
+  EXPECT_EQ(pipeline.statistics(0).unused.words(),
+            "PXYZA 5, HEHDT 1, PXYZ0 1, PXYZ1 1, PXYZ2 1, PXYZ3 1, PXYZ4 1, PXYZ5 1, others 4");
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ constexpr std::array kPortCounters{
     PortMember{"frames", "navcald_port_frames_total", "Intact frames."},
     PortMember{"samples", "navcald_port_samples_total", "Samples made of the frames."},
     PortMember{"bad", "navcald_port_bad_checksums_total", "Frames with a wrong checksum."},
+    PortMember{"unused", "navcald_port_unused_frames_total", "Intact frames that gave no sample."},
     PortMember{"out_of_range", "navcald_port_out_of_range_frames_total", "Intact frames with impossible content."},
     PortMember{"gaps", "navcald_port_gaps_total", "Incomplete frames that were given up after a silence."},
     PortMember{"lost", "navcald_port_lost_frames_total", "Frames missing by sequence number or clock."},
