@@ -126,6 +126,12 @@ std::vector<Option<P>> make_port_options() {
            .only_for = {protocols::Protocol::oncore}},
           [](auto& p) -> auto& { return p.aid; }),
       boolean<P>(
+          {.key = "require_checksum",
+           .description = "Take only sentences with a checksum. Without this, damaged ones that have none pass as "
+                          "good: for old devices that send none.",
+           .only_for = {protocols::Protocol::nmea}},
+          [](auto& p) -> auto& { return p.require_checksum; }),
+      boolean<P>(
           {.key = "low_latency", .description = "Ask the driver to deliver bytes without delay."},
           [](auto& p) -> auto& { return p.low_latency; }),
       number(

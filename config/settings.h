@@ -64,12 +64,13 @@ struct PortSettings {
   std::string address;        ///< in the network (network_address.h)
   std::string serial_number;  ///< of the device itself, as on its plate; empty: not given
   int baud = 9600;
-  bool start_up = true;      ///< hold the device's start-up dialogue
-  bool aid = false;          ///< give a receiver position and time (docs/surfacing.md)
-  bool low_latency = true;   ///< ask the driver for low latency
-  double latency_s = 0;      ///< from measurement to the first byte on the wire
-  double latency_std_s = 0;  ///< its uncertainty
-  double rate_Hz = 0;        ///< nominal frame rate; 0: not periodic
+  bool start_up = true;          ///< hold the device's start-up dialogue
+  bool aid = false;              ///< give a receiver position and time (docs/surfacing.md)
+  bool require_checksum = true;  ///< of NMEA 0183; else sentences without one are taken, too
+  bool low_latency = true;       ///< ask the driver for low latency
+  double latency_s = 0;          ///< from measurement to the first byte on the wire
+  double latency_std_s = 0;      ///< its uncertainty
+  double rate_Hz = 0;            ///< nominal frame rate; 0: not periodic
   CompassSettings compass;
   ImuCardSettings imu_card;
   GpsSettings gps;

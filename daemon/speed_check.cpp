@@ -39,6 +39,7 @@ SpeedCheck::Verdict SpeedCheck::judge(const protocols::Counters& counters) {
     return verdict_;
   }
   judged_bytes_ = bytes_;
+  judged_bad_ = counters.bad_checksum - base_.bad_checksum;
   judged_skipped_ = counters.skipped_bytes - base_.skipped_bytes;
   if (frames > 0) {
     const bool noisy = static_cast<double>(judged_skipped_) > kNoiseShare * static_cast<double>(bytes_);
@@ -59,6 +60,11 @@ std::string SpeedCheck::message() const {
     case Verdict::wrong_speed:
       return fmt::format("{} bytes, no intact frame: wrong speed? (configured {})", judged_bytes_, baud_);
     case Verdict::no_frames:
+      if (protocol_ == protocols::Protocol::nmea && judged_bad_ > 0)
+        return fmt::format(
+            "{} sentences, none with a checksum that holds: let the device send checksums, or set "
+            "require_checksum = false for this port if it has none",
+            judged_bad_);
       return fmt::format("{} bytes, no intact frame, but plain text: another device or mode than {}?",
                          judged_bytes_, protocols::name_of(protocol_));
     case Verdict::noise:

@@ -38,6 +38,7 @@ class SpeedCheck {
   protocols::Counters base_;
   Verdict verdict_ = Verdict::good;
   std::uint64_t judged_bytes_ = 0;
+  std::uint64_t judged_bad_ = 0;
   std::uint64_t judged_skipped_ = 0;
 };
 

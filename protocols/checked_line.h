@@ -81,12 +81,13 @@ inline constexpr auto kHexValue = [] {
 
 }  // namespace detail
 
-/// Scans a line `$...*hh<CR><LF>` that begins at `first` (a `$`); <LF> alone is taken as well, as a terminal or a
-/// file may have made it so. Whatever is no control character is let into the body, for a flipped bit is better
-/// counted as a bad checksum than as something else; but a `$` begins the next line, so a line that was cut is
-/// left without waiting. `max_length` counts everything from `$` to <LF>.
+/// Scans a line `$...*hh<CR><LF>` that begins at `first` (a `$`). Any number of <CR> and blanks may stand before
+/// the <LF>: terminals, files and serial drivers leave out the <CR> or add some. Whatever is no control character
+/// is let into the body, for a flipped bit is better counted as a bad checksum than as something else; but a `$`
+/// begins the next line, so a line that was cut is left without waiting. `max_length` counts everything from `$`
+/// to <LF>. Without `requires_checksum` a line may lack `*hh`.
 [[nodiscard]] inline Scan scan_checked_line(const std::uint8_t* first, const std::uint8_t* last,
-                                            std::size_t max_length, FrameId id) {
+                                            std::size_t max_length, FrameId id, bool requires_checksum = true) {
   const auto available = std::min(static_cast<std::size_t>(last - first), max_length);
   const std::uint8_t* const limit = first + available;
   const auto unfinished = [&](std::size_t missing) {
@@ -94,19 +95,21 @@ inline constexpr auto kHexValue = [] {
                                    : Scan::incomplete(std::min(missing, max_length - available));
   };
   std::uint8_t sum = 0;
-  const std::uint8_t* const p = detail::pass_body(first + 1, limit, sum);
-  if (p == limit) return unfinished(4);
+  const std::uint8_t* p = detail::pass_body(first + 1, limit, sum);
+  if (p == limit) return unfinished(requires_checksum ? 4 : 1);
   if (*p == '$') return Scan::not_a_frame();
-  if (*p != '*') return Scan::bad_checksum();  // the line has ended without one
-  const auto left = static_cast<std::size_t>(limit - p);
-  if (left > 1 && detail::kHexValue[p[1]] != sum >> 4) return Scan::bad_checksum();
-  if (left > 2 && detail::kHexValue[p[2]] != (sum & 0x0F)) return Scan::bad_checksum();
-  if (left < 4) return unfinished(4 - left);
-  if (p[3] == '\n') return Scan::frame(static_cast<std::size_t>(p + 4 - first), id);
-  if (p[3] != '\r') return Scan::bad_checksum();
-  if (left < 5) return unfinished(1);
-  if (p[4] == '\n') return Scan::frame(static_cast<std::size_t>(p + 5 - first), id);
-  return Scan::bad_checksum();
+  if (*p == '*') {
+    const auto left = static_cast<std::size_t>(limit - p);
+    if (left > 1 && detail::kHexValue[p[1]] != sum >> 4) return Scan::bad_checksum();
+    if (left > 2 && detail::kHexValue[p[2]] != (sum & 0x0F)) return Scan::bad_checksum();
+    if (left < 4) return unfinished(4 - left);
+    p += 3;
+  } else if (requires_checksum) {
+    return Scan::bad_checksum();  // the line has ended without one
+  }
+  while (p != limit && (*p == '\r' || *p == ' ')) ++p;
+  if (p == limit) return unfinished(1);
+  return *p == '\n' ? Scan::frame(static_cast<std::size_t>(p + 1 - first), id) : Scan::bad_checksum();
 }
 
 /// The text between `$` and `*` of an intact line.

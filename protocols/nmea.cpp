@@ -21,7 +21,7 @@ constexpr unsigned packed(char a, char b, char c) {
 
 }  // namespace
 
-Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
+Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last, bool requires_checksum) {
   const std::uint8_t* const address = first + 1;
   const std::uint8_t* p = address;
   while (p != last && is_address(*p)) ++p;
@@ -29,7 +29,7 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last) {
   if (length > kLongestAddress) return Scan::not_a_frame();
   if (p != last && (length < kShortestAddress || (*p != ',' && *p != '*'))) return Scan::not_a_frame();
   const FrameId id(std::string_view(reinterpret_cast<const char*>(address), length));
-  return scan_checked_line(first, last, kMaxLength, id);
+  return scan_checked_line(first, last, kMaxLength, id, requires_checksum);
 }
 
 Type type_of(FrameId id) {
@@ -60,7 +60,7 @@ Type type_of(FrameId id) {
 Sentence::Sentence(Bytes frame) : body_(reinterpret_cast<const char*>(frame.data()) + 1) {
   const std::size_t limit = std::min(frame.size() - 1, kMaxLength - 1);
   std::size_t i = 0;
-  for (; i < limit && body_[i] != '*'; ++i) {
+  for (; i < limit && body_[i] != '*' && body_[i] != '\r' && body_[i] != '\n'; ++i) {
     if (body_[i] == ',') ends_[count_++] = static_cast<std::uint16_t>(i);
   }
   ends_[count_++] = static_cast<std::uint16_t>(i);

@@ -23,10 +23,18 @@ struct Scanner {
     while (first != last && *first != '$' && *first != '!') ++first;
     return first;
   }
-  static Scan scan(const std::uint8_t* first, const std::uint8_t* last);
+  static Scan scan(const std::uint8_t* first, const std::uint8_t* last, bool requires_checksum = true);
 };
 
 using Parser = StreamParser<Scanner>;
+
+/// At the port of a device that sends sentences without a checksum, those are taken as well.
+struct PortScanner : Scanner {
+  bool requires_checksum = true;
+  [[nodiscard]] Scan scan(const std::uint8_t* first, const std::uint8_t* last) const {
+    return Scanner::scan(first, last, requires_checksum);
+  }
+};
 
 /// Sentences with a decoder here; any talker.
 enum class Type : std::uint8_t {

@@ -47,7 +47,7 @@ struct ScannersOf<Protocol::oncore> : Scanners<oncore::Scanner, GpsStreamScanner
 template <>
 struct ScannersOf<Protocol::motor_card> : Scanners<motor_card::Scanner> {};
 template <>
-struct ScannersOf<Protocol::nmea> : Scanners<nmea::Scanner> {};
+struct ScannersOf<Protocol::nmea> : Scanners<nmea::Scanner, nmea::PortScanner> {};
 template <>
 struct ScannersOf<Protocol::ubx> : Scanners<ubx::Scanner, ubx::PortScanner> {};
 template <>
@@ -86,9 +86,13 @@ struct PortParsers<std::index_sequence<Row...>> {
 /// The parser of a port, whichever device is there.
 using AnyPortParser = PortParsers<std::make_index_sequence<kDeviceCount>>::Any;
 
-/// `description` is that of a described device; without one its parser finds nothing.
+/// `description` is that of a described device; without one its parser finds nothing. `requires_checksum` is of
+/// NMEA 0183.
 [[nodiscard]] inline AnyPortParser make_port_parser(Protocol protocol,
-                                                    const described::Description* description = nullptr) {
+                                                    const described::Description* description = nullptr,
+                                                    bool requires_checksum = true) {
+  if (protocol == Protocol::nmea)
+    return AnyPortParser(StreamParser<nmea::PortScanner>(nmea::PortScanner{{}, requires_checksum}));
   if (protocol == Protocol::described && description != nullptr) {
     constexpr auto kDescribed = static_cast<std::size_t>(Protocol::described);
     return AnyPortParser(std::in_place_index<kDescribed>, described::Scanner(described::compile(*description)));

@@ -72,6 +72,17 @@ TEST(SpeedCheck, AnotherDeviceIsNotCalledAWrongSpeed) {
   EXPECT_NE(check.message().find("motor-card"), std::string::npos);
 }
 
+TEST(SpeedCheck, SentencesWithoutAChecksumAreCalledThat) {
+  const std::string text(400, 'x');
+  Counters counters = skipped(text.size());
+  counters.bad_checksum = 9;
+  SpeedCheck check(Protocol::nmea, 4800);
+  check.bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  EXPECT_EQ(check.judge(counters), Verdict::no_frames);
+  EXPECT_NE(check.message().find("9 sentences, none with a checksum that holds"), std::string::npos);
+  EXPECT_NE(check.message().find("require_checksum"), std::string::npos);
+}
+
 TEST(SpeedCheck, NoiseLeavesSomeFramesIntact) {
   std::mt19937 random(6);
   std::vector<std::uint8_t> bytes(1000);

@@ -92,5 +92,18 @@ TEST(NmeaPort, SentencesThatNothingReadsAreCountedByKind) {
             "PXYZA 5, HEHDT 1, PXYZ0 1, PXYZ1 1, PXYZ2 1, PXYZ3 1, PXYZ4 1, PXYZ5 1, others 4");
 }
 
+TEST(NmeaPort, ADeviceWithoutChecksumsIsTakenWhereTheConfigurationSaysSo) {
+  const std::string text = "$SDDBT,,f,12.5,M,,F\r\n";
+  const protocols::Bytes bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  for (const bool required : {true, false}) {
+    config::Settings settings = one_receiver();
+    settings.ports[0].require_checksum = required;
+    Pipeline pipeline(settings);
+    NmeaOutput seen;
+    send_line(pipeline, 0, bytes, seen);
+    EXPECT_EQ(pipeline.statistics(0).samples, required ? 0U : 1U);
+  }
+}
+
 }  // namespace
 }  // namespace navcal::pipeline

@@ -68,6 +68,20 @@ TEST(CheckedLine, WhatALineMayNotHold) {
   EXPECT_EQ(scan("$a*61\n").length, 6U) << "LF alone";
 }
 
+TEST(CheckedLine, SeveralCarriageReturnsAndBlanksMayStandBeforeTheEnd) {
+  for (const std::string end : {"\r\r\n", "  \r\n", "\r\r\r\n", " \n"}) {
+    const std::string text = "$a*61" + end;
+    EXPECT_EQ(scan(text).kind, Scan::Kind::frame);
+    EXPECT_EQ(scan(text).length, text.size());
+    for (std::size_t length = 1; length < text.size(); ++length) {
+      EXPECT_EQ(scan(text.substr(0, length)).kind, Scan::Kind::incomplete) << length;
+      EXPECT_LE(scan(text.substr(0, length)).length, text.size() - length);
+    }
+  }
+  EXPECT_EQ(scan("$a*61\r\r$").kind, Scan::Kind::bad_checksum);
+  EXPECT_EQ(scan("$a*61" + std::string(70, '\r')).kind, Scan::Kind::not_a_frame) << "no end within the maximum";
+}
+
 TEST(CheckedLine, NoLineIsLongerThanTheMaximum) {
   const std::string text = line(std::string(20, 'x'));
   EXPECT_EQ(scan(text, text.size()).kind, Scan::Kind::frame);

@@ -26,6 +26,25 @@ TEST(NmeaStream, TheChecksumIsRequired) {
   EXPECT_EQ(parsed_nmea("$HCHDM,182.3,M*\r\n").bad_checksum, 1U);
 }
 
+TEST(NmeaStream, APortMayTakeSentencesWithoutAChecksum) {
+  StreamParser<nmea::PortScanner> strict, parser(nmea::PortScanner{{}, false});
+  std::string seen, fields;
+  const auto note = [&](const Frame& frame) {
+    const nmea::Sentence sentence(frame.bytes);
+    seen += std::string(sentence.address()) + ' ';
+    fields += std::string(sentence[sentence.size() - 1]) + '|';
+  };
+  const std::string text =
+      "$HCHDM,182.3,M\r\n$HCHDM,182.3,M*21\r\n$HCHDM,182.3,M*22\r\n$SDDBT,1,f,2,M,3,F\r\r\n$IIRSA,1\n";
+  parser.feed(bytes_of(text), note);
+  EXPECT_EQ(seen, "HCHDM HCHDM SDDBT IIRSA ");
+  EXPECT_EQ(fields, "M|M|F|1|");
+  EXPECT_EQ(parser.counters().bad_checksum, 1U);
+  EXPECT_EQ(parser.held(), 0U);
+  strict.feed(bytes_of(text), [](const Frame&) {});
+  EXPECT_EQ(strict.counters().frames, 1U);
+}
+
 TEST(NmeaStream, LineFeedAloneEndsASentenceToo) {
   EXPECT_EQ(ids(parsed_nmea("$HCHDM,182.3,M*21\n$HCHDM,182.3,M*21\r\n")), "HCHDM HCHDM ");
   EXPECT_EQ(ids(parsed_nmea("$HCHDM,182.3,M*21$HCHDM,182.3,M*21\r\n")), "HCHDM ");
