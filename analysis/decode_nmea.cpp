@@ -110,6 +110,12 @@ void write(FieldWriter& fields, const nmea::Heading& heading) {
   fields.letter("mode", heading.mode);
 }
 
+void write(FieldWriter& fields, const nmea::Attitude& attitude) {
+  fields.number("heading_deg", attitude.heading_deg);
+  fields.number("pitch_deg", attitude.pitch_deg);
+  fields.number("roll_deg", attitude.roll_deg);
+}
+
 void write(FieldWriter& fields, const nmea::Rot& rot) {
   fields.number("rate_deg_min", rot.rate_deg_min);
   fields.flag("valid", rot.valid);
@@ -166,6 +172,7 @@ void describe_nmea(FieldWriter& fields, const Frame& frame, const std::optional<
     case Type::hdm:
     case Type::hdg:
     case Type::ths: return write_or_refuse(fields, nmea::decode_heading(sentence, type));
+    case Type::attitude: return write_or_refuse(fields, nmea::decode_attitude(sentence));
     case Type::rot: return write_or_refuse(fields, nmea::decode_rot(sentence));
     case Type::xdr: return write_or_refuse(fields, nmea::decode_xdr(sentence));
     case Type::ptnthtm: return write_or_refuse(fields, nmea::decode_ptnthtm(sentence));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "instruments/nmea_device.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -26,6 +28,22 @@ void give_epoch(const GpsSample& sample, bool began_before, Receiver& receiver) 
   measurement.stated_utc_ns = sample.time_utc_ns;
   measurement.utc_is_known = sample.time_utc_ns.has_value() && sample.fix != Fix::none;
   receiver.on_measurement(measurement);
+}
+
+std::optional<double> radians(const std::optional<nmea::Decimal>& angle_deg) {
+  return angle_deg ? std::optional(angle_deg->value() * base::kRadiansPerDegree) : std::nullopt;
+}
+
+Verdict read_attitude(const nmea::Sentence& sentence, Receiver& receiver) {
+  const auto attitude = nmea::decode_attitude(sentence);
+  if (!attitude) return Verdict::out_of_range;
+  CompassSample sample;
+  sample.heading_rad = radians(attitude->heading_deg);
+  sample.heading_is_true = sample.heading_rad.has_value();
+  sample.pitch_rad = radians(attitude->pitch_deg);
+  sample.roll_rad = radians(attitude->roll_deg);
+  if (!sample.heading_rad && !sample.pitch_rad && !sample.roll_rad) return Verdict::ignored;
+  return give(sample, true, receiver);
 }
 
 Verdict read_rot(const nmea::Sentence& sentence, Receiver& receiver) {
@@ -58,8 +76,15 @@ bool read_gauge(const nmea::Xdr::Transducer& transducer, PowerSample& power) {
   return true;
 }
 
-// Names in use for tilt: PITCH, PTCH (pypilot, Airmar), ROLL. Other transducers have no unit that can be relied
-// on.
+/// Whether a name begins with `word`, in whatever case: numbers and further words follow ("Heel Angle", "ROLL#1").
+bool is_named(std::string_view name, std::string_view word) {
+  return name.size() >= word.size() && std::equal(word.begin(), word.end(), name.begin(), [](char a, char b) {
+           return a == std::toupper(static_cast<unsigned char>(b));
+         });
+}
+
+// Names in use for tilt: PITCH, PTCH (pypilot, Airmar), ROLL, HEEL (NKE). Other transducers have no unit that can
+// be relied on.
 Verdict read_xdr(const nmea::Sentence& sentence, Receiver& receiver) {
   const auto xdr = nmea::decode_xdr(sentence);
   if (!xdr) return Verdict::out_of_range;
@@ -70,8 +95,9 @@ Verdict read_xdr(const nmea::Sentence& sentence, Receiver& receiver) {
     if (!read_gauge(transducer, power)) return Verdict::out_of_range;
     if (transducer.type != 'A' || transducer.unit != 'D' || !transducer.value) continue;
     const double angle_rad = transducer.value->value() * base::kRadiansPerDegree;
-    if (transducer.name == "PITCH" || transducer.name == "PTCH") sample.pitch_rad = angle_rad;
-    if (transducer.name == "ROLL") sample.roll_rad = angle_rad;
+    const auto named = [&](std::string_view word) { return is_named(transducer.name, word); };
+    if (!sample.pitch_rad && (named("PITCH") || named("PTCH"))) sample.pitch_rad = angle_rad;
+    if (!sample.roll_rad && (named("ROLL") || named("HEEL"))) sample.roll_rad = angle_rad;
   }
   const bool has_power = power.voltage_V || power.current_A;
   if (has_power) give(power, false, receiver);
@@ -100,6 +126,7 @@ Verdict NmeaDevice::read(const protocols::Frame& frame, Receiver& receiver) {
     case nmea::Type::hdg:
     case nmea::Type::ths: return read_heading(sentence, type, receiver);
     case nmea::Type::ptnthtm: return read_ptnthtm(sentence, receiver);
+    case nmea::Type::attitude: return read_attitude(sentence, receiver);
     case nmea::Type::rot: return read_rot(sentence, receiver);
     case nmea::Type::xdr: return read_xdr(sentence, receiver);
     case nmea::Type::dbt:
@@ -130,7 +157,10 @@ Verdict NmeaDevice::read_heading(const nmea::Sentence& sentence, nmea::Type type
   if (!heading) return Verdict::out_of_range;
   if (!heading->heading_deg || heading->mode == 'V') return Verdict::ignored;
   CompassSample sample;
-  sample.heading_rad = heading->heading_deg->value() * base::kRadiansPerDegree;
+  // The variation of HDG is left alone: which one holds is known here (docs/navigation.md).
+  const double deviation_deg = heading->deviation_deg ? heading->deviation_deg->value() : 0;
+  sample.heading_rad =
+      base::positive_angle((heading->heading_deg->value() + deviation_deg) * base::kRadiansPerDegree);
   sample.heading_is_true = heading->is_true;
   return give(sample, true, receiver);
 }

@@ -34,7 +34,9 @@ Scan Scanner::scan(const std::uint8_t* first, const std::uint8_t* last, bool req
 
 Type type_of(FrameId id) {
   const std::string_view name = id.view();
-  if (name == "PTNTHTM") return Type::ptnthtm;
+  if (name == "PTNTHTM" || name == "PTNTHPR") return Type::ptnthtm;
+  constexpr std::string_view kAttitudes[] = {"PASHR", "PRDID", "PHTRO", "PSAT", "PFEC", "KSXT"};
+  if (std::ranges::count(kAttitudes, name) > 0) return Type::attitude;
   if (name.size() != 5 || name[0] == 'P') return Type::other;  // P begins makers' own words
   switch (packed(name[2], name[3], name[4])) {
     case packed('G', 'G', 'A'): return Type::gga;
@@ -46,6 +48,7 @@ Type type_of(FrameId id) {
     case packed('G', 'S', 'V'): return Type::gsv;
     case packed('Z', 'D', 'A'): return Type::zda;
     case packed('H', 'D', 'T'): return Type::hdt;
+    case packed('H', 'P', 'R'): return Type::attitude;
     case packed('H', 'D', 'M'): return Type::hdm;
     case packed('H', 'D', 'G'): return Type::hdg;
     case packed('R', 'O', 'T'): return Type::rot;

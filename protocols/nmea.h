@@ -55,6 +55,7 @@ enum class Type : std::uint8_t {
   dbt,
   dpt,
   ptnthtm,
+  attitude,  ///< PASHR, PRDID, PHTRO, PSAT, PFEC, HPR, KSXT
   other
 };
 

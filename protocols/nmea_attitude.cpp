@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocols/nmea_attitude.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "protocols/nmea_fields.h"
 
 namespace navcal::protocols::nmea {
@@ -28,6 +31,23 @@ Depth below_transducer(FieldReader& fields) {
   return out;
 }
 
+constexpr std::size_t kNone = kMaxLength;  // a field that no sentence has
+
+/// Where the sentences of the makers have what; fields count from 0.
+struct AttitudeForm {
+  std::string_view ending;  ///< of the address
+  std::size_t mark;         ///< field that tells the sentences of one maker apart: it reads `marked`
+  std::string_view marked;
+  std::size_t heading, pitch, roll;
+  std::size_t quality;  ///< 0 there: not valid
+};
+constexpr AttitudeForm kAttitudeForms[] = {
+    {"PASHR", 2, "T", 1, 4, 3, kNone},        {"PRDID", kNone, "", 2, 0, 1, kNone},
+    {"PHTRO", kNone, "", kNone, 0, 2, kNone}, {"PSAT", 0, "HPR", 2, 3, 4, kNone},
+    {"PFEC", 0, "GPatt", 1, 2, 3, kNone},     {"KSXT", kNone, "", 4, 5, 8, 10},
+    {"HPR", kNone, "", 1, 2, 3, 4},
+};
+
 }  // namespace
 
 std::optional<Heading> decode_heading(const Sentence& sentence, Type type) {
@@ -49,6 +69,26 @@ std::optional<Heading> decode_heading(const Sentence& sentence, Type type) {
     case Type::ths: out.mode = fields.optional_letter(); break;
     default: return std::nullopt;
   }
+  return fields.if_in_range(out);
+}
+
+std::optional<Attitude> decode_attitude(const Sentence& sentence) {
+  Attitude out;
+  const auto* const form = std::ranges::find_if(
+      kAttitudeForms, [&](const auto& one) { return sentence.address().ends_with(one.ending); });
+  if (form == std::end(kAttitudeForms)) return std::nullopt;
+  if (sentence[form->mark] != form->marked || sentence[form->quality] == "0") return out;
+  FieldReader fields(sentence);
+  const auto angle = [&](std::size_t field, double low, double high) {
+    fields.seek(field);
+    auto number = fields.decimal(low, high);
+    const std::string_view side = fields.text();  // PHTRO: nose-down or port-down
+    if (number && (side == "P" || side == "B")) number->mantissa = -number->mantissa;
+    return number;
+  };
+  out.heading_deg = angle(form->heading, 0, 360);
+  out.pitch_deg = angle(form->pitch, -90, 90);
+  out.roll_deg = angle(form->roll, -180, 180);
   return fields.if_in_range(out);
 }
 

@@ -44,7 +44,17 @@ struct Xdr {
 };
 [[nodiscard]] std::optional<Xdr> decode_xdr(const Sentence& sentence);
 
-/// PTNTHTM, True North Technologies: heading, tilt, dip and horizontal field of a Revolution compass. Unit and
+/// Attitude as motion sensors and receivers with several antennas send it, each maker in sentences of his own.
+struct Attitude {
+  std::optional<Decimal> heading_deg;          ///< from true north, 0 to 360
+  std::optional<Decimal> pitch_deg, roll_deg;  ///< nose-up, starboard-down
+};
+/// Of PSAT, PFEC and PASHR only those about attitude are some; the others, and those that the device declares not
+/// valid, have no member.
+[[nodiscard]] std::optional<Attitude> decode_attitude(const Sentence& sentence);
+
+/// PTNTHTM and PTNTHPR, True North Technologies and Honeywell: heading, tilt, and with PTNTHTM dip and horizontal
+/// field of a compass. Unit and
 /// reference of the angles are a set-up of the device (degrees, or counts of 16 bits), so nothing is held to a
 /// range.
 struct Ptnthtm {

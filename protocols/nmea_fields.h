@@ -26,6 +26,7 @@ class FieldReader {
   [[nodiscard]] bool at_end() const { return next_ >= sentence_.size(); }
   std::string_view text() { return sentence_[next_++]; }
   void skip(std::size_t fields = 1) { next_ += fields; }
+  void seek(std::size_t field) { next_ = field; }
   void refuse() { in_range_ = false; }
 
   std::optional<Decimal> decimal() {

@@ -37,6 +37,7 @@ void decode_everything(navcal::protocols::Bytes frame) {
   static_cast<void>(nmea::decode_gsv(sentence));
   for (const nmea::Type type : {nmea::Type::hdt, nmea::Type::hdm, nmea::Type::hdg, nmea::Type::ths})
     static_cast<void>(nmea::decode_heading(sentence, type));
+  static_cast<void>(nmea::decode_attitude(sentence));
   static_cast<void>(nmea::decode_rot(sentence));
   static_cast<void>(nmea::decode_xdr(sentence));
   static_cast<void>(nmea::decode_ptnthtm(sentence));

@@ -166,6 +166,47 @@ TEST_F(NmeaDeviceTest, CompassesAndEchoSounders) {
   EXPECT_EQ(collector_.all<AltimeterSample>()[0].altitude_m, 12.5);
 }
 
+TEST_F(NmeaDeviceTest, HdgIsCorrectedByTheDeviationThatItStates) {
+  collector_.feed<Parser>(nmea("HCHDG,2.0,3.5,W,12.0,E") + nmea("HCHDG,359.0,3.5,E,,") +
+                          nmea("HCHDG,90.0,,,12.0,E"));
+  const auto compass = collector_.all<CompassSample>();
+  ASSERT_EQ(compass.size(), 3U);
+  EXPECT_NEAR(*compass[0].heading_rad, 358.5 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(*compass[1].heading_rad, 2.5 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(*compass[2].heading_rad, 90 * base::kRadiansPerDegree, 1e-12);
+  for (const auto& sample : compass) EXPECT_FALSE(sample.heading_is_true);
+}
+
+TEST_F(NmeaDeviceTest, NamesOfTiltAreFreeText) {
+  for (const char* body : {"IIXDR,A,4.0,D,Pitch,A,-9.0,D,Roll", "IIXDR,A,4.0,D,PTCH#2,A,-9.0,D,Heel Angle",
+                           "IIXDR,A,4.0,D,PITCH#0,A,-9.0,D,ROLL#0,A,55.0,D,PITCH#1,A,55.0,D,ROLL#1"})
+    collector_.feed<Parser>(nmea(body));
+  const auto compass = collector_.all<CompassSample>();
+  ASSERT_EQ(compass.size(), 3U);
+  for (const auto& sample : compass) {
+    EXPECT_NEAR(*sample.pitch_rad, 4 * base::kRadiansPerDegree, 1e-12);
+    EXPECT_NEAR(*sample.roll_rad, -9 * base::kRadiansPerDegree, 1e-12);
+  }
+  collector_.feed<Parser>(nmea("IIXDR,A,4.0,D,RUDDER,A,4.0,D,STD_PIT,A,4.0,D,PIT"));
+  EXPECT_EQ(collector_.verdicts.back(), Instrument::Verdict::ignored);
+}
+
+TEST_F(NmeaDeviceTest, AttitudeSentencesAreCompasses) {
+  collector_.feed<Parser>(nmea("PASHR,081502.10,311.50,T,-7.25,+2.75,+0.00,0.020,0.020,0.100,1,1") +
+                          nmea("PHTRO,2.75,M,7.25,B") + nmea("PTNTHPR,85.9,N,-0.9,N,0.8,N") +
+                          nmea("PASHR,POS,0,05,081502.10"));
+  const auto compass = collector_.all<CompassSample>();
+  ASSERT_EQ(compass.size(), 3U);
+  EXPECT_TRUE(compass[0].heading_is_true);
+  EXPECT_NEAR(*compass[0].heading_rad, 311.5 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(*compass[0].roll_rad, -7.25 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_FALSE(compass[1].heading_rad || compass[1].heading_is_true);
+  EXPECT_NEAR(*compass[1].pitch_rad, 2.75 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_FALSE(compass[2].heading_is_true) << "a magnetic compass";
+  EXPECT_NEAR(*compass[2].roll_rad, 0.8 * base::kRadiansPerDegree, 1e-12);
+  EXPECT_EQ(collector_.verdicts.back(), Instrument::Verdict::ignored);
+}
+
 TEST_F(NmeaDeviceTest, GaugesOfABattery) {
   collector_.feed<Parser>(nmea("IIXDR,U,21.3,V,BATTERY,I,-1.25,A,BATTERY") + nmea("IIXDR,U,22.0,V,BATTERY#0") +
                           nmea("IIXDR,U,12.0,V,BATTERY#1,U,5,V,LOGIC,I,1,A,MOTOR") + nmea("IIXDR,U,,V,BATTERY") +

@@ -49,6 +49,46 @@ TEST(NmeaHeading, WhatCannotBeIsRefused) {
   EXPECT_FALSE(heading("GPGGA,180.1", Type::gga));
 }
 
+std::optional<nmea::Attitude> attitude(std::string_view body) {
+  const std::string text = line(body);
+  return nmea::decode_attitude(nmea::Sentence(bytes_of(text)));
+}
+
+TEST(NmeaAttitude, EveryMakersSentenceGivesTheSameAttitude) {
+  for (const char* body :
+       {"PASHR,081502.10,311.50,T,-7.25,+2.75,+0.00,0.020,0.020,0.100,1,1", "PRDID,2.75,-7.25,311.50",
+        "PSAT,HPR,081502.10,311.50,2.75,-7.25,N", "PFEC,GPatt,311.50,+2.75,-7.25",
+        "GNHPR,081502.10,311.50,2.75,-7.25,4,21,0.00,0999",
+        "KSXT,20260301081502.10,12.02259,57.71283,86.4,311.50,2.75,54.7,5.1,-7.25,3,3,21,22,,,,,,,1.0,"}) {
+    const auto found = attitude(body);
+    ASSERT_TRUE(found && found->heading_deg && found->pitch_deg && found->roll_deg) << body;
+    EXPECT_EQ(found->heading_deg->value(), 311.5) << body;
+    EXPECT_EQ(found->pitch_deg->value(), 2.75) << body;
+    EXPECT_EQ(found->roll_deg->value(), -7.25) << body;
+  }
+  const auto down = attitude("PHTRO,2.75,P,7.25,B"), up = attitude("PHTRO,2.75,M,7.25,T");
+  EXPECT_EQ(down->pitch_deg->value(), -2.75);
+  EXPECT_EQ(down->roll_deg->value(), -7.25);
+  EXPECT_EQ(up->pitch_deg->value(), 2.75);
+  EXPECT_EQ(up->roll_deg->value(), 7.25);
+  EXPECT_FALSE(up->heading_deg);
+}
+
+TEST(NmeaAttitude, OtherSentencesOfTheMakersAndInvalidAnglesGiveNothing) {
+  for (const char* body :
+       {"PASHR,POS,0,05,081502.10,5742.7698,N", "PSAT,GBS,081502.10,0.1,0.1,0.2", "PFEC,GPhve,0.1,A",
+        "GNHPR,081502.10,0.00,0.00,0.00,0,0,0.00,0999", "KSXT,20260301081502.10,,,,0.00,0.00,,,0.00,0,0,21,22"}) {
+    const auto found = attitude(body);
+    ASSERT_TRUE(found) << body;
+    EXPECT_FALSE(found->heading_deg || found->pitch_deg || found->roll_deg) << body;
+  }
+  EXPECT_FALSE(attitude("PRDID,2.75,-7.25,361.0"));
+  EXPECT_FALSE(attitude("PRDID,95.0,-7.25,311.5"));
+  EXPECT_FALSE(attitude("PSAT,HPR,081502.10,311.50,2.7x,-7.25,N"));
+  const auto half = attitude("PSAT,HPR,081502.10,311.50,,-7.25,N");
+  EXPECT_TRUE(half->heading_deg && half->roll_deg && !half->pitch_deg) << "two antennas";
+}
+
 TEST(NmeaRot, RateAndValidity) {
   const std::string text = line("APROT,-0.007,A");
   const auto rot = nmea::decode_rot(nmea::Sentence(bytes_of(text)));
