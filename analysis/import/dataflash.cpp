@@ -270,9 +270,4 @@ ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChan
   return DataFlashFile(file, sink, channels).read();
 }
 
-ImportFindings read_dataflash(std::string_view file, ImportSink& sink) {
-  MotorChannels none;
-  return read_dataflash(file, sink, none);
-}
-
 }  // namespace navcal::analysis

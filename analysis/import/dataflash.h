@@ -16,6 +16,5 @@ namespace navcal::analysis {
 /// ArduPilot's body axes are those of navcal: forward, starboard, down. `channels` become
 /// shaft and fins. docs/import.md has the table.
 [[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink, MotorChannels& channels);
-[[nodiscard]] ImportFindings read_dataflash(std::string_view file, ImportSink& sink);
 
 }  // namespace navcal::analysis

@@ -99,8 +99,8 @@ class Survey final : public ImportPass {
   }
   [[nodiscard]] std::vector<std::string> ports() const {
     std::vector<std::string> names;
-    for (const auto& [message, taken] : taken_) {
-      if (std::find(names.begin(), names.end(), taken.port) == names.end()) names.push_back(taken.port);
+    for (const auto& [of, taken] : taken_) {
+      if (std::find(names.begin(), names.end(), of.second) == names.end()) names.push_back(of.second);
     }
     std::stable_sort(names.begin(), names.end(),
                      [](const auto& a, const auto& b) { return port_rank(a) < port_rank(b); });
@@ -111,13 +111,8 @@ class Survey final : public ImportPass {
 
  private:
   void take(const ImportedSample& sample, LineWriter& /*line*/) override {
-    auto found = taken_.find(sample.message);
-    if (found == taken_.end()) {
-      found = taken_.emplace(sample.message, ImportReport::Taken{std::string(sample.port), 0, 0, sample.time_ns})
-                  .first;
-    }
-    ImportReport::Taken& taken = found->second;
-    ++taken.samples;
+    ImportReport::Taken& taken = taken_[{std::string(sample.message), std::string(sample.port)}];
+    if (taken.samples++ == 0) taken.first_ns = taken.last_ns = sample.time_ns;
     if (!sample.continues) ++taken.messages;
     taken.first_ns = std::min(taken.first_ns, sample.time_ns);
     taken.last_ns = std::max(taken.last_ns, sample.time_ns);
@@ -126,7 +121,7 @@ class Survey final : public ImportPass {
     any_ = true;
   }
 
-  std::map<std::string, ImportReport::Taken, std::less<>> taken_;
+  std::map<ImportReport::Source, ImportReport::Taken> taken_;
   std::map<std::string, std::uint64_t, std::less<>> left_;
   std::optional<std::int64_t> offset_ns_;
   bool any_ = false;
@@ -146,7 +141,7 @@ class Writing final : public ImportPass {
  private:
   void take(const ImportedSample& sample, LineWriter& line) override {
     const auto port = ports_.find(sample.port);
-    if (port == ports_.end()) return;
+    if (port == ports_.end()) throw record::BadRecording("the file has changed while it was read");
     line.seconds("time", sample.utc_ns.value_or(sample.time_ns + offset_ns_));
     const std::string text = line.finish();
     newest_ns_ = std::max(newest_ns_, sample.time_ns);
@@ -250,15 +245,18 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   Writing writing(builder, settings, survey.first_ns(), mapping.offset_ns, progress, file.bytes().size());
   (void)read(writing);
   survey.finish(report);
+  std::map<std::string, std::uint64_t> refused;
+  for (const auto& [of, taken] : report.taken) refused[of.second] += taken.samples;
   report.cut_at = findings.cut_at;
   report.damaged_bytes = findings.damaged_bytes;
   report.remarks = std::move(findings.remarks);
   for (std::size_t i = 0; i < ports.size(); ++i) {
     const auto statistics = builder.pipeline().statistics(static_cast<std::uint16_t>(i));
-    report.refused += statistics.out_of_range;
+    const auto lost = refused[ports[i]] -= statistics.samples;
+    if (lost > 0) report.left[fmt::format("sample of {} (no value, or one out of range)", ports[i])] = lost;
+    report.refused += lost;
     if (statistics.unused.total() > 0)
-      report.remarks.push_back(
-          fmt::format("{}: frames without a sample: {}", settings.ports[i].name, statistics.unused.words()));
+      report.remarks.push_back(fmt::format("{}: frames without a sample: {}", ports[i], statistics.unused.words()));
   }
   builder.tell("info", "import",
                fmt::format("of {} ({}); UTC: {}", report.input, format.name,

@@ -33,11 +33,11 @@ std::string_view key_of(ImportReport::Utc utc) {
 
 std::string json_of_taken(const ImportReport& report) {
   std::string out = "[";
-  for (const auto& [name, taken] : report.taken) {
+  for (const auto& [of, taken] : report.taken) {
     if (out.size() > 1) out += ',';
     record::JsonObject json(out, "TAKEN");
-    json.text("message", name);
-    json.text("port", taken.port);
+    json.text("message", of.first);
+    json.text("port", of.second);
     json.integer("count", static_cast<std::int64_t>(taken.messages));
     json.integer("samples", static_cast<std::int64_t>(taken.samples));
     json.number("rate_Hz", taken.rate_Hz());
@@ -78,17 +78,17 @@ double ImportReport::Taken::rate_Hz() const {
 
 std::string to_text(const ImportReport& report) {
   std::size_t width = 16;
-  for (const auto& [name, taken] : report.taken) width = std::max(width, name.size());
+  for (const auto& [of, taken] : report.taken) width = std::max(width, of.first.size());
   for (const auto& [name, count] : report.left) width = std::max(width, name.size());
   std::string out = fmt::format("{}: {}, {} bytes, {:.3f} s\n{}\n\n", report.input, report.format, report.bytes,
                                 static_cast<double>(report.duration_ns) * 1e-9, words_of_utc(report));
   out += fmt::format("{:<{}}  {:>9}  {:>9}  {}\n", "taken", width, "messages", "rate (Hz)", "port");
-  for (const auto& [name, taken] : report.taken)
-    out += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {}\n", name, width, taken.messages, taken.rate_Hz(), taken.port);
+  for (const auto& [of, taken] : report.taken)
+    out +=
+        fmt::format("{:<{}}  {:>9}  {:>9.2f}  {}\n", of.first, width, taken.messages, taken.rate_Hz(), of.second);
   if (report.taken.empty()) out += "nothing\n";
   if (!report.left.empty()) out += fmt::format("\n{:<{}}  {:>9}\n", "left", width, "messages");
   for (const auto& [name, count] : report.left) out += fmt::format("{:<{}}  {:>9}\n", name, width, count);
-  if (report.refused > 0) out += fmt::format("\n{} samples have values out of range\n", report.refused);
   if (report.damaged_bytes > 0) out += fmt::format("\n{} damaged bytes were passed over\n", report.damaged_bytes);
   if (report.cut_at)
     out += fmt::format("\nthe file is cut: its last record, at byte {}, is not whole\n", *report.cut_at);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace navcal::analysis {
@@ -17,8 +18,9 @@ struct ImportReport {
     of_gps,   ///< by what a receiver stated
     unknown,  ///< times count from the stated date
   };
+  /// A message's name, and a port that has samples of it: RAW_IMU has an inertial unit and a compass.
+  using Source = std::pair<std::string, std::string>;
   struct Taken {
-    std::string port;
     std::uint64_t messages = 0;
     std::uint64_t samples = 0;
     std::int64_t first_ns = 0, last_ns = 0;
@@ -28,12 +30,12 @@ struct ImportReport {
 
   std::string input, output, format;
   std::uint64_t bytes = 0;
-  std::map<std::string, Taken, std::less<>> taken;         ///< by the message's name
+  std::map<Source, Taken> taken;
   std::map<std::string, std::uint64_t, std::less<>> left;  ///< messages that were not taken
   Utc utc = Utc::unknown;
   std::int64_t start_utc_ns = 0;  ///< of the first sample
   std::int64_t duration_ns = 0;
-  std::uint64_t refused = 0;  ///< samples whose values are out of range: in the log as bytes, not as samples
+  std::uint64_t refused = 0;  ///< samples without a value in range: in the log as bytes, not as samples
   std::optional<std::uint64_t> cut_at{};
   std::uint64_t damaged_bytes = 0;
   std::vector<std::string> remarks;

@@ -17,7 +17,7 @@ struct ImportedSample {
   std::string_view port;                 ///< source instrument, the name of a port in the navcal log
   std::int64_t time_ns = 0;              ///< on the clock of that log
   std::optional<std::int64_t> utc_ns{};  ///< time of validity that the message itself states
-  bool continues = false;                ///< a further sample of the same message
+  bool continues = false;                ///< a further sample of the same message on the same port
 };
 
 /// Takes what a reader finds in a log of another system.

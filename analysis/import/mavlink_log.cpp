@@ -179,7 +179,6 @@ void MavlinkFile::take_imu(const Payload& payload, std::size_t first, int instan
   LineWriter compass("COMPASS");
   compass.vector("field_body_uT", field_uT);
   sample.port = port_name(PortKind::compass, instance);
-  sample.continues = true;
   sink_.sample(sample, compass);
 }
 
@@ -260,11 +259,6 @@ bool is_mavlink_log(std::string_view head) {
 
 ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels) {
   return MavlinkFile(file, sink, channels).read();
-}
-
-ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink) {
-  MotorChannels none;
-  return read_mavlink_log(file, sink, none);
 }
 
 }  // namespace navcal::analysis

@@ -17,6 +17,5 @@ namespace navcal::analysis {
 /// it. The first system that sends a message of a vehicle is taken. `channels` become
 /// shaft and fins. docs/import.md has the table.
 [[nodiscard]] ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink, MotorChannels& channels);
-[[nodiscard]] ImportFindings read_mavlink_log(std::string_view file, ImportSink& sink);
 
 }  // namespace navcal::analysis

@@ -197,9 +197,4 @@ ImportFindings read_ros_bag(std::string_view file, ImportSink& sink, MotorChanne
   return RosBag(file, sink, channels).read();
 }
 
-ImportFindings read_ros_bag(std::string_view file, ImportSink& sink) {
-  MotorChannels none;
-  return read_ros_bag(file, sink, none);
-}
-
 }  // namespace navcal::analysis

@@ -17,6 +17,5 @@ namespace navcal::analysis {
 /// remarks say how to convert them. `channels` become
 /// shaft and fins. docs/import.md has the table of messages.
 [[nodiscard]] ImportFindings read_ros_bag(std::string_view file, ImportSink& sink, MotorChannels& channels);
-[[nodiscard]] ImportFindings read_ros_bag(std::string_view file, ImportSink& sink);
 
 }  // namespace navcal::analysis

@@ -64,7 +64,6 @@ bool decode_imu(std::string_view cdr, const Topic& topic, std::int64_t log_time_
   LineWriter attitude("COMPASS");
   write_attitude(attitude, q);
   sample.port = port_name(PortKind::attitude, topic.instance);
-  sample.continues = true;
   sink.sample(sample, attitude);
   return true;
 }

@@ -309,9 +309,4 @@ ImportFindings read_ulog(std::string_view file, ImportSink& sink, MotorChannels&
   return UlogFile(file, sink, channels).read();
 }
 
-ImportFindings read_ulog(std::string_view file, ImportSink& sink) {
-  MotorChannels none;
-  return read_ulog(file, sink, none);
-}
-
 }  // namespace navcal::analysis

@@ -15,6 +15,5 @@ namespace navcal::analysis {
 /// shaft and fins. docs/import.md has the table of
 /// messages.
 [[nodiscard]] ImportFindings read_ulog(std::string_view file, ImportSink& sink, MotorChannels& channels);
-[[nodiscard]] ImportFindings read_ulog(std::string_view file, ImportSink& sink);
 
 }  // namespace navcal::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/import/dataflash.h"
+#include "tests/analysis/import/without_channels.h"
 #include "tests/fuzz/import_sink.h"
 #include "tests/fuzz/target.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "record/recording.h"
+#include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
 
 namespace navcal::analysis {
@@ -114,6 +115,17 @@ TEST(Csv, WhatCannotBeReadIsCounted) {
   EXPECT_EQ(sink.left_counts["gz (no number)"], 1);
   EXPECT_EQ(sink.samples.size(), 2U) << "depth and oxygen of the one good row";
   EXPECT_TRUE(findings.cut_at) << "the last row has no end";
+}
+
+TEST(Csv, EverySampleIsInTheLogOrCountedAsLeft) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "map.toml") << kMap;
+  const auto written =
+      testing::expect_counts_agree("csv",
+                                   "t,gx,gy,gz,depth,\"O2 (umol/l)\"\n1700000000,180,0,-90,520,250\n"
+                                   "1700000001,180,0,-90,99999999,\n",
+                                   (folder / "map.toml").string());
+  EXPECT_EQ(written, (testing::PortCounts{{"depth", 1}, {"imu", 2}, {"sensors", 1}}));
 }
 
 TEST(Csv, AColumnThatIsMissingIsNamed) {

@@ -5,7 +5,9 @@
 
 #include "analysis/import/gps_week.h"
 #include "tests/analysis/import/channel_map.h"
+#include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
+#include "tests/analysis/import/without_channels.h"
 #include "tests/protocols/shared_capture.h"
 
 namespace navcal::analysis {

@@ -5,7 +5,9 @@
 
 #include "analysis/import/mavlink_frame.h"
 #include "tests/analysis/import/channel_map.h"
+#include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
+#include "tests/analysis/import/without_channels.h"
 
 namespace navcal::analysis {
 namespace {
@@ -114,6 +116,13 @@ TEST(MavlinkLog, ReadsEachMessageInUnitsOfNavcal) {
 // Bytes that pymavlink's CRC gives for the heartbeat of the MAVLink guide: X.25 of "123456789" is 0x6F91 before
 // its complement, which MAVLink leaves out.
 TEST(MavlinkLog, TheChecksumIsThatOfTheSpecification) { EXPECT_EQ(mavlink::checksum("12345678", '9'), 0x6F91); }
+
+TEST(MavlinkLog, EverySampleIsInTheLogOrCountedAsLeft) {
+  const auto written = testing::expect_counts_agree("tlog", small_tlog(true));
+  EXPECT_EQ(written.at("imu2"), 1U);
+  EXPECT_EQ(written.at("compass2"), 1U) << "of the same message";
+  EXPECT_EQ(written.at("motor"), 2U);
+}
 
 TEST(MavlinkLog, AFrameWithADamagedByteIsPassedOver) {
   std::string log = small_tlog(true);

@@ -13,6 +13,7 @@
 namespace navcal::analysis {
 namespace {
 
+#include "tests/analysis/import/without_channels.h"
 using record::append_le;
 using record::append_mcap_string;
 using record::Opcode;

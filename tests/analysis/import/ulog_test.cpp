@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/analysis/import/channel_map.h"
+#include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
+#include "tests/analysis/import/without_channels.h"
 
 namespace navcal::analysis {
 namespace {
@@ -107,6 +109,12 @@ TEST(Ulog, ReadsEachMessageInUnitsOfNavcal) {
   EXPECT_EQ(sink.left_counts["vehicle_local_position"], 1);
   ASSERT_EQ(findings.remarks.size(), 1U);
   EXPECT_EQ(findings.remarks[0], "1 dropouts of the logger, 50 ms in all");
+}
+
+TEST(Ulog, EverySampleIsInTheLogOrCountedAsLeft) {
+  const auto written = testing::expect_counts_agree("ulog", small_ulog());
+  EXPECT_EQ(written.at("imu"), 1U);
+  EXPECT_EQ(written.at("motor"), 2U);
 }
 
 TEST(Ulog, ANewReceiverMessage) {
