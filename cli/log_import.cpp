@@ -64,6 +64,9 @@ void add_log_import(CLI::App& log) {
   in->add_option("--map", arguments->options.map,
                  "meaning of the columns of a CSV file, or of the outputs of another log: shaft and fins")
       ->option_text("FILE.toml");
+  in->add_option("--cache", arguments->options.folders,
+                 "where a Slocum's lists of sensors (.cac) are, if not beside FILE")
+      ->option_text("DIR");
   in->add_flag("--json", arguments->json, "one JSON object instead of a table, for a log of another system");
   in->footer(
       "docs/import.md describes the formats, and the map of columns and outputs.\n\n"

@@ -19,5 +19,7 @@ pkg_check_modules(gpiod REQUIRED IMPORTED_TARGET libgpiod)
 # Linked into the programs: of the shared one navcald needs two functions, and it takes 0.2 MB of its memory.
 find_library(NAVCAL_NETTLE libnettle.a REQUIRED)
 pkg_check_modules(netcdf REQUIRED IMPORTED_TARGET netcdf)
+pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(matio REQUIRED IMPORTED_TARGET matio)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)

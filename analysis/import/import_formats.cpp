@@ -16,12 +16,10 @@
 namespace navcal::analysis {
 namespace {
 
-/// A log without channels that a map could name.
-template <ImportFindings (*Read)(std::string_view, ImportSink&)>
-ImportFindings read_plain(std::string_view file, const ImportOptions& options, ImportSink& sink) {
+ImportFindings read_glider(std::string_view file, const ImportOptions& options, ImportSink& sink) {
   if (!options.map.empty())
     throw record::BadRecording("this format has no channels that a map (--map) could name");
-  return Read(file, sink);
+  return read_slocum(file, options.folders, sink);
 }
 
 template <ImportFindings (*Read)(std::string_view, ImportSink&, MotorChannels&)>
@@ -52,7 +50,7 @@ constexpr std::array kFormats{
     ImportFormat{"ulog", "PX4 ULog (.ulg)", is_ulog, read_with_channels<read_ulog>},
     ImportFormat{"ros2", "ROS 2 bag in MCAP (.mcap)", is_ros_bag, read_with_channels<read_ros_bag>},
     ImportFormat{"tlog", "MAVLink telemetry log (.tlog)", is_mavlink_log, read_with_channels<read_mavlink_log>},
-    ImportFormat{"slocum", "Slocum glider data (.dbd, .sbd, .tbd)", is_slocum, read_plain<read_slocum>},
+    ImportFormat{"slocum", "Slocum glider data (.dbd, .sbd, .dcd, ...)", is_slocum, read_glider},
     ImportFormat{kCsvFormat, "CSV file with a map of its columns", is_never, read_mapped},
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@ struct ImportOptions {
   std::string format;  ///< name of a format; empty: the content says it
   std::string
       map;  ///< file that gives columns of a CSV file, or channels of another log, their meaning; empty: none
+  std::vector<std::filesystem::path> folders{};  ///< where a Slocum's lists of sensors are
 };
 
 /// A kind of log of another system.

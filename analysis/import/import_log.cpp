@@ -64,7 +64,8 @@ class ImportPass : public ImportSink {
       left(fmt::format("{} (far from all other times)", sample.message));
     }
   }
-  void progress(std::uint64_t done) final { progress_(from_ + share_ * static_cast<double>(done)); }
+  // A compressed file has more bytes than its size.
+  void progress(std::uint64_t done) final { progress_(std::min(from_ + share_ * static_cast<double>(done), 1.0)); }
 
  protected:
   virtual void take(const ImportedSample& sample, LineWriter& line) = 0;
@@ -228,7 +229,7 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   // A reader of a format knows bytes and no file.
   const auto read = [&](ImportSink& sink) {
     try {
-      return format.read(file.bytes(), options, sink);
+      return format.read(file.bytes(), with_folder, sink);
     } catch (const record::BadRecording& error) {
       throw record::BadRecording(fmt::format("{}: {}", report.input, error.what()));
     }
@@ -244,6 +245,8 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   builder.begin({survey.first_ns(), mapping});
   Writing writing(builder, settings, survey.first_ns(), mapping.offset_ns, progress, file.bytes().size());
   (void)read(writing);
+  ImportOptions with_folder = options;
+  with_folder.folders.push_back(std::filesystem::absolute(input).parent_path());
   survey.finish(report);
   std::map<std::string, std::uint64_t> refused;
   for (const auto& [of, taken] : report.taken) refused[of.second] += taken.samples;

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "analysis/import/decompress.h"
 #include "analysis/import/ros_commands.h"
 #include "analysis/import/ros_messages.h"
 #include "analysis/import/wire_reader.h"
@@ -58,9 +59,6 @@ class RosBag {
   ImportFindings read() {
     findings_.times_are_utc = true;
     read_records(file_.substr(kMcapMagic.size()), kMcapMagic.size(), true);
-    for (const auto& [name, count] : compressed_)
-      findings_.remarks.push_back(fmt::format(
-          "{} chunks are compressed with {}: convert the file by \"mcap decompress\" first", count, name));
     return std::move(findings_);
   }
 
@@ -97,17 +95,16 @@ class RosBag {
 
   void take_chunk(std::string_view record, std::uint64_t offset) {
     RecordReader reader(record);
-    for (int i = 0; i < 3; ++i) (void)reader.number<std::uint64_t>();
+    for (int i = 0; i < 2; ++i) (void)reader.number<std::uint64_t>();
+    const auto size = reader.number<std::uint64_t>();
     (void)reader.number<std::uint32_t>();
-    const std::string compression(reader.text());
+    const std::string_view compression = reader.text();
     const auto length = reader.number<std::uint64_t>();
-    if (!compression.empty()) {
-      ++compressed_[compression];
-      return sink_.left(fmt::format("chunk (compressed with {})", compression));
-    }
-    const std::string_view inside = reader.rest();
-    read_records(inside.substr(0, std::min<std::size_t>(length, inside.size())),
-                 offset + (record.size() - inside.size()), false);
+    const std::string_view inside = reader.rest().substr(0, length);
+    if (compression.empty()) return read_records(inside, offset + (record.size() - reader.rest().size()), false);
+    const auto whole = decompressed_chunk(compression, inside, size);
+    if (!whole) return sink_.left(fmt::format("chunk (compressed with {}, and damaged)", compression));
+    read_records(*whole, offset, false);
   }
 
   void take_schema(std::string_view record) {
@@ -179,7 +176,6 @@ class RosBag {
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, BagChannel> channels_;
   std::map<PortKind, int> instances_;
-  std::map<std::string, std::uint64_t> compressed_;
   bool ended_ = false;
 };
 

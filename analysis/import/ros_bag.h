@@ -13,9 +13,8 @@ namespace navcal::analysis {
 
 /// ROS 2 bag in an MCAP file, messages in CDR. Axes of REP-103 (forward, left, up; east, north, up) become those
 /// of navcal (forward, starboard, down; north, east, down). The stamp of a message's header is its time of
-/// validity where it lies within an hour of the time at which it was logged. Chunks must not be compressed: the
-/// remarks say how to convert them. `channels` become
-/// shaft and fins. docs/import.md has the table of messages.
+/// validity where it lies within an hour of the time at which it was logged. Chunks may be compressed with lz4 or
+/// zstd. `channels` become shaft and fins. docs/import.md has the table of messages.
 [[nodiscard]] ImportFindings read_ros_bag(std::string_view file, ImportSink& sink, MotorChannels& channels);
 
 }  // namespace navcal::analysis

@@ -2,6 +2,7 @@
 #include "analysis/import/slocum.h"
 
 #include <fmt/format.h>
+#include <strings.h>
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "analysis/import/decompress.h"
+#include "analysis/import/mapped_file.h"
 #include "analysis/import/port_name.h"
 #include "base/angles.h"
+#include "record/recording.h"
 
 namespace navcal::analysis {
 namespace {
@@ -24,6 +28,20 @@ using protocols::samples_line::LineWriter;
 constexpr std::string_view kSlocumLabel = "dbd_label:";
 constexpr std::size_t kKnownBytes = 16;
 constexpr int kMostSensors = 20'000;
+
+/// A quantity of an actuator, in the unit of layouts of vehicles (docs/identify.md).
+struct Actuator {
+  std::string_view sensor, quantity, unit;
+  double factor;
+};
+constexpr double kInch_m = 0.0254, kBuoyancy_N_cc = 1e-6 * 1025 * 9.80665;
+constexpr std::array kActuators{Actuator{"c_ballast_pumped", "ballast", "N", kBuoyancy_N_cc},
+                                Actuator{"c_de_oil_vol", "ballast", "N", kBuoyancy_N_cc},
+                                Actuator{"c_battpos", "moving_mass", "m", kInch_m},
+                                Actuator{"m_ballast_pumped", "m_ballast_pumped", "N", kBuoyancy_N_cc},
+                                Actuator{"m_de_oil_vol", "m_de_oil_vol", "N", kBuoyancy_N_cc},
+                                Actuator{"m_battpos", "m_battpos", "m", kInch_m},
+                                Actuator{"m_fin", "m_fin", "rad", 1}};
 
 struct SlocumSensor {
   std::string name, unit;
@@ -49,6 +67,29 @@ int whole_number(std::string_view text) {
   return value;
 }
 
+std::string_view next_line(std::string_view text, std::size_t& at) {
+  const std::size_t end = std::min(text.find('\n', at), text.size());
+  const std::string_view line = text.substr(at, end - at);
+  at = std::min(end + 1, text.size());
+  return line;
+}
+
+/// The list of sensors with this checksum, from a .cac file or a compressed .ccc.
+std::string list_of_sensors(std::string_view checksum, std::span<const std::filesystem::path> folders) {
+  const std::string plain = fmt::format("{}.cac", checksum), compressed = fmt::format("{}.ccc", checksum);
+  for (const auto& folder : folders) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      const std::string found = entry.path().filename().string();
+      if (::strcasecmp(found.c_str(), plain.c_str()) == 0) return std::string(MappedFile(entry.path()).bytes());
+      if (::strcasecmp(found.c_str(), compressed.c_str()) == 0)
+        return decompressed_blocks(MappedFile(entry.path()).bytes());
+    }
+  }
+  throw record::BadRecording(
+      fmt::format("its list of sensors is in {}, which is neither beside it nor in the folder of --cache", plain));
+}
+
 /// DDMM.MMM, as NMEA writes it, to degrees; nullopt for what is no place (69696969: no fix).
 std::optional<double> degrees_of_nmea(double value, double most) {
   const double degrees = std::trunc(value / 100), minutes = value - degrees * 100;
@@ -58,7 +99,11 @@ std::optional<double> degrees_of_nmea(double value, double most) {
 
 class SlocumFile {
  public:
-  SlocumFile(std::string_view file, ImportSink& sink) : file_(file), sink_(sink) {}
+  SlocumFile(std::string_view file, std::span<const std::filesystem::path> folders, ImportSink& sink)
+      : decompressed_(file.starts_with(kSlocumLabel) ? "" : decompressed_blocks(file)),
+        file_(decompressed_.empty() ? file : decompressed_),
+        folders_(folders),
+        sink_(sink) {}
   ImportFindings read();
 
  private:
@@ -72,13 +117,14 @@ class SlocumFile {
   void emit_sensors(std::int64_t time_ns);
   void emit_line(std::int64_t time_ns, std::string_view message, PortKind port, LineWriter& line, bool has_any);
   std::optional<double> take(std::string_view name);
-  std::string_view next_line();
   [[nodiscard]] std::string_view header(std::string_view key) const {
     const auto found = header_.find(key);
     return found == header_.end() ? std::string_view{} : found->second;
   }
 
+  std::string decompressed_;  ///< empty: the file is not compressed
   std::string_view file_;
+  std::span<const std::filesystem::path> folders_;
   ImportSink& sink_;
   ImportFindings findings_;
   std::size_t at_ = 0;
@@ -90,18 +136,11 @@ class SlocumFile {
   std::optional<std::int64_t> time_ns_;
 };
 
-std::string_view SlocumFile::next_line() {
-  const std::size_t end = std::min(file_.find('\n', at_), file_.size());
-  const std::string_view line = file_.substr(at_, end - at_);
-  at_ = std::min(end + 1, file_.size());
-  return line;
-}
-
 bool SlocumFile::read_header() {
   constexpr int kMostTags = 100;
   int tags = kMostTags;
   for (int i = 0; i < tags && at_ < file_.size(); ++i) {
-    const std::string_view line = next_line();
+    const std::string_view line = next_line(file_, at_);
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) return false;
     const auto words = words_of(line.substr(colon + 1));
@@ -119,16 +158,13 @@ bool SlocumFile::read_sensors() {
   if (in_cycle <= 0 || in_cycle > kMostSensors || states != (in_cycle + 3) / 4 || total > kMostSensors)
     return false;
   state_bytes_ = static_cast<std::size_t>(states);
-  if (header("sensor_list_factored") == "1") {
-    findings_.remarks.push_back(fmt::format(
-        "its list of sensors is in the file {}.cac, which is not read: convert it to one with the list first",
-        header("sensor_list_crc")));
-    return false;
-  }
+  const bool is_factored = header("sensor_list_factored") == "1";
+  const std::string list = is_factored ? list_of_sensors(header("sensor_list_crc"), folders_) : "";
+  std::size_t at_of_list = 0;
   sensors_.resize(static_cast<std::size_t>(in_cycle));
   for (int i = 0; i < total; ++i) {
     // "s: T 12 3 4 m_depth m": used, number, place in a cycle, bytes, name, unit.
-    const auto words = words_of(next_line());
+    const auto words = words_of(is_factored ? next_line(list, at_of_list) : next_line(file_, at_));
     if (words.size() < 6 || words[0] != "s:") return false;
     const int place = whole_number(words[3]), bytes = whole_number(words[4]);
     if (words[1] != "T") continue;
@@ -226,18 +262,26 @@ void SlocumFile::emit() {
   emit_sensors(*time_ns_);
 }
 
-/// The science computer's values are mission sensors; what else is left is the glider's own.
+/// The science computer's values are mission sensors, those of actuators too; what else is left is the glider's
+/// own.
 void SlocumFile::emit_sensors(std::int64_t time_ns) {
   for (const SlocumSensor& sensor : sensors_) {
     const auto found = fresh_.find(sensor.name);
     if (found == fresh_.end()) continue;
-    if (!sensor.name.starts_with("sci_") || !std::isfinite(found->second)) {
+    Actuator as{sensor.name, std::string_view(sensor.name).substr(4), sensor.unit, 1};
+    const bool is_science = sensor.name.starts_with("sci_"), is_fin = sensor.name == "c_fin";
+    const auto* const actuator = std::find_if(kActuators.begin(), kActuators.end(),
+                                              [&](const Actuator& known) { return known.sensor == sensor.name; });
+    if (actuator != kActuators.end()) as = *actuator;
+    if ((!is_science && !is_fin && actuator == kActuators.end()) || !std::isfinite(found->second)) {
       sink_.left(sensor.name);
       continue;
     }
-    LineWriter line("SENSOR");
-    line.text("quantity", std::string_view(sensor.name).substr(4)).text("unit", sensor.unit);
-    sink_.sample({sensor.name, port_name(PortKind::sensors, 0), time_ns}, line.number("value", found->second));
+    LineWriter line(is_fin ? "MOTOR" : "SENSOR");
+    if (is_fin) line.three("fins_rad", {found->second});
+    if (!is_fin)
+      line.text("quantity", as.quantity).text("unit", as.unit).number("value", found->second * as.factor);
+    sink_.sample({sensor.name, port_name(is_science ? PortKind::sensors : PortKind::motor, 0), time_ns}, line);
   }
 }
 
@@ -268,8 +312,16 @@ ImportFindings SlocumFile::read() {
 
 }  // namespace
 
-bool is_slocum(std::string_view head) { return head.starts_with(kSlocumLabel); }
+// In a compressed file, the label stands behind the length of its block and of its first literals.
+bool is_slocum(std::string_view head) {
+  constexpr std::size_t kFewest = 3, kMost = 6;
+  const std::size_t at = head.find(kSlocumLabel);
+  return at == 0 || (at >= kFewest && at <= kMost);
+}
 
-ImportFindings read_slocum(std::string_view file, ImportSink& sink) { return SlocumFile(file, sink).read(); }
+ImportFindings read_slocum(std::string_view file, std::span<const std::filesystem::path> folders,
+                           ImportSink& sink) {
+  return SlocumFile(file, folders, sink).read();
+}
 
 }  // namespace navcal::analysis

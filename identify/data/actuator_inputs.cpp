@@ -169,13 +169,14 @@ ActuatorInputs::ActuatorInputs(const config::Layout& layout, const RecordedMotio
   }
   for (std::size_t i = 0; i < layout.surfaces.size(); ++i)
     surfaces_.push_back(input_of("surface " + layout.surfaces[i].name, signals_of_surface(layout, i)));
-  const auto of_channel = [](const std::string& channel) {
-    return channel.empty() ? std::vector<std::string>{} : std::vector{channel};
+  const auto of_channel = [&](const std::string& channel, const char* usual) {
+    if (channel.empty() && motion.signals.count(usual) == 0) return std::vector<std::string>{};
+    return std::vector<std::string>{channel.empty() ? usual : channel};
   };
   for (const auto& ballast : layout.ballasts)
-    ballasts_.push_back(input_of("ballast " + ballast.name, of_channel(ballast.channel)));
+    ballasts_.push_back(input_of("ballast " + ballast.name, of_channel(ballast.channel, "ballast")));
   for (const auto& mass : layout.moving_masses)
-    masses_.push_back(input_of("moving mass " + mass.name, of_channel(mass.channel)));
+    masses_.push_back(input_of("moving mass " + mass.name, of_channel(mass.channel, "moving_mass")));
 }
 
 std::vector<std::string> ActuatorInputs::oddities(const config::Layout& layout) const {

@@ -43,5 +43,24 @@ TEST(ActuatorInputs, TakesPulsesForThrustersInPercent) {
   }
 }
 
+// The commands of a glider's own log, as they are imported.
+TEST(ActuatorInputs, TheShippedGliderFollowsBallastAndMovingMass) {
+  const config::Layout layout = config::load_layout(NAVCAL_SOURCE_DIR "/share/vehicles/slocum.toml");
+  RecordedMotion motion;
+  motion.duration_s = 60;
+  const RecordedMotion silent = motion;
+  motion.signals["ballast"] = {{0, 1}, {1.5, 1.5}};
+  motion.signals["moving_mass"] = {{0, 1}, {-0.02, -0.02}};
+  const ActuatorInputs inputs(layout, motion), none(layout, silent);
+  EXPECT_TRUE(inputs.missing().empty());
+  EXPECT_TRUE(none.missing().empty()) << "neutral";
+  sim::ActuatorValues found = sim::ActuatorValues::neutral(layout), still = found;
+  inputs.trajectory(layout).at(59, found);
+  none.trajectory(layout).at(59, still);
+  EXPECT_NEAR(found.ballasts_N.at(0), 1.5, 1e-9);
+  EXPECT_NEAR(found.masses_m.at(0), -0.02, 1e-9);
+  EXPECT_EQ(still.ballasts_N.at(0), 0);
+}
+
 }  // namespace
 }  // namespace navcal::identify

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "record/recording.h"
+#include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
 
 namespace navcal::analysis {
@@ -29,6 +32,9 @@ class DbdWriter {
         "s: T 0 0 8 m_present_time timestamp\ns: T 1 1 4 m_depth m\ns: F 2 -1 4 c_unused nodim\n"
         "s: T 3 2 4 m_heading rad\ns: T 4 3 8 m_gps_lat lat\ns: T 5 4 8 m_gps_lon lon\ns: T 6 5 1 x_state enum\n"
         "s: T 7 6 4 sci_water_temp degc\n";
+    put_known_cycle();
+  }
+  void put_known_cycle() {
     out += "sa";
     put(std::int16_t{0x1234});
     put(123.456F);
@@ -68,7 +74,7 @@ TEST(Slocum, ReadsNewValuesInBothByteOrders) {
   for (const bool is_big_endian : {false, true}) {
     ASSERT_TRUE(is_slocum(small_dbd(is_big_endian)));
     RecordingSink sink;
-    const auto findings = read_slocum(small_dbd(is_big_endian), sink);
+    const auto findings = read_slocum(small_dbd(is_big_endian), {}, sink);
     EXPECT_FALSE(findings.cut_at);
     EXPECT_TRUE(findings.times_are_utc);
     ASSERT_EQ(sink.samples.size(), 4U);
@@ -83,16 +89,102 @@ TEST(Slocum, ReadsNewValuesInBothByteOrders) {
   }
 }
 
-TEST(Slocum, AListOfSensorsInAnotherFileIsNamed) {
+/// Blocks of LZ4 as a glider writes them, whose bytes are all literals.
+std::string compressed(const std::string& bytes) {
+  std::string out;
+  for (std::size_t at = 0; at < bytes.size(); at += 200) {
+    const std::string part = bytes.substr(at, 200);
+    std::string block = "\xF0";
+    if (part.size() < 15) {
+      block[0] = static_cast<char>(part.size() << 4);
+    } else {
+      block += static_cast<char>(part.size() - 15);
+    }
+    block += part;
+    out += '\0';
+    out += static_cast<char>(block.size());
+    out += block;
+  }
+  return out;
+}
+
+/// Depth and commands of a file whose list is `kList`.
+std::string factored_dbd() {
+  DbdWriter log(false, true);
+  log.put_known_cycle();
+  log.out += std::string("d\xAA\xA8", 3);
+  log.put(1'700'000'000.5);
+  for (const float value : {12.5F, 0.25F, 1.0F, 100.0F, -0.5F, 0.75F}) log.put(value);
+  return log.out + "X";
+}
+constexpr const char* kList =
+    "s: T 0 0 8 m_present_time timestamp\ns: T 1 1 4 m_depth m\ns: F 2 -1 4 c_unused nodim\n"
+    "s: T 3 2 4 c_fin rad\ns: T 4 3 4 c_battpos in\ns: T 5 4 4 c_de_oil_vol cc\ns: T 6 5 4 m_fin rad\n"
+    "s: T 7 6 4 m_battpos in\n";
+
+TEST(Slocum, AListOfSensorsInAnotherFileIsFoundOrNamed) {
+  const test::TemporaryFolder beside, cache;
+  const std::vector<std::filesystem::path> folders{beside.path(), cache.path()};
+  RecordingSink none;
+  try {
+    (void)read_slocum(factored_dbd(), folders, none);
+    FAIL() << "without its list";
+  } catch (const record::BadRecording& error) {
+    EXPECT_NE(std::string(error.what()).find("2e5d9ba9.cac"), std::string::npos) << error.what();
+  }
+  for (const char* name : {"2E5D9BA9.CAC", "2e5d9ba9.ccc"}) {
+    std::ofstream(cache / name) << (name[9] == 'c' ? compressed(kList) : kList);
+    RecordingSink sink;
+    EXPECT_FALSE(read_slocum(factored_dbd(), folders, sink).cut_at);
+    EXPECT_EQ(sink.of_port("depth").at(0).line["depth_m"], 12.5) << name;
+    std::filesystem::remove(cache / name);
+  }
+}
+
+TEST(Slocum, CommandsAreInTheUnitsOfALayout) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "2e5d9ba9.cac") << kList;
   RecordingSink sink;
-  const auto findings = read_slocum(DbdWriter(false, true).out, sink);
-  ASSERT_EQ(findings.remarks.size(), 1U);
-  EXPECT_NE(findings.remarks[0].find("2e5d9ba9.cac"), std::string::npos);
+  (void)read_slocum(factored_dbd(), std::vector{std::filesystem::path(folder.path())}, sink);
+  std::map<std::string, double> values;
+  for (const auto& found : sink.of_port("motor")) {
+    if (found.line["class"] == "SENSOR") values[found.line["quantity"]] = found.line["value"];
+    if (found.line["class"] == "MOTOR") {
+      EXPECT_EQ(found.line["fins_rad"][0], 0.25);
+    }
+  }
+  EXPECT_EQ(sink.of_port("motor").size(), 5U);
+  EXPECT_NEAR(values["moving_mass"], 0.0254, 1e-12);
+  EXPECT_NEAR(values["ballast"], 1.005, 0.001) << "100 cc of water of 1025 kg/m3";
+  EXPECT_EQ(values["m_fin"], -0.5);
+  EXPECT_NEAR(values["m_battpos"], 0.75 * 0.0254, 1e-9);
+}
+
+TEST(Slocum, ACompressedFileIsReadAsTheSameOne) {
+  const std::string file = compressed(small_dbd(false));
+  ASSERT_TRUE(is_slocum(file));
+  RecordingSink plain, sink;
+  (void)read_slocum(small_dbd(false), {}, plain);
+  EXPECT_FALSE(read_slocum(file, {}, sink).cut_at);
+  ASSERT_EQ(sink.samples.size(), plain.samples.size());
+  for (std::size_t i = 0; i < plain.samples.size(); ++i) EXPECT_EQ(sink.samples[i].line, plain.samples[i].line);
+}
+
+TEST(Slocum, EverySampleIsInTheLogOrCountedAsLeft) {
+  EXPECT_EQ(testing::expect_counts_agree("slocum", compressed(small_dbd(true))),
+            (testing::PortCounts{{"compass", 1}, {"depth", 1}, {"gps", 1}, {"sensors", 1}}));
 }
 
 TEST(Slocum, NoCutAndNoDamageBringsItDown) {
-  testing::expect_robust(small_dbd(false),
-                         [](const std::string& file, ImportSink& sink) { return read_slocum(file, sink); });
+  const auto read = [](const std::string& file, ImportSink& sink) {
+    try {
+      return read_slocum(file, {}, sink);
+    } catch (const record::BadRecording&) {  // a list in another file
+      return ImportFindings{};
+    }
+  };
+  testing::expect_robust(small_dbd(false), read);
+  testing::expect_robust(compressed(small_dbd(false)), read);
 }
 
 }  // namespace
