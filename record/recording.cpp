@@ -63,7 +63,9 @@ std::unique_ptr<Recording> Recording::open(const std::filesystem::path& file) {
   auto whole = std::make_unique<PeekedSource>(begin, std::move(source));
   if (begin == kMcapMagic) return std::make_unique<LogRecording>(std::move(whole), file.string());
   if (begin == kCapture) return std::make_unique<CaptureRecording>(std::move(whole), file.string());
-  throw BadRecording(file.string() + ": neither a capture (\"#capture 1\") nor a log (MCAP)");
+  throw BadRecording(
+      file.string() +
+      ": neither a capture (\"#capture 1\") nor a log (MCAP); \"navcal log import\" reads those of other systems");
 }
 
 }  // namespace navcal::record

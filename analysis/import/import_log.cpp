@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "analysis/import/mapped_file.h"
 #include "analysis/import/port_name.h"
@@ -159,6 +161,16 @@ class Writing final : public ImportPass {
   record::RawRead read_;
 };
 
+/// First bytes of files that are none of the formats, and the conversion that helps.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kRemedies{
+    {{"#ROSBAG V",
+      "a ROS 1 bag: \"rosbags-convert --dst-storage mcap --src FILE --dst FOLDER\" makes an .mcap of it"},
+     {"SQLite format 3",
+      "an SQLite database: of a ROS 2 bag, \"ros2 bag convert\" with storage_id: mcap makes an .mcap"},
+     {"$", "sentences without times of arrival are no log; \"navcal decode --protocol nmea\" shows what they say"},
+     {"\xB5\x62",
+      "u-blox messages without times of arrival are no log; \"navcal decode --protocol ubx\" shows them"}}};
+
 /// A table without a map: to be refused with words about the map.
 bool has_name_of_csv(const std::filesystem::path& input) {
   return input.extension() == ".csv" || input.extension() == ".CSV";
@@ -212,8 +224,14 @@ pipeline::UtcMapping mapping_of(const ImportFindings& findings, const Survey& su
 
 bool is_foreign_log(const std::filesystem::path& input, const ImportOptions& options) {
   if (!options.format.empty() || !options.map.empty() || has_name_of_csv(input)) return true;
+  if (std::filesystem::is_directory(input))
+    throw record::BadRecording(input.string() + ": a folder; of a ROS 2 bag, name the .mcap file in it");
   const MappedFile file(input);
-  return import_format_of(file.bytes().substr(0, kHead_bytes)) != nullptr;
+  const std::string_view head = file.bytes().substr(0, kHead_bytes);
+  for (const auto& [begin, remedy] : kRemedies) {
+    if (head.starts_with(begin)) throw record::BadRecording(fmt::format("{}: {}", input.string(), remedy));
+  }
+  return import_format_of(head) != nullptr;
 }
 
 ImportReport import_log(const std::filesystem::path& input, const std::filesystem::path& log,
@@ -227,6 +245,8 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   report.bytes = file.bytes().size();
   Survey survey(progress, file.bytes().size());
   // A reader of a format knows bytes and no file.
+  ImportOptions with_folder = options;
+  with_folder.folders.push_back(std::filesystem::absolute(input).parent_path());
   const auto read = [&](ImportSink& sink) {
     try {
       return format.read(file.bytes(), with_folder, sink);
@@ -245,8 +265,6 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   builder.begin({survey.first_ns(), mapping});
   Writing writing(builder, settings, survey.first_ns(), mapping.offset_ns, progress, file.bytes().size());
   (void)read(writing);
-  ImportOptions with_folder = options;
-  with_folder.folders.push_back(std::filesystem::absolute(input).parent_path());
   survey.finish(report);
   std::map<std::string, std::uint64_t> refused;
   for (const auto& [of, taken] : report.taken) refused[of.second] += taken.samples;

@@ -24,7 +24,7 @@ namespace navcal::analysis {
 [[nodiscard]] ImportReport import_log(const std::filesystem::path& input, const std::filesystem::path& log,
                                       const ImportOptions& options, const record::Progress& progress);
 
-/// Whether the file is one of the formats of import_formats(), by name or content. Throws std::system_error.
+/// Whether the file is one of the formats of import_formats(), by name or content. Throws as import_log() does.
 [[nodiscard]] bool is_foreign_log(const std::filesystem::path& input, const ImportOptions& options);
 
 }  // namespace navcal::analysis

@@ -92,6 +92,23 @@ TEST_F(LogImport, WhatCannotBeReadIsSaidAndNothingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(path_ / "b.mcap.part"));
 }
 
+TEST_F(LogImport, AFileThatAnotherProgramConvertsIsNamedWithTheConversion) {
+  std::filesystem::create_directory(path_ / "folder");
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {write("a.bag", "#ROSBAG V2.0\n" + std::string(100, 'x')).string(), "a ROS 1 bag: \"rosbags-convert"},
+      {write("b.db3", std::string("SQLite format 3\0", 16)).string(), "ros2 bag convert"},
+      {to("folder"), "a folder; of a ROS 2 bag, name the .mcap file in it"},
+      {write("c.nmea", "$GPGLL,,,,,,V*06\r\n").string(), "navcal decode --protocol nmea"},
+      {write("d.ubx", "\xB5\x62\x01").string(), "navcal decode --protocol ubx"}};
+  for (const auto& [file, words] : expected) {
+    const auto outcome = run({"import", "-o", to("o.mcap"), file});
+    EXPECT_EQ(outcome.status, 3) << file;
+    EXPECT_NE(outcome.message.find(file + ": "), std::string::npos) << outcome.message;
+    EXPECT_NE(outcome.message.find(words), std::string::npos) << outcome.message;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path_ / "o.mcap"));
+}
+
 /// A telemetry log with one frame of version 1: SERVO_OUTPUT_RAW with 1500 and 1900 us.
 std::string telemetry_of_pulses() {
   constexpr unsigned char kFrame[] = {0x00, 0x06, 0x0A, 0x24, 0x18, 0x1E, 0x40, 0x00, 0xFE, 21,   0x05,

@@ -76,7 +76,9 @@ TEST_F(RecordingFiles, WhatIsNeitherIsRefusedByName) {
     Recording::open(file);
     FAIL();
   } catch (const BadRecording& error) {
-    EXPECT_EQ(error.what(), file.string() + ": neither a capture (\"#capture 1\") nor a log (MCAP)");
+    EXPECT_EQ(error.what(), file.string() +
+                                ": neither a capture (\"#capture 1\") nor a log (MCAP); \"navcal log import\" "
+                                "reads those of other systems");
   }
   EXPECT_THROW(Recording::open(path_ / "absent"), BadRecording);
   EXPECT_THROW(Recording::open(path_), BadRecording);
