@@ -19,6 +19,9 @@ constexpr std::int64_t kSilenceMargin_ns = 250'000'000;
 constexpr std::int64_t kAhead_ns = base::kSecond_ns;
 constexpr std::int64_t kMostBound_ns = 3600 * base::kSecond_ns;
 
+// What a receiver states of a date of before the rollover's pivot (ICD section 2).
+constexpr std::int64_t kDay_ns = 86'400 * base::kSecond_ns, kEpoch_ns = 1024 * 7 * kDay_ns;
+
 // A stamp that would be better than the resolution of its time is not stated.
 constexpr std::int64_t kLeastStd_ns = 1;
 
@@ -82,6 +85,18 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
   const std::int64_t observed_ns =
       (measurement.of_epoch ? epoch_start_ns_ : place_.start_ns) - measurement.age_ns.value_or(latency_ns_);
   instruments::Sample sample;
+  sample.value = measurement.value;
+  auto stated_utc_ns = measurement.stated_utc_ns;
+  if (auto* const gps = std::get_if<instruments::GpsSample>(&sample.value);
+      gps != nullptr && gps->time_corrected && stated_utc_ns && mapping_.source == UtcMapping::Source::file) {
+    // Nothing had rolled over where the date as it was sent is that of the recording.
+    const std::int64_t ahead_ns = *stated_utc_ns - mapping_.to_utc(observed_ns);
+    const std::int64_t added_ns = (ahead_ns + kDay_ns) / kEpoch_ns * kEpoch_ns;
+    if (added_ns > 0 && ahead_ns - added_ns < kDay_ns) {
+      gps->time_utc_ns = stated_utc_ns = *stated_utc_ns - added_ns;
+      gps->time_corrected = false;
+    }
+  }
   sample.port = port_;
   sample.stamp.arrival_ns = place_.arrival_ns;
   sample.stamp.validity_ns = observed_ns;
@@ -103,8 +118,8 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
     sample.stamp.std_ns = outcome.time.std_ns;
     if (measurement.paces) paced_ = outcome.time;
   }
-  if (measurement.stated_utc_ns && measurement.utc_is_known) {
-    if (const auto mapping = gps_time_.update(*measurement.stated_utc_ns, observed_ns, mapping_)) {
+  if (stated_utc_ns && measurement.utc_is_known) {
+    if (const auto mapping = gps_time_.update(*stated_utc_ns, observed_ns, mapping_)) {
       mapping_ = *mapping;
       sink_->on_mapping(mapping_);
     }
@@ -114,10 +129,9 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
     return;
   }
   sample.stamp.std_ns = std::max(sample.stamp.std_ns, kLeastStd_ns);
-  const auto stated_utc_ns = measurement.by_sender ? measurement.by_sender->utc_ns : measurement.stated_utc_ns;
+  if (measurement.by_sender) stated_utc_ns = measurement.by_sender->utc_ns;
   sample.stamp.arrival_utc_ns = mapping_.to_utc(sample.stamp.arrival_ns);
   sample.stamp.validity_utc_ns = stated_utc_ns ? *stated_utc_ns : mapping_.to_utc(sample.stamp.validity_ns);
-  sample.value = measurement.value;
   mounting_.to_body(sample.value);
   errors_.complete(sample);
   ++statistics_.samples;

@@ -119,6 +119,10 @@ Plan::Plan(const Table& table, const MessageType& type) : version_(table.version
     time_ = type.find("TimeMS");
     time_unit_ns_ = 1'000'000;
   }
+  // Before TimeUS, a GPS message had the time of the week as TimeMS beside Week, and the time since boot as T.
+  const Column* const old_week = kind_ == Kind::gps && time_unit_ns_ != 1000 ? type.find("Week") : nullptr;
+  const Column* const old_ms = time_;
+  if (old_week != nullptr) time_ = type.find("T");
   instance_ = type.find("I");
   if (instance_ == nullptr) instance_ = type.find("Instance");
   if (time_ == nullptr) why_not_ = "no time";
@@ -143,6 +147,8 @@ Plan::Plan(const Table& table, const MessageType& type) : version_(table.version
                              fields[i].dimension->words);
     }
   }
+  constexpr std::size_t kWeekMs = 1, kWeek = 2;  // of kGpsFields
+  if (old_week != nullptr) fields_[kWeekMs].column = old_ms, fields_[kWeek].column = old_week;
 }
 
 std::optional<std::int64_t> Plan::time_ns(std::string_view record) const {

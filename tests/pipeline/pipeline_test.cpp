@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/pipeline.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <random>
 
 #include "base/durations.h"
+#include "config/load.h"
 #include "protocols/imu_card.h"
 #include "protocols/oncore_encode.h"
 
@@ -207,6 +209,38 @@ TEST(Pipeline, GpsTimeBecomesTheMappingAndStatesItsOwnSecond) {
               5e6);
   EXPECT_EQ(recorder.samples.back().stamp.validity_utc_ns, kGpsZeroUtc_ns + 39 * base::kSecond_ns);
   EXPECT_GE(recorder.mappings.size(), 2U);
+}
+
+/// The position of a receiver whose sentence has this date, noon UTC, in a recording with this mapping.
+instruments::GpsSample position_of(const std::string& ddmmyy, UtcMapping::Source source,
+                                   std::int64_t arrival_utc_ns) {
+  config::Settings settings;
+  settings.ports.push_back(config::default_port("gps", protocols::Protocol::nmea, 4800));
+  Pipeline pipeline(settings);
+  Recorder recorder;
+  pipeline.set_mapping({source, 0, 0, 0}, recorder);
+  const std::string body = "GPRMC,120000.00,A,4330.0000,N,07012.0000,W,2.00,90.0," + ddmmyy + ",,,A";
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  const std::string line = fmt::format("${}*{:02X}\r\n", body, sum);
+  pipeline.bytes(0, arrival_utc_ns, {reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, recorder);
+  return std::get<instruments::GpsSample>(recorder.samples.at(0).value);
+}
+
+TEST(Pipeline, AnOldDateStandsWhereTheTimesOfTheFileAgree) {
+  constexpr std::int64_t kNoon2015_ns = 1'433'160'000 * base::kSecond_ns;  // 2015-06-01T12:00:00Z
+  constexpr std::int64_t kEpoch_ns = 1024LL * 7 * 86'400 * base::kSecond_ns;
+  constexpr auto kLate_ns = 300 * base::kMillisecond_ns;
+  const auto kept = position_of("010615", UtcMapping::Source::file, kNoon2015_ns + kLate_ns);
+  EXPECT_EQ(kept.time_utc_ns, kNoon2015_ns);
+  EXPECT_FALSE(kept.time_corrected);
+  // The file is of the date that the rolled-over receiver means; the file's clock says nothing; and live.
+  for (const auto& found : {position_of("010615", UtcMapping::Source::file, kNoon2015_ns + kEpoch_ns + kLate_ns),
+                            position_of("010615", UtcMapping::Source::file, kLate_ns),
+                            position_of("010615", UtcMapping::Source::system, kNoon2015_ns + kLate_ns)}) {
+    EXPECT_EQ(found.time_utc_ns, kNoon2015_ns + kEpoch_ns);
+    EXPECT_TRUE(found.time_corrected);
+  }
 }
 
 TEST(Pipeline, ARepeatedFrameIsCountedAndGivesNoSecondSample) {

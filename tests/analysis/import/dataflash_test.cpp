@@ -201,6 +201,37 @@ TEST(DataFlash, OldLogsWithoutUnitsAndWithNumberedNames) {
   expect_vector(sink.of_port("compass2").at(0).line["field_body_uT"], 10, 0, -10);
 }
 
+TEST(DataFlash, EverySampleIsInTheLogOrCountedAsLeft) {
+  const auto written = testing::expect_counts_agree("dataflash", small_log());
+  EXPECT_GE(written.at("compass"), 1U);
+  EXPECT_GE(written.at("depth"), 1U);
+}
+
+// Before TimeUS, TimeMS of a GPS message was the time of the week, and the time since boot was T, where there was
+// one.
+TEST(DataFlash, TheTimeOfTheWeekOfOldLogsIsNoTimeSinceBoot) {
+  for (const bool has_boot_time : {true, false}) {
+    DataFlashWriter log;
+    log.format(10, has_boot_time ? 22 : 18, "GPS", has_boot_time ? "BIHLLI" : "BIHLL",
+               has_boot_time ? "Status,TimeMS,Week,Lat,Lng,T" : "Status,TimeMS,Week,Lat,Lng");
+    log.head(10);
+    log.out += '\x03';
+    append_number(log.out, std::uint32_t{259'200'000});
+    append_number(log.out, std::uint16_t{1773});
+    append_all<std::int32_t>(log.out, {475'000'000, -1'225'000'000});
+    if (has_boot_time) append_number(log.out, std::uint32_t{90'000});
+    RecordingSink sink;
+    (void)read_dataflash(log.out, sink);
+    if (!has_boot_time) {
+      EXPECT_EQ(sink.left_counts["GPS (no time)"], 1);
+      continue;
+    }
+    ASSERT_EQ(sink.samples.size(), 1U);
+    EXPECT_EQ(sink.samples[0].time_ns, 90'000'000'000);
+    EXPECT_EQ(sink.samples[0].utc_ns, 1'388'534'384'000'000'000) << "2014-01-01 less 16 leap seconds";
+  }
+}
+
 TEST(DataFlash, UnitsThatContradictAreTold) {
   DataFlashWriter log;
   log.units_tables();
