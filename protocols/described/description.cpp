@@ -59,6 +59,7 @@ std::size_t least_length(const FrameKind& kind) {
   for (const Constant& constant : kind.constants) least = std::max(least, constant.at + constant.bytes.size());
   const Checksum& checksum = kind.checksum;
   if (checksum.sum == Sum::none) return least;
+  if (checksum.at < 0) least += static_cast<std::size_t>(-checksum.at);  // behind all that
   least = std::max(least, reach(checksum.at, size_of(checksum.sum)));
   least = std::max(least, reach(checksum.to, 0));
   if (checksum.from < 0) return std::max(least, reach(checksum.from, 0));

@@ -129,6 +129,18 @@ TEST(DescriptionErrors, SyncAndBytes) {
             Lines{"d.toml:4: frame[1].sync: \"A5 5\" are no bytes in hexadecimal, such as \"A5 5A\""});
 }
 
+// The checksum at the end of the shortest frame stands behind the constants, not on them.
+TEST(DescriptionFile, AStatedLengthWithAConstantAndAChecksumAtTheEnd) {
+  const std::string ping =
+      "form = \"binary\"\n[[frame]]\nid = \"A\"\nsync = \"42 52\"\n"
+      "length = { at = 2, type = \"u16\", add = 10, longest = 300 }\nconstant = [{ at = 4, bytes = \"BB 04\" }]\n";
+  EXPECT_EQ(complaints_about(ping + "checksum = { kind = \"sum16\", from = 0 }\n"), Lines{});
+  const Description device = parse_description(ping + "checksum = { kind = \"sum16\", from = 0 }\n", "d.toml");
+  EXPECT_EQ(protocols::described::least_length(device.kinds.at(0)), 8U);
+  EXPECT_EQ(complaints_about(ping + "checksum = { kind = \"sum16\", from = 6, at = 5 }\n"),
+            Lines{"d.toml:7: frame[1].checksum: it overlaps the constant at 4"});
+}
+
 TEST(DescriptionErrors, WhatOverlaps) {
   EXPECT_EQ(complaints_about(binary("field = [{ name = \"a\", at = 6, type = \"u16\" }]\n")),
             Lines{"d.toml:7: frame[1].field[1].at: it overlaps the checksum"});
