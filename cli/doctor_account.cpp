@@ -11,8 +11,6 @@
 namespace navcal::cli {
 namespace {
 
-constexpr const char* kServiceUser = "navcal";
-
 Account account_of(const passwd& entry) {
   Account account{entry.pw_name, entry.pw_uid, {}};
   int count = 64;

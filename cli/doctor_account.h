@@ -9,6 +9,8 @@
 
 namespace navcal::cli {
 
+inline constexpr const char* kServiceUser = "navcal";
+
 /// Account under which navcald will run.
 struct Account {
   std::string name;

@@ -22,7 +22,9 @@ namespace navcal::cli {
                                         const std::filesystem::path& etc = "/etc");
 
 /// Checks whether the log can be written, for how long, and how long it takes until a record is safe.
-[[nodiscard]] Finding check_log_folder(const config::LogSettings& settings, const Account& account);
+/// `etc` stands for this folder of the system.
+[[nodiscard]] Finding check_log_folder(const config::LogSettings& settings, const Account& account,
+                                       const std::filesystem::path& etc = "/etc");
 
 /// Checks whether UTC is known.
 [[nodiscard]] Finding check_clock();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 
 #include "cli/doctor_checks.h"
 #include "record/log/disk.h"
@@ -36,9 +37,25 @@ double slowest_sync_s(const std::filesystem::path& folder, std::error_code& erro
   return slowest_s;
 }
 
+/// The shipped unit (ProtectSystem=strict) writes to its state folder only, and where a drop-in allows it.
+bool service_may_write(std::string folder, const std::filesystem::path& etc) {
+  folder += '/';
+  if (folder.starts_with("/var/lib/navcal/")) return true;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(etc / "systemd/system/navcald.service.d", none)) {
+    std::ifstream file(entry.path());
+    for (std::string path; file >> path;) {
+      if (constexpr std::string_view kKey = "ReadWritePaths="; path.starts_with(kKey)) path.erase(0, kKey.size());
+      if (path.starts_with('/') && folder.starts_with(path + '/')) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-Finding check_log_folder(const config::LogSettings& settings, const Account& account) {
+Finding check_log_folder(const config::LogSettings& settings, const Account& account,
+                         const std::filesystem::path& etc) {
   const std::string topic = "log";
   if (!settings.enabled) return good(topic, "off");
   const std::string folder = settings.directory.string();
@@ -50,6 +67,12 @@ Finding check_log_folder(const config::LogSettings& settings, const Account& acc
   if (!may_read_and_write(account, settings.directory)) {
     return fault(topic, fmt::format("{}: {} may not write there", folder, account.name),
                  fmt::format("sudo chown {} {}", account.name, folder));
+  }
+  if (account.name == kServiceUser && !service_may_write(folder, etc)) {
+    return fault(
+        topic, folder + ": navcald.service may write to /var/lib/navcal only",
+        fmt::format("`sudo systemctl edit navcald`: [Service] ReadWritePaths={0} and [Unit] RequiresMountsFor={0}",
+                    folder));
   }
   const auto free_bytes = record::real_disk().free_bytes(settings.directory, error);
   if (error) return fault(topic, folder + ": " + error.message(), "look at `df -h " + folder + "`");

@@ -37,7 +37,7 @@ std::string explain(const std::filesystem::path& folder, const std::error_code& 
   std::string what = "log folder " + folder.string();
   if (error == std::errc::resource_unavailable_try_again) return what + ": another navcald is writing logs there";
   if (error == std::errc::no_such_file_or_directory) return what + ": it does not exist";
-  if (error == std::errc::read_only_file_system) return what + ": its file system is read-only";
+  if (error == std::errc::read_only_file_system) return what + ": read-only here; a service needs ReadWritePaths=";
   if (error == std::errc::permission_denied) return what + ": this user may not write there";
   return what;
 }

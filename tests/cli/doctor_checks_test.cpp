@@ -200,6 +200,24 @@ TEST_F(DoctorLogFolder, OneOfSomebodyElseIsAFault) {
   EXPECT_TRUE(holds(finding.mend, "chown stranger")) << finding.mend;
 }
 
+TEST_F(DoctorLogFolder, TheShippedUnitMustBeAllowedToWriteThere) {
+  const navcal::test::TemporaryFolder etc;
+  const Account service{kServiceUser, ::geteuid(), {}};
+  const Finding closed = check_log_folder(settings_, service, etc.path());
+  EXPECT_EQ(closed.severity, Severity::fault);
+  for (const char* key : {"ReadWritePaths=", "RequiresMountsFor="})
+    EXPECT_TRUE(holds(closed.mend, key + folder_.path().string())) << closed.mend;
+  const fs::path drop_ins = etc / "systemd/system/navcald.service.d";
+  fs::create_directories(drop_ins);
+  std::ofstream(drop_ins / "card.conf")
+      << "[Service]\nReadWritePaths=/nowhere " << folder_.path().string() << "x\n";
+  EXPECT_EQ(check_log_folder(settings_, service, etc.path()).severity, Severity::fault) << "another folder";
+  std::ofstream(drop_ins / "card.conf") << "[Service]\nReadWritePaths=" << folder_.path().string() << "\n";
+  EXPECT_EQ(check_log_folder(settings_, service, etc.path()).severity, Severity::good);
+  EXPECT_EQ(check_log_folder(settings_, {"somebody", ::geteuid(), {}}, etc / "none").severity, Severity::good)
+      << "no service";
+}
+
 TEST_F(DoctorLogFolder, TooLittleRoomAndTooSlowAMediumAreWarnings) {
   settings_.sync_interval_s = 0;
   EXPECT_EQ(check().severity, Severity::warning);
