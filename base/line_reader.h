@@ -13,8 +13,8 @@ class LineReader {
  public:
   explicit LineReader(std::size_t max_length) : max_length_(max_length) {}
 
-  /// Calls `on_line(std::string_view)` for each line completed, without its newline. False once a line was too
-  /// long.
+  /// Calls `on_line(std::string_view)` for each line completed, without its end, LF or CR LF. False once a line
+  /// was too long.
   template <class OnLine>
   [[nodiscard]] bool feed(std::string_view text, OnLine&& on_line) {
     while (!refused_ && !text.empty()) {
@@ -31,10 +31,10 @@ class LineReader {
       }
       text.remove_prefix(end + 1);
       if (held_.empty()) {
-        on_line(part);
+        on_line(without_cr(part));
       } else {
         held_ += part;
-        on_line(std::string_view(held_));
+        on_line(without_cr(held_));
         held_.clear();
       }
     }
@@ -46,6 +46,10 @@ class LineReader {
   void forget(std::size_t length) { held_.erase(0, length); }
 
  private:
+  static std::string_view without_cr(std::string_view line) {
+    return line.substr(0, line.size() - (line.ends_with('\r') ? 1 : 0));
+  }
+
   std::size_t max_length_;
   std::string held_;
   bool refused_ = false;

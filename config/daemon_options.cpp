@@ -90,7 +90,8 @@ std::vector<Option<Settings>> make_daemon_options() {
       integer<Settings>(
           {.table = "status",
            .key = "max_clients",
-           .description = "Maximum number of clients at once; further ones are refused.",
+           .description = "Maximum number of clients at once. A further one takes the place of one that watches "
+                          "nothing, or is refused.",
            .low = 1,
            .high = 10000},
           [](auto& s) -> auto& { return s.status.max_clients; }),

@@ -59,7 +59,7 @@ void Calibrations::report(std::int64_t now_ns, bool into_log) {
   std::uint16_t slot = 0;
   for (const std::string& line : lines) {
     if (into_log) log_.calib_report(now_ns, line);
-    if (watched) server_.publish(ReportClass::calib, line + "\n", slot++);
+    if (watched) server_.publish(ReportClass::calib, line + "\r\n", slot++);
   }
   if (into_log) next_log_ns_ = now_ns + kLogInterval_ns;
 }

@@ -3,12 +3,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
+#include <ranges>
 
 #include "base/line_reader.h"
 #include "control/order_rate.h"
@@ -77,13 +79,12 @@ asio::awaitable<void> ControlServer::accept_clients() {
 }
 
 void ControlServer::make_place() {
-  std::shared_ptr<Client> idle;
-  for (const auto& client : clients_) {
-    const bool may_go = client->socket.is_open() && !owner_.is_in_charge(client->number);
-    if (may_go && (!idle || client->used_ns < idle->used_ns)) idle = client;
-  }
+  auto idle = clients_ | std::views::filter([this](const auto& client) {
+                return client->socket.is_open() && !owner_.is_in_charge(client->number);
+              });
+  const auto longest = std::ranges::min_element(idle, {}, [](const auto& client) { return client->used_ns; });
   boost::system::error_code ignored;
-  if (idle) idle->socket.close(ignored);
+  if (longest != idle.end()) (*longest)->socket.close(ignored);
 }
 
 void ControlServer::look_at_buffers() {

@@ -342,7 +342,7 @@ void Daemon::report_health(std::int64_t now_ns) {
   if (server_.watched(ReportClass::time)) {
     std::string report;
     record::append_json(report, now_ns, pipeline_.mapping());
-    server_.publish(ReportClass::time, report + '\n');
+    server_.publish(ReportClass::time, report + "\r\n");
   }
   if (server_.watched(ReportClass::log)) {
     std::string report;

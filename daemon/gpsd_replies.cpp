@@ -49,7 +49,7 @@ void append_version(std::string& out) {
   fmt::format_to(
       std::back_inserter(out),
       FMT_STRING(R"({{"class":"VERSION","release":"3.22","rev":"navcal {}","proto_major":{},"proto_minor":{}}})"
-                 "\n"),
+                 "\r\n"),
       NAVCAL_VERSION, kProtocolMajor, kProtocolMinor);
 }
 
@@ -67,10 +67,8 @@ void append_device_object(std::string& out, const DeviceState& device) {
   fmt::format_to(std::back_inserter(out),
                  FMT_STRING(",\"flags\":{},\"native\":0,\"bps\":{},\"parity\":\"N\",\"stopbits\":1"),
                  device.gps ? kSeenGps : 0, device.baud);
-  if (device.cycle_s > 0) {
-    out += ",\"cycle\":";
-    append_fixed(out, device.cycle_s, 3);
-  }
+  out += ",\"cycle\":";
+  append_fixed(out, device.cycle_s, 3);
   out += '}';
 }
 
@@ -105,7 +103,7 @@ void append_watch(std::string& out, const WatchPolicy& policy) {
     out += ']';
   }
   append_topic_rates(out, policy.topic_intervals_ns);
-  out += "}\n";
+  out += "}\r\n";
 }
 
 void append_records(std::string& out) {
@@ -120,7 +118,7 @@ void append_records(std::string& out) {
                      topic.schema_name, record::json_schema(topic));
       separator = ",";
     }
-    return answer + "]}\n";
+    return answer + "]}\r\n";
   }();
   out += kAnswer;
 }
@@ -128,7 +126,7 @@ void append_records(std::string& out) {
 void append_error(std::string& out, std::string_view message) {
   out += R"({"class":"ERROR","message":)";
   append_quoted(out, message);
-  out += "}\n";
+  out += "}\r\n";
 }
 
 }  // namespace navcal::daemon

@@ -12,7 +12,7 @@
 
 namespace navcal::daemon {
 
-// Replies of the status socket about itself, in gpsd's terms. Each function appends one line with its newline,
+// Replies of the status socket about itself, in gpsd's terms. Each function appends one line with kLineEnd,
 // unless it says otherwise.
 
 /// Version of gpsd's protocol that these replies follow: that of gpsd 3.22.

@@ -17,7 +17,7 @@ namespace {
 
 using instruments::Fix;
 
-constexpr std::string_view kEnd = "}\n";
+constexpr std::string_view kEnd = "}\r\n";
 
 void begin(std::string& out, std::string_view report, std::string_view device) {
   out += "{\"class\":\"";

@@ -212,8 +212,7 @@ void append_log_report(std::string& out, bool enabled, const DiskState& log,
   append_log(out, enabled, log);
   out += ",\"left_out\":[";
   append_quoted_list(out, left_out);
-  out += ']';
-  out += "}\n";
+  out += "]}\r\n";
 }
 
 }  // namespace navcal::daemon

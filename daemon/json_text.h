@@ -11,6 +11,9 @@ namespace navcal::daemon {
 // JSON text appended to a reused buffer. Live reports are written this way because a document tree costs twenty
 // times as much a line; requests, which are rare, are read with nlohmann-json.
 
+/// End of each line of the status socket: gpsd's client for Python takes no other.
+inline constexpr std::string_view kLineEnd = "\r\n";
+
 /// `text` in quotes. Whatever is not printable ASCII is escaped byte by byte, so the result is valid JSON for any
 /// input.
 void append_quoted(std::string& out, std::string_view text);

@@ -66,7 +66,7 @@ void Publisher::navigation(const pipeline::NavigationSample& sample) {
   if (server_.watched(ReportClass::nav, device)) {
     report_.clear();
     record::append_json(report_, sample);
-    report_ += '\n';
+    report_ += kLineEnd;
     server_.publish(ReportClass::nav, device, report_);
   }
   const bool is_reckoned = sample.source == pipeline::PositionSource::reckoned;
@@ -80,7 +80,7 @@ void Publisher::battery(const pipeline::BatterySample& sample) {
   if (!server_.watched(ReportClass::battery, sample.port)) return;
   report_.clear();
   record::append_json(report_, sample, settings_.ports[sample.port].name);
-  report_ += '\n';
+  report_ += kLineEnd;
   server_.publish(ReportClass::battery, sample.port, report_);
 }
 
@@ -99,7 +99,7 @@ void Publisher::append(const instruments::Sample& sample, ReportSource source) {
                  // gpsd has no words for these: they go out as `navcal replay` writes them.
                  [&](const auto&) {
                    record::append_json(report_, sample, source.device);
-                   report_ += '\n';
+                   report_ += kLineEnd;
                  },
              },
              sample.value);
@@ -122,7 +122,7 @@ void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns
       const std::size_t before = out.size();
       if (!first) out += ',';
       if (append_one(last_[port], port)) {
-        out.pop_back();  // the newline: here it is no line of its own
+        out.resize(out.size() - kLineEnd.size());  // here it is no line of its own
         first = false;
       } else {
         out.resize(before);
@@ -136,14 +136,14 @@ void Publisher::append_poll(std::string& out, std::optional<std::int64_t> utc_ns
   if (last_navigation_ && last_navigation_->source == pipeline::PositionSource::reckoned) {
     if (!first) out += ',';
     append_tpv(out, *last_navigation_, utc_known_);
-    out.pop_back();
+    out.resize(out.size() - kLineEnd.size());
   }
   out += "],\"gst\":[],\"sky\":[";
   list([&](const Last& last, std::uint16_t port) {
     if (last.sky) append_sky(out, *last.sky, last.gps ? &*last.gps : nullptr, last.sky_stamp, source(port));
     return last.sky.has_value();
   });
-  out += "]}\n";
+  out += "]}\r\n";
 }
 
 }  // namespace navcal::daemon

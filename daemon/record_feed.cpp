@@ -45,7 +45,7 @@ void RecordFeed::publish(const RecordKey& key, std::string_view device, std::int
   record::append_seconds(line_, utc_ns);
   line_ += ",\"message\":";
   record::append_payload(line_, std::forward<Append>(append));
-  line_ += "}\n";
+  line_ += "}\r\n";
   server_.publish(key, line_);
 }
 

@@ -98,8 +98,7 @@ void append_state(std::string& out, const VehicleState& state) {
   append_member(out, ",\"battery\":{\"voltage_V\":", state.battery_V, 3);
   append_member(out, ",\"charge_Ah\":", state.charge_Ah, 4);
   append_member(out, ",\"charge_std_Ah\":", state.charge_std_Ah, 4);
-  out += '}';
-  out += "}\n";
+  out += "}}\r\n";
 }
 
 }  // namespace navcal::daemon

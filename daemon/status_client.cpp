@@ -32,7 +32,8 @@ StatusClient::StatusClient(asio::ip::tcp::socket socket, std::size_t queue_bytes
       pause_(socket_.get_executor()),
       requests_(kMaxRequests_Hz),
       queue_(queue_bytes),
-      owner_(owner) {
+      owner_(owner),
+      used_ns_(ports::monotonic_ns()) {
   // A client that is gone already fails these; reading will tell.
   boost::system::error_code ignored;
   socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
@@ -65,6 +66,7 @@ asio::awaitable<void> StatusClient::read_requests() {
   for (;;) {
     const auto [error, n] = co_await socket_.async_read_some(asio::buffer(chunk), ports::kNoThrow);
     if (error) co_return;
+    used_ns_ = ports::monotonic_ns();
     std::vector<Request> requests;
     const auto take = [&requests](std::string_view line) {
       for (Request& request : parse_requests(line)) requests.push_back(std::move(request));

@@ -66,6 +66,10 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   void send(std::string_view report);
   void close();
 
+  /// A client that is connected and watches nothing may lose its place to another.
+  [[nodiscard]] bool is_idle() const { return socket_.is_open() && !policy_.enable; }
+  /// When it came or asked last, monotonic.
+  [[nodiscard]] std::int64_t used_ns() const { return used_ns_; }
   [[nodiscard]] bool watches(ReportClass report) const {
     return policy_.enable && policy_.json && policy_.classes.has(report);
   }
@@ -118,6 +122,7 @@ class StatusClient : public std::enable_shared_from_this<StatusClient> {
   Policy policy_;
   ReportPacer pacer_;
   ReportPacer nmea_pacer_;
+  std::int64_t used_ns_;
   std::uint64_t told_dropped_ = 0;
   bool waiting_ = false;
 };

@@ -9,8 +9,10 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <ranges>
 
 #include "daemon/gpsd_replies.h"
+#include "daemon/json_text.h"
 #include "ports/no_throw.h"
 
 namespace navcal::daemon {
@@ -50,7 +52,7 @@ asio::awaitable<void> StatusServer::accept_clients() {
 }
 
 void StatusServer::welcome(asio::ip::tcp::socket socket) {
-  if (clients_.size() >= settings_.max_clients) {
+  if (clients_.size() >= settings_.max_clients && !make_place()) {
     answer_.clear();
     append_error(answer_, fmt::format("Too many clients: {} are connected", clients_.size()));
     // The answer is sent without waiting. An empty send buffer takes it whole.
@@ -62,6 +64,14 @@ void StatusServer::welcome(asio::ip::tcp::socket socket) {
   ClientOwner& owner = *this;
   clients_.push_back(std::make_shared<StatusClient>(std::move(socket), settings_.client_queue_bytes, owner));
   clients_.back()->start();
+}
+
+bool StatusServer::make_place() {
+  auto idle = clients_ | std::views::filter([](const auto& client) { return client->is_idle(); });
+  const auto longest = std::ranges::min_element(idle, {}, [](const auto& client) { return client->used_ns(); });
+  if (longest == idle.end()) return false;
+  (*longest)->close();
+  return true;
 }
 
 void StatusServer::on_gone(const StatusClient& client) {
@@ -81,7 +91,7 @@ void StatusServer::on_request(StatusClient& client, const Request& request) {
       for (std::uint16_t port = 0; port < source_.device_count(); ++port) {
         if (request.device && *request.device != source_.device_name(port)) continue;
         source_.append_device(answer_, port);
-        answer_ += '\n';
+        answer_ += kLineEnd;
       }
       if (answer_.empty())
         append_error(answer_, fmt::format("No such device as {}", request.device.value_or("any")));
@@ -135,7 +145,7 @@ void StatusServer::append_devices() {
     if (port > 0) answer_ += ',';
     source_.append_device(answer_, port);
   }
-  answer_ += "]}\n";
+  answer_ += "]}\r\n";
 }
 
 void StatusServer::append_policy(StatusClient& client) {
@@ -230,7 +240,7 @@ void StatusServer::publish_health(std::vector<std::string> beginnings) {
 void StatusServer::send_health(StatusClient& client) {
   for (const std::string& beginning : health_) {
     answer_ = beginning;
-    fmt::format_to(std::back_inserter(answer_), FMT_STRING(",\"dropped\":{}}}\n"), client.dropped());
+    fmt::format_to(std::back_inserter(answer_), FMT_STRING(",\"dropped\":{}}}\r\n"), client.dropped());
     client.send(answer_);
   }
 }
@@ -239,7 +249,7 @@ void StatusServer::publish_device(std::uint16_t port) {
   if (!watched(ReportClass::device, port)) return;
   answer_.clear();
   source_.append_device(answer_, port);
-  answer_ += '\n';
+  answer_ += kLineEnd;
   publish(ReportClass::device, port, answer_);
 }
 

@@ -78,6 +78,8 @@ class StatusServer : private ClientOwner {
   void on_gone(const StatusClient& client) override;
   boost::asio::awaitable<void> accept_clients();
   void welcome(boost::asio::ip::tcp::socket socket);
+  /// Closes the client that has been idle for longest; false when all watch.
+  [[nodiscard]] bool make_place();
   void change_watch(StatusClient& client, const WatchChange& change);
   void append_devices();
   void append_policy(StatusClient& client);

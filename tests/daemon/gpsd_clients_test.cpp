@@ -92,6 +92,20 @@ TEST(GpsdClients, GpspipeShowsPositionAndAttitude) {
   EXPECT_NE(out.find("\"heading\":123.4000"), std::string::npos);
 }
 
+/// gpsd's library for Python hands on only lines that end with CR LF.
+TEST(GpsdClients, ProgramsInPythonReadThePosition) {
+  if (!installed("gpscsv") || !installed("gpsprof")) GTEST_SKIP() << "gpscsv or gpsprof is not installed";
+  DaemonProcess daemon({"--set", "environment.model=false"});
+  daemon.wait_until_ready();
+  const TalkingLine talking(daemon.line);
+  const std::string place = " 127.0.0.1:" + std::to_string(daemon.port()) + " 2>&1";
+  const std::string csv = output_of("timeout 60 gpscsv -n 3" + place);
+  EXPECT_NE(csv.find("57.71283"), std::string::npos) << csv;
+  const std::string profile = output_of("timeout 60 gpsprof -n 5" + place);
+  EXPECT_NE(profile.find("57.71283"), std::string::npos) << profile;
+  EXPECT_NE(profile.find("cycle 0"), std::string::npos) << profile;
+}
+
 TEST(GpsdClients, CgpsShowsTheFix) {
   if (!installed("cgps") || !installed("script")) GTEST_SKIP() << "cgps or script is not installed";
   DaemonProcess daemon({"--set", "environment.model=false"});

@@ -296,9 +296,34 @@ TEST_F(StatusServerTest, ARequestOfAMegabyteIsRefusedAndHeldByNobody) {
   EXPECT_TRUE(next.line());
 }
 
+TEST_F(StatusServerTest, EveryLineEndsAsThoseOfGpsd) {
+  const auto client = watcher(R"(,"classes":["HEALTH","DEVICE"])");
+  on_loop([this] { server_.publish_health({"{\"class\":\"HEALTH\""}); });
+  on_loop([this] { server_.publish_device(0); });
+  client->send("?DEVICES;?DEVICE;?RECORDS;?NONSENSE;?WATCH;?VERSION;\n");
+  for (std::string line; line.find("VERSION") == std::string::npos;) {
+    line = client->line().value();
+    EXPECT_TRUE(line.ends_with("}\r")) << line;
+  }
+}
+
+TEST_F(StatusServerTest, AClientThatWatchesNothingMakesPlaceForAnother) {
+  const auto first = watcher();
+  Client silent(server_.port()), asking(server_.port());
+  for (Client* client : {&silent, &asking}) ASSERT_TRUE(client->line());
+  asking.send("?VERSION;\n");
+  ASSERT_TRUE(asking.line());
+  const auto fourth = watcher();
+  EXPECT_EQ(silent.line(), std::nullopt) << "it was idle for longest";
+  asking.send("?VERSION;\n");
+  EXPECT_TRUE(asking.line());
+  publish(0, "{\"n\":1}\n");
+  EXPECT_EQ(first->line(), "{\"n\":1}") << "who watches keeps its place";
+  EXPECT_EQ(fourth->line(), "{\"n\":1}");
+}
+
 TEST_F(StatusServerTest, OneClientTooManyIsTold) {
-  Client first(server_.port()), second(server_.port()), third(server_.port());
-  for (Client* client : {&first, &second, &third}) ASSERT_TRUE(client->line());
+  const auto first = watcher(), second = watcher(), third = watcher();
   Client fourth(server_.port());
   EXPECT_NE(fourth.line().value().find("Too many clients"), std::string::npos);
   EXPECT_EQ(fourth.line(), std::nullopt);
