@@ -32,8 +32,8 @@ bool is_equal_in_constant_time(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-Access::Access(std::string token, std::vector<std::string> host_names)
-    : token_(std::move(token)), host_names_(std::move(host_names)) {}
+Access::Access(std::string token, std::vector<std::string> host_names, std::vector<std::string> origins)
+    : token_(std::move(token)), host_names_(std::move(host_names)), origins_(std::move(origins)) {}
 
 std::optional<std::string> Access::refusal(std::string_view authorization) const {
   constexpr std::string_view kBearer = "Bearer ";
@@ -58,10 +58,12 @@ bool Access::knows_host(std::string_view host) const {
                      [name](const std::string& known) { return boost::beast::iequals(known, name); });
 }
 
-bool Access::is_own_origin(std::string_view origin, std::string_view host) {
+bool Access::knows_origin(std::string_view origin, std::string_view host) const {
   if (origin.empty()) return true;
   const auto scheme = origin.find("://");
-  return scheme != std::string_view::npos && boost::beast::iequals(origin.substr(scheme + 3), host);
+  if (scheme != std::string_view::npos && boost::beast::iequals(origin.substr(scheme + 3), host)) return true;
+  return std::any_of(origins_.begin(), origins_.end(),
+                     [origin](const std::string& known) { return boost::beast::iequals(known, origin); });
 }
 
 std::string read_token(const std::filesystem::path& file) {

@@ -13,7 +13,9 @@ namespace navcal::web {
 class Access {
  public:
   /// `token` empty: nobody may change anything. `host_names`: further names under which the server is reached.
-  explicit Access(std::string token = {}, std::vector<std::string> host_names = {});
+  /// `origins`: other sites whose pages may connect, "https://example.org".
+  explicit Access(std::string token = {}, std::vector<std::string> host_names = {},
+                  std::vector<std::string> origins = {});
 
   /// Why a request with this Authorization header may not change the vehicle; nullopt when it may. Compares in
   /// constant time.
@@ -24,13 +26,13 @@ class Access {
   /// name point to this machine (DNS rebinding) is kept out by that. IP addresses, names without a dot, localhost,
   /// names in .local and the names given are taken.
   [[nodiscard]] bool knows_host(std::string_view host) const;
-  /// True when a browser sends the request for a page of this server: Origin is absent (no browser) or names
-  /// `host`.
-  [[nodiscard]] static bool is_own_origin(std::string_view origin, std::string_view host);
+  /// True when a browser sends the request for a page of this server or of an allowed site: Origin is absent (no
+  /// browser), names `host`, or is one of `origins`.
+  [[nodiscard]] bool knows_origin(std::string_view origin, std::string_view host) const;
 
  private:
   std::string token_;
-  std::vector<std::string> host_names_;
+  std::vector<std::string> host_names_, origins_;
 };
 
 /// The first line of a token file, without the blanks around it. Throws std::runtime_error, with the file's name,

@@ -38,7 +38,7 @@ struct Options {
   std::string control = "/run/navcal/control";
   std::string token_file;
   std::string track;
-  std::vector<std::string> host_names;
+  std::vector<std::string> host_names, origins;
   web::OutletOptions outlets{.version = NAVCAL_VERSION};
 };
 
@@ -57,6 +57,10 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--host-name", options.host_names,
                  "name under which browsers reach this server, if it has a dot and does not end in .local; "
                  "may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--allow-origin", options.origins,
+                 "site whose pages may connect, as https://example.org; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--track", options.track,
@@ -85,7 +89,7 @@ web::LiveSource::Settings status_socket(const std::string& text) {
 void run(const Options& options) {
   // Clients that are still connected at the end go with the context, and use these three when they go.
   const web::Access access(options.token_file.empty() ? "" : web::read_token(options.token_file),
-                           options.host_names);
+                           options.host_names, options.origins);
   web::Hub hub;
   web::Site site;
   // One thread runs everything. Asio's locks stay, because names are resolved on a thread of Asio's own: without

@@ -50,8 +50,8 @@ class Peer {
 struct WebSocketEndpoint {
   std::string path;
   std::vector<std::string> subprotocols;
-  /// True: only pages of this server may connect (same origin), besides programs that are no browser.
-  bool own_pages_only = true;
+  /// Of other sites whose pages may connect, besides those that Access knows.
+  std::vector<std::string> origins{};
   std::function<std::unique_ptr<Peer>(PeerLink&, std::string_view target)> make_peer;
 };
 

@@ -176,8 +176,11 @@ const WebSocketEndpoint* Server::endpoint_for(const Request& request, std::strin
     refusal = refuse(http::status::not_found, "no WebSocket is served there with these subprotocols");
     return nullptr;
   }
-  if (endpoint->own_pages_only && !Access::is_own_origin(text(request[http::field::origin]), host)) {
-    refusal = refuse(http::status::forbidden, "a page of another site may not connect here");
+  const std::string_view origin = text(request[http::field::origin]);
+  if (!access_.knows_origin(origin, host) &&
+      std::ranges::find(endpoint->origins, origin) == endpoint->origins.end()) {
+    refusal =
+        refuse(http::status::forbidden, "a page of another site may not connect here; --allow-origin adds one");
     return nullptr;
   }
   return endpoint;

@@ -42,12 +42,15 @@ TEST(Access, NamesThatAnotherSiteCanPointHereAreNotKnown) {
 }
 
 TEST(Access, OriginOfAnotherSiteIsTold) {
-  EXPECT_TRUE(Access::is_own_origin("", "vehicle:8765")) << "no browser";
-  EXPECT_TRUE(Access::is_own_origin("http://vehicle:8765", "vehicle:8765"));
-  EXPECT_TRUE(Access::is_own_origin("https://Vehicle:8765", "vehicle:8765"));
-  EXPECT_FALSE(Access::is_own_origin("http://vehicle:80", "vehicle:8765"));
-  EXPECT_FALSE(Access::is_own_origin("null", "vehicle:8765"));
-  EXPECT_FALSE(Access::is_own_origin("http://evil.example", "vehicle:8765"));
+  const Access access("", {}, {"https://panel.example"});
+  EXPECT_TRUE(access.knows_origin("", "vehicle:8765")) << "no browser";
+  EXPECT_TRUE(access.knows_origin("http://vehicle:8765", "vehicle:8765"));
+  EXPECT_TRUE(access.knows_origin("https://Vehicle:8765", "vehicle:8765"));
+  EXPECT_FALSE(access.knows_origin("http://vehicle:80", "vehicle:8765"));
+  EXPECT_FALSE(access.knows_origin("null", "vehicle:8765"));
+  EXPECT_FALSE(access.knows_origin("http://evil.example", "vehicle:8765"));
+  EXPECT_TRUE(access.knows_origin("https://panel.example", "vehicle:8765"));
+  EXPECT_FALSE(access.knows_origin("http://panel.example", "vehicle:8765"));
 }
 
 TEST(TokenFile, ProblemsAreNamedWithTheFile) {

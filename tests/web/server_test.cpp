@@ -48,7 +48,7 @@ class ServerTest : public testing::Test {
     server_->site.add(echo);
     echo.path = "/open";
     echo.subprotocols = {"a.v1", "b.v1"};
-    echo.own_pages_only = false;
+    echo.origins = {"https://app.example"};
     server_->site.add(echo);
     server_->start();
   }
@@ -162,6 +162,7 @@ TEST_F(ServerTest, SubprotocolAndOriginDecideWhoMayConnect) {
   const WebSocketClient open(port(), "/open", "x, b.v1, a.v1", "https://app.example");
   EXPECT_EQ(open.status(), 101U);
   EXPECT_EQ(open.subprotocol(), "b.v1");
+  EXPECT_EQ(WebSocketClient(port(), "/open", "a.v1", "http://evil.example").status(), 403U);
 }
 
 TEST_F(ServerTest, MessagesGoBothWays) {

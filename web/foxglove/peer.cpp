@@ -258,7 +258,7 @@ WebSocketEndpoint endpoint(Hub& hub, std::string version, Clock clock) {
   WebSocketEndpoint foxglove;
   foxglove.path = "/";
   foxglove.subprotocols = {"foxglove.websocket.v1", "foxglove.sdk.v1"};
-  foxglove.own_pages_only = false;
+  foxglove.origins = {"https://app.foxglove.dev"};  // Foxglove itself
   foxglove.make_peer = [shared](PeerLink& link, std::string_view) -> std::unique_ptr<Peer> {
     return std::make_unique<Viewer>(shared, link);
   };

@@ -35,8 +35,6 @@ SignalK::SignalK(Hub& hub, Site& site, std::string vessel, std::string version)
   site.add("GET", "/signalk/v1/api/self", signalk_answer(nlohmann::json(feed_->self()).dump()));
   WebSocketEndpoint stream;
   stream.path = kStreamPath;
-  // Other sites' pages, such as instrument panels, may read it: there is nothing to change here.
-  stream.own_pages_only = false;
   stream.make_peer = [feed = feed_](PeerLink& link, std::string_view target) -> std::unique_ptr<Peer> {
     return std::make_unique<SignalKPeer>(feed, link, target);
   };
