@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "analysis/progress.h"
+#include "base/printable.h"
 
 namespace navcal::analysis {
 namespace {
@@ -82,7 +83,8 @@ asio::awaitable<void> PlaySession::wait_until_read() {
 }
 
 void PlaySession::report() const {
-  for (const std::string& remark : recording_->remarks()) fmt::print(stderr, "navcal play: {}\n", remark);
+  for (const std::string& remark : recording_->remarks())
+    fmt::print(stderr, "navcal play: {}\n", base::printable(remark));
   for (const auto& host : hosts_) {
     const auto& tally = host->tally();
     fmt::print(stderr, "{}: {} bytes taken", host->link().string(), tally.taken);

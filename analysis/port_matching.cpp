@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace navcal::analysis {
 
 std::string missing_port_remark(const std::string& file, const std::string& port) {
@@ -13,7 +15,7 @@ record::PortMatch match_ports(const config::Settings& recorded, const config::Se
                               const std::string& file) {
   record::PortMatch match(recorded, used);
   for (const std::string& port : match.missing()) {
-    std::fprintf(stderr, "navcal: %s\n", missing_port_remark(file, port).c_str());
+    std::fprintf(stderr, "navcal: %s\n", base::printable(missing_port_remark(file, port)).c_str());
   }
   return match;
 }

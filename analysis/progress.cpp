@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/printable.h"
+
 namespace navcal::analysis {
 namespace {
 
@@ -52,7 +54,7 @@ bool Progress::due() {
 
 void Progress::print(std::string_view text) {
   shown_ = true;
-  fmt::print(stderr, "\rnavcal {}: {}\x1b[K", job_, text);
+  fmt::print(stderr, "\rnavcal {}: {}\x1b[K", job_, base::printable(text));
   std::fflush(stderr);
 }
 

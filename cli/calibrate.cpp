@@ -11,6 +11,7 @@
 #include "analysis/calibrate_run.h"
 #include "analysis/output.h"
 #include "analysis/progress.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "config/load.h"
@@ -43,7 +44,7 @@ void calibrate(const CalibrateCommandOptions& options) {
       run.play(file, [&progress](double share) { progress.show(share); });
     }
     const calib::Report report = run.finish();
-    for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+    for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
 
     std::string answer;
     if (options.json) {
@@ -53,7 +54,7 @@ void calibrate(const CalibrateCommandOptions& options) {
       answer = report::calibrate_text(report, run.duration_s());
     }
     analysis::Output output(STDOUT_FILENO, "standard output");
-    output.append(answer);
+    output.append(base::printable(answer, "\n"));
     output.flush();
     if (history) {
       const report::PageSource source{options.files, options.config, run.settings(), run.duration_s(),

@@ -11,6 +11,7 @@
 #include "analysis/decode_described.h"
 #include "analysis/decode_frames.h"
 #include "analysis/progress.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/decode_input.h"
 #include "cli/decode_port.h"
@@ -121,7 +122,7 @@ void run(const DecodeArguments& arguments) {
   }
   output.flush();
   if (!port) return;
-  for (const auto& remark : port->remarks()) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+  for (const auto& remark : port->remarks()) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
 }
 
 }  // namespace

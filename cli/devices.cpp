@@ -13,6 +13,7 @@
 #include "analysis/device_check.h"
 #include "analysis/device_guess.h"
 #include "analysis/progress.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/device_capture.h"
 #include "config/described/description_file.h"
@@ -46,7 +47,9 @@ void check(const CheckArguments& arguments) {
     capture.show(progress);
     return piece;
   });
-  std::fputs((arguments.json ? analysis::to_json(findings) : analysis::to_text(findings)).c_str(), stdout);
+  std::fputs(
+      base::printable(arguments.json ? analysis::to_json(findings) : analysis::to_text(findings), "\n").c_str(),
+      stdout);
 }
 
 /// Writes a new file; one that is there already is never written over.

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/doctor_checks.h"
 #include "cli/doctor_report.h"
@@ -44,7 +45,7 @@ void run(const Arguments& arguments) {
   if (arguments.json) {
     fmt::print("{}", doctor_json(findings, account.name, arguments.configuration));
   } else {
-    fmt::print("{}", doctor_text(findings));
+    fmt::print("{}", base::printable(doctor_text(findings), "\n"));
   }
   if (const auto faults = count_of(findings, Finding::Severity::fault); faults > 0) {
     throw analysis::Failure(analysis::Exit::failed,

@@ -13,6 +13,7 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/fleet_submit.h"
@@ -40,7 +41,8 @@ void make_fleet_plan(fleet::PlanRequest request) {
     analysis::Progress progress("fleet plan", analysis::Progress::Answer::at_the_end);
     summary = fleet::make_plan(request, [&](std::string_view what, double done) { progress.show(what, done); });
   }
-  for (const std::string& remark : summary.remarks) fmt::print(stderr, "navcal fleet: {}\n", remark);
+  for (const std::string& remark : summary.remarks)
+    fmt::print(stderr, "navcal fleet: {}\n", base::printable(remark));
   fmt::print(
       "{} recordings in {} ({} read now); plan {}: {} recordings, {} tasks ({} new), {} of them null banks\n",
       summary.files, request.recordings.string(), summary.read, request.plan.string(), summary.recordings,
@@ -60,7 +62,8 @@ void run_fleet_tasks(const std::string& folder, const std::string& tasks, bool a
   fleet::run_in_processes(plan, wanted, {1, threads}, [&](const fleet::Task& task, const fleet::Attempt& attempt) {
     ++ended;
     if (attempt.state == fleet::TaskState::open) ++open;
-    if (!attempt.why.empty()) fmt::print(stderr, "navcal fleet: task {}: {}\n", task.number, attempt.why);
+    if (!attempt.why.empty())
+      fmt::print(stderr, "navcal fleet: task {}: {}\n", task.number, base::printable(attempt.why));
   });
   if (ended < wanted.size()) throw analysis::Failure(analysis::Exit::failed, "interrupted");
   if (open > 0) {
@@ -120,7 +123,7 @@ void tell_causes(const CausesOptions& options) {
   if (!options.page.empty()) write_result(options.page, fleet::fleet_page(story));
   if (options.json != "-" && !options.json.empty()) write_result(options.json, fleet::fleet_json(story));
   analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(options.json == "-" ? fleet::fleet_json(story) : fleet::fleet_text(story));
+  output.append(base::printable(options.json == "-" ? fleet::fleet_json(story) : fleet::fleet_text(story), "\n"));
   output.flush();
 }
 
@@ -128,7 +131,7 @@ void list_fleet(const std::string& folder, bool json) {
   const fleet::Plan plan = fleet::load_plan(folder);
   const fleet::ResultStore results(plan.folder);
   analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(json ? fleet::list_json(plan, results) : fleet::list_text(plan, results));
+  output.append(base::printable(json ? fleet::list_json(plan, results) : fleet::list_text(plan, results), "\n"));
   output.flush();
 }
 

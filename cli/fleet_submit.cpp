@@ -16,6 +16,7 @@
 #include "analysis/progress.h"
 #include "base/interruptible.h"
 #include "base/parallel.h"
+#include "base/printable.h"
 #include "fleet/local_run.h"
 #include "fleet/plan_lock.h"
 #include "fleet/slurm.h"
@@ -59,7 +60,8 @@ void submit_locally(const SubmitOptions& options, const fleet::Plan& plan) {
     std::size_t ended = 0;
     fleet::run_locally(plan, {jobs, threads}, [&](const fleet::Task& task, const fleet::Attempt& attempt) {
       ++ended;
-      if (!attempt.why.empty()) fmt::print(stderr, "navcal fleet: task {}: {}\n", task.number, attempt.why);
+      if (!attempt.why.empty())
+        fmt::print(stderr, "navcal fleet: task {}: {}\n", task.number, base::printable(attempt.why));
       progress.show(fmt::format("{} of {} tasks", ended, open),
                     static_cast<double>(ended) / static_cast<double>(open));
     });
@@ -84,7 +86,7 @@ void submit_to_slurm(const SubmitOptions& options, const fleet::Plan& plan) {
   } catch (const fleet::SlurmError& error) {
     throw analysis::Failure(analysis::Exit::failed, std::string("Slurm: ") + error.what());
   }
-  for (const std::string& remark : remarks) fmt::print(stderr, "navcal fleet: {}\n", remark);
+  for (const std::string& remark : remarks) fmt::print(stderr, "navcal fleet: {}\n", base::printable(remark));
   conclude(plan, base::Interruptible::interrupted()
                      ? fmt::format("what is in Slurm's queue goes on. The same command follows it; \"squeue --me "
                                    "--format=%A,%j | grep {}\" lists it for scancel",

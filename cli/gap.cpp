@@ -12,6 +12,7 @@
 #include "analysis/chosen_vehicle.h"
 #include "analysis/output.h"
 #include "analysis/progress.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/exit_statuses.h"
 #include "cli/gap_export.h"
@@ -85,7 +86,7 @@ gap::Diagnosis diagnosis_of(const GapCommandOptions& options) {
 
 void write_to_output(std::string_view text) {
   analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(text);
+  output.append(base::printable(text, "\n"));
   output.flush();
 }
 

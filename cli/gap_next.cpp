@@ -16,6 +16,7 @@
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "base/printable.h"
 #include "cli/exit_statuses.h"
 #include "cli/gap_request.h"
 #include "cli/result_file.h"
@@ -71,7 +72,7 @@ void write_plan(const gap::NextMission& next, const GapNextOptions& options) {
   const std::string json = options.json.empty() ? "" : report::next_mission_json(next, source) + '\n';
   if (!options.json.empty() && options.json != "-") write_result(options.json, json);
   analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(options.json == "-" ? json : report::next_mission_text(next, source));
+  output.append(base::printable(options.json == "-" ? json : report::next_mission_text(next, source), "\n"));
   output.flush();
 }
 

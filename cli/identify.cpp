@@ -11,6 +11,7 @@
 
 #include "analysis/output.h"
 #include "analysis/progress.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "config/layout/layout_file.h"
@@ -48,7 +49,8 @@ identify::Identification identification_of(const IdentifyCommandOptions& options
     for (const std::string& file : files) {
       out.push_back(identify::load_motion(
           file, [&](double done) { progress.show("reading", done); }, settings));
-      for (const auto& remark : out.back().remarks) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+      for (const auto& remark : out.back().remarks)
+        std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
     }
   };
   load(options.files, request.recordings);
@@ -57,13 +59,14 @@ identify::Identification identification_of(const IdentifyCommandOptions& options
 }
 
 void write_identification(const IdentifyCommandOptions& options, const identify::Identification& found) {
-  for (const auto& warning : found.warnings) std::fprintf(stderr, "navcal: %s\n", warning.c_str());
+  for (const auto& warning : found.warnings)
+    std::fprintf(stderr, "navcal: %s\n", base::printable(warning).c_str());
   write_result(options.output, config::layout_file(found.layout));
   if (!options.report.empty()) write_result(options.report, report::identify_page(found));
   const bool json_only = options.json == "-";
   if (!json_only && !options.json.empty()) write_result(options.json, report::identify_json(found));
   analysis::Output output(STDOUT_FILENO, "standard output");
-  output.append(json_only ? report::identify_json(found) : report::identify_text(found));
+  output.append(base::printable(json_only ? report::identify_json(found) : report::identify_text(found), "\n"));
   output.flush();
 }
 

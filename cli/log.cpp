@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/log_control.h"
 #include "cli/log_import.h"
@@ -35,7 +36,7 @@ void finish(const std::string& file) {
   const record::Repair repair = record::finish_log(record::real_disk(), file);
   if (!repair.reason.empty()) throw analysis::Failure(analysis::Exit::bad_input, repair.message());
   if (repair.error) throw analysis::Failure(analysis::Exit::failed, repair.message());
-  fmt::print("{}\n", repair.message());
+  fmt::print("{}\n", base::printable(repair.message()));
 }
 
 using Exporter = record::Exported (*)(const std::filesystem::path&, const std::filesystem::path&,
@@ -49,7 +50,7 @@ void export_log(const std::string& file, Exporter exporter, const std::string& t
   const auto exported =
       run_log_job([&](const record::Progress& progress) { return exporter(file, to, progress); });
   tell_remarks(exported.remarks);
-  for (const auto& path : exported.files) fmt::print("{}\n", path.string());
+  for (const auto& path : exported.files) fmt::print("{}\n", base::printable(path.string()));
 }
 
 }  // namespace

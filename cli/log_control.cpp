@@ -10,6 +10,7 @@
 #include "analysis/failure.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "base/printable.h"
 #include "cli/log_fetch.h"
 #include "cli/log_link.h"
 
@@ -31,8 +32,8 @@ void show_logs(const LogControlOptions& options) {
   nlohmann::json all = nlohmann::json::array();
   for (const RemoteLog& log : link.list()) {
     if (!options.json)
-      fmt::print("{:<36} {:>12}  {:<24}  {}\n", log.name, log.bytes, log.begin,
-                 log.finished ? log.end : "(being written)");
+      fmt::print("{:<36} {:>12}  {:<24}  {}\n", base::printable(log.name), log.bytes, base::printable(log.begin),
+                 log.finished ? base::printable(log.end) : "(being written)");
     all.push_back({{"name", log.name},
                    {"bytes", log.bytes},
                    {"finished", log.finished},
@@ -69,7 +70,7 @@ void fetch_logs(const LogControlOptions& options) {
   for (const RemoteLog& log : wanted_logs(link, options.files)) {
     analysis::Progress progress("log fetch");
     const auto fetched = fetch_log(link, log, options.to, [&](std::uint64_t bytes) {
-      progress.show(log.name, static_cast<double>(bytes) / static_cast<double>(log.bytes));
+      progress.show(base::printable(log.name), static_cast<double>(bytes) / static_cast<double>(log.bytes));
     });
     if (fetched == Fetched::whole) fmt::print("{}\n", (options.to / log.name).string());
     if (fetched == Fetched::was_there) fmt::print(stderr, "navcal log: {} is there already\n", log.name);
@@ -86,7 +87,7 @@ void select_log(const LogControlOptions& options) {
   nlohmann::json request{{"command", "log.select"}};
   if (options.everything || !options.leave_out.empty()) request["leave_out"] = options.leave_out;
   for (const auto& left_out : link.ask(request).value("leave_out", nlohmann::json::array()))
-    fmt::print("{}\n", left_out.get<std::string>());
+    fmt::print("{}\n", base::printable(left_out.get<std::string>()));
 }
 
 CLI::App* add_command(CLI::App* log, const LogOptions& options, const char* name, const char* description,

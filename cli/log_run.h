@@ -11,6 +11,7 @@
 #include "analysis/failure.h"
 #include "analysis/progress.h"
 #include "base/interruptible.h"
+#include "base/printable.h"
 #include "config/load.h"
 #include "record/log/log_info.h"
 #include "record/recording.h"
@@ -38,7 +39,7 @@ auto run_log_job(Job job) {
 }
 
 inline void tell_remarks(const std::vector<std::string>& remarks) {
-  for (const auto& remark : remarks) fmt::print(stderr, "navcal log: {}\n", remark);
+  for (const auto& remark : remarks) fmt::print(stderr, "navcal log: {}\n", base::printable(remark));
 }
 
 }  // namespace navcal::cli

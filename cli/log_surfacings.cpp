@@ -8,6 +8,7 @@
 
 #include "analysis/failure.h"
 #include "analysis/surfacing_run.h"
+#include "base/printable.h"
 #include "cli/result_file.h"
 #include "config/load.h"
 #include "record/recording.h"
@@ -43,7 +44,8 @@ void show_surfacings(const SurfacingsOptions& options) {
     expect_no_overwriting({options.files.begin(), options.files.end()}, {options.page});
   }
   const analysis::SurfacingRun run = run_surfacings(options);
-  for (const auto& remark : run.remarks()) std::fprintf(stderr, "navcal log: %s\n", remark.c_str());
+  for (const auto& remark : run.remarks())
+    std::fprintf(stderr, "navcal log: %s\n", base::printable(remark).c_str());
   if (!options.page.empty()) {
     try {
       write_result(options.page, report::surfacings_page(run.surfacings(), options.files, run.settings()));

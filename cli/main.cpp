@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/misspelling.h"
 #include "share/manual.h"
@@ -51,10 +52,10 @@ int main(int argc, char** argv) {
     // CLI11 has statuses of its own; the contract has one for wrong usage.
     return app.exit(error) == 0 ? static_cast<int>(Exit::success) : static_cast<int>(Exit::usage);
   } catch (const navcal::analysis::Failure& failure) {
-    std::fprintf(stderr, "navcal: %s\n", failure.what());
+    std::fprintf(stderr, "navcal: %s\n", navcal::base::printable(failure.what(), "\n").c_str());
     return static_cast<int>(failure.status());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "navcal: %s\n", error.what());
+    std::fprintf(stderr, "navcal: %s\n", navcal::base::printable(error.what(), "\n").c_str());
     return static_cast<int>(Exit::failed);
   }
   return static_cast<int>(Exit::success);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/ports_command.h"
 #include "ports/port_list.h"
@@ -43,7 +44,7 @@ void run(bool json) {
     if (json) {
       fmt::print("{}\n", json_of(port).dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
     } else {
-      fmt::print("{}  {}\n", port.path, ports::describe(port));
+      fmt::print("{}  {}\n", port.path, base::printable(ports::describe(port)));
     }
   }
   if (list.empty()) {

@@ -10,6 +10,7 @@
 
 #include "analysis/failure.h"
 #include "base/interruptible.h"
+#include "base/printable.h"
 #include "cli/control_link.h"
 
 namespace navcal::cli {
@@ -46,7 +47,8 @@ void show_outcome(ControlLink& link, const PortsCommandOptions& options, const P
     const PortsJson answer = link.ask({{"command", "device.commands"}, {"port", options.port}});
     const PortsJson& last = answer.at("ports").at(0).at("last");
     if (last.at("number") != number) fail_command("another command was given meanwhile");
-    if (last.at("state") == "done") return fmt::print("{}\n", last.at("answer").get<std::string>());
+    if (last.at("state") == "done")
+      return fmt::print("{}\n", base::printable(last.at("answer").get<std::string>()));
     if (last.at("state") == "failed")
       fail_command(fmt::format("{}: {}", options.name, last.at("answer").get<std::string>()));
     std::this_thread::sleep_for(kAskAgain);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/interruptible.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/remote_console.h"
 #include "cli/remote_files.h"
@@ -109,14 +110,14 @@ void run_remote(const RemoteCommandOptions& options) {
   if (options.action.empty()) return drive_by_hand(remote, options);
   remote.wait_for_session(options.wait_s);
   if (options.action == "ls") {
-    fmt::print("{}", list_files(remote));
+    fmt::print("{}", base::printable(list_files(remote), "\n"));
   } else if (options.action == "get") {
     get_file(remote, options.argument, options.output.empty() ? options.argument : options.output);
   } else if (options.action == "stop") {
     stop_vehicle(remote, options.wait_s);
   } else {
     const std::string line = options.action == "status" ? R"({"command":"status"})" : options.argument;
-    fmt::print("{}\n", remote.ask(line, options.wait_s));
+    fmt::print("{}\n", base::printable(remote.ask(line, options.wait_s), "\n"));
   }
   remote.end();
 }

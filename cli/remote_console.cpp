@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/printable.h"
 #include "cli/remote_text.h"
 #include "cli/watch_text.h"
 
@@ -121,20 +122,20 @@ void RemoteConsole::show() {
     if (picture_ == Picture::json) {
       const bool is_ok = *answer == "ok";
       nlohmann::ordered_json out{{"class", "ANSWER"}, {"ok", is_ok}};
-      if (!is_ok) out["error"] = printable(*answer);
+      if (!is_ok) out["error"] = base::printable(*answer);
       put(out.dump() + "\n");
     } else {
-      say(printable(*answer));
+      say(base::printable(*answer));
     }
   }
   while (auto response = remote_.host().take_response()) {
     while (response->ends_with('\n')) response->pop_back();
     if (picture_ == Picture::json) {
       auto parsed = nlohmann::ordered_json::parse(*response, nullptr, false);
-      if (parsed.is_discarded()) parsed = printable(*response);
+      if (parsed.is_discarded()) parsed = base::printable(*response);
       put(nlohmann::ordered_json{{"class", "RESPONSE"}, {"response", std::move(parsed)}}.dump() + "\n");
     } else {
-      say(printable(*response));
+      say(base::printable(*response));
     }
   }
 }

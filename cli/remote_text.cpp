@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "cli/watch_text.h"
 
 namespace navcal::cli {
@@ -54,10 +55,10 @@ std::string words_of(const link::Report& r) {
   if (r.battery_charge) out += fmt::format(" {:.0f} %", 100 * *r.battery_charge);
   out += r.holder.empty()
              ? std::string("  motor: nobody")
-             : fmt::format("  motor: {} ({} s)", printable(r.holder), shown_or_dash(r.expires_in_s, 1));
+             : fmt::format("  motor: {} ({} s)", base::printable(r.holder), shown_or_dash(r.expires_in_s, 1));
   if (const auto& calibration = r.calibration)
     out += fmt::format("  calibration {} {} {}", calibration_name(*calibration),
-                       printable(calibration->calibrator), remote_verdict(*calibration));
+                       base::printable(calibration->calibrator), remote_verdict(*calibration));
   for (const std::string_view alarm : r.alarm_names()) out += fmt::format("  ALARM {}", alarm);
   return out;
 }
@@ -93,14 +94,14 @@ std::string json_of(const link::Host::NewReport& report, const link::Host::Quali
   out["alarms"] = r.alarm_names();
   out["battery_V"] = json_or_null(r.battery_V);
   out["battery_charge"] = json_or_null(r.battery_charge);
-  out["motor"] = {{"holder", r.holder.empty() ? RemoteObject(nullptr) : RemoteObject(printable(r.holder))},
+  out["motor"] = {{"holder", r.holder.empty() ? RemoteObject(nullptr) : RemoteObject(base::printable(r.holder))},
                   {"priority", r.priority},
                   {"expires_in_s", json_or_null(r.expires_in_s)},
                   {"order", r.order_sequence}};
   out["calibration"] = nullptr;
   if (const auto& calibration = r.calibration)
     out["calibration"] = {{"name", calibration_name(*calibration)},
-                          {"calibrator", printable(calibration->calibrator)},
+                          {"calibrator", base::printable(calibration->calibrator)},
                           {"verdict", remote_verdict(*calibration)}};
   out["verified"] = report.is_verified;
   out["link"] = {{"alive", is_alive},

@@ -10,6 +10,7 @@
 #include "analysis/output.h"
 #include "analysis/progress.h"
 #include "analysis/replay_run.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "config/load.h"
 #include "record/json/battery_json.h"
@@ -68,7 +69,9 @@ class Printer : public analysis::ReplaySink {
     output_.append(line_);
   }
   /// A command is printed as it was logged, because the result of an order does not follow from the bytes.
-  void on_command(const record::LoggedCommand& command) override { output_.append(command.json + '\n'); }
+  void on_command(const record::LoggedCommand& command) override {
+    output_.append(base::printable(command.json) + '\n');
+  }
 
  private:
   const config::Settings& settings_;
@@ -79,7 +82,8 @@ class Printer : public analysis::ReplaySink {
 
 /// Remarks from number `told` on are new.
 void tell(const analysis::ReplayRun& run, std::size_t& told) {
-  for (; told < run.remarks().size(); ++told) std::fprintf(stderr, "navcal: %s\n", run.remarks()[told].c_str());
+  for (; told < run.remarks().size(); ++told)
+    std::fprintf(stderr, "navcal: %s\n", base::printable(run.remarks()[told]).c_str());
 }
 
 void replay(const ReplayCommandOptions& options) {

@@ -14,6 +14,7 @@
 
 #include "analysis/output.h"
 #include "analysis/run_folder.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/result_file.h"
 #include "report/run_diagnosis_json.h"
@@ -136,17 +137,17 @@ void answer_runs(const ValidateRunsArguments& arguments) {
   const auto* const removed = removed_effect(arguments.removed);
   const RunPools pools = arguments.pools.empty() ? RunPools{} : read_run_pools(arguments.pools);
   const runs::NominalVehicle vehicle = runs::identify(analysis::read_run_folder(arguments.nominal));
-  for (const auto& remark : vehicle.remarks) std::fprintf(stderr, "navcal: %s\n", remark.c_str());
+  for (const auto& remark : vehicle.remarks) std::fprintf(stderr, "navcal: %s\n", base::printable(remark).c_str());
   if (!arguments.sessions.empty()) write_result(arguments.sessions, sessions_json(vehicle));
   RunAnswers answers(vehicle, removed);
   answers.add_runs(analysis::read_run_folder(arguments.runs), arguments.runs);
   answers.add_pools(pools, arguments.pools);
   analysis::Output output(STDOUT_FILENO, "standard output");
   if (to_output) {
-    output.append(answers.lines());
+    output.append(base::printable(answers.lines(), "\n"));
   } else {
     write_result(arguments.json, answers.lines());
-    output.append(answers.summary());
+    output.append(base::printable(answers.summary(), "\n"));
   }
   output.flush();
 }

@@ -13,6 +13,7 @@
 
 #include "analysis/import/import_log.h"
 #include "analysis/log_import.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/log_run.h"
 #include "record/recording.h"
@@ -63,7 +64,7 @@ std::filesystem::path log_of(const std::string& file, const std::filesystem::pat
     remarks = run_log_job(
         [&](const record::Progress& progress) { return analysis::import_capture(file, log, progress); });
   }
-  for (const auto& remark : remarks) fmt::print(stderr, "navcal view: {}\n", remark);
+  for (const auto& remark : remarks) fmt::print(stderr, "navcal view: {}\n", base::printable(remark));
   return log;
 }
 
@@ -97,7 +98,9 @@ void view(const ViewArguments& arguments) {
   settings.speed = arguments.speed;
   analysis::Progress progress("view");
   settings.progress = [&](double done) { progress.show(done); };
-  settings.remark = [](const std::string& remark) { fmt::print(stderr, "navcal view: {}\n", remark); };
+  settings.remark = [](const std::string& remark) {
+    fmt::print(stderr, "navcal view: {}\n", base::printable(remark));
+  };
   settings.ready = [&](const std::string& address) {
     std::printf("navcal view: %s\n", address.c_str());
     std::fflush(stdout);

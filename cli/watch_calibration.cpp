@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/printable.h"
 #include "cli/watch_text.h"
 
 namespace navcal::cli {
@@ -30,7 +31,7 @@ std::string estimate_of(const Json& calibrator) {
   for (const auto& [key, value] : values.items()) {
     if (!value.is_number()) continue;
     if (!out.empty()) out += ", ";
-    fmt::format_to(std::back_inserter(out), "{} {:.4g}", printable(key), value.get<double>());
+    fmt::format_to(std::back_inserter(out), "{} {:.4g}", base::printable(key), value.get<double>());
     const double std = number(stds, key.c_str());
     if (std::isfinite(std)) fmt::format_to(std::back_inserter(out), " +- {:.2g}", std);
   }

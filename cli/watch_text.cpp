@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/printable.h"
+
 namespace navcal::cli {
 namespace {
 
@@ -12,16 +14,9 @@ using Json = nlohmann::json;
 
 }  // namespace
 
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (c < 0x20 || c > 0x7e) c = '?';
-  }
-  return text;
-}
-
 std::string text(const Json& object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? printable(found->get<std::string>()) : std::string();
+  return found != object.end() && found->is_string() ? base::printable(found->get<std::string>()) : std::string();
 }
 
 double number(const Json& object, const char* key) {

@@ -9,9 +9,6 @@ namespace navcal::cli {
 // Text of a daemon's report, made safe for a terminal. Nothing is trusted: any member may be missing or of any
 // type.
 
-/// Replaces all but printable ASCII by '?', because text from the network must not move the cursor.
-[[nodiscard]] std::string printable(std::string text);
-
 /// The text at `key`, printable; empty when there is none.
 [[nodiscard]] std::string text(const nlohmann::json& object, const char* key);
 

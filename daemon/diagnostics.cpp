@@ -13,6 +13,8 @@
 #include <memory>
 #include <string_view>
 
+#include "base/printable.h"
+
 namespace navcal::daemon {
 namespace {
 
@@ -33,7 +35,8 @@ class StandardError final : public spdlog::sinks::base_sink<spdlog::details::nul
     }
     spdlog::memory_buf_t text;
     formatter_->format(message, text);
-    write_all({text.data(), text.size()});
+    // One line each, whatever is in it: nobody forges another in the journal.
+    write_all(base::printable({text.data(), text.size() - 1}) + '\n');
   }
   void flush_() override {}
 

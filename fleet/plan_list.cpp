@@ -6,6 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
+
 namespace navcal::fleet {
 namespace {
 
@@ -24,9 +26,10 @@ std::string list_text(const Plan& plan, const ResultStore& results) {
     const auto file = plan.recordings.find(task.recording);
     fmt::format_to(std::back_inserter(text), "{:7}  {:6}  {:10}  {:16}  {}\n", task.number, name_of(state),
                    task.job, task.bank.empty() ? "-" : task.bank,
-                   file == plan.recordings.end() ? "(gone)" : file->second.path);
+                   file == plan.recordings.end() ? "(gone)" : base::printable(file->second.path));
     if (state == TaskState::failed) {
-      fmt::format_to(std::back_inserter(text), "{:7}  {}\n", "", results.text_of(task, state).value_or(""));
+      fmt::format_to(std::back_inserter(text), "{:7}  {}\n", "",
+                     base::printable(results.text_of(task, state).value_or("")));
     }
   }
   return text;

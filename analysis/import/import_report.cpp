@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/printable.h"
 #include "record/json/json_object.h"
 
 namespace navcal::analysis {
@@ -80,15 +81,17 @@ std::string to_text(const ImportReport& report) {
   std::size_t width = 16;
   for (const auto& [of, taken] : report.taken) width = std::max(width, of.first.size());
   for (const auto& [name, count] : report.left) width = std::max(width, name.size());
-  std::string out = fmt::format("{}: {}, {} bytes, {:.3f} s\n{}\n\n", report.input, report.format, report.bytes,
-                                static_cast<double>(report.duration_ns) * 1e-9, words_of_utc(report));
+  std::string out =
+      fmt::format("{}: {}, {} bytes, {:.3f} s\n{}\n\n", base::printable(report.input), report.format, report.bytes,
+                  static_cast<double>(report.duration_ns) * 1e-9, words_of_utc(report));
   out += fmt::format("{:<{}}  {:>9}  {:>9}  {}\n", "taken", width, "messages", "rate (Hz)", "port");
   for (const auto& [of, taken] : report.taken)
-    out +=
-        fmt::format("{:<{}}  {:>9}  {:>9.2f}  {}\n", of.first, width, taken.messages, taken.rate_Hz(), of.second);
+    out += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {}\n", base::printable(of.first), width, taken.messages,
+                       taken.rate_Hz(), of.second);
   if (report.taken.empty()) out += "nothing\n";
   if (!report.left.empty()) out += fmt::format("\n{:<{}}  {:>9}\n", "left", width, "messages");
-  for (const auto& [name, count] : report.left) out += fmt::format("{:<{}}  {:>9}\n", name, width, count);
+  for (const auto& [name, count] : report.left)
+    out += fmt::format("{:<{}}  {:>9}\n", base::printable(name), width, count);
   if (report.damaged_bytes > 0) out += fmt::format("\n{} damaged bytes were passed over\n", report.damaged_bytes);
   if (report.cut_at)
     out += fmt::format("\nthe file is cut: its last record, at byte {}, is not whole\n", *report.cut_at);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "base/printable.h"
 #include "config/load.h"
 #include "config/option_lookup.h"
 #include "config/options.h"
@@ -94,13 +95,6 @@ std::string apply(const FoundSetting& found, config::Settings& settings) {
   return comment;
 }
 
-/// A file's name may be any bytes; in a comment only printing ones of ASCII are sure to be read again.
-std::string printable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
-}
-
 struct KeyComment {
   std::string_view key;
   std::string text;
@@ -158,7 +152,7 @@ std::string noise_configuration(const NoiseReport& report, config::Settings sett
   std::string head = fmt::format(
       "# The configuration of {} with the noise of its instruments at rest, found by\n"
       "# navcal noise. Keys of [instruments] without a comment are as they were.\n",
-      printable(report.file));
+      base::printable(report.file));
   for (auto& port : settings.ports) {
     if (!port.path.empty() || !port.udev_name.empty() || !port.usb_serial.empty() || !port.address.empty())
       continue;

@@ -108,7 +108,7 @@ void JsonObject::text(std::string_view key, std::string_view value) {
     out_ += value;
     out_ += '"';
   } else {
-    out_ += nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    out_ += nlohmann::json(value).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/durations.h"
+#include "base/printable.h"
 #include "base/utc_text.h"
 #include "record/json/json_object.h"
 #include "record/log/log_info.h"
@@ -29,8 +30,8 @@ std::string exact(std::int64_t ns) {
 }  // namespace
 
 std::string to_text(const RecordingInfo& info) {
-  std::string out = fmt::format("{}: {}, {} bytes, {}\n", info.file, info.log ? "log" : "capture", info.bytes,
-                                info.finished ? "finished" : "unfinished");
+  std::string out = fmt::format("{}: {}, {} bytes, {}\n", base::printable(info.file), info.log ? "log" : "capture",
+                                info.bytes, info.finished ? "finished" : "unfinished");
   out += fmt::format("from {}\nto   {} ({:.3f} s)\n", when(info.start_utc_ns), when(info.end_utc_ns),
                      seconds(info.end_utc_ns - info.start_utc_ns));
   for (const auto& port : info.ports) {
@@ -39,11 +40,13 @@ std::string to_text(const RecordingInfo& info) {
     out += fmt::format("; longest pause {:.3f} s, {} gaps\n", seconds(port.longest_gap_ns), port.gaps);
   }
   for (const auto& [topic, count] : info.topics) {
-    out += fmt::format("{:<22} {:>9} messages {:>11} bytes\n", topic, count.messages, count.bytes);
+    out +=
+        fmt::format("{:<22} {:>9} messages {:>11} bytes\n", base::printable(topic), count.messages, count.bytes);
   }
   for (const auto& event : info.events) {
-    out += fmt::format("event {} {} {}{}{}: {}\n", event.time, event.severity, event.name,
-                       event.port.empty() ? "" : " ", event.port, event.message);
+    out += base::printable(fmt::format("event {} {} {}{}{}: {}", event.time, event.severity, event.name,
+                                       event.port.empty() ? "" : " ", event.port, event.message));
+    out += '\n';
   }
   if (info.further_events > 0) out += fmt::format("and {} more events\n", info.further_events);
   if (info.bad_crc > 0) out += fmt::format("{} messages whose checksum does not hold\n", info.bad_crc);

@@ -115,5 +115,20 @@ TEST_F(LogCommand, WrongUsageIsToldApartFromAFailedJob) {
   EXPECT_EQ(run({"export", "--cap", (path_ / "absent" / "a.cap").string(), file}).status, 1);
 }
 
+TEST_F(LogCommand, NothingOfAForeignFileMovesTheCursorOrBeginsALine) {
+  const auto capture = write(
+      "x\x1b[31m.cap", "#capture 1\n#port a nmea 4800\n#event \x1b]0;OWNED\x07\n1700000000.000000000 a < 24\n");
+  const auto log = write("a.mcap", record::testing::sample_log(1, true).bytes);
+  for (const auto& file : {capture, log}) {
+    const auto outcome = run({"info", file.string()});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(std::all_of(outcome.output.begin(), outcome.output.end(), [](char c) {
+      return c == '\n' || (c >= ' ' && c <= '~');
+    })) << outcome.output;
+  }
+  EXPECT_NE(run({"info", capture.string()}).output.find("\\u001b]0;OWNED\\u0007\n"), std::string::npos);
+  EXPECT_NE(run({"info", log.string()}).output.find("gone: \"EIO\"\\u000a"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace navcal::cli

@@ -260,5 +260,19 @@ TEST(DaemonProcess, HangupBeginsANewLog) {
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
 }
 
+TEST(DaemonProcess, NobodyForgesALineOfItsMessages) {
+  DaemonProcess daemon;
+  daemon.wait_until_ready();
+  Client control(daemon.folder() / "control");
+  control.send(R"({"command":"event","text":"x\n00:00:00.000 critical motor\u001b]0;OWNED\u0007"})"
+               "\n");
+  ASSERT_NE(control.line_with("ok"), "");
+  ASSERT_EQ(daemon.stop(SIGTERM), 0);
+  const std::string messages = daemon.diagnostics();
+  EXPECT_NE(messages.find("x\\u000a00:00:00.000 critical motor\\u001b]0;OWNED\\u0007\n"), std::string::npos)
+      << messages;
+  EXPECT_EQ(messages.find('\x1b'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace navcal::daemon

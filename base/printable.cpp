@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/printable.h"
+
+#include <array>
+#include <cstdio>
+
+namespace navcal::base {
+namespace {
+
+/// Length of the UTF-8 character at the front; 0 for a control character and for what is none.
+std::size_t printing_length(std::string_view text) {
+  const auto byte = [text](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0U;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
+  const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80) return 0;
+  }
+  // U+0080 to U+009F are control characters, too, and longer forms of any are not UTF-8.
+  const bool is_control = first == 0xC2 && byte(1) < 0xA0;
+  const bool is_overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
+  return is_control || is_overlong ? 0 : length;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::string_view kept) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = kept.find(text.front()) == std::string_view::npos ? printing_length(text) : 1;
+    if (length > 0) {
+      out += text.substr(0, length);
+    } else {
+      std::array<char, 8> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\u%04x", static_cast<unsigned char>(text.front()));
+      out += escape.data();
+    }
+    text.remove_prefix(length > 0 ? length : 1);
+  }
+  return out;
+}
+
+}  // namespace navcal::base
