@@ -94,7 +94,7 @@ void add_log(CLI::App& app) {
       Form{"--csv", "DIR", "folder for one CSV file per topic", record::export_csv},
       Form{"--netcdf", "FILE", "netCDF-4 file by the CF conventions, one group per topic", record::export_netcdf},
       Form{"--mat", "FILE", "MAT-file for MATLAB and Octave, one structure per topic", record::export_mat},
-      Form{"--cap", "FILE", "capture of the raw bytes", record::export_capture}};
+      Form{"--cap", "FILE|-", "capture of the raw bytes; - is standard output", record::export_capture}};
   std::vector<CLI::Option*> forms;
   for (const Form& form : kForms) {
     auto* const option = out->add_option_function<std::string>(

@@ -248,11 +248,15 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
   ImportOptions with_folder = options;
   with_folder.folders.push_back(std::filesystem::absolute(input).parent_path());
   const auto read = [&](ImportSink& sink) {
+    std::string problem;
     try {
-      return format.read(file.bytes(), with_folder, sink);
+      ImportFindings findings = format.read(file.bytes(), with_folder, sink);
+      if (file.is_whole()) return findings;
     } catch (const record::BadRecording& error) {
-      throw record::BadRecording(fmt::format("{}: {}", report.input, error.what()));
+      problem = error.what();
     }
+    if (!file.is_whole()) problem = "it was cut, or could not be read any more, during the import";
+    throw record::BadRecording(fmt::format("{}: {}", report.input, problem));
   };
   ImportFindings findings = read(survey);
   const auto ports = survey.ports();

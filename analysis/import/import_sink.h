@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,9 @@
 #include "protocols/samples_line.h"
 
 namespace navcal::analysis {
+
+/// Longer names of messages are cut or refused: each message may be told by its name.
+inline constexpr std::size_t kLongestName = 256;
 
 /// One sample of a log of another system.
 struct ImportedSample {

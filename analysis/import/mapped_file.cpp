@@ -2,15 +2,40 @@
 #include "analysis/import/mapped_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 
 #include "base/descriptor.h"
 
 namespace navcal::analysis {
+namespace {
+
+/// The mapping of this thread, for the handler.
+struct Mapping {
+  std::uintptr_t begin = 0, end = 0;
+  volatile bool is_whole = true;
+};
+thread_local Mapping thread_mapping;
+
+/// A page that cannot be read, and all behind it, become zero. The signal of another address does what it always
+/// does.
+void on_bus_error(int /*signal*/, siginfo_t* info, void* /*context*/) {
+  const auto at = reinterpret_cast<std::uintptr_t>(info->si_addr);
+  const auto page = at - at % static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const bool is_ours = at >= thread_mapping.begin && at < thread_mapping.end;
+  thread_mapping.is_whole = thread_mapping.is_whole && !is_ours;
+  if (!is_ours || ::mmap(reinterpret_cast<void*>(page), thread_mapping.end - page, PROT_READ,
+                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED)
+    ::signal(SIGBUS, SIG_DFL);
+}
+
+}  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
   const auto fail = [&](int error) { throw std::system_error(error, std::system_category(), path.string()); };
@@ -25,10 +50,18 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   if (mapped == MAP_FAILED) fail(errno);
   ::madvise(mapped, size_, MADV_SEQUENTIAL);
   data_ = static_cast<const char*>(mapped);
+  thread_mapping = {reinterpret_cast<std::uintptr_t>(data_), reinterpret_cast<std::uintptr_t>(data_) + size_};
+  struct sigaction action {};
+  action.sa_sigaction = on_bus_error;
+  action.sa_flags = SA_SIGINFO;
+  ::sigaction(SIGBUS, &action, nullptr);
 }
+
+bool MappedFile::is_whole() const { return thread_mapping.is_whole; }
 
 MappedFile::~MappedFile() {
   if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
+  thread_mapping = {};
 }
 
 }  // namespace navcal::analysis

@@ -7,7 +7,8 @@
 namespace navcal::analysis {
 
 /// A regular file as bytes in memory, which the system reads when they are used. Throws std::system_error, which
-/// names the file.
+/// names the file. Bytes that cannot be read any more, because the file was cut or its disk fails, are zero: see
+/// is_whole(). One file at a time in a thread, and only that thread reads the bytes.
 class MappedFile {
  public:
   explicit MappedFile(const std::filesystem::path& path);
@@ -16,6 +17,8 @@ class MappedFile {
   ~MappedFile();
 
   [[nodiscard]] std::string_view bytes() const { return {data_, size_}; }
+  /// False when bytes that were used could not be read.
+  [[nodiscard]] bool is_whole() const;
 
  private:
   const char* data_ = nullptr;

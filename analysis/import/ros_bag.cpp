@@ -12,6 +12,7 @@
 #include "analysis/import/ros_messages.h"
 #include "analysis/import/wire_reader.h"
 #include "record/log/mcap_format.h"
+#include "record/recording.h"
 
 namespace navcal::analysis {
 namespace {
@@ -72,7 +73,10 @@ class RosBag {
         if (!ended_ && !findings_.cut_at) findings_.cut_at = offset;
         return;
       }
-      take(static_cast<std::uint8_t>(records.front()), records.substr(kRecordHead, length), offset + kRecordHead);
+      const auto opcode = static_cast<std::uint8_t>(records.front());
+      if (opcode == kChunk && !is_file)
+        throw record::BadRecording(fmt::format("byte {}: a chunk in a chunk", offset));
+      take(opcode, records.substr(kRecordHead, length), offset + kRecordHead);
       records.remove_prefix(kRecordHead + length);
       offset += kRecordHead + length;
       if (is_file) sink_.progress(offset);
@@ -98,7 +102,7 @@ class RosBag {
     for (int i = 0; i < 2; ++i) (void)reader.number<std::uint64_t>();
     const auto size = reader.number<std::uint64_t>();
     (void)reader.number<std::uint32_t>();
-    const std::string_view compression = reader.text();
+    const std::string_view compression = reader.text().substr(0, kLongestName);
     const auto length = reader.number<std::uint64_t>();
     const std::string_view inside = reader.rest().substr(0, length);
     if (compression.empty()) return read_records(inside, offset + (record.size() - reader.rest().size()), false);
@@ -110,7 +114,7 @@ class RosBag {
   void take_schema(std::string_view record) {
     RecordReader reader(record);
     const auto id = reader.number<std::uint16_t>();
-    schemas_[id] = reader.text();
+    schemas_[id] = reader.text().substr(0, kLongestName);
   }
 
   void take_channel(std::string_view record) {
@@ -119,7 +123,7 @@ class RosBag {
     const auto schema = schemas_.find(reader.number<std::uint16_t>());
     if (channels_.count(id) > 0) return;
     BagChannel channel;
-    channel.topic.name = reader.text();
+    channel.topic.name = reader.text().substr(0, kLongestName);
     const std::string_view encoding = reader.text();
     const std::string type = schema == schemas_.end() ? "no type" : schema->second;
     channel.type = encoding == "cdr" ? ros::message_type(type) : nullptr;

@@ -165,7 +165,7 @@ bool SlocumFile::read_sensors() {
   for (int i = 0; i < total; ++i) {
     // "s: T 12 3 4 m_depth m": used, number, place in a cycle, bytes, name, unit.
     const auto words = words_of(is_factored ? next_line(list, at_of_list) : next_line(file_, at_));
-    if (words.size() < 6 || words[0] != "s:") return false;
+    if (words.size() < 6 || words[0] != "s:" || words[5].size() > kLongestName) return false;
     const int place = whole_number(words[3]), bytes = whole_number(words[4]);
     if (words[1] != "T") continue;
     if (place < 0 || place >= in_cycle || (bytes != 1 && bytes != 2 && bytes != 4 && bytes != 8)) return false;

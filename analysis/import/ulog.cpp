@@ -231,7 +231,8 @@ ImportFindings UlogFile::read() {
 }
 
 void UlogFile::take(char type, std::string_view content) {
-  if (type == 'F') formats_.learn(content);
+  // Definitions stand before all data.
+  if (type == 'F' && subscriptions_.empty()) formats_.learn(content);
   if (type == 'A') subscribe(content);
   if (type == 'D') take_data(content);
   if (type == 'P') take_parameter(content);
@@ -257,7 +258,7 @@ void UlogFile::subscribe(std::string_view content) {
   if (content.size() <= kName) return;
   Subscription subscription;
   subscription.instance = static_cast<std::uint8_t>(content[0]);
-  subscription.name = content.substr(kName);
+  subscription.name = content.substr(kName, kLongestName);
   subscription.label = subscription.instance == 0
                            ? subscription.name
                            : fmt::format("{}[{}]", subscription.name, subscription.instance);

@@ -24,7 +24,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 12> kPlainTypes{{
                                                                                 {"uint64_t", 8},
                                                                                 {"double", 8}}};
 constexpr int kDeepest = 8;
-constexpr std::size_t kMostElements = 65'536;
+constexpr std::size_t kMostElements = 65'536, kMostFields = 1000;
 
 /// "float[4] q" without its offset and size.
 std::optional<UlogField> field_of(std::string_view text) {
@@ -87,21 +87,22 @@ void UlogFormats::learn(std::string_view definition) {
   formats_.clear();
 }
 
-const UlogFormat* UlogFormats::find(const std::string& name) {
-  auto found = formats_.find(name);
-  if (found == formats_.end()) found = formats_.emplace(name, laid_out(name, 0)).first;
+const UlogFormat* UlogFormats::find(const std::string& name, int depth) {
+  // Each type is laid out once; until then it has no layout, so that none contains itself.
+  const auto [found, is_new] = formats_.try_emplace(name);
+  if (is_new) found->second = laid_out(name, depth);
   return found->second ? &*found->second : nullptr;
 }
 
-std::optional<std::size_t> UlogFormats::size_of(const std::string& type, int depth) const {
+std::optional<std::size_t> UlogFormats::size_of(const std::string& type, int depth) {
   const auto plain =
       std::find_if(kPlainTypes.begin(), kPlainTypes.end(), [&](const auto& t) { return t.first == type; });
   if (plain != kPlainTypes.end()) return plain->second;
-  const auto nested = laid_out(type, depth + 1);
-  return nested ? std::optional(nested->size) : std::nullopt;
+  const UlogFormat* const nested = find(type, depth + 1);
+  return nested != nullptr ? std::optional(nested->size) : std::nullopt;
 }
 
-std::optional<UlogFormat> UlogFormats::laid_out(const std::string& name, int depth) const {
+std::optional<UlogFormat> UlogFormats::laid_out(const std::string& name, int depth) {
   const auto definition = definitions_.find(name);
   if (definition == definitions_.end() || depth > kDeepest) return std::nullopt;
   UlogFormat format;
@@ -111,7 +112,7 @@ std::optional<UlogFormat> UlogFormats::laid_out(const std::string& name, int dep
     if (end > 0) {
       auto field = field_of(rest.substr(0, end));
       const auto size = field ? size_of(field->type, depth) : std::nullopt;
-      if (!size || format.size > kMostElements) return std::nullopt;
+      if (!size || format.size > kMostElements || format.fields.size() == kMostFields) return std::nullopt;
       field->offset = format.size;
       field->size = *size;
       format.size += *size * field->count;

@@ -37,11 +37,12 @@ class UlogFormats {
   /// "vehicle_attitude:uint64_t timestamp;float[4] q;"
   void learn(std::string_view definition);
   /// nullptr when it is not defined, or of a type that is not.
-  [[nodiscard]] const UlogFormat* find(const std::string& name);
+  [[nodiscard]] const UlogFormat* find(const std::string& name) { return find(name, 0); }
 
  private:
-  [[nodiscard]] std::optional<UlogFormat> laid_out(const std::string& name, int depth) const;
-  [[nodiscard]] std::optional<std::size_t> size_of(const std::string& type, int depth) const;
+  [[nodiscard]] const UlogFormat* find(const std::string& name, int depth);
+  [[nodiscard]] std::optional<UlogFormat> laid_out(const std::string& name, int depth);
+  [[nodiscard]] std::optional<std::size_t> size_of(const std::string& type, int depth);
 
   std::map<std::string, std::string> definitions_;
   std::map<std::string, std::optional<UlogFormat>> formats_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "record/capture/capture_writer.h"
 #include "record/export/export.h"
 #include "record/json/flat_json.h"
@@ -24,7 +26,16 @@ void append_mark(std::string& text, const LoggedEvent& event) {
 Exported export_capture(const std::filesystem::path& recording_file, const std::filesystem::path& capture,
                         const Progress& progress) {
   const auto recording = Recording::open(recording_file);
-  WholeFile file(capture);
+  std::optional<WholeFile> file;
+  if (capture != "-") file.emplace(capture);
+  const auto write = [&file](std::string& lines) {
+    if (file) {
+      file->write(lines);
+    } else if (std::fwrite(lines.data(), 1, lines.size(), stdout) != lines.size() || std::fflush(stdout) != 0) {
+      throw std::system_error(errno, std::system_category(), "standard output");
+    }
+    lines.clear();
+  };
   CaptureWriter writer(recording->settings().ports);
   std::string text;
   writer.begin(text);
@@ -40,14 +51,15 @@ Exported export_capture(const std::filesystem::path& recording_file, const std::
     if (const auto* event = std::get_if<LoggedEvent>(&*entry)) append_mark(text, *event);
     if (++entries % kCaptureProgressEvery == 0) {
       progress(recording->progress());
-      file.write(text);
-      text.clear();
+      write(text);
     }
   }
-  file.write(text);
-  file.commit();
-
-  Exported exported{{capture}, recording->remarks()};
+  write(text);
+  Exported exported{{}, recording->remarks()};
+  if (file) {
+    file->commit();
+    exported.files.push_back(capture);
+  }
   if (writer.raised() > 0) {
     exported.remarks.push_back(fmt::format(
         "UTC was corrected backwards: {} times were raised to that of the line before", writer.raised()));

@@ -26,7 +26,7 @@ class Flattener {
   bool key(std::string& name) {
     path_.resize(levels_.back().base);
     path_ += name;
-    return true;
+    return path_.size() <= kMaxPath;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) { return false; }
 
@@ -36,7 +36,8 @@ class Flattener {
     bool array;
     std::size_t index;
   };
-  static constexpr std::size_t kMaxDepth = 32;
+  // Each member keeps its path: without bounds a message of some MB would take GB.
+  static constexpr std::size_t kMaxDepth = 32, kMaxPath = 256, kMaxMembers = 100'000;
 
   /// The path of an array's next element.
   void element() {
@@ -45,7 +46,7 @@ class Flattener {
     path_ += std::to_string(levels_.back().index++);
   }
   bool value(std::string text) {
-    if (levels_.empty()) return false;
+    if (levels_.empty() || members_.size() == kMaxMembers) return false;
     element();
     members_.emplace_back(path_, std::move(text));
     return true;

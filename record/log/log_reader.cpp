@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint8_t kChunkOpcode = 0x06;
 constexpr std::size_t kMaxRemarks = 40;
+/// A longer topic is damage; remarks name topics.
+constexpr std::size_t kMaxTopic = 256;
 constexpr std::size_t kMaxStretches = 1000;
 /// All schemas and channels together; a log has a few kB.
 constexpr std::uint64_t kMaxDefinitions = 16ULL << 20;
@@ -150,6 +152,7 @@ bool LogReader::define(const Record& record) {
     fields.integer<std::uint16_t>();
     LogChannel channel;
     channel.topic = fields.string();
+    if (channel.topic.size() > kMaxTopic) return false;
     channel.raw = fields.string() == kRawEncoding;
     McapFields map(fields.string());
     while (map.complete() && !map.at_end()) {

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "config/load.h"
+#include "config/text_rules.h"
 #include "record/json/calibration_json.h"
 #include "record/json/flat_json.h"
 #include "record/json/mapping_json.h"
@@ -77,7 +78,9 @@ void LogRecording::assume_configuration() {
     const std::string& digits = baud_text->second;
     std::from_chars(digits.data(), digits.data() + digits.size(), baud);
     if (!known || baud <= 0 || !channel.topic.starts_with(topic::kRawPrefix)) continue;
-    settings_.ports.push_back(config::default_port(channel.topic.substr(topic::kRawPrefix.size()), *known, baud));
+    const std::string port = channel.topic.substr(topic::kRawPrefix.size());
+    // The rule of configurations and captures: the name becomes one of a file.
+    if (config::is_port_name(port)) settings_.ports.push_back(config::default_port(port, *known, baud));
   }
 }
 

@@ -130,5 +130,13 @@ TEST_F(LogCommand, NothingOfAForeignFileMovesTheCursorOrBeginsALine) {
   EXPECT_NE(run({"info", log.string()}).output.find("gone: \"EIO\"\\u000a"), std::string::npos);
 }
 
+TEST_F(LogCommand, ACaptureGoesToTheStandardOutput) {
+  const auto log = write("a.mcap", record::testing::sample_log(1, true).bytes).string();
+  ASSERT_EQ(run({"export", "--cap", (path_ / "a.cap").string(), log}).status, 0);
+  const auto outcome = run({"export", "--cap", "-", log});
+  EXPECT_EQ(outcome.status, 0) << outcome.message;
+  EXPECT_EQ(outcome.output, read(path_ / "a.cap"));
+}
+
 }  // namespace
 }  // namespace navcal::cli

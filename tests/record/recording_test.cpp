@@ -94,5 +94,17 @@ TEST_F(RecordingFiles, RecordingsOfRealInstrumentsAreRead) {
   }
 }
 
+TEST_F(RecordingFiles, NamesOfPortsInADamagedLogFollowTheRuleOfCaptures) {
+  auto settings = testing::sample_settings();
+  settings.ports[0].name = "../x";
+  settings.ports[1].name = "a\x1b[2J";
+  std::string log;
+  LogEncoder encoder(settings, "not TOML");
+  encoder.begin(log, testing::kSampleStart_ns, {});
+  encoder.raw(log, 0, Direction::received, testing::kSampleStart_ns, std::vector<std::uint8_t>{1});
+  encoder.finish(log, testing::kSampleStart_ns);
+  EXPECT_TRUE(Recording::open(write("a.mcap", log))->settings().ports.empty());
+}
+
 }  // namespace
 }  // namespace navcal::record

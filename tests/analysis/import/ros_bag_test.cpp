@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "record/log/mcap_format.h"
+#include "record/recording.h"
 #include "tests/analysis/import/channel_map.h"
 #include "tests/analysis/import/counts_agree.h"
 #include "tests/analysis/import/recording_sink.h"
@@ -325,6 +326,30 @@ TEST(RosBag, DamagedCommandsBringNothingDown) {
     auto channels = map_of_commands();
     return read_ros_bag(file, sink, channels);
   });
+}
+
+TEST(RosBag, AChunkInAChunkIsAnError) {
+  std::string inner;
+  for (int depth = 0; depth < 1000; ++depth) {
+    BagWriter outer;
+    const std::size_t head = outer.out.size();
+    outer.chunk(inner, "");
+    inner = outer.out.substr(head);
+  }
+  BagWriter bag;
+  bag.out += inner;
+  RecordingSink sink;
+  EXPECT_THROW((void)read_ros_bag(bag.finished(), sink), record::BadRecording);
+}
+
+TEST(RosBag, LongNamesAreCut) {
+  BagWriter bag;
+  bag.topic(bag.out, 1, std::string(100'000, 't'), std::string(100'000, 'm'));
+  BagWriter::message(bag.out, 1, "");
+  RecordingSink sink;
+  (void)read_ros_bag(bag.finished(), sink);
+  ASSERT_EQ(sink.left_counts.size(), 1U);
+  EXPECT_LT(sink.left_counts.begin()->first.size(), 600U);
 }
 
 }  // namespace

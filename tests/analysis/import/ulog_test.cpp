@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/import/ulog.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/analysis/import/channel_map.h"
@@ -183,6 +184,27 @@ TEST(Ulog, CommandsAreSensorsUnlessTheMapNamesThem) {
   EXPECT_TRUE(sink.samples[3].line["fins_rad"][0].is_null());
   EXPECT_EQ(sink.samples[4].line["quantity"], "servo1");
   EXPECT_NO_THROW(channels.expect_all_found());
+}
+
+TEST(Ulog, EachTypeIsLaidOutOnceHoweverOftenItIsNested) {
+  UlogWriter log;
+  // A type without fields takes no bytes, so that no size ends the nesting.
+  log.message('F', "t0:");
+  for (int i = 1; i < 8; ++i) {
+    std::string definition = fmt::format("t{}:", i);
+    for (int k = 0; k < 900; ++k) definition += fmt::format("t{} f{};", i - 1, k);
+    log.message('F', definition);
+  }
+  log.message('F', "sensor_combined:uint64_t timestamp;float[3] gyro_rad;float[3] accelerometer_m_s2;t7 nested;");
+  log.message('F', "vehicle_magnetometer:uint64_t timestamp;vehicle_magnetometer own;float[3] magnetometer_ga;");
+  log.subscribe(0, 0, "sensor_combined");
+  log.subscribe(1, 0, "vehicle_magnetometer");
+  log.data(0, 2'000'000, 0.5F, -0.25F, 0.125F, 0.5F, 1.0F, -9.75F);
+  log.data(1, 2'000'000, 0.25F, -0.5F, 0.125F);
+  RecordingSink sink;
+  (void)read_ulog(log.out, sink);
+  EXPECT_EQ(sink.samples.size(), 1U);
+  EXPECT_EQ(sink.left_counts.count("vehicle_magnetometer (no format)"), 1U) << "it would contain itself";
 }
 
 }  // namespace

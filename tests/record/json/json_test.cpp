@@ -259,6 +259,7 @@ TEST(FlatJson, NamesWhatLiesDeeper) {
   for (const auto* bad : {"", "1", "[1]", "{", "{\"a\":1}x", "{\"a\":}"})
     EXPECT_FALSE(FlatJson::parse(bad)) << bad;
   EXPECT_FALSE(FlatJson::parse("{\"a\":" + std::string(100'000, '[')));
+  EXPECT_FALSE(FlatJson::parse("{\"" + std::string(1000, 'a') + "\":[0,0]}")) << "each member keeps its path";
 }
 
 }  // namespace
