@@ -42,7 +42,7 @@ void RecordFeed::publish(const RecordKey& key, std::string_view device, std::int
     append_quoted(line_, device);
   }
   line_ += ",\"time\":";
-  record::append_seconds(line_, utc_ns);
+  utc_ns < pipeline::kFirstUtc_ns ? void(line_ += "null") : record::append_seconds(line_, utc_ns);
   line_ += ",\"message\":";
   record::append_payload(line_, std::forward<Append>(append));
   line_ += "}\r\n";

@@ -15,7 +15,7 @@ constexpr std::int64_t kSlewLimit_ppm = 1000;
 std::int64_t bound_at(const UtcMapping& mapping, std::int64_t monotonic_ns) {
   if (mapping.bound_ns == UtcMapping::kUnknownBound || mapping.source == UtcMapping::Source::file)
     return mapping.bound_ns;
-  return mapping.bound_ns + (monotonic_ns - mapping.at_ns) / 1'000'000 * kDrift_ppm;
+  return mapping.bound_ns + std::abs(monotonic_ns - mapping.at_ns) / 1'000'000 * kDrift_ppm;
 }
 
 SystemClockWatch::Outcome SystemClockWatch::update(const SystemClockReading& reading, const UtcMapping& in_force) {
@@ -29,6 +29,7 @@ SystemClockWatch::Outcome SystemClockWatch::update(const SystemClockReading& rea
   last_offset_ns_ = offset_ns;
   last_monotonic_ns_ = reading.monotonic_ns;
 
+  if (reading.realtime_ns < kFirstUtc_ns) return outcome;
   UtcMapping candidate;
   candidate.source = reading.synchronised ? UtcMapping::Source::system_synchronised : UtcMapping::Source::system;
   candidate.offset_ns = offset_ns;

@@ -18,6 +18,7 @@ struct SystemClockReading {
 
 /// Decides when a reading of the system clock becomes the mapping in force. A value machine.
 /// - The narrower bound wins; an unsynchronised clock has none, and serves only while nothing better is known.
+/// - A clock that shows a time before 2020 is not UTC.
 /// - A step is reported and never followed as long as the mapping in force is still the better one.
 class SystemClockWatch {
  public:
@@ -32,7 +33,7 @@ class SystemClockWatch {
   std::int64_t last_monotonic_ns_ = 0;
 };
 
-/// Width of a mapping's bound at a later time: it grows by what an undisciplined oscillator may drift.
+/// Width of a mapping's bound at another time: it grows by what an undisciplined oscillator may drift.
 [[nodiscard]] std::int64_t bound_at(const UtcMapping& mapping, std::int64_t monotonic_ns);
 
 }  // namespace navcal::pipeline

@@ -11,6 +11,9 @@ namespace navcal::pipeline {
 /// A mapping to UTC that is older is replaced, even where the new one differs by nothing.
 inline constexpr std::int64_t kMappingRefreshAge_ns = 60 * base::kSecond_ns;
 
+/// 2020-01-01. A computer's clock that shows an earlier time was not set since the computer was switched on.
+inline constexpr std::int64_t kFirstUtc_ns = 1'577'836'800 * base::kSecond_ns;
+
 /// utc = monotonic + offset, to within `bound`. It is recorded, so that replay maps as the daemon did.
 struct UtcMapping {
   enum class Source : std::uint8_t { none, file, system, system_synchronised, gps };

@@ -61,7 +61,7 @@ std::unique_ptr<Recording> Recording::open(const std::filesystem::path& file) {
   constexpr std::string_view kCapture = "#capture";
   const std::string begin = peek(*source, kCapture.size());
   auto whole = std::make_unique<PeekedSource>(begin, std::move(source));
-  if (begin == kMcapMagic) return std::make_unique<LogRecording>(std::move(whole), file.string());
+  if (begin == kMcapMagic) return std::make_unique<LogRecording>(std::move(whole), file.string(), LogUtc(file));
   if (begin == kCapture) return std::make_unique<CaptureRecording>(std::move(whole), file.string());
   throw BadRecording(
       file.string() +

@@ -10,7 +10,7 @@
 #include "record/export/sensor_places.h"
 #include "record/json/flat_json.h"
 #include "record/json/json_object.h"
-#include "record/json/mapping_json.h"
+#include "record/log/log_utc.h"
 #include "record/log/message_crc.h"
 #include "record/recording.h"
 #include "record/whole_file.h"
@@ -54,7 +54,7 @@ void append_raw_line(std::string& out, std::string_view data, const pipeline::Ut
 class Exporter {
  public:
   Exporter(LogReader& log, const std::filesystem::path& log_file, std::filesystem::path folder)
-      : log_(log), folder_(std::move(folder)), places_(log_file) {}
+      : log_(log), folder_(std::move(folder)), places_(log_file), utc_(log_file) {}
 
   void take(const LogMessage& message) {
     const LogChannel& channel = log_.channels().at(message.channel);
@@ -62,21 +62,21 @@ class Exporter {
       take_configuration(message.data);
       return;
     }
-    if (channel.topic == "/time") {
-      if (const auto mapping = mapping_from_json(message.data)) mapping_ = *mapping;
-    }
     Output& output = output_of(message.channel, channel);
     if (channel.raw) {
-      append_raw_line(output.text, message.data, mapping_);
-    } else if (output.table) {
+      append_raw_line(output.text, message.data, utc_.mapping());
+      return output.flush_if(kFlushBytes);
+    }
+    const std::string_view data = utc_.on_scale(message, log_);
+    if (output.table) {
       const bool is_sensor = channel.topic == kSensorTopic;
-      const std::string placed = is_sensor ? places_.placed(message.data) : std::string{};
-      if (!output.table->append_line(output.text, is_sensor ? placed : message.data)) ++unreadable_;
+      const std::string placed = is_sensor ? places_.placed(data) : std::string{};
+      if (!output.table->append_line(output.text, is_sensor ? placed : data)) ++unreadable_;
     } else {
       append_seconds(output.text,
-                     mapping_.to_utc(static_cast<std::int64_t>(message.log_time_ns) - log_.log_offset_ns()));
+                     utc_.mapping().to_utc(static_cast<std::int64_t>(message.log_time_ns) - log_.log_offset_ns()));
       output.text += ',';
-      append_csv_text(output.text, std::string(message.data.substr(0, message.data.size() - kJsonTail)) + '}');
+      append_csv_text(output.text, std::string(data.substr(0, data.size() - kJsonTail)) + '}');
       output.text += '\n';
     }
     output.flush_if(kFlushBytes);
@@ -124,7 +124,7 @@ class Exporter {
   std::filesystem::path folder_;
   std::map<std::uint16_t, std::unique_ptr<Output>> outputs_;
   SensorPlaces places_;
-  pipeline::UtcMapping mapping_;
+  LogUtc utc_;
   std::uint64_t unreadable_ = 0;
 };
 

@@ -7,8 +7,8 @@
 
 #include "record/export/sensor_places.h"
 #include "record/json/flat_json.h"
-#include "record/json/mapping_json.h"
 #include "record/log/log_reader.h"
+#include "record/log/log_utc.h"
 #include "record/recording.h"
 
 namespace navcal::record {
@@ -23,7 +23,7 @@ LogTables read_tables(const std::filesystem::path& log_file, const Progress& pro
   LogTables found;
   std::map<std::uint16_t, std::size_t> table_of;
   SensorPlaces places(log_file);
-  pipeline::UtcMapping mapping;
+  LogUtc utc(log_file);
   std::uint64_t unreadable = 0;
   std::uint64_t messages = 0;
   while (const auto message = log.next()) {
@@ -35,15 +35,13 @@ LogTables read_tables(const std::filesystem::path& log_file, const Progress& pro
       if (json && found.configuration.empty()) found.configuration = json->get("toml");
       continue;
     }
-    if (channel.topic == "/time") {
-      if (const auto change = mapping_from_json(message->data)) mapping = *change;
-    }
+    const std::string_view json = utc.on_scale(*message, log);
     const auto [place, is_new] = table_of.try_emplace(message->channel, found.tables.size());
     if (is_new) found.tables.emplace_back(channel.topic);
     const auto arrival_ns = static_cast<std::int64_t>(message->log_time_ns) - log.log_offset_ns();
     const bool is_sensor = channel.topic == kSensorTopic;
-    const std::string placed = is_sensor ? places.placed(message->data) : std::string{};
-    if (!found.tables[place->second].append(is_sensor ? placed : message->data, mapping.to_utc(arrival_ns)))
+    const std::string placed = is_sensor ? places.placed(json) : std::string{};
+    if (!found.tables[place->second].append(is_sensor ? placed : json, utc.mapping().to_utc(arrival_ns)))
       ++unreadable;
   }
   std::erase_if(found.tables, [](const TopicTable& table) { return table.rows() == 0; });

@@ -10,6 +10,7 @@
 #include "record/json/flat_json.h"
 #include "record/json/mapping_json.h"
 #include "record/log/log_reader.h"
+#include "record/log/log_utc.h"
 
 namespace navcal::record {
 namespace {
@@ -23,10 +24,12 @@ std::optional<double> degrees_in(std::string_view text) {
 
 PositionTrack track_of(const std::filesystem::path& log_file) {
   LogReader log(open_file(log_file), log_file.string());
+  LogUtc utc(log_file);
   PositionTrack track;
   while (const auto message = log.next()) {
-    if (log.channels().at(message->channel).topic != "/nav") continue;
-    const auto json = FlatJson::parse(message->data);
+    const std::string& topic = log.channels().at(message->channel).topic;
+    if (topic != "/nav" && topic != "/time") continue;
+    const auto json = FlatJson::parse(utc.on_scale(*message, log));
     if (!json) continue;
     const auto time_ns = nanoseconds(json->get("time"));
     const auto lat = degrees_in(json->get("lat")), lon = degrees_in(json->get("lon"));

@@ -172,6 +172,7 @@ LogMessage LogReader::hand_out(const Record& record) {
   message.channel = read_le<std::uint16_t>(record.content, 0);
   message.offset = window_.offset();
   message.log_time_ns = read_le<std::uint64_t>(record.content, 6);
+  message.publish_time_ns = read_le<std::uint64_t>(record.content, 14);
   message.data = record.content.substr(kMessageHead);
   LogChannel& channel = channels_.find(message.channel)->second;
   ++channel.messages;

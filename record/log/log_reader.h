@@ -19,6 +19,7 @@ struct LogMessage {
   std::uint16_t channel = 0;
   std::uint64_t offset = 0;  ///< of its record in the file
   std::uint64_t log_time_ns = 0;
+  std::uint64_t publish_time_ns = 0;
   std::string_view data;
 };
 

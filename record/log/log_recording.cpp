@@ -25,8 +25,8 @@ std::string without_sum(std::string_view data) {
 
 }  // namespace
 
-LogRecording::LogRecording(std::unique_ptr<ByteSource> source, std::string name)
-    : reader_(std::move(source), std::move(name)) {
+LogRecording::LogRecording(std::unique_ptr<ByteSource> source, std::string name, LogUtc utc)
+    : reader_(std::move(source), std::move(name)), utc_(std::move(utc)) {
   const auto message = reader_.next();
   if (!message || !take_configuration(*message)) {
     assume_configuration();
@@ -91,7 +91,7 @@ std::optional<Entry> LogRecording::entry_of(const LogMessage& message) {
     const auto json = FlatJson::parse(message.data);
     const auto at = json ? nanoseconds(json->get("monotonic")) : std::nullopt;
     const auto mapping = mapping_from_json(message.data);
-    if (at && mapping) return MappingChange{*at, *mapping};
+    if (at && mapping) return MappingChange{*at, utc_.in_place_of(*mapping)};
     remark(message, "a time mapping that cannot be read: passed over");
   } else if (channel.topic == "/event") {
     const auto json = FlatJson::parse(message.data);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "record/log/log_reader.h"
+#include "record/log/log_utc.h"
 #include "record/recording.h"
 
 namespace navcal::record {
@@ -12,7 +13,7 @@ namespace navcal::record {
 /// to be computed anew.
 class LogRecording final : public Recording {
  public:
-  LogRecording(std::unique_ptr<ByteSource> source, std::string name);
+  LogRecording(std::unique_ptr<ByteSource> source, std::string name, LogUtc utc = {});
 
   [[nodiscard]] const config::Settings& settings() const override { return settings_; }
   std::optional<Entry> next() override;
@@ -28,6 +29,7 @@ class LogRecording final : public Recording {
   void note_left_out(std::string_view event, std::string_view message);
 
   LogReader reader_;
+  LogUtc utc_;
   config::Settings settings_;
   std::map<std::uint16_t, std::uint16_t> ports_;  ///< raw channel -> index of its port
   std::optional<Entry> first_;                    ///< read while looking for the configuration

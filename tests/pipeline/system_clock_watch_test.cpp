@@ -67,5 +67,16 @@ TEST(SystemClockWatch, ARecordingsOwnMappingIsNeverReplaced) {
   EXPECT_FALSE(watch.update(reading(1, true, 0), {UtcMapping::Source::file, 0, 0, 0}).mapping);
 }
 
+TEST(SystemClockWatch, AClockThatWasNeverSetIsNotUtc) {
+  for (const bool synchronised : {false, true}) {
+    SystemClockWatch watch;
+    const SystemClockReading in_1970{20 * base::kSecond_ns, 32 * base::kSecond_ns, synchronised, 0};
+    EXPECT_FALSE(watch.update(in_1970, {}).mapping);
+    const auto set = watch.update(reading(21, synchronised), {});
+    EXPECT_TRUE(set.mapping) << "once it is set, it serves";
+    EXPECT_TRUE(set.step_ns);
+  }
+}
+
 }  // namespace
 }  // namespace navcal::pipeline

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "config/load.h"
 #include "record/capture/capture_recording.h"
+#include "record/export/export.h"
+#include "record/log/log_info.h"
 #include "record/log/log_recording.h"
 #include "tests/record/sample_log.h"
 #include "tests/record/temporary_folder.h"
@@ -104,6 +108,63 @@ TEST_F(RecordingFiles, NamesOfPortsInADamagedLogFollowTheRuleOfCaptures) {
   encoder.raw(log, 0, Direction::received, testing::kSampleStart_ns, std::vector<std::uint8_t>{1});
   encoder.finish(log, testing::kSampleStart_ns);
   EXPECT_TRUE(Recording::open(write("a.mcap", log))->settings().ports.empty());
+}
+
+/// A clock that begins in 1970, and a receiver that knows UTC later.
+std::string log_of_late_utc(bool has_system_clock) {
+  const auto settings = testing::sample_settings();
+  const auto sample = [](std::int64_t at_ns, std::int64_t offset_ns) {
+    auto imu = testing::imu_sample(at_ns);
+    imu.stamp.arrival_utc_ns = at_ns + offset_ns;
+    imu.stamp.validity_utc_ns = imu.stamp.validity_ns + offset_ns;
+    return imu;
+  };
+  std::string log;
+  LogEncoder encoder(settings, config::to_toml(settings));
+  const std::int64_t begin_ns = testing::kSampleStart_ns, before_ns = has_system_clock ? 40 * 1'000'000'000LL : 0;
+  const auto source = has_system_clock ? pipeline::UtcMapping::Source::system : pipeline::UtcMapping::Source::none;
+  encoder.begin(log, begin_ns, {source, before_ns, pipeline::UtcMapping::kUnknownBound, begin_ns});
+  for (int i = 0; i < 20; ++i) {
+    const std::int64_t at_ns = begin_ns + i * 100'000'000LL;
+    if (i == 10)
+      encoder.mapping(log, at_ns,
+                      {pipeline::UtcMapping::Source::gps, testing::kSampleOffset_ns, 60'000'000, at_ns});
+    encoder.raw(log, 1, Direction::received, at_ns, std::vector<std::uint8_t>(22));
+    encoder.sample(log, sample(at_ns, i < 10 ? before_ns : testing::kSampleOffset_ns));
+    encoder.event(log, at_ns, "info", "mark", "", "n");
+  }
+  encoder.finish(log, begin_ns);
+  return log;
+}
+
+TEST_F(RecordingFiles, ALogIsOnOneScaleOfUtcAlsoBeforeItWasKnown) {
+  for (const bool has_system_clock : {false, true}) {
+    const auto file = write("a.mcap", log_of_late_utc(has_system_clock));
+    const auto recording = Recording::open(file);
+    for (const Entry& entry : entries_of(*recording)) {
+      const auto* const change = std::get_if<MappingChange>(&entry);
+      EXPECT_TRUE(change == nullptr || change->mapping.offset_ns == testing::kSampleOffset_ns);
+    }
+    const auto info = read_info(file, [](double) {});
+    EXPECT_EQ(info.start_utc_ns, testing::kSampleStart_ns + testing::kSampleOffset_ns);
+    EXPECT_EQ(info.end_utc_ns - info.start_utc_ns, 1'900'000'000);
+    const auto exported = export_csv(file, path_ / "csv", [](double) {});
+    for (const char* table : {"imu.csv", "event.csv", "raw_imu.csv"}) {
+      std::istringstream rows(read(path_ / "csv" / table));
+      std::string row;
+      std::getline(rows, row);
+      double last_s = 0;
+      for (int i = 0; std::getline(rows, row); ++i) {
+        const double time_s = std::stod(row);
+        EXPECT_NEAR(time_s, 1'790'000'005 + 0.1 * i, 0.06) << table << " " << row;
+        EXPECT_GT(time_s, last_s);
+        last_s = time_s;
+      }
+      EXPECT_GT(last_s, 0) << table;
+    }
+    EXPECT_NE(read(path_ / "csv" / "imu.csv").find("\n1790000004.950000001,0.001500000,1790000005.000000001,"),
+              std::string::npos);
+  }
 }
 
 }  // namespace
