@@ -42,13 +42,17 @@ std::int64_t transit_ns(const config::PortSettings& port) {
   return kMccLine_bytes * 10'000'000'000 / std::max(1, port.baud);
 }
 
-std::vector<std::shared_ptr<MarkerFile>> notes(const config::Settings& settings,
-                                               const std::filesystem::path& second) {
-  const std::string content = config::to_toml(settings);
-  std::vector<std::shared_ptr<MarkerFile>> made{
-      std::make_shared<MarkerFile>(settings.log.directory / kMotorNote, content)};
-  if (!second.empty()) made.push_back(std::make_shared<MarkerFile>(second, content));
+std::vector<std::shared_ptr<StateFile>> notes(const config::Settings& settings,
+                                              const std::filesystem::path& second) {
+  std::vector<std::shared_ptr<StateFile>> made{std::make_shared<StateFile>(settings.log.directory / kMotorNote)};
+  if (!second.empty()) made.push_back(std::make_shared<StateFile>(second));
   return made;
+}
+
+/// True when the run before left the note, or when nobody can tell.
+bool was_left(const StateFile& note) {
+  std::error_code error;
+  return std::filesystem::exists(note.path(), error) || error;
 }
 
 }  // namespace
@@ -72,11 +76,11 @@ MotorControl::MotorControl(const boost::asio::any_io_executor& executor, const c
       echo_(settings.command.echo_timeout_s, transit_ns(session.settings())),
       refusals_(kRecords_Hz),
       events_(kRecords_Hz),
+      configuration_(std::make_shared<const std::string>(config::to_toml(settings))),
       notes_(notes(settings, second_note)),
       timer_(executor, [this] { ring(); }) {
-  const bool was_commanded =
-      std::any_of(notes_.begin(), notes_.end(), [](const auto& n) { return n->was_there(); });
-  if (was_commanded) command_.commanded_before(ports::monotonic_ns());
+  is_noted_ = std::any_of(notes_.begin(), notes_.end(), [](const auto& note) { return was_left(*note); });
+  if (is_noted_) command_.commanded_before(ports::monotonic_ns());
 }
 
 ControlAnswer MotorControl::answer(const ControlRequest& request, const ControlOrigin& origin) {
@@ -103,10 +107,12 @@ ControlAnswer MotorControl::answer_stop(const ControlRequest& request, const Con
 ControlAnswer MotorControl::answer_lease(const ControlRequest& request, const ControlOrigin& origin) {
   // Whatever becomes of this run, the next one must know that the card may have an order.
   ++leases_under_way_;
+  is_noted_ = true;
   return ControlAnswer(
-      [notes = notes_] {
-        std::string problem = notes.front()->keep(kNote);
-        for (std::size_t i = 1; problem.empty() && i < notes.size(); ++i) (void)notes[i]->keep(kNote);
+      [notes = notes_, configuration = configuration_] {
+        std::string problem = notes.front()->keep(*configuration, kNote);
+        for (std::size_t i = 1; problem.empty() && i < notes.size(); ++i)
+          (void)notes[i]->keep(*configuration, kNote);
         return problem;
       },
       [this, wanted = request.lease_request, client = origin.client, stops = stops_](std::string problem) {
@@ -287,7 +293,8 @@ void MotorControl::take_records(std::int64_t now_ns) {
     for (const auto& shown : std::exchange(shown_, {})) shown->set_value();
   }
   records_.clear();
-  if (command_.is_card_commanded() || command_.holder() || leases_under_way_ > 0) return;
+  const bool is_needed = command_.is_card_commanded() || command_.holder() || leases_under_way_ > 0;
+  if (is_needed || !std::exchange(is_noted_, false)) return;
   for (const auto& note : notes_) note->remove();
 }
 

@@ -18,8 +18,8 @@
 #include "daemon/control_request.h"
 #include "daemon/lazy_timer.h"
 #include "daemon/log_writer.h"
-#include "daemon/marker_file.h"
 #include "daemon/port_session.h"
+#include "daemon/state_file.h"
 #include "pipeline/pipeline.h"
 
 namespace navcal::daemon {
@@ -100,8 +100,10 @@ class MotorControl {
   MotorOwner& owner_;
   control::MotorCommand command_;
   control::EchoWatch echo_;
-  control::OrderRate refusals_, events_;                  ///< of records and events: a flood fills no log
-  const std::vector<std::shared_ptr<MarkerFile>> notes_;  ///< the first must be kept, another may be
+  control::OrderRate refusals_, events_;                    ///< of records and events: a flood fills no log
+  const std::shared_ptr<const std::string> configuration_;  ///< what the notes contain
+  const std::vector<std::shared_ptr<StateFile>> notes_;     ///< the first must be kept, another may be
+  bool is_noted_ = false;                                   ///< they are, or are being made
   LazyTimer timer_;
   std::vector<control::OrderRecord> records_;
   std::int64_t asked_ns_ = 0;  ///< arrival of the last order

@@ -13,12 +13,31 @@ StateFile::StateFile(std::filesystem::path file) : file_(std::move(file)) {}
 
 StateFile::~StateFile() { stop(); }
 
-void StateFile::save(std::string content) {
-  const std::lock_guard lock(mutex_);
-  if (stopping_) return;
-  waiting_ = std::move(content);
+std::uint64_t StateFile::change(std::optional<std::string> content) {
+  if (stopping_) return answered_;
+  wanted_ = std::move(content);
   if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
   wake_.notify_one();
+  return ++asked_;
+}
+
+void StateFile::save(std::string content) {
+  const std::lock_guard lock(mutex_);
+  change(std::move(content));
+}
+
+void StateFile::remove() {
+  const std::lock_guard lock(mutex_);
+  change(std::nullopt);
+}
+
+std::string StateFile::keep(std::string content, std::chrono::milliseconds limit) {
+  std::unique_lock lock(mutex_);
+  if (stopping_) return "navcald stops";
+  const std::uint64_t mine = change(std::move(content));
+  if (!done_.wait_for(lock, limit, [&] { return answered_ >= mine; }))
+    return fmt::format("{}: the disk has not taken it within {} ms", file_.string(), limit.count());
+  return problem_;
 }
 
 void StateFile::stop() {
@@ -31,23 +50,34 @@ void StateFile::stop() {
 }
 
 void StateFile::run() {
+  std::unique_lock lock(mutex_);
   for (;;) {
-    std::string content;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return waiting_ || stopping_; });
-      if (!waiting_) return;
-      content = *std::exchange(waiting_, std::nullopt);
-    }
-    std::error_code error;
-    std::filesystem::create_directories(file_.parent_path(), error);
-    if (!error) error = record::write_checked(file_, content);
-    if (error && !std::exchange(failing_, true)) {
-      note(fmt::format("{} cannot be written: {}", file_.string(), error.message()));
-    } else if (!error && std::exchange(failing_, false)) {
-      note(fmt::format("{} can be written again", file_.string()));
-    }
+    wake_.wait(lock, [this] { return asked_ != answered_ || stopping_; });
+    if (asked_ == answered_) return;
+    const std::uint64_t asked = asked_;
+    const auto content = wanted_;
+    lock.unlock();
+    std::string problem = apply(content);
+    lock.lock();
+    answered_ = asked;
+    if (problem != problem_)
+      notices_.push_back(problem.empty() ? file_.string() + " can be written again" : problem);
+    problem_ = std::move(problem);
+    done_.notify_all();
   }
+}
+
+std::string StateFile::apply(const std::optional<std::string>& content) const {
+  std::error_code error;
+  if (!content) {
+    std::filesystem::remove(file_, error);
+    return error ? fmt::format("{} cannot be removed: {}", file_.string(), error.message()) : std::string();
+  }
+  // What cannot be written anew, on a disk that has turned read-only, says what it is to say.
+  if (record::read_checked(file_).content == *content) return {};
+  std::filesystem::create_directories(file_.parent_path(), error);
+  if (!error) error = record::write_checked(file_, *content);
+  return error ? fmt::format("{} cannot be written: {}", file_.string(), error.message()) : std::string();
 }
 
 void StateFile::note(std::string notice) {

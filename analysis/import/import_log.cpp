@@ -281,7 +281,8 @@ ImportReport import_log(const std::filesystem::path& input, const std::filesyste
     if (lost > 0) report.left[fmt::format("sample of {} (no value, or one out of range)", ports[i])] = lost;
     report.refused += lost;
     if (statistics.unused.total() > 0)
-      report.remarks.push_back(fmt::format("{}: frames without a sample: {}", ports[i], statistics.unused.words()));
+      report.remarks.push_back(
+          fmt::format("{}: frames without a sample: {}", ports[i], statistics.unused.words()));
   }
   builder.tell("info", "import",
                fmt::format("of {} ({}); UTC: {}", report.input, format.name,
