@@ -268,8 +268,8 @@ void SlocumFile::emit_sensors(std::int64_t time_ns) {
   for (const SlocumSensor& sensor : sensors_) {
     const auto found = fresh_.find(sensor.name);
     if (found == fresh_.end()) continue;
-    Actuator as{sensor.name, std::string_view(sensor.name).substr(4), sensor.unit, 1};
     const bool is_science = sensor.name.starts_with("sci_"), is_fin = sensor.name == "c_fin";
+    Actuator as{sensor.name, std::string_view(sensor.name).substr(is_science ? 4 : 0), sensor.unit, 1};
     const auto* const actuator = std::find_if(kActuators.begin(), kActuators.end(),
                                               [&](const Actuator& known) { return known.sensor == sensor.name; });
     if (actuator != kActuators.end()) as = *actuator;

@@ -44,7 +44,8 @@ class ActuatorTrajectory {
 /// a command that its lag follows. The k-th thruster in us or percent follows the quantity "output<k>", a command;
 /// pulses of a thruster in percent or rpm (`channel`) are converted. The k-th movable surface follows "fin_<k>": a
 /// position where a motor card reported it, else a command. The key `channel` of the layout names another signal,
-/// which is a command. Without it, ballasts follow "ballast" and moving masses "moving_mass", else they stay neutral.
+/// which is a command. Without it, ballasts follow "ballast" and moving masses "moving_mass", else they stay
+/// neutral.
 class ActuatorInputs {
  public:
   /// `motion` must outlive it.

@@ -35,8 +35,8 @@ inline PortCounts expect_counts_agree(const std::string& format, const std::stri
   while (const auto message = reader.next()) {
     if (reader.channels().at(message->channel).raw) continue;
     const auto json = nlohmann::json::parse(message->data);
-    const std::string port = json.value("port", "");
-    if (json["class"] != "EVENT" && given.count(port) > 0) ++written[port];
+    const std::string port = json.value("device", "");
+    if (given.count(port) > 0) ++written[port];
   }
   PortCounts and_left = written;
   std::uint64_t refused = 0;
