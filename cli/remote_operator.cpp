@@ -98,7 +98,7 @@ void RemoteOperator::watch_sessions() {
     if (is_in_charge()) on_notice("the lease is lost");
   }
   sessions_ = host_.sessions();
-  is_leasing_ = is_leased_ = is_stopping_ = false;
+  is_leasing_ = is_leased_ = false;
 }
 
 void RemoteOperator::wait_for_session(double limit_s) {
@@ -145,7 +145,6 @@ void RemoteOperator::lease() {
         .timeout_s = options_.lease_timeout_s,
         .holder = options_.holder});
   is_leasing_ = awaited_.has_value();
-  is_stopping_ = false;
   shaft_rpm_ = 0;
   fins_deg_ = {};
 }
@@ -167,29 +166,20 @@ void RemoteOperator::repeat_order() {
 }
 
 void RemoteOperator::release() {
-  is_leasing_ = is_leased_ = is_stopping_ = false;
+  is_leasing_ = is_leased_ = false;
   give({});
 }
 
 void RemoteOperator::stop() {
-  if (is_in_charge() && !host_.knows(CommandKind::stop)) return release();
   is_leasing_ = is_leased_ = false;
   give({.kind = CommandKind::stop, .holder = options_.holder});
-  is_stopping_ = awaited_.has_value();
 }
 
 void RemoteOperator::take_command_answer() {
-  // An older vehicle does not answer a stop. Taking over and giving back stops it, where the priority is enough.
-  if (is_stopping_ && !is_leasing_ && !host_.knows(CommandKind::stop)) {
-    lease();
-    is_stopping_ = true;
-  }
   const auto answer = host_.take_answer();
   if (!answer) return;
   const bool is_awaited = answer->number == awaited_;
   if (is_awaited) awaited_.reset();
-  if (is_awaited && is_leasing_ && is_stopping_ && answer->is_ok) return release();
-  if (is_awaited) is_stopping_ = false;
   if (is_awaited || !answer->is_ok) answer_ = answer->is_ok ? "ok" : answer->error;
   if (is_awaited && std::exchange(is_leasing_, false)) {
     is_leased_ = answer->is_ok;

@@ -79,7 +79,7 @@ class RemoteOperator {
   std::int64_t open_again_ns_ = 0;
   std::optional<std::uint16_t> awaited_;  ///< number of the command whose answer is shown
   std::optional<std::string> answer_;
-  bool is_leasing_ = false, is_leased_ = false, is_stopping_ = false;
+  bool is_leasing_ = false, is_leased_ = false;
   double shaft_rpm_ = 0;
   std::array<double, 3> fins_deg_{};
   std::int64_t order_due_ns_ = 0;

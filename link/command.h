@@ -13,9 +13,7 @@ namespace navcal::link {
 /// What an operator asks of the motor. Only the newest command counts: one that arrives after a newer one is
 /// dropped.
 struct Command {
-  /// A vehicle drops a kind that it does not know, without an answer; Host::knows() says which it knows.
   enum class Kind : std::uint8_t { lease = 1, order = 2, release = 3, stop = 4 };
-  static constexpr Kind kNewestKind = Kind::stop;
   Kind kind = Kind::release;
   std::uint16_t number = 0;  ///< grows by one with every command of a session, and wraps
   // Of a lease.

@@ -105,7 +105,6 @@ void Host::take_welcome(std::int64_t now_ns, const FrameView& view) {
   ping_due_ns_ = now_ns;  // the first frame of the session proves that this end has the key
   pending_.reset();
   answer_.reset();
-  newest_kind_.reset();
   report_counter_ = 0;
   report_session_ = session_->id;
   refusal_ = Refusal::none;
@@ -143,7 +142,6 @@ void Host::take_pong(std::int64_t now_ns, Bytes payload) {
   FieldReader in(payload);
   const double trip_s = static_cast<double>(milliseconds(now_ns) - in.get<std::uint32_t>()) * 1e-3;
   loss_out_ = in.get<std::uint8_t>() / 100.0;
-  newest_kind_ = std::max(static_cast<Command::Kind>(in.get<std::uint8_t>()), Command::Kind::release);
   round_trip_s_ = round_trip_s_ ? *round_trip_s_ + kRoundTripWeight * (trip_s - *round_trip_s_) : trip_s;
 }
 

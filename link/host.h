@@ -40,9 +40,6 @@ class Host {
   /// A command; it replaces one that has not been answered. Returns its number. nullopt: there is no session yet,
   /// or an order would replace a lease, a release or a stop under way.
   [[nodiscard]] std::optional<std::uint16_t> command(std::int64_t now_ns, Command command);
-  /// False: the vehicle is older than this kind of command, and drops it. It is known with the first answer to a
-  /// ping; true before.
-  [[nodiscard]] bool knows(Command::Kind kind) const { return !newest_kind_ || kind <= *newest_kind_; }
   [[nodiscard]] std::optional<CommandAnswer> take_answer() { return std::exchange(answer_, std::nullopt); }
   /// A request on the reliable stream. False: there is no session, or it is too long.
   [[nodiscard]] bool request(std::string_view line);
@@ -108,7 +105,6 @@ class Host {
   Refusal refusal_ = Refusal::none;
   std::optional<double> round_trip_s_;
   double loss_out_ = 0;
-  std::optional<Command::Kind> newest_kind_;  ///< that the vehicle knows
   int byes_ = -1;
   std::int64_t bye_due_ns_ = 0;
   std::uint32_t outside_counter_ = 0;

@@ -223,10 +223,9 @@ std::optional<Buffer> Vehicle::next(std::int64_t now_ns) {
 std::optional<Buffer> Vehicle::next_of_session(std::int64_t now_ns) {
   const bool is_tagged = active_ && options_.key.has_value();
   if (active_ && pong_) {
-    if (!passes(now_ns, pong_->size() + 2, is_tagged, false)) return std::nullopt;
+    if (!passes(now_ns, pong_->size() + 1, is_tagged, false)) return std::nullopt;
     Buffer payload = *std::exchange(pong_, std::nullopt);
     payload.push_back(static_cast<std::uint8_t>(std::lround(100 * loss())));
-    payload.push_back(static_cast<std::uint8_t>(Command::kNewestKind));
     return counted(active_->frame(FrameType::pong, payload));
   }
   if (report_) {

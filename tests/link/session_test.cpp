@@ -426,27 +426,5 @@ TEST(LinkSession, AnOrderReplacesNoLeaseAndNoRelease) {
   EXPECT_TRUE(world.host.command(world.now_ns, order));
 }
 
-TEST(LinkSession, AVehicleThatIsOlderThanACommandIsKnownByItsPong) {
-  World world({}, 15);
-  std::optional<Header> pong;
-  Buffer payload;
-  world.on_frame = [&](bool is_down, std::int64_t, const Buffer& frame) {
-    const auto view = view_frame(frame);
-    if (!is_down || view->header.type != FrameType::pong) return;
-    pong = view->header;
-    payload.assign(view->payload.begin(), view->payload.end());
-  };
-  ASSERT_TRUE(world.connect());
-  EXPECT_TRUE(world.host.knows(Command::Kind::stop)) << "until the vehicle says something else";
-  ASSERT_TRUE(world.run(5, [&] { return world.host.quality().round_trip_s.has_value(); }));
-  EXPECT_TRUE(world.host.knows(Command::Kind::stop));
-  ASSERT_EQ(payload.size(), 6U);
-  payload.pop_back();
-  ++pong->counter;
-  world.host.take(world.now_ns, FrameWriter(*pong, payload).finish({}));
-  EXPECT_FALSE(world.host.knows(Command::Kind::stop));
-  EXPECT_TRUE(world.host.knows(Command::Kind::release));
-}
-
 }  // namespace
 }  // namespace navcal::link
