@@ -26,8 +26,7 @@ TurnedSample joined(const TurnedSample& first, const TurnedSample& second) {
 }  // namespace
 
 CalibrateHistory::CalibrateHistory(const config::Settings& settings)
-    : ports_(pipeline::calibrated_ports(settings)),
-      sources_(settings),
+    : ports_(pipeline::calibrated_ports(settings)), sources_(settings),
       gate_(pipeline::suite_options(settings, ports_).gate),
       turns_({.tilt_lag_s = settings.instruments.compass.tilt_lag_s,
               .tilt_noise_rad = pipeline::reckoned_noise(settings).tilt_rad}) {}

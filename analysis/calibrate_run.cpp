@@ -40,8 +40,7 @@ std::int64_t time_of(const record::Entry& entry) {
 }  // namespace
 
 CalibrateRun::CalibrateRun(const config::Settings& settings, CalibrateHistory* history)
-    : settings_(with_calibration(settings)),
-      history_(history),
+    : settings_(with_calibration(settings)), history_(history),
       sink_(history != nullptr ? static_cast<pipeline::Sink&>(*history) : nobody()),
       pipeline_(std::make_unique<pipeline::Pipeline>(settings_)) {}
 

@@ -24,10 +24,7 @@ constexpr std::size_t kShownBytes = 16;
 class KindStatistics {
  public:
   KindStatistics(const FrameKind& kind, bool is_text)
-      : kind_(kind),
-        reader_(kind, is_text),
-        plain_(kind.fields.size()),
-        sample_(kind.fields.size()),
+      : kind_(kind), reader_(kind, is_text), plain_(kind.fields.size()), sample_(kind.fields.size()),
         before_(kind.fields.size(), NAN) {
     finding.id = kind.id;
     for (const Field& field : kind.fields) {

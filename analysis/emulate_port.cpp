@@ -16,15 +16,11 @@ using std::chrono::steady_clock;
 
 EmulatedPort::EmulatedPort(const boost::asio::any_io_executor& executor, const Place& place,
                            std::unique_ptr<sim::Device> device, SentLog* log)
-    : place_(place),
-      device_(std::move(device)),
-      log_(log),
-      misbehaviour_(place.seed),
+    : place_(place), device_(std::move(device)), log_(log), misbehaviour_(place.seed),
       host_(executor, place.dir / place.name, device_->baud(),
             [this](std::int64_t now_ns, protocols::Bytes bytes) { on_host_bytes(now_ns, bytes); }),
       writer_(executor, [this](std::int64_t now_ns, protocols::Bytes piece) { put(now_ns, piece); }),
-      timer_(executor),
-      stall_timer_(executor) {
+      timer_(executor), stall_timer_(executor) {
   power_cycle();
 }
 

@@ -21,9 +21,7 @@ class OrderedLayout final : public sim::Motion {
   /// `options.start_ns` in UTC; `now_ns` gives UTC.
   OrderedLayout(const config::Layout& layout, const sim::MotionOptions& options,
                 std::function<std::int64_t()> now_ns)
-      : now_ns_(std::move(now_ns)),
-        start_ns_(options.start_ns),
-        helm_(new sim::LayoutOrderedHelm(layout)),
+      : now_ns_(std::move(now_ns)), start_ns_(options.start_ns), helm_(new sim::LayoutOrderedHelm(layout)),
         motion_(layout, std::unique_ptr<sim::LayoutHelm>(helm_), options) {}
 
   /// The state at t_ns; for a time to come, the state now. Throws UnstableVehicle.

@@ -10,9 +10,7 @@ namespace navcal::analysis {
 
 OrderedMotion::Floating::Floating(const config::VehicleSettings& vehicle, const sim::OrderedHelm& helm,
                                   sim::VehicleInfluencer* others)
-    : weight_N_(vehicle.hull.mass_kg * sim::kGravity_m_s2),
-      diameter_m_(vehicle.hull.diameter_m),
-      helm_(helm),
+    : weight_N_(vehicle.hull.mass_kg * sim::kGravity_m_s2), diameter_m_(vehicle.hull.diameter_m), helm_(helm),
       others_(others) {}
 
 void OrderedMotion::Floating::influence(double time_s, sim::Influences& on) {
@@ -27,9 +25,7 @@ void OrderedMotion::Floating::link_fins(double time_s, double step_s, sim::Vecto
 
 // The helm belongs to the motion from its construction on; the members before it only keep its address.
 OrderedMotion::OrderedMotion(const config::VehicleSettings& vehicle, const Options& options)
-    : now_ns_(options.now_ns),
-      start_ns_(options.start_ns),
-      helm_(new sim::OrderedHelm(vehicle)),
+    : now_ns_(options.now_ns), start_ns_(options.start_ns), helm_(new sim::OrderedHelm(vehicle)),
       floating_(vehicle, *helm_, options.influencer),
       motion_(vehicle, std::unique_ptr<sim::Helm>(helm_),
               {.start_ns = options.start_ns, .influencer = &floating_, .history_s = options.history_s}) {}

@@ -11,9 +11,7 @@
 namespace navcal::analysis {
 
 Output::Output(int descriptor, std::string name)
-    : descriptor_(descriptor),
-      name_(std::move(name)),
-      buffer_(std::make_unique<std::array<char, kCapacity>>()),
+    : descriptor_(descriptor), name_(std::move(name)), buffer_(std::make_unique<std::array<char, kCapacity>>()),
       next_(buffer_->data()) {}
 
 void Output::flush() {

@@ -28,11 +28,8 @@ Eigen::Vector3d mixed_fins(double rudder_rad, double elevator_rad) {
 }
 
 Autopilot::Autopilot(const config::VehicleSettings& settings)
-    : settings_(settings.autopilot),
-      propeller_(settings.propeller),
-      fin_limit_rad_(settings.fins.limit_rad),
-      density_kg_m3_(settings.water.density_kg_m3),
-      drag_kg_m_(axial_drag_kg_m(settings)) {}
+    : settings_(settings.autopilot), propeller_(settings.propeller), fin_limit_rad_(settings.fins.limit_rad),
+      density_kg_m3_(settings.water.density_kg_m3), drag_kg_m_(axial_drag_kg_m(settings)) {}
 
 Orders Autopilot::orders(const Demand& demand, const VehicleState& state, double period_s) {
   Orders orders;

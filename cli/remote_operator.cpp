@@ -39,8 +39,7 @@ RemoteOperator::Clock::time_point RemoteOperator::after(double seconds) {
 }
 
 RemoteOperator::RemoteOperator(const Options& options)
-    : options_(options),
-      host_(end_of_operator(options)),
+    : options_(options), host_(end_of_operator(options)),
       connection_(std::in_place, options.address, options.baud) {}
 
 std::int64_t RemoteOperator::now_ns() { return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count(); }

@@ -14,8 +14,7 @@ constexpr std::size_t kMostUntimed = 64;
 }  // namespace
 
 EchoWatch::EchoWatch(double timeout_s, std::int64_t transit_ns)
-    : timeout_ns_(std::llround(timeout_s * 1e9)),
-      transit_ns_(transit_ns),
+    : timeout_ns_(std::llround(timeout_s * 1e9)), transit_ns_(transit_ns),
       capacity_(timeout_ns_ > 0 ? kMostTimed : kMostUntimed) {}
 
 void EchoWatch::pass_on_first(Outcome outcome, std::vector<OrderRecord>& out) {

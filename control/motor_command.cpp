@@ -16,9 +16,7 @@ constexpr double kSafeRepeat_s = 0.5;
 }  // namespace
 
 MotorCommand::MotorCommand(const config::CommandSettings& settings)
-    : settings_(settings),
-      safe_{settings.safe_rpm, settings.safe_fins_deg},
-      rate_(settings.max_orders_Hz),
+    : settings_(settings), safe_{settings.safe_rpm, settings.safe_fins_deg}, rate_(settings.max_orders_Hz),
       shaper_(settings) {
   shaper_.jump(0, safe_);
 }

@@ -36,9 +36,7 @@ asio::awaitable<std::string> do_work(std::function<std::string()> work) { co_ret
 
 ControlServer::ControlServer(asio::local::stream_protocol::acceptor acceptor, std::filesystem::path own_path,
                              ControlOwner& owner)
-    : acceptor_(std::move(acceptor)),
-      own_path_(std::move(own_path)),
-      owner_(owner),
+    : acceptor_(std::move(acceptor)), own_path_(std::move(own_path)), owner_(owner),
       look_timer_(acceptor_.get_executor(), [this] { look_at_buffers(); }) {}
 
 ControlServer::~ControlServer() {

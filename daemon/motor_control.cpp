@@ -68,17 +68,10 @@ std::optional<std::uint16_t> motor_port(const config::Settings& settings) {
 MotorControl::MotorControl(const boost::asio::any_io_executor& executor, const config::Settings& settings,
                            const std::filesystem::path& second_note, PortSession& session, LogWriter& log,
                            const pipeline::Pipeline& pipeline, MotorOwner& owner)
-    : session_(session),
-      log_(log),
-      pipeline_(pipeline),
-      owner_(owner),
-      command_(settings.command),
-      echo_(settings.command.echo_timeout_s, transit_ns(session.settings())),
-      refusals_(kRecords_Hz),
-      events_(kRecords_Hz),
-      configuration_(std::make_shared<const std::string>(config::to_toml(settings))),
-      notes_(notes(settings, second_note)),
-      timer_(executor, [this] { ring(); }) {
+    : session_(session), log_(log), pipeline_(pipeline), owner_(owner), command_(settings.command),
+      echo_(settings.command.echo_timeout_s, transit_ns(session.settings())), refusals_(kRecords_Hz),
+      events_(kRecords_Hz), configuration_(std::make_shared<const std::string>(config::to_toml(settings))),
+      notes_(notes(settings, second_note)), timer_(executor, [this] { ring(); }) {
   is_noted_ = std::any_of(notes_.begin(), notes_.end(), [](const auto& note) { return was_left(*note); });
   if (is_noted_) command_.commanded_before(ports::monotonic_ns());
 }

@@ -44,8 +44,7 @@ class Card : private pipeline::Sink, private PortOwner, private MotorOwner {
  public:
   Card(const boost::asio::any_io_executor& executor, const config::Settings& settings,
        const std::filesystem::path& note)
-      : pipeline_(settings),
-        log_(settings, ports::monotonic_ns(), {}),
+      : pipeline_(settings), log_(settings, ports::monotonic_ns(), {}),
         session_(executor, 0, settings.ports[0], port_owner()),
         motor_(executor, settings, note, session_, log_, pipeline_, motor_owner()) {
     session_.start();

@@ -29,14 +29,10 @@ std::string_view name_of(PortSession::State state) {
 
 PortSession::PortSession(const boost::asio::any_io_executor& executor, std::uint16_t port,
                          const config::PortSettings& settings, PortOwner& owner)
-    : index_(port),
-      settings_(settings),
-      owner_(owner),
-      start_up_(instruments::make_start_up(settings)),
+    : index_(port), settings_(settings), owner_(owner), start_up_(instruments::make_start_up(settings)),
       compass_calibration_(instruments::make_compass_calibration(settings)),
       talk_timer_(executor, [this] { talk(ports::monotonic_ns()); }),
-      speed_check_(settings.protocol, settings.baud),
-      port_(executor, settings, *this) {
+      speed_check_(settings.protocol, settings.baud), port_(executor, settings, *this) {
   if (settings.protocol == protocols::Protocol::oncore && settings.aid) aid_.emplace();
 }
 

@@ -80,17 +80,13 @@ std::string_view name_of(link::Vehicle::Peer peer) {
 
 RemoteLink::RemoteLink(const boost::asio::any_io_executor& executor, const config::RemoteSettings& settings,
                        RemoteOwner& owner)
-    : settings_(settings),
-      owner_(owner),
-      has_key_(!settings.key_file.empty()),
-      vehicle_(end_options(settings)),
+    : settings_(settings), owner_(owner), has_key_(!settings.key_file.empty()), vehicle_(end_options(settings)),
       line_(make_remote_line(executor, settings_,
                              {[this](std::int64_t now_ns, protocols::Bytes bytes) { on_bytes(now_ns, bytes); },
                               [this](std::int64_t now_ns, bool is_open, std::string_view words) {
                                 on_line(now_ns, is_open, words);
                               }})),
-      timer_(executor, [this] { drive(ports::monotonic_ns()); }),
-      beat_timer_(executor, [this] { beat(); }) {}
+      timer_(executor, [this] { drive(ports::monotonic_ns()); }), beat_timer_(executor, [this] { beat(); }) {}
 
 void RemoteLink::start() {
   line_->start();

@@ -28,12 +28,8 @@ constexpr auto kUnread = std::chrono::milliseconds(200);
 }  // namespace
 
 StatusClient::StatusClient(asio::ip::tcp::socket socket, std::size_t queue_bytes, ClientOwner& owner)
-    : socket_(std::move(socket)),
-      pause_(socket_.get_executor()),
-      requests_(kMaxRequests_Hz),
-      queue_(queue_bytes),
-      owner_(owner),
-      used_ns_(ports::monotonic_ns()) {
+    : socket_(std::move(socket)), pause_(socket_.get_executor()), requests_(kMaxRequests_Hz), queue_(queue_bytes),
+      owner_(owner), used_ns_(ports::monotonic_ns()) {
   // A client that is gone already fails these; reading will tell.
   boost::system::error_code ignored;
   socket_.set_option(asio::ip::tcp::no_delay(true), ignored);

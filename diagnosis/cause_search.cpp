@@ -82,8 +82,7 @@ std::vector<ParameterPrior> priors_for(const CauseLibrary& library, const Column
 }  // namespace
 
 SetEvidence::SetEvidence(const LinearRecording& linear, const CauseLibrary& library, const ColumnPriors& priors)
-    : library_(library),
-      priors_(priors),
+    : library_(library), priors_(priors),
       evidence_(linear.gram, linear.score, priors.spike,
                 (kMemberStrengths.back() * priors.typical).cwiseMax(priors.spike)),
       base_(evidence_.base() - 0.5 * linear.power) {}

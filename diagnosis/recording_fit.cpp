@@ -70,11 +70,7 @@ LinearRecording LinearRecording::about(const Eigen::VectorXd& at) const {
 FittedRecording::FittedRecording(const config::Layout& layout, const CauseLibrary& library,
                                  const std::vector<identify::RecordedMotion>& one_recording,
                                  const identify::NoiseModel& noise, const identify::FitSettings& settings)
-    : layout_(layout),
-      library_(library),
-      recordings_(one_recording),
-      noise_(noise),
-      settings_(settings),
+    : layout_(layout), library_(library), recordings_(one_recording), noise_(noise), settings_(settings),
       nuisance_stds_(identify::nuisance_stds(one_recording.front())) {
   for (const Cause& cause : library.causes) {
     if (!cause.is_instrument) continue;

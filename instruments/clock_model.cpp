@@ -45,9 +45,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 ClockModel::ClockModel(double nominal_period_s, double period_std)
-    : nominal_s_(nominal_period_s),
-      period_prior_s_(period_std * nominal_period_s),
-      period_s_(nominal_period_s),
+    : nominal_s_(nominal_period_s), period_prior_s_(period_std * nominal_period_s), period_s_(nominal_period_s),
       walk_(kFrequencyWalkPrior) {
   var_period_ = square(period_prior_s_);
 }

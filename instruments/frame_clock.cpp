@@ -60,10 +60,8 @@ std::string_view name_of(Timing timing) {
 }
 
 FrameClock::FrameClock(double rate_Hz, double latency_std_s)
-    : nominal_s_(rate_Hz > 0 ? 1 / rate_Hz : 0),
-      latency_std_s_(latency_std_s),
-      timing_(rate_Hz > 0 ? Timing::searching : Timing::arrival),
-      model_(rate_Hz > 0 ? nominal_s_ : 1.0) {}
+    : nominal_s_(rate_Hz > 0 ? 1 / rate_Hz : 0), latency_std_s_(latency_std_s),
+      timing_(rate_Hz > 0 ? Timing::searching : Timing::arrival), model_(rate_Hz > 0 ? nominal_s_ : 1.0) {}
 
 std::int64_t FrameClock::arrival_std_ns() const {
   return ns(std::hypot(nominal_s_ > 0 ? kUnknownStd_s : kArrivalStd_s, latency_std_s_));

@@ -24,8 +24,7 @@ Vector3 turned(const Eigen::Matrix3d& rotation, const Vector3& vector) {
 }  // namespace
 
 Mounting::Mounting(const config::MountingSettings& settings)
-    : turned_(settings.rotation_deg != std::array<double, 3>{}),
-      yaw_rad_(angles_of_mounting(settings).yaw_rad),
+    : turned_(settings.rotation_deg != std::array<double, 3>{}), yaw_rad_(angles_of_mounting(settings).yaw_rad),
       body_from_device_(base::rotation_of(angles_of_mounting(settings))) {}
 
 void Mounting::to_body(decltype(Sample::value)& value) const {

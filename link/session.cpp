@@ -25,11 +25,8 @@ Buffer make_frame(Header header, Bytes payload, const std::optional<SessionKey>&
 
 Session::Session(std::uint16_t number, const Nonce& vehicle_nonce, const Nonce& host_nonce,
                  const std::optional<Key>& key, Direction outgoing)
-    : id(number),
-      vehicle(vehicle_nonce),
-      host(host_nonce),
-      receiver(outgoing == Direction::to_operator ? kLongestRequest : kMaxMessage),
-      outgoing_(outgoing) {
+    : id(number), vehicle(vehicle_nonce), host(host_nonce),
+      receiver(outgoing == Direction::to_operator ? kLongestRequest : kMaxMessage), outgoing_(outgoing) {
   if (key) key_ = key->session(vehicle, host);
 }
 

@@ -39,8 +39,7 @@ std::unique_ptr<BatteryStage> BatteryStage::make(const config::Settings& setting
 }
 
 BatteryStage::BatteryStage(const config::BatterySettings& settings)
-    : settings_(settings),
-      interval_ns_(std::llround(settings.interval_s * 1e9)),
+    : settings_(settings), interval_ns_(std::llround(settings.interval_s * 1e9)),
       estimator_(battery_estimator_options(settings)) {}
 
 void BatteryStage::take(const instruments::Sample& sample, const std::optional<NavigationSample>& navigation,

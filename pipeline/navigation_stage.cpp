@@ -66,20 +66,12 @@ std::unique_ptr<NavigationStage> NavigationStage::make(const config::Settings& s
 }
 
 NavigationStage::NavigationStage(const config::Settings& settings)
-    : settings_(settings.navigation),
-      tilt_lags_(tilt_lags_of(settings)),
-      ports_(Sources(settings).serving()),
-      options_(navigation_options(settings)),
-      declination_rad_(settings.environment.declination_rad),
-      gps_(devices::instrument_model(settings).gps),
-      max_error_m_(settings.navigation.max_error_m),
-      interval_ns_(std::llround(settings.navigation.interval_s * 1e9)),
-      calibrated_(options_),
-      uncalibrated_(options_),
-      positions_m_(mounted_positions_m(settings)),
-      surfacings_(gps_.antenna_depth_m),
-      altitude_(altitude_options(settings.navigation)),
-      floor_(settings.navigation) {}
+    : settings_(settings.navigation), tilt_lags_(tilt_lags_of(settings)), ports_(Sources(settings).serving()),
+      options_(navigation_options(settings)), declination_rad_(settings.environment.declination_rad),
+      gps_(devices::instrument_model(settings).gps), max_error_m_(settings.navigation.max_error_m),
+      interval_ns_(std::llround(settings.navigation.interval_s * 1e9)), calibrated_(options_),
+      uncalibrated_(options_), positions_m_(mounted_positions_m(settings)), surfacings_(gps_.antenna_depth_m),
+      altitude_(altitude_options(settings.navigation)), floor_(settings.navigation) {}
 
 void NavigationStage::begin_run() {
   calibrated_ = uncalibrated_ = nav::Navigator(options_);

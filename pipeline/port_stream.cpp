@@ -38,18 +38,12 @@ constexpr std::int64_t kLeastStd_ns = 1;
 
 PortStream::PortStream(std::uint16_t port, const config::PortSettings& settings, const StandardErrors& errors,
                        UtcMapping& mapping)
-    : port_(port),
-      latency_ns_(std::llround(settings.latency_s * 1e9)),
-      latency_std_ns_(std::llround(settings.latency_std_s * 1e9)),
-      nominal_rate_Hz_(settings.rate_Hz),
+    : port_(port), latency_ns_(std::llround(settings.latency_s * 1e9)),
+      latency_std_ns_(std::llround(settings.latency_std_s * 1e9)), nominal_rate_Hz_(settings.rate_Hz),
       parser_(protocols::make_port_parser(settings.protocol, settings.described ? &*settings.described : nullptr,
                                           settings.require_checksum)),
-      track_(settings.baud),
-      instrument_(instruments::make_instrument(settings)),
-      mounting_(settings.mounting),
-      clock_(settings.rate_Hz, settings.latency_std_s),
-      gps_time_(utc_std_s(settings)),
-      errors_(errors),
+      track_(settings.baud), instrument_(instruments::make_instrument(settings)), mounting_(settings.mounting),
+      clock_(settings.rate_Hz, settings.latency_std_s), gps_time_(utc_std_s(settings)), errors_(errors),
       mapping_(mapping) {}
 
 void PortStream::bytes(std::int64_t arrival_ns, protocols::Bytes bytes, Sink& sink) {

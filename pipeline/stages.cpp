@@ -26,11 +26,8 @@ std::string words_for(const Sources::Change& change, const std::vector<std::stri
 }  // namespace
 
 Stages::Stages(const config::Settings& settings)
-    : sources_(settings),
-      field_(settings.environment),
-      tilt_(TiltStage::make(settings)),
-      calibration_(CalibrationStage::make(settings)),
-      navigation_(NavigationStage::make(settings)),
+    : sources_(settings), field_(settings.environment), tilt_(TiltStage::make(settings)),
+      calibration_(CalibrationStage::make(settings)), navigation_(NavigationStage::make(settings)),
       battery_(BatteryStage::make(settings)) {
   for (const auto& port : settings.ports) port_names_.push_back(port.name);
 }

@@ -22,8 +22,7 @@ StandardErrors::StandardErrors(const config::Settings& settings)
       heading_std_rad_(instruments_.compass.heading_noise_rad()),
       tilt_std_rad_(instruments_.compass.tilt_reading_noise_rad()),
       fin_std_rad_(instruments_.motor.fin_report_noise_rad()),
-      altitude_std_m_(settings.navigation.altitude_noise_m),
-      dvl_std_m_s_(settings.navigation.dvl_noise_m_s) {}
+      altitude_std_m_(settings.navigation.altitude_noise_m), dvl_std_m_s_(settings.navigation.dvl_noise_m_s) {}
 
 void StandardErrors::complete(instruments::Sample& sample) const {
   std::visit([this](auto& value) { complete(value); }, sample.value);

@@ -23,11 +23,8 @@ std::unique_ptr<TiltStage> TiltStage::make(const config::Settings& settings) {
 }
 
 TiltStage::TiltStage(const config::Settings& settings)
-    : ports_(Sources(settings).serving()),
-      options_(tilt_options(settings)),
-      tilt_(options_),
-      positions_m_(mounted_positions_m(settings)),
-      has_inclinometer_(settings.ports.size()) {}
+    : ports_(Sources(settings).serving()), options_(tilt_options(settings)), tilt_(options_),
+      positions_m_(mounted_positions_m(settings)), has_inclinometer_(settings.ports.size()) {}
 
 void TiltStage::begin_run() {
   tilt_ = nav::AccelerometerTilt(options_);

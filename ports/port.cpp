@@ -47,12 +47,8 @@ constexpr int kEmptyReads = 20;
 
 struct Port::State : std::enable_shared_from_this<Port::State> {
   State(asio::any_io_executor executor, config::PortSettings port_settings, PortListener& port_listener)
-      : settings(std::move(port_settings)),
-        listener(port_listener),
-        descriptor(executor),
-        timer(executor),
-        address(config::parse_network_address(settings.address)),
-        door(executor),
+      : settings(std::move(port_settings)), listener(port_listener), descriptor(executor), timer(executor),
+        address(config::parse_network_address(settings.address)), door(executor),
         buffer(address ? kLargestDatagram_bytes : kReadBytes) {
     outgoing.reserve(kSendBytes);
   }

@@ -32,10 +32,7 @@ constexpr std::chrono::milliseconds kLookForClient{20};
 
 struct PtyHost::State : std::enable_shared_from_this<PtyHost::State> {
   State(asio::any_io_executor executor, std::filesystem::path link_path, int baud_rate, OnBytes callback)
-      : link(std::move(link_path)),
-        baud(baud_rate),
-        on_bytes(std::move(callback)),
-        descriptor(executor),
+      : link(std::move(link_path)), baud(baud_rate), on_bytes(std::move(callback)), descriptor(executor),
         timer(executor) {}
 
   void plug();

@@ -102,9 +102,7 @@ class ControlPeer final : public Peer {
  public:
   ControlPeer(const asio::any_io_executor& executor, PeerLink& link, std::filesystem::path path,
               const Access& access)
-      : link_(link),
-        path_(std::move(path)),
-        access_(access),
+      : link_(link), path_(std::move(path)), access_(access),
         connection_(std::make_shared<ControlConnection>(executor, link)) {}
   ~ControlPeer() override { connection_->forget_client(); }
   ControlPeer(const ControlPeer&) = delete;

@@ -49,11 +49,7 @@ std::string text_in(const nlohmann::ordered_json& object, const char* name) {
 }  // namespace
 
 LiveSource::LiveSource(const asio::any_io_executor& executor, Settings settings, Hub& hub)
-    : settings_(std::move(settings)),
-      hub_(hub),
-      socket_(executor),
-      pause_(executor),
-      silence_(executor),
+    : settings_(std::move(settings)), hub_(hub), socket_(executor), pause_(executor), silence_(executor),
       wake_(executor) {}
 
 void LiveSource::start() {

@@ -55,8 +55,7 @@ class TimeGate {
 class ImportPass : public ImportSink {
  public:
   ImportPass(const record::Progress& progress, double from, double to, std::size_t size)
-      : progress_(progress),
-        from_(from),
+      : progress_(progress), from_(from),
         share_((to - from) / static_cast<double>(std::max<std::size_t>(size, 1))) {}
 
   void sample(const ImportedSample& sample, LineWriter& line) final {

@@ -101,9 +101,7 @@ class SlocumFile {
  public:
   SlocumFile(std::string_view file, std::span<const std::filesystem::path> folders, ImportSink& sink)
       : decompressed_(file.starts_with(kSlocumLabel) ? "" : decompressed_blocks(file)),
-        file_(decompressed_.empty() ? file : decompressed_),
-        folders_(folders),
-        sink_(sink) {}
+        file_(decompressed_.empty() ? file : decompressed_), folders_(folders), sink_(sink) {}
   ImportFindings read();
 
  private:

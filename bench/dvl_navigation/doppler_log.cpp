@@ -9,9 +9,7 @@
 namespace navcal::bench {
 
 DopplerLog::DopplerLog(const DopplerLogOptions& options, std::uint64_t seed)
-    : options_(options),
-      noise_(seed),
-      scale_(1 + noise_.normal(options.scale_error)),
+    : options_(options), noise_(seed), scale_(1 + noise_.normal(options.scale_error)),
       yaw_rad_(noise_.normal(options.alignment_error_rad)) {}
 
 instruments::Vector3 DopplerLog::measured_m_s(const sim::State& state, bool over_bottom) {

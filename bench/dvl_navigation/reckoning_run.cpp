@@ -30,9 +30,8 @@ Eigen::Vector2d true_place_m(const sim::State& state) { return {state.position_m
 class ErrorWatch final : public pipeline::Sink {
  public:
   explicit ErrorWatch(const sim::Motion& motion)
-      : motion_(motion),
-        plane_(sim::Origin().latitude_deg / base::kDegreesPerRadian,
-               sim::Origin().longitude_deg / base::kDegreesPerRadian) {}
+      : motion_(motion), plane_(sim::Origin().latitude_deg / base::kDegreesPerRadian,
+                                sim::Origin().longitude_deg / base::kDegreesPerRadian) {}
 
   void on_sample(const instruments::Sample&) override {}
   void on_navigation(const pipeline::NavigationSample& sample) override {

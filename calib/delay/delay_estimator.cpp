@@ -26,8 +26,7 @@ Judgement judge(const Delay& delay, double accepted_std_s) {
 }  // namespace
 
 DelayEstimator::DelayEstimator(const Parameters& parameters)
-    : parameters_(parameters),
-      turns_([&] {
+    : parameters_(parameters), turns_([&] {
         TurnIntegrator::Parameters turns;
         turns.tilt_lag_s = parameters.tilt_lag_s;
         turns.tilt_noise_rad = parameters.tilt_noise_rad;
@@ -39,8 +38,7 @@ DelayEstimator::DelayEstimator(const Parameters& parameters)
         heading.level_std_s = parameters.level_std_s;
         return HeadingDelay(heading);
       }()),
-      field_(parameters.field),
-      course_(parameters.course) {}
+      field_(parameters.field), course_(parameters.course) {}
 
 void DelayEstimator::update(const RateReading& rate) {
   turns_.update(rate);

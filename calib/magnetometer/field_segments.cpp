@@ -64,9 +64,7 @@ struct State {
   std::vector<Eigen::Vector3d> steps;
 
   State(const Shape& shape, std::size_t segments)
-      : matrix(shape.matrix_per_uT),
-        shift(-shape.matrix_per_uT * shape.centre_uT),
-        sine_of_dip(shape.sine_of_dip),
+      : matrix(shape.matrix_per_uT), shift(-shape.matrix_per_uT * shape.centre_uT), sine_of_dip(shape.sine_of_dip),
         steps(segments - 1, Eigen::Vector3d::Zero()) {}
 
   [[nodiscard]] Shape in(std::size_t segment) const {

@@ -18,9 +18,7 @@ void Magnetometer::Waiting::archive(Archive& archive) {
 }
 
 Magnetometer::Estimators::Estimators(const Parameters& parameters)
-    : ellipse(parameters.ellipse),
-      gyro(parameters.gyro),
-      ellipsoid(parameters.ellipsoid),
+    : ellipse(parameters.ellipse), gyro(parameters.gyro), ellipsoid(parameters.ellipsoid),
       predictor(parameters.ellipsoid.noise_uT, parameters.ellipsoid.known) {}
 
 void Magnetometer::Estimators::update(const Reading& reading, const PredictedReading& predicted) {

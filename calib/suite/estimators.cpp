@@ -14,10 +14,9 @@ constexpr double kServingScaleStd = 0.03;
 }  // namespace
 
 Estimators::Estimators(const SuiteOptions& options)
-    : options_(options),
-      turns_({.tilt_lag_s = options.tilt_lag_s,
-              .tilt_noise_rad = options.tilt_noise_rad,
-              .rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s}),
+    : options_(options), turns_({.tilt_lag_s = options.tilt_lag_s,
+                                 .tilt_noise_rad = options.tilt_noise_rad,
+                                 .rate_noise_rad_sqrt_s = options.rate_noise_rad_sqrt_s}),
       shared_(std::make_unique<SharedEstimators>(options)) {
   for (const Calibrator calibrator : calibrators()) {
     units_.push_back(row_of(calibrator).make(options, *shared_));

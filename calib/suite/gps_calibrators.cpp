@@ -50,9 +50,7 @@ Correction without_offset(const Correction& in_force) {
 }  // namespace
 
 GpsCalibrators::GpsCalibrators(const SuiteOptions& options)
-    : options_(options),
-      speed_(speed_parameters(options)),
-      misalignment_(misalignment_parameters(options)),
+    : options_(options), speed_(speed_parameters(options)), misalignment_(misalignment_parameters(options)),
       gps_compass_(gps_parameters(options)) {}
 
 WaterTrackReading GpsCalibrators::track_of(const CompassReading& reading, double turn_rate_rad_s) const {

@@ -37,8 +37,8 @@ template <bool of_field>
 class ReferenceUnit : public CalibratorUnit {
  public:
   ReferenceUnit(const SuiteOptions& options, SharedEstimators&)
-      : declination_rad_(options.local_field.declination_rad),
-        parameters_{.heading_noise_rad = options.heading_noise_rad},
+      : declination_rad_(options.local_field.declination_rad), parameters_{.heading_noise_rad =
+                                                                               options.heading_noise_rad},
         estimator_(parameters_) {}
 
   void update_reference(const ReferenceReading& reading) override {

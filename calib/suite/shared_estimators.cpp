@@ -33,11 +33,8 @@ DelayEstimator::Parameters delay_parameters(const SuiteOptions& options) {
 }
 
 SharedEstimators::SharedEstimators(const SuiteOptions& options)
-    : gyro(TurnCalibrator::Subject::gyro, turn_parameters(options)),
-      magnetometer(field_parameters(options)),
-      gps(options),
-      delays(delay_parameters(options)),
-      gyros({}),
+    : gyro(TurnCalibrator::Subject::gyro, turn_parameters(options)), magnetometer(field_parameters(options)),
+      gps(options), delays(delay_parameters(options)), gyros({}),
       motor_current({options.field_noise_uT, options.rate_noise_rad_sqrt_s}) {}
 
 }  // namespace navcal::calib

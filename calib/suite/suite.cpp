@@ -14,10 +14,7 @@ constexpr std::uint64_t kJudgeEvery = 3;
 }  // namespace
 
 Suite::Suite(const SuiteOptions& options, Instruments instruments)
-    : options_(options),
-      instruments_(instruments),
-      gate_(options.gate),
-      estimators_(options),
+    : options_(options), instruments_(instruments), gate_(options.gate), estimators_(options),
       flags_(calibrators().size()) {
   for (const Calibrator calibrator : calibrators()) {
     if (index_of(calibrator) < kNamedCalibrators || has_instruments(calibrator)) judged_.push_back(calibrator);

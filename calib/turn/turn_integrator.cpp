@@ -28,8 +28,7 @@ TiltSmoother::Parameters tilt_parameters(const TurnIntegrator::Parameters& param
 }  // namespace
 
 TurnIntegrator::TurnIntegrator(const Parameters& parameters)
-    : parameters_(parameters),
-      inclinometer_(parameters.tilt_lag_s, parameters.tilt_noise_rad),
+    : parameters_(parameters), inclinometer_(parameters.tilt_lag_s, parameters.tilt_noise_rad),
       smoother_(tilt_parameters(parameters)) {}
 
 template <class Curve>

@@ -26,11 +26,7 @@ class FrameCheck {
  public:
   FrameCheck(const FrameKind& kind, const Node& node, const std::vector<const Node*>& fields,
              std::vector<Problem>& problems)
-      : kind_(kind),
-        node_(node),
-        fields_(fields),
-        problems_(problems),
-        before_(problems.size()),
+      : kind_(kind), node_(node), fields_(fields), problems_(problems), before_(problems.size()),
         length_(kind.length.fixed) {}
 
   void check_binary() {

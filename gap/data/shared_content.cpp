@@ -64,8 +64,8 @@ double seconds_each(const std::vector<Reading>& readings) {
 }  // namespace
 
 SharedContent::SharedContent(const Mission& mission)
-    : card_{runs_of(mission.card), seconds_each(mission.card)},
-      compass_{runs_of(mission.compass), seconds_each(mission.compass)} {}
+    : card_{runs_of(mission.card), seconds_each(mission.card)}, compass_{runs_of(mission.compass),
+                                                                         seconds_each(mission.compass)} {}
 
 double SharedContent::shared_s(const Runs& a, const Runs& b) {
   const auto shared =

@@ -46,12 +46,8 @@ std::vector<double> part_begins(const Plan& plan) {
 
 Planner::Planner(const Question& question, const RehearsalProblem& problem, const config::MissionLimits& limits,
                  const Progress& progress)
-    : question_(question),
-      problem_(problem),
-      limits_(limits),
-      progress_(progress),
-      regime_(regime_of(problem.vehicle, limits)),
-      alphabet_(alphabet(regime_)) {
+    : question_(question), problem_(problem), limits_(limits), progress_(progress),
+      regime_(regime_of(problem.vehicle, limits)), alphabet_(alphabet(regime_)) {
   learn_alphabet();
   if (known_.empty()) {
     throw std::invalid_argument("no manoeuvre stays within the limits: allow more depth, speed or rate of turn");

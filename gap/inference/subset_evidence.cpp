@@ -14,8 +14,7 @@ Evidence evidence_of(const Linearised& linear, const Priors& priors) {
 }
 
 SubsetEvidence::SubsetEvidence(const LinearGaussianModel& model)
-    : library_(model.library),
-      evidence_(evidence_of(model.linear, model.priors)),
+    : library_(model.library), evidence_(evidence_of(model.linear, model.priors)),
       data_(-0.5 * residual_at_zero(model.linear).squaredNorm()) {}
 
 double SubsetEvidence::operator()(const EffectSubset& set) const {

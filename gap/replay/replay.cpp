@@ -42,9 +42,7 @@ std::vector<double> smoothed_electronics(std::span<const CompassReading> reading
 }  // namespace
 
 Replay::Replay(const Mission& mission, const config::VehicleSettings& vehicle)
-    : mission_(mission),
-      settings_(vehicle),
-      vehicle_(vehicle),
+    : mission_(mission), settings_(vehicle), vehicle_(vehicle),
       track_(mission.motor,
              mission.order_times_s.empty() ? regular_orders(0, mission.duration_s) : mission.order_times_s,
              mission.order_times_s.empty() ? std::span<const Vector3>{} : mission.ordered_fins_rad,

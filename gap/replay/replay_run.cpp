@@ -67,9 +67,7 @@ double heading_of(const Vector3& field, double roll_rad, double pitch_rad) {
 }  // namespace
 
 ReplayRun::ReplayRun(const ReplayInput& input, const Model& model)
-    : in_(input),
-      effects_(model.effects),
-      actuators_(input.actuators, effects_),
+    : in_(input), effects_(model.effects), actuators_(input.actuators, effects_),
       instruments_(effects_, model.bias_rad_s, input.mission.instruments),
       gyro_error_at_rest_rad_s_(about_axes(model.bias_rad_s)) {
   sums_.setZero(in_.intervals, kChannels);

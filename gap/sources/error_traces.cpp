@@ -63,9 +63,7 @@ std::vector<SourcesTogether> by_replays(std::span<const ErrorSource* const> sour
 }
 
 ErrorTraces::ErrorTraces(const ResidualModel& model, const Eigen::VectorXd& at, double begin_s)
-    : model_(model),
-      about_(model.library.model(at)),
-      begin_s_(begin_s),
+    : model_(model), about_(model.library.model(at)), begin_s_(begin_s),
       nominal_(model.replay.run_coarsely(about_)) {}
 
 Innovations ErrorTraces::innovations_with(std::span<const ErrorComponent* const> components,

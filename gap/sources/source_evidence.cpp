@@ -128,8 +128,7 @@ std::vector<Series> series_for(const SourcesTogether& sources, std::span<const C
 }  // namespace
 
 SourceEvidence::SourceEvidence(const SourceProblem& problem)
-    : problem_(problem),
-      tolerances_(problem.nominal, problem.priors),
+    : problem_(problem), tolerances_(problem.nominal, problem.priors),
       replayed_(problem.model, problem.nominal.at, problem.begin_s) {}
 
 std::vector<std::vector<SourceFit>> SourceEvidence::paths_of(const SourcesTogether& sources,

@@ -17,10 +17,7 @@ namespace navcal::gap {
 
 Preparation::Preparation(const Request& request, const Library& library, const Progress& progress,
                          unsigned threads)
-    : request_(request),
-      library_(library),
-      progress_(progress),
-      threads_(threads),
+    : request_(request), library_(library), progress_(progress), threads_(threads),
       cache_(request.cache, request.vehicle, library) {}
 
 void Preparation::expect_other_content(const std::string& name, const Mission& mission, bool is_held_out) {

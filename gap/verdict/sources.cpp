@@ -89,12 +89,10 @@ class RecordingSources {
  public:
   /// References must outlive it.
   RecordingSources(const Prepared& recording, const DiagnosisProblem& problem, const FoundEffects& found)
-      : problem_(problem),
-        recording_(recording),
-        model_(recording.model(problem.library, problem.threads)),
+      : problem_(problem), recording_(recording), model_(recording.model(problem.library, problem.threads)),
         nominal_(problem.others.empty() ? found.nominal : own_.emplace(linearise(model_, recording.at))),
-        covariates_(covariates_of(recording.course)),
-        of_{model_, nominal_, found.priors, covariates_, recording.course.time_s.front()} {}
+        covariates_(covariates_of(recording.course)), of_{model_, nominal_, found.priors, covariates_,
+                                                          recording.course.time_s.front()} {}
   RecordingSources(const RecordingSources&) = delete;
   RecordingSources& operator=(const RecordingSources&) = delete;
 

@@ -32,14 +32,9 @@ double log_sum(double a, double b) {
 
 ChangeDetector::ChangeDetector(const Library& library, const Priors& priors, EffectSubset effects,
                                double noise_factor)
-    : library_(library),
-      spike_(priors.spike),
-      effects_(std::move(effects)),
-      noise_factor_(noise_factor),
-      gram_(Eigen::MatrixXd::Zero(spike_.size(), spike_.size())),
-      score_(Eigen::VectorXd::Zero(spike_.size())),
-      log_statistic_(kMinusInfinity),
-      mean_(Eigen::VectorXd::Zero(spike_.size())) {}
+    : library_(library), spike_(priors.spike), effects_(std::move(effects)), noise_factor_(noise_factor),
+      gram_(Eigen::MatrixXd::Zero(spike_.size(), spike_.size())), score_(Eigen::VectorXd::Zero(spike_.size())),
+      log_statistic_(kMinusInfinity), mean_(Eigen::VectorXd::Zero(spike_.size())) {}
 
 void ChangeDetector::take(const Eigen::MatrixXd& gram, const Eigen::VectorXd& score, double measurements) {
   onsets_.push_back({windows_, gram_, score_, measurements_});
@@ -185,8 +180,7 @@ void ChangeDetector::restore(State state) {
 }
 
 PowerDetector::PowerDetector(Eigen::VectorXd mean, const Eigen::VectorXd& scatter)
-    : mean_(std::move(mean)),
-      shape_(mean_.size()),
+    : mean_(std::move(mean)), shape_(mean_.size()),
       log_channels_(Eigen::VectorXd::Constant(mean_.size(), kNothing)) {
   for (Eigen::Index c = 0; c < mean_.size(); ++c) {
     const double ratio = mean_[c] / (kScatterFactor * scatter[c]);

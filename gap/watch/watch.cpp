@@ -56,16 +56,12 @@ std::string_view name_of(WatchReport::Verdict verdict) {
 
 Watch::Watch(const config::VehicleSettings& vehicle, const Library& library, const WatchReference& reference,
              const ReferenceRequest& request, const Options& options, Listener listener)
-    : library_(library),
-      reference_(reference),
-      instruments_(request.instruments),
-      field_(request.field),
+    : library_(library), reference_(reference), instruments_(request.instruments), field_(request.field),
       listener_(std::move(listener)),
       change_(library, reference.priors, watched_effects(library), reference.noise_factor),
-      power_(reference.power),
-      rest_of_leader_(reference.power),
-      rest_of_all_(reference.power),
-      problem_{vehicle, library, reference.bank.whitening, reference.priors, watched_columns(library)} {
+      power_(reference.power), rest_of_leader_(reference.power),
+      rest_of_all_(reference.power), problem_{vehicle, library, reference.bank.whitening, reference.priors,
+                                              watched_columns(library)} {
   report_.threshold_nats = std::log(3600 / kWindow_s / options.false_alarms_per_h);
 }
 

@@ -86,8 +86,7 @@ std::string_view unit_name(config::CommandUnit unit) {
 ActuatorTrajectory::ActuatorTrajectory(const config::Layout& layout, std::size_t rows)
     : columns_(layout.thrusters.size() + layout.surfaces.size() + layout.ballasts.size() +
                layout.moving_masses.size()),
-      rows_(rows),
-      values_(columns_ * rows) {}
+      rows_(rows), values_(columns_ * rows) {}
 
 void ActuatorTrajectory::set(std::size_t row, const sim::ActuatorValues& positions) {
   auto out = values_.begin() + static_cast<std::ptrdiff_t>(row * columns_);

@@ -58,9 +58,7 @@ struct FitProblem::Vehicles {
 
 FitProblem::FitProblem(config::Layout layout, std::vector<Parameter> parameters,
                        const std::vector<RecordedMotion>& recordings, const FitSettings& settings)
-    : layout_(std::move(layout)),
-      parameters_(std::move(parameters)),
-      recordings_(recordings),
+    : layout_(std::move(layout)), parameters_(std::move(parameters)), recordings_(recordings),
       settings_(settings) {
   for (const RecordedMotion& recording : recordings_) {
     inputs_.emplace_back(layout_, recording);

@@ -16,8 +16,8 @@ struct Exported {
 };
 
 /// Raw bytes, sent and received, of a recording as a capture; times to UTC by the mapping in force. The file
-/// appears under its name only when it is whole; "-" is the standard output. Throws BadRecording, std::system_error; what `progress` throws
-/// ends it too.
+/// appears under its name only when it is whole; "-" is the standard output. Throws BadRecording,
+/// std::system_error; what `progress` throws ends it too.
 Exported export_capture(const std::filesystem::path& recording, const std::filesystem::path& capture,
                         const Progress& progress);
 

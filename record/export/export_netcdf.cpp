@@ -54,10 +54,7 @@ std::string long_name(const TopicColumn& head, std::string_view name) {
 class TopicGroup {
  public:
   TopicGroup(NetcdfFile& file, const TopicTable& table, std::int64_t reference_ns)
-      : file_(file),
-        table_(table),
-        reference_ns_(reference_ns),
-        group_(file.add_group(table_name(table.topic()))),
+      : file_(file), table_(table), reference_ns_(reference_ns), group_(file.add_group(table_name(table.topic()))),
         has_coordinate_(table.times_increase()),
         dimension_(file.add_dimension(group_, has_coordinate_ ? "time" : "sample", table.rows())) {
     for (const auto& column : table_.columns()) variables_.push_back(add(column));

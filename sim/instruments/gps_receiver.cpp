@@ -15,9 +15,7 @@ using std::chrono::nanoseconds;
 using UtcTime = std::chrono::sys_time<nanoseconds>;
 
 GpsReceiver::GpsReceiver(const Options& options, const Motion& motion, std::uint64_t seed)
-    : options_(options),
-      motion_(motion),
-      effects_(options.effects != nullptr ? *options.effects : none_),
+    : options_(options), motion_(motion), effects_(options.effects != nullptr ? *options.effects : none_),
       noise_(seed) {}
 
 void GpsReceiver::power_on(std::int64_t t_ns) {

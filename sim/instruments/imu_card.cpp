@@ -18,9 +18,7 @@ constexpr std::int64_t kRateStep_ns = 5'000'000;  ///< to either side, for the c
 }  // namespace
 
 ImuCard::ImuCard(const Options& options, const Motion& motion)
-    : options_(options),
-      motion_(motion),
-      effects_(options.effects != nullptr ? *options.effects : none_),
+    : options_(options), motion_(motion), effects_(options.effects != nullptr ? *options.effects : none_),
       noise_(options.seed) {}
 
 void ImuCard::power_on(std::int64_t t_ns) {

@@ -16,9 +16,7 @@ namespace motor = protocols::motor_card;
 }  // namespace
 
 MotorCard::MotorCard(const Options& options, const Motion& motion)
-    : options_(options),
-      motion_(motion),
-      effects_(options.effects != nullptr ? *options.effects : none_),
+    : options_(options), motion_(motion), effects_(options.effects != nullptr ? *options.effects : none_),
       noise_(options.seed) {}
 
 void MotorCard::power_on(std::int64_t t_ns) {

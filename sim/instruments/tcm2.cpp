@@ -29,11 +29,8 @@ double wrapped(double angle, double turn, double resolution) {
 }  // namespace
 
 Tcm2::Tcm2(const Options& options, const Motion& motion)
-    : options_(options),
-      effects_(options.sensor.effects != nullptr ? *options.sensor.effects : none_),
-      sensor_(options.sensor, motion, options.seed),
-      baud_(options.baud),
-      next_baud_(options.baud) {}
+    : options_(options), effects_(options.sensor.effects != nullptr ? *options.sensor.effects : none_),
+      sensor_(options.sensor, motion, options.seed), baud_(options.baud), next_baud_(options.baud) {}
 
 void Tcm2::power_on(std::int64_t t_ns) {
   sensor_.power_on(t_ns);

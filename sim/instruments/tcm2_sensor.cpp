@@ -18,9 +18,7 @@ double norm(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 }  // namespace
 
 Tcm2Sensor::Tcm2Sensor(const Options& options, const Motion& motion, std::uint64_t seed)
-    : options_(options),
-      motion_(motion),
-      effects_(options.effects != nullptr ? *options.effects : none_),
+    : options_(options), motion_(motion), effects_(options.effects != nullptr ? *options.effects : none_),
       noise_(seed) {}
 
 void Tcm2Sensor::power_on(std::int64_t t_ns) {

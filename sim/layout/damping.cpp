@@ -17,8 +17,7 @@ std::optional<Matrix6> unless_zero(const config::LayoutMatrix& rows) {
 }  // namespace
 
 HullDamping::HullDamping(const config::Layout& layout)
-    : linear_(unless_zero(layout.damping.linear)),
-      quadratic_(unless_zero(layout.damping.quadratic)),
+    : linear_(unless_zero(layout.damping.linear)), quadratic_(unless_zero(layout.damping.quadratic)),
       lift_(unless_zero(layout.damping.lift)),
       axial_kg_m_(0.5 * layout.water_density_kg_m3 * layout.damping.axial_coefficient *
                   layout.damping.axial_area_m2),

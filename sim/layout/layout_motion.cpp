@@ -35,13 +35,8 @@ State layout_state(const Body& body, const Vector6& acceleration, const Influenc
 }  // namespace
 
 LayoutMotion::LayoutMotion(config::Layout layout, std::unique_ptr<LayoutHelm> helm, const MotionOptions& options)
-    : nominal_(std::move(layout)),
-      options_(options),
-      height_m_(height_of(nominal_)),
-      vehicle_(nominal_),
-      helm_(std::move(helm)),
-      body_(helm_->start()),
-      positions_(ActuatorValues::neutral(nominal_)),
+    : nominal_(std::move(layout)), options_(options), height_m_(height_of(nominal_)), vehicle_(nominal_),
+      helm_(std::move(helm)), body_(helm_->start()), positions_(ActuatorValues::neutral(nominal_)),
       states_(options.history_s) {
   check_stable(body_, 0);
 }

@@ -13,11 +13,9 @@
 namespace navcal::sim {
 
 LayoutVehicle::LayoutVehicle(config::Layout layout)
-    : layout_(std::move(layout)),
-      added_mass_(added_mass(layout_)),
+    : layout_(std::move(layout)), added_mass_(added_mass(layout_)),
       mass_(rigid_body_mass(layout_, std::vector<double>(layout_.moving_masses.size())) + added_mass_),
-      mass_inverse_(mass_.inverse()),
-      hull_(layout_) {
+      mass_inverse_(mass_.inverse()), hull_(layout_) {
   for (const auto& thruster : layout_.thrusters) thrusters_.emplace_back(thruster, layout_.water_density_kg_m3);
   for (const auto& surface : layout_.surfaces) surfaces_.emplace_back(surface, layout_.water_density_kg_m3);
 }

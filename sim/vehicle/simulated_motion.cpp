@@ -16,13 +16,8 @@ Vector3 array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 SimulatedMotion::SimulatedMotion(const config::VehicleSettings& vehicle, std::unique_ptr<Helm> helm,
                                  const MotionOptions& options)
-    : vehicle_(vehicle),
-      propeller_(vehicle.propeller),
-      options_(options),
-      helm_(std::move(helm)),
-      body_(helm_->start()),
-      actuators_(helm_->actuators_at_start()),
-      states_(options.history_s) {
+    : vehicle_(vehicle), propeller_(vehicle.propeller), options_(options), helm_(std::move(helm)),
+      body_(helm_->start()), actuators_(helm_->actuators_at_start()), states_(options.history_s) {
   check_stable(body_, 0);
 }
 

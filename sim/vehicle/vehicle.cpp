@@ -24,11 +24,8 @@ Eigen::Vector3d linear_damping(const config::DampingSettings& damping, const Mat
 }  // namespace
 
 Vehicle::Vehicle(const config::VehicleSettings& settings)
-    : mass_(mass_matrix(settings.hull)),
-      mass_inverse_(mass_.inverse()),
-      hull_(settings.hull, settings.water),
-      fins_(settings.fins, settings.water),
-      propeller_(settings.propeller, settings.water),
+    : mass_(mass_matrix(settings.hull)), mass_inverse_(mass_.inverse()), hull_(settings.hull, settings.water),
+      fins_(settings.fins, settings.water), propeller_(settings.propeller, settings.water),
       restoring_Nm_(settings.hull.mass_kg * kGravity_m_s2 * settings.hull.gravity_below_m),
       damping_Nm_s_(linear_damping(settings.damping, mass_, restoring_Nm_)) {}
 

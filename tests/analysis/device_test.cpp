@@ -50,8 +50,7 @@ class DeviceAtPort : private pipeline::Sink {
  public:
   explicit DeviceAtPort(const DeviceType& type)
       : emulator_(sim::make_emulator(type.protocol, {}, motion_)),
-        start_up_(instruments::make_start_up(port_of(type))),
-        pipeline_(settings_of(type)) {
+        start_up_(instruments::make_start_up(port_of(type))), pipeline_(settings_of(type)) {
     emulator_->power_on(kStart_ns);
     if (start_up_) start_up_->begin(kStart_ns);
     for (std::int64_t t_ns = kStart_ns; t_ns < kStart_ns + kDuration_ns; t_ns += kStep_ns) step(t_ns);

@@ -33,10 +33,7 @@ template <class Parser>
 class Bench {
  public:
   Bench(sim::Device& device, Instrument& instrument, const config::PortSettings& port, double lost = 0)
-      : device_(device),
-        collector_(instrument),
-        instrument_(instrument),
-        start_up_(make_start_up(port)),
+      : device_(device), collector_(instrument), instrument_(instrument), start_up_(make_start_up(port)),
         lost_(lost) {
     device_.power_on(now_ns_);
     start_up_->begin(now_ns_);

@@ -85,8 +85,7 @@ class World {
  public:
   World(const Defects& defects, unsigned seed, EndOptions vehicle_options = {}, EndOptions host_options = {})
       : vehicle(with_nonces(std::move(vehicle_options), seed)),
-        host(with_nonces(std::move(host_options), seed + 1)),
-        up(defects, 2 * seed + 1),
+        host(with_nonces(std::move(host_options), seed + 1)), up(defects, 2 * seed + 1),
         down(defects, 2 * seed + 2) {}
 
   /// Runs until `done()` or for `limit_s` of virtual time. False: the time is over. `work` is called at every

@@ -23,8 +23,7 @@ constexpr double kReferenceShare = 0.05;
 }  // namespace
 
 Card::Card(const Fitting& fitting, const CardDeviations& deviations)
-    : Instrument(fitting, Port::imu, kPeriod_s, kLatency_s),
-      departures_(deviations),
+    : Instrument(fitting, Port::imu, kPeriod_s, kLatency_s), departures_(deviations),
       sequence_(static_cast<std::uint8_t>(dice().bits())) {
   for (double& bias : bias_rad_s_) bias = noise(kTurnOnBias_deg_s * kDegree);
 }

@@ -33,8 +33,7 @@ Eigen::Matrix3d iron(const CompassDeviations& deviations) {
 }  // namespace
 
 Compass::Compass(const Fitting& fitting, const CompassDeviations& deviations, const Vector3& field_uT)
-    : Instrument(fitting, Port::compass, kCompassPeriod_s, kCompassLatency_s),
-      departures_(deviations),
+    : Instrument(fitting, Port::compass, kCompassPeriod_s, kCompassLatency_s), departures_(deviations),
       field_world_uT_(Eigen::AngleAxisd(deviations.declination_rad, Vector3::UnitZ()) * field_uT),
       iron_(iron(deviations)) {}
 

@@ -17,11 +17,8 @@ namespace navcal::reference {
 class FinLinkage {
  public:
   FinLinkage(double servo_time_s, const VehicleDeviations& deviations)
-      : servo_time_s_(servo_time_s),
-        lag_s_(deviations.fin_lag_s),
-        backlash_rad_(deviations.fin_backlash_rad),
-        gain_(1 + deviations.fin_gain),
-        offset_rad_(mixed(deviations.rudder_rad, deviations.elevator_rad)) {}
+      : servo_time_s_(servo_time_s), lag_s_(deviations.fin_lag_s), backlash_rad_(deviations.fin_backlash_rad),
+        gain_(1 + deviations.fin_gain), offset_rad_(mixed(deviations.rudder_rad, deviations.elevator_rad)) {}
 
   [[nodiscard]] static Vector3 mixed(double rudder_rad, double elevator_rad) {
     const double half_root_3 = std::sqrt(0.75);

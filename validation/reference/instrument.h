@@ -27,9 +27,7 @@ struct Fitting {
 class Instrument {
  public:
   Instrument(const Fitting& fitting, Port port, double period_s, double latency_s)
-      : fitting_(fitting),
-        dice_(fitting.seed, static_cast<std::uint64_t>(port)),
-        port_(port),
+      : fitting_(fitting), dice_(fitting.seed, static_cast<std::uint64_t>(port)), port_(port),
         latency_s_(latency_s),
         period_s_(period_s * (1 + fitting.clock_slow + dice_.normal(fitting.clock_ppm) * 1e-6)),
         phase_s_(dice_.uniform(0, period_s)) {}

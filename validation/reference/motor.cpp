@@ -16,8 +16,7 @@ constexpr double kFinNoise_deg = 0.1, kCurrentNoise_A = 0.02;
 }  // namespace
 
 Motor::Motor(const Fitting& fitting)
-    : Instrument(fitting, Port::motor, kMotorPeriod_s, kMotorLatency_s),
-      start_ns_(fitting.start_ns),
+    : Instrument(fitting, Port::motor, kMotorPeriod_s, kMotorLatency_s), start_ns_(fitting.start_ns),
       sequence_(static_cast<std::uint8_t>(dice().bits())) {}
 
 void Motor::order(double shaft_rev_s, const Vector3& fins_rad, World& world, std::vector<Transfer>& out) {

@@ -47,9 +47,7 @@ void set_time(protocols::oncore::Position& position, std::int64_t utc_ns) {
 }  // namespace
 
 Receiver::Receiver(const Fitting& fitting, const GpsDeviations& deviations, const Anchorage& anchorage)
-    : Instrument(fitting, Port::gps, 1, kReceiverLatency_s),
-      departures_(deviations),
-      anchorage_(anchorage),
+    : Instrument(fitting, Port::gps, 1, kReceiverLatency_s), departures_(deviations), anchorage_(anchorage),
       start_ns_(fitting.start_ns) {
   const std::int64_t to_second_ns = (kSecond_ns - fitting.start_ns % kSecond_ns) % kSecond_ns;
   paced_from(static_cast<double>(to_second_ns) * 1e-9, 1);

@@ -23,13 +23,8 @@ double motor_current_A(double shaft_rev_s) {
 }
 
 Vehicle::Vehicle(const Hull& hull, const VehicleDeviations& deviations, const Start& start, double longest_step_s)
-    : hull_(hull),
-      departures_(deviations),
-      inertia_(inertia(hull)),
-      inverse_inertia_(inertia_.inverse()),
-      longest_step_s_(longest_step_s),
-      fins_(hull.fin_time_s, deviations),
-      shaft_rev_s_(start.shaft_rev_s),
+    : hull_(hull), departures_(deviations), inertia_(inertia(hull)), inverse_inertia_(inertia_.inverse()),
+      longest_step_s_(longest_step_s), fins_(hull.fin_time_s, deviations), shaft_rev_s_(start.shaft_rev_s),
       shaft_command_rev_s_(start.shaft_rev_s) {
   Vector6 nu;
   nu << start.velocity_m_s, start.rate_rad_s;

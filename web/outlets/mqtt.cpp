@@ -19,9 +19,7 @@ constexpr std::size_t kMaxMqttTopics = 1024;
 }  // namespace
 
 Mqtt::Mqtt(const asio::any_io_executor& executor, const MqttOptions& options, Hub& hub)
-    : options_(options),
-      hub_(&hub),
-      timer_(executor),
+    : options_(options), hub_(&hub), timer_(executor),
       interval_(
           std::chrono::duration_cast<Pacer::Clock::duration>(std::chrono::duration<double>(1 / options.rate_Hz))) {
   const auto broker = mqtt_broker(options.broker);

@@ -29,11 +29,8 @@ constexpr int kMaxPackets = 64;
 
 MqttConnection::MqttConnection(const asio::any_io_executor& executor, MqttBroker broker, MqttLogin login,
                                std::string will)
-    : library_(MosquittoLibrary::instance()),
-      broker_(std::move(broker)),
-      will_(std::move(will)),
-      client_(library_.create(nullptr, true, this)),
-      timer_(executor) {
+    : library_(MosquittoLibrary::instance()), broker_(std::move(broker)), will_(std::move(will)),
+      client_(library_.create(nullptr, true, this)), timer_(executor) {
   if (client_ == nullptr) throw std::runtime_error("--mqtt: no memory");
   library_.will_set(client_, will_.c_str(), 1, "0", 1, true);
   if (!login.user.empty()) library_.login_set(client_, login.user.c_str(), login.password.c_str());

@@ -49,11 +49,8 @@ double speed_of_shaft(double shaft_rps) {
 
 LayoutAutopilot::LayoutAutopilot(const LayoutVehicle& vehicle, const autopilot::Allocator& allocator,
                                  const ControlPlan& plan)
-    : vehicle_(vehicle),
-      allocator_(allocator),
-      plan_(plan),
-      neutral_(vehicle.hold(ActuatorValues::neutral(vehicle.layout()))),
-      glide_(vehicle) {
+    : vehicle_(vehicle), allocator_(allocator), plan_(plan),
+      neutral_(vehicle.hold(ActuatorValues::neutral(vehicle.layout()))), glide_(vehicle) {
   autopilot::Wrench usual = autopilot::Wrench::Zero();
   usual[0] = plan.usual_m_s;
   const Eigen::MatrixXd B = allocator.matrix(usual);

@@ -19,11 +19,8 @@ autopilot::VehicleState vehicle_state(const Body& body) {
 }  // namespace
 
 LayoutMissionHelm::LayoutMissionHelm(const config::Layout& layout, config::Mission mission)
-    : vehicle_(layout),
-      allocator_(layout),
-      steps_(std::move(mission)),
-      plan_(plan_control(vehicle_, allocator_, steps_.mission())),
-      autopilot_(vehicle_, allocator_, plan_),
+    : vehicle_(layout), allocator_(layout), steps_(std::move(mission)),
+      plan_(plan_control(vehicle_, allocator_, steps_.mission())), autopilot_(vehicle_, allocator_, plan_),
       pulses_us_(pulses_of(layout, ActuatorValues::neutral(layout))) {}
 
 Body LayoutMissionHelm::start() const {

@@ -6,8 +6,7 @@
 namespace navcal::gap::test {
 
 PlannedQuestion::PlannedQuestion(const std::vector<std::string>& effects)
-    : effects_(effects),
-      library_({}),
+    : effects_(effects), library_({}),
       prepared_(prepared_mission({.mission = "survey", .effects = "", .seconds = 50}, library_, {12, 1, 2})) {}
 
 Question PlannedQuestion::question(MissionPurpose purpose) const {

@@ -24,8 +24,7 @@ class Recording {
  public:
   Recording(const Library& library, std::string_view effects, std::uint64_t seed, double seconds = 120)
       : prepared_(test::prepared_mission({"identification", effects, seconds, seed}, library, {24, 1, 2})),
-        model_(prepared_->model(library, 2)),
-        nominal_(linearise(model_, prepared_->at)),
+        model_(prepared_->model(library, 2)), nominal_(linearise(model_, prepared_->at)),
         priors_(fit_spike_widths(library, prepared_->bank.gram, prepared_->bank.scores)),
         covariates_(covariates_of(prepared_->course)) {}
 

@@ -53,15 +53,9 @@ struct Craft::Stepper {
 
 Craft::Craft(const Plan& plan, const CraftDeviations& deviations, const Nature& nature, const Sea& sea,
              const Start& start, double tolerance)
-    : plan_(with_deviations(plan, deviations)),
-      deviations_(deviations),
-      sea_(sea),
-      inertia_(inertia(plan_)),
-      inverse_inertia_(inertia_.inverse()),
-      displaced_(plan_.added_mass),
-      drag_(plan_, nature.strips),
-      drag_factors_(Vector6::Ones() + deviations.damping),
-      y_(kBody + 2 * plan.thrusters.size(), 0.0),
+    : plan_(with_deviations(plan, deviations)), deviations_(deviations), sea_(sea), inertia_(inertia(plan_)),
+      inverse_inertia_(inertia_.inverse()), displaced_(plan_.added_mass), drag_(plan_, nature.strips),
+      drag_factors_(Vector6::Ones() + deviations.damping), y_(kBody + 2 * plan.thrusters.size(), 0.0),
       stepper_(std::make_unique<Stepper>(tolerance)) {
   displaced_.topLeftCorner<3, 3>().diagonal().array() += plan_.buoyancy_N / kGravity_m_s2;
   deviations_.rotors.resize(plan.thrusters.size());

@@ -16,10 +16,8 @@ constexpr double kLeastUpright = 0.2;
 }  // namespace
 
 Doppler::Doppler(const Fitting& fitting, const Errors& errors, double floor_m)
-    : Instrument(fitting, Port::doppler, kDopplerPeriod_s, kDopplerLatency_s),
-      errors_(errors),
-      start_ns_(fitting.start_ns),
-      floor_m_(floor_m) {}
+    : Instrument(fitting, Port::doppler, kDopplerPeriod_s, kDopplerLatency_s), errors_(errors),
+      start_ns_(fitting.start_ns), floor_m_(floor_m) {}
 
 std::vector<std::uint8_t> Doppler::sample(const History& history, double time_s) {
   const Snapshot s = history.at(time_s);

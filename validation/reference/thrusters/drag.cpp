@@ -24,12 +24,8 @@ constexpr double kMostOfTurning = 0.9;
 }  // namespace
 
 Drag::Drag(const Plan& plan, double share)
-    : linear_(plan.linear),
-      quadratic_(plan.quadratic),
-      lift_(plan.lift),
-      axial_kg_m_(plan.axial_kg_m),
-      body_lift_kg_m_(plan.body_lift_kg_m),
-      body_lift_m_(plan.body_lift_m) {
+    : linear_(plan.linear), quadratic_(plan.quadratic), lift_(plan.lift), axial_kg_m_(plan.axial_kg_m),
+      body_lift_kg_m_(plan.body_lift_kg_m), body_lift_m_(plan.body_lift_m) {
   spread_slices(plan);
   for (const int across : {1, 2}) spread_diagonal(across, plan.size_m.x(), share);
 }

@@ -23,10 +23,8 @@ Eigen::Index at(std::size_t axis) { return static_cast<Eigen::Index>(axis); }
 }  // namespace
 
 Pilot::Pilot(const Plan& plan, double variation_rad)
-    : allocator_(plan),
-      inertia_(inertia(plan).diagonal()),
-      sinking_N_(plan.mass_kg * kGravity_m_s2 - plan.buoyancy_N),
-      variation_rad_(variation_rad) {}
+    : allocator_(plan), inertia_(inertia(plan).diagonal()),
+      sinking_N_(plan.mass_kg * kGravity_m_s2 - plan.buoyancy_N), variation_rad_(variation_rad) {}
 
 double Pilot::held(std::size_t axis, double error_rad, double rate_rad_s, double pace_rad_s) const {
   const double wanted = inertia_(at(axis)) * pace_rad_s * (pace_rad_s * error_rad - 2 * kDamping * rate_rad_s);

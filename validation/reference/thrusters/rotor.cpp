@@ -26,12 +26,8 @@ double steady_voltage(double speed, double resistance) {
 
 Rotor::Rotor(const PlannedThruster& thruster, double density_kg_m3, const RotorDeviations& deviations,
              const Nature& nature)
-    : thruster_(thruster),
-      density_kg_m3_(density_kg_m3),
-      deviations_(deviations),
-      nature_(nature),
-      place_m_(thruster.place_m),
-      direction_(thruster.direction),
+    : thruster_(thruster), density_kg_m3_(density_kg_m3), deviations_(deviations), nature_(nature),
+      place_m_(thruster.place_m), direction_(thruster.direction),
       forward_N_(std::abs(thruster.bollard_N(thruster.high, density_kg_m3))),
       reverse_N_(std::abs(thruster.bollard_N(thruster.low, density_kg_m3))) {
   const double full_N = std::max({forward_N_, reverse_N_, 1e-6});

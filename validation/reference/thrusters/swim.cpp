@@ -48,12 +48,9 @@ Sea sea_of(const Swim& swim, const CraftUnderTest& craft, std::uint64_t seed) {
 class Computer {
  public:
   Computer(const Plan& layout, const Swim& swim, std::uint64_t seed, double host_delay_s)
-      : layout_(layout),
-        legs_(swim.legs),
-        start_ns_(swim.start_ns),
+      : layout_(layout), legs_(swim.legs), start_ns_(swim.start_ns),
         pilot_(layout, std::atan2(swim.waters.field_uT.y(), swim.waters.field_uT.x())),
-        dice_(seed, static_cast<std::uint64_t>(Port::actuators)),
-        host_delay_s_(host_delay_s) {}
+        dice_(seed, static_cast<std::uint64_t>(Port::actuators)), host_delay_s_(host_delay_s) {}
 
   void steer(double time_s, const Compass::Reading& compass, const Card::Reading& card, Craft& craft,
              std::vector<Transfer>& out) {
