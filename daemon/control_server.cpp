@@ -10,7 +10,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
-#include <ranges>
 
 #include "base/line_reader.h"
 #include "control/order_rate.h"
@@ -21,7 +20,8 @@ namespace navcal::daemon {
 namespace asio = boost::asio;
 namespace {
 
-constexpr std::size_t kMaxClients = 16;
+constexpr std::size_t kMaxClients = 16, kMostAtOnce = 128;
+constexpr std::int64_t kJustCome_ns = 1'000'000'000;
 constexpr auto kAcceptPause = std::chrono::milliseconds(500);
 /// A connection that sends more lines than this is read only now and then.
 constexpr double kMaxLines_Hz = 200;
@@ -77,12 +77,16 @@ asio::awaitable<void> ControlServer::accept_clients() {
 }
 
 void ControlServer::make_place() {
-  auto idle = clients_ | std::views::filter([this](const auto& client) {
-                return client->socket.is_open() && !owner_.is_in_charge(client->number);
-              });
-  const auto longest = std::ranges::min_element(idle, {}, [](const auto& client) { return client->used_ns; });
+  const auto rank = [this](const auto& client) {
+    return std::pair(!client->socket.is_open() || owner_.is_in_charge(client->number), client->used_ns);
+  };
+  const auto longest = std::min_element(clients_.begin(), clients_.end(),
+                                        [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  if (longest == clients_.end() || rank(*longest).first) return;
+  // One that has just come is about to ask: even of many that come at once none is closed before it could.
+  if (clients_.size() < kMostAtOnce && ports::monotonic_ns() - (*longest)->used_ns < kJustCome_ns) return;
   boost::system::error_code ignored;
-  if (longest != idle.end()) (*longest)->socket.close(ignored);
+  (*longest)->socket.close(ignored);
 }
 
 void ControlServer::look_at_buffers() {

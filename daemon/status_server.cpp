@@ -9,7 +9,6 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <ranges>
 
 #include "daemon/gpsd_replies.h"
 #include "daemon/json_text.h"
@@ -67,9 +66,10 @@ void StatusServer::welcome(asio::ip::tcp::socket socket) {
 }
 
 bool StatusServer::make_place() {
-  auto idle = clients_ | std::views::filter([](const auto& client) { return client->is_idle(); });
-  const auto longest = std::ranges::min_element(idle, {}, [](const auto& client) { return client->used_ns(); });
-  if (longest == idle.end()) return false;
+  const auto rank = [](const auto& client) { return std::pair(!client->is_idle(), client->used_ns()); };
+  const auto longest = std::min_element(clients_.begin(), clients_.end(),
+                                        [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  if (longest == clients_.end() || rank(*longest).first) return false;
   (*longest)->close();
   return true;
 }

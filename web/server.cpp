@@ -70,7 +70,7 @@ asio::awaitable<void> Server::accept_clients() {
     ++counters_.connections;
     boost::system::error_code ignored;
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-    const auto client = std::make_shared<Client>(beast::tcp_stream(std::move(socket)));
+    const auto client = std::make_shared<Client>(Client{beast::tcp_stream(std::move(socket)), nullptr});
     clients_.push_back(client);
     asio::co_spawn(
         acceptor_.get_executor(), [self = shared_from_this(), client] { return self->serve(client); },
