@@ -123,7 +123,7 @@ TEST_F(LogCommand, NothingOfAForeignFileMovesTheCursorOrBeginsALine) {
     const auto outcome = run({"info", file.string()});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(std::all_of(outcome.output.begin(), outcome.output.end(), [](char c) {
-      return c == '\n' || (c >= ' ' && c <= '~');
+      return c == '\n' || (static_cast<unsigned char>(c) >= ' ' && c != '\x7f');
     })) << outcome.output;
   }
   EXPECT_NE(run({"info", capture.string()}).output.find("\\u001b]0;OWNED\\u0007\n"), std::string::npos);
