@@ -137,7 +137,7 @@ TEST(DescriptionFile, AStatedLengthWithAConstantAndAChecksumAtTheEnd) {
   EXPECT_EQ(complaints_about(ping + "checksum = { kind = \"sum16\", from = 0 }\n"), Lines{});
   const Description device = parse_description(ping + "checksum = { kind = \"sum16\", from = 0 }\n", "d.toml");
   EXPECT_EQ(protocols::described::least_length(device.kinds.at(0)), 8U);
-  EXPECT_EQ(complaints_about(ping + "checksum = { kind = \"sum16\", from = 6, at = 5 }\n"),
+  EXPECT_EQ(complaints_about(ping + "checksum = { kind = \"sum16\", from = 0, at = 5 }\n"),
             Lines{"d.toml:7: frame[1].checksum: it overlaps the constant at 4"});
 }
 
