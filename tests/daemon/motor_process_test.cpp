@@ -345,7 +345,8 @@ TEST_F(MotorProcess, WithoutANoteNobodyGetsALease) {
   EXPECT_TRUE(card_.serve_until_told(kSafe));
   std::filesystem::remove(daemon_.folder() / "log");
   ASSERT_EQ(pilot.lease("pilot", 1, kLong_s)["ok"], true);
-  for (const json& alarm : pilot.health()["alarms"]) EXPECT_NE(alarm["alarm"], "orders_refused");
+  const json health = pilot.health();
+  for (const json& alarm : health["alarms"]) EXPECT_NE(alarm["alarm"], "orders_refused");
 }
 
 TEST_F(MotorProcess, TheEndRepeatsTheSafeStateUntilTheCardShowsIt) {
