@@ -23,7 +23,7 @@ using Records = std::vector<std::pair<std::string, std::string>>;
 std::string message_of(const std::string& line) {
   const std::string key = ",\"message\":";
   const auto begin = line.find(key) + key.size();
-  return line.substr(begin, line.size() - begin - 1);
+  return line.substr(begin, line.rfind('}') - begin);
 }
 
 json tell(const DaemonProcess& daemon, const json& command) {

@@ -51,7 +51,6 @@ class Client {
       if (const auto end = bytes_.find('\n'); end != std::string::npos) {
         std::string line = bytes_.substr(0, end);
         bytes_.erase(0, end + 1);
-        if (line.ends_with('\r')) line.pop_back();
         return line;
       }
       pollfd readable{socket_, POLLIN, 0};
