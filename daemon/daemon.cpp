@@ -17,7 +17,7 @@ namespace asio = boost::asio;
 namespace {
 
 constexpr double kTick_s = 1;
-/// How long the end waits for the card to show the safe state; TimeoutStopSec of the unit is longer.
+/// The end waits for so long for the card to show the safe state; TimeoutStopSec of the unit is longer.
 constexpr std::int64_t kStop_ns = 15'000'000'000;
 constexpr std::int64_t kStopLook_ns = 10'000'000;
 

@@ -23,7 +23,7 @@ namespace asio = boost::asio;
 using navcal::daemon::Daemon;
 
 enum Exit : int { kStopped = 0, kCannotStart = 1, kUsage = 2, kBadConfiguration = 3, kShaftMayTurn = 4 };
-/// How long a start without a configuration tries to bring the motor card into the safe state.
+/// A start without a configuration tries for so long to bring the motor card into the safe state.
 constexpr std::chrono::seconds kSafeState{20};
 
 struct Options {

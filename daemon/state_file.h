@@ -35,15 +35,17 @@ class StateFile {
   [[nodiscard]] const std::filesystem::path& path() const { return file_; }
 
  private:
-  /// `content` nullopt: no file. Returns the number of the change.
-  std::uint64_t change(std::optional<std::string> content);
+  /// `content` nullopt: no file. `may_stay`: a file that has this content already is not written again. Returns
+  /// the number of the change.
+  std::uint64_t change(std::optional<std::string> content, bool may_stay = false);
   void run();
-  [[nodiscard]] std::string apply(const std::optional<std::string>& content) const;
+  [[nodiscard]] std::string apply(const std::optional<std::string>& content, bool may_stay) const;
 
   const std::filesystem::path file_;
   std::mutex mutex_;
   std::condition_variable wake_, done_;
   std::optional<std::string> wanted_;
+  bool may_stay_ = false;
   std::uint64_t asked_ = 0, answered_ = 0;  ///< changes, and those that the disk has taken or refused
   std::string problem_;                     ///< of the last change
   std::vector<std::string> notices_;
