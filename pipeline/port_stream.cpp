@@ -19,7 +19,7 @@ constexpr std::int64_t kSilenceMargin_ns = 250'000'000;
 constexpr std::int64_t kAhead_ns = base::kSecond_ns;
 constexpr std::int64_t kMostBound_ns = 3600 * base::kSecond_ns;
 
-// What a receiver states of a date of before the rollover's pivot (ICD section 2).
+// Dates before the pivot of the rollover (ICD section 2).
 constexpr std::int64_t kDay_ns = 86'400 * base::kSecond_ns, kEpoch_ns = 1024 * 7 * kDay_ns;
 
 // NMEA receivers begin to send 0.05 to 0.5 s behind the second. Until the port's latency_ms says how late, UTC is

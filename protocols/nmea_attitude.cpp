@@ -33,7 +33,7 @@ Depth below_transducer(FieldReader& fields) {
 
 constexpr std::size_t kNone = kMaxLength;  // a field that no sentence has
 
-/// Where the sentences of the makers have what; fields count from 0.
+/// Places of the values in a maker's sentence; fields count from 0.
 struct AttitudeForm {
   std::string_view ending;  ///< of the address
   std::size_t mark;         ///< field that tells the sentences of one maker apart: it reads `marked`

@@ -50,7 +50,7 @@ class Peer {
 struct WebSocketEndpoint {
   std::string path;
   std::vector<std::string> subprotocols;
-  /// Of other sites whose pages may connect, besides those that Access knows.
+  /// Sites whose pages may connect, besides those that Access knows.
   std::vector<std::string> origins{};
   std::function<std::unique_ptr<Peer>(PeerLink&, std::string_view target)> make_peer;
 };

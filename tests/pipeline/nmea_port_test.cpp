@@ -47,7 +47,7 @@ void append_sentence(std::vector<std::uint8_t>& out, const std::string& body) {
   out.insert(out.end(), line.begin(), line.end());
 }
 
-/// By how much a receiver begins to send behind its second, in milliseconds.
+/// The receiver begins to send so many milliseconds after its second.
 class NmeaPortDelay : public testing::TestWithParam<int> {};
 
 TEST_P(NmeaPortDelay, AnEpochIsOfTheTimeOfItsFirstSentence) {
