@@ -49,8 +49,8 @@ struct Attitude {
   std::optional<Decimal> heading_deg;          ///< from true north, 0 to 360
   std::optional<Decimal> pitch_deg, roll_deg;  ///< nose-up, starboard-down
 };
-/// No member has a value where a sentence PSAT, PFEC or PASHR is about something else, and where the device declares
-/// its attitude not valid.
+/// No member has a value where a sentence PSAT, PFEC or PASHR is about something else, and where the device
+/// declares its attitude not valid.
 [[nodiscard]] std::optional<Attitude> decode_attitude(const Sentence& sentence);
 
 /// PTNTHTM and PTNTHPR, True North Technologies and Honeywell: heading, tilt, and with PTNTHTM dip and horizontal
