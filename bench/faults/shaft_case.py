@@ -126,7 +126,7 @@ class Case:
 
     def start(self):
         self.say("navcald starts")
-        self.pid, self.was_killed = clients.fork(self.become_navcald), False
+        self.pid, self.was_killed, self.is_ending = clients.fork(self.become_navcald), False, False
         self.promise.over("navcald", time.monotonic(), AFTER_RUN_S)
 
     def become_navcald(self):
@@ -163,8 +163,10 @@ class Case:
             return
         self.say(f"navcald gets {number.name}")
         self.was_killed = self.was_killed or number == signal.SIGKILL
-        if number in (signal.SIGKILL, signal.SIGSTOP):
+        is_end = number in (signal.SIGTERM, signal.SIGINT)
+        if number in (signal.SIGKILL, signal.SIGSTOP) or (is_end and self.is_ending):
             self.promise.outages.add("navcald")
+        self.is_ending = self.is_ending or is_end
         os.kill(self.pid, number)
 
     def go_on(self, pid):

@@ -5,7 +5,8 @@ The shaft turns alone while it obeys an order that nobody who lives has renewed 
 orders before it. Such a time ends when the card has 0 or when a new order is taken. It must end by the latest of:
 
 - 0.2 s after it began
-- 2 s after navcald runs again, which was killed (and is started 1 s after its death, be it in vain) or stopped
+- 2 s after navcald runs again, which was killed (and is started 1 s after its death, be it in vain) or stopped, or which
+  a second signal ended before the card had shown the safe state
 - echo_timeout_s + 0.2 s after a line with the safe state that was lost on the wire
 - 1.5 s after the port is back
 
