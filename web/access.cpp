@@ -10,10 +10,17 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "web/http.h"
+
 namespace navcal::web {
 namespace {
 
 constexpr std::size_t kMinToken = 16;
+
+/// Whatever the case of their letters.
+bool is_same_word(std::string_view a, std::string_view b) {
+  return boost::beast::iequals(beast_view(a), beast_view(b));
+}
 
 /// `host` without its port and brackets.
 std::string_view name_of(std::string_view host) {
@@ -38,7 +45,7 @@ Access::Access(std::string token, std::vector<std::string> host_names, std::vect
 std::optional<std::string> Access::refusal(std::string_view authorization) const {
   constexpr std::string_view kBearer = "Bearer ";
   if (token_.empty()) return "this server may only be looked at: it was started without a token (--token-file)";
-  if (!boost::beast::iequals(authorization.substr(0, kBearer.size()), kBearer))
+  if (!is_same_word(authorization.substr(0, kBearer.size()), kBearer))
     return "changing the vehicle needs the token: Authorization: Bearer TOKEN";
   if (!is_equal_in_constant_time(authorization.substr(kBearer.size()), token_)) return "wrong token";
   return std::nullopt;
@@ -52,18 +59,17 @@ bool Access::knows_host(std::string_view host) const {
   if (!not_an_address) return true;
   if (name.find('.') == std::string_view::npos) return true;
   constexpr std::string_view kLocal = ".local";
-  if (name.size() > kLocal.size() && boost::beast::iequals(name.substr(name.size() - kLocal.size()), kLocal))
-    return true;
+  if (name.size() > kLocal.size() && is_same_word(name.substr(name.size() - kLocal.size()), kLocal)) return true;
   return std::any_of(host_names_.begin(), host_names_.end(),
-                     [name](const std::string& known) { return boost::beast::iequals(known, name); });
+                     [name](const std::string& known) { return is_same_word(known, name); });
 }
 
 bool Access::knows_origin(std::string_view origin, std::string_view host) const {
   if (origin.empty()) return true;
   const auto scheme = origin.find("://");
-  if (scheme != std::string_view::npos && boost::beast::iequals(origin.substr(scheme + 3), host)) return true;
+  if (scheme != std::string_view::npos && is_same_word(origin.substr(scheme + 3), host)) return true;
   return std::any_of(origins_.begin(), origins_.end(),
-                     [origin](const std::string& known) { return boost::beast::iequals(known, origin); });
+                     [origin](const std::string& known) { return is_same_word(known, origin); });
 }
 
 std::string read_token(const std::filesystem::path& file) {

@@ -58,10 +58,10 @@ std::string query_value(std::string_view target, std::string_view name) {
 Response respond(http::status status, std::string_view content_type, std::string body) {
   Response response{status, 11};
   response.set(http::field::server, "navcal");
-  response.set(http::field::content_type, content_type);
+  response.set(http::field::content_type, beast_view(content_type));
   response.set(http::field::cache_control, "no-cache");
   response.set("X-Content-Type-Options", "nosniff");
-  response.set("Content-Security-Policy", kContentPolicy);
+  response.set("Content-Security-Policy", beast_view(kContentPolicy));
   response.set("Referrer-Policy", "no-referrer");
   response.body() = std::move(body);
   response.prepare_payload();

@@ -13,6 +13,11 @@ namespace navcal::web {
 using Request = boost::beast::http::request<boost::beast::http::string_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
+/// Beast of Boost 1.74 (Debian 12) has a string view of its own.
+[[nodiscard]] inline boost::beast::string_view beast_view(std::string_view text) {
+  return {text.data(), text.size()};
+}
+
 /// Answers one request. It may wait, for example for navcald.
 using Handler = std::function<boost::asio::awaitable<Response>(const Request&)>;
 

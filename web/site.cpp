@@ -20,7 +20,7 @@ const Handler* Site::handler(std::string_view method, std::string_view path, boo
 const WebSocketEndpoint* Site::endpoint(std::string_view path, std::string_view offered_subprotocols,
                                         std::string& chosen) const {
   chosen.clear();
-  const boost::beast::http::token_list offered(offered_subprotocols);
+  const boost::beast::http::token_list offered(beast_view(offered_subprotocols));
   const bool offers_any = offered.begin() != offered.end();
   for (const WebSocketEndpoint& endpoint : endpoints_) {
     if (endpoint.path != path) continue;
