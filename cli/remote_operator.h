@@ -52,7 +52,6 @@ class RemoteOperator {
   void stop();
   /// The lease is held, or asked for.
   [[nodiscard]] bool is_in_charge() const { return is_leasing_ || is_leased_; }
-  [[nodiscard]] bool is_leased() const { return is_leased_; }
   /// Answer to the last lease, order, release or stop, for people; "ok", or why it was refused. Repeated orders
   /// answer only when they are refused.
   [[nodiscard]] std::optional<std::string> take_answer() { return std::exchange(answer_, std::nullopt); }

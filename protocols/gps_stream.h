@@ -24,9 +24,4 @@ struct GpsStreamScanner {
 
 using GpsStreamParser = StreamParser<GpsStreamScanner>;
 
-/// Which of the two a frame of a GpsStreamParser is.
-[[nodiscard]] inline Protocol protocol_of(const Frame& frame) {
-  return frame.bytes[0] == '@' ? Protocol::oncore : Protocol::nmea;
-}
-
 }  // namespace navcal::protocols

@@ -70,14 +70,4 @@ std::optional<std::string_view> decode_cj(Bytes frame) {
   return std::string_view(reinterpret_cast<const char*>(frame.data()) + 4, frame.size() - 4 - kTail);
 }
 
-std::string_view identification_value(std::string_view text, std::string_view key) {
-  const std::size_t at = text.find(key);
-  if (at == std::string_view::npos) return {};
-  std::string_view value = text.substr(at + key.size());
-  value = value.substr(0, value.find_first_of("\r\n"));
-  const std::size_t first = value.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return value.substr(first, value.find_last_not_of(' ') - first + 1);
-}
-
 }  // namespace navcal::protocols::oncore

@@ -64,8 +64,4 @@ struct TimeRaim {
 /// Cj: text of 25-column lines, CR LF between them. The view lies in the frame.
 [[nodiscard]] std::optional<std::string_view> decode_cj(Bytes frame);
 
-/// Text after `key` ("MODEL #", "SERIAL #", "SOFTWARE VER #") in its line of the identification, without the
-/// blanks around it; empty without such a line.
-[[nodiscard]] std::string_view identification_value(std::string_view text, std::string_view key);
-
 }  // namespace navcal::protocols::oncore

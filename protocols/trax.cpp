@@ -266,8 +266,5 @@ std::optional<bool> decode_save_done(Bytes frame) {
 std::vector<std::uint8_t> encode_start_calibration(Calibration calibration) {
   return encode_u32(FrameNumber::start_calibration, static_cast<std::uint32_t>(calibration));
 }
-std::optional<std::uint32_t> decode_start_calibration(Bytes frame) {
-  return decode_u32(frame, FrameNumber::start_calibration);
-}
 
 }  // namespace navcal::protocols::trax

@@ -143,6 +143,5 @@ enum class Calibration : std::uint32_t {
   limited_tilt = 40
 };
 [[nodiscard]] std::vector<std::uint8_t> encode_start_calibration(Calibration calibration);
-[[nodiscard]] std::optional<std::uint32_t> decode_start_calibration(Bytes frame);
 
 }  // namespace navcal::protocols::trax

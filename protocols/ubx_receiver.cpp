@@ -60,15 +60,4 @@ std::optional<TimePulse> decode_tim_tp(Bytes frame) {
                    (p[14] & kPulseUtc) != 0,     (p[14] & kPulseQuantizationInvalid) == 0};
 }
 
-std::vector<std::uint8_t> encode_tim_tp(const TimePulse& pulse) {
-  std::vector<std::uint8_t> p(kPulseLength);
-  put_le(&p[0], pulse.time_of_week_ms);
-  put_le(&p[4], saturated<std::uint32_t>(pulse.fraction_ms / kPulseFraction_ms));
-  put_le(&p[8], pulse.quantization_ps);
-  put_le(&p[12], pulse.week);
-  p[14] = static_cast<std::uint8_t>((pulse.is_utc ? kPulseUtc : 0U) |
-                                    (pulse.quantization_valid ? 0U : kPulseQuantizationInvalid));
-  return encode_frame(kTimTp, p);
-}
-
 }  // namespace navcal::protocols::ubx

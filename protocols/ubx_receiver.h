@@ -34,6 +34,5 @@ struct TimePulse {
   bool operator==(const TimePulse&) const = default;
 };
 [[nodiscard]] std::optional<TimePulse> decode_tim_tp(Bytes frame);
-[[nodiscard]] std::vector<std::uint8_t> encode_tim_tp(const TimePulse& pulse);
 
 }  // namespace navcal::protocols::ubx

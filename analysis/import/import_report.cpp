@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "base/printable.h"
-#include "record/json/json_object.h"
 
 namespace navcal::analysis {
 namespace {
@@ -30,43 +30,6 @@ std::string_view key_of(ImportReport::Utc utc) {
     case ImportReport::Utc::unknown: break;
   }
   return "none";
-}
-
-std::string json_of_taken(const ImportReport& report) {
-  std::string out = "[";
-  for (const auto& [of, taken] : report.taken) {
-    if (out.size() > 1) out += ',';
-    record::JsonObject json(out, "TAKEN");
-    json.text("message", of.first);
-    json.text("port", of.second);
-    json.integer("count", static_cast<std::int64_t>(taken.messages));
-    json.integer("samples", static_cast<std::int64_t>(taken.samples));
-    json.number("rate_Hz", taken.rate_Hz());
-  }
-  return out + "]";
-}
-
-std::string json_of_left(const ImportReport& report) {
-  std::string out = "[";
-  for (const auto& [name, count] : report.left) {
-    if (out.size() > 1) out += ',';
-    record::JsonObject json(out, "LEFT");
-    json.text("message", name);
-    json.integer("count", static_cast<std::int64_t>(count));
-  }
-  return out + "]";
-}
-
-std::string json_of_remarks(const ImportReport& report) {
-  std::string out = "[";
-  for (const std::string& remark : report.remarks) {
-    std::string object;
-    { record::JsonObject(object, "x").text("r", remark); }
-    constexpr std::string_view kHead = R"({"class":"x","r":)";
-    if (out.size() > 1) out += ',';
-    out.append(object, kHead.size(), object.size() - kHead.size() - 1);
-  }
-  return out + "]";
 }
 
 }  // namespace
@@ -99,28 +62,32 @@ std::string to_text(const ImportReport& report) {
 }
 
 std::string to_json(const ImportReport& report) {
-  std::string out;
-  {
-    record::JsonObject json(out, "IMPORT");
-    json.text("file", report.input);
-    json.text("output", report.output);
-    json.text("format", report.format);
-    json.integer("bytes", static_cast<std::int64_t>(report.bytes));
-    json.text("utc", key_of(report.utc));
-    json.seconds("start", report.start_utc_ns);
-    json.seconds("duration", report.duration_ns);
-    json.raw("taken", json_of_taken(report));
-    json.raw("left", json_of_left(report));
-    json.integer("refused", static_cast<std::int64_t>(report.refused));
-    json.integer("damaged_bytes", static_cast<std::int64_t>(report.damaged_bytes));
-    if (report.cut_at) {
-      json.integer("cut_at", static_cast<std::int64_t>(*report.cut_at));
-    } else {
-      json.null("cut_at");
-    }
-    json.raw("remarks", json_of_remarks(report));
-  }
-  return out + "\n";
+  using Json = nlohmann::ordered_json;
+  Json taken_ones = Json::array(), left = Json::array();
+  for (const auto& [of, taken] : report.taken)
+    taken_ones.push_back({{"class", "TAKEN"},
+                          {"message", of.first},
+                          {"port", of.second},
+                          {"count", taken.messages},
+                          {"samples", taken.samples},
+                          {"rate_Hz", taken.rate_Hz()}});
+  for (const auto& [name, count] : report.left)
+    left.push_back({{"class", "LEFT"}, {"message", name}, {"count", count}});
+  const Json json{{"class", "IMPORT"},
+                  {"file", report.input},
+                  {"output", report.output},
+                  {"format", report.format},
+                  {"bytes", report.bytes},
+                  {"utc", key_of(report.utc)},
+                  {"start", static_cast<double>(report.start_utc_ns) * 1e-9},
+                  {"duration", static_cast<double>(report.duration_ns) * 1e-9},
+                  {"taken", taken_ones},
+                  {"left", left},
+                  {"refused", report.refused},
+                  {"damaged_bytes", report.damaged_bytes},
+                  {"cut_at", report.cut_at ? Json(*report.cut_at) : Json(nullptr)},
+                  {"remarks", report.remarks}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace navcal::analysis

@@ -22,8 +22,7 @@ void decode_everything(Bytes bytes) {
   static_cast<void>(oncore::decode_bo(bytes));
   static_cast<void>(oncore::decode_gj(bytes));
   static_cast<void>(oncore::decode_hn(bytes));
-  if (const auto text = oncore::decode_cj(bytes))
-    static_cast<void>(oncore::identification_value(*text, "MODEL #"));
+  static_cast<void>(oncore::decode_cj(bytes));
 }
 
 NAVCAL_FUZZ(oncore) {

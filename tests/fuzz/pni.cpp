@@ -11,7 +11,6 @@ void decode(const navcal::protocols::Frame& frame) {
   static_cast<void>(trax::decode_data(frame.bytes));
   static_cast<void>(trax::decode_sample_count(frame.bytes));
   static_cast<void>(trax::decode_score(frame.bytes));
-  static_cast<void>(trax::decode_start_calibration(frame.bytes));
 }
 
 NAVCAL_FUZZ(pni) {

@@ -25,13 +25,6 @@ TEST(GpsStream, BothLanguagesInOneStream) {
   EXPECT_EQ(seen.skipped_bytes, 0U);
 }
 
-TEST(GpsStream, AFrameTellsItsLanguage) {
-  const Buffer oncore_frame = oncore::encode_bo({});
-  const std::string sentence = line("GPZDA,,,,,,");
-  EXPECT_EQ(protocol_of({oncore::kBo, 0, oncore_frame}), Protocol::oncore);
-  EXPECT_EQ(protocol_of({FrameId("GPZDA"), 0, bytes_of(sentence)}), Protocol::nmea);
-}
-
 TEST(GpsStream, ASentenceInsideAFrameBelongsToTheFrame) {
   const std::string sentence = line("GPZDA,,,,,,");
   EXPECT_EQ(ids(parsed_gps(oncore::encode_cj(sentence + "@@Bo"))), "Cj ");

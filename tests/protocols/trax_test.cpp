@@ -22,7 +22,6 @@ TEST(Trax, WhatIsEncodedIsDecoded) {
   EXPECT_EQ(trax::decode_sample_count(trax::encode_sample_count(12)), 12U);
   const trax::Score score{0.5, 0, 1.25, 2, 0.75, 40};
   EXPECT_EQ(trax::decode_score(trax::encode_score(score)), score);
-  EXPECT_EQ(trax::decode_start_calibration(trax::encode_start_calibration(trax::Calibration::limited_tilt)), 40U);
 }
 
 TEST(Trax, CommandsByteForByte) {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "protocols/ubx_receiver.h"
+#include "protocols/wire_fields.h"
 #include "tests/protocols/shared_capture.h"
 #include "tests/protocols/ubx_samples.h"
 
@@ -105,7 +106,13 @@ TEST(UbxMessages, VersionAndTimePulse) {
   EXPECT_EQ(ubx::decode_mon_ver(ubx::encode_mon_ver(long_texts))->software, std::string(30, 'x'));
   EXPECT_FALSE(ubx::decode_mon_ver(ubx::encode_frame(ubx::kMonVer, {}))) << "the question";
   const ubx::TimePulse pulse{216'000'000, 0.25, -4321, 2400, true, true};
-  EXPECT_EQ(ubx::decode_tim_tp(ubx::encode_tim_tp(pulse)), pulse);
+  Buffer payload(16);
+  put_le(&payload[0], pulse.time_of_week_ms);
+  payload[7] = 0x40;
+  put_le(&payload[8], pulse.quantization_ps);
+  put_le(&payload[12], pulse.week);
+  payload[14] = 1;
+  EXPECT_EQ(ubx::decode_tim_tp(ubx::encode_frame(ubx::kTimTp, payload)), pulse);
   EXPECT_FALSE(ubx::decode_tim_tp(ubx::encode_frame(ubx::kTimTp, Buffer(15))));
   const ubx::EpochRate rate{200, 1};
   EXPECT_EQ(ubx::decode_cfg_rate(ubx::encode_cfg_rate(rate)), rate);
