@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "instruments/pressure_limits.h"
 #include "protocols/keller.h"
 
 namespace navcal::instruments {
@@ -14,9 +13,7 @@ Instrument::Verdict KellerGauge::read(const protocols::Frame& frame, Receiver& r
   const auto reading = keller::decode_reading(frame.bytes);
   if (!reading) return Verdict::ignored;
   const double pressure_Pa = double{reading->value} * kBar_Pa;
-  if (reading->failed(keller::kPressureChannel) || !std::isfinite(pressure_Pa) ||
-      !is_possible_pressure(pressure_Pa))
-    return Verdict::out_of_range;
+  if (reading->failed(keller::kPressureChannel) || !std::isfinite(pressure_Pa)) return Verdict::out_of_range;
   DepthSample sample;
   sample.pressure_Pa = pressure_Pa;
   hand_over(sample, receiver);

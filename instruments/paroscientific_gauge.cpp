@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "instruments/paroscientific_gauge.h"
 
-#include "instruments/pressure_limits.h"
 #include "protocols/decimal.h"
 #include "protocols/paroscientific.h"
 
@@ -29,10 +28,8 @@ Instrument::Verdict ParoscientificGauge::read(const protocols::Frame& frame, Rec
   if (frame.id != paroscientific::kValue || !unit_Pa_) return Verdict::ignored;
   const auto value = paroscientific::decode_value(frame.bytes);
   if (!value) return Verdict::ignored;
-  const double pressure_Pa = *value * *unit_Pa_;
-  if (!is_possible_pressure(pressure_Pa)) return Verdict::out_of_range;
   DepthSample sample;
-  sample.pressure_Pa = pressure_Pa;
+  sample.pressure_Pa = *value * *unit_Pa_;
   hand_over(sample, receiver);
   return Verdict::used;
 }

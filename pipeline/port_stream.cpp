@@ -85,6 +85,11 @@ void PortStream::on_frame(const protocols::Frame& frame) {
 }
 
 void PortStream::on_measurement(const instruments::Measurement& measurement) {
+  if (const auto* const gauge = std::get_if<instruments::DepthSample>(&measurement.value);
+      gauge != nullptr && gauge->pressure_Pa && !pressures_.lets_in(*gauge->pressure_Pa)) {
+    ++statistics_.out_of_range;
+    return;
+  }
   const std::int64_t observed_ns =
       (measurement.of_epoch ? epoch_start_ns_ : place_.start_ns) - measurement.age_ns.value_or(latency_ns_);
   instruments::Sample sample;

@@ -10,6 +10,7 @@
 #include "instruments/frame_clock.h"
 #include "instruments/instrument.h"
 #include "instruments/mounting.h"
+#include "instruments/pressure_gate.h"
 #include "pipeline/arrival_track.h"
 #include "pipeline/gps_time_watch.h"
 #include "pipeline/pipeline.h"
@@ -48,6 +49,7 @@ class PortStream : private instruments::Receiver {
   ArrivalTrack track_;
   std::unique_ptr<instruments::Instrument> instrument_;
   instruments::Mounting mounting_;
+  instruments::PressureGate pressures_;
   instruments::FrameClock clock_;
   GpsTimeWatch gps_time_;
   const StandardErrors& errors_;
