@@ -30,6 +30,7 @@ struct Measurement {
   std::optional<std::int64_t> device_time_ns{};
   std::optional<std::int64_t> stated_utc_ns;  ///< time that the message itself states (GPS)
   bool utc_is_known = false;                  ///< stated time is UTC and may serve as a clock
+  bool in_leap_second = false;                ///< stated as second 60
   /// One tick of the device's clock (not so for satellites in view). What comes after it from the same frame, and
   /// does not pace, is of the same time.
   bool paces = true;

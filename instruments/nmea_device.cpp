@@ -21,8 +21,9 @@ Verdict give(const Value& value, bool paces, Receiver& receiver) {
   return Verdict::used;
 }
 
-void give_epoch(const GpsSample& sample, bool began_before, Receiver& receiver) {
+void give_epoch(const GpsSample& sample, bool began_before, bool in_leap_second, Receiver& receiver) {
   Measurement measurement;
+  measurement.in_leap_second = in_leap_second;
   measurement.of_epoch = began_before;
   measurement.value = sample;
   measurement.stated_utc_ns = sample.time_utc_ns;
@@ -147,8 +148,8 @@ Verdict NmeaDevice::read_position(const nmea::Sentence& sentence, nmea::Type typ
   }
   const auto outcome = epoch_.add(sentence, type);
   if (!outcome.in_range) return Verdict::out_of_range;
-  if (outcome.closed) give_epoch(*outcome.closed, true, receiver);
-  if (outcome.sample) give_epoch(*outcome.sample, !outcome.begins, receiver);
+  if (outcome.closed) give_epoch(*outcome.closed, true, false, receiver);
+  if (outcome.sample) give_epoch(*outcome.sample, !outcome.begins, outcome.in_leap_second, receiver);
   return outcome.begins ? Verdict::begins : Verdict::used;
 }
 

@@ -112,9 +112,12 @@ void NmeaEpoch::finish(Type type, Outcome& outcome) {
   if (!closes || emitted_) return;
   emitted_ = true;
   outcome.sample = complete();
+  outcome.in_leap_second = time_->second == 60;
 }
 
 void NmeaEpoch::set_date(const protocols::Date& date) {
+  date_.reset();
+  if (protocols::is_start_of_count(date)) return;
   const auto corrected = protocols::correct_rollover(date, pivot_);
   date_ = corrected.date;
   past_midnight_ = false;

@@ -25,6 +25,7 @@ class NmeaEpoch {
     bool begins = false;              ///< the sentence is the first one of its epoch
     std::optional<GpsSample> closed;  ///< an epoch whose closing sentence never came
     std::optional<GpsSample> sample;  ///< the epoch of this sentence
+    bool in_leap_second = false;      ///< `sample` is
   };
   Outcome add(const protocols::nmea::Sentence& sentence, protocols::nmea::Type type);
 

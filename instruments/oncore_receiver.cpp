@@ -71,7 +71,9 @@ Instrument::Verdict OncoreReceiver::read_position(const oncore::Position& positi
   Measurement measurement;
   measurement.value = sample;
   measurement.stated_utc_ns = sample.time_utc_ns;
-  measurement.utc_is_known = leap_known_ && (has_position(position.fix));
+  measurement.in_leap_second = position.time.second == 60;
+  measurement.utc_is_known =
+      leap_known_ && has_position(position.fix) && !protocols::is_start_of_count(position.date);
   receiver.on_measurement(measurement);
   return Verdict::used;
 }

@@ -138,6 +138,7 @@ Instrument::Verdict UbxReceiver::read_pvt(const ubx::NavPvt& pvt, Receiver& rece
   Measurement measurement;
   measurement.value = sample;
   measurement.stated_utc_ns = sample.time_utc_ns;
+  measurement.in_leap_second = pvt.second == 60;
   const bool has_time = sample.fix != Fix::none || (pvt.fix_ok && pvt.fix_type == kTimeOnly);
   measurement.utc_is_known =
       sample.time_utc_ns && sample.leap_known && has_time && pvt.time_accuracy_s <= kTimeAccuracy_s;

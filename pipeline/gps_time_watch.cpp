@@ -14,6 +14,7 @@ constexpr std::int64_t kGap_s = 600;  // longer without time: the phase is found
 constexpr double kJump_s = 0.9;       // of what is stated against what is observed
 constexpr int kJumpsToBelieve = 4;    // in a row
 constexpr double kEarly_s = 0.1;
+constexpr std::int64_t kDay_s = 86'400;
 constexpr double kBoundSigmas = 3;
 /// The epoch of a receiver may lie beside the second by this much. A u-blox receiver keeps its clock within half a
 /// millisecond and states the exact time.
@@ -22,7 +23,7 @@ constexpr std::int64_t kBeside_ns = 2'000'000;
 }  // namespace
 
 std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::int64_t observed_ns,
-                                               const UtcMapping& in_force) {
+                                               const UtcMapping& in_force, bool in_leap_second) {
   if (in_force.source == UtcMapping::Source::file) return std::nullopt;
   std::int64_t second = stated_utc_ns / base::kSecond_ns;
   std::int64_t beside_ns = stated_utc_ns % base::kSecond_ns;
@@ -30,12 +31,20 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
     ++second;
     beside_ns -= base::kSecond_ns;
   }
+  const bool is_midnight = second % kDay_s == 0;
+  second += leap_s_;
   if (std::abs(beside_ns) > kBeside_ns) return std::nullopt;  // faster than 1 Hz: the whole seconds suffice
   observed_ns -= beside_ns;
   if (!model_.empty()) {
+    const auto off = [&] { return static_cast<double>(observed_ns - model_.predict_ns(second)) * 1e-9; };
+    // The midnight behind a leap second is stated twice, a second apart.
+    if (is_midnight && second == last_second_ && off() > kJump_s) {
+      ++leap_s_;
+      ++second;
+    }
     const std::int64_t steps = second - last_second_;
     if (steps == 0) return std::nullopt;
-    const auto off_s = static_cast<double>(observed_ns - model_.predict_ns(second)) * 1e-9;
+    const double off_s = off();
     if (steps < 0 || steps > kGap_s || std::abs(off_s) > kJump_s) {
       // A host that stood still for a second is late once. A leap second learnt, a rollover undone, a receiver
       // that changed its mind stays.
@@ -54,12 +63,14 @@ std::optional<UtcMapping> GpsTimeWatch::update(std::int64_t stated_utc_ns, std::
   candidate.source = UtcMapping::Source::gps;
   candidate.offset_ns = stated_utc_ns - beside_ns - time.time_ns;
   candidate.bound_ns =
-      std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns)));
+      std::llround(kBoundSigmas * std::hypot(latency_std_s_ * 1e9, static_cast<double>(time.std_ns))) +
+      (in_leap_second ? base::kSecond_ns : 0);  // it ends before the next message comes
   candidate.at_ns = observed_ns;
   const bool ours = in_force.source == UtcMapping::Source::gps;
   const bool old = observed_ns - in_force.at_ns > kMappingRefreshAge_ns;
   const bool disagrees = std::abs(candidate.offset_ns - in_force.offset_ns) > candidate.bound_ns;
-  if (ours ? (old || disagrees) : candidate.bound_ns < bound_at(in_force, observed_ns)) return candidate;
+  if (ours ? (old || disagrees || in_leap_second) : candidate.bound_ns < bound_at(in_force, observed_ns))
+    return candidate;
   return std::nullopt;
 }
 

@@ -127,7 +127,7 @@ void PortStream::on_measurement(const instruments::Measurement& measurement) {
     if (measurement.paces) paced_ = outcome.time;
   }
   if (stated_utc_ns && measurement.utc_is_known) {
-    if (const auto mapping = gps_time_.update(*stated_utc_ns, observed_ns, mapping_)) {
+    if (const auto mapping = gps_time_.update(*stated_utc_ns, observed_ns, mapping_, measurement.in_leap_second)) {
       mapping_ = *mapping;
       sink_->on_mapping(mapping_);
     }

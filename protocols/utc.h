@@ -38,6 +38,12 @@ struct TimeOfDay {
   return static_cast<std::uint16_t>(two_digits + (two_digits >= 80 ? 1900U : 2000U));
 }
 
+/// Dates from which receivers count that have not found the time: the beginning of GPS time (and all before 1981,
+/// since they go on counting), and of its second epoch of 1024 weeks.
+[[nodiscard]] constexpr bool is_start_of_count(const Date& date) {
+  return date.year <= 1980 || (date >= Date{1999, 8, 21} && date <= Date{1999, 8, 22});
+}
+
 /// The date that a receiver means whose week counter of ten bits has rolled over.
 struct CorrectedDate {
   Date date;

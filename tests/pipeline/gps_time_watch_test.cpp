@@ -43,6 +43,23 @@ TEST(GpsTimeWatch, ALeapSecondLearntMovesTheMapping) {
   EXPECT_NEAR(static_cast<double>(mapping.offset_ns - kUtc) * 1e-9, 0, 0.01);
 }
 
+TEST(GpsTimeWatch, ALeapSecondMovesTheMappingWithTheFirstMessageBehindIt) {
+  constexpr std::int64_t kMidnight = 1'735'689'600;  // 2025-01-01
+  for (const std::int64_t leap_s : {0, 1}) {
+    GpsTimeWatch watch(0.020);
+    UtcMapping mapping;
+    for (int k = -30; k < 30; ++k) {
+      const bool in_leap_second = leap_s == 1 && k == 0;
+      const std::int64_t stated = (kMidnight + k - (k > 0 ? leap_s : 0)) * base::kSecond_ns;
+      const std::int64_t observed_ns = (100 + k) * base::kSecond_ns;
+      if (const auto better = watch.update(stated, observed_ns, mapping, in_leap_second)) mapping = *better;
+      if (k < -20) continue;
+      EXPECT_LT(std::abs(mapping.to_utc(observed_ns) - stated), 10'000'000) << k;
+      EXPECT_EQ(mapping.bound_ns > base::kSecond_ns, in_leap_second) << k;
+    }
+  }
+}
+
 /// A receiver whose clock is not steered measures beside the second, and says by how much.
 TEST(GpsTimeWatch, AnEpochBesideTheSecondCountsByItsStatedTime) {
   std::optional<std::int64_t> offset_ns;  // of a receiver that measures at the second

@@ -79,6 +79,53 @@ TEST_P(NmeaPortDelay, AnEpochIsOfTheTimeOfItsFirstSentence) {
 
 INSTANTIATE_TEST_SUITE_P(Usual, NmeaPortDelay, testing::Values(50, 150, 400));
 
+/// A second of a receiver that sends RMC and GGA 0.2 s behind it.
+void send_second(Pipeline& pipeline, std::int64_t second_ns, const std::string& time, const std::string& date,
+                 Sink& sink) {
+  const std::string place = "3844.1200,N,00908.4000,W";
+  std::vector<std::uint8_t> burst;
+  append_sentence(burst, "GNRMC," + time + ".00,A," + place + ",1.2,75.0," + date + ",,,A");
+  append_sentence(burst, "GNGGA," + time + ".00," + place + ",1,14,0.8,60.0,M,48.0,M,,");
+  send_line(pipeline, second_ns + 200 * base::kMillisecond_ns, burst, sink);
+}
+
+TEST(NmeaPort, TheBoundOfUtcHoldsAcrossALeapSecond) {
+  constexpr std::int64_t kMidnight_ns = 1'798'761'600 * base::kSecond_ns;  // 2027-01-01
+  Pipeline pipeline(one_receiver());
+  NmeaOutput seen;
+  for (int k = -30; k < 30; ++k) {  // 0 is 23:59:60
+    const std::int64_t second_ns = (100 + k) * base::kSecond_ns;
+    const std::int64_t utc_ns = kMidnight_ns + (k > 0 ? k - 1 : k) * base::kSecond_ns;
+    const auto holds = [&](std::int64_t after_ns) {
+      const UtcMapping& mapping = pipeline.mapping();
+      EXPECT_LE(std::abs(mapping.to_utc(second_ns + after_ns) - utc_ns - after_ns), mapping.bound_ns) << k;
+    };
+    holds(0);
+    const std::string time = k < 0   ? fmt::format("2359{}", 60 + k)
+                             : k > 0 ? fmt::format("0000{:02}", k - 1)
+                                     : "235960";
+    send_second(pipeline, second_ns, time, k > 0 ? "010127" : "311226", seen);
+    holds(900 * base::kMillisecond_ns);
+  }
+  EXPECT_EQ(pipeline.mapping().source, UtcMapping::Source::gps);
+  EXPECT_LT(pipeline.mapping().bound_ns, base::kSecond_ns);
+}
+
+TEST(NmeaPort, ADateOfAReceiverThatHasNotFoundTheTimeIsNone) {
+  for (const char* date : {"060180", "050180", "010180", "140280", "220899", "210899"}) {
+    Pipeline pipeline(one_receiver());
+    NmeaOutput seen;
+    for (int s = 10; s < 40; ++s)
+      send_second(pipeline, s * base::kSecond_ns, fmt::format("0000{}", s), date, seen);
+    EXPECT_TRUE(seen.mappings.empty()) << date;
+    ASSERT_FALSE(seen.samples.empty());
+    EXPECT_FALSE(std::get<instruments::GpsSample>(seen.samples.back().value).time_utc_ns) << date;
+    for (int s = 40; s < 60; ++s)
+      send_second(pipeline, s * base::kSecond_ns, fmt::format("1200{}", s), "010326", seen);
+    EXPECT_EQ(pipeline.mapping().source, UtcMapping::Source::gps) << "once it has found it";
+  }
+}
+
 TEST(NmeaPort, SentencesThatNothingReadsAreCountedByKind) {
   Pipeline pipeline(one_receiver());
   NmeaOutput seen;
